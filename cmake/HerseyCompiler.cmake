@@ -1,0 +1,31 @@
+# How every target is compiled: C++20, warnings on, ccache where present, one precompiled header for all modules.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+# Contracts stay on in release: a wrong answer costs more than a comparison.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+find_program(HERSEY_CCACHE ccache)
+if(HERSEY_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${HERSEY_CCACHE})
+endif()
+
+add_library(hersey_options INTERFACE)
+target_compile_options(hersey_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                                                -Woverloaded-virtual -Wcast-qual)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(hersey_options INTERFACE -fpch-preprocess)
+  # GCC 12 reports false positives inside Eigen's and the standard library's inlined code.
+  target_compile_options(hersey_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread
+                                                  -Wno-restrict)
+endif()
+if(HERSEY_WERROR)
+  target_compile_options(hersey_options INTERFACE -Werror)
+endif()
+target_compile_features(hersey_options INTERFACE cxx_std_20)

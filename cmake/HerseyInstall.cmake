@@ -1,0 +1,9 @@
+# `cmake --install` puts libraries, headers and program in place; `find_package(hersey)` finds them.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hersey)
+install(EXPORT herseyTargets NAMESPACE hersey:: DESTINATION ${package_dir})
+configure_package_config_file(${CMAKE_CURRENT_SOURCE_DIR}/cmake/herseyConfig.cmake.in
+                              ${CMAKE_CURRENT_BINARY_DIR}/herseyConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/herseyConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/herseyConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/herseyConfigVersion.cmake
+              cmake/FindKLU.cmake cmake/FindUdunits2.cmake DESTINATION ${package_dir})

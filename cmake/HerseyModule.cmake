@@ -1,0 +1,50 @@
+# hersey_module(name [DEPENDS modules] [LINK public libraries] [PRIVATE libraries])
+#
+# A module is libs/<name>: one static library with its own include root. It sees the headers of the modules it names
+# and of those below them, and no others, so an include that runs up or sideways does not compile.
+# Its tests, libs/<name>/test/*_test.cpp, become one executable.
+
+# One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers.
+add_library(hersey_pch OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
+target_link_libraries(hersey_pch PUBLIC $<BUILD_INTERFACE:hersey_options> Eigen3::Eigen)
+target_precompile_headers(hersey_pch PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.h)
+
+if(BUILD_TESTING)
+  find_package(doctest REQUIRED)
+  add_library(hersey_test_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/main.cpp)
+  target_link_libraries(hersey_test_main PUBLIC doctest::doctest $<BUILD_INTERFACE:hersey_options>)
+endif()
+
+set_property(GLOBAL PROPERTY HERSEY_MODULES "")
+
+function(hersey_module name)
+  cmake_parse_arguments(M "" "" "DEPENDS;LINK;PRIVATE" ${ARGN})
+  set(dir ${CMAKE_CURRENT_SOURCE_DIR}/libs/${name})
+  file(GLOB sources CONFIGURE_DEPENDS ${dir}/src/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS ${dir}/include/hersey/${name}/*.h)
+  file(GLOB tests CONFIGURE_DEPENDS ${dir}/test/*_test.cpp)
+  add_library(hersey_${name} STATIC ${sources})
+  add_library(hersey::${name} ALIAS hersey_${name})
+  set_target_properties(hersey_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+  target_sources(hersey_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${dir}/include FILES ${headers})
+  target_include_directories(hersey_${name} PRIVATE ${dir}/src)
+  foreach(below ${M_DEPENDS})
+    if(NOT TARGET hersey_${below})
+      message(FATAL_ERROR "module ${name} depends on ${below}, which is not below it (docs/architecture.md)")
+    endif()
+    target_link_libraries(hersey_${name} PUBLIC hersey_${below})
+  endforeach()
+  target_link_libraries(hersey_${name} PUBLIC ${M_LINK} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:hersey_options>)
+  target_precompile_headers(hersey_${name} REUSE_FROM hersey_pch)
+  install(TARGETS hersey_${name} EXPORT herseyTargets FILE_SET HEADERS)
+  set_property(GLOBAL APPEND PROPERTY HERSEY_MODULES ${name})
+
+  if(BUILD_TESTING AND tests)
+    add_executable(${name}_test ${tests})
+    file(GLOB verification CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/verification/*.h)
+    target_include_directories(${name}_test PRIVATE ${dir}/src ${CMAKE_CURRENT_SOURCE_DIR}/verification)
+    target_link_libraries(${name}_test PRIVATE hersey_${name} hersey_test_main ${M_PRIVATE})
+    target_compile_definitions(${name}_test PRIVATE HERSEY_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+    add_test(NAME ${name} COMMAND ${name}_test)
+  endif()
+endfunction()

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace hersey::film {
+
+/// Circumferential x axial grid of nodes. Node (i, j) sits at phi_i = 2 pi i / n_phi (periodic) and
+/// z_j = -L/2 + L j / (n_z - 1): the first and last rows lie on the bearing's edges. Its index is i n_z + j.
+struct Grid {
+  int n_phi = 60;  ///< >= 4
+  int n_z = 13;    ///< >= 3
+  [[nodiscard]] int size() const { return n_phi * n_z; }
+  [[nodiscard]] int index(int i, int j) const { return i * n_z + j; }
+};
+
+/// mu(p) = mu0 exp(alpha p) (Barus); pressures in mu's argument are gauge, above the cavitation pressure.
+struct Lubricant {
+  double mu0 = 0.015;    ///< dynamic viscosity at ambient pressure [Pa s], > 0
+  double alpha = 0;      ///< pressure-viscosity coefficient [1/Pa], >= 0
+  double density = 850;  ///< [kg/m^3], > 0; constant
+};
+
+enum class Cavitation {
+  guembel,          ///< full film solved, negative pressures dropped from the forces (half Sommerfeld)
+  reynolds,         ///< p >= p_cav with dp/dn = 0 at rupture; mass is lost where the film re-forms
+  mass_conserving,  ///< pressure or fill fraction in each node (Jakobsson-Floberg-Olsson)
+};
+
+enum class SupplyKind { none, fixed_angle, widest_gap };
+
+/// A line along the whole width of the bearing held full at a given pressure.
+struct SupplyLine {
+  SupplyKind kind = SupplyKind::none;
+  double phi = 0;       ///< angle of a fixed line [rad]
+  double pressure = 0;  ///< [Pa], >= cavitation pressure
+};
+
+enum class AsperityModel { none, greenwood_tripp_fit, greenwood_tripp_exact };
+
+/// p_a = K E F_{5/2}(h/sigma).
+struct Asperities {
+  AsperityModel model = AsperityModel::none;
+  double sigma = 1e-6;            ///< composite rms summit roughness [m], > 0
+  double elastic_factor = 3e-3;   ///< K [-], >= 0
+  double composite_modulus = 0;   ///< E [Pa], >= 0
+  double mu_friction = 0;         ///< boundary friction coefficient [-], >= 0
+};
+
+enum class CavitatedShear { full, film_share };
+enum class ShearForce { full, torque_only };
+enum class FilmSolver { newton, sor };
+
+/// Everything constant about one film. Pressures are on one common scale, gauge or absolute alike.
+struct FilmModel {
+  double R = 0.0225;  ///< bearing radius [m], > 0
+  double L = 0.0156;  ///< bearing width [m], > 0
+  double c = 34e-6;   ///< radial clearance: scales unknowns and supply, the gap itself comes with the motion [m], > 0
+  Grid grid;
+  Lubricant lubricant;
+  Cavitation cavitation = Cavitation::mass_conserving;
+  double p_cav = 0;       ///< cavitation pressure [Pa]
+  double p_edge_left = 0;   ///< pressure at z = -L/2 [Pa], >= p_cav
+  double p_edge_right = 0;  ///< pressure at z = +L/2 [Pa], >= p_cav
+  SupplyLine supply;
+  Asperities asperities;
+  double compliance = 0;  ///< column compliance w/p = length / composite modulus [m/Pa], >= 0; 0: rigid
+  CavitatedShear cavitated_shear = CavitatedShear::film_share;
+  ShearForce shear_force = ShearForce::full;
+};
+
+/// What the film sees of its two surfaces at one instant, in the frame of the grid. The grid may turn in any way: the
+/// speeds are relative to it and `g_rate` is taken at its fixed points, which makes the equations frame-invariant.
+struct SurfaceMotion {
+  Eigen::VectorXd g;       ///< gap of the undeformed surfaces at the nodes [m], shape (grid.size())
+  Eigen::VectorXd g_rate;  ///< d g/dt at fixed grid points [m/s], same shape
+  double u_shell = 0;      ///< circumferential speed of the shell surface (y = 0) [m/s]
+  double u_journal = 0;    ///< circumferential speed of the journal surface (y = h) [m/s]
+  double w_shell = 0;      ///< axial speed of the shell surface [m/s]
+  double w_journal = 0;    ///< axial speed of the journal surface [m/s]
+  double phi_supply = 0;   ///< where the supply line is now [rad]; ignored without one
+};
+
+/// The film at the start of the step being solved. dt = 0 drops every storage term but h theta_rate = 0: a steady film
+/// under the given g_rate.
+struct FilmHistory {
+  double dt = 0;           ///< [s]
+  Eigen::VectorXd theta;   ///< fill fraction at the start [-], shape (grid.size()); unused for dt = 0
+  Eigen::VectorXd w;       ///< compliance deformation at the start [m]; unused for dt = 0
+};
+
+}  // namespace hersey::film

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+
+#include "hersey/film/film_model.h"
+#include "hersey/film/reynolds.h"
+
+namespace hersey::film {
+
+struct FilmSolveOptions {
+  FilmSolver solver = FilmSolver::newton;
+  double rtol = 1e-10;      ///< on Reynolds::relative_residual
+  int max_iterations = 50;  ///< Newton; SOR: sweeps in thousands
+};
+
+struct FilmSolveSummary {
+  bool converged = false;
+  int iterations = 0;
+  double relative_residual = 0;
+  int worst_node = 0;
+  std::string message;  ///< why it ended, where it did not converge
+};
+
+/// Solves the film for u at given surfaces, starting from `u` (all zeros is a cold start). On failure `u` is the last iterate.
+[[nodiscard]] FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                                          const FilmSolveOptions& options, Eigen::VectorXd& u);
+
+}  // namespace hersey::film

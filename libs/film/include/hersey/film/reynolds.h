@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <string>
+
+#include "hersey/core/spatial.h"
+#include "hersey/film/film_model.h"
+
+namespace hersey::film {
+
+/// A one-parameter change of the surfaces, for derivatives along it: the film's answer to it is a column.
+struct MotionDirection {
+  Eigen::VectorXd g;       ///< d gap / d parameter at the nodes; empty means zero
+  Eigen::VectorXd g_rate;  ///< d gap rate / d parameter; empty means zero
+  double u_shell = 0, u_journal = 0, w_shell = 0, w_journal = 0, phi_supply = 0;
+};
+
+/// Reynolds' equation on the grid with its derivatives (theory manual, chapter film): residual and Jacobian at a state,
+/// the film's wrench and the answer of both to any change of the surfaces.
+///
+/// One unknown u [Pa] per node: p = p_cav + max(u, 0) and, in `mass_conserving`, theta = 1 + min(u, 0)/P0. In
+/// `guembel`, p = p_cav + u in the equation and p = p_cav + max(u, 0) in the forces. In `reynolds`, u < 0 carries the
+/// slack of the complementarity.
+///
+/// Holds the sparse pattern, factor and scratch of one film: one object per film and thread, no allocation after the
+/// first call.
+class Reynolds {
+ public:
+  explicit Reynolds(const FilmModel& model);
+  ~Reynolds();
+  Reynolds(Reynolds&&) noexcept;
+  Reynolds& operator=(Reynolds&&) noexcept;
+
+  [[nodiscard]] const FilmModel& model() const;
+  [[nodiscard]] int size() const;
+
+  /// Linearises about `u` and factorises the Jacobian. After it the members below refer to this state.
+  /// @throws ContractError on a wrong shape or a gap <= 0.
+  void linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
+
+  [[nodiscard]] const Eigen::VectorXd& residual() const;  ///< [m^3/s], shape (n)
+  [[nodiscard]] double relative_residual() const;         ///< max |residual| / largest throughput of a control volume
+  [[nodiscard]] int worst_node() const;
+
+  /// Wrench of the film (pressure, shear, asperities) on the shell at the grid frame's origin; on the journal acts its
+  /// negative at the same point: action equals reaction, moment included.
+  [[nodiscard]] const Vector6& wrench_on_shell() const;
+
+  /// du = -J^{-1} residual, the Newton increment of the film at fixed surfaces.
+  void newton_increment(Eigen::VectorXd& du);
+
+  /// Answer to a change of the surfaces: `du` = -J^{-1} dr/d(parameter), and the wrench's *partial* derivative at
+  /// fixed u. The total derivative is  partial + wrench_gradient(du).
+  void response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial);
+
+  /// (d wrench_on_shell / du) du.
+  [[nodiscard]] Vector6 wrench_gradient(const Eigen::VectorXd& du) const;
+
+  /// dr/d(parameter) alone, for tests and un-condensed systems.
+  void residual_derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hersey::film

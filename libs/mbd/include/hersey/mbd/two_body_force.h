@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+
+#include "hersey/core/spatial.h"
+
+namespace hersey::mbd {
+
+/// What a force between two frames sees: frame B relative to frame A, in A.
+struct RelativeMotion {
+  double t = 0;                       ///< time [s]
+  double dt = 0;                      ///< length of the step being solved [s]; 0: steady or instantaneous
+  Pose X_AB;                          ///< pose of B in A
+  Vector6 V_AB_A = Vector6::Zero();   ///< velocity of B relative to A at A's origin, in A's axes, [omega; v]
+};
+
+/// The wrench the force puts on B, at A's origin and in A's axes; on A acts its negative at the same point.
+/// Derivatives are with respect to a twist xi_A that moves B relative to A, dX_AB = xi^ X_AB at fixed V_AB_A, and to V_AB_A.
+struct ForceResponse {
+  Vector6 W_B_A = Vector6::Zero();      ///< [tau; f] [N m; N]
+  Matrix6 dW_dX = Matrix6::Zero();
+  Matrix6 dW_dV = Matrix6::Zero();
+};
+
+/// A force that two bodies exert on each other and that depends on their relative motion alone: spring, bushing, film.
+/// Action equals reaction, moment included, by construction. It may keep unknowns of its own and condense them.
+class TwoBodyForce {
+ public:
+  virtual ~TwoBodyForce() = default;
+
+  /// The wrench and, if `want_tangent`, its derivatives, condensed unknowns included.
+  virtual void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) = 0;
+
+  /// Energy stored [J]; 0 where the force stores none.
+  [[nodiscard]] virtual double stored_energy(const RelativeMotion&) const { return 0; }
+
+  // Condensed unknowns; see solver::Equations for when each is called.
+  virtual void begin_step(const RelativeMotion& start, double dt) { (void)start, (void)dt; }
+  virtual void accept_step(const RelativeMotion& end) { (void)end; }
+  [[nodiscard]] virtual double internal_residual() const { return 0; }
+  [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
+  [[nodiscard]] virtual std::string domain_error() const { return {}; }
+};
+
+}  // namespace hersey::mbd
