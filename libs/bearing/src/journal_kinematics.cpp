@@ -1,0 +1,130 @@
+#include "hersey/bearing/journal_kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::bearing {
+namespace {
+
+using Row6 = Eigen::Matrix<double, 1, 6>;
+using Map36 = Eigen::Matrix<double, 3, 6>;
+
+// A quantity with its variation under a twist xi of the journal relative to the bearing.
+struct Varied {
+  double value;
+  Row6 d;
+};
+
+Varied operator-(const Varied& a, const Varied& b) { return {a.value - b.value, a.d - b.d}; }
+Varied operator*(const Varied& a, const Varied& b) {
+  return {a.value * b.value, a.value * b.d + b.value * a.d};
+}
+Varied operator/(const Varied& a, const Varied& b) {
+  const double q = a.value / b.value;
+  return {q, (a.d - q * b.d) / b.value};
+}
+
+// A vector carried by the journal frame and its variation map.
+struct VariedVector {
+  Vector3 value;
+  Map36 d;
+  [[nodiscard]] Varied operator[](int i) const { return {value[i], d.row(i)}; }
+};
+
+// The axis in the mid-plane frame: slope t = d_xy/d_z and piercing point e = r_xy - t r_z. The same expressions,
+// differentiated along V, give the rates; hence rates and twists share one linear map.
+struct Axis {
+  Varied e, t;
+};
+Axis pierce(const VariedVector& r, const VariedVector& d, int i) {
+  const Varied t = d[i] / d[2];
+  return {r[i] - t * r[2], t};
+}
+Axis pierce_rate(const VariedVector& r, const VariedVector& d, const VariedVector& r_rate, const VariedVector& d_rate,
+                 int i) {
+  const Varied t = d[i] / d[2];
+  const Varied t_rate = (d_rate[i] - t * d_rate[2]) / d[2];
+  return {r_rate[i] - t_rate * r[2] - t * r_rate[2], t_rate};
+}
+
+// Angle opposite to the eccentricity: the widest gap at z = 0. Without eccentricity it has no direction.
+void widest_gap(double e_floor, JournalKinematics& k) {
+  const double ex = k.value[kEx], ey = k.value[kEy], e2 = ex * ex + ey * ey;
+  if (e2 == 0) return;
+  k.value[kSupplyAngle] = std::atan2(-ey, -ex);
+  if (e2 < e_floor * e_floor) return;
+  k.d_dX.row(kSupplyAngle) = (ex * k.d_dX.row(kEy) - ey * k.d_dX.row(kEx)) / e2;
+}
+
+}  // namespace
+
+JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, double R, double e_floor) {
+  const Vector3 omega = V_AB_A.head<3>(), velocity = V_AB_A.tail<3>();
+  VariedVector r{X_AB.r, Map36::Zero()};
+  r.d << -skew(r.value), Matrix3::Identity();
+  VariedVector d{X_AB.R.col(2), Map36::Zero()};
+  d.d << -skew(d.value), Matrix3::Zero();
+  HERSEY_REQUIRE(std::abs(d.value.z()) > 0.1, "the journal's axis must point along the bearing's");
+
+  const VariedVector r_rate{velocity + omega.cross(r.value), skew(omega) * r.d};
+  const VariedVector d_rate{omega.cross(d.value), skew(omega) * d.d};
+
+  JournalKinematics k;
+  for (int i = 0; i < 2; ++i) {
+    const Axis axis = pierce(r, d, i), rate = pierce_rate(r, d, r_rate, d_rate, i);
+    const std::array<std::pair<int, Varied>, 4> entries{
+        {{kEx + i, axis.e}, {kTx + i, axis.t}, {kExRate + i, rate.e}, {kTxRate + i, rate.t}}};
+    for (const auto& [row, quantity] : entries) {
+      k.value[row] = quantity.value;
+      k.d_dX.row(row) = quantity.d;
+    }
+    k.d_dV.row(kExRate + i) = axis.e.d;
+    k.d_dV.row(kTxRate + i) = axis.t.d;
+  }
+
+  k.value[kJournalSpeed] = R * omega.z();
+  k.d_dV(kJournalSpeed, 2) = R;
+
+  // The axis point in the mid-plane moves along z with v_z + (omega x e)_z.
+  k.value[kAxialSpeed] = velocity.z() + omega.x() * k.value[kEy] - omega.y() * k.value[kEx];
+  k.d_dV.row(kAxialSpeed) << k.value[kEy], -k.value[kEx], 0, 0, 0, 1;
+  k.d_dX.row(kAxialSpeed) = omega.x() * k.d_dX.row(kEy) - omega.y() * k.d_dX.row(kEx);
+
+  widest_gap(e_floor, k);
+  return k;
+}
+
+void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion) {
+  const film::Grid& grid = model.grid;
+  motion.g.resize(grid.size());
+  motion.g_rate.resize(grid.size());
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double phi = 2 * std::numbers::pi * i / grid.n_phi;
+    const double C = std::cos(phi), S = std::sin(phi);
+    for (int j = 0; j < grid.n_z; ++j) {
+      const double z = model.L * (static_cast<double>(j) / (grid.n_z - 1) - 0.5);
+      const auto radial = [&](int e, int t) {
+        return (parameters[e] + parameters[t] * z) * C + (parameters[e + 1] + parameters[t + 1] * z) * S;
+      };
+      motion.g[grid.index(i, j)] = model.c - radial(kEx, kTx);
+      motion.g_rate[grid.index(i, j)] = -radial(kExRate, kTxRate);
+    }
+  }
+  motion.u_shell = 0;
+  motion.u_journal = parameters[kJournalSpeed];
+  motion.w_shell = 0;
+  motion.w_journal = parameters[kAxialSpeed];
+  motion.phi_supply = parameters[kSupplyAngle];
+}
+
+double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters) {
+  const auto offset = [&](double z) {
+    return (parameters.segment<2>(kEx) + parameters.segment<2>(kTx) * z).norm();
+  };
+  return model.c - std::max(offset(-0.5 * model.L), offset(0.5 * model.L));
+}
+
+}  // namespace hersey::bearing
