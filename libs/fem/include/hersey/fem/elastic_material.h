@@ -1,0 +1,20 @@
+#pragma once
+
+namespace hersey::fem {
+
+/// Isotropic, linearly elastic.
+struct ElasticMaterial {
+  double youngs_modulus = 0;  ///< E [Pa], > 0
+  double poisson_ratio = 0;   ///< nu [-], -1 < nu < 0.5
+  double density = 0;         ///< rho [kg/m^3], >= 0; 0 where inertia plays no part
+};
+
+/// Composite elastic modulus of two contacting bodies,  1/E = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2.
+///
+/// @returns E [Pa]: that of two half-spaces in series, between half the smaller plane-strain modulus and its whole.
+/// @throws ContractError if a modulus is not positive or a Poisson ratio outside (-1, 0.5).
+/// @see Choi (2012), Eq. 27; Johnson (1985), Contact Mechanics, Eq. 4.18 (there E*).
+/// @verified_by elastic_material_test.cpp
+[[nodiscard]] double composite_modulus(const ElasticMaterial& a, const ElasticMaterial& b);
+
+}  // namespace hersey::fem

@@ -1,0 +1,233 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hersey/core/input_error.h"
+#include "hersey/core/scalar_function.h"
+#include "hersey/core/spatial.h"
+#include "hersey/fem/elastic_material.h"
+#include "hersey/film/film_model.h"
+
+/// The model file as checked, plain data: SI units, names resolved, nothing built yet.
+///
+/// Everything that has a name in the file keeps it and its position, so that a fault found later (a gap closed at the
+/// start, a table that does not cover the run) can point at the line that causes it.
+namespace hersey::model {
+
+/// A frame fixed on a body; `frame` is empty for the body's own frame.
+struct FrameName {
+  std::string body;  ///< a body's name, or "ground"
+  std::string frame;
+  SourcePosition position;
+};
+
+/// What a function of the model file depends on.
+struct Variable {
+  enum class Kind { time, coordinate, rate };
+  Kind kind = Kind::time;
+  std::string joint;       ///< empty for time
+  std::string coordinate;  ///< "rotation", "translation", "x", "y"; empty for time
+};
+
+/// A load, drive or magnitude: `value->value(x)` with x[i] the value of variables[i] in SI (s, rad, m, rad/s, m/s).
+struct Function {
+  std::shared_ptr<const ScalarFunction> value;      ///< never null; result in SI
+  std::vector<Variable> variables;                  ///< empty for a constant
+  std::optional<std::pair<double, double>> domain;  ///< range of variables[0] a table covers; unset: everywhere
+  SourcePosition position;
+  std::string path;  ///< key path, e.g. "forces.gas.magnitude"
+
+  [[nodiscard]] bool is_constant() const { return variables.empty(); }
+};
+
+struct Frame {
+  std::string name;
+  Pose X_BF;  ///< pose of the frame in its body
+  SourcePosition position;
+};
+
+struct Body {
+  std::string name;                          ///< "ground" only in Model::ground
+  double mass = 0;                           ///< [kg], >= 0
+  Vector3 centre_of_mass = Vector3::Zero();  ///< from the body's origin, body axes [m]
+  Matrix3 inertia = Matrix3::Zero();  ///< about the centre of mass, body axes [kg m^2]; symmetric, physically possible
+  std::vector<Frame> frames;
+  SourcePosition position;
+};
+
+enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, planar, free };
+
+/// Value of a coordinate or of its rate at the start.
+struct InitialValue {
+  std::string coordinate;     ///< "rotation", "rotation_rate", "orientation", "angular_velocity", ...
+  std::vector<double> value;  ///< one value, or three for orientation, position, velocity, angular_velocity; SI
+  SourcePosition position;
+};
+
+struct Joint {
+  std::string name;
+  JointType type = JointType::revolute;
+  FrameName inboard, outboard;
+  Vector3 axis = Vector3::UnitZ();    ///< unit vector in the inboard frame; planar: normal of the plane
+  std::vector<InitialValue> initial;  ///< only those given; the others start from 0
+  SourcePosition position;
+};
+
+/// Prescribed motion of one scalar joint coordinate.
+struct Drive {
+  enum class Prescribes { position, speed };
+  std::string name;
+  std::string joint;
+  std::string coordinate;
+  Prescribes prescribes = Prescribes::position;
+  Function motion;  ///< of time [rad or m; rad/s or m/s]
+  SourcePosition position;
+};
+
+enum class Axes { ground, body };
+
+/// A force [N] or torque [N m] on a body, at the origin of `at`.
+struct BodyLoad {
+  bool is_torque = false;
+  FrameName at;
+  Axes axes = Axes::ground;          ///< axes of components or direction: ground's or those of frame `at`
+  std::optional<Vector3> direction;  ///< unit vector; then `functions` holds the magnitude alone
+  std::vector<Function> functions;   ///< three components, or one magnitude along `direction`
+};
+
+struct SpringDamper {
+  FrameName from, to;
+  double stiffness = 0;    ///< [N/m], >= 0
+  double damping = 0;      ///< [N s/m], >= 0
+  double free_length = 0;  ///< [m], >= 0
+};
+
+/// Spring and damper on one scalar joint coordinate; translational coordinates take N/m, N s/m, m.
+struct TorsionSpring {
+  std::string joint;
+  std::string coordinate;
+  double stiffness = 0;   ///< [N m/rad], >= 0
+  double damping = 0;     ///< [N m s/rad], >= 0
+  double free_angle = 0;  ///< [rad]
+};
+
+enum class ForceType { load, spring_damper, torsion_spring };
+
+/// One entry of `forces`; the member named by `type` holds the data.
+struct Force {
+  std::string name;
+  ForceType type = ForceType::load;
+  BodyLoad load;
+  SpringDamper spring_damper;
+  TorsionSpring torsion_spring;
+  SourcePosition position;
+};
+
+struct Lubricant {
+  std::string name;
+  film::Lubricant data;
+  SourcePosition position;
+};
+
+enum class CouplingScheme { monolithic, partitioned };
+
+struct Coupling {
+  CouplingScheme scheme = CouplingScheme::monolithic;
+  double relaxation = 1;    ///< partitioned: factor on the first update of the film force, in (0, 1]
+  double tolerance = 1e-6;  ///< partitioned: relative change of the film wrench between iterations
+  int max_iterations = 50;  ///< partitioned
+};
+
+struct Bearing {
+  std::string name;
+  FrameName shell, journal;
+  std::string lubricant;
+  film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
+  film::FilmSolver solver = film::FilmSolver::newton;
+  Coupling coupling;
+  std::optional<fem::ElasticMaterial> shell_material, journal_material;
+  SourcePosition position;
+};
+
+/// The joint whose driven rotation is the machine's crank angle.
+struct Crank {
+  std::string joint;
+  double speed = 0;          ///< [rad/s], not 0
+  double initial_angle = 0;  ///< rotation at t = start [rad]
+};
+
+/// Ends the run early once each bearing repeats.
+struct Settle {
+  double tolerance = 1e-4;  ///< change of the eccentricity ratio between comparisons
+  double over = 0;          ///< time between comparisons [s]
+};
+
+struct Simulation {
+  double start = 0;     ///< [s]
+  double duration = 0;  ///< [s], > 0
+  double step = 0;      ///< [s], > 0
+  std::optional<Crank> crank;
+  double spectral_radius = 0.8;  ///< of generalized-alpha, 0..1
+  double tolerance = 1e-8;       ///< relative, of Newton
+  int max_iterations = 20;       ///< of Newton, per step
+  double smallest_step = 1e-9;   ///< [s]
+  std::optional<Settle> settle;
+  SourcePosition position;
+};
+
+struct Output {
+  int every = 1;            ///< steps between rows of the time series, >= 1
+  double fields_every = 0;  ///< time between stored fields [s]; the reader fills in duration/100
+  SourcePosition position;
+};
+
+struct StudyParameter {
+  std::string name;                 ///< a parameter, or a key path
+  std::vector<std::string> values;  ///< as written, e.g. "100 N"
+  SourcePosition position;
+};
+
+enum class StudyFigure { midplane_pressure, film_thickness };
+
+struct Study {
+  std::vector<StudyParameter> parameters;
+  std::vector<StudyFigure> figures;
+  SourcePosition position;
+};
+
+/// A parameter's value in this run, with overrides applied.
+struct Parameter {
+  std::string name;
+  std::string text;  ///< as written, e.g. "2500 N"
+  SourcePosition position;
+};
+
+struct Model {
+  std::string file;  ///< the path given to the reader
+  std::string title, description;
+  std::vector<Parameter> parameters;
+  Vector3 gravity = Vector3::Zero();  ///< [m/s^2]
+  Body ground;                        ///< carries frames only
+  std::vector<Body> bodies;           ///< in the order of the file
+  std::vector<Joint> joints;
+  std::vector<Drive> drives;
+  std::vector<Force> forces;
+  std::vector<Lubricant> lubricants;
+  std::vector<Bearing> bearings;
+  Simulation simulation;
+  Output output;
+  std::optional<Study> study;
+  std::string resolved_text;  ///< the file's text, preceded by comments naming the overrides of this run
+
+  std::map<std::string, SourcePosition> positions;  ///< of every key in the file, by key path
+
+  /// Where `path` ("bearings.big_end.radial_clearance") is given; of its nearest given parent if it was left out.
+  [[nodiscard]] SourcePosition position_of(const std::string& path) const;
+};
+
+}  // namespace hersey::model

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/model/model.h"
+
+namespace hersey::model {
+
+/// Reads and checks the model file at `path`.
+///
+/// @param path       a YAML file in the format of docs/model-file.md; tables it names are sought beside it.
+/// @param overrides  each "name=value" (a parameter) or "key.path=value", applied before checking.
+/// @returns the model in SI units, names and references checked.
+/// @throws InputError with every fault of the file, the overrides and the tables.
+[[nodiscard]] Model read(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// As `read`, from text; `file` names it in faults and is where relative paths of tables start.
+[[nodiscard]] Model read_text(const std::string& text, const std::string& file,
+                              const std::vector<std::string>& overrides = {});
+
+}  // namespace hersey::model

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hersey::model {
+
+/// One parameter's value in one run of a study.
+struct StudyValue {
+  std::string name;   ///< the parameter or key path
+  std::string text;   ///< as written, "100 N"
+  double number = 0;  ///< in `unit`; 0 if the value is a word
+  std::string unit;   ///< unit of the parameter's first value, common to all runs; empty for a bare number or a word
+};
+
+/// One combination of the study's parameters.
+struct StudyRun {
+  std::vector<std::string> overrides;  ///< those given, then the study's; hand them to `read`
+  std::string label;                   ///< "load = 100 N, clearance = 34 um"
+  std::string slug;                    ///< the same, fit for a file name: "load_100_N-clearance_34_um"
+  std::vector<StudyValue> values;      ///< in the order of study.parameters
+};
+
+/// Every combination of study.parameters, the last parameter varying fastest; empty if the model has no study. A study
+/// parameter named in `overrides` is fixed at that value and no longer varied.
+/// @throws InputError with the faults of the file and of every combination.
+[[nodiscard]] std::vector<StudyRun> expand_study(const std::string& path,
+                                                 const std::vector<std::string>& overrides = {});
+
+}  // namespace hersey::model
