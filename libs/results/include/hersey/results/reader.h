@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "hersey/results/error.h"
+
+namespace hersey::results {
+
+/// What a dataset is, without its numbers.
+struct DatasetInfo {
+  std::vector<std::size_t> shape;
+  std::string unit;
+  std::string description;
+};
+
+/// A dataset of numbers, row-major.
+struct Array {
+  DatasetInfo info;
+  std::vector<double> values;
+  /// Numbers per entry of the first dimension; 1 for a plain series.
+  [[nodiscard]] std::size_t width() const;
+};
+
+/// Reads a results file: finished, still growing, or left behind by a killed program.
+///
+/// A program killed in the middle of a flush may leave the last rows in some series and not in others. The reader
+/// counts only the rows that every non-empty growing dataset has, and the same apart for each group named `fields`.
+/// @verified_by writer_test.cpp, crash_test.cpp
+class Reader {
+ public:
+  /// @throws ReadError if the file is missing, not HDF5, or not a results file this version understands.
+  explicit Reader(std::filesystem::path path);
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader();
+
+  [[nodiscard]] bool has(std::string_view path) const;                            ///< a group or dataset
+  [[nodiscard]] std::vector<std::string> children(std::string_view group) const;  ///< sorted; empty without the group
+  [[nodiscard]] std::vector<std::string> attributes(std::string_view object) const;  ///< names, in order of creation
+
+  /// Attribute of that name and kind, if there is one.
+  [[nodiscard]] std::optional<std::string> text_attribute(std::string_view object, std::string_view name) const;
+  [[nodiscard]] std::optional<double> number_attribute(std::string_view object, std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> list_attribute(std::string_view object, std::string_view name) const;
+
+  /// @throws ReadError unless there is such a dataset (of numbers, or of strings).
+  [[nodiscard]] DatasetInfo info(std::string_view path) const;
+  [[nodiscard]] Array read(std::string_view path) const;
+  /// Rows first, first + stride, ... of a dataset; one row is one entry of its first dimension.
+  [[nodiscard]] Array read_rows(std::string_view path, std::size_t first, std::size_t count,
+                                std::size_t stride = 1) const;
+  [[nodiscard]] std::string text(std::string_view path) const;
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> text_table(std::string_view path) const;
+
+  [[nodiscard]] std::size_t rows() const;  ///< rows of the time series
+  [[nodiscard]] const std::filesystem::path& path() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hersey::results

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "hersey/results/error.h"
+
+namespace hersey::results {
+
+/// How a run stands; kept as the text attribute `status` of the file.
+enum class Status {
+  running,    ///< under way, or killed: no one had time to write another status
+  completed,  ///< reached its end
+  stopped,    ///< ended early on request (Ctrl-C); everything up to then is valid
+  failed,     ///< ended early without an answer; `message` tells why
+};
+
+[[nodiscard]] std::string_view to_string(Status status);
+
+struct WriterOptions {
+  bool overwrite = false;       ///< replace an existing file instead of throwing FileExists
+  double flush_interval = 0.5;  ///< shortest time between two writes by flush_if_due() [s], >= 0
+};
+
+class Writer;
+
+/// Handle of a growing dataset, one row per append. Cheap to copy; valid as long as its Writer.
+class Series {
+ public:
+  Series() = default;
+
+  /// Adds one row of width() numbers, in memory until the next flush.
+  /// @throws ContractError unless the row has width() numbers; WriteError once the file has failed.
+  void append(std::span<const double> row) const;
+  void append(double value) const { append(std::span<const double>(&value, 1)); }
+  void append(std::initializer_list<double> row) const { append(std::span<const double>(row.begin(), row.size())); }
+  template <int rows>
+  void append(const Eigen::Matrix<double, rows, 1>& row) const {
+    append(std::span<const double>(row.data(), static_cast<std::size_t>(row.size())));
+  }
+
+  [[nodiscard]] std::size_t width() const;  ///< numbers per row: columns, or rows x columns of a field
+
+ private:
+  friend class Writer;
+  Series(Writer* writer, std::size_t index) : writer_(writer), index_(index) {}
+  Writer* writer_ = nullptr;
+  std::size_t index_ = 0;
+};
+
+/// Writes one results file (HDF5; layout in docs/results-file.md) while the run goes on.
+///
+/// Groups on the way to a dataset or attribute are made as needed. Declare all series before the first flush: the file
+/// then keeps its structure and only grows. Rows wait in memory; a flush puts all of them into the file together, after
+/// which they survive a SIGKILL of the program, and another process may read them at any time. Space is reserved before
+/// it is used, so a full disk costs the rows since the last flush and nothing else.
+///
+/// Every method but the destructor throws WriteError when the file cannot be written, and from then on again; finish()
+/// and the destructor then close the file in its last good state without another exception.
+/// Not for use from two threads at once. HDF5 keeps its own error printing to itself while a method runs.
+/// @verified_by writer_test.cpp, crash_test.cpp
+class Writer {
+ public:
+  using Options = WriterOptions;
+
+  /// Creates the file, with status "running" and the format's name and version.
+  /// @throws FileExists if there is one and it is not to be overwritten; WriteError if it cannot be created.
+  explicit Writer(std::filesystem::path path, Options options = {});
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  /// Without a finish() before it, the status becomes failed ("ended by an error").
+  ~Writer();
+
+  /// Sets an attribute of the root "/", a group (made if absent) or an existing dataset; a second call replaces it.
+  void attribute(std::string_view object, std::string_view name, std::string_view text);
+  void attribute(std::string_view object, std::string_view name, const char* text) {
+    attribute(object, name, std::string_view(text));
+  }
+  void attribute(std::string_view object, std::string_view name, double value);
+  void attribute(std::string_view object, std::string_view name, int value);
+  void attribute(std::string_view object, std::string_view name, const std::vector<std::string>& texts);
+
+  /// A scalar string dataset, such as the model's text.
+  void text(std::string_view path, std::string_view content, std::string_view description);
+
+  /// A dataset [n, 2] of strings, such as the assumptions (name, text).
+  void text_table(std::string_view path, const std::vector<std::pair<std::string, std::string>>& rows,
+                  std::string_view description);
+
+  /// A fixed one-dimensional dataset, such as the angles of a grid.
+  void constant(std::string_view path, std::span<const double> values, std::string_view unit,
+                std::string_view description);
+
+  /// A growing dataset, shape [n] for columns = 1, else [n, columns]. `unit` in SI, "1" for a pure number.
+  [[nodiscard]] Series series(std::string_view path, int columns, std::string_view unit, std::string_view description);
+
+  /// A growing dataset of shape [n, rows, cols]; a row is row-major, index i cols + j.
+  [[nodiscard]] Series field(std::string_view path, std::array<int, 2> shape, std::string_view unit,
+                             std::string_view description);
+
+  void flush();  ///< puts all rows so far into the file
+  void
+  flush_if_due();  ///< flush(), unless the last one was less than Options::flush_interval ago; call it at every step
+
+  /// Flushes, sets `status` and `message`, and closes the file; later calls do nothing.
+  void finish(Status status, std::string_view message = {});
+
+  [[nodiscard]] const std::filesystem::path& path() const;
+
+ private:
+  friend class Series;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hersey::results
