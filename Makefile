@@ -1,0 +1,69 @@
+# Everything from a bare checkout: each target installs what it needs (scripts/setup), configures, builds and runs.
+# Logs: build/log/. Settings: JOBS=n, PRESET=release|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test).
+JOBS ?= $(shell nproc)
+PRESET ?= release
+PREFIX ?= /usr/local
+FILTER ?= .
+BUILD = build/$(PRESET)
+PHASE = scripts/phase
+
+.DEFAULT_GOAL := help
+.PHONY: help program demo test bench validate web web-check web-test docs format lint install clean
+
+help:  ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+program: $(BUILD)/build.ninja  ## builds the program: build/release/hersey
+	@$(PHASE) program build/log/program.log cmake --build $(BUILD) --target hersey -j $(JOBS)
+
+demo: program  ## simulates the paper's big-end bearing and says where the report is (QUICK=1: a short run)
+	@scripts/demo $(BUILD) $(QUICK)
+
+test: $(BUILD)/build.ninja  ## builds everything and runs every test (FILTER=regex: some of them)
+	@scripts/setup build test
+	@$(PHASE) compile build/log/compile.log cmake --build $(BUILD) -j $(JOBS)
+	@scripts/run-tests $(BUILD) $(JOBS) '$(FILTER)'
+
+bench:  ## builds and runs the benchmarks
+	@scripts/setup build bench
+	@$(MAKE) --no-print-directory PRESET=bench build/bench/build.ninja
+	@$(PHASE) compile build/log/bench.log cmake --build build/bench -j $(JOBS)
+	@scripts/bench build/bench
+
+validate: program  ## compares the examples with published numbers
+	@scripts/setup test
+	@scripts/validate $(BUILD)
+
+web:  ## rebuilds the report's front end (needs Node; the C++ build does not)
+	@scripts/web build
+
+web-check:  ## checks the front end's types and that the committed bundle is what its sources give
+	@scripts/web check
+
+web-test: program  ## opens a report in headless Chromium and tries it
+	@scripts/web test $(BUILD)
+
+docs:  ## builds the documentation site: build/docs/index.html
+	@scripts/setup docs
+	@$(PHASE) docs build/log/docs.log scripts/docs
+	@echo "documentation: build/docs/index.html"
+
+format:  ## formats every C++ file
+	@scripts/setup lint
+	@git ls-files --cached --others --exclude-standard '*.h' '*.cpp' | xargs -r -P $(JOBS) -n 20 clang-format -i
+
+lint:  ## checks the format and runs clang-tidy (SINCE=revision: on changed files only)
+	@scripts/setup build lint
+	@scripts/lint $(JOBS) $(SINCE)
+
+install: program  ## installs program, libraries and headers below PREFIX
+	@$(PHASE) compile build/log/compile.log cmake --build $(BUILD) -j $(JOBS)
+	@$(PHASE) install build/log/install.log cmake --install $(BUILD) --prefix $(PREFIX)
+
+clean:  ## removes everything built
+	@rm -rf build
+
+# Configured once; afterwards the build itself notices changed CMake files.
+$(BUILD)/build.ninja: CMakePresets.json
+	@scripts/setup build
+	@$(PHASE) configure build/log/configure.log cmake --preset $(PRESET)
