@@ -2,7 +2,7 @@
 #
 # A module is libs/<name>: one static library with its own include root. It sees the headers of the modules it names
 # and of those below them, and no others, so an include that runs up or sideways does not compile.
-# Its tests, libs/<name>/test/*_test.cpp, become one executable.
+# Its tests, libs/<name>/test/*_test.cpp, become one executable, each case one test of ctest.
 
 # One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers.
 add_library(hersey_pch OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
@@ -11,6 +11,7 @@ target_precompile_headers(hersey_pch PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/p
 
 if(BUILD_TESTING)
   find_package(doctest REQUIRED)
+  include(doctest)
   add_library(hersey_test_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/main.cpp)
   target_link_libraries(hersey_test_main PUBLIC doctest::doctest $<BUILD_INTERFACE:hersey_options>)
 endif()
@@ -49,6 +50,8 @@ function(hersey_module name)
     target_include_directories(${name}_test PRIVATE ${dir}/src ${CMAKE_CURRENT_SOURCE_DIR}/verification)
     target_link_libraries(${name}_test PRIVATE hersey_${name} hersey_test_main ${M_PRIVATE})
     target_compile_definitions(${name}_test PRIVATE HERSEY_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
-    add_test(NAME ${name} COMMAND ${name}_test)
+    # Each case is a test of its own, `<module>.<case>`; a filter that selects no case must not pass.
+    doctest_discover_tests(${name}_test TEST_PREFIX "${name}."
+                           PROPERTIES FAIL_REGULAR_EXPRESSION "test cases: +0 [|]")
   endif()
 endfunction()
