@@ -8,16 +8,17 @@ namespace hersey::mbd {
 
 /// What a force between two frames sees: frame B relative to frame A, in A.
 struct RelativeMotion {
-  double t = 0;                       ///< time [s]
-  double dt = 0;                      ///< length of the step being solved [s]; 0: steady or instantaneous
-  Pose X_AB;                          ///< pose of B in A
-  Vector6 V_AB_A = Vector6::Zero();   ///< velocity of B relative to A at A's origin, in A's axes, [omega; v]
+  double t = 0;                      ///< time [s]
+  double dt = 0;                     ///< length of the step being solved [s]; 0: steady or instantaneous
+  Pose X_AB;                         ///< pose of B in A
+  Vector6 V_AB_A = Vector6::Zero();  ///< velocity of B relative to A at A's origin, in A's axes, [omega; v]
 };
 
 /// The wrench the force puts on B, at A's origin and in A's axes; on A acts its negative at the same point.
-/// Derivatives are with respect to a twist xi_A that moves B relative to A, dX_AB = xi^ X_AB at fixed V_AB_A, and to V_AB_A.
+/// Derivatives are with respect to a twist xi_A that moves B relative to A, dX_AB = xi^ X_AB at fixed V_AB_A, and to
+/// V_AB_A.
 struct ForceResponse {
-  Vector6 W_B_A = Vector6::Zero();      ///< [tau; f] [N m; N]
+  Vector6 W_B_A = Vector6::Zero();  ///< [tau; f] [N m; N]
   Matrix6 dW_dX = Matrix6::Zero();
   Matrix6 dW_dV = Matrix6::Zero();
 };

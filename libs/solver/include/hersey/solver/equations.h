@@ -51,6 +51,11 @@ class Equations {
   virtual void assemble(const State& state, const Stage& stage, Eigen::VectorXd& residual, Eigen::VectorXd& scale,
                         SparseMatrix* tangent) = 0;
 
+  /// Phi(q, t), shape (nlambda), the lengths each row compares (`scale`), and unless null G = d Phi / d velocity
+  /// direction, shape (nlambda, nv). Needs neither velocities nor condensed unknowns.
+  virtual void constraints(const State& state, Eigen::VectorXd& phi, Eigen::VectorXd& scale,
+                           SparseMatrix* jacobian) = 0;
+
   /// Constraint velocity and acceleration terms:  G v + Phi_t  and  the bias gamma with  G vdot + gamma = d2 Phi/dt2.
   virtual void constraint_rates(const State& state, Eigen::VectorXd& velocity, Eigen::VectorXd& bias) = 0;
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "hersey/core/spatial.h"
+
+namespace hersey::mbd {
+
+/// What a joint leaves free between its inboard frame I and its outboard frame O. X_IO is the identity at zero.
+enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, planar, free };
+
+[[nodiscard]] std::string_view name_of(JointType type);
+[[nodiscard]] std::optional<JointType> joint_type_of(std::string_view name);
+
+/// One named coordinate of a joint type, as users write it. Its values take `size` places in the joint's list of
+/// values: 1 for a scalar, 3 for a position, and 3 for an orientation (given and reported as a rotation vector; its
+/// rate is the angular velocity of O relative to I in O's axes).
+struct Coordinate {
+  std::string_view name;
+  int offset = 0;
+  int size = 1;
+  bool rotational = false;  ///< radians, otherwise metres
+  bool orientation = false;
+};
+
+/// The coordinates of a joint type in their order: revolute: rotation; prismatic: translation; cylindrical:
+/// translation, rotation; planar: x, y, rotation; spherical: orientation; free: position, orientation; fixed: none.
+[[nodiscard]] std::span<const Coordinate> coordinates_of(JointType type);
+
+/// Number of values (and of degrees of freedom) of a joint type, 0..6.
+[[nodiscard]] int degrees_of_freedom(JointType type);
+
+/// The coordinate called `name`; nothing if the type has none of that name.
+[[nodiscard]] std::optional<Coordinate> find_coordinate(JointType type, std::string_view name);
+
+/// Axes that a joint about (or along, or normal to) the unit vector `axis` uses: columns t1, t2, axis, right-handed;
+/// the identity for z, cyclic permutations for x and y. A planar joint's x and y run along t1 and t2.
+[[nodiscard]] Matrix3 joint_axes(const Vector3& axis);
+
+/// The joint's motion: X_IO at the given values, shape (degrees_of_freedom).
+[[nodiscard]] Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> values);
+
+}  // namespace hersey::mbd

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hersey/mbd/mechanism_builder.h"
+#include "hersey/solver/equations.h"
+
+namespace hersey::mbd {
+
+/// Motion of a frame relative to ground, in ground's axes.
+struct FrameMotion {
+  Pose X_WF;
+  Vector3 omega = Vector3::Zero();  ///< angular velocity [rad/s]
+  Vector3 v = Vector3::Zero();      ///< velocity of the frame's origin [m/s]
+  Vector3 alpha = Vector3::Zero();  ///< angular acceleration [rad/s^2]
+  Vector3 a = Vector3::Zero();      ///< acceleration of the frame's origin [m/s^2]
+};
+
+/// Coordinates of a joint and what it transmits.
+struct JointObservation {
+  std::vector<double> position;  ///< values as in coordinates_of; of a closing joint in (-pi, pi]
+  std::vector<double> rate;
+  Vector3 force = Vector3::Zero();   ///< of the inboard on the outboard body, in the inboard frame's axes [N]
+  Vector3 torque = Vector3::Zero();  ///< the same about the inboard frame's origin [N m]; drives and springs excluded
+};
+
+/// Everything known about a mechanism at one state. Indices are those of the ids.
+struct Observation {
+  double t = 0;
+  std::vector<FrameMotion> bodies;  ///< of each body's own frame
+  std::vector<JointObservation> joints;
+  std::vector<double> drive_efforts;    ///< force or torque each drive exerts on its coordinate [N; N m]
+  std::vector<double> drive_powers;     ///< [W], > 0 puts energy in
+  std::vector<double> load_powers;      ///< [W]
+  std::vector<double> spring_powers;    ///< [W], stored and dissipated together
+  std::vector<Vector6> force_wrenches;  ///< of each two-body force on b, at a's origin, a's axes [N m; N]
+  std::vector<double> force_powers;     ///< wrench . relative velocity [W]
+  double kinetic_energy = 0;            ///< [J]
+  double potential_energy = 0;          ///< of gravity, zero at ground's origin [J]
+  double spring_energy = 0;             ///< stored in springs on coordinates and in two-body forces [J]
+};
+
+/// Rigid bodies in joint coordinates: recursive kinematics along a spanning tree, loops closed by Lagrange multipliers
+/// (theory manual, chapter mechanisms).
+///
+/// Made by MechanismBuilder::finalise. Topology and parameters are constant; states are passed in; the forces between
+/// bodies may keep condensed unknowns of their own (see TwoBodyForce).
+class Mechanism final : public solver::Equations {
+ public:
+  explicit Mechanism(MechanismSpec spec);
+  ~Mechanism() override;
+
+  // solver::Equations
+  [[nodiscard]] Index nq() const override;
+  [[nodiscard]] Index nv() const override;
+  [[nodiscard]] Index nlambda() const override;
+  void retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Eigen::VectorXd& q) const override;
+  void assemble(const solver::State& state, const solver::Stage& stage, Eigen::VectorXd& residual,
+                Eigen::VectorXd& scale, SparseMatrix* tangent) override;
+  void constraints(const solver::State& state, Eigen::VectorXd& phi, Eigen::VectorXd& scale,
+                   SparseMatrix* jacobian) override;
+  void constraint_rates(const solver::State& state, Eigen::VectorXd& velocity, Eigen::VectorXd& bias) override;
+  [[nodiscard]] std::string name_of_row(Index row) const override;
+  void begin_step(const solver::State& start, double dt) override;
+  void accept_step(const solver::State& end) override;
+  [[nodiscard]] double internal_residual() const override;
+  [[nodiscard]] std::string name_of_internal_residual() const override;
+  [[nodiscard]] std::string domain_error() const override;
+
+  /// The state the joints' initial values describe, at t = 0; not yet consistent: see solver::initialise.
+  [[nodiscard]] solver::State initial_state() const;
+
+  /// Velocity components whose initial position the user gave: InitialiseOptions::held.
+  [[nodiscard]] std::vector<Index> given_coordinates() const;
+
+  /// Everything about `state`. Two-body forces are those of the last accepted step, which must have ended in `state`.
+  [[nodiscard]] Observation observe(const solver::State& state);
+
+  /// Motion of one frame.
+  [[nodiscard]] FrameMotion frame_motion(const solver::State& state, FrameId frame);
+
+  /// What a two-body force sees at `state`, with dt = 0.
+  [[nodiscard]] RelativeMotion relative_motion(const solver::State& state, ForceId force);
+
+  [[nodiscard]] const MechanismSpec& spec() const;
+
+  /// Joints that close a loop, in order of declaration.
+  [[nodiscard]] std::vector<JointId> closing_joints() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> impl_;
+};
+
+}  // namespace hersey::mbd

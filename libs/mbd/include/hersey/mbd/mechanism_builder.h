@@ -1,0 +1,158 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hersey/core/scalar_function.h"
+#include "hersey/core/spatial.h"
+#include "hersey/mbd/joint.h"
+#include "hersey/mbd/two_body_force.h"
+
+namespace hersey::mbd {
+
+/// Index of a thing in the order it was added; a different type for each kind of thing.
+template <class Tag>
+struct Id {
+  int index = -1;
+  friend bool operator==(const Id&, const Id&) = default;
+};
+using BodyId = Id<struct BodyTag>;
+using FrameId = Id<struct FrameTag>;
+using JointId = Id<struct JointTag>;
+using ForceId = Id<struct ForceTag>;    ///< forces between two bodies
+using SpringId = Id<struct SpringTag>;  ///< springs on a joint coordinate
+using LoadId = Id<struct LoadTag>;
+using DriveId = Id<struct DriveTag>;
+
+/// A rigid body.
+struct BodySpec {
+  std::string name;
+  double mass = 0;                    ///< [kg], >= 0
+  Vector3 com = Vector3::Zero();      ///< centre of mass from the body's origin, body axes [m]
+  Matrix3 inertia = Matrix3::Zero();  ///< about the centre of mass, body axes [kg m^2], positive semidefinite
+};
+
+/// A frame fixed on a body.
+struct FrameSpec {
+  std::string name;
+  BodyId body;
+  Pose X_BF;  ///< pose of the frame on the body
+};
+
+struct JointSpec {
+  std::string name;
+  JointType type = JointType::fixed;
+  FrameId inboard;
+  FrameId outboard;
+  Vector3 axis = Vector3::UnitZ();  ///< in the inboard frame; normalised here, length > 0
+  std::vector<double>
+      initial;  ///< values in the order of coordinates_of(type); empty: zero, and free to move in assembly
+  std::vector<double> initial_rate;  ///< the same for their rates
+};
+
+/// A scalar joint coordinate: place `value` in the joint's list of values.
+struct CoordinateRef {
+  JointId joint;
+  int value = 0;
+};
+
+/// An argument of a load's function.
+struct Variable {
+  enum class Kind { time, position, rate };
+  Kind kind = Kind::time;
+  CoordinateRef coordinate;  ///< for position and rate
+};
+
+/// direction * magnitude(variables): one term of a load.
+struct LoadTerm {
+  Vector6 direction = Vector6::Zero();  ///< [tau; f], dimensionless
+  std::shared_ptr<const ScalarFunction> magnitude;
+  std::vector<Variable> variables;  ///< the arguments of `magnitude`, in order
+};
+
+enum class LoadAxes { ground, body };
+
+/// A force and torque on a body, at the origin of a frame; the reaction goes to ground.
+struct LoadSpec {
+  std::string name;
+  FrameId frame;
+  LoadAxes axes = LoadAxes::ground;  ///< axes of `direction`: ground's, or those of the frame's body
+  std::vector<LoadTerm> terms;
+};
+
+/// A spring and damper on a scalar joint coordinate: generalised force -(stiffness (q - free) + damping qdot).
+struct CoordinateSpringSpec {
+  std::string name;
+  CoordinateRef coordinate;
+  double stiffness = 0;      ///< [N m/rad] or [N/m]
+  double damping = 0;        ///< [N m s/rad] or [N s/m]
+  double free_position = 0;  ///< [rad] or [m]
+};
+
+/// Prescribed motion of a scalar joint coordinate.
+struct DriveSpec {
+  enum class Kind { position, speed };
+  std::string name;
+  CoordinateRef coordinate;
+  Kind kind = Kind::position;
+  std::shared_ptr<const ScalarFunction> function;  ///< of time alone
+};
+
+/// Everything a mechanism is made of, as added.
+struct MechanismSpec {
+  Vector3 gravity = Vector3::Zero();  ///< [m/s^2], ground axes
+  std::vector<BodySpec> bodies;       ///< body 0 is ground
+  std::vector<FrameSpec> frames;      ///< bodies' own frames among them
+  std::vector<FrameId> body_frames;   ///< each body's own frame
+  std::vector<JointSpec> joints;
+  std::vector<LoadSpec> loads;
+  std::vector<CoordinateSpringSpec> springs;
+  std::vector<DriveSpec> drives;
+
+  struct Force {
+    std::string name;
+    FrameId a, b;
+    std::shared_ptr<TwoBodyForce> force;
+  };
+  std::vector<Force> forces;
+};
+
+class Mechanism;
+
+/// Collects a mechanism part by part; `finalise` finds its spanning tree and makes it ready to move.
+///
+/// @code
+///   MechanismBuilder builder;
+///   const BodyId crank = builder.add_body({.name = "crank", .mass = 5, .inertia = J});
+///   const JointId main = builder.add_joint({.name = "main", .type = JointType::revolute,
+///                                           .inboard = builder.frame_of(builder.ground()), .outboard =
+///                                           builder.frame_of(crank)});
+///   std::unique_ptr<Mechanism> mechanism = builder.finalise();
+/// @endcode
+class MechanismBuilder {
+ public:
+  MechanismBuilder();
+
+  void set_gravity(const Vector3& gravity) { spec_.gravity = gravity; }
+  [[nodiscard]] static BodyId ground() { return {0}; }
+  [[nodiscard]] FrameId frame_of(BodyId body) const;  ///< the body's own frame
+
+  BodyId add_body(BodySpec body);
+  FrameId add_frame(FrameSpec frame);
+  JointId add_joint(JointSpec joint);
+  /// The force acts on b's body, its negative on a's; it sees frame b relative to frame a.
+  ForceId add_force(std::string name, FrameId a, FrameId b, std::shared_ptr<TwoBodyForce> force);
+  LoadId add_load(LoadSpec load);
+  SpringId add_spring(CoordinateSpringSpec spring);
+  DriveId add_drive(DriveSpec drive);
+
+  /// @throws InputError if a body, spring or joint makes no physical sense (all faults together), or two drives act on
+  ///         one coordinate; ContractError if an id or a count is not the builder's own.
+  [[nodiscard]] std::unique_ptr<Mechanism> finalise();
+
+ private:
+  MechanismSpec spec_;
+};
+
+}  // namespace hersey::mbd

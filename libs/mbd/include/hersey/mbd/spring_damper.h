@@ -1,0 +1,28 @@
+#pragma once
+
+#include "hersey/mbd/two_body_force.h"
+
+namespace hersey::mbd {
+
+/// Linear spring and damper along the line between two frame origins (theory manual eq. (mechanisms.20)):
+/// pulls B towards A with  f = stiffness (l - free_length) + damping dl/dt.
+///
+/// At zero distance the direction is undefined: a spring of free length 0 passes smoothly through it without its
+/// damper; any other reports a domain error.
+class SpringDamper final : public TwoBodyForce {
+ public:
+  /// @param stiffness    [N/m], >= 0
+  /// @param damping      [N s/m], >= 0
+  /// @param free_length  [m], >= 0
+  SpringDamper(double stiffness, double damping, double free_length);
+
+  void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) override;
+  [[nodiscard]] double stored_energy(const RelativeMotion& motion) const override;
+  [[nodiscard]] std::string domain_error() const override;
+
+ private:
+  double stiffness_, damping_, free_length_;
+  bool collapsed_ = false;
+};
+
+}  // namespace hersey::mbd

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <string>
+
+#include "hersey/solver/equations.h"
+
+namespace hersey::solver {
+
+/// How generalized-alpha steps and when its Newton iteration has converged.
+struct GeneralizedAlphaOptions {
+  double spectral_radius = 0.8;  ///< amplification of the highest frequencies per step [-], 0..1; 1 dissipates nothing
+  double rtol = 1e-8;            ///< residual of every row, relative to the terms it balances
+  int max_iterations = 20;       ///< Newton iterations per step
+  int max_halvings = 12;         ///< halvings of one increment that leaves the domain of the equations
+};
+
+/// How a step ended.
+enum class StepStatus { converged, no_convergence, domain_error, singular };
+
+/// Outcome of one step. Unless `status` is `converged` the state is the one the step started from.
+struct StepSummary {
+  StepStatus status = StepStatus::no_convergence;
+  int iterations = 0;     ///< Newton iterations spent
+  double residual = 0;    ///< largest row residual relative to its tolerance at the end, <= 1 when converged
+  std::string worst_row;  ///< the row behind `residual`, by name
+  std::string message;    ///< empty when converged, otherwise one sentence: what failed and where
+
+  [[nodiscard]] bool converged() const { return status == StepStatus::converged; }
+};
+
+/// Generalized-alpha for constrained mechanical systems of index 3 on a Lie group (theory manual, chapter integrator).
+///
+/// Second order in positions, velocities and multipliers; step length may change between steps. The algorithmic
+/// acceleration a_n approximates vdot(t_n + (alpha_m - alpha_f) dt); it lives here and is rescaled when dt changes.
+///
+/// @see Chung and Hulbert (1993), J. Appl. Mech. 60, 371-375; Arnold and Bruels (2007), Multibody Syst. Dyn. 18,
+///      185-202; Bruels, Cardona and Arnold (2012), Mech. Mach. Theory 48, 121-137.
+/// @verified_by generalized_alpha_test.cpp
+class GeneralizedAlpha {
+ public:
+  /// @pre 0 <= spectral_radius <= 1, rtol > 0, max_iterations > 0.
+  explicit GeneralizedAlpha(const GeneralizedAlphaOptions& options = {});
+  ~GeneralizedAlpha();
+  GeneralizedAlpha(GeneralizedAlpha&&) noexcept;
+  GeneralizedAlpha& operator=(GeneralizedAlpha&&) noexcept;
+
+  /// Forgets the history: the next step starts afresh from its state, whose vdot must be consistent (see initialise).
+  /// Call it after anything that changes the state or the equations discontinuously.
+  void reset();
+
+  /// Advances `state` by `dt` > 0, film and other condensed unknowns included.
+  /// @cost per iteration one assembly, one sparse factorisation, one solve.
+  [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt);
+
+  [[nodiscard]] const GeneralizedAlphaOptions& options() const { return options_; }
+
+ private:
+  struct Workspace;
+  GeneralizedAlphaOptions options_;
+  std::unique_ptr<Workspace> work_;
+};
+
+}  // namespace hersey::solver
