@@ -1,0 +1,270 @@
+#include "hersey/core/units.h"
+
+#include <udunits2.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+
+#include "hersey/core/contract.h"
+#include "hersey/core/spelling.h"
+
+namespace hersey {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+struct UnitDeleter {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+using Unit = std::unique_ptr<ut_unit, UnitDeleter>;
+
+/// The one unit system of the process. udunits2 keeps its state and its last error in globals, hence the lock that
+/// every use holds.
+class UnitSystem {
+ public:
+  UnitSystem() {
+    ut_set_error_message_handler(ut_ignore);
+    system_ = ut_read_xml(nullptr);
+    if (system_ == nullptr) {
+      throw std::runtime_error(
+          "the unit database of udunits2 cannot be read: install libudunits2-data, or set UDUNITS2_XML_PATH to its "
+          "udunits2.xml");
+    }
+    // Spellings of this field that the database lacks.
+    add("deg", "arc_degree");
+    add("rev", "turn");
+    add("cP", "0.01 poise");
+    add("Nm", "N.m");
+    add("Nmm", "N.mm");
+  }
+
+  [[nodiscard]] Unit parse(const std::string& text) const { return Unit(ut_parse(system_, text.c_str(), UT_UTF8)); }
+
+  static std::mutex& lock() {
+    static std::mutex mutex;
+    return mutex;
+  }
+
+  /// Call with the lock held. Lives as long as the process: freeing at exit gains nothing.
+  static const UnitSystem& instance() {
+    static const UnitSystem system;
+    return system;
+  }
+
+ private:
+  void add(const char* symbol, const char* meaning) {
+    const Unit unit = parse(meaning);
+    HERSEY_REQUIRE(unit != nullptr, "the unit database defines what our spellings stand for");
+    ut_map_symbol_to_unit(symbol, UT_UTF8, unit.get());
+  }
+
+  ut_system* system_ = nullptr;
+};
+
+/// The base units of `unit`, "m.kg.s-2.rad", without factor and offset. Two units measure the same where these texts
+/// agree; udunits2's own test also accepts reciprocals (50 Hz for a time) and takes the radian for 1.
+std::string base_units(const ut_unit* unit) {
+  std::array<char, 256> buffer{};
+  const int length = ut_format(unit, buffer.data(), buffer.size(), UT_ASCII | UT_DEFINITION);
+  if (length < 0 || length >= static_cast<int>(buffer.size())) return "?";
+  std::string_view text(buffer.data(), static_cast<std::size_t>(length));
+  text = text.substr(0, text.find(" @"));
+  double factor = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), factor).ptr;
+  if (end != text.data()) text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  if (text.starts_with(' ')) text.remove_prefix(1);
+  return text == "1" ? "" : std::string(text);
+}
+
+bool measure_the_same(const ut_unit* given, const ut_unit* wanted) {
+  return ut_are_convertible(given, wanted) != 0 && base_units(given) == base_units(wanted);
+}
+
+/// A torsional stiffness per radian is commonly written N.m: the radian may be left out there, and nowhere else.
+bool is_accepted(const ut_unit* given, const ut_unit* wanted, std::string_view si_unit) {
+  if (measure_the_same(given, wanted)) return true;
+  const bool torsional = si_unit == "N.m/rad" || si_unit == "N.m.s/rad";
+  return torsional && base_units(given) + ".rad-1" == base_units(wanted);
+}
+
+/// "a pressure (kPa)", or "a quantity in xyz" for dimensions without a name here.
+std::string name_of(const UnitSystem& system, const ut_unit* unit, const std::string& text) {
+  for (const Dimension& dimension : dimensions()) {
+    if (measure_the_same(unit, system.parse(dimension.si_unit).get())) return dimension.name + " (" + text + ")";
+  }
+  return "a quantity in " + text;
+}
+
+double converted(const ut_unit* from, const ut_unit* to, double number) {
+  cv_converter* converter = ut_get_converter(const_cast<ut_unit*>(from), const_cast<ut_unit*>(to));
+  HERSEY_REQUIRE(converter != nullptr, "units that measure the same convert");
+  const double value = cv_convert_double(converter, number);
+  cv_free(converter);
+  return value;
+}
+
+std::string expectation(const Dimension& dimension) { return dimension.name + ", such as " + dimension.example; }
+
+std::string expectation_of_several(const Dimension& dimension, int count) {
+  const std::string numbers = std::to_string(count) + " numbers";
+  if (dimension.si_unit == "1") return numbers + ", such as 0 0 1";
+  const std::string bare_name = dimension.name.substr(dimension.name.find(' ') + 1);
+  return numbers + " and a unit of " + bare_name + ", such as 0 0 " + dimension.example;
+}
+
+/// Reads one number at the front of `text` and removes it; a digit group that belongs to a unit (the 1 of "1/Pa") is
+/// left alone. Returns false where no number stands.
+bool take_number(std::string_view& text, double& number) {
+  std::string_view rest = trimmed(text);
+  if (rest.starts_with('+') && !rest.starts_with("+-")) rest.remove_prefix(1);
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  if (error == std::errc::invalid_argument) return false;
+  if (end != rest.data() + rest.size() && *end == '/') return false;
+  if (error == std::errc::result_out_of_range) number = std::numeric_limits<double>::infinity();
+  text = std::string_view(end, static_cast<std::size_t>(rest.data() + rest.size() - end));
+  return true;
+}
+
+void require_finite(double number, std::string_view text) {
+  if (!std::isfinite(number)) throw QuantityError(quoted(text), "a finite number");
+}
+
+/// Words like nan and inf are numbers to from_chars, and "1,5" is a number followed by rubbish: tell them apart.
+void reject_decimal_comma(std::string_view unit, std::string_view text) {
+  if (!unit.starts_with(',')) return;
+  std::string remedy(trimmed(text));
+  remedy[remedy.find(',')] = '.';
+  throw QuantityError(quoted(text), "a decimal point", "write " + remedy);
+}
+
+}  // namespace
+
+QuantityError::QuantityError(std::string found_text, std::string expected_text, std::string suggestion_text)
+    : std::runtime_error("found " + found_text + "; expected " + expected_text +
+                         (suggestion_text.empty() ? "" : "; " + suggestion_text)),
+      found(std::move(found_text)),
+      expected(std::move(expected_text)),
+      suggestion(std::move(suggestion_text)) {}
+
+const std::vector<Dimension>& dimensions() {
+  static const std::vector<Dimension> all = {
+      {"1", "a number without unit", "0.5", {}},
+      {"m", "a length", "45 mm", {"m", "cm", "mm", "um", "nm", "in"}},
+      {"m^2", "an area", "4418 mm^2", {"m^2", "cm^2", "mm^2"}},
+      {"m^3", "a volume", "450 cm^3", {"m^3", "cm^3", "mm^3", "l"}},
+      {"kg", "a mass", "5 kg", {"kg", "g", "t"}},
+      {"s", "a time", "0.1 ms", {"s", "ms", "us", "min"}},
+      {"rad", "an angle", "90 deg", {"deg", "rad", "rev"}},
+      {"rad/s", "an angular velocity", "3570 rpm", {"rpm", "rad/s", "deg/s", "rev/s"}},
+      {"rad/s^2", "an angular acceleration", "10 rad/s^2", {"rad/s^2", "rpm/s", "deg/s^2"}},
+      {"m/s", "a velocity", "2 m/s", {"m/s", "mm/s", "km/h"}},
+      {"m/s^2", "an acceleration", "9.81 m/s^2", {"m/s^2", "mm/s^2"}},
+      {"N", "a force", "500 N", {"N", "kN", "mN", "lbf"}},
+      {"N.m", "a torque", "5 N.m", {"N.m", "kN.m", "N.mm"}},
+      {"Pa", "a pressure", "2 bar", {"Pa", "kPa", "MPa", "GPa", "bar", "N/mm^2", "psi"}},
+      {"Pa.s", "a dynamic viscosity", "15 mPa.s", {"Pa.s", "mPa.s", "cP"}},
+      {"m^2/s", "a kinematic viscosity", "20 cSt", {"m^2/s", "mm^2/s", "cSt"}},
+      {"1/Pa", "an inverse pressure", "1.28e-8 1/Pa", {"1/Pa", "1/MPa", "1/GPa"}},
+      {"kg/m^3", "a density", "850 kg/m^3", {"kg/m^3", "g/cm^3"}},
+      {"kg.m^2", "a moment of inertia", "0.01 kg.m^2", {"kg.m^2", "g.m^2", "kg.mm^2"}},
+      {"N/m", "a stiffness", "1e5 N/m", {"N/m", "N/mm", "kN/m", "N/um"}},
+      {"N.s/m", "a damping", "10 N.s/m", {"N.s/m", "N.s/mm"}},
+      {"N.m/rad", "a torsional stiffness", "100 N.m/rad", {"N.m/rad", "N.m/deg"}},
+      {"N.m.s/rad", "a torsional damping", "0.1 N.m.s/rad", {"N.m.s/rad"}},
+      {"m^3/s", "a flow", "0.5 l/min", {"m^3/s", "l/min", "mm^3/s"}},
+      {"Hz", "a frequency", "50 Hz", {"Hz", "kHz", "1/s"}},
+      {"K", "a temperature", "60 degC", {"degC", "K"}},
+      {"W", "a power", "2 kW", {"W", "kW"}},
+  };
+  return all;
+}
+
+const Dimension& dimension_of(std::string_view si_unit) {
+  for (const Dimension& dimension : dimensions()) {
+    if (dimension.si_unit == si_unit) return dimension;
+  }
+  throw ContractError("no dimension has the SI unit '" + std::string(si_unit) + "'");
+}
+
+Quantity split_quantity(std::string_view text) {
+  std::string_view rest = text;
+  Quantity quantity;
+  if (!take_number(rest, quantity.number)) throw QuantityError(quoted(trimmed(text)), "a number and a unit");
+  require_finite(quantity.number, trimmed(text));
+  reject_decimal_comma(rest, text);
+  quantity.unit = trimmed(rest);
+  return quantity;
+}
+
+double convert_to_si(const Quantity& quantity, std::string_view si_unit) {
+  const Dimension& wanted = dimension_of(si_unit);
+  if (quantity.unit.empty()) {
+    if (quantity.number == 0 || si_unit == "1") return quantity.number;
+    throw QuantityError("a number without unit", expectation(wanted));
+  }
+  const std::lock_guard guard(UnitSystem::lock());
+  const UnitSystem& system = UnitSystem::instance();
+  const Unit given = system.parse(quantity.unit);
+  if (!given) {
+    throw QuantityError("unknown unit " + quoted(quantity.unit), expectation(wanted),
+                        did_you_mean(quantity.unit, wanted.spelled));
+  }
+  const Unit target = system.parse(wanted.si_unit);
+  if (!is_accepted(given.get(), target.get(), si_unit)) {
+    throw QuantityError(name_of(system, given.get(), quantity.unit), expectation(wanted));
+  }
+  const double value = converted(given.get(), target.get(), quantity.number);
+  require_finite(value, std::to_string(quantity.number) + " " + quantity.unit);
+  return value;
+}
+
+double parse_quantity(std::string_view text, std::string_view si_unit) {
+  return parse_quantities(text, si_unit, 1).front();
+}
+
+std::vector<double> parse_quantities(std::string_view text, std::string_view si_unit, int count) {
+  const Dimension& wanted = dimension_of(si_unit);
+  const std::string what = count == 1 ? expectation(wanted) : expectation_of_several(wanted, count);
+  std::string_view rest = text;
+  std::vector<double> values;
+  double number = 0;
+  while (static_cast<int>(values.size()) < count && take_number(rest, number)) {
+    if (!std::isfinite(number)) throw QuantityError(quoted(trimmed(text)), "a finite number");
+    values.push_back(number);
+    reject_decimal_comma(rest, text);
+  }
+  if (static_cast<int>(values.size()) < count || (count > 1 && take_number(rest, number))) {
+    throw QuantityError(quoted(trimmed(text)), what);
+  }
+  const std::string unit(trimmed(rest));
+  for (double& value : values) value = convert_to_si({value, unit}, si_unit);
+  return values;
+}
+
+double convert(const Quantity& quantity, const std::string& unit) {
+  if (quantity.unit == unit) return quantity.number;
+  const std::lock_guard guard(UnitSystem::lock());
+  const UnitSystem& system = UnitSystem::instance();
+  const Unit from = quantity.unit.empty() ? system.parse("1") : system.parse(quantity.unit);
+  const Unit to = unit.empty() ? system.parse("1") : system.parse(unit);
+  if (!from) throw QuantityError("unknown unit " + quoted(quantity.unit), "a unit like " + unit);
+  if (!to) throw QuantityError("unknown unit " + quoted(unit), "a unit like " + quantity.unit);
+  const bool zero = quantity.number == 0 && quantity.unit.empty();
+  if (zero) return 0;
+  if (!measure_the_same(from.get(), to.get())) {
+    throw QuantityError(name_of(system, from.get(), quantity.unit), name_of(system, to.get(), unit));
+  }
+  return converted(from.get(), to.get(), quantity.number);
+}
+
+}  // namespace hersey
