@@ -43,7 +43,7 @@ class Reader {
 
   [[nodiscard]] bool has(std::string_view path) const;                            ///< a group or dataset
   [[nodiscard]] std::vector<std::string> children(std::string_view group) const;  ///< sorted; empty without the group
-  [[nodiscard]] std::vector<std::string> attributes(std::string_view object) const;  ///< names, in order of creation
+  [[nodiscard]] std::vector<std::string> attributes(std::string_view object) const;  ///< names, sorted
 
   /// Attribute of that name and kind, if there is one.
   [[nodiscard]] std::optional<std::string> text_attribute(std::string_view object, std::string_view name) const;

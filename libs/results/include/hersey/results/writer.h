@@ -61,8 +61,8 @@ class Series {
 ///
 /// Groups on the way to a dataset or attribute are made as needed. Declare all series before the first flush: the file
 /// then keeps its structure and only grows. Rows wait in memory; a flush puts all of them into the file together, after
-/// which they survive a SIGKILL of the program, and another process may read them at any time. Space is reserved before
-/// it is used, so a full disk costs the rows since the last flush and nothing else.
+/// which they survive a SIGKILL of the program, and another process may read them between flushes. Space is reserved
+/// before it is used, so a full disk costs the rows since the last flush and nothing else.
 ///
 /// Every method but the destructor throws WriteError when the file cannot be written, and from then on again; finish()
 /// and the destructor then close the file in its last good state without another exception.

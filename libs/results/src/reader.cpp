@@ -1,0 +1,283 @@
+#include "hersey/results/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "hdf5_handle.h"
+
+namespace hersey::results {
+namespace {
+
+constexpr int newest_format = 1;
+
+std::string absolute(std::string_view path) {
+  return path.starts_with('/') ? std::string(path) : "/" + std::string(path);
+}
+
+/// The group whose datasets grow together with this one: the nearest group named `fields`, else the root.
+std::string growth_group(const std::string& path) {
+  const std::string marker = "/fields/";
+  const auto at = path.rfind(marker);
+  return at == std::string::npos ? "/" : path.substr(0, at + marker.size() - 1);
+}
+
+std::vector<std::size_t> shape_of(hid_t space) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  std::vector<hsize_t> sizes(static_cast<std::size_t>(std::max(rank, 0)));
+  if (!sizes.empty()) H5Sget_simple_extent_dims(space, sizes.data(), nullptr);
+  return {sizes.begin(), sizes.end()};
+}
+
+bool grows(hid_t space) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 1) return false;
+  std::vector<hsize_t> now(static_cast<std::size_t>(rank)), largest(now.size());
+  H5Sget_simple_extent_dims(space, now.data(), largest.data());
+  return largest[0] == H5S_UNLIMITED;
+}
+
+/// Adds name to the list `data` points to.
+herr_t collect_attribute(hid_t, const char* name, const H5A_info_t*, void* data) {
+  static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+  return 0;
+}
+
+herr_t collect_link(hid_t, const char* name, const H5L_info_t*, void* data) {
+  static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+  return 0;
+}
+
+}  // namespace
+
+std::size_t Array::width() const {
+  std::size_t width = 1;
+  for (std::size_t i = 1; i < info.shape.size(); ++i) width *= info.shape[i];
+  return width;
+}
+
+struct Reader::Impl {
+  std::filesystem::path path;
+  Handle file;
+  std::map<std::string, std::size_t> complete_rows;  // per growth group
+
+  [[noreturn]] void fail(const std::string& reason) const { throw ReadError(path, reason); }
+
+  void open() {
+    if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such file");
+    file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+    if (!file.valid()) fail("not a readable HDF5 file");
+  }
+
+  [[nodiscard]] bool exists(const std::string& name) const {
+    if (name == "/") return true;
+    for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+      if (H5Lexists(file.get(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+      if (end == std::string::npos) return true;
+    }
+  }
+
+  [[nodiscard]] Handle attribute(std::string_view object, std::string_view name) const {
+    const std::string where = absolute(object), key(name);
+    if (!exists(where)) return {};
+    if (H5Aexists_by_name(file.get(), where.c_str(), key.c_str(), H5P_DEFAULT) <= 0) return {};
+    return Handle(H5Aopen_by_name(file.get(), where.c_str(), key.c_str(), H5P_DEFAULT, H5P_DEFAULT));
+  }
+
+  [[nodiscard]] std::vector<std::string> texts(hid_t attribute) const {
+    const Handle type(H5Aget_type(attribute)), space(H5Aget_space(attribute));
+    if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) <= 0) return {};
+    const hssize_t n = H5Sget_simple_extent_npoints(space.get());
+    std::vector<char*> raw(static_cast<std::size_t>(std::max<hssize_t>(n, 0)), nullptr);
+    const Handle memory = text_type();
+    if (raw.empty() || H5Aread(attribute, memory.get(), raw.data()) < 0) return {};
+    return take(raw, memory.get(), space.get());
+  }
+
+  /// Copies HDF5's strings and gives their memory back.
+  static std::vector<std::string> take(std::vector<char*>& raw, hid_t type, hid_t space) {
+    std::vector<std::string> texts;
+    texts.reserve(raw.size());
+    for (const char* text : raw) texts.emplace_back(text != nullptr ? text : "");
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, raw.data());
+    return texts;
+  }
+
+  [[nodiscard]] Handle dataset(const std::string& name) const {
+    Handle dataset(exists(name) ? H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT) : H5I_INVALID_HID);
+    if (!dataset.valid()) fail("there is no dataset " + name);
+    return dataset;
+  }
+
+  [[nodiscard]] std::vector<std::string> dataset_texts(const std::string& name) const {
+    const Handle source = dataset(name);
+    const Handle type(H5Dget_type(source.get())), space(H5Dget_space(source.get())), memory = text_type();
+    if (H5Tget_class(type.get()) != H5T_STRING) fail(name + " does not hold text");
+    std::vector<char*> raw(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())), nullptr);
+    if (raw.empty()) return {};
+    if (H5Dread(source.get(), memory.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) < 0) fail("cannot read " + name);
+    return take(raw, memory.get(), space.get());
+  }
+
+  void count_rows(const std::string& group) {
+    const Handle parent(H5Gopen2(file.get(), group.c_str(), H5P_DEFAULT));
+    std::vector<std::string> names;
+    H5Literate(parent.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_link, &names);
+    for (const std::string& name : names) {
+      const std::string child = (group == "/" ? "" : group) + "/" + name;
+      const Handle object(H5Oopen(file.get(), child.c_str(), H5P_DEFAULT));
+      const H5I_type_t kind = H5Iget_type(object.get());
+      if (kind == H5I_GROUP) count_rows(child);
+      if (kind == H5I_DATASET) count_rows(child, object.get());
+    }
+  }
+
+  void count_rows(const std::string& name, hid_t object) {
+    const Handle space(H5Dget_space(object));
+    if (!grows(space.get())) return;
+    const std::size_t rows = shape_of(space.get())[0];
+    if (rows == 0) return;
+    const auto [entry, added] = complete_rows.try_emplace(growth_group(name), rows);
+    entry->second = std::min(entry->second, rows);
+  }
+
+  [[nodiscard]] DatasetInfo info(const std::string& name, const Handle& space, const Reader& reader) const {
+    DatasetInfo info;
+    info.shape = shape_of(space.get());
+    if (grows(space.get()) && info.shape[0] > 0)
+      info.shape[0] = std::min(info.shape[0], complete_rows.at(growth_group(name)));
+    info.unit = reader.text_attribute(name, "units").value_or("1");
+    info.description = reader.text_attribute(name, "description").value_or("");
+    return info;
+  }
+};
+
+Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
+  const Quiet quiet;
+  impl_->path = std::move(path);
+  impl_->open();
+  if (text_attribute("/", "format") != "hersey-results") impl_->fail("HDF5, but not a results file of hersey");
+  const double version = number_attribute("/", "format_version").value_or(0);
+  if (version < 1 || version > newest_format)
+    impl_->fail(fmt::format("results format {}; this program reads formats up to {}", version, newest_format));
+  impl_->count_rows("/");
+}
+
+Reader::~Reader() = default;
+
+bool Reader::has(std::string_view path) const {
+  const Quiet quiet;
+  return impl_->exists(absolute(path));
+}
+
+std::vector<std::string> Reader::children(std::string_view group) const {
+  const Quiet quiet;
+  std::vector<std::string> names;
+  const std::string name = absolute(group);
+  if (!impl_->exists(name)) return names;
+  const Handle parent(H5Gopen2(impl_->file.get(), name.c_str(), H5P_DEFAULT));
+  if (parent.valid()) H5Literate(parent.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_link, &names);
+  return names;
+}
+
+std::vector<std::string> Reader::attributes(std::string_view object) const {
+  const Quiet quiet;
+  std::vector<std::string> names;
+  const std::string name = absolute(object);
+  if (!impl_->exists(name)) return names;
+  const Handle owner(H5Oopen(impl_->file.get(), name.c_str(), H5P_DEFAULT));
+  H5Aiterate2(owner.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_attribute, &names);
+  return names;
+}
+
+std::optional<std::string> Reader::text_attribute(std::string_view object, std::string_view name) const {
+  const Quiet quiet;
+  const Handle attribute = impl_->attribute(object, name);
+  if (!attribute.valid()) return std::nullopt;
+  std::vector<std::string> texts = impl_->texts(attribute.get());
+  if (texts.size() != 1) return std::nullopt;
+  return std::move(texts[0]);
+}
+
+std::optional<double> Reader::number_attribute(std::string_view object, std::string_view name) const {
+  const Quiet quiet;
+  const Handle attribute = impl_->attribute(object, name);
+  if (!attribute.valid()) return std::nullopt;
+  const Handle type(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
+  const H5T_class_t kind = H5Tget_class(type.get());
+  double value = 0;
+  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || H5Sget_simple_extent_npoints(space.get()) != 1) return std::nullopt;
+  if (H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string> Reader::list_attribute(std::string_view object, std::string_view name) const {
+  const Quiet quiet;
+  const Handle attribute = impl_->attribute(object, name);
+  return attribute.valid() ? impl_->texts(attribute.get()) : std::vector<std::string>{};
+}
+
+DatasetInfo Reader::info(std::string_view path) const {
+  const Quiet quiet;
+  const std::string name = absolute(path);
+  const Handle dataset = impl_->dataset(name);
+  const Handle space(H5Dget_space(dataset.get()));
+  return impl_->info(name, space, *this);
+}
+
+Array Reader::read(std::string_view path) const { return read_rows(path, 0, std::numeric_limits<std::size_t>::max()); }
+
+Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t count, std::size_t stride) const {
+  const Quiet quiet;
+  const std::string name = absolute(path);
+  const Handle dataset = impl_->dataset(name);
+  const Handle type(H5Dget_type(dataset.get())), space(H5Dget_space(dataset.get()));
+  const H5T_class_t kind = H5Tget_class(type.get());
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER) impl_->fail(name + " does not hold numbers");
+  Array array{impl_->info(name, space, *this), {}};
+  if (array.info.shape.empty()) impl_->fail(name + " has no rows");
+  stride = std::max<std::size_t>(stride, 1);
+  const std::size_t rows = array.info.shape[0];
+  const std::size_t available = first < rows ? (rows - first - 1) / stride + 1 : 0;
+  array.info.shape[0] = std::min(count, available);
+  array.values.resize(array.info.shape[0] * array.width());
+  if (array.values.empty()) return array;
+
+  std::vector<hsize_t> counts(array.info.shape.begin(), array.info.shape.end());
+  std::vector<hsize_t> starts(counts.size(), 0), strides(counts.size(), 1);
+  starts[0] = first;
+  strides[0] = stride;
+  const Handle memory(H5Screate_simple(static_cast<int>(counts.size()), counts.data(), nullptr));
+  const bool good =
+      H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, starts.data(), strides.data(), counts.data(), nullptr) >= 0 &&
+      H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, array.values.data()) >= 0;
+  if (!good) impl_->fail("cannot read " + name);
+  return array;
+}
+
+std::string Reader::text(std::string_view path) const {
+  const Quiet quiet;
+  const std::string name = absolute(path);
+  std::vector<std::string> texts = impl_->dataset_texts(name);
+  if (texts.size() != 1) impl_->fail(name + " is not a single text");
+  return std::move(texts[0]);
+}
+
+std::vector<std::pair<std::string, std::string>> Reader::text_table(std::string_view path) const {
+  const Quiet quiet;
+  std::vector<std::string> texts = impl_->dataset_texts(absolute(path));
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (std::size_t i = 0; i + 1 < texts.size(); i += 2) rows.emplace_back(std::move(texts[i]), std::move(texts[i + 1]));
+  return rows;
+}
+
+std::size_t Reader::rows() const {
+  const auto entry = impl_->complete_rows.find("/");
+  return entry == impl_->complete_rows.end() ? 0 : entry->second;
+}
+
+const std::filesystem::path& Reader::path() const { return impl_->path; }
+
+}  // namespace hersey::results

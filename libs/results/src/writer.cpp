@@ -1,0 +1,361 @@
+#include "hersey/results/writer.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+
+#include "hdf5_handle.h"
+#include "hersey/core/contract.h"
+#include "reserving_driver.h"
+
+namespace hersey::results {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t chunk_numbers = 256;            // 2 KiB: rewritten at most once a flush while it fills
+constexpr std::size_t waiting_numbers = 1u << 20;     // rows waiting in memory before they go to HDF5's own buffers
+constexpr std::size_t chunk_cache_bytes = 64u << 10;  // per dataset; only the last chunk is ever touched again
+
+/// One growing dataset and its rows that are not in the file yet.
+struct Growing {
+  Handle dataset;
+  std::vector<hsize_t> shape;  // of the dataset; shape[0] rows are in it
+  std::size_t width;           // numbers per row
+  std::vector<double> waiting;
+};
+
+std::string absolute(std::string_view path) {
+  return path.starts_with('/') ? std::string(path) : "/" + std::string(path);
+}
+
+std::string now_iso8601() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[sizeof "2026-01-31T12:34:56Z"];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+/// @returns descriptor of a new, empty file.
+int create(const std::filesystem::path& path, bool overwrite) {
+  // The old file is unlinked, not truncated: a program still reading or writing it keeps its own.
+  std::error_code ignored;
+  if (overwrite && std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd >= 0) return fd;
+  if (errno == EEXIST && !overwrite) throw FileExists(path);
+  throw WriteError(path, std::string("cannot create the results file: ") + std::strerror(errno));
+}
+
+}  // namespace
+
+std::string_view to_string(Status status) {
+  switch (status) {
+    case Status::running:
+      return "running";
+    case Status::completed:
+      return "completed";
+    case Status::stopped:
+      return "stopped";
+    case Status::failed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+struct Writer::Impl {
+  std::filesystem::path path;
+  Options options;
+  DriverStatus status;
+  Handle text = text_type();
+  Handle scalar{H5Screate(H5S_SCALAR)};
+  Handle file;
+  std::vector<Growing> growing;
+  Clock::time_point last_flush = Clock::now();
+
+  void open() {
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS));
+    const int fd = create(path, options.overwrite);
+    if (!use_reserving_driver(access.get(), fd, status)) {
+      ::close(fd);
+      throw WriteError(path, "HDF5 refuses the file driver");
+    }
+    file = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+    require(file.valid(), "HDF5 cannot create the file");
+  }
+
+  /// Turns a failed call or a failed driver into the one exception the caller sees.
+  void require(bool good, std::string_view what) {
+    if (!good && !status.failed) {
+      status.failed = true;
+      status.reason = what;
+    }
+    if (status.failed) throw WriteError(path, "cannot write results: " + status.reason);
+  }
+
+  void require_open() {
+    HERSEY_REQUIRE(file.valid(), "the results file is finished");
+    require(true, {});
+  }
+
+  Handle open_or_make(const std::string& object) {
+    if (object == "/") return Handle(H5Oopen(file.get(), "/", H5P_DEFAULT));
+    make_groups(object);
+    return Handle(H5Oopen(file.get(), object.c_str(), H5P_DEFAULT));
+  }
+
+  void make_groups(const std::string& group) {
+    for (std::size_t end = group.find('/', 1);; end = group.find('/', end + 1)) {
+      const std::string part = group.substr(0, end);
+      if (H5Lexists(file.get(), part.c_str(), H5P_DEFAULT) <= 0) {
+        const Handle made(H5Gcreate2(file.get(), part.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+        require(made.valid(), "HDF5 cannot create group " + part);
+      }
+      if (end == std::string::npos) return;
+    }
+  }
+
+  void set_attribute(hid_t object, std::string_view name, hid_t type, hid_t space, const void* value) {
+    const std::string key(name);
+    if (H5Aexists(object, key.c_str()) > 0) require(H5Adelete(object, key.c_str()) >= 0, "HDF5 cannot replace " + key);
+    const Handle attribute(H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
+    require(attribute.valid() && H5Awrite(attribute.get(), type, value) >= 0, "HDF5 cannot write attribute " + key);
+  }
+
+  void set_text(hid_t object, std::string_view name, std::string_view value) {
+    const std::string copy(value);
+    const char* pointer = copy.c_str();
+    set_attribute(object, name, text.get(), scalar.get(), &pointer);
+  }
+
+  Handle make_dataset(std::string_view path_, hid_t type, hid_t space, hid_t creation, hid_t access,
+                      std::string_view unit, std::string_view description) {
+    const std::string name = absolute(path_);
+    if (const auto slash = name.rfind('/'); slash > 0) make_groups(name.substr(0, slash));
+    HERSEY_REQUIRE(H5Lexists(file.get(), name.c_str(), H5P_DEFAULT) <= 0, name + " is declared twice");
+    Handle dataset(H5Dcreate2(file.get(), name.c_str(), type, space, H5P_DEFAULT, creation, access));
+    require(dataset.valid(), "HDF5 cannot create dataset " + name);
+    set_text(dataset.get(), "units", unit);
+    set_text(dataset.get(), "description", description);
+    return dataset;
+  }
+
+  std::size_t make_growing(std::string_view name, std::vector<hsize_t> row_shape, std::string_view unit,
+                           std::string_view description) {
+    Growing entry{{}, {0}, 1, {}};
+    for (const hsize_t n : row_shape) {
+      HERSEY_REQUIRE(n > 0, "a row has numbers");
+      entry.shape.push_back(n);
+      entry.width *= n;
+    }
+    std::vector<hsize_t> largest = entry.shape, chunk = entry.shape;
+    largest[0] = H5S_UNLIMITED;
+    chunk[0] = std::max<hsize_t>(1, chunk_numbers / entry.width);
+    const int rank = static_cast<int>(entry.shape.size());
+    const Handle space(H5Screate_simple(rank, entry.shape.data(), largest.data()));
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE)), access(H5Pcreate(H5P_DATASET_ACCESS));
+    H5Pset_chunk(creation.get(), rank, chunk.data());
+    H5Pset_chunk_cache(access.get(), 31, std::max(chunk_cache_bytes, 2 * 8 * entry.width), 1.0);
+    entry.dataset = make_dataset(name, H5T_IEEE_F64LE, space.get(), creation.get(), access.get(), unit, description);
+    growing.push_back(std::move(entry));
+    return growing.size() - 1;
+  }
+
+  /// Hands waiting rows to HDF5; they are safe only after H5Fflush.
+  void drain(Growing& entry) {
+    if (entry.waiting.empty()) return;
+    std::vector<hsize_t> start(entry.shape.size(), 0), count = entry.shape;
+    start[0] = entry.shape[0];
+    count[0] = entry.waiting.size() / entry.width;
+    entry.shape[0] += count[0];
+    bool good = H5Dset_extent(entry.dataset.get(), entry.shape.data()) >= 0;
+    const Handle space(H5Dget_space(entry.dataset.get()));
+    const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr));
+    good = good && H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
+    good = good && H5Dwrite(entry.dataset.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT,
+                            entry.waiting.data()) >= 0;
+    entry.waiting.clear();
+    require(good, "HDF5 cannot add rows");
+  }
+
+  void flush() {
+    for (Growing& entry : growing) drain(entry);
+    require(H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0, "HDF5 cannot flush");
+    last_flush = Clock::now();
+  }
+
+  void close() {
+    growing.clear();
+    const bool good = file.reset();
+    if (!good && !status.failed) status = {true, "HDF5 cannot close the file"};
+  }
+};
+
+Writer::Writer(std::filesystem::path path, Options options) : impl_(std::make_unique<Impl>()) {
+  const Quiet quiet;
+  impl_->path = std::move(path);
+  impl_->options = options;
+  impl_->open();
+  attribute("/", "format", "hersey-results");
+  attribute("/", "format_version", 1);
+  attribute("/", "created", now_iso8601());
+  attribute("/", "status", to_string(Status::running));
+  attribute("/", "message", "");
+  impl_->flush();
+}
+
+Writer::~Writer() {
+  try {
+    finish(Status::failed, "ended by an error");
+  } catch (const std::exception&) {
+    // The file is closed, in the state of its last good flush; a destructor has no one to tell.
+  }
+}
+
+void Writer::attribute(std::string_view object, std::string_view name, std::string_view text) {
+  const Quiet quiet;
+  impl_->require_open();
+  impl_->set_text(impl_->open_or_make(absolute(object)).get(), name, text);
+}
+
+void Writer::attribute(std::string_view object, std::string_view name, double value) {
+  const Quiet quiet;
+  impl_->require_open();
+  const Handle target = impl_->open_or_make(absolute(object));
+  impl_->set_attribute(target.get(), name, H5T_NATIVE_DOUBLE, impl_->scalar.get(), &value);
+}
+
+void Writer::attribute(std::string_view object, std::string_view name, int value) {
+  const Quiet quiet;
+  impl_->require_open();
+  const Handle target = impl_->open_or_make(absolute(object));
+  impl_->set_attribute(target.get(), name, H5T_NATIVE_INT, impl_->scalar.get(), &value);
+}
+
+void Writer::attribute(std::string_view object, std::string_view name, const std::vector<std::string>& texts) {
+  const Quiet quiet;
+  impl_->require_open();
+  std::vector<const char*> pointers;
+  pointers.reserve(texts.size());
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  const hsize_t n = texts.size();
+  const Handle space(n > 0 ? H5Screate_simple(1, &n, nullptr) : H5Screate(H5S_NULL));
+  const Handle target = impl_->open_or_make(absolute(object));
+  impl_->set_attribute(target.get(), name, impl_->text.get(), space.get(), pointers.data());
+}
+
+void Writer::text(std::string_view path, std::string_view content, std::string_view description) {
+  const Quiet quiet;
+  impl_->require_open();
+  const Handle dataset =
+      impl_->make_dataset(path, impl_->text.get(), impl_->scalar.get(), H5P_DEFAULT, H5P_DEFAULT, "1", description);
+  const std::string copy(content);
+  const char* pointer = copy.c_str();
+  impl_->require(H5Dwrite(dataset.get(), impl_->text.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &pointer) >= 0,
+                 "HDF5 cannot write text");
+}
+
+void Writer::text_table(std::string_view path, const std::vector<std::pair<std::string, std::string>>& rows,
+                        std::string_view description) {
+  const Quiet quiet;
+  impl_->require_open();
+  std::vector<const char*> pointers;
+  for (const auto& [name, content] : rows) pointers.insert(pointers.end(), {name.c_str(), content.c_str()});
+  const std::array<hsize_t, 2> shape{rows.size(), 2};
+  const Handle space(H5Screate_simple(2, shape.data(), nullptr));
+  const Handle dataset =
+      impl_->make_dataset(path, impl_->text.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, "1", description);
+  if (rows.empty()) return;
+  impl_->require(H5Dwrite(dataset.get(), impl_->text.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0,
+                 "HDF5 cannot write a table");
+}
+
+void Writer::constant(std::string_view path, std::span<const double> values, std::string_view unit,
+                      std::string_view description) {
+  const Quiet quiet;
+  impl_->require_open();
+  HERSEY_REQUIRE(!values.empty(), "a constant has numbers");
+  const hsize_t n = values.size();
+  const Handle space(H5Screate_simple(1, &n, nullptr));
+  const Handle dataset =
+      impl_->make_dataset(path, H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT, unit, description);
+  impl_->require(H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
+                 "HDF5 cannot write a constant");
+}
+
+Series Writer::series(std::string_view path, int columns, std::string_view unit, std::string_view description) {
+  const Quiet quiet;
+  impl_->require_open();
+  HERSEY_REQUIRE(columns >= 1, "a row has numbers");
+  std::vector<hsize_t> row;
+  if (columns > 1) row.push_back(static_cast<hsize_t>(columns));
+  return {this, impl_->make_growing(path, row, unit, description)};
+}
+
+Series Writer::field(std::string_view path, std::array<int, 2> shape, std::string_view unit,
+                     std::string_view description) {
+  const Quiet quiet;
+  impl_->require_open();
+  HERSEY_REQUIRE(shape[0] >= 1 && shape[1] >= 1, "a row has numbers");
+  const std::vector<hsize_t> row{static_cast<hsize_t>(shape[0]), static_cast<hsize_t>(shape[1])};
+  return {this, impl_->make_growing(path, row, unit, description)};
+}
+
+void Series::append(std::span<const double> row) const {
+  HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
+  Writer::Impl& impl = *writer_->impl_;
+  impl.require_open();
+  Growing& entry = impl.growing[index_];
+  HERSEY_REQUIRE(row.size() == entry.width,
+                 fmt::format("a row of {} numbers was given, {} are due", row.size(), entry.width));
+  entry.waiting.insert(entry.waiting.end(), row.begin(), row.end());
+  if (entry.waiting.size() < waiting_numbers) return;
+  const Quiet quiet;
+  impl.drain(entry);
+}
+
+std::size_t Series::width() const {
+  HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
+  return writer_->impl_->growing.at(index_).width;
+}
+
+void Writer::flush() {
+  const Quiet quiet;
+  impl_->require_open();
+  impl_->flush();
+}
+
+void Writer::flush_if_due() {
+  const std::chrono::duration<double> since = Clock::now() - impl_->last_flush;
+  if (since.count() >= impl_->options.flush_interval) flush();
+}
+
+void Writer::finish(Status status, std::string_view message) {
+  if (!impl_->file.valid()) return;
+  const Quiet quiet;
+  const bool failed_before = impl_->status.failed;
+  if (!failed_before) {
+    try {
+      const Handle root(H5Oopen(impl_->file.get(), "/", H5P_DEFAULT));
+      impl_->set_text(root.get(), "status", to_string(status));
+      impl_->set_text(root.get(), "message", message);
+      impl_->flush();
+    } catch (const WriteError&) {
+      impl_->close();
+      throw;
+    }
+  }
+  impl_->close();
+  if (!failed_before) impl_->require(true, {});
+}
+
+const std::filesystem::path& Writer::path() const { return impl_->path; }
+
+}  // namespace hersey::results

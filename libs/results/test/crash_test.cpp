@@ -1,0 +1,186 @@
+// What is left of a results file when the program is killed or the disk is full.
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+
+#include "hersey/results/reader.h"
+#include "hersey/results/writer.h"
+#include "temporary_directory.h"
+
+namespace hersey::results {
+namespace {
+
+/// What the k-th row of every series holds, so that a reader can tell a lost or mixed row.
+double value(std::size_t row, std::size_t series) {
+  return std::sin(static_cast<double>(row)) + static_cast<double>(series);
+}
+
+constexpr std::size_t series_count = 40;
+
+struct Run {
+  Writer writer;
+  std::vector<Series> series;
+  Series pressure, field_time;
+  std::size_t row = 0;
+
+  explicit Run(const std::filesystem::path& path) : writer(path) {
+    for (std::size_t s = 0; s < series_count; ++s)
+      series.push_back(writer.series("/bearings/b/s" + std::to_string(s), 1, "1", "test series"));
+    field_time = writer.series("/bearings/b/fields/time", 1, "s", "time");
+    pressure = writer.field("/bearings/b/fields/pressure", {60, 13}, "Pa", "pressure");
+  }
+
+  void step() {
+    for (std::size_t s = 0; s < series_count; ++s) series[s].append(value(row, s));
+    field_time.append(static_cast<double>(row));
+    pressure.append(std::vector<double>(60 * 13, value(row, 0)));
+    ++row;
+  }
+};
+
+/// @returns number of rows, all of which must be right.
+std::size_t check_rows(const std::filesystem::path& path) {
+  const Reader reader(path);
+  for (std::size_t s = 0; s < series_count; ++s) {
+    const Array data = reader.read("/bearings/b/s" + std::to_string(s));
+    REQUIRE(data.values.size() == reader.rows());
+    for (std::size_t row = 0; row < data.values.size(); ++row) REQUIRE(data.values[row] == value(row, s));
+  }
+  const Array time = reader.read("/bearings/b/fields/time"), pressure = reader.read("/bearings/b/fields/pressure");
+  REQUIRE(time.values.size() == pressure.info.shape[0]);
+  for (std::size_t i = 0; i < pressure.values.size(); ++i) REQUIRE(pressure.values[i] == value(i / (60 * 13), 0));
+  return reader.rows();
+}
+
+void wait_for(pid_t child) {
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+}
+
+TEST_CASE("FlushedRows_SurviveSigkill") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "killed.h5";
+  int ready[2];
+  REQUIRE(pipe(ready) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    Run run(path);
+    for (int k = 0; k < 500; ++k) run.step();
+    run.writer.flush();
+    for (int k = 0; k < 300; ++k) run.step();
+    const bool told = write(ready[1], "x", 1) == 1;
+    pause();
+    _exit(told ? 0 : 1);
+  }
+  char byte = 0;
+  REQUIRE(read(ready[0], &byte, 1) == 1);
+  kill(child, SIGKILL);
+  wait_for(child);
+
+  CHECK(check_rows(path) == 500);
+  CHECK(Reader(path).text_attribute("/", "status") == "running");
+
+  const std::string python = "/usr/bin/python3 -c \"import h5py\" 2>/dev/null";
+  if (std::system(python.c_str()) != 0) {
+    MESSAGE("h5py is not installed: reading with it is not tested");
+    return;
+  }
+  const std::string script =
+      "/usr/bin/python3 -c \"import h5py, sys; f = h5py.File(sys.argv[1], 'r'); "
+      "d = f['bearings/b/s7']; assert d.shape == (500,) and d.attrs['units'] == '1'; "
+      "assert f.attrs['status'] == 'running'; "
+      "assert f['bearings/b/fields/pressure'].shape == (500, 60, 13)\" " +
+      path.string();
+  CHECK(std::system(script.c_str()) == 0);
+}
+
+TEST_CASE("KilledAtAnyMoment_LeavesAReadableFile") {
+  // Flushing after every step, the child spends most of its life inside a flush: the worst case, many times over.
+  const TemporaryDirectory directory;
+  std::size_t most_rows = 0;
+  for (int trial = 0; trial < 25; ++trial) {
+    const auto path = directory / "killed.h5";
+    std::filesystem::remove(path);
+    int ready[2];
+    REQUIRE(pipe(ready) == 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      Run run(path);
+      run.writer.flush();
+      if (write(ready[1], "x", 1) != 1) _exit(1);
+      for (;;) {
+        run.step();
+        run.writer.flush();
+      }
+    }
+    char byte = 0;
+    REQUIRE(read(ready[0], &byte, 1) == 1);
+    usleep(static_cast<useconds_t>(2000 + 1709 * trial));
+    kill(child, SIGKILL);
+    wait_for(child);
+    close(ready[0]);
+    close(ready[1]);
+    CAPTURE(trial);
+    most_rows = std::max(most_rows, check_rows(path));
+  }
+  MESSAGE("most rows in a killed file: ", most_rows);
+  CHECK(most_rows > 1);
+}
+
+/// Runs in a child with a small file size limit, which to a program looks like a full disk.
+/// @returns 0 if the writer told of it as it should.
+int write_until_full(const std::filesystem::path& path) {
+  const rlimit limit{3 << 20, 3 << 20};
+  if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 1;
+  const int silent = open((path.string() + ".stderr").c_str(), O_CREAT | O_WRONLY, 0600);
+  dup2(silent, STDERR_FILENO);
+  try {
+    Run run(path);
+    try {
+      for (int k = 0; k < 100000; ++k) {
+        run.step();
+        if (k % 10 == 9) run.writer.flush();
+      }
+      return 2;
+    } catch (const WriteError& error) {
+      const std::string message = error.what();
+      if (message.find(path.string()) == std::string::npos) return 3;
+      if (message.find("File too large") == std::string::npos) return 4;
+    }
+    try {
+      run.writer.flush();
+      return 5;
+    } catch (const WriteError&) {
+    }
+    run.writer.finish(Status::failed, "disk full");  // closes quietly: the fault has been told
+  } catch (...) {
+    return 6;
+  }
+  return 0;
+}
+
+TEST_CASE("FullDisk_IsToldAndKeepsFlushedRows") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "full.h5";
+  const pid_t child = fork();
+  if (child == 0) _exit(write_until_full(path));
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+  const std::size_t rows = check_rows(path);
+  MESSAGE("rows kept: ", rows);
+  CHECK(rows > 100);
+  CHECK(rows % 10 == 0);
+  CHECK(std::filesystem::file_size(path.string() + ".stderr") == 0);  // HDF5 printed nothing of its own
+}
+
+}  // namespace
+}  // namespace hersey::results

@@ -1,0 +1,172 @@
+#include "hersey/results/writer.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include "hersey/core/contract.h"
+#include "hersey/results/reader.h"
+#include "temporary_directory.h"
+
+namespace hersey::results {
+namespace {
+
+TEST_CASE("WhatIsWritten_IsReadBackExactly") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5";
+  const std::vector<double> angles{0, 0.5, 1.0};
+  {
+    Writer writer(path);
+    writer.attribute("/", "title", "Big end: 45 mm × 15.6 mm");
+    writer.attribute("/bearings/big_end", "radius", 0.0225);
+    writer.attribute("/", "study_parameters", std::vector<std::string>{"load", "clearance"});
+    writer.text("/model", "hersey: 1\ntitle: Kurbelzapfen µ\n", "the model");
+    writer.text_table("/assumptions", {{"cavitation", "mass conserving"}, {"supply", "none"}}, "assumptions");
+    writer.constant("/bearings/big_end/fields/phi", angles, "rad", "bearing angle");
+    const Series time = writer.series("/time", 1, "s", "time");
+    const Series force = writer.series("/bearings/big_end/force", 3, "N", "force on the shell");
+    const Series field_time = writer.series("/bearings/big_end/fields/time", 1, "s", "time of the fields");
+    const Series pressure = writer.field("/bearings/big_end/fields/pressure", {3, 2}, "Pa", "film pressure");
+    CHECK(pressure.width() == 6);
+    for (int k = 0; k < 1000; ++k) {
+      time.append(1e-3 * k);
+      force.append({1.0 * k, -2.0 * k, std::sqrt(k)});
+      if (k % 100 == 0) {
+        field_time.append(1e-3 * k);
+        std::vector<double> row(6);
+        std::iota(row.begin(), row.end(), 10.0 * k);
+        pressure.append(row);
+      }
+      if (k % 37 == 0) writer.flush();
+    }
+    writer.finish(Status::completed, "reached the end");
+  }
+  const Reader reader(path);
+  CHECK(reader.rows() == 1000);
+  CHECK(reader.text_attribute("/", "title") == "Big end: 45 mm × 15.6 mm");
+  CHECK(reader.text_attribute("/", "status") == "completed");
+  CHECK(reader.text_attribute("/", "message") == "reached the end");
+  CHECK(reader.number_attribute("/bearings/big_end", "radius") == 0.0225);
+  CHECK_FALSE(reader.number_attribute("/", "title").has_value());
+  CHECK_FALSE(reader.text_attribute("/nowhere", "title").has_value());
+  CHECK(reader.list_attribute("/", "study_parameters") == std::vector<std::string>{"load", "clearance"});
+  CHECK(reader.text("/model") == "hersey: 1\ntitle: Kurbelzapfen µ\n");
+  CHECK(reader.text_table("/assumptions")[1] == std::pair<std::string, std::string>{"supply", "none"});
+  CHECK(reader.children("/bearings") == std::vector<std::string>{"big_end"});
+  CHECK(reader.read("/bearings/big_end/fields/phi").values == angles);
+
+  const Array force = reader.read("/bearings/big_end/force");
+  CHECK(force.info.shape == std::vector<std::size_t>{1000, 3});
+  CHECK(force.info.unit == "N");
+  CHECK(force.info.description == "force on the shell");
+  for (std::size_t k = 0; k < 1000; ++k) REQUIRE(force.values[3 * k + 2] == std::sqrt(static_cast<double>(k)));
+
+  const Array some = reader.read_rows("/bearings/big_end/fields/pressure", 1, 100, 4);
+  CHECK(some.info.shape == std::vector<std::size_t>{3, 3, 2});
+  CHECK(some.values[0] == 1000.0);
+  CHECK(some.values[17] == 9005.0);
+}
+
+TEST_CASE("ExistingFile_IsKeptUnlessOverwritten") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5";
+  std::ofstream(path) << "precious";
+  CHECK_THROWS_WITH_AS(Writer{path}, doctest::Contains("exists already"), FileExists);
+  std::string content;
+  std::ifstream(path) >> content;
+  CHECK(content == "precious");
+  {
+    Writer writer(path, {.overwrite = true});
+    writer.finish(Status::stopped, "on request");
+  }
+  CHECK(Reader(path).text_attribute("/", "status") == "stopped");
+}
+
+TEST_CASE("UnwritablePlace_IsToldWithPathAndReason") {
+  CHECK_THROWS_WITH_AS(Writer{"/nonexistent/run.h5"}, doctest::Contains("No such file or directory"), WriteError);
+  const TemporaryDirectory directory;  // a directory in the file's place is never removed, overwrite or not
+  CHECK_THROWS_AS(Writer(directory / "", {.overwrite = true}), WriteError);
+}
+
+TEST_CASE("RunWithoutFinish_IsMarkedFailed") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5";
+  {
+    Writer writer(path);
+    writer.series("/time", 1, "s", "time").append(1.5);
+  }
+  const Reader reader(path);
+  CHECK(reader.text_attribute("/", "status") == "failed");
+  CHECK(reader.read("/time").values == std::vector<double>{1.5});
+}
+
+TEST_CASE("GrowingFile_IsReadableBetweenFlushes") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5";
+  Writer writer(path);
+  const Series time = writer.series("/time", 1, "s", "time");
+  for (int k = 0; k < 600; ++k) time.append(k);
+  writer.flush();
+  for (int k = 600; k < 900; ++k) time.append(k);
+  const Reader reader(path);
+  CHECK(reader.text_attribute("/", "status") == "running");
+  CHECK(reader.rows() == 600);
+  CHECK(reader.read("/time").values.back() == 599);
+}
+
+TEST_CASE("FlushIfDue_WaitsForItsInterval") {
+  const TemporaryDirectory directory;
+  const auto eager = directory / "eager.h5", lazy = directory / "lazy.h5";
+  Writer writes_now(eager, {.flush_interval = 0}), waits(lazy, {.flush_interval = 3600});
+  for (Writer* writer : {&writes_now, &waits}) {
+    writer->series("/time", 1, "s", "time").append(1);
+    writer->flush_if_due();
+  }
+  CHECK(Reader(eager).rows() == 1);
+  CHECK_FALSE(Reader(lazy).has("/time"));
+}
+
+TEST_CASE("WrongUse_IsAContractError") {
+  const TemporaryDirectory directory;
+  Writer writer(directory / "run.h5");
+  const Series force = writer.series("/force", 3, "N", "force");
+  CHECK_THROWS_WITH_AS(force.append(1.0), doctest::Contains("a row of 1 numbers was given, 3 are due"), ContractError);
+  CHECK_THROWS_WITH_AS((void)writer.series("force", 1, "N", "again"), doctest::Contains("declared twice"),
+                       ContractError);
+  CHECK_THROWS_AS(Series().append(1.0), ContractError);
+  writer.finish(Status::completed);
+  CHECK_THROWS_AS(force.append({1, 2, 3}), ContractError);
+}
+
+TEST_CASE("ForeignFiles_AreRefusedWithAReason") {
+  const TemporaryDirectory directory;
+  CHECK_THROWS_WITH_AS(Reader{directory / "none.h5"}, doctest::Contains("no such file"), ReadError);
+  std::ofstream(directory / "text.h5") << "not HDF5 at all";
+  CHECK_THROWS_WITH_AS(Reader{directory / "text.h5"}, doctest::Contains("not a readable HDF5 file"), ReadError);
+  const auto path = directory / "future.h5";
+  {
+    Writer writer(path);
+    writer.attribute("/", "format_version", 99);
+  }
+  CHECK_THROWS_WITH_AS(Reader{path}, doctest::Contains("results format 99"), ReadError);
+}
+
+TEST_CASE("MissingOrWrongDataset_IsNamed") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5";
+  {
+    Writer writer(path);
+    writer.text("/model", "text", "the model");
+    writer.series("/time", 1, "s", "time").append(1);
+  }
+  const Reader reader(path);
+  CHECK_THROWS_WITH_AS((void)reader.read("/bearings/a/h_min"), doctest::Contains("no dataset /bearings/a/h_min"),
+                       ReadError);
+  CHECK_THROWS_WITH_AS((void)reader.read("/model"), doctest::Contains("does not hold numbers"), ReadError);
+  CHECK_THROWS_WITH_AS((void)reader.text("/time"), doctest::Contains("does not hold text"), ReadError);
+}
+
+}  // namespace
+}  // namespace hersey::results
