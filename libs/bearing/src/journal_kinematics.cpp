@@ -19,9 +19,7 @@ struct Varied {
 };
 
 Varied operator-(const Varied& a, const Varied& b) { return {a.value - b.value, a.d - b.d}; }
-Varied operator*(const Varied& a, const Varied& b) {
-  return {a.value * b.value, a.value * b.d + b.value * a.d};
-}
+Varied operator*(const Varied& a, const Varied& b) { return {a.value * b.value, a.value * b.d + b.value * a.d}; }
 Varied operator/(const Varied& a, const Varied& b) {
   const double q = a.value / b.value;
   return {q, (a.d - q * b.d) / b.value};
@@ -121,9 +119,7 @@ void place_surfaces(const film::FilmModel& model, const ParameterVector& paramet
 }
 
 double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters) {
-  const auto offset = [&](double z) {
-    return (parameters.segment<2>(kEx) + parameters.segment<2>(kTx) * z).norm();
-  };
+  const auto offset = [&](double z) { return (parameters.segment<2>(kEx) + parameters.segment<2>(kTx) * z).norm(); };
   return model.c - std::max(offset(-0.5 * model.L), offset(0.5 * model.L));
 }
 

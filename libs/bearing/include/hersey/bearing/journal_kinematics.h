@@ -10,11 +10,17 @@ namespace hersey::bearing {
 /// The numbers through which rigid surfaces act on a film, in this order. `e` is where the journal's axis pierces the
 /// bearing's mid-plane z = 0, `t` its slope d e/dz, both in the bearing frame (theory manual, chapter bearing).
 enum Parameter : int {
-  kEx, kEy, kTx, kTy,                      ///< e_x, e_y [m], t_x, t_y [-]
-  kExRate, kEyRate, kTxRate, kTyRate,      ///< their rates in the bearing frame
-  kJournalSpeed,                           ///< circumferential speed of the journal surface relative to the shell [m/s]
-  kAxialSpeed,                             ///< axial speed of the journal relative to the shell [m/s]
-  kSupplyAngle,                            ///< angle of the widest gap at z = 0 [rad]
+  kEx,
+  kEy,
+  kTx,
+  kTy,  ///< e_x, e_y [m], t_x, t_y [-]
+  kExRate,
+  kEyRate,
+  kTxRate,
+  kTyRate,        ///< their rates in the bearing frame
+  kJournalSpeed,  ///< circumferential speed of the journal surface relative to the shell [m/s]
+  kAxialSpeed,    ///< axial speed of the journal relative to the shell [m/s]
+  kSupplyAngle,   ///< angle of the widest gap at z = 0 [rad]
   kParameterCount
 };
 
@@ -39,7 +45,8 @@ struct JournalKinematics {
 /// @verified_by journal_kinematics_test.cpp: Derivatives_MatchFiniteDifferences, Rates_AreTimeDerivatives
 [[nodiscard]] JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, double R, double e_floor);
 
-/// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi), its rate at fixed grid points, and the speeds into `motion`.
+/// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi), its rate at fixed grid points, and the speeds into
+/// `motion`.
 void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion);
 
 /// Smallest gap of the two cylinders over the film's width, exact in phi: c - max over both edges of |e + t z| [m].

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <string>
+
+#include "hersey/bearing/interface_iteration.h"
+#include "hersey/bearing/journal_kinematics.h"
+#include "hersey/film/film_solver.h"
+#include "hersey/film/observables.h"
+#include "hersey/film/reynolds.h"
+#include "hersey/mbd/two_body_force.h"
+
+namespace hersey::bearing {
+
+/// How film and bodies are solved together.
+enum class Coupling {
+  monolithic,   ///< one Newton system; the film is condensed into the tangent of its wrench
+  partitioned,  ///< the bodies see a given wrench, the film given surfaces; repeated until both agree
+};
+
+struct BearingOptions {
+  Coupling coupling = Coupling::monolithic;
+  Acceleration acceleration = Acceleration::quasi_newton;  ///< partitioned: how the exchanged wrench is corrected
+  double relaxation = 0.1;      ///< partitioned: share of the first correction taken, in (0, 1]
+  film::FilmSolveOptions film;  ///< the film's own solver: initial film, and every film solve of a partitioned coupling
+  double initial_dt = 1e-4;     ///< the film at the start is that of a full gap after a step of this length [s], > 0
+};
+
+/// What one bearing shows at an accepted state.
+struct BearingObservation {
+  Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< journal axis at z = 0 in the bearing frame [m]
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis [-]
+  Vector6 wrench_on_shell = Vector6::Zero();       ///< [moment about the bearing's origin; force], bearing frame
+  double power_into_bodies = 0;  ///< wrench times relative velocity [W]; negative: the film takes power
+  double speed = 0;              ///< journal's angular velocity about the bearing axis, relative to the shell [rad/s]
+  film::FilmObservables film;
+  int film_iterations = 0;  ///< film linearisations in the last step
+};
+
+/// An oil film between a shell frame A and a journal frame B of rigid bodies (theory manual, chapter bearing).
+///
+/// Monolithic: `evaluate` takes one Newton step of the film together with the bodies. The film's unknowns u follow the
+/// change of the surfaces since the last call through the last linearisation, u += du0 + (du/ds) (s - s_last), are
+/// linearised anew, and the wrench is returned with the film eliminated: the exact Schur complement of the full system.
+/// Partitioned: `evaluate` takes the surfaces to be the bodies' answer to the wrench it returned last, solves the film
+/// there to the end, corrects the wrench by what the film says (InterfaceIteration) and returns it without derivatives.
+class JournalBearing final : public mbd::TwoBodyForce {
+ public:
+  JournalBearing(std::string name, const film::FilmModel& model, const BearingOptions& options = {});
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const film::FilmModel& model() const { return reynolds_.model(); }
+  [[nodiscard]] Coupling coupling() const { return options_.coupling; }
+
+  /// With motion.dt = 0 (start of a run) the film is solved to the end instead: freshly filled, theta = 1 before a step
+  /// of options.initial_dt, so that a node is full or just emptying.
+  void evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) override;
+  void begin_step(const mbd::RelativeMotion& start, double dt) override;
+  void accept_step(const mbd::RelativeMotion& end) override;
+  [[nodiscard]] double internal_residual() const override { return internal_residual_; }
+  [[nodiscard]] std::string name_of_internal_residual() const override;
+  [[nodiscard]] std::string domain_error() const override { return domain_error_; }
+
+  /// Everything to report at the state last accepted (or initialised).
+  [[nodiscard]] BearingObservation observe(const mbd::RelativeMotion& motion) const;
+
+  /// Fields at the nodes at the state last accepted.
+  [[nodiscard]] film::FilmFields fields(const mbd::RelativeMotion& motion) const;
+
+ private:
+  void place(const mbd::RelativeMotion& motion);
+  void fill_gap();
+  void follow_surfaces();
+  void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
+  void evaluate_partitioned(mbd::ForceResponse& response);
+  void linearise_parameters();
+
+  std::string name_;
+  BearingOptions options_;
+  film::Reynolds reynolds_;
+  film::SurfaceMotion surfaces_;
+  JournalKinematics kinematics_;
+  std::array<film::MotionDirection, kParameterCount> directions_;
+
+  // The film in the current step: unknowns, their Newton increment, their answer to each parameter, and where
+  // (in parameters) they were last linearised.
+  Eigen::VectorXd u_, du0_;
+  Eigen::MatrixXd du_ds_;
+  ParameterVector s_linearised_ = ParameterVector::Zero();
+  Eigen::Matrix<double, 6, kParameterCount> wrench_ds_;
+  Eigen::VectorXd column_;
+  bool linearised_ = false;
+
+  // The film at the start of the step: what a rejected step returns to.
+  film::FilmHistory history_;
+  film::FilmHistory observed_history_;
+  Eigen::VectorXd u_start_;
+
+  // Partitioned: the wrench on the journal that the bodies have been given.
+  InterfaceIteration interface_;
+  Vector6 given_ = Vector6::Zero(), given_start_ = Vector6::Zero();
+  bool answered_ = false;
+
+  double internal_residual_ = 0;
+  int iterations_ = 0;
+  int observed_iterations_ = 0;
+  std::string domain_error_;
+};
+
+}  // namespace hersey::bearing

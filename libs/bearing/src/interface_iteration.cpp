@@ -1,0 +1,98 @@
+#include "hersey/bearing/interface_iteration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::bearing {
+namespace {
+
+// Differences kept over the steps: twice the six components of a bearing's wrench for a pair of bearings.
+constexpr std::size_t kMemory = 24;
+
+// Columns whose part independent of newer ones falls below this share of the largest are noise.
+constexpr double kIndependence = 1e-7;
+
+// Accuracy to be expected of an image, relative to its size.
+constexpr double kNoise = 1e-8;
+
+Eigen::MatrixXd columns(const std::vector<Eigen::VectorXd>& vectors) {
+  Eigen::MatrixXd matrix(vectors.front().size(), static_cast<Eigen::Index>(vectors.size()));
+  for (std::size_t k = 0; k < vectors.size(); ++k) matrix.col(static_cast<Eigen::Index>(k)) = vectors[k];
+  return matrix;
+}
+
+}  // namespace
+
+InterfaceIteration::InterfaceIteration(Acceleration acceleration, double relaxation)
+    : acceleration_(acceleration), relaxation_(relaxation), omega_(relaxation) {
+  HERSEY_REQUIRE(relaxation > 0 && relaxation <= 1, "a relaxation factor lies in (0, 1]");
+}
+
+void InterfaceIteration::begin_step() { has_last_ = false; }
+
+Eigen::VectorXd InterfaceIteration::next(const Eigen::VectorXd& x, const Eigen::VectorXd& image) {
+  const Eigen::VectorXd residual = image - x;
+  Eigen::VectorXd result;
+  switch (acceleration_) {
+    case Acceleration::constant:
+      result = x + relaxation_ * residual;
+      break;
+    case Acceleration::aitken:
+      result = aitken(x, residual);
+      break;
+    case Acceleration::quasi_newton:
+      remember(residual, image);
+      result = residual_changes_.empty() ? Eigen::VectorXd(x + relaxation_ * residual) : quasi_newton(image, residual);
+      break;
+  }
+  last_residual_ = residual;
+  last_image_ = image;
+  has_last_ = true;
+  return result;
+}
+
+Eigen::VectorXd InterfaceIteration::aitken(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) {
+  if (has_last_) {
+    const Eigen::VectorXd change = residual - last_residual_;
+    const double square = change.squaredNorm();
+    if (square > 0) omega_ = -omega_ * last_residual_.dot(change) / square;
+  } else {
+    // A new step starts with the size the last one ended with, but never beyond the user's factor.
+    omega_ = std::copysign(std::min(std::abs(omega_), relaxation_), omega_);
+  }
+  return x + omega_ * residual;
+}
+
+void InterfaceIteration::remember(const Eigen::VectorXd& residual, const Eigen::VectorXd& image) {
+  if (!has_last_) return;
+  // The difference of two nearly equal images tells of their solver's tolerance, not of the interface.
+  if ((residual - last_residual_).norm() <= kNoise * image.norm()) return;
+  residual_changes_.insert(residual_changes_.begin(), residual - last_residual_);
+  image_changes_.insert(image_changes_.begin(), image - last_image_);
+  if (residual_changes_.size() > kMemory) {
+    residual_changes_.pop_back();
+    image_changes_.pop_back();
+  }
+}
+
+// The combination of known changes that would cancel the residual takes the image along.
+Eigen::VectorXd InterfaceIteration::quasi_newton(const Eigen::VectorXd& image, const Eigen::VectorXd& residual) const {
+  const Eigen::MatrixXd V = columns(residual_changes_), W = columns(image_changes_);
+  // Newest changes first, so that old ones only fill directions the new ones leave open (Gram-Schmidt, filtered).
+  Eigen::MatrixXd Q(V.rows(), 0), C(W.rows(), 0);
+  for (Eigen::Index k = 0; k < V.cols() && Q.cols() < V.rows(); ++k) {
+    const Eigen::VectorXd share = Q.transpose() * V.col(k);
+    Eigen::VectorXd independent = V.col(k) - Q * share;
+    const double norm = independent.norm();
+    if (norm <= kIndependence * V.col(k).norm() || norm == 0) continue;
+    Q.conservativeResize(Eigen::NoChange, Q.cols() + 1);
+    C.conservativeResize(Eigen::NoChange, C.cols() + 1);
+    Q.col(Q.cols() - 1) = independent / norm;
+    C.col(C.cols() - 1) = (W.col(k) - C.leftCols(share.size()) * share) / norm;
+  }
+  return image - C * (Q.transpose() * residual);
+}
+
+}  // namespace hersey::bearing

@@ -1,0 +1,214 @@
+#include "hersey/bearing/journal_bearing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::bearing {
+namespace {
+
+// Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
+constexpr double kDirectionFloor = 1e-6;
+
+// The surfaces' answer to a unit change of each parameter; they are linear in all of them.
+std::array<film::MotionDirection, kParameterCount> unit_directions(const film::FilmModel& model) {
+  std::array<film::MotionDirection, kParameterCount> directions;
+  film::FilmModel no_clearance = model;
+  no_clearance.c = 0;
+  for (int k = 0; k < kParameterCount; ++k) {
+    film::SurfaceMotion motion;
+    place_surfaces(no_clearance, ParameterVector::Unit(k), motion);
+    film::MotionDirection& direction = directions[static_cast<std::size_t>(k)];
+    if (k <= kTy) direction.g = motion.g;
+    if (k >= kExRate && k <= kTyRate) direction.g_rate = motion.g_rate;
+    direction.u_journal = motion.u_journal;
+    direction.w_journal = motion.w_journal;
+    direction.phi_supply = motion.phi_supply;
+  }
+  return directions;
+}
+
+bool acts(const film::FilmModel& model, int parameter) {
+  return parameter != kSupplyAngle || model.supply.kind == film::SupplyKind::widest_gap;
+}
+
+}  // namespace
+
+JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, const BearingOptions& options)
+    : name_(std::move(name)),
+      options_(options),
+      reynolds_(model),
+      directions_(unit_directions(model)),
+      interface_(options.acceleration, options.relaxation) {
+  const int n = model.grid.size();
+  u_ = u_start_ = du0_ = column_ = Eigen::VectorXd::Zero(n);
+  du_ds_ = Eigen::MatrixXd::Zero(n, kParameterCount);
+  wrench_ds_.setZero();
+  history_.theta = Eigen::VectorXd::Ones(n);
+  history_.w = Eigen::VectorXd::Zero(n);
+  observed_history_ = history_;
+}
+
+void JournalBearing::place(const mbd::RelativeMotion& motion) {
+  kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
+  place_surfaces(model(), kinematics_.value, surfaces_);
+  // An elastic surface may be pushed beyond the undeformed one; rigid ones may not meet.
+  const double gap = smallest_gap(model(), kinematics_.value);
+  domain_error_.clear();
+  if (!std::isfinite(gap) || (model().compliance == 0 && gap <= 0)) {
+    domain_error_ =
+        fmt::format("bearing {}: the journal touches the shell (smallest gap {:.4g} um, eccentricity ratio {:.4f})",
+                    name_, 1e6 * gap, kinematics_.e().norm() / model().c);
+  }
+}
+
+// The film of a freshly filled gap: first without memory of the deformation, then with the deformation it has.
+void JournalBearing::fill_gap() {
+  history_.dt = options_.initial_dt;
+  history_.theta.setOnes();
+  history_.w.setZero();
+  for (int pass = 0; pass < (model().compliance > 0 ? 2 : 1); ++pass) {
+    const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
+    if (!summary.converged) {
+      domain_error_ = fmt::format("bearing {}: no film at the start: {}", name_, summary.message);
+      return;
+    }
+    history_.w = film::film_fields(model(), surfaces_, u_).w;
+  }
+}
+
+void JournalBearing::begin_step(const mbd::RelativeMotion&, double dt) {
+  if (dt > 0) history_.dt = dt;
+  u_ = u_start_;
+  linearised_ = false;
+  iterations_ = 0;
+  given_ = given_start_;
+  answered_ = false;
+  interface_.begin_step();
+}
+
+// u += du0 + (du/ds)(s - s_last): the film's share of the Newton increment the bodies have just taken.
+void JournalBearing::follow_surfaces() {
+  if (!linearised_) return;
+  ParameterVector ds = kinematics_.value - s_linearised_;
+  ds[kSupplyAngle] = std::remainder(ds[kSupplyAngle], 2 * std::numbers::pi);
+  u_ += du0_;
+  u_.noalias() += du_ds_ * ds;
+}
+
+void JournalBearing::linearise_parameters() {
+  for (int k = 0; k < kParameterCount; ++k) {
+    if (!acts(model(), k)) continue;
+    Vector6 partial;
+    reynolds_.response(directions_[static_cast<std::size_t>(k)], column_, partial);
+    du_ds_.col(k) = column_;
+    wrench_ds_.col(k) = partial + reynolds_.wrench_gradient(column_);
+  }
+}
+
+void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
+  place(motion);
+  response.W_B_A.setZero();
+  response.dW_dX.setZero();
+  response.dW_dV.setZero();
+  if (!domain_error_.empty()) return;
+  if (motion.dt == 0) {
+    fill_gap();
+    if (!domain_error_.empty()) return;
+    linearised_ = false;
+    evaluate_monolithic(want_tangent, response);
+    given_ = response.W_B_A;
+  } else if (options_.coupling == Coupling::monolithic) {
+    evaluate_monolithic(want_tangent, response);
+  } else {
+    evaluate_partitioned(response);
+  }
+}
+
+void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
+  follow_surfaces();
+  reynolds_.linearise(surfaces_, history_, u_);
+  reynolds_.newton_increment(du0_);
+  internal_residual_ = reynolds_.relative_residual();
+  s_linearised_ = kinematics_.value;
+  ++iterations_;
+
+  // The journal takes the negative of what the shell takes.
+  response.W_B_A = -(reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du0_));
+  linearised_ = want_tangent;
+  if (!want_tangent) return;
+  linearise_parameters();
+  response.dW_dX.noalias() = -wrench_ds_ * kinematics_.d_dX;
+  response.dW_dV.noalias() = -wrench_ds_ * kinematics_.d_dV;
+}
+
+void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
+  // The first surfaces of a step are a prediction, no answer to any wrench yet.
+  if (answered_) {
+    const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
+    iterations_ += summary.iterations;
+    if (!summary.converged) {
+      domain_error_ = fmt::format("bearing {}: {}", name_, summary.message);
+      return;
+    }
+    reynolds_.linearise(surfaces_, history_, u_);
+    // Moments over the radius, so that all six entries are forces of comparable size.
+    const Vector6 size = (Vector6() << Vector3::Constant(model().R), Vector3::Ones()).finished();
+    const Vector6 x = given_.cwiseQuotient(size), image = -reynolds_.wrench_on_shell().cwiseQuotient(size);
+    const double largest = std::max(x.norm(), image.norm());
+    internal_residual_ = largest > 0 ? (image - x).norm() / largest : 0;
+    given_ = Vector6(interface_.next(x, image)).cwiseProduct(size);
+  } else {
+    internal_residual_ = 1;
+  }
+  answered_ = true;
+  response.W_B_A = given_;
+}
+
+void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
+  place(end);
+  const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
+  observed_history_ = history_;
+  observed_iterations_ = iterations_;
+  history_.theta = fields.theta;
+  history_.w = fields.w;
+  u_start_ = u_;
+  given_start_ = given_;
+}
+
+std::string JournalBearing::name_of_internal_residual() const {
+  if (options_.coupling == Coupling::partitioned) {
+    return fmt::format("bearing {}, wrench exchanged between film and bodies", name_);
+  }
+  const int node = reynolds_.worst_node(), n_z = model().grid.n_z;
+  return fmt::format("bearing {}, film node ({}, {})", name_, node / n_z, node % n_z);
+}
+
+BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) const {
+  const JournalKinematics k = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
+  film::SurfaceMotion surfaces;
+  place_surfaces(model(), k.value, surfaces);
+  BearingObservation seen;
+  seen.e = k.e();
+  seen.tilt = k.tilt();
+  seen.speed = motion.V_AB_A[2];
+  seen.film = film::observe_film(model(), surfaces, observed_history_, seen.e, u_start_);
+  seen.wrench_on_shell = seen.film.wrench_on_shell;
+  seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
+  seen.film_iterations = observed_iterations_;
+  return seen;
+}
+
+film::FilmFields JournalBearing::fields(const mbd::RelativeMotion& motion) const {
+  const JournalKinematics k = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
+  film::SurfaceMotion surfaces;
+  place_surfaces(model(), k.value, surfaces);
+  return film::film_fields(model(), surfaces, u_start_);
+}
+
+}  // namespace hersey::bearing

@@ -1,0 +1,72 @@
+#include "hersey/bearing/interface_iteration.h"
+
+#include <doctest/doctest.h>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::bearing {
+namespace {
+
+// F(x) = A x + b with eigenvalues of A like those of a loaded film under light bodies: -30, -8, -2, 0.5.
+struct StiffExchange {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b;
+  StiffExchange() : A(4, 4), b(4) {
+    Eigen::MatrixXd T(4, 4);
+    T << 1, 0.3, 0, 0.2, 0.1, 1, 0.4, 0, 0, 0.2, 1, 0.1, 0.3, 0, 0.1, 1;
+    A = T * Eigen::Vector4d(-30, -8, -2, 0.5).asDiagonal() * T.inverse();
+    b << 100, -40, 7, 3;
+  }
+  [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& x) const { return A * x + b; }
+  [[nodiscard]] Eigen::VectorXd solution() const {
+    return (Eigen::MatrixXd::Identity(4, 4) - A).partialPivLu().solve(b);
+  }
+};
+
+int iterations_to(double tolerance, Acceleration acceleration, double relaxation, int most) {
+  const StiffExchange F;
+  InterfaceIteration iteration(acceleration, relaxation);
+  iteration.begin_step();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
+  for (int k = 0; k < most; ++k) {
+    if ((x - F.solution()).norm() <= tolerance * F.solution().norm()) return k;
+    x = iteration.next(x, F(x));
+  }
+  return most;
+}
+
+TEST_CASE("QuasiNewton_SolvesALinearExchangeInItsDimensionPlusTwo") {
+  CHECK(iterations_to(1e-9, Acceleration::quasi_newton, 0.05, 20) <= 6);
+}
+
+TEST_CASE("ConstantRelaxation_ConvergesOnlyBelowItsBound") {
+  // |1 - omega (1 - a)| < 1 for a = -30 asks omega < 2/31.
+  CHECK(iterations_to(1e-6, Acceleration::constant, 0.05, 2000) < 2000);
+  CHECK(iterations_to(1e-6, Acceleration::constant, 0.07, 2000) == 2000);
+}
+
+TEST_CASE("Aitken_ConvergesWhereTheFullStepDiverges") {
+  CHECK(iterations_to(1e-6, Acceleration::constant, 1.0, 500) == 500);
+  CHECK(iterations_to(1e-6, Acceleration::aitken, 1.0, 500) < 500);
+}
+
+TEST_CASE("Memory_CarriesOverToTheNextStep") {
+  const StiffExchange F;
+  InterfaceIteration iteration(Acceleration::quasi_newton, 0.05);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
+  iteration.begin_step();
+  for (int k = 0; k < 8; ++k) x = iteration.next(x, F(x));
+  // The next step asks for another solution of the same exchange: its Jacobian is known, one correction is enough.
+  iteration.begin_step();
+  const Eigen::VectorXd away = x + Eigen::VectorXd::LinSpaced(4, -5, 9);
+  const Eigen::VectorXd back = iteration.next(away, F(away));
+  CHECK((back - F.solution()).norm() <= 1e-6 * F.solution().norm());
+}
+
+TEST_CASE("RelaxationOutsideItsRange_IsRejected") {
+  CHECK_THROWS_AS(InterfaceIteration(Acceleration::constant, 0), ContractError);
+  CHECK_THROWS_AS(InterfaceIteration(Acceleration::constant, 1.5), ContractError);
+}
+
+}  // namespace
+}  // namespace hersey::bearing

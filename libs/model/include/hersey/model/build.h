@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hersey/bearing/journal_bearing.h"
+#include "hersey/mbd/mechanism.h"
+#include "hersey/model/model.h"
+
+namespace hersey::model {
+
+/// A bearing of a machine and the two-body force it is in the mechanism.
+struct BuiltBearing {
+  std::shared_ptr<bearing::JournalBearing> bearing;
+  mbd::ForceId force;
+};
+
+/// A model turned into equations. Bodies, joints, drives and bearings keep the order of the model; body 0 of the
+/// mechanism is ground.
+struct Machine {
+  std::unique_ptr<mbd::Mechanism> mechanism;
+  std::vector<BuiltBearing> bearings;
+};
+
+/// @throws InputError where the parts make no mechanism: impossible inertia, a joint between a body and itself, two
+/// drives on one
+///         coordinate.
+[[nodiscard]] Machine build(const Model& model);
+
+}  // namespace hersey::model

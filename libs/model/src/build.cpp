@@ -1,0 +1,188 @@
+#include "hersey/model/build.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "hersey/core/contract.h"
+#include "hersey/mbd/spring_damper.h"
+
+namespace hersey::model {
+namespace {
+
+mbd::JointType joint_type(JointType type) {
+  switch (type) {
+    case JointType::fixed:
+      return mbd::JointType::fixed;
+    case JointType::revolute:
+      return mbd::JointType::revolute;
+    case JointType::prismatic:
+      return mbd::JointType::prismatic;
+    case JointType::cylindrical:
+      return mbd::JointType::cylindrical;
+    case JointType::spherical:
+      return mbd::JointType::spherical;
+    case JointType::planar:
+      return mbd::JointType::planar;
+    case JointType::free:
+      return mbd::JointType::free;
+  }
+  HERSEY_REQUIRE(false, "every joint type is listed");
+  return {};
+}
+
+// Walks the model once, in the order in which parts refer to each other.
+class Builder {
+ public:
+  explicit Builder(const Model& model) : model_(model) {}
+
+  Machine build() {
+    mechanism_.set_gravity(model_.gravity);
+    add_frames(model_.ground, mbd::MechanismBuilder::ground());
+    for (const Body& body : model_.bodies) {
+      add_frames(body, mechanism_.add_body({body.name, body.mass, body.centre_of_mass, body.inertia}));
+    }
+    for (const Joint& joint : model_.joints) add_joint(joint);
+    for (const Drive& drive : model_.drives) add_drive(drive);
+    for (const Force& force : model_.forces) add_force(force);
+    for (const Bearing& bearing : model_.bearings) add_bearing(bearing);
+    machine_.mechanism = mechanism_.finalise();
+    return std::move(machine_);
+  }
+
+ private:
+  void add_frames(const Body& body, mbd::BodyId id) {
+    const std::string name = id == mbd::MechanismBuilder::ground() ? "ground" : body.name;
+    frames_[{name, ""}] = mechanism_.frame_of(id);
+    poses_[{name, ""}] = Pose{};
+    for (const Frame& frame : body.frames) {
+      frames_[{name, frame.name}] = mechanism_.add_frame({frame.name, id, frame.X_BF});
+      poses_[{name, frame.name}] = frame.X_BF;
+    }
+  }
+
+  [[nodiscard]] mbd::FrameId frame(const FrameName& name) const { return frames_.at({name.body, name.frame}); }
+
+  // Writes the given initial values (or rates) into the joint's list; empty if none is given.
+  static std::vector<double> initial_values(const Joint& joint, bool rates) {
+    const mbd::JointType type = joint_type(joint.type);
+    std::vector<double> values;
+    for (const InitialValue& given : joint.initial) {
+      for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type)) {
+        const std::string name(coordinate.name);
+        const bool is_rate = given.coordinate == name + "_rate" ||
+                             (name == "orientation" && given.coordinate == "angular_velocity") ||
+                             (name == "position" && given.coordinate == "velocity");
+        if (rates ? !is_rate : given.coordinate != name) continue;
+        values.resize(static_cast<std::size_t>(mbd::degrees_of_freedom(type)), 0.0);
+        std::copy(given.value.begin(), given.value.end(), values.begin() + coordinate.offset);
+      }
+    }
+    return values;
+  }
+
+  void add_joint(const Joint& joint) {
+    const mbd::JointId id = mechanism_.add_joint({.name = joint.name,
+                                                  .type = joint_type(joint.type),
+                                                  .inboard = frame(joint.inboard),
+                                                  .outboard = frame(joint.outboard),
+                                                  .axis = joint.axis,
+                                                  .initial = initial_values(joint, false),
+                                                  .initial_rate = initial_values(joint, true)});
+    joints_[joint.name] = {id, joint_type(joint.type)};
+  }
+
+  [[nodiscard]] mbd::CoordinateRef coordinate(const std::string& joint, const std::string& name) const {
+    const auto& [id, type] = joints_.at(joint);
+    const auto found = mbd::find_coordinate(type, name);
+    HERSEY_REQUIRE(found && found->size == 1, "the reader checks coordinates");
+    return {id, found->offset};
+  }
+
+  void add_drive(const Drive& drive) {
+    mechanism_.add_drive({.name = drive.name,
+                          .coordinate = coordinate(drive.joint, drive.coordinate),
+                          .kind = drive.prescribes == Drive::Prescribes::speed ? mbd::DriveSpec::Kind::speed
+                                                                               : mbd::DriveSpec::Kind::position,
+                          .function = drive.motion.value});
+  }
+
+  [[nodiscard]] mbd::LoadTerm term(const Function& function, const Vector6& direction) const {
+    mbd::LoadTerm term{.direction = direction, .magnitude = function.value, .variables = {}};
+    for (const Variable& variable : function.variables) {
+      mbd::Variable argument;
+      if (variable.kind != Variable::Kind::time) {
+        argument.kind =
+            variable.kind == Variable::Kind::rate ? mbd::Variable::Kind::rate : mbd::Variable::Kind::position;
+        argument.coordinate = coordinate(variable.joint, variable.coordinate);
+      }
+      term.variables.push_back(argument);
+    }
+    return term;
+  }
+
+  void add_load(const Force& force) {
+    const BodyLoad& load = force.load;
+    // The mechanism takes the body's axes, the file those of the frame named.
+    const Matrix3 R = load.axes == Axes::body ? poses_.at({load.at.body, load.at.frame}).R : Matrix3::Identity();
+    const int first = load.is_torque ? 0 : 3;
+    mbd::LoadSpec spec{.name = force.name,
+                       .frame = frame(load.at),
+                       .axes = load.axes == Axes::body ? mbd::LoadAxes::body : mbd::LoadAxes::ground,
+                       .terms = {}};
+    for (std::size_t i = 0; i < load.functions.size(); ++i) {
+      Vector6 direction = Vector6::Zero();
+      direction.segment<3>(first) = R * load.direction.value_or(Vector3::Unit(static_cast<Eigen::Index>(i)));
+      spec.terms.push_back(term(load.functions[i], direction));
+    }
+    mechanism_.add_load(std::move(spec));
+  }
+
+  void add_force(const Force& force) {
+    switch (force.type) {
+      case ForceType::load:
+        add_load(force);
+        break;
+      case ForceType::spring_damper: {
+        const SpringDamper& spring = force.spring_damper;
+        mechanism_.add_force(force.name, frame(spring.from), frame(spring.to),
+                             std::make_shared<mbd::SpringDamper>(spring.stiffness, spring.damping, spring.free_length));
+        break;
+      }
+      case ForceType::torsion_spring: {
+        const TorsionSpring& spring = force.torsion_spring;
+        mechanism_.add_spring({.name = force.name,
+                               .coordinate = coordinate(spring.joint, spring.coordinate),
+                               .stiffness = spring.stiffness,
+                               .damping = spring.damping,
+                               .free_position = spring.free_angle});
+        break;
+      }
+    }
+  }
+
+  void add_bearing(const Bearing& bearing) {
+    bearing::BearingOptions options;
+    options.coupling = bearing.coupling.scheme == CouplingScheme::partitioned ? bearing::Coupling::partitioned
+                                                                              : bearing::Coupling::monolithic;
+    options.film.solver = bearing.solver;
+    options.initial_dt = model_.simulation.step;
+    auto film = std::make_shared<bearing::JournalBearing>(bearing.name, bearing.film, options);
+    const mbd::ForceId id =
+        mechanism_.add_force("bearing " + bearing.name, frame(bearing.shell), frame(bearing.journal), film);
+    machine_.bearings.push_back({std::move(film), id});
+  }
+
+  const Model& model_;
+  mbd::MechanismBuilder mechanism_;
+  Machine machine_;
+  std::map<std::pair<std::string, std::string>, mbd::FrameId> frames_;
+  std::map<std::pair<std::string, std::string>, Pose> poses_;
+  std::map<std::string, std::pair<mbd::JointId, mbd::JointType>> joints_;
+};
+
+}  // namespace
+
+Machine build(const Model& model) { return Builder(model).build(); }
+
+}  // namespace hersey::model

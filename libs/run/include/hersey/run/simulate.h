@@ -1,0 +1,74 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hersey/model/model.h"
+
+namespace hersey::run {
+
+/// How far a run has come; handed to Options::on_progress after every accepted step.
+struct Progress {
+  double t = 0, t_start = 0, t_end = 0;                   ///< [s]
+  double dt = 0;                                          ///< step just taken [s]
+  int newton_iterations = 0;                              ///< of that step
+  double moft = std::numeric_limits<double>::infinity();  ///< minimum oil film thickness so far, all bearings [m]
+  double elapsed = 0;                                     ///< wall time since the start of the run [s]
+};
+
+enum class Status {
+  completed,  ///< reached the end, or settled
+  stopped,    ///< asked to stop; results up to then are complete
+  failed,     ///< no convergence at the smallest step, or the results file could not be written
+};
+
+/// The extremes and balances of one bearing over a run.
+struct BearingSummary {
+  std::string name;
+  double moft = 0, moft_t = 0, moft_phi = 0, moft_z = 0;  ///< minimum oil film thickness [m], when [s], where [rad, m]
+  double pofp = 0, pofp_t = 0, pofp_phi = 0, pofp_z = 0;  ///< peak oil film pressure [Pa], when, where
+  double max_force = 0;                                   ///< largest film force on the shell [N]
+  double eccentricity_ratio = 0;                          ///< at the end [-]
+  double mean_power = 0;                                  ///< mean friction power, film and asperities [W]
+  double mean_flow = 0;                                   ///< mean oil flow over both edges [m^3/s]
+  double worst_mass_balance = 0;                          ///< largest mass_balance_error of a step [-]
+};
+
+struct Summary {
+  Status status = Status::completed;
+  std::string message;  ///< why it ended early; "settled" where it did because nothing changed any more
+  double t_end = 0;     ///< last accepted time [s]
+  int steps = 0, rejected_steps = 0;
+  int newton_iterations = 0;
+  double worst_power_balance = 0;  ///< largest |power in - power out - energy rate| over the largest power [-]
+  double wall_time = 0;            ///< [s]
+  std::vector<BearingSummary> bearings;
+  std::filesystem::path results;
+};
+
+struct StudyParameterValue {
+  std::string name, text;
+};
+
+struct Options {
+  std::filesystem::path results;                      ///< the HDF5 file to write
+  bool overwrite = false;                             ///< replace an existing one
+  std::function<void(const Progress&)> on_progress;   ///< may be empty
+  const std::atomic<bool>* stop = nullptr;            ///< set from a signal handler: end after the current step
+  std::vector<StudyParameterValue> study_parameters;  ///< of this run, for the results file
+};
+
+/// Simulates `model` from its start to its end and writes the results as it goes.
+///
+/// A step that does not converge is repeated with half its length down to simulation.smallest_step; then the run ends
+/// as `failed` with the time, the worst equation and the reason, its results up to there intact.
+/// @throws InputError where the model cannot start: gap closed, singular mechanism, a table that does not cover the
+/// run.
+/// @throws results::FileExists if the results file exists and is not to be overwritten.
+[[nodiscard]] Summary simulate(const model::Model& model, const Options& options);
+
+}  // namespace hersey::run

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hersey/model/study.h"
+#include "hersey/run/simulate.h"
+
+namespace hersey::study {
+
+/// One run of a study and how it ended.
+struct RunResult {
+  model::StudyRun run;
+  run::Summary summary;
+  std::string error;  ///< the run could not start or write its results; then `summary` is empty
+};
+
+struct Options {
+  std::filesystem::path directory;  ///< results go to directory/<slug>.h5
+  bool overwrite = false;
+  int threads = 0;  ///< runs at the same time; 0: one per core
+  /// Called from the run's own thread, one call at a time.
+  std::function<void(std::size_t run, const run::Progress&)> on_progress;
+  std::function<void(std::size_t run, const RunResult&)> on_finished;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// The results file of one run.
+[[nodiscard]] std::filesystem::path results_file(const Options& options, const model::StudyRun& run);
+
+/// Simulates every run of `runs` (model::expand_study) from the model file at `path`, several at a time. A run that
+/// fails does not stop the others.
+[[nodiscard]] std::vector<RunResult> simulate_all(const std::string& path, const std::vector<model::StudyRun>& runs,
+                                                  const Options& options);
+
+}  // namespace hersey::study

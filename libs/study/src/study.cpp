@@ -1,0 +1,66 @@
+#include "hersey/study/study.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "hersey/model/read.h"
+
+namespace hersey::study {
+namespace {
+
+// Work shared by the threads: the next run, and one lock for everything that talks to the caller.
+struct Queue {
+  std::atomic<std::size_t> next{0};
+  std::mutex speak;
+};
+
+RunResult simulate_one(const std::string& path, const model::StudyRun& run, const Options& options, std::size_t index,
+                       Queue& queue) {
+  RunResult result{.run = run, .summary = {}, .error = {}};
+  run::Options run_options;
+  run_options.results = results_file(options, run);
+  run_options.overwrite = options.overwrite;
+  run_options.stop = options.stop;
+  for (const model::StudyValue& value : run.values) run_options.study_parameters.push_back({value.name, value.text});
+  run_options.on_progress = [&](const run::Progress& progress) {
+    if (!options.on_progress) return;
+    const std::scoped_lock lock(queue.speak);
+    options.on_progress(index, progress);
+  };
+  try {
+    result.summary = run::simulate(model::read(path, run.overrides), run_options);
+  } catch (const std::exception& error) {
+    result.error = error.what();
+  }
+  return result;
+}
+
+}  // namespace
+
+std::filesystem::path results_file(const Options& options, const model::StudyRun& run) {
+  return options.directory / (run.slug + ".h5");
+}
+
+std::vector<RunResult> simulate_all(const std::string& path, const std::vector<model::StudyRun>& runs,
+                                    const Options& options) {
+  std::vector<RunResult> results(runs.size());
+  Queue queue;
+  const auto work = [&] {
+    for (std::size_t i = queue.next++; i < runs.size(); i = queue.next++) {
+      results[i] = simulate_one(path, runs[i], options, i, queue);
+      const std::scoped_lock lock(queue.speak);
+      if (options.on_finished) options.on_finished(i, results[i]);
+    }
+  };
+  const std::size_t wanted =
+      options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
+  std::vector<std::jthread> threads;
+  for (std::size_t i = 1; i < std::min(std::max<std::size_t>(wanted, 1), runs.size()); ++i) threads.emplace_back(work);
+  work();
+  threads.clear();
+  return results;
+}
+
+}  // namespace hersey::study
