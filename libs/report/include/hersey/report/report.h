@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hersey::report {
+
+/// One line of the closing table: a number in the units engineers use, and where or when it occurred.
+struct SummaryRow {
+  std::string run;    ///< name of the results file without extension
+  std::string group;  ///< "run", or the name of a bearing
+  std::string name;   ///< e.g. "minimum film thickness (MOFT)"
+  double value = 0;   ///< in `unit`
+  std::string unit;   ///< e.g. "µm"; "" for a pure number
+  std::string where;  ///< e.g. "t = 12.35 ms, φ = 173.2°, z = 0.00 mm"; may be empty
+};
+
+/// The numbers an engineer asks for first, from every row of the results files (definitions: docs/results-file.md).
+/// @throws results::ReadError if a file cannot be read.
+/// @verified_by summary_test.cpp
+[[nodiscard]] std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& results);
+
+/// The same as JSON: [{"run", "group", "name", "value", "unit", "where"}, ...].
+[[nodiscard]] std::string summary_json(const std::vector<std::filesystem::path>& results);
+
+struct ReportOptions {
+  std::string title;               ///< empty: the first file's title
+  std::size_t series_rows = 4000;  ///< most rows of a time series shown per run; more are thinned evenly
+  std::size_t field_bytes = std::size_t{24} << 20;  ///< most bytes for all stored fields together; else fewer instants
+};
+
+/// Writes one HTML file that shows a run, or several as a study: no network, no other file, any browser.
+///
+/// Time series and fields are thinned to the options' limits (the page says so); the summary is not: it sees every row.
+/// @throws results::ReadError if a results file cannot be read; results::WriteError if `out` cannot be written.
+/// @pre results is not empty.
+/// @verified_by report_test.cpp, tests/report_browser
+void write_html(const std::vector<std::filesystem::path>& results, const std::filesystem::path& out,
+                const ReportOptions& options = {});
+
+}  // namespace hersey::report

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace hersey::report {
+
+/// The report's page without data: one HTML file built by web/. Data takes the place of its empty data element.
+[[nodiscard]] std::string_view report_page();
+
+}  // namespace hersey::report
