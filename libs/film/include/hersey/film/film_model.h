@@ -40,15 +40,19 @@ enum class AsperityModel { none, greenwood_tripp_fit, greenwood_tripp_exact };
 /// p_a = K E F_{5/2}(h/sigma).
 struct Asperities {
   AsperityModel model = AsperityModel::none;
-  double sigma = 1e-6;            ///< composite rms summit roughness [m], > 0
-  double elastic_factor = 3e-3;   ///< K [-], >= 0
-  double composite_modulus = 0;   ///< E [Pa], >= 0
-  double mu_friction = 0;         ///< boundary friction coefficient [-], >= 0
+  double sigma = 1e-6;           ///< composite rms summit roughness [m], > 0
+  double elastic_factor = 3e-3;  ///< K [-], >= 0
+  double composite_modulus = 0;  ///< E [Pa], >= 0
+  double mu_friction = 0;        ///< boundary friction coefficient [-], >= 0
 };
 
 enum class CavitatedShear { full, film_share };
 enum class ShearForce { full, torque_only };
 enum class FilmSolver { newton, sor };
+
+/// What the rows at z = -L/2 and +L/2 are: oil at a given pressure, or a wall no oil passes (a bearing of infinite
+/// width).
+enum class EdgeKind { pressure, closed };
 
 /// Everything constant about one film. Pressures are on one common scale, gauge or absolute alike.
 struct FilmModel {
@@ -58,7 +62,7 @@ struct FilmModel {
   Grid grid;
   Lubricant lubricant;
   Cavitation cavitation = Cavitation::mass_conserving;
-  double p_cav = 0;       ///< cavitation pressure [Pa]
+  double p_cav = 0;         ///< cavitation pressure [Pa]
   double p_edge_left = 0;   ///< pressure at z = -L/2 [Pa], >= p_cav
   double p_edge_right = 0;  ///< pressure at z = +L/2 [Pa], >= p_cav
   SupplyLine supply;
@@ -66,7 +70,12 @@ struct FilmModel {
   double compliance = 0;  ///< column compliance w/p = length / composite modulus [m/Pa], >= 0; 0: rigid
   CavitatedShear cavitated_shear = CavitatedShear::film_share;
   ShearForce shear_force = ShearForce::full;
+  EdgeKind edges = EdgeKind::pressure;
 };
+
+/// P0, the constant [Pa] that scales the fill fraction's unknown: theta = 1 + min(u, 0)/P0. It equals the pressure
+/// scale 6 mu0 omega (R/c)^2 dphi at 1000 rad/s and has no influence on the solution (film.6).
+[[nodiscard]] double fill_scale(const FilmModel& model);
 
 /// What the film sees of its two surfaces at one instant, in the frame of the grid. The grid may turn in any way: the
 /// speeds are relative to it and `g_rate` is taken at its fixed points, which makes the equations frame-invariant.
@@ -80,12 +89,12 @@ struct SurfaceMotion {
   double phi_supply = 0;   ///< where the supply line is now [rad]; ignored without one
 };
 
-/// The film at the start of the step being solved. dt = 0 drops every storage term but h theta_rate = 0: a steady film
-/// under the given g_rate.
+/// The film at the start of the step being solved. dt = 0 leaves theta g_rate as the only storage: a steady film under
+/// the given g_rate. The fill fraction is first order in time, a full film follows the exact g_rate (film.8).
 struct FilmHistory {
-  double dt = 0;           ///< [s]
-  Eigen::VectorXd theta;   ///< fill fraction at the start [-], shape (grid.size()); unused for dt = 0
-  Eigen::VectorXd w;       ///< compliance deformation at the start [m]; unused for dt = 0
+  double dt = 0;          ///< [s]
+  Eigen::VectorXd theta;  ///< fill fraction at the start [-], shape (grid.size()); unused for dt = 0
+  Eigen::VectorXd w;      ///< compliance deformation at the start [m]; unused for dt = 0
 };
 
 }  // namespace hersey::film

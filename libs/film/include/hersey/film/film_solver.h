@@ -22,7 +22,8 @@ struct FilmSolveSummary {
   std::string message;  ///< why it ended, where it did not converge
 };
 
-/// Solves the film for u at given surfaces, starting from `u` (all zeros is a cold start). On failure `u` is the last iterate.
+/// Solves the film for u at given surfaces, starting from `u` (all zeros is a cold start). On failure `u` is the last
+/// iterate.
 [[nodiscard]] FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                           const FilmSolveOptions& options, Eigen::VectorXd& u);
 

@@ -9,30 +9,34 @@ namespace hersey::film {
 
 /// Fields of a solved film at the nodes, shape (n_phi n_z) each.
 struct FilmFields {
-  Eigen::VectorXd p;      ///< film pressure [Pa]
-  Eigen::VectorXd theta;  ///< fill fraction [-]
-  Eigen::VectorXd h;      ///< film thickness, deformation included [m]
-  Eigen::VectorXd w;      ///< column deformation [m]
+  Eigen::VectorXd p;           ///< film pressure [Pa]
+  Eigen::VectorXd theta;       ///< fill fraction [-]
+  Eigen::VectorXd h;           ///< film thickness, deformation included [m]
+  Eigen::VectorXd w;           ///< column deformation [m]
   Eigen::VectorXd p_asperity;  ///< asperity contact pressure [Pa]
 };
 
 /// What an engineer asks of a film (docs: definitions as in theory manual, chapter film).
 struct FilmObservables {
-  double h_min = 0, h_min_phi = 0, h_min_z = 0;  ///< smallest film thickness on the surface, edges included, and where [m, rad, m]
-  double h_min_centre = 0;                       ///< smallest film thickness at z = 0 [m]
+  double h_min = 0, h_min_phi = 0,
+         h_min_z = 0;       ///< smallest film thickness on the surface, edges included, and where [m, rad, m]
+  double h_min_centre = 0;  ///< smallest film thickness at z = 0 [m]
   double p_max = 0, p_max_phi = 0, p_max_z = 0;  ///< interpolated peak of the film pressure and where [Pa, rad, m]
   double p_max_node = 0;                         ///< largest nodal pressure [Pa]
+  Vector6 wrench_on_shell =
+      Vector6::Zero();  ///< [moment about the grid's origin; force], grid axes; the journal takes its negative
   Vector3 force_pressure, force_shear, force_asperity;  ///< parts of the force on the shell [N], grid axes
-  double torque_journal = 0;   ///< friction torque on the journal about its own axis [N m]
-  double torque_shell = 0;     ///< friction torque on the shell about its own axis [N m]
-  double power_film = 0;       ///< viscous dissipation: Couette and Poiseuille [W]
-  double power_asperity = 0;   ///< boundary friction [W]
-  double flow_left = 0, flow_right = 0;  ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]
-  double flow_supply = 0;      ///< oil entering through the supply line [m^3/s]
-  double storage_rate = 0;     ///< rate of change of the oil volume in the film [m^3/s]
-  double oil_volume = 0;       ///< integral of theta h [m^3]
+  double torque_journal = 0;                            ///< friction torque on the journal about its own axis [N m]
+  double torque_shell = 0;                              ///< friction torque on the shell about its own axis [N m]
+  double power_film = 0;                                ///< viscous dissipation: Couette and Poiseuille [W]
+  double power_asperity = 0;                            ///< boundary friction [W]
+  double flow_left = 0, flow_right = 0;                 ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]
+  double flow_supply = 0;                               ///< oil entering through the supply line [m^3/s]
+  double storage_rate = 0;                              ///< rate of change of the oil volume in the film [m^3/s]
+  double oil_volume = 0;                                ///< integral of theta h [m^3]
   double mass_balance_error = 0;  ///< |supply - left - right - storage| over the largest of the flows and U c L [-]
-  double cavitated_share = 0;  ///< share of the area with theta < 1 or (other models) p <= p_cav without film action [-]
+  double cavitated_share =
+      0;  ///< share of the area with theta < 1 or (other models) p <= p_cav without film action [-]
 };
 
 /// Fields at the nodes from the unknown u.

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "hersey/core/spatial.h"
+#include "hersey/film/reynolds.h"
+#include "node.h"
+
+namespace hersey::film {
+
+/// The film's wrench on the shell at the grid's origin, [moment; force] in grid axes, by origin, with its derivatives
+/// (theory manual, film.17 to film.21).
+class FilmWrench {
+ public:
+  explicit FilmWrench(const FilmModel& model);
+
+  /// Sums the tractions of all nodes; with `want_gradient` also their derivatives.
+  void evaluate(const std::vector<Node>& nodes, const SurfaceMotion& motion, bool want_gradient);
+
+  [[nodiscard]] const Vector6& total() const { return total_; }
+  [[nodiscard]] const Vector6& pressure() const { return pressure_; }
+  [[nodiscard]] const Vector6& shear() const { return shear_; }        ///< of the film; its force is 0 for torque_only
+  [[nodiscard]] const Vector6& asperity() const { return asperity_; }  ///< contact pressure and boundary friction
+
+  /// d total / du at fixed surfaces, times du.
+  [[nodiscard]] Vector6 along_u(const Eigen::VectorXd& du) const { return by_u_ * du; }
+  /// d total / d(direction) at fixed u.
+  [[nodiscard]] Vector6 along(const MotionDirection& direction) const;
+  [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& gradient_u() const { return by_u_; }
+
+ private:
+  /// Wrenches of unit tractions at one node: outwards, along phi and along z; the last two also as the film's shear
+  /// counts them.
+  struct Basis {
+    Vector6 radial, tangential, axial, shear_tangential, shear_axial;
+  };
+  [[nodiscard]] Basis basis(int i, int j) const;
+  void add_node(const std::vector<Node>& nodes, int i, int j, bool want_gradient);
+  void set_speeds(const SurfaceMotion& motion);
+
+  FilmModel model_;
+  double dx_ = 0, dz_ = 0;
+  Eigen::VectorXd cosine_, sine_;
+  Vector6 total_, pressure_, shear_, asperity_;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_;
+  Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z
+  Eigen::Vector2d slip_;                 ///< that speed [m/s]
+  Eigen::Vector2d friction_;             ///< boundary friction per contact pressure on the shell [-]
+  Eigen::Matrix2d friction_slip_;        ///< its derivative with slip [s/m]
+};
+
+}  // namespace hersey::film

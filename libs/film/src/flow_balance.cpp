@@ -1,0 +1,307 @@
+#include "flow_balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::film {
+namespace {
+
+// Beside the supply line its condition is tied to the film by this many conductance scales: enough to fill the gap at
+// any speed, while the line's way from node to node stays smooth (film.13).
+constexpr double supply_stiffness = 1000;
+
+void check(const FilmModel& m) {
+  HERSEY_REQUIRE(m.R > 0 && m.L > 0 && m.c > 0, "a bearing has radius, width and clearance");
+  HERSEY_REQUIRE(m.grid.n_phi >= 4 && m.grid.n_z >= 3, "the grid needs 4 x 3 nodes at least");
+  HERSEY_REQUIRE(m.lubricant.mu0 > 0 && m.lubricant.alpha >= 0, "viscosity is positive");
+  HERSEY_REQUIRE(m.compliance >= 0, "compliance is not negative");
+  HERSEY_REQUIRE(m.p_edge_left >= m.p_cav && m.p_edge_right >= m.p_cav, "edges lie at or above p_cav");
+  HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.supply.pressure >= m.p_cav, "supply lies at or above p_cav");
+  HERSEY_REQUIRE(m.asperities.model == AsperityModel::none || m.asperities.sigma > 0, "roughness is positive");
+}
+
+}  // namespace
+
+FlowBalance::FlowBalance(const FilmModel& model) : model_(model), law_(model_) {
+  check(model_);
+  const Grid& grid = model_.grid;
+  dx_ = 2 * std::numbers::pi * model_.R / grid.n_phi;
+  dz_ = model_.L / (grid.n_z - 1);
+  D0_ = model_.c * model_.c * model_.c / (12 * model_.lubricant.mu0) * 2 * (dz_ / dx_ + dx_ / dz_);
+  area_.assign(grid.n_z, dx_ * dz_);
+  area_.front() = area_.back() = dx_ * dz_ / 2;
+  lay_faces();
+  lay_pattern();
+  const int n = grid.size();
+  nodes_.resize(n);
+  flows_.resize(faces_.size());
+  for (auto* field : {&residual_, &balance_, &throughput_, &g_rate_, &w_start_, &u_}) field->setZero(n);
+  theta_start_.setOnes(n);
+}
+
+void FlowBalance::lay_faces() {
+  const Grid& grid = model_.grid;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      const double width = area_[j] / dx_;
+      faces_.push_back({grid.index(i, j), grid.index((i + 1) % grid.n_phi, j), width, dx_, {}});
+    }
+  }
+  first_axial_face_ = faces_.size();
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j + 1 < grid.n_z; ++j) faces_.push_back({grid.index(i, j), grid.index(i, j + 1), dx_, dz_, {}});
+  }
+}
+
+void FlowBalance::lay_pattern() {
+  const int n = size(), n_z = model_.grid.n_z;
+  const auto balanced = [&](int node) { return !edge_row(node % n_z); };
+  std::vector<std::set<int>> rows_of_column(n);
+  for (int i = 0; i < n; ++i) rows_of_column[i].insert(i);
+  for (const Face& face : faces_) {
+    if (balanced(face.a)) rows_of_column[face.b].insert(face.a);
+    if (balanced(face.b)) rows_of_column[face.a].insert(face.b);
+  }
+  column_start_.assign(1, 0);
+  row_slots_.resize(n);
+  for (int column = 0; column < n; ++column) {
+    for (int row : rows_of_column[column]) {
+      row_slots_[row].push_back(static_cast<int>(row_index_.size()));
+      row_index_.push_back(row);
+    }
+    column_start_.push_back(static_cast<int>(row_index_.size()));
+  }
+  const int nowhere = static_cast<int>(row_index_.size());
+  const auto slot = [&](int row, int column) {
+    if (!balanced(row)) return nowhere;
+    const auto begin = row_index_.begin() + column_start_[column], end = row_index_.begin() + column_start_[column + 1];
+    return static_cast<int>(std::lower_bound(begin, end, row) - row_index_.begin());
+  };
+  for (Face& f : faces_) f.slots = {slot(f.a, f.a), slot(f.a, f.b), slot(f.b, f.a), slot(f.b, f.b)};
+  for (int i = 0; i < n; ++i) {
+    const auto begin = row_index_.begin() + column_start_[i];
+    diagonal_slot_.push_back(static_cast<int>(std::find(begin, row_index_.end(), i) - row_index_.begin()));
+  }
+  values_.resize(row_index_.size() + 1);
+}
+
+bool FlowBalance::edge_row(int j) const {
+  return model_.edges == EdgeKind::pressure && (j == 0 || j == model_.grid.n_z - 1);
+}
+
+double FlowBalance::edge_unknown(int j) const {
+  return (j == 0 ? model_.p_edge_left : model_.p_edge_right) - model_.p_cav;
+}
+
+double FlowBalance::supply_share(int i, int j) const {
+  if (edge_row(j)) return 0;
+  double chi = 0;
+  for (const SupplyColumn& column : supply_) {
+    if (column.i == i) chi = std::max(chi, column.chi);
+  }
+  return chi;
+}
+
+void FlowBalance::find_supply(double phi) {
+  supply_ = {};
+  if (model_.supply.kind == SupplyKind::none) return;
+  const int n_phi = model_.grid.n_phi;
+  const double dphi = 2 * std::numbers::pi / n_phi;
+  const double place = phi / dphi, below = std::floor(place + 1e-9);
+  const double t = std::max(0.0, place - below);
+  const int i = static_cast<int>(std::fmod(std::fmod(below, n_phi) + n_phi, n_phi));
+  // Fourth power of the hat function: each node lets go of the line over a good part of a cell.
+  const auto column = [&](int index, double hat, double hat_phi) {
+    return SupplyColumn{index, std::pow(hat, 4), 4 * std::pow(hat, 3) * hat_phi};
+  };
+  supply_ = {column(i, 1 - t, -1 / dphi), column((i + 1) % n_phi, t, 1 / dphi)};
+}
+
+void FlowBalance::take_history(const FilmHistory& history) {
+  HERSEY_REQUIRE(history.dt >= 0, "time runs forwards");
+  dt_ = history.dt;
+  if (dt_ == 0) return;
+  HERSEY_REQUIRE(history.theta.size() == size() && history.w.size() == size(), "history of shape (grid.size())");
+  if (model_.cavitation == Cavitation::mass_conserving) theta_start_ = history.theta;
+  w_start_ = history.w;
+}
+
+void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
+  const int n = size();
+  HERSEY_REQUIRE(motion.g.size() == n && motion.g_rate.size() == n, "gap and rate of shape (grid.size())");
+  HERSEY_REQUIRE(u.size() == n, "u of shape (grid.size())");
+  take_history(history);
+  find_supply(motion.phi_supply);
+  g_rate_ = motion.g_rate;
+  u_ = u;
+  speed_phi_ = 0.5 * (motion.u_shell + motion.u_journal);
+  speed_z_ = 0.5 * (motion.w_shell + motion.w_journal);
+  for (int i = 0; i < n; ++i) {
+    nodes_[i] = law_.state(motion.g[i], u[i]);
+    HERSEY_REQUIRE(nodes_[i].h > 0, "the film has closed at node " + std::to_string(i));
+    balance_[i] = storage(i);
+    throughput_[i] = std::abs(balance_[i]);
+  }
+  for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
+  replace_boundary_rows(u);
+  largest_throughput_ = throughput_.maxCoeff();
+}
+
+void FlowBalance::add_face(std::size_t f) {
+  const Face& face = faces_[f];
+  const Node &a = nodes_[face.a], &b = nodes_[face.b];
+  const double speed = entrainment(f);
+
+  // Flow (film.9): q = K (p_a - p_b) + U h theta_upwind, with K = h^3/(12 mu) width/length.
+  const double h = 0.5 * (a.h + b.h), fluidity = 0.5 * (a.fluidity + b.fluidity);
+  const double theta = speed >= 0 ? a.theta : b.theta;
+  const double unit = h * h * face.width / (12 * face.length), drop = a.p - b.p;
+  FaceFlow& flow = flows_[f];
+  flow.K = unit * h * fluidity;
+  flow.couette = speed * h * face.width;
+  flow.q_h = 3 * unit * fluidity * drop + speed * face.width * theta;
+  flow.q_fluidity = unit * h * drop;
+
+  const double poiseuille = flow.K * drop, entrained = flow.couette * theta;
+  balance_[face.a] += poiseuille + entrained;
+  balance_[face.b] -= poiseuille + entrained;
+  const double passing = 0.5 * (std::abs(poiseuille) + std::abs(entrained));
+  throughput_[face.a] += passing;
+  throughput_[face.b] += passing;
+}
+
+// Storage (film.8): theta_n g_rate + ((theta - theta_n) h + theta_n (w - w_n))/dt per area; in a steady film theta
+// g_rate.
+double FlowBalance::storage(int i) const {
+  const Node& node = nodes_[i];
+  const double a = area_[i % model_.grid.n_z];
+  if (dt_ == 0) return a * node.theta * g_rate_[i];
+  const double theta_n = theta_start_[i];
+  return a * (theta_n * g_rate_[i] + ((node.theta - theta_n) * node.h + theta_n * (node.w - w_start_[i])) / dt_);
+}
+
+double FlowBalance::storage_u(int i) const {
+  const Node& node = nodes_[i];
+  const double a = area_[i % model_.grid.n_z];
+  return dt_ == 0 ? a * node.theta_u * g_rate_[i] : a * (node.theta_u * node.h + node.theta * node.h_u) / dt_;
+}
+
+double FlowBalance::storage_g(int i) const {
+  return dt_ == 0 ? 0 : area_[i % model_.grid.n_z] * (nodes_[i].theta * nodes_[i].h_g - theta_start_[i]) / dt_;
+}
+
+double FlowBalance::storage_g_rate(int i) const {
+  return area_[i % model_.grid.n_z] * (dt_ == 0 ? nodes_[i].theta : theta_start_[i]);
+}
+
+void FlowBalance::replace_boundary_rows(const Eigen::VectorXd& u) {
+  const Grid& grid = model_.grid;
+  residual_ = balance_;
+  if (model_.cavitation == Cavitation::reynolds) residual_ += D0_ * u.cwiseMin(0.0);
+  for (const SupplyColumn& column : supply_) {
+    if (column.chi == 0) continue;
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int i = grid.index(column.i, j);
+      const double given = supply_stiffness * D0_ * (u[i] - supply_unknown());
+      residual_[i] = (1 - column.chi) * residual_[i] + column.chi * given;
+      throughput_[i] = std::max(throughput_[i], D0_ * std::abs(supply_unknown()));
+    }
+  }
+  for (int j = 0; j < grid.n_z; ++j) {
+    if (!edge_row(j)) continue;
+    for (int i = 0; i < grid.n_phi; ++i) {
+      const int node = grid.index(i, j);
+      residual_[node] = D0_ * (u[node] - edge_unknown(j));
+      throughput_[node] = std::max(throughput_[node], D0_ * std::abs(edge_unknown(j)));
+    }
+  }
+}
+
+double FlowBalance::relative_residual() const {
+  const double largest = residual_.cwiseAbs().maxCoeff();
+  return largest == 0 ? 0 : largest / largest_throughput_;
+}
+
+int FlowBalance::worst_node() const {
+  int worst = 0;
+  residual_.cwiseAbs().maxCoeff(&worst);
+  return worst;
+}
+
+void FlowBalance::assemble_jacobian() {
+  const Grid& grid = model_.grid;
+  std::fill(values_.begin(), values_.end(), 0.0);
+  const bool slack = model_.cavitation == Cavitation::reynolds;
+  for (int i = 0; i < size(); ++i) {
+    values_[diagonal_slot_[i]] = storage_u(i) + (slack && u_[i] < 0 ? D0_ : 0);
+  }
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
+    const FaceFlow& flow = flows_[f];
+    const Node &a = nodes_[face.a], &b = nodes_[face.b];
+    const bool from_a = entrainment(f) >= 0;
+    const double q_a = flow.K * a.p_u + 0.5 * (flow.q_h * a.h_u + flow.q_fluidity * a.fluidity_u) +
+                       (from_a ? flow.couette * a.theta_u : 0);
+    const double q_b = -flow.K * b.p_u + 0.5 * (flow.q_h * b.h_u + flow.q_fluidity * b.fluidity_u) +
+                       (from_a ? 0 : flow.couette * b.theta_u);
+    values_[face.slots[0]] += q_a;
+    values_[face.slots[1]] += q_b;
+    values_[face.slots[2]] -= q_a;
+    values_[face.slots[3]] -= q_b;
+  }
+  for (const SupplyColumn& column : supply_) {
+    if (column.chi == 0) continue;
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int i = grid.index(column.i, j);
+      for (int slot : row_slots_[i]) values_[slot] *= 1 - column.chi;
+      values_[diagonal_slot_[i]] += column.chi * supply_stiffness * D0_;
+    }
+  }
+  for (int j = 0; j < grid.n_z; ++j) {
+    if (!edge_row(j)) continue;
+    for (int i = 0; i < grid.n_phi; ++i) values_[diagonal_slot_[grid.index(i, j)]] = D0_;
+  }
+}
+
+void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
+  const Grid& grid = model_.grid;
+  const int n = size();
+  const bool gap = direction.g.size() != 0, rate = direction.g_rate.size() != 0;
+  HERSEY_REQUIRE(!gap || direction.g.size() == n, "direction of shape (grid.size()) or empty");
+  HERSEY_REQUIRE(!rate || direction.g_rate.size() == n, "direction of shape (grid.size()) or empty");
+  dr.setZero(n);
+  for (int i = 0; i < n; ++i) {
+    if (gap) dr[i] += storage_g(i) * direction.g[i];
+    if (rate) dr[i] += storage_g_rate(i) * direction.g_rate[i];
+  }
+  const double speed_phi = 0.5 * (direction.u_shell + direction.u_journal);
+  const double speed_z = 0.5 * (direction.w_shell + direction.w_journal);
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
+    const Node &a = nodes_[face.a], &b = nodes_[face.b];
+    const double theta = entrainment(f) >= 0 ? a.theta : b.theta;
+    double q = (f < first_axial_face_ ? speed_phi : speed_z) * 0.5 * (a.h + b.h) * face.width * theta;
+    if (gap) q += flows_[f].q_h * 0.5 * (a.h_g * direction.g[face.a] + b.h_g * direction.g[face.b]);
+    dr[face.a] += q;
+    dr[face.b] -= q;
+  }
+  for (const SupplyColumn& column : supply_) {
+    if (column.chi == 0) continue;
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int i = grid.index(column.i, j);
+      const double slack = model_.cavitation == Cavitation::reynolds ? D0_ * std::min(u_[i], 0.0) : 0;
+      const double given = supply_stiffness * D0_ * (u_[i] - supply_unknown());
+      dr[i] = (1 - column.chi) * dr[i] + column.chi_phi * direction.phi_supply * (given - balance_[i] - slack);
+    }
+  }
+  for (int j = 0; j < grid.n_z; ++j) {
+    if (!edge_row(j)) continue;
+    for (int i = 0; i < grid.n_phi; ++i) dr[grid.index(i, j)] = 0;
+  }
+}
+
+}  // namespace hersey::film

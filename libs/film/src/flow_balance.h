@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "hersey/film/reynolds.h"
+#include "node.h"
+
+namespace hersey::film {
+
+/// A face between the control volumes of the nodes `a` and `b`; its flow counts positive from a to b.
+struct Face {
+  int a = 0, b = 0;
+  double width = 0;            ///< across the flow [m]
+  double length = 0;           ///< from a to b [m]
+  std::array<int, 4> slots{};  ///< where (a,a), (a,b), (b,a), (b,b) stand among the Jacobian's values
+};
+
+/// The flow over a face, linearised (film.9): dq = K d(p_a - p_b) + q_h dh + q_fluidity d(1/mu) + couette d
+/// theta_upwind.
+struct FaceFlow {
+  double K = 0;           ///< conductance [m^3/(Pa s)]
+  double q_h = 0;         ///< with the face's film thickness [m^2/s]
+  double q_fluidity = 0;  ///< with the face's 1/mu
+  double couette = 0;     ///< entrained flow of a full gap [m^3/s]
+};
+
+/// Balance of oil in every control volume, its Jacobian in u and its derivative along any change of the surfaces.
+///
+/// Rows of the residual [m^3/s]: outflow plus storage in the film, u - u_given times a conductance where pressure is
+/// given, a blend of both beside the supply line (film.10 to film.13).
+class FlowBalance {
+ public:
+  explicit FlowBalance(const FilmModel& model);
+  FlowBalance(const FlowBalance&) = delete;
+  FlowBalance& operator=(const FlowBalance&) = delete;
+
+  [[nodiscard]] const FilmModel& model() const { return model_; }
+  [[nodiscard]] int size() const { return model_.grid.size(); }
+
+  /// Nodes, flows and residual at `u`.
+  void evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
+
+  /// Values of the Jacobian at the state of the last evaluate(), in the order of the pattern.
+  void assemble_jacobian();
+
+  void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
+
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
+  [[nodiscard]] const std::vector<FaceFlow>& flows() const { return flows_; }
+  [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
+  /// Outflow plus storage of every control volume, boundary nodes included: there it is the oil fed from outside.
+  [[nodiscard]] const Eigen::VectorXd& balance() const { return balance_; }
+  [[nodiscard]] double storage(int node) const;  ///< [m^3/s]
+  [[nodiscard]] double largest_throughput() const { return largest_throughput_; }
+  [[nodiscard]] double relative_residual() const;
+  [[nodiscard]] int worst_node() const;
+  [[nodiscard]] double area(int j) const { return area_[j]; }  ///< of the control volumes in axial row j [m^2]
+  [[nodiscard]] double speed_phi() const { return speed_phi_; }
+  [[nodiscard]] double speed_z() const { return speed_z_; }
+  [[nodiscard]] bool edge_row(int j) const;
+  /// Share chi of the supply condition in node (i, j)'s row: 0 away from the line, 1 on it.
+  [[nodiscard]] double supply_share(int i, int j) const;
+
+  [[nodiscard]] const std::vector<int>& column_start() const { return column_start_; }
+  [[nodiscard]] const std::vector<int>& row_index() const { return row_index_; }
+  [[nodiscard]] std::span<const double> values() const { return {values_.data(), row_index_.size()}; }
+  [[nodiscard]] int diagonal_slot(int node) const { return diagonal_slot_[node]; }
+  /// Conductance scale of the model, c^3/(12 mu0) (2 dz/dx + 2 dx/dz) [m^3/(Pa s)].
+  [[nodiscard]] double conductance_scale() const { return D0_; }
+
+ private:
+  struct SupplyColumn {
+    int i = 0;
+    double chi = 0, chi_phi = 0;  ///< share of the condition and d/d phi_supply [-, 1/rad]
+  };
+
+  void lay_faces();
+  void lay_pattern();
+  void find_supply(double phi);
+  void take_history(const FilmHistory& history);
+  void add_face(std::size_t f);
+  void replace_boundary_rows(const Eigen::VectorXd& u);
+  [[nodiscard]] double edge_unknown(int j) const;
+  [[nodiscard]] double storage_u(int node) const;
+  [[nodiscard]] double storage_g(int node) const;
+  [[nodiscard]] double storage_g_rate(int node) const;
+  /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
+  [[nodiscard]] double entrainment(std::size_t f) const { return f < first_axial_face_ ? speed_phi_ : speed_z_; }
+  [[nodiscard]] double supply_unknown() const { return model_.supply.pressure - model_.p_cav; }
+
+  FilmModel model_;
+  NodeLaw law_;
+  double dx_ = 0, dz_ = 0, D0_ = 0;
+  std::vector<double> area_;
+  std::vector<Face> faces_;
+  std::size_t first_axial_face_ = 0;
+  std::vector<int> column_start_, row_index_, diagonal_slot_;
+  std::vector<std::vector<int>> row_slots_;  ///< of every row the slots of its entries
+
+  std::vector<Node> nodes_;
+  std::vector<FaceFlow> flows_;
+  std::vector<double> values_;  ///< one more than the pattern: rows without a balance scatter there
+  Eigen::VectorXd residual_, balance_, throughput_, g_rate_, theta_start_, w_start_, u_;
+  std::array<SupplyColumn, 2> supply_{};
+  double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, largest_throughput_ = 0;
+};
+
+}  // namespace hersey::film

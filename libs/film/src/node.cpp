@@ -1,0 +1,90 @@
+#include "node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hersey/film/greenwood_tripp.h"
+
+namespace hersey::film {
+namespace {
+
+// Without a fill fraction of their own, guembel and reynolds fade Couette shear out over this part of the fill scale,
+// so that the friction has no jump where a node cavitates.
+constexpr double shear_fade = 1e-3;
+
+}  // namespace
+
+double fill_scale(const FilmModel& model) {
+  const double slope = model.R / model.c;
+  return 6 * model.lubricant.mu0 * 1000.0 * slope * slope * (2 * std::numbers::pi / model.grid.n_phi);
+}
+
+NodeLaw::NodeLaw(const FilmModel& model)
+    : model_(model),
+      fill_scale_(fill_scale(model)),
+      contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus) {}
+
+Node NodeLaw::state(double g, double u) const {
+  Node node;
+  pressure_and_fill(u, node);
+  node.fluidity = std::exp(-model_.lubricant.alpha * node.p) / model_.lubricant.mu0;
+  node.fluidity_u = -model_.lubricant.alpha * node.fluidity * node.p_u;
+  film_thickness(g, node);
+  return node;
+}
+
+void NodeLaw::pressure_and_fill(double u, Node& node) const {
+  const bool full = u >= 0;
+  node.wall = model_.p_cav + std::max(u, 0.0);
+  node.wall_u = full ? 1 : 0;
+  node.p = std::max(u, 0.0);
+  node.p_u = node.wall_u;
+  if (model_.cavitation == Cavitation::guembel) node.p = u, node.p_u = 1;
+  if (full) return;
+  if (model_.cavitation == Cavitation::mass_conserving) {
+    node.theta = 1 + u / fill_scale_;
+    node.theta_u = 1 / fill_scale_;
+  }
+  if (model_.cavitated_shear == CavitatedShear::full) return;
+  if (model_.cavitation == Cavitation::mass_conserving) {
+    node.share = node.theta;
+    node.share_u = node.theta_u;
+  } else {
+    node.share = std::max(0.0, 1 + u / (shear_fade * fill_scale_));
+    node.share_u = node.share > 0 ? 1 / (shear_fade * fill_scale_) : 0;
+  }
+}
+
+void NodeLaw::film_thickness(double g, Node& node) const {
+  const double C = model_.compliance;
+  // h - g - C (p + p_a(h)) = 0 is increasing and concave in h: Newton from its left side rises to the root.
+  node.h = g + C * node.wall;
+  contact(node.h, node);
+  double slope = 1 - C * node.asperity_h;
+  if (C > 0 && node.asperity > 0) {
+    for (int i = 0; i < 50; ++i) {
+      const double excess = node.h - g - C * (node.wall + node.asperity);
+      const double step = -excess / slope;
+      node.h += step;
+      contact(node.h, node);
+      slope = 1 - C * node.asperity_h;
+      if (std::abs(step) <= 1e-15 * model_.c) break;
+    }
+  }
+  node.h_g = 1 / slope;
+  node.h_u = C * node.wall_u / slope;
+  node.w = C * (node.wall + node.asperity);
+}
+
+void NodeLaw::contact(double h, Node& node) const {
+  const Asperities& a = model_.asperities;
+  if (a.model == AsperityModel::none) return;
+  const double H = h / a.sigma;
+  const ValueAndSlope F =
+      a.model == AsperityModel::greenwood_tripp_fit ? greenwood_tripp_fit(H) : greenwood_tripp_exact(H);
+  node.asperity = contact_scale_ * F.value;
+  node.asperity_h = contact_scale_ * F.slope / a.sigma;
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "hersey/film/film_model.h"
+
+namespace hersey::film {
+
+/// Everything the film is at one node, with derivatives: x_u = dx/du, x_g = dx/dg (theory manual, film.5 to film.7).
+struct Node {
+  double p = 0, p_u = 0;                ///< pressure above p_cav in the balance of flows [Pa]
+  double wall = 0, wall_u = 0;          ///< pressure the walls feel, p_cav + max(u, 0) [Pa]
+  double theta = 1, theta_u = 0;        ///< fill fraction [-]
+  double share = 1, share_u = 0;        ///< share of the gap that carries Couette shear [-]
+  double fluidity = 0, fluidity_u = 0;  ///< 1/mu [1/(Pa s)]
+  double h = 0, h_u = 0, h_g = 1;       ///< film thickness [m]
+  double w = 0;                         ///< column deformation [m]
+  double asperity = 0, asperity_h = 0;  ///< contact pressure [Pa] and its slope in h
+};
+
+/// The laws that hold at every node of one film.
+class NodeLaw {
+ public:
+  explicit NodeLaw(const FilmModel& model);
+
+  /// State of a node with undeformed gap g [m] and unknown u [Pa]. h <= 0 is left to the caller to judge.
+  [[nodiscard]] Node state(double g, double u) const;
+
+ private:
+  void pressure_and_fill(double u, Node& node) const;
+  void film_thickness(double g, Node& node) const;
+  void contact(double h, Node& node) const;
+
+  const FilmModel& model_;
+  double fill_scale_;
+  double contact_scale_;
+};
+
+}  // namespace hersey::film

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+#include <span>
+
+namespace hersey::solver {
+
+/// Sparse LU of a sequence of square matrices that share one pattern (SuiteSparse KLU, compressed columns).
+///
+/// The pattern is ordered once; the first matrix is factorised with pivoting, later ones reuse that pivot order, which
+/// is two to three times cheaper. Every reuse is judged by its pivot growth, and where it degraded the matrix is
+/// factorised afresh. No allocation after the first factorisation unless the pivot order changes.
+///
+/// @see Davis & Palamadai Natarajan (2010), Algorithm 907: KLU, ACM TOMS 37(3).
+class SparseLu {
+ public:
+  SparseLu();
+  ~SparseLu();
+  SparseLu(SparseLu&&) noexcept;
+  SparseLu& operator=(SparseLu&&) noexcept;
+
+  /// Takes the pattern: `column_start` of length n + 1, `row_index` ascending within each column.
+  /// @throws ContractError if the pattern is not square or structurally singular.
+  void analyse(int n, std::span<const int> column_start, std::span<const int> row_index);
+
+  /// The pattern of a compressed `A`; its values go to `factorise` as {A.valuePtr(), A.nonZeros()}.
+  void analyse(const Eigen::SparseMatrix<double>& A);
+
+  /// Factorises the matrix with these values, in the order of the pattern. False if it is singular to working
+  /// precision (reciprocal condition estimate below 1e-15, or not a number); then there is nothing to solve with.
+  [[nodiscard]] bool factorise(std::span<const double> values);
+
+  /// Overwrites `columns` right-hand sides, stored one after the other, by the solutions of A x = b.
+  /// @pre the last factorise() returned true
+  void solve(std::span<double> b, int columns = 1) const;
+
+  /// Likewise for A^T x = b.
+  void solve_transposed(std::span<double> b, int columns = 1) const;
+
+  [[nodiscard]] int size() const;
+  [[nodiscard]] bool factorised() const;
+
+  /// Cheap estimate min|U_ii| / max|U_ii| of the last factorisation.
+  [[nodiscard]] double reciprocal_condition() const;
+
+  /// How many factorisations chose pivots afresh since analyse().
+  [[nodiscard]] int pivotings() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hersey::solver

@@ -1,0 +1,119 @@
+#include "hersey/solver/sparse_lu.h"
+
+#include <klu.h>
+
+#include <cmath>
+#include <vector>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::solver {
+namespace {
+
+// A reused pivot order is kept while elements grow by less than this; beyond, half the digits may be gone.
+constexpr double smallest_pivot_growth = 1e-6;
+constexpr double smallest_reciprocal_condition = 1e-15;
+
+}  // namespace
+
+struct SparseLu::Impl {
+  int n = 0;
+  std::vector<int> column_start, row_index;
+  klu_common common{};
+  klu_symbolic* symbolic = nullptr;
+  klu_numeric* numeric = nullptr;
+  double rcond = 0;
+  int pivotings = 0;
+  bool factorised = false;
+
+  Impl() { klu_defaults(&common); }
+  ~Impl() { clear(); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void clear() {
+    if (numeric) klu_free_numeric(&numeric, &common);
+    if (symbolic) klu_free_symbolic(&symbolic, &common);
+    factorised = false;
+  }
+
+  // KLU takes the values by non-const pointer but does not write them.
+  static double* unconst(std::span<const double> values) { return const_cast<double*>(values.data()); }
+
+  bool pivot(std::span<const double> values) {
+    if (numeric) klu_free_numeric(&numeric, &common);
+    ++pivotings;
+    numeric = klu_factor(column_start.data(), row_index.data(), unconst(values), symbolic, &common);
+    return numeric && common.status == KLU_OK && condition_is_sound();
+  }
+
+  bool reuse_pivots(std::span<const double> values) {
+    int* Ap = column_start.data();
+    int* Ai = row_index.data();
+    return klu_refactor(Ap, Ai, unconst(values), symbolic, numeric, &common) && common.status == KLU_OK &&
+           klu_rgrowth(Ap, Ai, unconst(values), symbolic, numeric, &common) && common.rgrowth > smallest_pivot_growth &&
+           condition_is_sound();
+  }
+
+  bool condition_is_sound() {
+    klu_rcond(symbolic, numeric, &common);
+    rcond = common.rcond;
+    return std::isfinite(rcond) && rcond > smallest_reciprocal_condition;
+  }
+};
+
+SparseLu::SparseLu() : impl_(std::make_unique<Impl>()) {}
+SparseLu::~SparseLu() = default;
+SparseLu::SparseLu(SparseLu&&) noexcept = default;
+SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
+
+void SparseLu::analyse(int n, std::span<const int> column_start, std::span<const int> row_index) {
+  Impl& m = *impl_;
+  HERSEY_REQUIRE(n > 0 && column_start.size() == static_cast<std::size_t>(n) + 1, "one start per column and an end");
+  HERSEY_REQUIRE(row_index.size() == static_cast<std::size_t>(column_start[n]), "one row per entry");
+  m.clear();
+  m.n = n;
+  m.pivotings = 0;
+  m.column_start.assign(column_start.begin(), column_start.end());
+  m.row_index.assign(row_index.begin(), row_index.end());
+  m.symbolic = klu_analyze(n, m.column_start.data(), m.row_index.data(), &m.common);
+  HERSEY_REQUIRE(m.symbolic && m.common.structural_rank == n, "the pattern is structurally singular");
+}
+
+void SparseLu::analyse(const Eigen::SparseMatrix<double>& A) {
+  HERSEY_REQUIRE(A.isCompressed() && A.rows() == A.cols(), "a compressed square matrix is expected");
+  const int n = static_cast<int>(A.cols());
+  const auto nonzeros = static_cast<std::size_t>(A.nonZeros());
+  analyse(n, {A.outerIndexPtr(), static_cast<std::size_t>(n) + 1}, {A.innerIndexPtr(), nonzeros});
+}
+
+bool SparseLu::factorise(std::span<const double> values) {
+  Impl& m = *impl_;
+  HERSEY_REQUIRE(m.symbolic, "analyse() comes first");
+  HERSEY_REQUIRE(values.size() == m.row_index.size(), "one value per entry of the pattern");
+  m.factorised = (m.numeric && m.reuse_pivots(values)) || m.pivot(values);
+  // A factor with a zero pivot is no pattern to reuse.
+  if (!m.factorised && m.numeric) klu_free_numeric(&m.numeric, &m.common);
+  return m.factorised;
+}
+
+void SparseLu::solve(std::span<double> b, int columns) const {
+  Impl& m = *impl_;
+  HERSEY_REQUIRE(m.factorised, "no factorisation to solve with");
+  HERSEY_REQUIRE(b.size() == static_cast<std::size_t>(m.n) * static_cast<std::size_t>(columns), "shape (n, columns)");
+  klu_solve(m.symbolic, m.numeric, m.n, columns, b.data(), &m.common);
+}
+
+void SparseLu::solve_transposed(std::span<double> b, int columns) const {
+  Impl& m = *impl_;
+  HERSEY_REQUIRE(m.factorised, "no factorisation to solve with");
+  HERSEY_REQUIRE(b.size() == static_cast<std::size_t>(m.n) * static_cast<std::size_t>(columns), "shape (n, columns)");
+  klu_tsolve(m.symbolic, m.numeric, m.n, columns, b.data(), &m.common);
+}
+
+int SparseLu::size() const { return impl_->n; }
+bool SparseLu::factorised() const { return impl_->factorised; }
+double SparseLu::reciprocal_condition() const { return impl_->rcond; }
+int SparseLu::pivotings() const { return impl_->pivotings; }
+
+}  // namespace hersey::solver

@@ -1,0 +1,89 @@
+#include "hersey/solver/sparse_lu.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <random>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::solver {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+std::span<const double> values(const Eigen::SparseMatrix<double>& A) {
+  return {A.valuePtr(), static_cast<std::size_t>(A.nonZeros())};
+}
+
+// A periodic upwind-like matrix, unsymmetric and diagonally dominant, with random entries.
+Eigen::SparseMatrix<double> ring(int n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(0.1, 1.0);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, 3 + uniform(generator));
+    entries.emplace_back(i, (i + 1) % n, -uniform(generator));
+    entries.emplace_back(i, (i + n - 1) % n, -uniform(generator));
+  }
+  Eigen::SparseMatrix<double> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  A.makeCompressed();
+  return A;
+}
+
+TEST_CASE("SparseLu_SolvesASequenceWithOnePivoting") {
+  const int n = 50;
+  SparseLu lu;
+  lu.analyse(ring(n, 0));
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    const auto A = ring(n, seed);
+    REQUIRE(lu.factorise(values(A)));
+    const Eigen::MatrixXd x = Eigen::MatrixXd::Random(n, 3);
+    Eigen::MatrixXd b = A * x;
+    lu.solve({b.data(), static_cast<std::size_t>(b.size())}, 3);
+    // Diagonally dominant with condition below 10: round-off of a few rows' sums.
+    CHECK((b - x).norm() < 100 * eps * x.norm());
+    Eigen::VectorXd bt = A.transpose() * x.col(0);
+    lu.solve_transposed({bt.data(), static_cast<std::size_t>(n)});
+    CHECK((bt - x.col(0)).norm() < 100 * eps * x.norm());
+  }
+  CHECK(lu.pivotings() == 1);
+}
+
+TEST_CASE("SparseLu_PivotsAfreshWhereTheOldOrderFails") {
+  // [[1, 1], [1, 0]]-like and then its mirror: the first pivot order would divide by 1e-20.
+  Eigen::SparseMatrix<double> A(2, 2), B(2, 2);
+  A.insert(0, 0) = 4, A.insert(0, 1) = 1, A.insert(1, 0) = 1, A.insert(1, 1) = 1e-20;
+  B.insert(0, 0) = 1e-20, B.insert(0, 1) = 1, B.insert(1, 0) = 1, B.insert(1, 1) = 4;
+  A.makeCompressed(), B.makeCompressed();
+  SparseLu lu;
+  lu.analyse(A);
+  for (const auto& M : {A, B, A}) {
+    REQUIRE(lu.factorise(values(M)));
+    const Eigen::Vector2d x(1, 2);
+    Eigen::VectorXd b = M * x;
+    lu.solve({b.data(), 2});
+    CHECK((b - x).norm() < 100 * eps);
+  }
+  CHECK(lu.pivotings() > 1);
+}
+
+TEST_CASE("SparseLu_ReportsSingularMatricesAndRecovers") {
+  auto A = ring(10, 1);
+  SparseLu lu;
+  lu.analyse(A);
+  const auto good = A;
+  for (int i = 0; i < 10; ++i) {  // each row sums to zero: the constant vector is in the kernel
+    A.coeffRef(i, i) = -(A.coeff(i, (i + 1) % 10) + A.coeff(i, (i + 9) % 10));
+  }
+  CHECK_FALSE(lu.factorise(values(A)));
+  Eigen::VectorXd b = Eigen::VectorXd::Ones(10);
+  CHECK_THROWS_AS(lu.solve({b.data(), 10}), ContractError);
+  CHECK(lu.factorise(values(good)));
+  A.coeffRef(3, 3) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(lu.factorise(values(A)));
+}
+
+}  // namespace
+}  // namespace hersey::solver
