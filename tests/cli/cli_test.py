@@ -1,0 +1,232 @@
+#!/usr/bin/python3
+"""Behaviour of the command line, as documented by `hersey --help`: exit codes, messages, files kept, Ctrl-C."""
+
+import glob
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import h5py
+
+HERSEY = os.path.abspath(sys.argv.pop(1))
+HERE = os.path.dirname(os.path.abspath(__file__))
+MODEL = os.path.join(HERE, "bearing.yaml")
+
+OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+def hersey(*arguments, **options):
+    """Runs the program to its end and returns the finished process with its output as text."""
+    return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, timeout=120,
+                          stdin=subprocess.DEVNULL, **options)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="hersey-cli-")
+        self.addCleanup(self._folder.cleanup)
+        self.out = os.path.join(self._folder.name, "out")
+
+    def results(self):
+        return sorted(glob.glob(os.path.join(self.out, "**", "*.h5"), recursive=True))
+
+    def model_with(self, old, new):
+        """The test model with one text replaced, in a file of its own."""
+        with open(MODEL, encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn(old, text)
+        path = os.path.join(self._folder.name, "model.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace(old, new))
+        return path
+
+    def position(self, path, text):
+        """`line:column` of the first occurrence of text, counted from one."""
+        with open(path, encoding="utf-8") as file:
+            for number, line in enumerate(file, 1):
+                if text in line:
+                    return f"{number}:{line.index(text) + 1}"
+        self.fail(f"{text} is not in {path}")
+
+    def test_help_names_every_command_and_every_exit_code(self):
+        run = hersey("--help")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        for word in ("run", "check", "report", "schema", "130"):
+            self.assertIn(word, run.stdout)
+        for command in ("run", "check", "report", "schema"):
+            help_of_command = hersey(command, "--help")
+            self.assertEqual(help_of_command.returncode, OK, help_of_command.stderr)
+            self.assertGreater(len(help_of_command.stdout.splitlines()), 4)
+
+    def test_version_is_the_project_s(self):
+        run = hersey("--version")
+        self.assertEqual(run.returncode, OK)
+        self.assertRegex(run.stdout, r"\b\d+\.\d+\.\d+\b")
+
+    def test_unknown_option_or_no_command_is_a_usage_error(self):
+        for arguments in ((), ("run", MODEL, "--outptu", "x"), ("rnu", MODEL), ("run",)):
+            run = hersey(*arguments)
+            self.assertEqual(run.returncode, WRONG_INPUT, arguments)
+            self.assertTrue(run.stderr.strip(), "a usage error says what is wrong")
+
+    def test_check_accepts_a_good_model(self):
+        run = hersey("check", MODEL)
+        self.assertEqual(run.returncode, OK, run.stderr)
+
+    def test_fault_names_file_line_column_and_the_nearest_key(self):
+        path = self.model_with("radial_clearance", "radial_clearence")
+        for command in (["check", path], ["run", path, "--output", self.out]):
+            run = hersey(*command)
+            self.assertEqual(run.returncode, WRONG_INPUT, run.stdout + run.stderr)
+            self.assertIn(f"{path}:{self.position(path, 'radial_clearence')}", run.stderr)
+            self.assertIn("'radial_clearance'", run.stderr.replace('"', "'").replace("`", "'"))
+        self.assertEqual(self.results(), [], "a run that cannot start leaves no results")
+
+    def test_all_faults_of_a_file_are_shown_together(self):
+        path = self.model_with("diameter: 45 mm", "diameter: 45 kg")
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace("body: shaft", "body: shaff"))
+        run = hersey("check", path)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn(f"{path}:{self.position(path, '45 kg')}", run.stderr)
+        self.assertIn(f"{path}:{self.position(path, 'shaff')}", run.stderr)
+
+    def test_missing_model_file_is_named(self):
+        run = hersey("run", "/nowhere/model.yaml")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("/nowhere/model.yaml", run.stderr)
+
+    def test_wrong_override_is_named(self):
+        run = hersey("check", MODEL, "--set", "loda=500N")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("loda", run.stderr)
+        self.assertIn("load", run.stderr.replace("loda", ""))
+
+    def test_run_writes_readable_results_and_a_report(self):
+        run = hersey("run", MODEL, "--output", self.out)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertEqual(len(self.results()), 1)
+        with h5py.File(self.results()[0]) as file:
+            self.assertEqual(file.attrs["status"], "completed")
+            self.assertAlmostEqual(file["time"][-1], 2e-3, delta=1e-9)  # the end is a step, up to round-off
+            self.assertGreater(file["bearings/main/h_min"][-1], 0)
+        with open(os.path.join(self.out, "report.html"), encoding="utf-8") as file:
+            self.assertIn("Journal in a fixed bush", file.read())
+
+    def test_override_of_parameter_and_of_key_path_reach_the_run(self):
+        run = hersey("run", MODEL, "--output", self.out, "--set", "load=500 N", "--set",
+                     "bearings.main.grid.circumferential=20")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        with h5py.File(self.results()[0]) as file:
+            self.assertEqual(file["bearings/main/fields/pressure"].shape[1:], (20, 5))
+            self.assertIn("500", str(file["parameters"].attrs["load"]))
+
+    def test_existing_results_are_kept_unless_forced(self):
+        self.assertEqual(hersey("run", MODEL, "--output", self.out).returncode, OK)
+        (path,) = self.results()
+        with open(path, "rb") as file:
+            before = file.read()
+        again = hersey("run", MODEL, "--output", self.out)
+        self.assertEqual(again.returncode, WRONG_INPUT)
+        self.assertIn(os.path.basename(path), again.stderr)
+        self.assertIn("--force", again.stderr)
+        with open(path, "rb") as file:
+            self.assertEqual(file.read(), before, "results were touched without --force")
+        forced = hersey("run", MODEL, "--output", self.out, "--set", "duration=1 ms", "--force")
+        self.assertEqual(forced.returncode, OK, forced.stderr)
+        with h5py.File(path) as file:
+            self.assertAlmostEqual(file["time"][-1], 1e-3, delta=1e-9)
+
+    def test_json_is_one_document_on_stdout(self):
+        for arguments in (["check", MODEL, "--json"], ["run", MODEL, "--output", self.out, "--json"]):
+            run = hersey(*arguments)
+            self.assertEqual(run.returncode, OK, run.stderr)
+            self.assertIsInstance(json.loads(run.stdout), (dict, list))
+        report = hersey("report", *self.results(), "--json")
+        self.assertEqual(report.returncode, OK, report.stderr)
+        json.loads(report.stdout)
+
+    def test_schema_is_json_and_knows_the_top_level_keys(self):
+        run = hersey("schema")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        schema = json.loads(run.stdout)
+        for key in ("bodies", "joints", "bearings", "simulation"):
+            self.assertIn(key, schema["properties"])
+
+    def test_interrupt_leaves_readable_results_and_the_documented_exit_code(self):
+        with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                              text=True) as process:
+            deadline = time.monotonic() + 60
+            while not self.results() and process.poll() is None and time.monotonic() < deadline:
+                time.sleep(0.05)
+            time.sleep(1)  # some steps
+            process.send_signal(signal.SIGINT)
+            stdout, stderr = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, INTERRUPTED, stdout + stderr)
+        (path,) = self.results()
+        with h5py.File(path) as file:
+            self.assertEqual(file.attrs["status"], "stopped")
+            self.assertGreater(len(file["time"]), 1)
+            self.assertEqual(len(file["time"]), len(file["bearings/main/h_min"]))
+
+    def test_killed_run_leaves_what_it_had_flushed(self):
+        with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              stdin=subprocess.DEVNULL) as process:
+            deadline = time.monotonic() + 60
+            while not self.results() and process.poll() is None and time.monotonic() < deadline:
+                time.sleep(0.05)
+            time.sleep(3)
+            process.kill()
+            process.wait(timeout=60)
+        with h5py.File(self.results()[0]) as file:
+            self.assertGreater(len(file["time"]), 1)
+        report = hersey("report", self.results()[0], "--output", os.path.join(self._folder.name, "killed.html"))
+        self.assertEqual(report.returncode, OK, report.stderr)
+
+    def test_full_disk_ends_with_the_reason_and_keeps_what_was_written(self):
+        def small_disk():  # writing beyond the limit fails as on a full disk
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4_000_000, 4_000_000))
+
+        run = hersey("run", MODEL, "--output", self.out, "--set", "duration=1000 s", "--set",
+                     "output.fields_every=0.1 ms", preexec_fn=small_disk)
+        self.assertEqual(run.returncode, FAILED, run.stdout + run.stderr)
+        (path,) = self.results()
+        self.assertIn(os.path.basename(path), run.stderr)
+        with h5py.File(path) as file:
+            self.assertGreater(len(file["time"]), 1)
+
+    def test_report_of_a_file_that_is_no_results_file_is_refused(self):
+        run = hersey("report", MODEL)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("bearing.yaml", run.stderr)
+
+    def test_closed_gap_at_the_start_is_an_input_error_at_its_line(self):
+        path = self.model_with("initial: {rotation_rate: 3000 rpm}",
+                               "initial: {x: 60 um, rotation_rate: 3000 rpm}")
+        run = hersey("run", path, "--output", self.out)
+        self.assertEqual(run.returncode, WRONG_INPUT, run.stdout + run.stderr)
+        self.assertIn("main", run.stderr)
+        self.assertRegex(run.stderr, r"model\.yaml:\d+:\d+")
+
+    def test_no_convergence_ends_with_the_reason_and_keeps_results(self):
+        run = hersey("run", MODEL, "--output", self.out, "--set", "simulation.tolerance=1e-30", "--set",
+                     "simulation.smallest_step=0.05 ms")
+        self.assertEqual(run.returncode, FAILED, run.stdout + run.stderr)
+        self.assertRegex(run.stderr, r"(?s)\bt\b.*=|time")
+        with h5py.File(self.results()[0]) as file:
+            self.assertEqual(file.attrs["status"], "failed")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+"""What the documents point at exists: linked files, and the functions and tests in the theory manual's closing tables."""
+
+import glob
+import os
+import re
+import sys
+import unittest
+
+SOURCE = os.path.abspath(sys.argv.pop(1))
+
+
+def read(path):
+    with open(os.path.join(SOURCE, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def pages(*patterns):
+    return sorted(os.path.relpath(path, SOURCE) for pattern in patterns
+                  for path in glob.glob(os.path.join(SOURCE, pattern)))
+
+
+def code_files():
+    """Every source file, tests included, by path."""
+    found = []
+    for top in ("libs", "apps", "verification", "bench", "tests", "web/src"):
+        for ending in ("h", "cpp", "ts", "py"):
+            found += glob.glob(os.path.join(SOURCE, top, "**", f"*.{ending}"), recursive=True)
+    return sorted(os.path.relpath(path, SOURCE) for path in found)
+
+
+class Links(unittest.TestCase):
+    def test_relative_links_lead_to_files(self):
+        faults = []
+        for page in pages("*.md", "docs/*.md", "docs/*/*.md", "examples/*/README.md"):
+            for target in re.findall(r"\]\(([^)\s#]+)(?:#[^)]*)?\)", read(page)):
+                path = os.path.join(SOURCE, os.path.dirname(page), target)
+                if "://" not in target and not os.path.exists(path):
+                    faults.append(f"{page} links to {target}, which does not exist")
+        if faults:
+            self.fail("\n".join(faults))
+
+
+class TheoryTables(unittest.TestCase):
+    """Rows `| (film.3) | `film/reynolds.cpp: balance` | `reynolds_test.cpp: Flux_IsConserved`, `Another` |`."""
+
+    def setUp(self):
+        self.faults = []
+        self.files = code_files()
+
+    def test_equation_numbers_are_unique(self):
+        for page in pages("docs/theory/*.md"):
+            numbers = re.findall(r"\s{2,}\((\w+\.\d+)\),?$", read(page), re.MULTILINE)
+            repeated = {number for number in numbers if numbers.count(number) > 1}
+            self.assertFalse(repeated, f"{page} numbers two equations alike")
+
+    def test_functions_and_tests_exist(self):
+        for page in pages("docs/theory/*.md"):
+            text = read(page)
+            for cells in self.rows(page, text):
+                for number in re.findall(r"\((\w+\.\d+)\)", cells[0]):
+                    if text.count(f"({number})") < 2:
+                        self.faults.append(f"{page}: ({number}) is in the table only")
+                for cell in cells[1:]:
+                    self.check_references(page, cell)
+        if self.faults:
+            self.fail("\n".join(self.faults))
+
+    def rows(self, page, text):
+        table = re.search(r"^\|\s*equation.*\|\s*$\n\|[-:| ]+\|\n((?:\|.*\n?)+)", text, re.MULTILINE | re.IGNORECASE)
+        if table is None:
+            self.faults.append(f"{page} has no closing table equation | function | test")
+            return
+        for line in table.group(1).splitlines():
+            yield [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+    def check_references(self, page, cell):
+        """Each `file: name` or, after one, `name`: the file exists and holds the name."""
+        current = []
+        for reference in re.findall(r"`([^`]+)`", cell):
+            name = reference
+            if re.match(r"[\w/.-]+\.(h|cpp|ts|py)\b", reference):
+                path, _, name = (part.strip() for part in reference.partition(":"))
+                # `film/x.cpp` stands for libs/film/src/x.cpp, `x_test.cpp` for the test of that name in any module.
+                *folders, base = path.split("/")
+                current = [file for file in self.files
+                           if os.path.basename(file) == base and set(folders) <= set(file.split("/"))]
+                if not current:
+                    self.faults.append(f"{page} names {path}, which does not exist")
+                    return
+            for word in re.findall(r"[A-Za-z_]\w*", name):
+                if not any(re.search(rf"\b{word}\b", read(file)) for file in current):
+                    self.faults.append(f"{page} names {word} in `{current[0] if current else 'no file'}`: not there")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
