@@ -61,6 +61,7 @@ std::size_t Array::width() const {
 struct Reader::Impl {
   std::filesystem::path path;
   Handle file;
+  std::vector<std::string> groups, datasets;
   std::map<std::string, std::size_t> complete_rows;  // per growth group
 
   [[noreturn]] void fail(const std::string& reason) const { throw ReadError(path, reason); }
@@ -121,7 +122,9 @@ struct Reader::Impl {
     return take(raw, memory.get(), space.get());
   }
 
-  void count_rows(const std::string& group) {
+  /// Notes all groups and datasets below `group`, and how many rows are complete.
+  void survey(const std::string& group) {
+    groups.push_back(group);
     const Handle parent(H5Gopen2(file.get(), group.c_str(), H5P_DEFAULT));
     std::vector<std::string> names;
     H5Literate(parent.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_link, &names);
@@ -129,8 +132,11 @@ struct Reader::Impl {
       const std::string child = (group == "/" ? "" : group) + "/" + name;
       const Handle object(H5Oopen(file.get(), child.c_str(), H5P_DEFAULT));
       const H5I_type_t kind = H5Iget_type(object.get());
-      if (kind == H5I_GROUP) count_rows(child);
-      if (kind == H5I_DATASET) count_rows(child, object.get());
+      if (kind == H5I_GROUP) survey(child);
+      if (kind == H5I_DATASET) {
+        datasets.push_back(child);
+        count_rows(child, object.get());
+      }
     }
   }
 
@@ -146,8 +152,8 @@ struct Reader::Impl {
   [[nodiscard]] DatasetInfo info(const std::string& name, const Handle& space, const Reader& reader) const {
     DatasetInfo info;
     info.shape = shape_of(space.get());
-    if (grows(space.get()) && info.shape[0] > 0)
-      info.shape[0] = std::min(info.shape[0], complete_rows.at(growth_group(name)));
+    info.grows = grows(space.get());
+    if (info.grows && info.shape[0] > 0) info.shape[0] = std::min(info.shape[0], complete_rows.at(growth_group(name)));
     info.unit = reader.text_attribute(name, "units").value_or("1");
     info.description = reader.text_attribute(name, "description").value_or("");
     return info;
@@ -162,7 +168,8 @@ Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
   const double version = number_attribute("/", "format_version").value_or(0);
   if (version < 1 || version > newest_format)
     impl_->fail(fmt::format("results format {}; this program reads formats up to {}", version, newest_format));
-  impl_->count_rows("/");
+  impl_->survey("/");
+  std::sort(impl_->datasets.begin(), impl_->datasets.end());
 }
 
 Reader::~Reader() = default;
@@ -171,6 +178,10 @@ bool Reader::has(std::string_view path) const {
   const Quiet quiet;
   return impl_->exists(absolute(path));
 }
+
+const std::vector<std::string>& Reader::groups() const { return impl_->groups; }
+
+const std::vector<std::string>& Reader::datasets() const { return impl_->datasets; }
 
 std::vector<std::string> Reader::children(std::string_view group) const {
   const Quiet quiet;

@@ -54,6 +54,10 @@ TEST_CASE("WhatIsWritten_IsReadBackExactly") {
   CHECK(reader.list_attribute("/", "study_parameters") == std::vector<std::string>{"load", "clearance"});
   CHECK(reader.text("/model") == "hersey: 1\ntitle: Kurbelzapfen µ\n");
   CHECK(reader.text_table("/assumptions")[1] == std::pair<std::string, std::string>{"supply", "none"});
+  CHECK(reader.groups() == std::vector<std::string>{"/", "/bearings", "/bearings/big_end", "/bearings/big_end/fields"});
+  CHECK(reader.datasets().size() == 7);
+  CHECK(reader.info("/time").grows);
+  CHECK_FALSE(reader.info("/bearings/big_end/fields/phi").grows);
   CHECK(reader.children("/bearings") == std::vector<std::string>{"big_end"});
   CHECK(reader.read("/bearings/big_end/fields/phi").values == angles);
 

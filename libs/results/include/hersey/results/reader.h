@@ -16,6 +16,7 @@ namespace hersey::results {
 /// What a dataset is, without its numbers.
 struct DatasetInfo {
   std::vector<std::size_t> shape;
+  bool grows = false;  ///< one entry of the first dimension per stored instant
   std::string unit;
   std::string description;
 };
@@ -42,6 +43,8 @@ class Reader {
   ~Reader();
 
   [[nodiscard]] bool has(std::string_view path) const;                            ///< a group or dataset
+  [[nodiscard]] const std::vector<std::string>& groups() const;                   ///< paths of all groups, "/" first
+  [[nodiscard]] const std::vector<std::string>& datasets() const;                 ///< paths of all datasets, sorted
   [[nodiscard]] std::vector<std::string> children(std::string_view group) const;  ///< sorted; empty without the group
   [[nodiscard]] std::vector<std::string> attributes(std::string_view object) const;  ///< names, sorted
 

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace hersey::report {
+
+/// Little-endian IEEE numbers in base64 (RFC 4648), which a browser turns into a typed array without parsing.
+[[nodiscard]] std::string base64_float32(std::span<const double> values);
+[[nodiscard]] std::string base64_float64(std::span<const double> values);
+
+}  // namespace hersey::report

@@ -1,0 +1,90 @@
+#include "run_data.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base64.h"
+
+namespace hersey::report {
+namespace {
+
+using nlohmann::json;
+using results::DatasetInfo;
+using results::Reader;
+
+bool is_field(const DatasetInfo& info) { return info.grows && info.shape.size() == 3; }
+bool in_fields(const std::string& path) { return path.find("/fields/") != std::string::npos; }
+
+json attributes_of(const Reader& reader, const std::string& object) {
+  json attributes = json::object();
+  for (const std::string& name : reader.attributes(object)) {
+    if (const auto text = reader.text_attribute(object, name))
+      attributes[name] = *text;
+    else if (const auto number = reader.number_attribute(object, name))
+      attributes[name] = *number;
+    else
+      attributes[name] = reader.list_attribute(object, name);
+  }
+  return attributes;
+}
+
+std::size_t stride_for(std::size_t rows, std::size_t most) { return rows <= most ? 1 : (rows + most - 1) / most; }
+
+/// Instants of fields to skip so that all fields fit into the budget.
+std::size_t field_stride(const Reader& reader, std::size_t budget) {
+  std::size_t bytes = 0, longest = 1;
+  for (const std::string& path : reader.datasets()) {
+    const DatasetInfo info = reader.info(path);
+    if (!is_field(info)) continue;
+    bytes += info.shape[0] * info.shape[1] * info.shape[2] * sizeof(float);
+    longest = std::max(longest, info.shape[0]);
+  }
+  return std::min(longest, stride_for(bytes, std::max<std::size_t>(budget, 1)));
+}
+
+/// Time and angle grow large and are subtracted from each other: they keep double precision.
+bool needs_double(const std::string& path) { return path.ends_with("/time") || path.ends_with("/crank_angle"); }
+
+json dataset(const Reader& reader, const std::string& path, const DatasetInfo& info, std::size_t stride) {
+  const std::size_t rows = info.shape.empty() ? 0 : info.shape[0];
+  const std::size_t first = rows > 0 ? (rows - 1) % stride : 0;
+  const results::Array array = reader.read_rows(path, first, rows, stride);
+  const bool wide = needs_double(path);
+  json entry;
+  entry["unit"] = info.unit;
+  entry["description"] = info.description;
+  entry["shape"] = array.info.shape;
+  entry["type"] = wide ? "f8" : "f4";
+  entry["data"] = wide ? base64_float64(array.values) : base64_float32(array.values);
+  if (const auto names = reader.list_attribute(path, "coordinate_names"); !names.empty()) entry["columns"] = names;
+  return entry;
+}
+
+}  // namespace
+
+json run_data(const Reader& reader, const Budget& budget) {
+  const std::size_t series_stride = stride_for(reader.rows(), budget.series_rows);
+  const std::size_t instants_stride = field_stride(reader, budget.field_bytes);
+  json run;
+  run["file"] = reader.path().filename().string();
+  run["rows"] = reader.rows();
+  run["series_stride"] = series_stride;
+  run["field_stride"] = instants_stride;
+  run["attributes"] = json::object();
+  for (const std::string& group : reader.groups()) run["attributes"][group] = attributes_of(reader, group);
+  run["datasets"] = json::object();
+  run["assumptions"] = json::array();
+  for (const std::string& path : reader.datasets()) {
+    if (path == "/model") {
+      run["model"] = reader.text(path);
+    } else if (path == "/assumptions") {
+      run["assumptions"] = reader.text_table(path);
+    } else {
+      const DatasetInfo info = reader.info(path);
+      const std::size_t stride = !info.grows ? 1 : in_fields(path) ? instants_stride : series_stride;
+      run["datasets"][path] = dataset(reader, path, info, stride);
+    }
+  }
+  return run;
+}
+
+}  // namespace hersey::report

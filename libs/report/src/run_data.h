@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "hersey/results/reader.h"
+
+namespace hersey::report {
+
+/// How much of one results file goes into the page.
+struct Budget {
+  std::size_t series_rows;  ///< most rows of the time series, > 0
+  std::size_t field_bytes;  ///< most bytes of all fields together; at least one instant is kept
+};
+
+/// One results file as the page reads it (web/src/data.ts): attributes and datasets by path, numbers in base64.
+/// Thinning keeps every k-th row counted from the last one, so that the end of the run is always shown.
+[[nodiscard]] nlohmann::json run_data(const results::Reader& reader, const Budget& budget);
+
+}  // namespace hersey::report

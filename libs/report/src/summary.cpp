@@ -1,0 +1,173 @@
+#include "summary.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace hersey::report {
+namespace {
+
+using results::Array;
+using results::Reader;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+/// Builds the rows of one file; every method adds a row if the file has the numbers for it.
+class Summary {
+ public:
+  explicit Summary(const Reader& reader) : reader_(reader), run_(reader.path().stem().string()) {
+    if (reader.has("/time")) time_ = reader.read("/time").values;
+    if (reader.has("/crank_angle")) crank_angle_ = reader.read("/crank_angle").values;
+  }
+
+  std::vector<SummaryRow> rows() {
+    bearing_rows();
+    run_rows();
+    return std::move(rows_);
+  }
+
+ private:
+  void bearing_rows() {
+    for (const std::string& bearing : reader_.children("/bearings")) {
+      group_ = bearing;
+      path_ = "/bearings/" + bearing + "/";
+      extreme("minimum film thickness (MOFT)", "h_min", smallest, 1e6, "µm", true);
+      extreme("minimum film thickness at the centreline", "h_min_centre", smallest, 1e6, "µm", false);
+      extreme("peak film pressure (POFP)", "p_max", largest, 1e-6, "MPa", true);
+      load();
+      extreme("largest eccentricity ratio", "eccentricity_ratio", largest, 1, "", false);
+      mean("mean power loss in the film", "power_film", 1, "W");
+      mean("mean power loss in asperity contact", "power_asperity", 1, "W");
+      mean("mean friction torque on the journal", "torque_journal", 1e3, "N·mm");
+      mean("mean side flow, left", "flow_left", 1e9, "mm³/s");
+      mean("mean side flow, right", "flow_right", 1e9, "mm³/s");
+      mean("mean supply flow", "flow_supply", 1e9, "mm³/s");
+      last("eccentricity ratio at the end", "eccentricity_ratio", 1, "");
+      last("attitude angle at the end", "attitude", degrees, "°");
+      last("minimum film thickness at the end", "h_min", 1e6, "µm");
+      last("peak film pressure at the end", "p_max", 1e-6, "MPa");
+      extreme("worst mass-balance error of the film", "mass_balance_error", largest_size, 1, "", false);
+    }
+  }
+
+  void run_rows() {
+    group_ = "run";
+    path_ = "/";
+    if (!time_.empty()) add("simulated time", (time_.back() - time_.front()) * 1e3, "ms");
+    add("stored instants", static_cast<double>(time_.size()), "");
+    mean_of_rows("mean Newton iterations per step", "solver/newton_iterations");
+    const std::string error = "power/balance_error";
+    if (reader_.has(path_ + error)) {
+      const std::string unit = reader_.info(path_ + error).unit;
+      extreme("worst power-balance error of the system", error, largest_size, 1, unit == "1" ? "" : unit, false);
+    }
+    if (const auto wall = reader_.number_attribute("/", "wall_time")) add("computing time", *wall, "s");
+  }
+
+  static bool smallest(double a, double b) { return a < b; }
+  static bool largest(double a, double b) { return a > b; }
+  static bool largest_size(double a, double b) { return std::abs(a) > std::abs(b); }
+
+  std::vector<double> values(const std::string& name) const {
+    return reader_.has(path_ + name) ? reader_.read(path_ + name).values : std::vector<double>{};
+  }
+
+  void add(const std::string& name, double value, const std::string& unit, const std::string& where = {}) {
+    rows_.push_back({run_, group_, name, value, unit, where});
+  }
+
+  std::string instant(std::size_t row) const {
+    if (row >= time_.size()) return {};
+    const std::string time = fmt::format("t = {:.6g} ms", time_[row] * 1e3);
+    return row < crank_angle_.size() ? time + fmt::format(", crank {:.5g}°", crank_angle_[row] * degrees) : time;
+  }
+
+  /// The most extreme finite value in the sense of `before`, with its instant and, if `placed`, its place on the film.
+  template <class Before>
+  void extreme(const std::string& name, const std::string& series, Before before, double factor,
+               const std::string& unit, bool placed) {
+    const std::vector<double> all = values(series);
+    std::optional<std::size_t> best;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (std::isfinite(all[k]) && (!best || before(all[k], all[*best]))) best = k;
+    if (!best) return;
+    add(name, all[*best] * factor, unit, instant(*best) + (placed ? place(series, *best) : ""));
+  }
+
+  std::string place(const std::string& series, std::size_t row) const {
+    const std::vector<double> phi = values(series + "_phi"), z = values(series + "_z");
+    std::string text;
+    if (row < phi.size()) text += fmt::format(", φ = {:.1f}°", phi[row] * degrees);
+    if (row < z.size()) text += fmt::format(", z = {:.2f} mm", z[row] * 1e3);
+    return text;
+  }
+
+  void load() {
+    const std::vector<double> force = values("force");
+    double most = -1;
+    std::size_t at = 0;
+    for (std::size_t k = 0; 3 * k + 2 < force.size(); ++k) {
+      const double size = std::hypot(force[3 * k], force[3 * k + 1], force[3 * k + 2]);
+      if (size > most) {
+        most = size;
+        at = k;
+      }
+    }
+    if (most >= 0) add("largest load", most, "N", instant(at));
+  }
+
+  /// Mean over time by the trapezoidal rule: steps may differ in length.
+  void mean(const std::string& name, const std::string& series, double factor, const std::string& unit) {
+    const std::vector<double> all = values(series);
+    const std::size_t n = std::min(all.size(), time_.size());
+    if (n == 0) return;
+    double integral = 0;
+    for (std::size_t k = 1; k < n; ++k) integral += 0.5 * (all[k] + all[k - 1]) * (time_[k] - time_[k - 1]);
+    const double duration = time_[n - 1] - time_[0];
+    add(name, factor * (duration > 0 ? integral / duration : all[n - 1]), unit);
+  }
+
+  void mean_of_rows(const std::string& name, const std::string& series) {
+    const std::vector<double> all = values(series);
+    if (all.empty()) return;
+    double sum = 0;
+    for (const double value : all) sum += value;
+    add(name, sum / static_cast<double>(all.size()), "");
+  }
+
+  void last(const std::string& name, const std::string& series, double factor, const std::string& unit) {
+    if (const std::vector<double> all = values(series); !all.empty()) add(name, all.back() * factor, unit);
+  }
+
+  const Reader& reader_;
+  std::string run_, group_, path_;
+  std::vector<double> time_, crank_angle_;
+  std::vector<SummaryRow> rows_;
+};
+
+}  // namespace
+
+std::vector<SummaryRow> summarise(const Reader& reader) { return Summary(reader).rows(); }
+
+std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& results) {
+  std::vector<SummaryRow> rows;
+  for (const auto& path : results) {
+    const std::vector<SummaryRow> more = summarise(Reader(path));
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  return rows;
+}
+
+std::string summary_json(const std::vector<std::filesystem::path>& results) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SummaryRow& row : summary_table(results))
+    list.push_back({{"run", row.run},
+                    {"group", row.group},
+                    {"name", row.name},
+                    {"value", row.value},
+                    {"unit", row.unit},
+                    {"where", row.where}});
+  return list.dump(2);
+}
+
+}  // namespace hersey::report
