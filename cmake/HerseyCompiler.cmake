@@ -19,7 +19,9 @@ endif()
 
 add_library(hersey_options INTERFACE)
 target_compile_options(hersey_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                                                -Woverloaded-virtual -Wcast-qual)
+                                                -Woverloaded-virtual -Wcast-qual
+                                                # Designated initialisers leave the rest to the members' own defaults.
+                                                -Wno-missing-field-initializers)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(hersey_options INTERFACE -fpch-preprocess)
   # GCC 12 reports false positives inside Eigen's and the standard library's inlined code.
