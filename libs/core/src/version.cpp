@@ -1,0 +1,7 @@
+#include "hersey/core/version.h"
+
+namespace hersey {
+
+const char* version() { return HERSEY_VERSION; }
+
+}  // namespace hersey
