@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "hersey/core/scalar_function.h"
+#include "hersey/mbd/mechanism_builder.h"
+
+namespace hersey::mbd {
+
+/// A drive's prescribed coordinate as a function of time, with its derivatives.
+class DriveMotion {
+ public:
+  /// @param initial  the coordinate at t = 0, where a speed starts counting
+  DriveMotion(const DriveSpec& spec, double initial);
+
+  /// Position at t. A constant speed gives exactly initial + omega t; any other speed is integrated adaptively from the
+  /// last anchor, to 1e-12 relative.
+  [[nodiscard]] double position(double t) const;
+  [[nodiscard]] double velocity(double t) const;
+  [[nodiscard]] double acceleration(double t) const;
+
+  /// Moves the anchor of the integration to t: the cost of `position` grows with the distance from it.
+  void anchor(double t);
+
+ private:
+  DriveSpec::Kind kind_;
+  std::shared_ptr<const ScalarFunction> function_;
+  bool constant_ = false;
+  double anchor_time_ = 0;
+  double anchor_position_ = 0;
+};
+
+}  // namespace hersey::mbd

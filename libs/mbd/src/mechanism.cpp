@@ -1,0 +1,326 @@
+#include "hersey/mbd/mechanism.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/core/contract.h"
+#include "mechanism_impl.h"
+
+namespace hersey::mbd {
+
+using solver::Stage;
+using solver::State;
+
+Mechanism::Implementation::Implementation(MechanismSpec given)
+    : spec(std::move(given)),
+      tree(build_tree(spec)),
+      motion(tree, spec.gravity),
+      inertia(tree),
+      directions(tree.columns.size()),
+      responses(spec.forces.size()) {
+  for (const LoadSpec& load : spec.loads) loads.emplace_back(load, spec.frames[load.frame.index].body, tree);
+  for (const DriveSpec& drive : spec.drives) {
+    const int column = column_of(tree, drive.coordinate);
+    drives.push_back({column, q_of(column), DriveMotion(drive, initial_value(drive.coordinate))});
+  }
+  for (const CoordinateSpringSpec& spring : spec.springs) spring_columns.push_back(column_of(tree, spring.coordinate));
+  make_patterns();
+}
+
+double Mechanism::Implementation::initial_value(const CoordinateRef& coordinate) const {
+  const std::vector<double>& initial = spec.joints[coordinate.joint.index].initial;
+  return initial.empty() ? 0.0 : initial[coordinate.value];
+}
+
+Mechanism::Mechanism(MechanismSpec spec) : impl_(std::make_unique<Implementation>(std::move(spec))) {}
+Mechanism::~Mechanism() = default;
+
+Mechanism::Index Mechanism::nq() const { return impl_->tree.nq; }
+Mechanism::Index Mechanism::nv() const { return impl_->tree.nv; }
+Mechanism::Index Mechanism::nlambda() const { return impl_->nlambda(); }
+const MechanismSpec& Mechanism::spec() const { return impl_->spec; }
+
+std::vector<JointId> Mechanism::closing_joints() const {
+  std::vector<JointId> ids;
+  for (const Closure& closure : impl_->tree.closures) ids.push_back({closure.joint});
+  return ids;
+}
+
+void Mechanism::retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Eigen::VectorXd& q) const {
+  q.resize(q0.size());
+  for (const Link& link : impl_->tree.links) {
+    if (link.motion == Motion::ball) {
+      const Eigen::Vector4d p = q0.segment<4>(link.first_q);
+      const Eigen::Quaterniond R =
+          (Eigen::Quaterniond(p[0], p[1], p[2], p[3]) * rotation_exp(dq.segment<3>(link.first_v))).normalized();
+      q.segment<4>(link.first_q) << R.w(), R.x(), R.y(), R.z();
+    } else if (link.columns == 1) {
+      q[link.first_q] = q0[link.first_q] + dq[link.first_v];
+    }
+  }
+}
+
+void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd& residual, Eigen::VectorXd& scale,
+                         SparseMatrix* tangent) {
+  Implementation& m = *impl_;
+  const Index n = nv() + nlambda();
+  residual.setZero(n);
+  scale.setZero(n);
+  if (tangent) {
+    if (tangent->rows() != n || tangent->nonZeros() != m.pattern.nonZeros()) *tangent = m.pattern;
+    std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
+  }
+  m.motion.update(state);
+  compute_directions(m.tree, m.motion, stage, m.directions);
+  Assembly assembly{m.tree, m.motion, stage, m.directions, residual, scale, tangent};
+  m.inertia.add(assembly);
+  for (Load& load : m.loads) load.add(assembly, state);
+  m.add_coordinate_springs(assembly, state);
+  m.add_two_body_forces(assembly, state);
+  m.add_closures(assembly, state);
+  m.add_drives(assembly, state);
+  m.floor_scales(scale);
+}
+
+void Mechanism::Implementation::add_two_body_forces(Assembly& assembly, const State& state) {
+  for (std::size_t i = 0; i < spec.forces.size(); ++i) {
+    RelativeMotion relative = motion.relative(tree.forces[i]);
+    relative.t = state.t;
+    relative.dt = assembly.stage.dt;
+    spec.forces[i].force->evaluate(relative, assembly.tangent != nullptr, responses[i]);
+    add_pair_force(assembly, tree.forces[i], responses[i]);
+  }
+}
+
+void Mechanism::Implementation::add_coordinate_springs(Assembly& assembly, const State& state) const {
+  for (std::size_t i = 0; i < spec.springs.size(); ++i) {
+    const CoordinateSpringSpec& spring = spec.springs[i];
+    const int k = spring_columns[i];
+    const double elastic = spring.stiffness * (state.q[q_of(k)] - spring.free_position);
+    const double viscous = spring.damping * state.v[k];
+    assembly.add_residual(k, elastic + viscous, std::abs(elastic) + std::abs(viscous));
+    if (assembly.tangent)
+      assembly.add_tangent(k, k, assembly.stage.k * spring.stiffness + assembly.stage.c * spring.damping);
+  }
+}
+
+ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const Eigen::VectorXd& lambda) {
+  ForceResponse response;
+  for (std::size_t i = 0; i < closure.rows.size(); ++i) {
+    const double l = lambda[closure.first_row + static_cast<int>(i)];
+    response.W_B_A -= l * closure.rows[i].wrench(X_AB);
+    response.dW_dX -= l * closure.rows[i].wrench_derivative(X_AB);
+  }
+  return response;
+}
+
+void Mechanism::Implementation::add_closures(Assembly& assembly, const State& state) const {
+  for (const Closure& closure : tree.closures) {
+    const Pose X_WA = motion.pose(closure.pair.a);
+    const Pose X_AB = X_WA.inverse() * motion.pose(closure.pair.b);
+    add_pair_force(assembly, closure.pair, closure_response(closure, X_AB, state.lambda));
+    for (std::size_t i = 0; i < closure.rows.size(); ++i) {
+      const ConstraintRow& row = closure.rows[i];
+      const int at = tree.nv + closure.first_row + static_cast<int>(i);
+      const bool positional = row.kind == ConstraintRow::Kind::position;
+      assembly.add_residual(at, row.value(X_AB), positional ? tree.length : 1.0);
+      if (!assembly.tangent) continue;
+      const Vector6 w = force_transform(X_WA) * row.wrench(X_AB);
+      for (const SignedColumn& col : closure.pair.columns) {
+        assembly.add_tangent(col.column, at, col.sign * motion.J(col.column).dot(w));
+        assembly.add_tangent(at, col.column, col.sign * assembly.directions[col.column].J.dot(w));
+      }
+    }
+  }
+}
+
+void Mechanism::Implementation::add_drives(Assembly& assembly, const State& state) const {
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const BoundDrive& drive = drives[i];
+    const Index row = tree.nv + tree.nclosure + static_cast<Index>(i);
+    const double lambda = state.lambda[tree.nclosure + static_cast<Index>(i)];
+    const double asked = drive.motion.position(state.t);
+    const bool angle = tree.links[tree.columns[drive.column].link].motion == Motion::revolute;
+    assembly.add_residual(drive.column, lambda, std::abs(lambda));
+    assembly.add_residual(row, state.q[drive.q] - asked, std::max(angle ? 1.0 : tree.length, std::abs(asked)));
+    if (!assembly.tangent) continue;
+    assembly.add_tangent(drive.column, row, 1.0);
+    assembly.add_tangent(row, drive.column, assembly.stage.k);
+  }
+}
+
+void Mechanism::Implementation::floor_scales(Eigen::VectorXd& scale) const {
+  // A row with next to no load of its own (a planar mechanism's transverse rows) is measured against its largest
+  // companion of the same unit, three decades down: otherwise it would have to be solved to the round-off of nothing.
+  constexpr double fraction = 1e-3;
+  double force = 0, torque = 0;
+  for (int k = 0; k < tree.nv; ++k) {
+    double& largest = tree.links[tree.columns[k].link].motion == Motion::prismatic ? force : torque;
+    largest = std::max(largest, scale[k]);
+  }
+  for (int k = 0; k < tree.nv; ++k) {
+    const bool linear = tree.links[tree.columns[k].link].motion == Motion::prismatic;
+    scale[k] = std::max(scale[k], fraction * (linear ? force : torque));
+  }
+}
+
+void Mechanism::constraints(const State& state, Eigen::VectorXd& phi, Eigen::VectorXd& scale, SparseMatrix* jacobian) {
+  Implementation& m = *impl_;
+  phi.setZero(nlambda());
+  scale.setOnes(nlambda());
+  if (jacobian) *jacobian = m.constraint_pattern;
+  m.motion.update_positions(state);
+  for (const Closure& closure : m.tree.closures) {
+    const Pose X_WA = m.motion.pose(closure.pair.a);
+    const Pose X_AB = X_WA.inverse() * m.motion.pose(closure.pair.b);
+    for (std::size_t i = 0; i < closure.rows.size(); ++i) {
+      const ConstraintRow& row = closure.rows[i];
+      const Index at = closure.first_row + static_cast<Index>(i);
+      phi[at] = row.value(X_AB);
+      if (row.kind == ConstraintRow::Kind::position) scale[at] = m.tree.length;
+      if (!jacobian) continue;
+      const Vector6 w = force_transform(X_WA) * row.wrench(X_AB);
+      for (const SignedColumn& col : closure.pair.columns)
+        jacobian->coeffRef(at, col.column) = col.sign * m.motion.J(col.column).dot(w);
+    }
+  }
+  for (std::size_t i = 0; i < m.drives.size(); ++i) {
+    const BoundDrive& drive = m.drives[i];
+    const Index at = m.tree.nclosure + static_cast<Index>(i);
+    const double asked = drive.motion.position(state.t);
+    phi[at] = state.q[drive.q] - asked;
+    const bool angle = m.tree.links[m.tree.columns[drive.column].link].motion == Motion::revolute;
+    scale[at] = std::max(angle ? 1.0 : m.tree.length, std::abs(asked));
+    if (jacobian) jacobian->coeffRef(at, drive.column) = 1.0;
+  }
+}
+
+void Mechanism::constraint_rates(const State& state, Eigen::VectorXd& velocity, Eigen::VectorXd& bias) {
+  Implementation& m = *impl_;
+  velocity.setZero(nlambda());
+  bias.setZero(nlambda());
+  m.motion.update_positions(state);
+  m.motion.update_velocities(state);
+  m.motion.update_accelerations(state, true);
+  for (const Closure& closure : m.tree.closures) {
+    const Pair& pair = closure.pair;
+    const RelativeMotion relative = m.motion.relative(pair);
+    const Vector6 &V_a = m.motion.V(pair.a.link), &V_b = m.motion.V(pair.b.link);
+    // Theory manual eq. (mechanisms.16): the relative acceleration seen in A's axes.
+    const Vector6 A_AB_A = motion_transform(m.motion.pose(pair.a).inverse()) *
+                           (m.motion.A(pair.b.link) - m.motion.A(pair.a.link) - cross_motion(V_a, V_b - V_a));
+    for (std::size_t i = 0; i < closure.rows.size(); ++i) {
+      const ConstraintRow& row = closure.rows[i];
+      const Index at = closure.first_row + static_cast<Index>(i);
+      velocity[at] = row.wrench(relative.X_AB).dot(relative.V_AB_A);
+      bias[at] = row.wrench(relative.X_AB).dot(A_AB_A) +
+                 relative.V_AB_A.dot(row.wrench_derivative(relative.X_AB) * relative.V_AB_A);
+    }
+  }
+  for (std::size_t i = 0; i < m.drives.size(); ++i) {
+    const BoundDrive& drive = m.drives[i];
+    const Index at = m.tree.nclosure + static_cast<Index>(i);
+    velocity[at] = state.v[drive.column] - drive.motion.velocity(state.t);
+    bias[at] = -drive.motion.acceleration(state.t);
+  }
+}
+
+void Mechanism::begin_step(const State& start, double dt) {
+  Implementation& m = *impl_;
+  if (m.spec.forces.empty()) return;
+  m.motion.update_positions(start);
+  m.motion.update_velocities(start);
+  for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
+    RelativeMotion relative = m.motion.relative(m.tree.forces[i]);
+    relative.t = start.t;
+    m.spec.forces[i].force->begin_step(relative, dt);
+  }
+}
+
+void Mechanism::accept_step(const State& end) {
+  Implementation& m = *impl_;
+  for (BoundDrive& drive : m.drives) drive.motion.anchor(end.t);
+  if (m.spec.forces.empty()) return;
+  m.motion.update_positions(end);
+  m.motion.update_velocities(end);
+  m.accepted_wrenches.resize(m.spec.forces.size());
+  for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
+    RelativeMotion relative = m.motion.relative(m.tree.forces[i]);
+    relative.t = end.t;
+    m.spec.forces[i].force->accept_step(relative);
+    m.accepted_wrenches[i] = m.responses[i].W_B_A;
+  }
+}
+
+double Mechanism::internal_residual() const {
+  double worst = 0;
+  for (const auto& f : impl_->spec.forces) worst = std::max(worst, f.force->internal_residual());
+  return worst;
+}
+
+std::string Mechanism::name_of_internal_residual() const {
+  const MechanismSpec::Force* worst = nullptr;
+  for (const auto& f : impl_->spec.forces)
+    if (!worst || f.force->internal_residual() > worst->force->internal_residual()) worst = &f;
+  return worst ? fmt::format("{}, {}", worst->name, worst->force->name_of_internal_residual()) : std::string();
+}
+
+std::string Mechanism::domain_error() const {
+  for (const auto& f : impl_->spec.forces)
+    if (const std::string text = f.force->domain_error(); !text.empty()) return fmt::format("{}: {}", f.name, text);
+  return {};
+}
+
+State Mechanism::initial_state() const {
+  const Implementation& m = *impl_;
+  State state;
+  state.q.setZero(nq());
+  state.v.setZero(nv());
+  state.vdot.setZero(nv());
+  state.lambda.setZero(nlambda());
+  for (const Link& link : m.tree.links) {
+    const JointSpec* joint = link.joint >= 0 ? &m.spec.joints[link.joint] : nullptr;
+    const bool placed = joint && !joint->initial.empty(), moving = joint && !joint->initial_rate.empty();
+    if (link.motion == Motion::ball) {
+      Eigen::Quaterniond R_IO = Eigen::Quaterniond::Identity();
+      if (placed) R_IO = rotation_exp(Vector3::Map(joint->initial.data() + link.value));
+      const Eigen::Quaterniond R = link.reversed ? R_IO.conjugate() : R_IO;
+      state.q.segment<4>(link.first_q) << R.w(), R.x(), R.y(), R.z();
+      if (!moving) continue;
+      // Reversed, the ball's velocity is that of I relative to O, in I's axes.
+      const Vector3 omega = Vector3::Map(joint->initial_rate.data() + link.value);
+      state.v.segment<3>(link.first_v) = link.reversed ? Vector3(-(R_IO * omega)) : omega;
+    } else if (link.columns == 1) {
+      if (placed) state.q[link.first_q] = joint->initial[link.value];
+      if (moving) state.v[link.first_v] = joint->initial_rate[link.value];
+    }
+  }
+  return state;
+}
+
+std::vector<Mechanism::Index> Mechanism::given_coordinates() const {
+  std::vector<Index> given;
+  for (const Link& link : impl_->tree.links)
+    if (link.joint >= 0 && !impl_->spec.joints[link.joint].initial.empty())
+      for (int c = 0; c < link.columns; ++c) given.push_back(link.first_v + c);
+  return given;
+}
+
+FrameMotion Mechanism::frame_motion(const State& state, FrameId frame) {
+  HERSEY_REQUIRE(0 <= frame.index && frame.index < static_cast<int>(impl_->tree.frames.size()), "the frame exists");
+  impl_->motion.update(state);
+  return impl_->frame_motion(impl_->tree.frames[frame.index]);
+}
+
+RelativeMotion Mechanism::relative_motion(const State& state, ForceId force) {
+  HERSEY_REQUIRE(0 <= force.index && force.index < static_cast<int>(impl_->tree.forces.size()), "the force exists");
+  impl_->motion.update_positions(state);
+  impl_->motion.update_velocities(state);
+  RelativeMotion relative = impl_->motion.relative(impl_->tree.forces[force.index]);
+  relative.t = state.t;
+  return relative;
+}
+
+}  // namespace hersey::mbd

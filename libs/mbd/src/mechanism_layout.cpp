@@ -1,0 +1,80 @@
+// Names of rows and the fixed patterns of the mechanism's matrices.
+#include <fmt/format.h>
+
+#include "mechanism_impl.h"
+
+namespace hersey::mbd {
+namespace {
+
+/// "rotation", "position y": the part of a joint's coordinates that value `value` is.
+std::string name_of_value(JointType type, int value) {
+  for (const Coordinate& c : coordinates_of(type)) {
+    if (value < c.offset || value >= c.offset + c.size) continue;
+    if (c.size == 1) return std::string(c.name);
+    return fmt::format("{} {}", c.name, "xyz"[value - c.offset]);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string Mechanism::Implementation::name_of_velocity(Index row) const {
+  const Column& column = tree.columns[row];
+  const Link& link = tree.links[column.link];
+  const int value = link.value + column.component;
+  if (link.joint < 0) return fmt::format("body {}, {}", spec.bodies[link.body].name, name_of_value(JointType::free, value));
+  const JointSpec& joint = spec.joints[link.joint];
+  return fmt::format("joint {}, {}", joint.name, name_of_value(joint.type, value));
+}
+
+std::string Mechanism::name_of_row(Index row) const {
+  const Implementation& m = *impl_;
+  if (row < nv()) return m.name_of_velocity(row);
+  row -= nv();
+  if (row >= m.tree.nclosure) return fmt::format("drive {}", m.spec.drives[row - m.tree.nclosure].name);
+  for (const Closure& closure : m.tree.closures) {
+    const Index i = row - closure.first_row;
+    if (i < 0 || i >= static_cast<Index>(closure.rows.size())) continue;
+    const bool positional = closure.rows[i].kind == ConstraintRow::Kind::position;
+    return fmt::format("joint {}, closing {}", m.spec.joints[closure.joint].name, positional ? "position" : "orientation");
+  }
+  return {};
+}
+
+void Mechanism::Implementation::make_patterns() {
+  std::vector<Eigen::Triplet<double>> entries, constraint_entries;
+  const auto visit = [&](Index row, Index column) { entries.emplace_back(row, column, 0.0); };
+  const auto visit_constraint = [&](Index row, Index column) {
+    constraint_entries.emplace_back(row, column, 0.0);
+    visit(tree.nv + row, column);
+    visit(column, tree.nv + row);
+  };
+  const auto visit_pair = [&](const Pair& pair) {
+    for (const SignedColumn& row : pair.columns)
+      for (const SignedColumn& column : pair.columns) visit(row.column, column.column);
+  };
+  for (int j = 0; j < tree.nv; ++j) {
+    for (int k : tree.path[tree.columns[j].link]) {
+      visit(j, k);
+      visit(k, j);
+    }
+  }
+  for (const Pair& pair : tree.forces) visit_pair(pair);
+  for (const Load& load : loads) load.visit_pattern(tree, visit);
+  for (const Closure& closure : tree.closures) {
+    visit_pair(closure.pair);
+    for (std::size_t i = 0; i < closure.rows.size(); ++i)
+      for (const SignedColumn& column : closure.pair.columns)
+        visit_constraint(closure.first_row + static_cast<Index>(i), column.column);
+  }
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    visit_constraint(tree.nclosure + static_cast<Index>(i), drives[i].column);
+
+  const Index n = tree.nv + nlambda();
+  pattern.resize(n, n);
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  constraint_pattern.resize(nlambda(), tree.nv);
+  constraint_pattern.setFromTriplets(constraint_entries.begin(), constraint_entries.end());
+}
+
+}  // namespace hersey::mbd

@@ -1,0 +1,215 @@
+// What a mechanism shows of itself: motion, joint coordinates, reactions, efforts, powers, energies.
+#include <cmath>
+
+#include "mechanism_impl.h"
+
+namespace hersey::mbd {
+namespace {
+
+Vector6 convert_wrench(const Pose& X_WF, const Vector6& W_world) { return force_transform(X_WF.inverse()) * W_world; }
+
+/// Values and rates of a joint that is not in the tree, read off its frames' relative motion.
+void measure_joint(JointType type, const Vector3& axis, const RelativeMotion& relative, JointObservation& seen) {
+  const Matrix3 axes = joint_axes(axis);
+  const Vector3 t1 = axes.col(0), t2 = axes.col(1), n = axes.col(2);
+  const Matrix3& R = relative.X_AB.R;
+  const Vector3& r = relative.X_AB.r;
+  const Vector3 omega = relative.V_AB_A.head<3>(), v = relative.V_AB_A.tail<3>() + omega.cross(r);
+  const auto add = [&](double position, double rate) {
+    seen.position.push_back(position);
+    seen.rate.push_back(rate);
+  };
+  const auto add_rotation = [&] { add(std::atan2(t2.dot(R * t1), t1.dot(R * t1)), n.dot(omega)); };
+  const auto add_orientation = [&] {
+    const Vector3 phi = rotation_log(Eigen::Quaterniond(R)), rate = R.transpose() * omega;
+    for (int i = 0; i < 3; ++i) add(phi[i], rate[i]);
+  };
+  switch (type) {
+    case JointType::fixed:
+      break;
+    case JointType::revolute:
+      add_rotation();
+      break;
+    case JointType::prismatic:
+      add(n.dot(r), n.dot(v));
+      break;
+    case JointType::cylindrical:
+      add(n.dot(r), n.dot(v));
+      add_rotation();
+      break;
+    case JointType::spherical:
+      add_orientation();
+      break;
+    case JointType::planar:
+      add(t1.dot(r), t1.dot(v));
+      add(t2.dot(r), t2.dot(v));
+      add_rotation();
+      break;
+    case JointType::free:
+      for (int i = 0; i < 3; ++i) add(r[i], v[i]);
+      add_orientation();
+      break;
+  }
+}
+
+}  // namespace
+
+FrameMotion Mechanism::Implementation::frame_motion(const Attachment& frame) const {
+  FrameMotion seen;
+  seen.X_WF = motion.pose(frame);
+  const Vector3& r = seen.X_WF.r;
+  const Vector6& V = motion.V(frame.link);
+  const Vector6 A = motion.A(frame.link) - motion.A(0);  // without the weight
+  seen.omega = V.head<3>();
+  seen.v = V.tail<3>() + seen.omega.cross(r);
+  seen.alpha = A.head<3>();
+  // d/dt of the point's velocity v + omega x r, with rdot = v + omega x r.
+  seen.a = A.tail<3>() + seen.alpha.cross(r) + seen.omega.cross(seen.v);
+  return seen;
+}
+
+void Mechanism::Implementation::observe_joint_coordinates(const solver::State& state, Observation& seen) const {
+  for (std::size_t j = 0; j < spec.joints.size(); ++j) {
+    const JointSpec& joint = spec.joints[j];
+    const JointPlace& place = tree.joints[j];
+    JointObservation& o = seen.joints[j];
+    if (place.value_link.empty()) {
+      const Pair pair{tree.frames[joint.inboard.index], tree.frames[joint.outboard.index], {}};
+      measure_joint(joint.type, joint.axis, motion.relative(pair), o);
+      continue;
+    }
+    o.position.resize(place.value_link.size());
+    o.rate.resize(place.value_link.size());
+    for (std::size_t i = 0; i < place.value_link.size(); ++i) {
+      const Link& link = tree.links[place.value_link[i]];
+      const int c = place.value_component[i];
+      if (link.motion != Motion::ball) {
+        o.position[i] = state.q[link.first_q];
+        o.rate[i] = state.v[link.first_v];
+        continue;
+      }
+      const Eigen::Vector4d p = state.q.segment<4>(link.first_q);
+      const Eigen::Quaterniond R(p[0], p[1], p[2], p[3]);
+      const Vector3 omega = state.v.segment<3>(link.first_v);
+      o.position[i] = rotation_log(link.reversed ? R.conjugate() : R)[c];
+      o.rate[i] = link.reversed ? -(R * omega)[c] : omega[c];
+    }
+  }
+}
+
+void Mechanism::Implementation::observe_efforts(const solver::State& state, Observation& seen) {
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    seen.drive_efforts.push_back(-state.lambda[tree.nclosure + static_cast<Index>(i)]);
+    seen.drive_powers.push_back(seen.drive_efforts.back() * state.v[drives[i].column]);
+  }
+  for (Load& load : loads) seen.load_powers.push_back(load.wrench(motion, state).dot(motion.V(load.link())));
+  for (std::size_t i = 0; i < spec.springs.size(); ++i) {
+    const CoordinateSpringSpec& s = spec.springs[i];
+    const int k = spring_columns[i];
+    const double stretch = state.q[q_of(k)] - s.free_position;
+    seen.spring_powers.push_back(-(s.stiffness * stretch + s.damping * state.v[k]) * state.v[k]);
+    seen.spring_energy += 0.5 * s.stiffness * stretch * stretch;
+  }
+  for (std::size_t i = 0; i < spec.forces.size(); ++i) {
+    RelativeMotion relative = motion.relative(tree.forces[i]);
+    relative.t = state.t;
+    if (accepted_wrenches.empty()) {
+      spec.forces[i].force->evaluate(relative, false, responses[i]);
+      seen.force_wrenches.push_back(responses[i].W_B_A);
+    } else {
+      seen.force_wrenches.push_back(accepted_wrenches[i]);
+    }
+    seen.force_powers.push_back(seen.force_wrenches.back().dot(relative.V_AB_A));
+    seen.spring_energy += spec.forces[i].force->stored_energy(relative);
+  }
+}
+
+void Mechanism::Implementation::observe_reactions(const solver::State& state, Observation& seen) const {
+  // Balance of each body: what is left of inertia and weight after the known forces comes through its joints.
+  std::vector<Vector6> need(spec.bodies.size(), Vector6::Zero());
+  const auto body_of = [&](FrameId frame) { return spec.frames[frame.index].body.index; };
+  for (int b : tree.body_order) {
+    const BodySpec& body = spec.bodies[b];
+    Link alone;
+    alone.mass = body.mass;
+    alone.com = body.com;
+    alone.inertia = body.inertia;
+    const Attachment& at = tree.bodies[b];
+    const Matrix6 I = inertia_in_world(alone, motion.pose(at));
+    const Vector6& V = motion.V(at.link);
+    need[b] = I * motion.A(at.link) + cross_force(V, I * V);
+  }
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    Load load = loads[i];
+    need[body_of(spec.loads[i].frame)] -= load.wrench(motion, state);
+  }
+  for (std::size_t i = 0; i < spec.forces.size(); ++i) {
+    const Vector6 W = force_transform(motion.pose(tree.forces[i].a)) * seen.force_wrenches[i];
+    need[body_of(spec.forces[i].b)] -= W;
+    need[body_of(spec.forces[i].a)] += W;
+  }
+  std::vector<Vector6> through(spec.joints.size(), Vector6::Zero());  // on the tree's outer side
+  for (const Closure& closure : tree.closures) {
+    const Pose X_WA = motion.pose(closure.pair.a);
+    const Pose X_AB = X_WA.inverse() * motion.pose(closure.pair.b);
+    const Vector6 W = force_transform(X_WA) * closure_response(closure, X_AB, state.lambda).W_B_A;
+    through[closure.joint] = W;
+    need[body_of(spec.joints[closure.joint].outboard)] -= W;
+    need[body_of(spec.joints[closure.joint].inboard)] += W;
+  }
+  for (auto b = tree.body_order.rbegin(); b != tree.body_order.rend(); ++b) need[tree.body_parent[*b]] += need[*b];
+  for (std::size_t j = 0; j < spec.joints.size(); ++j)
+    if (tree.joints[j].outboard_body >= 0) through[j] = need[tree.joints[j].outboard_body];
+
+  // Drives and springs act inside the joint: a torque about, or a force along, the axis of their coordinate.
+  const auto take_out = [&](int column, int joint, double effort) {
+    const Vector6& J = motion.J(column);
+    Vector6 W;
+    if (tree.links[tree.columns[column].link].motion == Motion::revolute) {
+      W << effort * J.head<3>(), Vector3::Zero();
+    } else {
+      const Vector3 f = effort * J.tail<3>();
+      W << motion.X(tree.columns[column].link).r.cross(f), f;
+    }
+    through[joint] -= W;
+  };
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    take_out(drives[i].column, spec.drives[i].coordinate.joint.index, seen.drive_efforts[i]);
+  for (std::size_t i = 0; i < spec.springs.size(); ++i) {
+    const CoordinateSpringSpec& s = spec.springs[i];
+    const int k = spring_columns[i];
+    take_out(k, s.coordinate.joint.index,
+             -(s.stiffness * (state.q[q_of(k)] - s.free_position) + s.damping * state.v[k]));
+  }
+  for (std::size_t j = 0; j < spec.joints.size(); ++j) {
+    const Pose X_WI = motion.pose(tree.frames[spec.joints[j].inboard.index]);
+    const Vector6 W = convert_wrench(X_WI, tree.joints[j].reversed ? Vector6(-through[j]) : through[j]);
+    seen.joints[j].torque = W.head<3>();
+    seen.joints[j].force = W.tail<3>();
+  }
+}
+
+void Mechanism::Implementation::observe_energies(const solver::State&, Observation& seen) const {
+  for (std::size_t l = 1; l < tree.links.size(); ++l) {
+    const Link& link = tree.links[l];
+    const Vector6& V = motion.V(static_cast<int>(l));
+    seen.kinetic_energy += 0.5 * V.dot(inertia_in_world(link, motion.X(static_cast<int>(l))) * V);
+    seen.potential_energy -= link.mass * spec.gravity.dot(motion.X(static_cast<int>(l)) * link.com);
+  }
+}
+
+Observation Mechanism::observe(const solver::State& state) {
+  Implementation& m = *impl_;
+  m.motion.update(state);
+  Observation seen;
+  seen.t = state.t;
+  for (const Attachment& body : m.tree.bodies) seen.bodies.push_back(m.frame_motion(body));
+  seen.joints.resize(m.spec.joints.size());
+  m.observe_joint_coordinates(state, seen);
+  m.observe_efforts(state, seen);
+  m.observe_reactions(state, seen);
+  m.observe_energies(state, seen);
+  return seen;
+}
+
+}  // namespace hersey::mbd

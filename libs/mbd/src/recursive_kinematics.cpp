@@ -1,0 +1,49 @@
+#include "hersey/mbd/recursive_kinematics.h"
+
+namespace hersey::mbd {
+
+RecursiveVelocity recursive_velocity(JointType type, const Vector3& axis, const Pose& X_iI, const Pose& X_jO,
+                                     std::span<const double> values) {
+  const Pose X_IO = joint_pose(type, axis, values);
+  const Pose X_Oj = X_jO.inverse();
+  const Pose X_ji = (X_iI * X_IO * X_Oj).inverse();
+  RecursiveVelocity relation;
+  relation.B1 = motion_transform(X_ji);
+
+  // Columns at O's origin: translations run along the inboard axes, so turn into O's with R_OI; rotations run about O's.
+  const Matrix3 axes = joint_axes(axis);
+  const Vector3 n = axes.col(2);
+  const Matrix3 R_OI = X_IO.R.transpose();
+  const int dof = degrees_of_freedom(type);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> H = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, dof);
+  switch (type) {
+    case JointType::fixed:
+      break;
+    case JointType::revolute:
+      H.col(0).head<3>() = n;
+      break;
+    case JointType::prismatic:
+      H.col(0).tail<3>() = n;
+      break;
+    case JointType::cylindrical:
+      H.col(0).tail<3>() = R_OI * n;
+      H.col(1).head<3>() = n;
+      break;
+    case JointType::spherical:
+      H.topRows<3>().setIdentity();
+      break;
+    case JointType::planar:
+      H.col(0).tail<3>() = R_OI * axes.col(0);
+      H.col(1).tail<3>() = R_OI * axes.col(1);
+      H.col(2).head<3>() = n;
+      break;
+    case JointType::free:
+      H.block<3, 3>(3, 0) = R_OI;
+      H.block<3, 3>(0, 3).setIdentity();
+      break;
+  }
+  relation.B2 = motion_transform(X_jO) * H;
+  return relation;
+}
+
+}  // namespace hersey::mbd

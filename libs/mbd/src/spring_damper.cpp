@@ -1,0 +1,54 @@
+#include "hersey/mbd/spring_damper.h"
+
+#include "hersey/core/contract.h"
+
+namespace hersey::mbd {
+
+SpringDamper::SpringDamper(double stiffness, double damping, double free_length)
+    : stiffness_(stiffness), damping_(damping), free_length_(free_length) {
+  HERSEY_REQUIRE(stiffness >= 0 && damping >= 0 && free_length >= 0, "a spring-damper stores and takes energy");
+}
+
+void SpringDamper::evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) {
+  const Vector3& r = motion.X_AB.r;
+  const Vector3 omega = motion.V_AB_A.head<3>();
+  const Vector3 rdot = motion.V_AB_A.tail<3>() + omega.cross(r);
+  const double length = r.norm();
+  response = ForceResponse{};
+  collapsed_ = length == 0 && (free_length_ > 0 || damping_ > 0);
+  if (length == 0) {
+    if (want_tangent && !collapsed_) response.dW_dX.bottomRightCorner<3, 3>().diagonal().setConstant(-stiffness_);
+    return;
+  }
+  // f on B = -(tension) u, u = r / l.
+  const Vector3 u = r / length;
+  const double rate = u.dot(rdot);
+  const double tension = stiffness_ * (length - free_length_) + damping_ * rate;
+  const Vector3 f = -tension * u;
+  response.W_B_A << r.cross(f), f;
+  if (!want_tangent) return;
+
+  // Both r and rdot follow a twist [phi; rho]: dr = rho + phi x r, d(rdot) = omega x dr.
+  const Matrix3 across = Matrix3::Identity() - u * u.transpose();
+  const Matrix3 df_dr = -(stiffness_ * u * u.transpose() + tension / length * across +
+                          damping_ / length * u * (across * rdot).transpose());
+  const Matrix3 df_drdot = -damping_ * u * u.transpose();
+  const Matrix3 df = df_dr + df_drdot * skew(omega);
+  Eigen::Matrix<double, 3, 6> dr;
+  dr << -skew(r), Matrix3::Identity();
+  response.dW_dX.topRows<3>() = (skew(r) * df - skew(f)) * dr;
+  response.dW_dX.bottomRows<3>() = df * dr;
+  response.dW_dV.topRows<3>() = skew(r) * df_drdot * dr;
+  response.dW_dV.bottomRows<3>() = df_drdot * dr;
+}
+
+double SpringDamper::stored_energy(const RelativeMotion& motion) const {
+  const double stretch = motion.X_AB.r.norm() - free_length_;
+  return 0.5 * stiffness_ * stretch * stretch;
+}
+
+std::string SpringDamper::domain_error() const {
+  return collapsed_ ? "the ends meet, so its direction is undefined" : std::string();
+}
+
+}  // namespace hersey::mbd
