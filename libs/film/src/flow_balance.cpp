@@ -97,6 +97,8 @@ double FlowBalance::edge_unknown(int j) const {
   return (j == 0 ? model_.p_edge_left : model_.p_edge_right) - model_.p_cav;
 }
 
+double FlowBalance::supply_conductance() const { return supply_stiffness * D0_; }
+
 double FlowBalance::supply_share(int i, int j) const {
   if (edge_row(j)) return 0;
   double chi = 0;
@@ -206,7 +208,7 @@ void FlowBalance::replace_boundary_rows(const Eigen::VectorXd& u) {
     if (column.chi == 0) continue;
     for (int j = 0; j < grid.n_z; ++j) {
       const int i = grid.index(column.i, j);
-      const double given = supply_stiffness * D0_ * (u[i] - supply_unknown());
+      const double given = supply_conductance() * (u[i] - supply_unknown());
       residual_[i] = (1 - column.chi) * residual_[i] + column.chi * given;
       throughput_[i] = std::max(throughput_[i], D0_ * std::abs(supply_unknown()));
     }
@@ -258,7 +260,7 @@ void FlowBalance::assemble_jacobian() {
     for (int j = 0; j < grid.n_z; ++j) {
       const int i = grid.index(column.i, j);
       for (int slot : row_slots_[i]) values_[slot] *= 1 - column.chi;
-      values_[diagonal_slot_[i]] += column.chi * supply_stiffness * D0_;
+      values_[diagonal_slot_[i]] += column.chi * supply_conductance();
     }
   }
   for (int j = 0; j < grid.n_z; ++j) {
@@ -294,7 +296,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     for (int j = 0; j < grid.n_z; ++j) {
       const int i = grid.index(column.i, j);
       const double slack = model_.cavitation == Cavitation::reynolds ? D0_ * std::min(u_[i], 0.0) : 0;
-      const double given = supply_stiffness * D0_ * (u_[i] - supply_unknown());
+      const double given = supply_conductance() * (u_[i] - supply_unknown());
       dr[i] = (1 - column.chi) * dr[i] + column.chi_phi * direction.phi_supply * (given - balance_[i] - slack);
     }
   }

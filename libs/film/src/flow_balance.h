@@ -62,6 +62,9 @@ class FlowBalance {
   [[nodiscard]] bool edge_row(int j) const;
   /// Share chi of the supply condition in node (i, j)'s row: 0 away from the line, 1 on it.
   [[nodiscard]] double supply_share(int i, int j) const;
+  [[nodiscard]] double supply_conductance() const;  ///< what ties u to the supply in those rows [m^3/(Pa s)]
+  [[nodiscard]] double supply_unknown() const { return model_.supply.pressure - model_.p_cav; }  ///< u on the line [Pa]
+  [[nodiscard]] double edge_unknown(int j) const;                                                ///< u on an edge [Pa]
 
   [[nodiscard]] const std::vector<int>& column_start() const { return column_start_; }
   [[nodiscard]] const std::vector<int>& row_index() const { return row_index_; }
@@ -82,13 +85,11 @@ class FlowBalance {
   void take_history(const FilmHistory& history);
   void add_face(std::size_t f);
   void replace_boundary_rows(const Eigen::VectorXd& u);
-  [[nodiscard]] double edge_unknown(int j) const;
   [[nodiscard]] double storage_u(int node) const;
   [[nodiscard]] double storage_g(int node) const;
   [[nodiscard]] double storage_g_rate(int node) const;
   /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
   [[nodiscard]] double entrainment(std::size_t f) const { return f < first_axial_face_ ? speed_phi_ : speed_z_; }
-  [[nodiscard]] double supply_unknown() const { return model_.supply.pressure - model_.p_cav; }
 
   FilmModel model_;
   NodeLaw law_;

@@ -10,16 +10,16 @@ namespace hersey::film {
 
 struct FilmSolveOptions {
   FilmSolver solver = FilmSolver::newton;
-  double rtol = 1e-10;      ///< on Reynolds::relative_residual
-  int max_iterations = 50;  ///< Newton; SOR: sweeps in thousands
+  double rtol = 1e-10;      ///< on Reynolds::relative_residual, > 0
+  int max_iterations = 50;  ///< Newton iterations, or thousands of SOR sweeps
 };
 
 struct FilmSolveSummary {
   bool converged = false;
-  int iterations = 0;
+  int iterations = 0;  ///< Newton iterations, or SOR sweeps
   double relative_residual = 0;
   int worst_node = 0;
-  std::string message;  ///< why it ended, where it did not converge
+  std::string message;  ///< why it ended, where it did not converge; also where it converged to a film without oil
 };
 
 /// Solves the film for u at given surfaces, starting from `u` (all zeros is a cold start). On failure `u` is the last

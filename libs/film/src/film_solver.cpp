@@ -1,0 +1,96 @@
+#include "hersey/film/film_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "node.h"
+#include "sor.h"
+
+namespace hersey::film {
+namespace {
+
+// What one Newton step may change where the law is strongly curved: the exponent of Barus' law and the film thickness
+// of a compliant surface, relative to itself.
+constexpr double largest_change = 1.0;
+
+/// The share of the step du that keeps viscosity and film thickness within `largest_change` at every node. Only
+/// pressures count: switching a node between full and cavitated bends no law and is never held back.
+double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u,
+                  const Eigen::VectorXd& du) {
+  const double C = model.compliance, alpha = model.lubricant.alpha;
+  if (C == 0 && alpha == 0) return 1;
+  const NodeLaw law(model);
+  double share = 1;
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    const double change = std::max(u[i] + du[i], 0.0) - std::max(u[i], 0.0);
+    if (change == 0) continue;
+    const double thickness = C > 0 ? C * std::abs(change) / law.state(motion.g[i], u[i]).h : 0;
+    share = std::min(share, largest_change / std::max(alpha * std::abs(change), thickness));
+  }
+  return share;
+}
+
+std::string where(const Grid& grid, int node) {
+  return fmt::format("film cell ({}, {})", node / grid.n_z, node % grid.n_z);
+}
+
+bool starved(const FilmModel& model, const Eigen::VectorXd& u) {
+  return model.cavitation == Cavitation::mass_conserving && u.maxCoeff() <= 0;
+}
+
+// A fill fraction below zero is no film: it says that more oil leaves a node than comes in.
+int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
+  int node = 0;
+  u.minCoeff(&node);
+  const bool fills = model.cavitation == Cavitation::mass_conserving;
+  return fills && u[node] < -fill_scale(model) * (1 + 1e-9) ? node : -1;
+}
+
+void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, FilmSolveSummary& summary) {
+  const int empty = emptiest_node(model, u);
+  if (summary.converged && empty >= 0) {
+    summary.converged = false;
+    summary.worst_node = empty;
+    summary.message =
+        fmt::format("the fill fraction is negative in {}: more oil leaves than can come; take a shorter step",
+                    where(model.grid, empty));
+  } else if (summary.converged && starved(model, u)) {
+    summary.message =
+        "the film carries no pressure: nothing supplies it above the cavitation pressure; add a supply line "
+        "or an edge pressure above it";
+  } else if (!summary.converged) {
+    summary.message =
+        fmt::format("relative residual {:.2e} after {} iterations, {:.0e} was asked; worst in {}",
+                    summary.relative_residual, summary.iterations, rtol, where(model.grid, summary.worst_node));
+  }
+}
+
+FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                                 const FilmSolveOptions& options, Eigen::VectorXd& u) {
+  FilmSolveSummary summary;
+  Eigen::VectorXd du(u.size());
+  for (;; ++summary.iterations) {
+    reynolds.linearise(motion, history, u);
+    summary.relative_residual = reynolds.relative_residual();
+    summary.worst_node = reynolds.worst_node();
+    summary.converged = summary.relative_residual <= options.rtol;
+    if (summary.converged || summary.iterations == options.max_iterations) return summary;
+    reynolds.newton_increment(du);
+    u += step_share(reynolds.model(), motion, u, du) * du;
+  }
+}
+
+}  // namespace
+
+FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                            const FilmSolveOptions& options, Eigen::VectorXd& u) {
+  FilmSolveSummary summary = options.solver == FilmSolver::newton
+                                 ? solve_by_newton(reynolds, motion, history, options, u)
+                                 : solve_by_sor(reynolds, motion, history, options, u);
+  explain(reynolds.model(), u, options.rtol, summary);
+  return summary;
+}
+
+}  // namespace hersey::film
