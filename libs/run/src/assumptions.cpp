@@ -1,0 +1,89 @@
+#include "assumptions.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace hersey::run {
+namespace {
+
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+std::string pressure(double p) { return fmt::format("{:.4g} bar", p / 1e5); }
+
+std::string cavitation(const film::FilmModel& film) {
+  const std::string at = " at " + pressure(film.p_cav);
+  switch (film.cavitation) {
+    case film::Cavitation::guembel:
+      return "guembel (half Sommerfeld: negative pressures dropped from the forces)" + at;
+    case film::Cavitation::reynolds:
+      return "reynolds (p and its gradient vanish at rupture; mass not conserved)" + at;
+    case film::Cavitation::mass_conserving:
+      return "mass_conserving (pressure or fill fraction in every node)" + at;
+  }
+  return {};
+}
+
+std::string supply(const film::FilmModel& film) {
+  switch (film.supply.kind) {
+    case film::SupplyKind::none:
+      return "none: oil enters over the edges only";
+    case film::SupplyKind::fixed_angle:
+      return fmt::format("line along the bearing at {:.4g} deg, {}", film.supply.phi * 180 / std::numbers::pi,
+                         pressure(film.supply.pressure));
+    case film::SupplyKind::widest_gap:
+      return "line along the bearing, held at the widest gap, " + pressure(film.supply.pressure);
+  }
+  return {};
+}
+
+std::string viscosity(const film::Lubricant& oil) {
+  std::string text = fmt::format("{:.4g} mPa.s", 1e3 * oil.mu0);
+  if (oil.alpha > 0) text += fmt::format(" exp({:.4g}/Pa p) (Barus)", oil.alpha);
+  return text + ", incompressible, isothermal";
+}
+
+std::string asperities(const film::Asperities& contact) {
+  if (contact.model == film::AsperityModel::none) return "smooth surfaces, no contact";
+  const bool fit = contact.model == film::AsperityModel::greenwood_tripp_fit;
+  return fmt::format("Greenwood-Tripp ({}), roughness {:.4g} um, K E = {:.4g} MPa, boundary friction {:.3g}",
+                     fit ? "fit of F_5/2 to h/sigma = 4" : "exact F_5/2", 1e6 * contact.sigma,
+                     1e-6 * contact.elastic_factor * contact.composite_modulus, contact.mu_friction);
+}
+
+void describe(const model::Bearing& bearing, Rows& rows) {
+  const film::FilmModel& film = bearing.film;
+  const auto row = [&](const char* name, std::string text) {
+    rows.emplace_back(bearing.name + ": " + name, std::move(text));
+  };
+  row("cavitation", cavitation(film));
+  row("edge pressure", pressure(film.p_edge_left) + " left, " + pressure(film.p_edge_right) + " right");
+  row("supply", supply(film));
+  row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral)", 1e6 * film.c, 2e6 * film.c));
+  row("grid", fmt::format("{} x {} nodes (circumferential x axial, edges included)", film.grid.n_phi, film.grid.n_z));
+  row("viscosity", viscosity(film.lubricant));
+  row("contact", asperities(film.asperities));
+  row("compliance", film.compliance > 0
+                        ? fmt::format("column, {:.4g} um/MPa, film and contact pressure", 1e12 * film.compliance)
+                        : std::string("rigid surfaces"));
+  row("shear", fmt::format("Couette part over the {} in cavitated nodes; {}",
+                           film.cavitated_shear == film::CavitatedShear::full ? "full gap" : "filled share",
+                           film.shear_force == film::ShearForce::full ? "force and torque" : "torque only"));
+  row("coupling", bearing.coupling.scheme == model::CouplingScheme::monolithic
+                      ? "monolithic: one Newton system, film condensed"
+                      : "partitioned: wrench exchanged until film and bodies agree");
+}
+
+}  // namespace
+
+Rows assumptions(const model::Model& model) {
+  Rows rows;
+  for (const model::Bearing& bearing : model.bearings) describe(bearing, rows);
+  const model::Simulation& run = model.simulation;
+  rows.emplace_back("time integration",
+                    fmt::format("generalized-alpha, spectral radius {:.3g}, step {:.6g} s, Newton tolerance {:.1e}",
+                                run.spectral_radius, run.step, run.tolerance));
+  return rows;
+}
+
+}  // namespace hersey::run

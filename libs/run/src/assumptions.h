@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hersey/model/model.h"
+
+namespace hersey::run {
+
+/// What decides the results beside the model's dimensions, as name and text: cavitation, supply, gap reading, grid,
+/// rheology, contact, compliance, conventions, integrator. The first lines of every report.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> assumptions(const model::Model& model);
+
+}  // namespace hersey::run

@@ -1,0 +1,46 @@
+#include "extremes.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace hersey::run {
+
+BearingExtremes::BearingExtremes(std::string name) {
+  summary_.name = std::move(name);
+  summary_.moft = std::numeric_limits<double>::infinity();
+  summary_.pofp = -std::numeric_limits<double>::infinity();
+}
+
+void BearingExtremes::take(double t, double dt, double clearance, const bearing::BearingObservation& seen) {
+  const film::FilmObservables& film = seen.film;
+  if (film.h_min < summary_.moft) {
+    summary_.moft = film.h_min;
+    summary_.moft_t = t;
+    summary_.moft_phi = film.h_min_phi;
+    summary_.moft_z = film.h_min_z;
+  }
+  if (film.p_max > summary_.pofp) {
+    summary_.pofp = film.p_max;
+    summary_.pofp_t = t;
+    summary_.pofp_phi = film.p_max_phi;
+    summary_.pofp_z = film.p_max_z;
+  }
+  summary_.max_force = std::max(summary_.max_force, seen.wrench_on_shell.tail<3>().norm());
+  summary_.eccentricity_ratio = seen.e.norm() / clearance;
+  summary_.worst_mass_balance = std::max(summary_.worst_mass_balance, film.mass_balance_error);
+  time_ += dt;
+  energy_ += dt * (film.power_film + film.power_asperity);
+  volume_ += dt * (film.flow_left + film.flow_right);
+}
+
+BearingSummary BearingExtremes::summary() const {
+  BearingSummary summary = summary_;
+  if (time_ > 0) {
+    summary.mean_power = energy_ / time_;
+    summary.mean_flow = volume_ / time_;
+  }
+  return summary;
+}
+
+}  // namespace hersey::run

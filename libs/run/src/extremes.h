@@ -1,0 +1,20 @@
+#pragma once
+
+#include "hersey/bearing/journal_bearing.h"
+#include "hersey/run/simulate.h"
+
+namespace hersey::run {
+
+/// Gathers the summary of one bearing over the accepted steps. Means are over time, each step counting with its length.
+class BearingExtremes {
+ public:
+  explicit BearingExtremes(std::string name);
+  void take(double t, double dt, double clearance, const bearing::BearingObservation& seen);
+  [[nodiscard]] BearingSummary summary() const;
+
+ private:
+  BearingSummary summary_;
+  double time_ = 0, energy_ = 0, volume_ = 0;
+};
+
+}  // namespace hersey::run

@@ -1,0 +1,42 @@
+#include "power_balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hersey::run {
+namespace {
+
+double sum(const std::vector<double>& powers) { return std::accumulate(powers.begin(), powers.end(), 0.0); }
+
+}  // namespace
+
+double PowerBalance::largest() const {
+  return std::max({std::abs(drives), std::abs(loads), std::abs(gravity), std::abs(springs), std::abs(bearings),
+                   std::abs(kinetic_rate)});
+}
+
+PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observation& seen,
+                           const std::vector<bool>& is_bearing) {
+  PowerBalance balance;
+  balance.drives = sum(seen.drive_powers);
+  balance.loads = sum(seen.load_powers);
+  balance.springs = sum(seen.spring_powers);
+  for (std::size_t i = 0; i < seen.force_powers.size(); ++i) {
+    (is_bearing[i] ? balance.bearings : balance.springs) += seen.force_powers[i];
+  }
+  for (std::size_t i = 1; i < spec.bodies.size(); ++i) {
+    const mbd::BodySpec& body = spec.bodies[i];
+    const mbd::FrameMotion& motion = seen.bodies[i];
+    const Vector3 c = motion.X_WF.R * body.com;
+    const Vector3 v = motion.v + motion.omega.cross(c);
+    const Vector3 a = motion.a + motion.alpha.cross(c) + motion.omega.cross(motion.omega.cross(c));
+    const Matrix3 inertia = motion.X_WF.R * body.inertia * motion.X_WF.R.transpose();
+    balance.gravity += body.mass * spec.gravity.dot(v);
+    // The gyroscopic torque omega x (I omega) does no work.
+    balance.kinetic_rate += body.mass * v.dot(a) + motion.omega.dot(inertia * motion.alpha);
+  }
+  return balance;
+}
+
+}  // namespace hersey::run

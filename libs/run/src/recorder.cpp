@@ -1,0 +1,299 @@
+#include "recorder.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <numbers>
+#include <string>
+
+#include "assumptions.h"
+#include "hersey/core/version.h"
+
+namespace hersey::run {
+namespace {
+
+// Attitude: from the load on the journal (the shell's film force turned round) to the line of centres, 0..pi.
+double attitude(const bearing::BearingObservation& seen) {
+  const Eigen::Vector2d load = seen.wrench_on_shell.tail<3>().head<2>();
+  const double cross = load.x() * seen.e.y() - load.y() * seen.e.x();
+  return std::abs(std::atan2(cross, load.dot(seen.e)));
+}
+
+std::vector<double> angles(const film::Grid& grid) {
+  std::vector<double> phi(static_cast<std::size_t>(grid.n_phi));
+  for (int i = 0; i < grid.n_phi; ++i) phi[static_cast<std::size_t>(i)] = 2 * std::numbers::pi * i / grid.n_phi;
+  return phi;
+}
+
+std::vector<double> heights(const film::FilmModel& film) {
+  std::vector<double> z(static_cast<std::size_t>(film.grid.n_z));
+  for (int j = 0; j < film.grid.n_z; ++j) {
+    z[static_cast<std::size_t>(j)] = film.L * (static_cast<double>(j) / (film.grid.n_z - 1) - 0.5);
+  }
+  return z;
+}
+
+std::vector<std::string> coordinate_names(mbd::JointType type) {
+  std::vector<std::string> names;
+  for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type)) {
+    for (int i = 0; i < coordinate.size; ++i) {
+      names.push_back(coordinate.size == 1 ? std::string(coordinate.name)
+                                           : fmt::format("{}_{}", coordinate.name, "xyz"[i]));
+    }
+  }
+  return names;
+}
+
+bool is_rotational(const mbd::JointSpec& joint, int value) {
+  for (const mbd::Coordinate& coordinate : mbd::coordinates_of(joint.type)) {
+    if (value >= coordinate.offset && value < coordinate.offset + coordinate.size) return coordinate.rotational;
+  }
+  return false;
+}
+
+}  // namespace
+
+Recorder::Recorder(const model::Model& model, const model::Machine& machine, const Options& options)
+    : model_(model), machine_(machine), writer_(options.results, {.overwrite = options.overwrite}) {
+  declare_run(options);
+  declare_machine();
+  for (const model::Bearing& bearing : model.bearings) bearings_.push_back(declare_bearing(bearing));
+  writer_.flush();
+}
+
+void Recorder::declare_run(const Options& options) {
+  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  writer_.attribute("/", "hersey_version", version());
+  writer_.attribute("/", "title", model_.title);
+  writer_.attribute("/", "description", model_.description);
+  writer_.attribute("/", "created", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)));
+  for (const model::Parameter& parameter : model_.parameters) {
+    writer_.attribute("/parameters", parameter.name, parameter.text);
+  }
+  std::vector<std::string> study_parameters;
+  for (const StudyParameterValue& value : options.study_parameters) {
+    writer_.attribute("/parameters", value.name, value.text);
+    study_parameters.push_back(value.name);
+  }
+  if (!study_parameters.empty()) writer_.attribute("/", "study_parameters", study_parameters);
+  writer_.text("/model", model_.resolved_text, "model file of this run, overrides noted");
+  writer_.text_table("/assumptions", assumptions(model_), "what decides the results: name, text");
+
+  time_ = writer_.series("/time", 1, "s", "time");
+  if (model_.simulation.crank) {
+    crank_angle_ = writer_.series("/crank_angle", 1, "rad", "rotation of joint " + model_.simulation.crank->joint);
+  }
+  dt_ = writer_.series("/solver/dt", 1, "s", "step length");
+  newton_iterations_ = writer_.series("/solver/newton_iterations", 1, "1", "Newton iterations of the step");
+  residual_ = writer_.series("/solver/residual", 1, "1", "largest row residual over its tolerance");
+}
+
+void Recorder::declare_machine() {
+  const mbd::MechanismSpec& spec = machine_.mechanism->spec();
+  for (std::size_t i = 1; i < spec.bodies.size(); ++i) {
+    const std::string path = "/bodies/" + spec.bodies[i].name + "/";
+    bodies_.push_back({writer_.series(path + "position", 3, "m", "origin in ground"),
+                       writer_.series(path + "orientation", 4, "1", "unit quaternion w, x, y, z"),
+                       writer_.series(path + "velocity", 3, "m/s", "of the origin, ground axes"),
+                       writer_.series(path + "angular_velocity", 3, "rad/s", "ground axes"),
+                       writer_.series(path + "acceleration", 3, "m/s^2", "of the origin, ground axes")});
+  }
+  for (const mbd::JointSpec& joint : spec.joints) {
+    const std::string path = "/joints/" + joint.name + "/";
+    const int n = mbd::degrees_of_freedom(joint.type);
+    JointSeries series;
+    if (n > 0) {
+      const bool mixed = n > 1, rotational = is_rotational(joint, 0);
+      series.coordinates = writer_.series(path + "coordinates", n, mixed ? "SI" : (rotational ? "rad" : "m"),
+                                          "joint coordinates, names in the joint's attribute coordinate_names");
+      series.rates = writer_.series(path + "rates", n, mixed ? "SI" : (rotational ? "rad/s" : "m/s"),
+                                    "rates of the joint coordinates");
+      writer_.attribute("/joints/" + joint.name, "coordinate_names", coordinate_names(joint.type));
+    }
+    series.force = writer_.series(path + "reaction_force", 3, "N", "on the outboard body, inboard frame's axes");
+    series.torque = writer_.series(path + "reaction_torque", 3, "N.m", "on the outboard body about the inboard frame");
+    joints_.push_back(series);
+  }
+  for (const mbd::DriveSpec& drive : spec.drives) {
+    const std::string path = "/drives/" + drive.name + "/";
+    drives_.push_back({writer_.series(path + "force_or_torque", 1, "SI", "effort on the driven coordinate"),
+                       writer_.series(path + "power", 1, "W", "power put into the machine")});
+  }
+  energy_ = {writer_.series("/energy/kinetic", 1, "J", "kinetic energy"),
+             writer_.series("/energy/potential", 1, "J", "potential energy of gravity"),
+             writer_.series("/energy/springs", 1, "J", "energy stored in springs")};
+  power_ = {writer_.series("/power/drives", 1, "W", "put in by drives"),
+            writer_.series("/power/loads", 1, "W", "put in by applied forces and torques"),
+            writer_.series("/power/gravity", 1, "W", "put in by gravity"),
+            writer_.series("/power/springs", 1, "W", "given to the bodies by springs and dampers"),
+            writer_.series("/power/bearings", 1, "W", "given to the bodies by the films (negative: taken)"),
+            writer_.series("/power/kinetic_rate", 1, "W", "rate of change of the kinetic energy"),
+            writer_.series("/power/balance_error", 1, "W", "sum of all powers less the kinetic rate"),
+            writer_.series("/power/film_friction", 1, "W", "viscous dissipation in all films"),
+            writer_.series("/power/asperity_friction", 1, "W", "boundary friction in all films")};
+}
+
+Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing) {
+  const std::string group = "/bearings/" + bearing.name, path = group + "/";
+  const film::FilmModel& film = bearing.film;
+  writer_.attribute(group, "radius", film.R);
+  writer_.attribute(group, "width", film.L);
+  writer_.attribute(group, "radial_clearance", film.c);
+  writer_.attribute(group, "n_phi", film.grid.n_phi);
+  writer_.attribute(group, "n_z", film.grid.n_z);
+  for (const auto& [name, text] : assumptions(model_)) {
+    if (name.starts_with(bearing.name + ": ")) writer_.attribute(group, name.substr(bearing.name.size() + 2), text);
+  }
+  const auto series = [&](const char* name, const char* unit, const char* description, int columns = 1) {
+    return writer_.series(path + name, columns, unit, description);
+  };
+  BearingSeries s;
+  s.eccentricity = series("eccentricity", "m", "journal axis from bore axis at z = 0, bearing frame", 2);
+  s.ratio = series("eccentricity_ratio", "1", "eccentricity over radial clearance");
+  s.attitude = series("attitude", "rad", "angle between load and line of centres");
+  s.tilt = series("tilt", "1", "slope of the journal's axis in the bearing frame", 2);
+  s.h_min = series("h_min", "m", "smallest film thickness on the surface, edges included");
+  s.h_min_phi = series("h_min_phi", "rad", "where: bearing angle");
+  s.h_min_z = series("h_min_z", "m", "where: axial");
+  s.h_min_centre = series("h_min_centre", "m", "smallest film thickness at z = 0");
+  s.p_max = series("p_max", "Pa", "peak film pressure, interpolated");
+  s.p_max_phi = series("p_max_phi", "rad", "where: bearing angle");
+  s.p_max_z = series("p_max_z", "m", "where: axial");
+  s.p_max_node = series("p_max_node", "Pa", "largest nodal film pressure");
+  s.force = series("force", "N", "film force on the shell, bearing frame", 3);
+  s.force_pressure = series("force_pressure", "N", "its part from film pressure", 3);
+  s.force_shear = series("force_shear", "N", "its part from shear", 3);
+  s.force_asperity = series("force_asperity", "N", "its part from asperity contact", 3);
+  s.moment = series("moment", "N.m", "film moment on the shell about the bearing's origin", 3);
+  s.speed = series("speed", "rad/s", "journal's angular velocity relative to the shell");
+  s.torque_journal = series("torque_journal", "N.m", "friction torque on the journal about its own axis");
+  s.torque_shell = series("torque_shell", "N.m", "friction torque on the shell about its own axis");
+  s.power_film = series("power_film", "W", "viscous dissipation in the film");
+  s.power_asperity = series("power_asperity", "W", "boundary friction");
+  s.power_into_bodies = series("power_into_bodies", "W", "film wrench times relative velocity (negative: taken)");
+  s.flow_left = series("flow_left", "m^3/s", "oil leaving over the edge z = -L/2");
+  s.flow_right = series("flow_right", "m^3/s", "oil leaving over the edge z = +L/2");
+  s.flow_supply = series("flow_supply", "m^3/s", "oil entering through the supply");
+  s.storage_rate = series("storage_rate", "m^3/s", "rate of change of the oil volume in the film");
+  s.oil_volume = series("oil_volume", "m^3", "oil volume in the film");
+  s.mass_balance_error = series("mass_balance_error", "1", "|supply - edges - storage| over the largest flow");
+  s.cavitated_share = series("cavitated_share", "1", "share of the area that is cavitated");
+  s.film_iterations = series("film_iterations", "1", "film linearisations in the step");
+  declare_fields(bearing, s);
+  return s;
+}
+
+void Recorder::declare_fields(const model::Bearing& bearing, BearingSeries& s) {
+  const std::string path = "/bearings/" + bearing.name + "/fields/";
+  const film::Grid& grid = bearing.film.grid;
+  writer_.constant(path + "phi", angles(grid), "rad", "bearing angle of the nodes");
+  writer_.constant(path + "z", heights(bearing.film), "m", "axial position of the nodes");
+  const std::array<int, 2> shape{grid.n_phi, grid.n_z};
+  s.field_time = writer_.series(path + "time", 1, "s", "time of the fields");
+  s.pressure = writer_.field(path + "pressure", shape, "Pa", "film pressure");
+  s.thickness = writer_.field(path + "thickness", shape, "m", "film thickness");
+  s.fill = writer_.field(path + "fill", shape, "1", "fill fraction");
+  s.asperity_pressure = writer_.field(path + "asperity_pressure", shape, "Pa", "asperity contact pressure");
+}
+
+void Recorder::write_row(const StepRecord& step) {
+  const mbd::Observation& seen = step.mechanism;
+  time_.append(seen.t);
+  if (const auto& crank = model_.simulation.crank) {
+    crank_angle_.append(crank->initial_angle + crank->speed * (seen.t - model_.simulation.start));
+  }
+  dt_.append(step.dt);
+  newton_iterations_.append(step.newton_iterations);
+  residual_.append(step.newton_residual);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const mbd::FrameMotion& motion = seen.bodies[i + 1];
+    const Eigen::Quaterniond R(motion.X_WF.R);
+    bodies_[i].position.append(motion.X_WF.r);
+    bodies_[i].orientation.append({R.w(), R.x(), R.y(), R.z()});
+    bodies_[i].velocity.append(motion.v);
+    bodies_[i].angular_velocity.append(motion.omega);
+    bodies_[i].acceleration.append(motion.a);
+  }
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const mbd::JointObservation& joint = seen.joints[i];
+    if (!joint.position.empty()) {
+      joints_[i].coordinates.append(joint.position);
+      joints_[i].rates.append(joint.rate);
+    }
+    joints_[i].force.append(joint.force);
+    joints_[i].torque.append(joint.torque);
+  }
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    drives_[i].effort.append(seen.drive_efforts[i]);
+    drives_[i].power.append(seen.drive_powers[i]);
+  }
+  energy_.kinetic.append(seen.kinetic_energy);
+  energy_.potential.append(seen.potential_energy);
+  energy_.springs.append(seen.spring_energy);
+
+  const PowerBalance& power = step.power;
+  power_.drives.append(power.drives);
+  power_.loads.append(power.loads);
+  power_.gravity.append(power.gravity);
+  power_.springs.append(power.springs);
+  power_.bearings.append(power.bearings);
+  power_.kinetic_rate.append(power.kinetic_rate);
+  power_.balance_error.append(power.error());
+  double film_friction = 0, asperity_friction = 0;
+  for (std::size_t i = 0; i < bearings_.size(); ++i) {
+    write_bearing(bearings_[i], step.bearings[i], model_.bearings[i].film.c);
+    film_friction += step.bearings[i].film.power_film;
+    asperity_friction += step.bearings[i].film.power_asperity;
+  }
+  power_.film_friction.append(film_friction);
+  power_.asperity_friction.append(asperity_friction);
+}
+
+void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObservation& seen, double clearance) const {
+  const film::FilmObservables& film = seen.film;
+  s.eccentricity.append(seen.e);
+  s.ratio.append(seen.e.norm() / clearance);
+  s.attitude.append(attitude(seen));
+  s.tilt.append(seen.tilt);
+  s.h_min.append(film.h_min);
+  s.h_min_phi.append(film.h_min_phi);
+  s.h_min_z.append(film.h_min_z);
+  s.h_min_centre.append(film.h_min_centre);
+  s.p_max.append(film.p_max);
+  s.p_max_phi.append(film.p_max_phi);
+  s.p_max_z.append(film.p_max_z);
+  s.p_max_node.append(film.p_max_node);
+  s.force.append(Vector3(seen.wrench_on_shell.tail<3>()));
+  s.force_pressure.append(film.force_pressure);
+  s.force_shear.append(film.force_shear);
+  s.force_asperity.append(film.force_asperity);
+  s.moment.append(Vector3(seen.wrench_on_shell.head<3>()));
+  s.speed.append(seen.speed);
+  s.torque_journal.append(film.torque_journal);
+  s.torque_shell.append(film.torque_shell);
+  s.power_film.append(film.power_film);
+  s.power_asperity.append(film.power_asperity);
+  s.power_into_bodies.append(seen.power_into_bodies);
+  s.flow_left.append(film.flow_left);
+  s.flow_right.append(film.flow_right);
+  s.flow_supply.append(film.flow_supply);
+  s.storage_rate.append(film.storage_rate);
+  s.oil_volume.append(film.oil_volume);
+  s.mass_balance_error.append(film.mass_balance_error);
+  s.cavitated_share.append(film.cavitated_share);
+  s.film_iterations.append(seen.film_iterations);
+}
+
+void Recorder::write_fields(const StepRecord& step) {
+  for (std::size_t i = 0; i < bearings_.size(); ++i) {
+    const film::FilmFields fields = machine_.bearings[i].bearing->fields(step.journal_motions[i]);
+    bearings_[i].field_time.append(step.mechanism.t);
+    bearings_[i].pressure.append(fields.p);
+    bearings_[i].thickness.append(fields.h);
+    bearings_[i].fill.append(fields.theta);
+    bearings_[i].asperity_pressure.append(fields.p_asperity);
+  }
+}
+
+}  // namespace hersey::run

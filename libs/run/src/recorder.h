@@ -1,0 +1,79 @@
+#pragma once
+
+#include <vector>
+
+#include "hersey/mbd/mechanism.h"
+#include "hersey/model/build.h"
+#include "hersey/model/model.h"
+#include "hersey/results/writer.h"
+#include "hersey/run/simulate.h"
+#include "power_balance.h"
+
+namespace hersey::run {
+
+/// Everything seen of an accepted step: what the summary, the settling test and the results file are made of.
+struct StepRecord {
+  double dt = 0;
+  int newton_iterations = 0;
+  double newton_residual = 0;
+  mbd::Observation mechanism;
+  std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
+  std::vector<bearing::BearingObservation> bearings;
+  PowerBalance power;
+};
+
+/// Puts steps into the results file (layout: docs/results-file.md).
+class Recorder {
+ public:
+  /// @throws results::FileExists, results::WriteError.
+  Recorder(const model::Model& model, const model::Machine& machine, const Options& options);
+
+  void write_row(const StepRecord& step);
+  void write_fields(const StepRecord& step);
+  void flush_if_due() { writer_.flush_if_due(); }
+  void finish(results::Status status, const std::string& message) { writer_.finish(status, message); }
+
+ private:
+  struct BodySeries {
+    results::Series position, orientation, velocity, angular_velocity, acceleration;
+  };
+  struct JointSeries {
+    results::Series coordinates, rates, force, torque;
+  };
+  struct DriveSeries {
+    results::Series effort, power;
+  };
+  struct EnergySeries {
+    results::Series kinetic, potential, springs;
+  };
+  struct PowerSeries {
+    results::Series drives, loads, gravity, springs, bearings, kinetic_rate, balance_error, film_friction,
+        asperity_friction;
+  };
+  struct BearingSeries {
+    results::Series eccentricity, ratio, attitude, tilt, h_min, h_min_phi, h_min_z, h_min_centre, p_max, p_max_phi,
+        p_max_z, p_max_node, force, force_pressure, force_shear, force_asperity, moment, speed, torque_journal,
+        torque_shell, power_film, power_asperity, power_into_bodies, flow_left, flow_right, flow_supply, storage_rate,
+        oil_volume, mass_balance_error, cavitated_share, film_iterations;
+    results::Series field_time, pressure, thickness, fill, asperity_pressure;
+  };
+
+  void declare_run(const Options& options);
+  void declare_machine();
+  [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
+  void declare_fields(const model::Bearing& bearing, BearingSeries& series);
+  void write_bearing(const BearingSeries& series, const bearing::BearingObservation& seen, double clearance) const;
+
+  const model::Model& model_;
+  const model::Machine& machine_;
+  results::Writer writer_;
+  results::Series time_, crank_angle_, dt_, newton_iterations_, residual_;
+  EnergySeries energy_;
+  PowerSeries power_;
+  std::vector<BodySeries> bodies_;
+  std::vector<JointSeries> joints_;
+  std::vector<DriveSeries> drives_;
+  std::vector<BearingSeries> bearings_;
+};
+
+}  // namespace hersey::run
