@@ -34,14 +34,15 @@ Matrix6 ConstraintRow::wrench_derivative(const Pose& X_AB) const {
 std::vector<ConstraintRow> constraint_rows(JointType type, const Vector3& axis) {
   const Matrix3 axes = joint_axes(axis);
   const Vector3 t1 = axes.col(0), t2 = axes.col(1), n = axes.col(2);
-  const auto position = [](const Vector3& a) { return ConstraintRow{ConstraintRow::Kind::position, a, Vector3::Zero()}; };
+  const auto position = [](const Vector3& a) {
+    return ConstraintRow{ConstraintRow::Kind::position, a, Vector3::Zero()};
+  };
   const auto orientation = [](const Vector3& a, const Vector3& b) {
     return ConstraintRow{ConstraintRow::Kind::orientation, a, b};
   };
   switch (type) {
     case JointType::fixed:
-      return {position(t1),         position(t2),        position(n),
-              orientation(t1, t2), orientation(t2, n), orientation(n, t1)};
+      return {position(t1), position(t2), position(n), orientation(t1, t2), orientation(t2, n), orientation(n, t1)};
     case JointType::revolute:
       return {position(t1), position(t2), position(n), orientation(t1, n), orientation(t2, n)};
     case JointType::prismatic:

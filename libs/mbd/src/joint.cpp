@@ -24,7 +24,9 @@ constexpr std::array<Coordinate, 2> kFree{
 constexpr std::array<std::string_view, 7> kNames{"fixed",     "revolute", "prismatic", "cylindrical",
                                                  "spherical", "planar",   "free"};
 
-Pose rotation(const Vector3& rotation_vector) { return {rotation_exp(rotation_vector).toRotationMatrix(), Vector3::Zero()}; }
+Pose rotation(const Vector3& rotation_vector) {
+  return {rotation_exp(rotation_vector).toRotationMatrix(), Vector3::Zero()};
+}
 
 }  // namespace
 

@@ -41,8 +41,8 @@ void check_body(const BodySpec& body, std::vector<Fault>& faults) {
 
 void check_spring(const CoordinateSpringSpec& s, std::vector<Fault>& faults) {
   if (!(s.stiffness >= 0) || !(s.damping >= 0))
-    faults.push_back(fault("forces." + s.name, fmt::format("stiffness {:g}, damping {:g}", s.stiffness, s.damping),
-                           "both >= 0"));
+    faults.push_back(
+        fault("forces." + s.name, fmt::format("stiffness {:g}, damping {:g}", s.stiffness, s.damping), "both >= 0"));
 }
 
 bool same(const CoordinateRef& a, const CoordinateRef& b) { return a.joint == b.joint && a.value == b.value; }
@@ -51,7 +51,8 @@ void check_drives(const std::vector<DriveSpec>& drives, std::vector<Fault>& faul
   for (std::size_t i = 0; i < drives.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (same(drives[i].coordinate, drives[j].coordinate))
-        faults.push_back(fault("drives." + drives[i].name, "a coordinate that drive " + drives[j].name + " moves already",
+        faults.push_back(fault("drives." + drives[i].name,
+                               "a coordinate that drive " + drives[j].name + " moves already",
                                "one drive per coordinate"));
 }
 

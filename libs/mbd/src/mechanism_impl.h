@@ -32,8 +32,8 @@ struct Mechanism::Implementation {
   SparseMatrix pattern;             ///< of the tangent, zeros
   SparseMatrix constraint_pattern;  ///< of G, zeros
 
-  std::vector<ForceResponse> responses;   ///< of the two-body forces at the last assembly
-  std::vector<Vector6> accepted_wrenches; ///< at the last accepted step; empty before the first
+  std::vector<ForceResponse> responses;    ///< of the two-body forces at the last assembly
+  std::vector<Vector6> accepted_wrenches;  ///< at the last accepted step; empty before the first
 
   [[nodiscard]] Index nlambda() const { return tree.nclosure + static_cast<Index>(drives.size()); }
   [[nodiscard]] int q_of(int column) const { return tree.links[tree.columns[column].link].first_q; }

@@ -22,7 +22,8 @@ std::string Mechanism::Implementation::name_of_velocity(Index row) const {
   const Column& column = tree.columns[row];
   const Link& link = tree.links[column.link];
   const int value = link.value + column.component;
-  if (link.joint < 0) return fmt::format("body {}, {}", spec.bodies[link.body].name, name_of_value(JointType::free, value));
+  if (link.joint < 0)
+    return fmt::format("body {}, {}", spec.bodies[link.body].name, name_of_value(JointType::free, value));
   const JointSpec& joint = spec.joints[link.joint];
   return fmt::format("joint {}, {}", joint.name, name_of_value(joint.type, value));
 }
@@ -36,7 +37,8 @@ std::string Mechanism::name_of_row(Index row) const {
     const Index i = row - closure.first_row;
     if (i < 0 || i >= static_cast<Index>(closure.rows.size())) continue;
     const bool positional = closure.rows[i].kind == ConstraintRow::Kind::position;
-    return fmt::format("joint {}, closing {}", m.spec.joints[closure.joint].name, positional ? "position" : "orientation");
+    return fmt::format("joint {}, closing {}", m.spec.joints[closure.joint].name,
+                       positional ? "position" : "orientation");
   }
   return {};
 }

@@ -10,7 +10,8 @@ RecursiveVelocity recursive_velocity(JointType type, const Vector3& axis, const 
   RecursiveVelocity relation;
   relation.B1 = motion_transform(X_ji);
 
-  // Columns at O's origin: translations run along the inboard axes, so turn into O's with R_OI; rotations run about O's.
+  // Columns at O's origin: translations run along the inboard axes, so turn into O's with R_OI; rotations run about
+  // O's.
   const Matrix3 axes = joint_axes(axis);
   const Vector3 n = axes.col(2);
   const Matrix3 R_OI = X_IO.R.transpose();

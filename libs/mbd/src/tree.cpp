@@ -127,8 +127,8 @@ class TreeBuilder {
     const FrameSpec& near = spec_.frames[(reversed ? joint.outboard : joint.inboard).index];
     const FrameSpec& far = spec_.frames[(reversed ? joint.inboard : joint.outboard).index];
     const Attachment& base = tree_.bodies[near.body.index];
-    const Attachment end = add_chain(j, -1, elements_of(joint.type, joint.axis), reversed,
-                                     {base.link, base.X_LF * near.X_BF});
+    const Attachment end =
+        add_chain(j, -1, elements_of(joint.type, joint.axis), reversed, {base.link, base.X_LF * near.X_BF});
     tree_.bodies[far.body.index] = {end.link, end.X_LF * far.X_BF.inverse()};
     tree_.joints[j].reversed = reversed;
     tree_.joints[j].outboard_body = far.body.index;
@@ -183,8 +183,8 @@ class TreeBuilder {
       const Matrix3 d = skew(from - com);
       return Matrix3(-m * d * d);
     };
-    link.inertia = link.inertia + about(link.mass, link.com) + at.X_LF.R * b.inertia * at.X_LF.R.transpose() +
-                   about(b.mass, c);
+    link.inertia =
+        link.inertia + about(link.mass, link.com) + at.X_LF.R * b.inertia * at.X_LF.R.transpose() + about(b.mass, c);
     link.mass = mass;
     link.com = com;
   }

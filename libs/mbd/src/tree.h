@@ -11,9 +11,9 @@ namespace hersey::mbd {
 enum class Motion { none, revolute, prismatic, ball };
 
 /// A link of the spanning tree and the elementary joint that carries it on its parent: every joint is a chain of
-/// elementary joints (theory manual, section "Joints"), whose inner links are massless. Link 0 is ground. A link's frame
-/// is the moving frame M of its elementary joint, whose fixed frame F is fixed on the parent P:
-/// X_WL = X_WP X_PF X_FM(q).
+/// elementary joints (theory manual, section "Joints"), whose inner links are massless. Link 0 is ground. A link's
+/// frame is the moving frame M of its elementary joint, whose fixed frame F is fixed on the parent P: X_WL = X_WP X_PF
+/// X_FM(q).
 struct Link {
   int parent = -1;
   Motion motion = Motion::none;
@@ -82,15 +82,15 @@ struct Tree {
   std::vector<Attachment> frames;
   std::vector<Closure> closures;
   std::vector<JointPlace> joints;
-  std::vector<int> body_order;               ///< bodies from ground outwards, ground excluded
-  std::vector<int> body_parent;              ///< the body each hangs on, -1 for ground
-  std::vector<std::vector<int>> path;        ///< per link: columns that move it, from ground outwards
-  std::vector<std::vector<char>> is_above;   ///< [link][other]: link carries other, or is it
-  std::vector<Pair> forces;                  ///< of the two-body forces
+  std::vector<int> body_order;              ///< bodies from ground outwards, ground excluded
+  std::vector<int> body_parent;             ///< the body each hangs on, -1 for ground
+  std::vector<std::vector<int>> path;       ///< per link: columns that move it, from ground outwards
+  std::vector<std::vector<char>> is_above;  ///< [link][other]: link carries other, or is it
+  std::vector<Pair> forces;                 ///< of the two-body forces
   int nq = 0;
   int nv = 0;
-  int nclosure = 0;        ///< constraint rows of all closures
-  double length = 1;       ///< size of the mechanism [m]: scale of positional constraints
+  int nclosure = 0;   ///< constraint rows of all closures
+  double length = 1;  ///< size of the mechanism [m]: scale of positional constraints
 
   /// Whether column k moves link l.
   [[nodiscard]] bool moves(int k, int l) const { return is_above[columns[k].link][l] != 0; }

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <span>
+
+#include "hersey/core/scalar_function.h"
+#include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/spring_damper.h"
+
+/// Mechanisms and functions that several tests use.
+namespace hersey::mbd::test {
+
+/// a + b x + c sin(d x) + ... of each argument, multiplied: smooth and sensitive to every argument.
+class WavyFunction final : public ScalarFunction {
+ public:
+  explicit WavyFunction(double size) : size_(size) {}
+  [[nodiscard]] double value(std::span<const double> x) const override {
+    double product = size_;
+    for (double xi : x) product *= factor(xi);
+    return product;
+  }
+  void gradient(std::span<const double> x, std::span<double> gradient) const override {
+    for (std::size_t i = 0; i < x.size(); ++i) gradient[i] = value(x) / factor(x[i]) * 0.6 * std::cos(1.5 * x[i] + 0.3);
+  }
+  [[nodiscard]] double second_derivative(std::span<const double> x) const override {
+    return value(x) / factor(x[0]) * -0.9 * std::sin(1.5 * x[0] + 0.3);
+  }
+
+ private:
+  static double factor(double x) { return 2 + 0.4 * std::sin(1.5 * x + 0.3); }
+  double size_;
+};
+
+/// A function of time given by its value, derivative and second derivative.
+template <class F, class D, class D2>
+class TimeFunction final : public ScalarFunction {
+ public:
+  TimeFunction(F f, D d, D2 d2) : f_(f), d_(d), d2_(d2) {}
+  [[nodiscard]] double value(std::span<const double> x) const override { return f_(x[0]); }
+  void gradient(std::span<const double> x, std::span<double> gradient) const override { gradient[0] = d_(x[0]); }
+  [[nodiscard]] double second_derivative(std::span<const double> x) const override { return d2_(x[0]); }
+
+ private:
+  F f_;
+  D d_;
+  D2 d2_;
+};
+
+template <class F, class D, class D2>
+std::shared_ptr<const ScalarFunction> time_function(F f, D d, D2 d2) {
+  return std::make_shared<TimeFunction<F, D, D2>>(f, d, d2);
+}
+
+inline std::shared_ptr<const ScalarFunction> constant(double value) {
+  return std::make_shared<ConstantFunction>(value);
+}
+
+/// A linear force between two frames in all six directions, neither symmetric nor conservative: the hardest case a film
+/// can present to the assembly.
+class FullBushing final : public TwoBodyForce {
+ public:
+  FullBushing() {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int i = 0; i < 36; ++i) {
+      K_(i) = 40 * uniform(random);
+      D_(i) = 7 * uniform(random);
+    }
+  }
+  void evaluate(const RelativeMotion& motion, bool, ForceResponse& response) override {
+    // A function of the pose whose derivative with respect to a twist is known: its columns R e_1, and r.
+    const Vector3 d = motion.X_AB.R.col(0), r = motion.X_AB.r;
+    Vector6 x;
+    x << d, r;
+    Matrix6 dx;  // dx/dxi: d' = phi x d, r' = rho + phi x r
+    dx << -skew(d), Matrix3::Zero(), -skew(r), Matrix3::Identity();
+    response.W_B_A = K_ * x + D_ * motion.V_AB_A;
+    response.dW_dX = K_ * dx;
+    response.dW_dV = D_;
+  }
+
+ private:
+  Matrix6 K_, D_;
+};
+
+inline Pose pose(const Vector3& rotation, const Vector3& r) { return {rotation_exp(rotation).toRotationMatrix(), r}; }
+
+/// Every joint type, in the tree and closing, both ways round; balls; loads of joint angles; springs; drives; a force.
+inline std::unique_ptr<Mechanism> nasty_mechanism() {
+  MechanismBuilder b;
+  b.set_gravity({0.3, -9.81, 1.2});
+  const auto body = [&](const char* name, double mass) {
+    Matrix3 J;
+    J << 0.11, 0.01, 0.02, 0.01, 0.13, -0.015, 0.02, -0.015, 0.09;
+    return b.add_body({.name = name, .mass = mass, .com = {0.1, -0.05, 0.07 * mass}, .inertia = mass * J});
+  };
+  const BodyId arm = body("arm", 1.3), slider = body("slider", 0.7), plate = body("plate", 2.1), top = body("top", 0.9),
+               hand = body("hand", 0.4), bob = body("bob", 0.6), flyer = body("flyer", 1.1),
+               welded = body("welded", 0.5);
+  const auto at = [&](BodyId id, const Vector3& rotation, const Vector3& r) {
+    return b.add_frame({.name = "f", .body = id, .X_BF = pose(rotation, r)});
+  };
+  const auto join = [&](const char* name, JointType type, FrameId i, FrameId o, const Vector3& axis = {0, 0, 1},
+                        std::vector<double> initial = {}, std::vector<double> rate = {}) {
+    return b.add_joint({.name = name,
+                        .type = type,
+                        .inboard = i,
+                        .outboard = o,
+                        .axis = axis,
+                        .initial = std::move(initial),
+                        .initial_rate = std::move(rate)});
+  };
+  const JointId pivot = join("pivot", JointType::revolute, at(b.ground(), {0.2, 0.1, 0}, {0.1, 0.2, 0.3}),
+                             at(arm, {0, 0.3, 0.1}, {0.05, 0, 0}), {1, 2, 2}, {0.4}, {1.1});
+  const JointId rail = join("rail", JointType::cylindrical, at(arm, {0, 0, 0.4}, {0.4, 0, 0.1}),
+                            at(slider, {0.1, 0, 0}, {0, 0.1, 0}), {0, 1, 0}, {0.2, -0.5}, {0.3, -0.7});
+  // Reversed: plate is reached from the slider, though it is the inboard body.
+  join("ball", JointType::spherical, at(plate, {0.3, 0, 0.2}, {0.2, 0.1, 0}), at(slider, {0, 0.2, 0}, {0.3, 0, 0.1}),
+       {0, 0, 1}, {0.3, -0.2, 0.5}, {0.5, 0.6, -0.4});
+  join("table", JointType::planar, at(plate, {0, 0, 0}, {0, 0.2, 0.1}), at(top, {0.1, 0.1, 0}, {0, 0, 0.1}), {1, 0, 0},
+       {0.1, -0.2, 0.6}, {0.2, 0.1, -0.9});
+  join("guide", JointType::prismatic, at(hand, {0.2, 0, 0}, {0.1, 0, 0}), at(top, {0, 0.4, 0}, {0.1, 0.2, 0}),
+       {0, 0.6, 0.8}, {0.15}, {-0.4});
+  join("flight", JointType::free, at(flyer, {0.1, 0.2, 0.3}, {0.1, 0, 0}), at(b.ground(), {0, 0, 0.5}, {0.5, 0.1, 0}),
+       {0, 0, 1}, {0.3, 0.2, -0.1, 0.4, 0.3, -0.6}, {0.1, -0.2, 0.3, 0.8, -0.5, 0.7});
+  join("weld", JointType::fixed, at(flyer, {0.4, 0, 0}, {0, 0, 0.3}), at(welded, {0, 0.1, 0}, {0.1, 0, 0}));
+  const JointId swing = join("swing", JointType::revolute, b.frame_of(b.ground()), at(bob, {0, 0, 0}, {0, 0.4, 0}),
+                             {0, 1, 1}, {0.2}, {0.9});
+  // Closing: one plain, one with a coordinate that a spring reads.
+  join("loop", JointType::cylindrical, at(hand, {0, 0, 0.1}, {0.1, 0.1, 0.2}), at(bob, {0.2, 0.1, 0}, {0, -0.3, 0.1}),
+       {1, 0, 1});
+  const JointId tie = join("tie", JointType::revolute, at(top, {0, 0.1, 0}, {0.1, 0, 0}),
+                           at(flyer, {0.2, 0.1, 0}, {0.1, 0.2, 0}), {0, 0, 1});
+  b.add_spring({.name = "torsion", .coordinate = {tie, 0}, .stiffness = 30, .damping = 2, .free_position = 0.1});
+  b.add_spring({.name = "coil", .coordinate = {rail, 0}, .stiffness = 500, .damping = 3, .free_position = 0.1});
+  b.add_force("strut", at(arm, {0, 0, 0}, {0.2, 0.3, 0}), at(top, {0, 0, 0}, {0, 0.2, 0.2}),
+              std::make_shared<SpringDamper>(200, 15, 0.2));
+  b.add_force("bushing", at(slider, {0.4, 0, 0.1}, {0, 0.3, 0}), at(welded, {0, 0.2, 0}, {0.3, 0, 0}),
+              std::make_shared<FullBushing>());
+  const auto wavy = std::make_shared<WavyFunction>(3.0);
+  Vector6 direction;
+  direction << 0.3, -0.2, 0.5, 1.0, 0.4, -0.8;
+  const std::vector<Variable> all{{Variable::Kind::time, {}},
+                                  {Variable::Kind::position, {swing, 0}},
+                                  {Variable::Kind::rate, {rail, 1}},
+                                  {Variable::Kind::position, {pivot, 0}}};
+  b.add_load({.name = "wind",
+              .frame = at(hand, {0.1, 0, 0}, {0.2, 0, 0.1}),
+              .axes = LoadAxes::ground,
+              .terms = {{direction, wavy, all}}});
+  b.add_load({.name = "jet",
+              .frame = at(welded, {0.1, 0, 0}, {0.2, 0, 0.1}),
+              .axes = LoadAxes::body,
+              .terms = {{direction, wavy, all}, {2 * direction.reverse(), wavy, {}}}});
+  b.add_drive({.name = "motor", .coordinate = {pivot, 0}, .kind = DriveSpec::Kind::speed, .function = wavy});
+  return b.finalise();
+}
+
+/// A state of the nasty mechanism with nothing zero; not consistent, which derivatives do not need.
+inline solver::State wild_state(const Mechanism& mechanism) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  solver::State s = mechanism.initial_state();
+  s.t = 0.17;
+  Eigen::VectorXd dq(mechanism.nv());
+  for (auto& x : dq) x = 0.3 * uniform(random);
+  const Eigen::VectorXd q0 = s.q;
+  mechanism.retract(q0, dq, s.q);
+  for (auto& x : s.v) x += uniform(random);
+  for (auto& x : s.vdot) x = 3 * uniform(random);
+  for (auto& x : s.lambda) x = 5 * uniform(random);
+  return s;
+}
+
+}  // namespace hersey::mbd::test

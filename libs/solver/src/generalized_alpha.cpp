@@ -1,0 +1,249 @@
+#include "hersey/solver/generalized_alpha.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hersey/core/contract.h"
+#include "hersey/solver/sparse_lu.h"
+#include "kkt.h"
+
+namespace hersey::solver {
+namespace {
+
+using Eigen::VectorXd;
+using Index = Equations::Index;
+
+/// Parameters of the method for a spectral radius (Chung and Hulbert 1993).
+struct Parameters {
+  explicit Parameters(double rho)
+      : alpha_m((2 * rho - 1) / (rho + 1)),
+        alpha_f(rho / (rho + 1)),
+        gamma(0.5 + alpha_f - alpha_m),
+        beta(0.25 * (gamma + 0.5) * (gamma + 0.5)) {}
+  double alpha_m, alpha_f, gamma, beta;
+};
+
+/// Round-off of a constraint: positions are sums of a few lengths of the mechanism's size.
+constexpr double kConstraintRoundOff = 1e-13;
+
+}  // namespace
+
+/// Algorithmic history, and everything a step needs, allocated once.
+struct GeneralizedAlpha::Workspace {
+  explicit Workspace(double spectral_radius) : parameters(spectral_radius) {}
+
+  Parameters parameters;
+  bool started = false;
+  double last_dt = 0;
+  VectorXd a;  ///< algorithmic acceleration at the last accepted state
+
+  // One step
+  State trial;
+  Stage stage;
+  VectorXd a_n, dq, dq_predicted, v_predicted, vdot_predicted, increment, residual, scale, tolerance, rhs;
+  Equations::SparseMatrix tangent;
+  SparseLu lu;
+  Index analysed = -1;
+  double worst = 0;       ///< largest residual relative to its tolerance at the last assembly
+  Index worst_index = 0;  ///< its row; -1: a condensed equation
+  std::string trouble;    ///< why the last assembly was outside the domain, empty if inside
+
+  void start(Equations& equations, const State& state, double dt);
+  void predict(const State& state, double dt);
+  void place(Equations& equations, const State& state, const VectorXd& at);
+  bool assemble(Equations& equations, const GeneralizedAlphaOptions& options);
+  void measure(Equations& equations, double rtol);
+  bool solve_increment(Index nv);
+  bool enter_domain(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
+  bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
+  [[nodiscard]] std::string worst_name(const Equations& equations) const;
+};
+
+/// Theory manual eq. (integrator.6): a_0 = vdot(t_0 + (alpha_m - alpha_f) dt), by reflection of the accelerations at
+/// t_0 + |alpha_m - alpha_f| dt, so that no load is asked for a time before the start.
+void GeneralizedAlpha::Workspace::start(Equations& equations, const State& state, double dt) {
+  a = state.vdot;
+  started = true;
+  last_dt = dt;
+  const double s = std::abs(parameters.alpha_m - parameters.alpha_f) * dt;
+  if (s == 0) return;
+  State ahead = state;
+  ahead.t += s;
+  equations.retract(state.q, s * state.v + 0.5 * s * s * state.vdot, ahead.q);
+  ahead.v = state.v + s * state.vdot;
+  equations.begin_step(state, 0);
+  const VectorXd before = state.vdot;
+  if (!solve_accelerations(equations, ahead)) return;
+  // Stiff forces make the extrapolated state meaningless; then the plain start is the better one.
+  const VectorXd change = ahead.vdot - before;
+  if (change.lpNorm<Eigen::Infinity>() <= before.lpNorm<Eigen::Infinity>()) a -= change;
+}
+
+/// The step with a_{n+1} = a_n: dq, v and vdot that belong together.
+void GeneralizedAlpha::Workspace::predict(const State& state, double dt) {
+  const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
+  a_n = state.vdot + (dt / last_dt) * (a - state.vdot);
+  dq_predicted = dt * state.v + (0.5 * dt * dt) * a_n;
+  v_predicted = state.v + dt * a_n;
+  vdot_predicted = (a_n - alpha_f * state.vdot) / (1 - alpha_f);
+  stage.dt = dt;
+  stage.k = 1;
+  stage.c = gamma / (beta * dt);
+  stage.m = (1 - alpha_m) / ((1 - alpha_f) * beta * dt * dt);
+}
+
+/// The trial state whose increment of position is `at`.
+void GeneralizedAlpha::Workspace::place(Equations& equations, const State& state, const VectorXd& at) {
+  stage.dq = at;
+  equations.retract(state.q, at, trial.q);
+  trial.v = v_predicted + stage.c * (at - dq_predicted);
+  trial.vdot = vdot_predicted + stage.m * (at - dq_predicted);
+}
+
+/// Assembles at the trial state; false, with `trouble`, outside the domain of the equations.
+bool GeneralizedAlpha::Workspace::assemble(Equations& equations, const GeneralizedAlphaOptions& options) {
+  equations.assemble(trial, stage, residual, scale, &tangent);
+  trouble = equations.domain_error();
+  if (trouble.empty() && !residual.allFinite()) trouble = "the residual is not a number";
+  if (!trouble.empty()) return false;
+  measure(equations, options.rtol);
+  return true;
+}
+
+/// Residuals relative to their tolerances. Motions: rtol of the terms balanced. Constraints: a violation acts on the
+/// multipliers like an acceleration of violation/(beta dt^2), so it is measured against beta dt^2 vdot.
+void GeneralizedAlpha::Workspace::measure(Equations& equations, double rtol) {
+  const Index nv = equations.nv(), n = nv + equations.nlambda();
+  tolerance = rtol * scale;
+  const double reach = parameters.beta * stage.dt * stage.dt;
+  VectorXd& along = rhs;  // |G| |vdot|
+  along.setZero(n);
+  for (Index column = 0; column < nv; ++column)
+    for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
+      if (entry.row() >= nv) along[entry.row()] += std::abs(entry.value() * trial.vdot[column]);
+  for (Index i = nv; i < n; ++i)
+    tolerance[i] = std::clamp(rtol * reach * along[i], kConstraintRoundOff * scale[i],
+                              std::max(rtol, kConstraintRoundOff) * scale[i]);
+  worst = 0;
+  worst_index = 0;
+  for (Index i = 0; i < n; ++i) {
+    if (residual[i] == 0) continue;
+    const double ratio =
+        tolerance[i] > 0 ? std::abs(residual[i]) / tolerance[i] : std::numeric_limits<double>::infinity();
+    if (ratio <= worst) continue;
+    worst = ratio;
+    worst_index = i;
+  }
+  if (const double internal = equations.internal_residual() / rtol; internal > worst) {
+    worst = internal;
+    worst_index = -1;
+  }
+}
+
+/// Solves for the Newton increment, with motions divided by m and multipliers by m: then no entry grows as dt shrinks
+/// (Bottasso, Bauchau and Cardona 2007). False if the matrix is singular.
+bool GeneralizedAlpha::Workspace::solve_increment(Index nv) {
+  const Index n = tangent.rows();
+  const double m = stage.m;
+  for (Index column = 0; column < n; ++column)
+    for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
+      if (entry.row() < nv && column < nv) entry.valueRef() /= m;
+  if (analysed != tangent.nonZeros()) {
+    lu.analyse(tangent);
+    analysed = tangent.nonZeros();
+  }
+  if (!lu.factorise({tangent.valuePtr(), static_cast<std::size_t>(tangent.nonZeros())})) return false;
+  increment = -residual;
+  increment.head(nv) /= m;
+  lu.solve({increment.data(), static_cast<std::size_t>(n)});
+  increment.tail(n - nv) *= m;
+  return increment.allFinite();
+}
+
+/// Places and assembles the predicted step, shortened until the equations accept it.
+bool GeneralizedAlpha::Workspace::enter_domain(Equations& equations, const State& state,
+                                               const GeneralizedAlphaOptions& options) {
+  trial.t = state.t + stage.dt;
+  trial.lambda = state.lambda;
+  dq = dq_predicted;
+  for (int halvings = 0;; ++halvings) {
+    place(equations, state, dq);
+    if (assemble(equations, options)) return true;
+    if (halvings >= options.max_halvings) return false;
+    dq *= halvings + 1 < options.max_halvings ? 0.5 : 0.0;
+  }
+}
+
+/// Moves by the increment, halved until the equations accept it.
+bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
+                                       const GeneralizedAlphaOptions& options) {
+  const Index nv = equations.nv();
+  const VectorXd& lambda = trial.lambda;
+  const VectorXd dq_start = dq, lambda_start = lambda;
+  double length = 1;
+  for (int halvings = 0; halvings <= options.max_halvings; ++halvings, length *= 0.5) {
+    dq = dq_start + length * increment.head(nv);
+    trial.lambda = lambda_start + length * increment.tail(increment.size() - nv);
+    place(equations, state, dq);
+    if (assemble(equations, options)) return true;
+  }
+  return false;
+}
+
+std::string GeneralizedAlpha::Workspace::worst_name(const Equations& equations) const {
+  return worst_index < 0 ? equations.name_of_internal_residual() : equations.name_of_row(worst_index);
+}
+
+GeneralizedAlpha::GeneralizedAlpha(const GeneralizedAlphaOptions& options) : options_(options) {
+  HERSEY_REQUIRE(0 <= options.spectral_radius && options.spectral_radius <= 1, "a spectral radius lies in 0..1");
+  HERSEY_REQUIRE(options.rtol > 0 && options.max_iterations > 0 && options.max_halvings >= 0, "options are positive");
+  work_ = std::make_unique<Workspace>(options.spectral_radius);
+}
+
+GeneralizedAlpha::~GeneralizedAlpha() = default;
+GeneralizedAlpha::GeneralizedAlpha(GeneralizedAlpha&&) noexcept = default;
+GeneralizedAlpha& GeneralizedAlpha::operator=(GeneralizedAlpha&&) noexcept = default;
+
+void GeneralizedAlpha::reset() { work_->started = false; }
+
+StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt) {
+  HERSEY_REQUIRE(dt > 0, "time runs forward");
+  Workspace& w = *work_;
+  StepSummary summary;
+  if (!w.started) w.start(equations, state, dt);
+  equations.begin_step(state, dt);
+  w.predict(state, dt);
+
+  const auto fail = [&](StepStatus status, const std::string& why) {
+    summary.status = status;
+    summary.residual = w.worst;
+    summary.worst_row = w.worst_name(equations);
+    summary.message = fmt::format("t = {:.9g} s, step {:.3g} s: {}", state.t, dt, why);
+    return summary;
+  };
+  if (!w.enter_domain(equations, state, options_)) return fail(StepStatus::domain_error, w.trouble);
+  while (w.worst > 1) {
+    if (summary.iterations == options_.max_iterations)
+      return fail(StepStatus::no_convergence,
+                  fmt::format("no convergence in {} iterations; worst equation: {}, {:.3g} times its tolerance",
+                              summary.iterations, w.worst_name(equations), w.worst));
+    ++summary.iterations;
+    if (!w.solve_increment(equations.nv()))
+      return fail(StepStatus::singular, "the equations are singular here; worst equation: " + w.worst_name(equations));
+    if (!w.move(equations, state, options_)) return fail(StepStatus::domain_error, w.trouble);
+  }
+
+  w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
+  w.last_dt = dt;
+  state = w.trial;
+  equations.accept_step(state);
+  summary.status = StepStatus::converged;
+  summary.residual = w.worst;
+  summary.worst_row = w.worst_name(equations);
+  return summary;
+}
+
+}  // namespace hersey::solver
