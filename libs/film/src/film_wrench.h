@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "hersey/core/spatial.h"
@@ -21,6 +22,9 @@ class FilmWrench {
   [[nodiscard]] const Vector6& pressure() const { return pressure_; }
   [[nodiscard]] const Vector6& shear() const { return shear_; }        ///< of the film; its force is 0 for torque_only
   [[nodiscard]] const Vector6& asperity() const { return asperity_; }  ///< contact pressure and boundary friction
+
+  /// Boundary friction's power per contact pressure and area [m/s].
+  [[nodiscard]] double friction_power_per_contact() const { return friction_.dot(slip_); }
 
   /// d total / du at fixed surfaces, times du.
   [[nodiscard]] Vector6 along_u(const Eigen::VectorXd& du) const { return by_u_ * du; }

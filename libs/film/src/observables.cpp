@@ -1,0 +1,183 @@
+#include "hersey/film/observables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "film_wrench.h"
+#include "flow_balance.h"
+
+namespace hersey::film {
+namespace {
+
+/// A peak of a field on the grid [field's unit, rad, m].
+struct Peak {
+  double value = 0, phi = 0, z = 0;
+};
+
+/// Vertex of the parabola through three equidistant values, as offset from the middle in steps and rise above it.
+struct Vertex {
+  double offset = 0, rise = 0;
+};
+
+Vertex vertex(double before, double middle, double after) {
+  const double curvature = before - 2 * middle + after;
+  if (curvature == 0) return {};
+  const double offset = std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+  return {offset, 0.5 * offset * (after - before) + 0.5 * offset * offset * curvature};
+}
+
+double z_of(const FilmModel& model, double j) { return model.L * (j / (model.grid.n_z - 1) - 0.5); }
+
+double phi_of(const FilmModel& model, double i) {
+  const double turn = 2 * std::numbers::pi, phi = std::fmod(i * turn / model.grid.n_phi, turn);
+  return phi < 0 ? phi + turn : phi;
+}
+
+/// Extremum next to node (i, j) by parabolas, along phi always and along z inside the width; a mirror of the sign makes
+/// a minimum of it. Edges count: there only phi is interpolated.
+Peak refine(const FilmModel& model, const Eigen::VectorXd& field, int i, int j) {
+  const Grid& grid = model.grid;
+  const auto at = [&](int a, int b) { return field[grid.index((a + grid.n_phi) % grid.n_phi, b)]; };
+  const Vertex along = vertex(at(i - 1, j), at(i, j), at(i + 1, j));
+  const bool inside = j > 0 && j < grid.n_z - 1;
+  const Vertex across = inside ? vertex(at(i, j - 1), at(i, j), at(i, j + 1)) : Vertex{};
+  return {at(i, j) + along.rise + across.rise, phi_of(model, i + along.offset), z_of(model, j + across.offset)};
+}
+
+Peak largest(const FilmModel& model, const Eigen::VectorXd& field) {
+  int node = 0;
+  field.maxCoeff(&node);
+  return refine(model, field, node / model.grid.n_z, node % model.grid.n_z);
+}
+
+// Every row is interpolated on its own: a tilted or bent film has its minimum on an edge, between two nodes.
+Peak smallest(const FilmModel& model, const Eigen::VectorXd& field) {
+  const Grid& grid = model.grid;
+  const Eigen::VectorXd mirrored = -field;
+  Peak best{field[0], 0, z_of(model, 0)};
+  for (int j = 0; j < grid.n_z; ++j) {
+    int i = 0;
+    for (int k = 0; k < grid.n_phi; ++k) {
+      if (field[grid.index(k, j)] < field[grid.index(i, j)]) i = k;
+    }
+    const Peak peak = refine(model, mirrored, i, j);
+    if (-peak.value < best.value) best = {-peak.value, peak.phi, peak.z};
+  }
+  return best;
+}
+
+// Film thickness along the middle of the bearing: the middle row, or the mean of the two beside it.
+double smallest_in_the_middle(const FilmModel& model, const Eigen::VectorXd& h) {
+  const Grid& grid = model.grid;
+  const int low = (grid.n_z - 1) / 2, high = grid.n_z / 2;
+  Eigen::VectorXd middle(grid.n_phi);
+  for (int i = 0; i < grid.n_phi; ++i) middle[i] = 0.5 * (h[grid.index(i, low)] + h[grid.index(i, high)]);
+  int i = 0;
+  middle.minCoeff(&i);
+  const int n = grid.n_phi;
+  return middle[i] + vertex(middle[(i + n - 1) % n], middle[i], middle[(i + 1) % n]).rise;
+}
+
+/// Flows over the boundaries, storage and volume (film.22).
+void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const Eigen::VectorXd& u,
+                 FilmObservables& o) {
+  const FilmModel& model = balance.model();
+  const Grid& grid = model.grid;
+  const double round_off = 1e-9 * fill_scale(model);
+  double cavitated = 0, total = 0;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int k = grid.index(i, j);
+      const Node& node = balance.nodes()[k];
+      const double area = balance.area(j);
+      o.storage_rate += balance.storage(k);
+      o.oil_volume += area * node.theta * node.h;
+      total += area;
+      if (u[k] < -round_off) cavitated += area;
+      if (balance.edge_row(j)) {
+        (j == 0 ? o.flow_left : o.flow_right) -= balance.balance()[k];
+      } else if (balance.supply_share(i, j) > 0) {
+        o.flow_supply += balance.balance()[k];
+      }
+    }
+  }
+  o.cavitated_share = cavitated / total;
+  const double fastest = std::max(std::abs(motion.u_journal), std::abs(motion.u_shell));
+  const double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_supply),
+                                 std::abs(o.storage_rate), fastest * model.c * model.L});
+  const double error = o.flow_supply - o.flow_left - o.flow_right - o.storage_rate;
+  o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
+}
+
+/// Dissipation (film.21): Couette share mu slip^2/h and Poiseuille K (p_a - p_b)^2, and boundary friction.
+void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, double friction, FilmObservables& o) {
+  const int n_z = balance.model().grid.n_z;
+  const double slip2 = std::pow(motion.u_journal - motion.u_shell, 2) + std::pow(motion.w_journal - motion.w_shell, 2);
+  for (int k = 0; k < balance.size(); ++k) {
+    const Node& node = balance.nodes()[k];
+    o.power_film += balance.area(k % n_z) * node.share * slip2 / (node.fluidity * node.h);
+    o.power_asperity += balance.area(k % n_z) * node.asperity * friction;
+  }
+  for (std::size_t f = 0; f < balance.faces().size(); ++f) {
+    const Face& face = balance.faces()[f];
+    const double drop = balance.nodes()[face.a].wall - balance.nodes()[face.b].wall;
+    o.power_film += balance.flows()[f].K * drop * drop;
+  }
+}
+
+void observe_forces(const FilmWrench& wrench, const Eigen::Vector2d& e, FilmObservables& o) {
+  o.force_pressure = wrench.pressure().tail<3>();
+  o.force_shear = wrench.shear().tail<3>();
+  o.force_asperity = wrench.asperity().tail<3>();
+  // The journal feels the negative wrench; about its own axis at e that is -M_z + (e x F)_z.
+  const Vector6& on_shell = wrench.total();
+  o.torque_shell = on_shell[2];
+  o.torque_journal = -on_shell[2] + e.x() * on_shell[4] - e.y() * on_shell[3];
+}
+
+FilmFields fields_of(const std::vector<Node>& nodes) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  FilmFields fields;
+  for (auto* field : {&fields.p, &fields.theta, &fields.h, &fields.w, &fields.p_asperity}) field->resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Node& node = nodes[i];
+    fields.p[i] = node.wall;
+    fields.theta[i] = node.theta;
+    fields.h[i] = node.h;
+    fields.w[i] = node.w;
+    fields.p_asperity[i] = node.asperity;
+  }
+  return fields;
+}
+
+}  // namespace
+
+FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+  const NodeLaw law(model);
+  std::vector<Node> nodes(u.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) nodes[i] = law.state(motion.g[i], u[i]);
+  return fields_of(nodes);
+}
+
+FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
+                             const Eigen::Vector2d& e, const Eigen::VectorXd& u) {
+  FlowBalance balance(model);
+  balance.evaluate(motion, history, u);
+  FilmWrench wrench(model);
+  wrench.evaluate(balance.nodes(), motion, false);
+  const FilmFields fields = fields_of(balance.nodes());
+
+  FilmObservables o;
+  const Peak thinnest = smallest(model, fields.h), peak = largest(model, fields.p);
+  o.h_min = thinnest.value, o.h_min_phi = thinnest.phi, o.h_min_z = thinnest.z;
+  o.h_min_centre = smallest_in_the_middle(model, fields.h);
+  o.p_max = peak.value, o.p_max_phi = peak.phi, o.p_max_z = peak.z;
+  o.p_max_node = fields.p.maxCoeff();
+  observe_forces(wrench, e, o);
+  observe_oil(balance, motion, u, o);
+  observe_power(balance, motion, wrench.friction_power_per_contact(), o);
+  return o;
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,228 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <random>
+
+#include "film_cases.h"
+#include "film_wrench.h"
+#include "flow_balance.h"
+
+// Every derivative against central differences: residual and wrench, with respect to the unknown and to every change of
+// the surfaces, for every cavitation model, with all laws on and with each kind of boundary.
+namespace hersey::film {
+namespace {
+
+struct State {
+  FilmModel model;
+  SurfaceMotion motion;
+  FilmHistory history;
+  Eigen::VectorXd u;
+  std::string name;
+};
+
+// A rough film: full and cavitated nodes side by side, nothing symmetric, nothing within a difference step of a switch.
+State rough_state(Cavitation cavitation, bool all_laws, bool transient) {
+  State s;
+  s.model = {.R = 0.03, .L = 0.02, .c = 20e-6, .grid = {14, 6}, .cavitation = cavitation, .p_cav = 1e4};
+  s.model.p_edge_left = 2e5, s.model.p_edge_right = 3e5;
+  s.model.supply = {SupplyKind::widest_gap, 0, 4e5};
+  if (all_laws) {
+    s.model.lubricant.alpha = 2e-8;
+    s.model.compliance = 5e-13;
+    s.model.asperities = {AsperityModel::greenwood_tripp_exact, 1e-6, 3e-3, 57e9, 0.1};
+  }
+  const Journal journal{
+      .e = {9e-6, 14e-6}, .e_rate = {0.01, -0.02}, .tilt = {2e-4, -1e-4}, .omega_shell = -20, .omega_journal = 300};
+  s.motion = surfaces(s.model, journal, 1.3);
+  s.motion.w_journal = 0.4, s.motion.w_shell = -0.1;
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> uniform(0.1, 1.0);
+  const int n = s.model.grid.size();
+  s.u.resize(n);
+  const double P0 = fill_scale(s.model);
+  for (int i = 0; i < n; ++i)
+    s.u[i] = uniform(generator) < 0.4 ? -0.5 * P0 * uniform(generator) : 2e7 * uniform(generator);
+  if (transient) {
+    s.history.dt = 1e-4;
+    s.history.theta.resize(n), s.history.w.resize(n);
+    for (int i = 0; i < n; ++i) s.history.theta[i] = uniform(generator), s.history.w[i] = 1e-6 * uniform(generator);
+  }
+  s.name = "cavitation " + std::to_string(static_cast<int>(cavitation)) + (all_laws ? ", all laws" : "") +
+           (transient ? ", transient" : ", steady");
+  return s;
+}
+
+std::vector<State> rough_states() {
+  std::vector<State> states;
+  for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
+    for (const bool all_laws : {false, true}) {
+      for (const bool transient : {false, true}) states.push_back(rough_state(cavitation, all_laws, transient));
+    }
+  }
+  State s = rough_state(Cavitation::mass_conserving, true, true);
+  s.model.asperities.model = AsperityModel::greenwood_tripp_fit;
+  s.model.shear_force = ShearForce::torque_only;
+  s.model.cavitated_shear = CavitatedShear::full;
+  s.model.edges = EdgeKind::closed;
+  s.name = "closed edges, torque only, full shear";
+  states.push_back(s);
+  s = rough_state(Cavitation::mass_conserving, true, true);
+  s.motion.u_journal *= -1, s.motion.w_journal *= -1;
+  s.name = "turning backwards";
+  states.push_back(s);
+  return states;
+}
+
+// The error of a central difference with relative step d is d^2 times third derivatives (the laws bend over about a
+// tenth of a state) plus round-off over d.
+constexpr double d = 1e-5;
+constexpr double tolerance = 1e3 * d * d + 10 * std::numeric_limits<double>::epsilon() / d;
+
+SurfaceMotion moved(const SurfaceMotion& motion, const MotionDirection& direction, double step) {
+  SurfaceMotion m = motion;
+  if (direction.g.size()) m.g += step * direction.g;
+  if (direction.g_rate.size()) m.g_rate += step * direction.g_rate;
+  m.u_shell += step * direction.u_shell;
+  m.u_journal += step * direction.u_journal;
+  m.w_shell += step * direction.w_shell;
+  m.w_journal += step * direction.w_journal;
+  m.phi_supply += step * direction.phi_supply;
+  return m;
+}
+
+// One direction per kind of change, each of the size of the quantity it changes.
+std::vector<std::pair<std::string, MotionDirection>> directions(const State& s) {
+  const Eigen::VectorXd random = Eigen::VectorXd::Random(s.model.grid.size());
+  const double speed = s.model.R * 300;
+  return {{"gap", {.g = 1e-6 * random, .g_rate = {}}},
+          {"gap rate", {.g = {}, .g_rate = 0.02 * random}},
+          {"u_shell", {.g = {}, .g_rate = {}, .u_shell = speed}},
+          {"u_journal", {.g = {}, .g_rate = {}, .u_journal = speed}},
+          {"w_shell", {.g = {}, .g_rate = {}, .w_shell = speed}},
+          {"w_journal", {.g = {}, .g_rate = {}, .w_journal = speed}},
+          {"phi_supply", {.g = {}, .g_rate = {}, .phi_supply = 0.1}}};
+}
+
+Eigen::VectorXd sparse_times(const FlowBalance& balance, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+  for (int column = 0; column < balance.size(); ++column) {
+    for (int k = balance.column_start()[column]; k < balance.column_start()[column + 1]; ++k) {
+      y[balance.row_index()[k]] += balance.values()[k] * x[column];
+    }
+  }
+  return y;
+}
+
+TEST_CASE("FilmJacobian_MatchesFiniteDifference") {
+  for (const State& s : rough_states()) {
+    CAPTURE(s.name);
+    FlowBalance balance(s.model);
+    const Eigen::VectorXd du = 1e-2 * s.u.cwiseAbs().cwiseProduct(Eigen::VectorXd::Random(s.u.size()));
+    balance.evaluate(s.motion, s.history, s.u + d * du);
+    const Eigen::VectorXd after = balance.residual();
+    balance.evaluate(s.motion, s.history, s.u - d * du);
+    const Eigen::VectorXd before = balance.residual();
+    balance.evaluate(s.motion, s.history, s.u);
+    balance.assemble_jacobian();
+    const Eigen::VectorXd exact = sparse_times(balance, du), difference = (after - before) / (2 * d);
+    // du is a hundredth of u, so round-off weighs a hundred times more.
+    CHECK((exact - difference).norm() < 100 * tolerance * exact.norm());
+  }
+}
+
+TEST_CASE("ResidualAlongSurfaceChanges_MatchesFiniteDifference") {
+  for (const State& s : rough_states()) {
+    CAPTURE(s.name);
+    FlowBalance balance(s.model);
+    for (const auto& [what, direction] : directions(s)) {
+      CAPTURE(what);
+      balance.evaluate(moved(s.motion, direction, d), s.history, s.u);
+      const Eigen::VectorXd after = balance.residual();
+      balance.evaluate(moved(s.motion, direction, -d), s.history, s.u);
+      const Eigen::VectorXd before = balance.residual();
+      balance.evaluate(s.motion, s.history, s.u);
+      const double scale = balance.residual().norm();
+      Eigen::VectorXd exact;
+      balance.derivative(direction, exact);
+      const double round_off = std::numeric_limits<double>::epsilon() * scale / d;
+      CHECK((exact - (after - before) / (2 * d)).norm() < tolerance * exact.norm() + round_off);
+      const bool storage_only = what == "gap rate";
+      CHECK(exact.norm() > (storage_only ? 10 : 1000) * round_off);  // the check above cannot pass on zeros
+    }
+  }
+}
+
+TEST_CASE("WrenchDerivatives_MatchFiniteDifference") {
+  for (const State& s : rough_states()) {
+    CAPTURE(s.name);
+    Reynolds reynolds(s.model);
+    const auto wrench = [&](const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+      reynolds.linearise(motion, s.history, u);
+      return reynolds.wrench_on_shell();
+    };
+    const Eigen::VectorXd du = 1e-2 * s.u.cwiseAbs().cwiseProduct(Eigen::VectorXd::Random(s.u.size()));
+    const Vector6 by_u = (wrench(s.motion, s.u + d * du) - wrench(s.motion, s.u - d * du)) / (2 * d);
+    // Moments and forces are compared as forces, with the bearing's radius as arm.
+    const Vector6 unit = (Vector6() << 1 / s.model.R, 1 / s.model.R, 1 / s.model.R, 1, 1, 1).finished();
+    const double scale = unit.cwiseProduct(wrench(s.motion, s.u)).norm();
+    CHECK(unit.cwiseProduct(reynolds.wrench_gradient(du) - by_u).norm() < 10 * tolerance * scale);
+    for (const auto& [what, direction] : directions(s)) {
+      CAPTURE(what);
+      const Vector6 difference =
+          (wrench(moved(s.motion, direction, d), s.u) - wrench(moved(s.motion, direction, -d), s.u)) / (2 * d);
+      wrench(s.motion, s.u);
+      Eigen::VectorXd answer;
+      Vector6 partial;
+      reynolds.response(direction, answer, partial);
+      CHECK(unit.cwiseProduct(partial - difference).norm() < 10 * tolerance * scale);
+    }
+  }
+}
+
+// The condensed derivative a bearing uses: the film solved to the end at both sides of a difference.
+TEST_CASE("ResponseOfASolvedFilm_MatchesFiniteDifference") {
+  for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
+    CAPTURE(static_cast<int>(cavitation));
+    State s = rough_state(cavitation, true, true);
+    s.history.theta.setOnes();
+    s.history.w.setZero();
+    s.u.setZero();
+    Reynolds reynolds(s.model);
+    const FilmSolveOptions options{.rtol = 1e-13};
+    REQUIRE(solve_film(reynolds, s.motion, s.history, options, s.u).converged);
+    for (const auto& [what, direction] : directions(s)) {
+      CAPTURE(what);
+      Eigen::VectorXd du;
+      Vector6 partial;
+      reynolds.linearise(s.motion, s.history, s.u);
+      reynolds.response(direction, du, partial);
+      const Vector6 total = partial + reynolds.wrench_gradient(du);
+      // Smaller steps than above: the set of cavitated nodes must not change between both sides.
+      constexpr double step = 1e-6;
+      Eigen::VectorXd before = s.u, after = s.u;
+      REQUIRE(solve_film(reynolds, moved(s.motion, direction, step), s.history, options, after).converged);
+      const Vector6 wrench_after = reynolds.wrench_on_shell();
+      REQUIRE(solve_film(reynolds, moved(s.motion, direction, -step), s.history, options, before).converged);
+      const Vector6 difference = (wrench_after - reynolds.wrench_on_shell()) / (2 * step);
+      // Round-off of the solves, amplified by 1/step, against the wrench itself.
+      CHECK((total - difference).norm() < 1e-6 * reynolds.wrench_on_shell().norm());
+      CHECK((du - (after - before) / (2 * step)).norm() < 1e-6 * s.u.norm());
+    }
+  }
+}
+
+TEST_CASE("NewtonIncrement_SolvesTheLinearisedFilm") {
+  const State s = rough_state(Cavitation::mass_conserving, true, true);
+  Reynolds reynolds(s.model);
+  FlowBalance balance(s.model);
+  balance.evaluate(s.motion, s.history, s.u);
+  balance.assemble_jacobian();
+  reynolds.linearise(s.motion, s.history, s.u);
+  Eigen::VectorXd du;
+  reynolds.newton_increment(du);
+  // Backward stable elimination: a multiple of round-off times the size of the terms added up.
+  CHECK((sparse_times(balance, du) + balance.residual()).norm() < 1e-11 * balance.residual().norm());
+}
+
+}  // namespace
+}  // namespace hersey::film
