@@ -131,7 +131,7 @@ void observe_forces(const FilmWrench& wrench, const Eigen::Vector2d& e, FilmObse
   o.force_shear = wrench.shear().tail<3>();
   o.force_asperity = wrench.asperity().tail<3>();
   // The journal feels the negative wrench; about its own axis at e that is -M_z + (e x F)_z.
-  const Vector6& on_shell = wrench.total();
+  const Vector6& on_shell = o.wrench_on_shell = wrench.total();
   o.torque_shell = on_shell[2];
   o.torque_journal = -on_shell[2] + e.x() * on_shell[4] - e.y() * on_shell[3];
 }
