@@ -1,0 +1,164 @@
+// Everything about one bearing of one run.
+
+import type { Run } from "./data";
+import { figure, h, segmented } from "./dom";
+import { FieldMap } from "./field_map";
+import { extent, FilmFields, type FieldKind } from "./film_fields";
+import { LinePlot, type Curve, type LineFigure } from "./line_plot";
+import { Orbit } from "./orbit";
+import { Axis, curve, magnitude, scaled, type Abscissa } from "./series";
+import { cubicMillimetrePerSecond, degree, megapascal, micrometre, newtonMillimetre, percent, plain } from "./units";
+
+const newton = { factor: 1, unit: "N" };
+const watt = { factor: 1, unit: "W" };
+
+/** Figures of a bearing that follow the instant shown. */
+export class BearingView {
+  readonly element = h("div", { class: "figures" });
+  readonly fields: FilmFields | null;
+  private readonly axis: Axis;
+  private readonly followers: ((time: number, instant: number) => void)[] = [];
+
+  constructor(
+    private readonly run: Run,
+    private readonly bearing: string,
+    abscissa: Abscissa,
+    private readonly pickTime: (time: number) => void,
+  ) {
+    this.axis = new Axis(run, abscissa);
+    this.fields = FilmFields.of(run, bearing);
+    this.addOrbit();
+    this.addMap();
+    this.addMidplane();
+    this.addSeries();
+  }
+
+  show(time: number, instant: number): void {
+    for (const follow of this.followers) follow(time, instant);
+  }
+
+  private path(name: string): string {
+    return `/bearings/${this.bearing}/${name}`;
+  }
+
+  private addOrbit(): void {
+    const time = this.run.column("/time");
+    const x = this.run.column(this.path("eccentricity"), 0);
+    const y = this.run.column(this.path("eccentricity"), 1);
+    const clearance = this.run.number(`/bearings/${this.bearing}`, "radial_clearance");
+    if (!time || !x || !y || !clearance) return;
+    const fx = this.run.column(this.path("force"), 0);
+    const fy = this.run.column(this.path("force"), 1);
+    const orbit = new Orbit({ time, x, y, clearance, force: fx && fy ? { x: fx, y: fy } : null });
+    this.followers.push((t) => orbit.show(t));
+    this.element.append(
+      figure("orbit", "Journal orbit in the bearing’s axes: path of the journal centre, its position now, and the direction of the load (arrow).", null, orbit.element),
+    );
+  }
+
+  private addMap(): void {
+    const fields = this.fields;
+    if (!fields) return;
+    const kinds = fields.kinds();
+    const map = new FieldMap(fields, kinds[0]!);
+    this.followers.push((_t, instant) => map.show(instant));
+    const choices = kinds.map(({ key, label }) => ({ value: key, label: label.replace("Film ", "").replace(/^./, (c) => c.toUpperCase()) }));
+    const controls = h(
+      "div",
+      { class: "controls" },
+      segmented("Field shown", choices, kinds[0]!.key, (key) => map.choose(kinds.find((k: FieldKind) => k.key === key)!)),
+      segmented("Colour scale", [{ value: "run", label: "Scale of the run" }, { value: "instant", label: "of the instant" }], "run", (s) => map.rescale(s as "run" | "instant")),
+    );
+    this.element.append(
+      figure("map", "The film on the unwrapped bearing at the instant shown. Dashed: edge of the full film (fill fraction 1).", null, controls, map.element),
+    );
+  }
+
+  private addMidplane(): void {
+    const fields = this.fields;
+    if (!fields || !fields.at("pressure", 0)) return;
+    const n = fields.phi.length;
+    const closed = (values: Float64Array, factor: number) => Array.from({ length: n + 1 }, (_, i) => values[i % n]! * factor);
+    const curves = (instant: number): Curve[] => [
+      { label: "pressure", y: closed(fields.midplane("pressure", instant)!, megapascal.factor), unit: "MPa", fill: true },
+      ...(fields.at("thickness", instant)
+        ? [{ label: "film thickness", y: closed(fields.midplane("thickness", instant)!, micrometre.factor), unit: "µm", axis: "right" as const }]
+        : []),
+    ];
+    const plot = new LinePlot({
+      name: `${this.bearing}-midplane`,
+      x: { label: "bearing angle φ", unit: "°", values: Array.from({ length: n + 1 }, (_, i) => (360 * i) / n) },
+      left: { label: "pressure at z = 0", unit: "MPa", fromZero: true },
+      ...(fields.at("thickness", 0) ? { right: { label: "film thickness", unit: "µm", fromZero: true } } : {}),
+      curves: curves(0),
+    });
+    this.followers.push((_t, instant) => plot.update(curves(instant).map((c) => c.y)));
+    this.element.append(figure("midplane", "Pressure and film thickness along the middle of the bearing at the instant shown.", plot.tools, plot.element));
+  }
+
+  private add(name: string, caption: string, left: LineFigure["left"], curves: Curve[], right?: LineFigure["right"]): void {
+    if (curves.length === 0) return;
+    const time = this.run.column("/time");
+    const plot = new LinePlot({
+      name: `${this.bearing}-${name}`,
+      x: this.axis.x,
+      left,
+      ...(right ? { right } : {}),
+      curves,
+      pick: (index) => this.pickTime(time?.[index] ?? 0),
+    });
+    this.followers.push((t) => plot.mark(this.axis.at(t)));
+    this.element.append(figure(name, caption, plot.tools, plot.element));
+  }
+
+  private addSeries(): void {
+    const { run } = this;
+    const of = (name: string, label: string, display: typeof newton, extra: Parameters<typeof curve>[4] = {}) =>
+      curve(run, this.path(name), label, display, extra);
+    this.add("thickness", "Smallest film thickness, edges included, and along the middle of the bearing.", { label: "film thickness", unit: "µm", fromZero: true }, [
+      ...of("h_min", "smallest", micrometre),
+      ...of("h_min_centre", "smallest at z = 0", micrometre, { dash: [6, 4] }),
+    ]);
+    this.add("peak-pressure", "Peak film pressure.", { label: "peak pressure", unit: "MPa", fromZero: true }, of("p_max", "peak pressure", megapascal));
+    const size = magnitude(run, this.path("force"));
+    const force = run.dataset(this.path("force"));
+    this.add("force", "Force of the film and the asperities on the shell, in the bearing’s axes.", { label: "force on the shell", unit: "N" }, [
+      ...(size ? [{ label: "magnitude", y: size, unit: "N" }] : []),
+      ...["x", "y", "z"].flatMap((label, column) =>
+        force && column < force.width && !negligible(run.column(this.path("force"), column)!, size)
+          ? of("force", label, newton, { column, dash: column === 2 ? [3, 3] : [] })
+          : [],
+      ),
+    ]);
+    this.add("eccentricity", "Eccentricity ratio, and angle from the load to the line of centres.", { label: "eccentricity ratio", unit: "", fromZero: true }, [
+      ...of("eccentricity_ratio", "eccentricity ratio", plain),
+      ...of("attitude", "attitude angle", degree, { axis: "right", dash: [6, 4] }),
+    ], { label: "attitude", unit: "°" });
+    this.add("power", "Power lost to friction.", { label: "power loss", unit: "W", fromZero: true }, [
+      ...of("power_film", "oil film", watt),
+      ...of("power_asperity", "asperity contact", watt),
+    ]);
+    this.add("torque", "Friction torque on the journal about its axis and on the shell about its own.", { label: "friction torque", unit: "N·mm" }, [
+      ...of("torque_journal", "on the journal", newtonMillimetre),
+      ...of("torque_shell", "on the shell", newtonMillimetre),
+    ]);
+    this.add("flow", "Oil leaving over the two edges, and entering at the supply.", { label: "flow", unit: "mm³/s" }, [
+      ...of("flow_left", "side flow, left", cubicMillimetrePerSecond),
+      ...of("flow_right", "side flow, right", cubicMillimetrePerSecond, { dash: [6, 4] }),
+      ...of("flow_supply", "supply", cubicMillimetrePerSecond),
+    ]);
+    this.add("cavitated", "Share of the bearing’s surface where the film is cavitated.", { label: "cavitated share", unit: "%", fromZero: true }, of("cavitated_share", "cavitated share", percent));
+    const tilt = run.dataset(this.path("tilt"));
+    if (tilt && extent(scaled(tilt.values, 1)).some((v) => Math.abs(v) > 1e-9))
+      this.add("tilt", "Tilt of the journal against the shell.", { label: "tilt", unit: "mrad" }, [
+        ...of("tilt", "about x", { factor: 1e3, unit: "mrad" }, { column: 0 }),
+        ...of("tilt", "about y", { factor: 1e3, unit: "mrad" }, { column: 1 }),
+      ]);
+  }
+}
+
+/** Whether a component is nothing beside the whole vector. */
+function negligible(component: ArrayLike<number>, size: ArrayLike<number> | null): boolean {
+  const most = (values: ArrayLike<number>) => Math.max(...extent(values).map(Math.abs));
+  return size !== null && most(component) < 1e-9 * most(size);
+}

@@ -1,0 +1,165 @@
+// The report's data as the C++ side writes it (libs/report/src/run_data.cpp): attributes and datasets by path.
+
+export interface SummaryRow {
+  group: string;
+  name: string;
+  value: number | null;
+  unit: string;
+  where: string;
+}
+
+interface DatasetText {
+  unit: string;
+  description: string;
+  shape: number[];
+  type: "f4" | "f8";
+  data: string;
+  columns?: string[];
+}
+
+type Attribute = string | number | string[];
+
+interface RunText {
+  file: string;
+  rows: number;
+  series_stride: number;
+  field_stride: number;
+  attributes: Record<string, Record<string, Attribute>>;
+  datasets: Record<string, DatasetText>;
+  assumptions: [string, string][];
+  summary: SummaryRow[];
+  model?: string;
+}
+
+interface ReportText {
+  title: string;
+  runs: RunText[];
+}
+
+export type Numbers = Float32Array | Float64Array;
+
+/** A dataset with its numbers, row-major; `width` numbers per entry of the first dimension. */
+export interface Dataset {
+  unit: string;
+  description: string;
+  shape: number[];
+  width: number;
+  values: Numbers;
+  columns: string[];
+}
+
+function decode(text: string, type: "f4" | "f8"): Numbers {
+  const raw = atob(text);
+  const bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
+  return type === "f8" ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
+}
+
+/** One results file. Datasets are decoded when first asked for. */
+export class Run {
+  private readonly decoded = new Map<string, Dataset | null>();
+
+  constructor(private readonly text: RunText) {}
+
+  get file(): string {
+    return this.text.file;
+  }
+  get rows(): number {
+    return this.text.rows;
+  }
+  get seriesStride(): number {
+    return this.text.series_stride;
+  }
+  get fieldStride(): number {
+    return this.text.field_stride;
+  }
+  get assumptions(): [string, string][] {
+    return this.text.assumptions;
+  }
+  get summary(): SummaryRow[] {
+    return this.text.summary;
+  }
+  get model(): string | undefined {
+    return this.text.model;
+  }
+
+  attribute(object: string, name: string): string {
+    const value = this.text.attributes[object]?.[name];
+    return value === undefined ? "" : Array.isArray(value) ? value.join(", ") : String(value);
+  }
+
+  number(object: string, name: string): number | undefined {
+    const value = this.text.attributes[object]?.[name];
+    return typeof value === "number" ? value : undefined;
+  }
+
+  list(object: string, name: string): string[] {
+    const value = this.text.attributes[object]?.[name];
+    return Array.isArray(value) ? value : typeof value === "string" && value ? [value] : [];
+  }
+
+  parameters(): Record<string, Attribute> {
+    return this.text.attributes["/parameters"] ?? {};
+  }
+
+  /** Names of the groups directly below a group, such as the bearings below "/bearings". */
+  children(group: string): string[] {
+    const prefix = `${group}/`;
+    return Object.keys(this.text.attributes)
+      .filter((path) => path.startsWith(prefix) && !path.slice(prefix.length).includes("/"))
+      .map((path) => path.slice(prefix.length));
+  }
+
+  /** Names of the datasets directly in a group. */
+  datasetNames(group: string): string[] {
+    const prefix = `${group}/`;
+    return Object.keys(this.text.datasets)
+      .filter((path) => path.startsWith(prefix) && !path.slice(prefix.length).includes("/"))
+      .map((path) => path.slice(prefix.length));
+  }
+
+  /** The dataset at a path, or null where the file has none (or one without rows). */
+  dataset(path: string): Dataset | null {
+    const known = this.decoded.get(path);
+    if (known !== undefined) return known;
+    const text = this.text.datasets[path];
+    const found =
+      text === undefined || (text.shape[0] ?? 0) === 0
+        ? null
+        : {
+            unit: text.unit,
+            description: text.description,
+            shape: text.shape,
+            width: text.shape.slice(1).reduce((a, b) => a * b, 1),
+            values: decode(text.data, text.type),
+            columns: text.columns ?? [],
+          };
+    this.decoded.set(path, found);
+    return found;
+  }
+
+  /** Column `index` of a dataset, or null. */
+  column(path: string, index = 0): Numbers | null {
+    const dataset = this.dataset(path);
+    if (dataset === null || index >= dataset.width) return null;
+    if (dataset.width === 1) return dataset.values;
+    const rows = dataset.shape[0]!;
+    const column = new Float32Array(rows);
+    for (let i = 0; i < rows; i++) column[i] = dataset.values[i * dataset.width + index]!;
+    return column;
+  }
+}
+
+export interface Report {
+  title: string;
+  runs: Run[];
+}
+
+/** Reads the data element of the page. */
+export function readReport(): Report {
+  const element = document.getElementById("hersey-data");
+  const text = element?.textContent ?? "";
+  if (!text) throw new Error("this page is a template without data: write a report with `hersey report RESULTS`");
+  const report = JSON.parse(text) as ReportText;
+  return { title: report.title, runs: report.runs.map((run) => new Run(run)) };
+}

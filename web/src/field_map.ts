@@ -1,0 +1,223 @@
+// A field on the unwrapped bearing: angle to the right, axial position upwards, one colour scale for the whole run.
+
+import { Drawing, ticks } from "./canvas";
+import { colour, colourTable } from "./colormap";
+import type { FieldKind, FilmFields } from "./film_fields";
+import { extent } from "./film_fields";
+import { palette } from "./theme";
+import { format, withUnit } from "./units";
+
+const margin = { left: 52, right: 92, top: 10, bottom: 40 };
+
+export class FieldMap extends Drawing {
+  private instant = 0;
+  private readonly image = document.createElement("canvas");
+
+  constructor(
+    private readonly fields: FilmFields,
+    private kind: FieldKind,
+    private scale: "run" | "instant" = "run",
+  ) {
+    super("Field on the unwrapped bearing");
+    this.element.classList.add("field-map");
+  }
+
+  show(instant: number): void {
+    this.instant = instant;
+    this.draw();
+  }
+
+  choose(kind: FieldKind): void {
+    this.kind = kind;
+    this.draw();
+  }
+
+  rescale(scale: "run" | "instant"): void {
+    this.scale = scale;
+    this.draw();
+  }
+
+  protected heightFor(width: number): number {
+    return Math.round(Math.min(300, Math.max(190, 0.4 * width)));
+  }
+
+  protected paint(context: CanvasRenderingContext2D, ratio: number): void {
+    const field = this.fields.at(this.kind.key, this.instant);
+    if (!field) return;
+    const range = this.range();
+    const box = this.box();
+    this.paintImage(field, range, Math.round(box.width * ratio), Math.round(box.height * ratio));
+    context.drawImage(this.image, box.left, box.top, box.width, box.height);
+    this.paintRupture(context);
+    this.paintFrame(context);
+    this.paintColourBar(context, range);
+  }
+
+  protected describe(x: number, y: number): string[] | null {
+    const box = this.box();
+    const [u, v] = [(x - box.left) / box.width, 1 - (y - box.top) / box.height];
+    const field = this.fields.at(this.kind.key, this.instant);
+    if (u < 0 || u > 1 || v < 0 || v > 1 || !field) return null;
+    const z = this.fields.z;
+    const height = z[0]! + v * (z[z.length - 1]! - z[0]!);
+    const { label, display } = this.kind;
+    return [
+      `${label} ${withUnit(this.sample(field, u, v) * display.factor, display.unit)}`,
+      `φ ${format(360 * u, 4)}°, z ${withUnit(1e3 * height, "mm", 3)}`,
+    ];
+  }
+
+  private box(): { left: number; top: number; width: number; height: number } {
+    return {
+      left: margin.left,
+      top: margin.top,
+      width: Math.max(10, this.width - margin.left - margin.right),
+      height: this.height - margin.top - margin.bottom,
+    };
+  }
+
+  private range(): [number, number] {
+    const [low, high] =
+      this.scale === "run"
+        ? this.fields.range(this.kind.key)
+        : extent(this.fields.at(this.kind.key, this.instant) ?? []);
+    if (this.kind.key === "fill") return [Math.min(low, 0.999), 1];
+    const bottom = this.kind.key === "thickness" ? 0 : Math.min(0, low);
+    return high > bottom ? [bottom, high] : [bottom, bottom + 1];
+  }
+
+  /** Bilinear between the nodes; u around the bearing and v along it, both 0 to 1. */
+  private sample(field: ArrayLike<number>, u: number, v: number): number {
+    const [n, nz] = [this.fields.phi.length, this.fields.z.length];
+    const x = u * n;
+    const y = v * (nz - 1);
+    const i = Math.floor(x);
+    const j = Math.min(nz - 2, Math.floor(y));
+    const [s, t] = [x - i, y - j];
+    const low = (i % n) * nz + j;
+    const high = ((i + 1) % n) * nz + j;
+    const left = field[low]! * (1 - t) + field[low + 1]! * t;
+    const right = field[high]! * (1 - t) + field[high + 1]! * t;
+    return left * (1 - s) + right * s;
+  }
+
+  private paintImage(field: ArrayLike<number>, [low, high]: [number, number], width: number, height: number): void {
+    this.image.width = width;
+    this.image.height = height;
+    const context = this.image.getContext("2d")!;
+    const pixels = context.createImageData(width, height);
+    const words = new Uint32Array(pixels.data.buffer);
+    const factor = 255 / (high - low);
+    for (let row = 0; row < height; row++) {
+      const v = 1 - (row + 0.5) / height;
+      for (let column = 0; column < width; column++) {
+        const value = (this.sample(field, (column + 0.5) / width, v) - low) * factor;
+        words[row * width + column] = colourTable[value <= 0 ? 0 : value >= 255 ? 255 : Math.round(value)]!;
+      }
+    }
+    context.putImageData(pixels, 0, 0);
+  }
+
+  /** The edge of the full film, where the fill fraction leaves one. */
+  private paintRupture(context: CanvasRenderingContext2D): void {
+    const fill = this.fields.at("fill", this.instant);
+    if (!fill) return;
+    const [n, nz] = [this.fields.phi.length, this.fields.z.length];
+    const box = this.box();
+    const level = 0.995;
+    context.save();
+    context.strokeStyle = "rgb(255 255 255 / 0.85)";
+    context.lineWidth = 1.2;
+    context.setLineDash([4, 3]);
+    context.beginPath();
+    for (let i = 0; i < n; i++)
+      for (let j = 0; j < nz - 1; j++) {
+        const corners: [number, number][] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
+        const crossings: [number, number][] = [];
+        corners.forEach(([ia, ja], k) => {
+          const [ib, jb] = corners[(k + 1) % 4]!;
+          const a = fill[(ia % n) * nz + ja]! - level;
+          const b = fill[(ib % n) * nz + jb]! - level;
+          if (a < 0 === b < 0) return;
+          const t = a / (a - b);
+          crossings.push([ia + t * (ib - ia), ja + t * (jb - ja)]);
+        });
+        for (let k = 0; k + 1 < crossings.length; k += 2)
+          [crossings[k]!, crossings[k + 1]!].forEach(([x, y], end) => {
+            const px = box.left + (x / n) * box.width;
+            const py = box.top + (1 - y / (nz - 1)) * box.height;
+            if (end === 0) context.moveTo(px, py);
+            else context.lineTo(px, py);
+          });
+      }
+    context.stroke();
+    context.restore();
+  }
+
+  private paintFrame(context: CanvasRenderingContext2D): void {
+    const box = this.box();
+    const { ink, faint } = palette();
+    context.strokeStyle = faint;
+    context.fillStyle = ink;
+    context.lineWidth = 1;
+    context.strokeRect(box.left + 0.5, box.top + 0.5, box.width - 1, box.height - 1);
+    context.textAlign = "center";
+    context.textBaseline = "top";
+    const step = box.width < 360 ? 90 : 45;
+    for (let angle = 0; angle <= 360; angle += step) {
+      const x = box.left + (angle / 360) * box.width;
+      line(context, x, box.top + box.height, x, box.top + box.height + 4);
+      context.fillText(String(angle), x, box.top + box.height + 6);
+    }
+    context.fillText("bearing angle φ [°]", box.left + box.width / 2, box.top + box.height + 23);
+    const z = this.fields.z;
+    const [bottom, top] = [1e3 * z[0]!, 1e3 * z[z.length - 1]!];
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    for (const value of ticks(bottom, top, 4)) {
+      const y = box.top + (1 - (value - bottom) / (top - bottom)) * box.height;
+      line(context, box.left - 4, y, box.left, y);
+      context.fillText(format(value, 3), box.left - 7, y);
+    }
+    verticalText(context, "z [mm]", 12, box.top + box.height / 2);
+  }
+
+  private paintColourBar(context: CanvasRenderingContext2D, [low, high]: [number, number]): void {
+    const box = this.box();
+    const left = box.left + box.width + 16;
+    const { ink, faint } = palette();
+    const gradient = context.createLinearGradient(0, box.top + box.height, 0, box.top);
+    for (let k = 0; k <= 16; k++) gradient.addColorStop(k / 16, `rgb(${colour(k / 16).join(" ")})`);
+    context.fillStyle = gradient;
+    context.fillRect(left, box.top, 12, box.height);
+    context.strokeStyle = faint;
+    context.strokeRect(left + 0.5, box.top + 0.5, 11, box.height - 1);
+    const { factor, unit } = this.kind.display;
+    context.fillStyle = ink;
+    context.textAlign = "left";
+    context.textBaseline = "middle";
+    for (const value of ticks(low * factor, high * factor, 5)) {
+      const y = box.top + (1 - (value / factor - low) / (high - low)) * box.height;
+      line(context, left + 12, y, left + 16, y);
+      context.fillText(format(value, 4), left + 19, y);
+    }
+    verticalText(context, `${this.kind.label.toLowerCase()} [${unit}]`, this.width - 8, box.top + box.height / 2);
+  }
+}
+
+function line(context: CanvasRenderingContext2D, x0: number, y0: number, x1: number, y1: number): void {
+  context.beginPath();
+  context.moveTo(x0, y0);
+  context.lineTo(x1, y1);
+  context.stroke();
+}
+
+function verticalText(context: CanvasRenderingContext2D, text: string, x: number, y: number): void {
+  context.save();
+  context.translate(x, y);
+  context.rotate(-Math.PI / 2);
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillText(text, 0, 0);
+  context.restore();
+}

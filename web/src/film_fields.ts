@@ -1,0 +1,101 @@
+// The fields of one bearing's film at its stored instants, on the unwrapped bearing.
+
+import type { Dataset, Numbers, Run } from "./data";
+import { megapascal, micrometre, percent, type Display } from "./units";
+
+export interface FieldKind {
+  key: string;
+  label: string;
+  display: Display;
+}
+
+export const fieldKinds: FieldKind[] = [
+  { key: "pressure", label: "Film pressure", display: megapascal },
+  { key: "thickness", label: "Film thickness", display: micrometre },
+  { key: "fill", label: "Fill fraction", display: percent },
+  { key: "asperity_pressure", label: "Asperity pressure", display: megapascal },
+];
+
+export class FilmFields {
+  private constructor(
+    readonly time: Numbers,
+    readonly phi: Numbers,
+    readonly z: Numbers,
+    private readonly fields: Map<string, Dataset>,
+  ) {}
+
+  static of(run: Run, bearing: string): FilmFields | null {
+    const path = (name: string) => `/bearings/${bearing}/fields/${name}`;
+    const time = run.dataset(path("time"))?.values;
+    const phi = run.dataset(path("phi"))?.values;
+    const z = run.dataset(path("z"))?.values;
+    if (!time || !phi || !z) return null;
+    const fields = new Map<string, Dataset>();
+    for (const { key } of fieldKinds) {
+      const dataset = run.dataset(path(key));
+      if (dataset && dataset.width === phi.length * z.length) fields.set(key, dataset);
+    }
+    return fields.size > 0 ? new FilmFields(time, phi, z, fields) : null;
+  }
+
+  /** The kinds of field stored, without an asperity pressure that is zero throughout. */
+  kinds(): FieldKind[] {
+    return fieldKinds.filter(({ key }) => {
+      const dataset = this.fields.get(key);
+      return dataset !== undefined && (key !== "asperity_pressure" || dataset.values.some((v) => v > 0));
+    });
+  }
+
+  get instants(): number {
+    return this.time.length;
+  }
+
+  /** The field at one instant, index i z.length + j for angle i and axial position j. */
+  at(key: string, instant: number): Numbers | null {
+    const dataset = this.fields.get(key);
+    if (!dataset) return null;
+    return dataset.values.subarray(instant * dataset.width, (instant + 1) * dataset.width);
+  }
+
+  range(key: string): [number, number] {
+    return extent(this.fields.get(key)?.values ?? []);
+  }
+
+  /** The field along the angle at z = 0, between two rows if none lies there. */
+  midplane(key: string, instant: number): Float64Array | null {
+    const field = this.at(key, instant);
+    if (!field) return null;
+    const nz = this.z.length;
+    let below = 0;
+    while (below < nz - 2 && this.z[below + 1]! <= 1e-12) below++;
+    const [low, high] = [this.z[below]!, this.z[below + 1] ?? this.z[below]!];
+    const t = high > low ? Math.min(1, Math.max(0, -low / (high - low))) : 0;
+    return Float64Array.from(this.phi, (_, i) => {
+      const at = i * nz + below;
+      return t === 0 ? field[at]! : (1 - t) * field[at]! + t * field[at + 1]!;
+    });
+  }
+}
+
+export function extent(values: ArrayLike<number>): [number, number] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (let i = 0; i < values.length; i++) {
+    const v = values[i]!;
+    if (v < low) low = v;
+    if (v > high) high = v;
+  }
+  return low <= high ? [low, high] : [0, 1];
+}
+
+/** The index of the value nearest to x; values ascend. */
+export function nearest(values: ArrayLike<number>, x: number): number {
+  let low = 0;
+  let high = values.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (values[middle]! <= x) low = middle;
+    else high = middle;
+  }
+  return Math.abs(values[high]! - x) < Math.abs(values[low]! - x) ? high : low;
+}

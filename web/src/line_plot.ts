@@ -1,0 +1,273 @@
+// Line figures on uPlot: axes with units, a legend that switches curves, a tooltip, a marker at the shown instant.
+
+import uPlot from "uplot";
+import { h, placeTooltip, saveText } from "./dom";
+import { onThemeChange, palette } from "./theme";
+import { axisLabel, format, withUnit } from "./units";
+
+export interface Curve {
+  label: string;
+  y: ArrayLike<number | null>;
+  unit: string;
+  axis?: "right";
+  colour?: string;
+  dash?: number[];
+  points?: boolean;
+  stepped?: boolean;
+  fill?: boolean;
+}
+
+export interface LineFigure {
+  name: string;
+  x: { label: string; unit: string; values: ArrayLike<number>; categories?: string[] };
+  left: { label: string; unit: string; log?: boolean; fromZero?: boolean; highest?: number };
+  right?: { label: string; unit: string; fromZero?: boolean };
+  curves: Curve[];
+  /** Called with the index of the point that was clicked. */
+  pick?: (index: number) => void;
+  height?: number;
+}
+
+const plots = new Set<LinePlot>();
+onThemeChange(() => plots.forEach((plot) => plot.redraw()));
+
+/** Forgets all plots whose elements have left the page. */
+export function sweepPlots(): void {
+  for (const plot of plots) if (!plot.element.isConnected) plot.destroy();
+}
+
+/** Drops what cannot be drawn: gaps for NaN, and for zero or less on a logarithmic axis. */
+function drawable(values: ArrayLike<number | null>, log: boolean): (number | null)[] {
+  return Array.from(values, (v) => (v === null || !Number.isFinite(v) || (log && v <= 0) ? null : v));
+}
+
+function padded(fromZero: boolean, highest = -Infinity): uPlot.Range.Function {
+  return (_plot, low, high) => {
+    if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
+    const bottom = fromZero ? Math.min(0, low) : low;
+    const top = Math.max(highest, fromZero ? Math.max(0, high) : high);
+    // A constant is drawn in the middle, not as noise filling the axis.
+    const least = 1e-6 * Math.max(Math.abs(bottom), Math.abs(top)) || 1;
+    const span = Math.max(top - bottom, least);
+    const slack = top - bottom < least ? 0.5 * span : 0.06 * span;
+    return [bottom === 0 && fromZero ? 0 : bottom - slack, top === 0 && fromZero ? 0 : top + slack];
+  };
+}
+
+export class LinePlot {
+  readonly element: HTMLElement;
+  readonly tools: HTMLElement;
+  private readonly canvasHolder = h("div", { class: "plot-area" });
+  private readonly tooltip = h("div", { class: "tooltip", hidden: true });
+  private readonly hiddenCurves = new Set<number>();
+  private readonly observer: ResizeObserver;
+  private plot: uPlot | null = null;
+  private marker: number | null = null;
+
+  constructor(private spec: LineFigure) {
+    this.element = h("div", { class: "line-plot" }, this.legend(), this.canvasHolder);
+    this.canvasHolder.append(this.tooltip);
+    this.tools = h(
+      "span",
+      { class: "tools" },
+      h("button", { type: "button", class: "quiet", title: "Save the numbers of this figure", click: () => this.save() }, "CSV"),
+    );
+    this.observer = new ResizeObserver(() => this.fit());
+    this.observer.observe(this.canvasHolder);
+    plots.add(this);
+  }
+
+  /** Moves the vertical line; null takes it away. */
+  mark(x: number | null): void {
+    this.marker = x;
+    this.plot?.redraw(false, false);
+  }
+
+  /** Replaces the curves' numbers, keeping axes and legend. */
+  update(y: ArrayLike<number | null>[]): void {
+    y.forEach((values, i) => (this.spec.curves[i]!.y = values));
+    this.plot?.setData(this.data());
+  }
+
+  redraw(): void {
+    this.plot?.destroy();
+    this.plot = null;
+    this.element.replaceChild(this.legend(), this.element.firstChild!);
+    this.fit();
+  }
+
+  destroy(): void {
+    this.observer.disconnect();
+    this.plot?.destroy();
+    plots.delete(this);
+  }
+
+  private colour(index: number): string {
+    const colours = palette().series;
+    return this.spec.curves[index]!.colour ?? colours[index % colours.length]!;
+  }
+
+  private legend(): HTMLElement {
+    const curves = this.spec.curves;
+    const entries = curves.map((curve, i) => {
+      const swatch = h("span", { class: curve.dash ? "swatch dashed" : "swatch", style: `--colour: ${this.colour(i)}` });
+      return h(
+        "button",
+        {
+          type: "button",
+          class: "legend-entry",
+          "aria-pressed": !this.hiddenCurves.has(i) ? "true" : "false",
+          title: "Show or hide this curve",
+          click: (event: Event) => this.toggle(i, event.currentTarget as HTMLElement),
+        },
+        swatch,
+        curve.label,
+      );
+    });
+    return h("div", { class: "legend" }, ...entries);
+  }
+
+  private toggle(index: number, button: HTMLElement): void {
+    const show = this.hiddenCurves.has(index);
+    if (show) this.hiddenCurves.delete(index);
+    else this.hiddenCurves.add(index);
+    button.setAttribute("aria-pressed", show ? "true" : "false");
+    this.plot?.setSeries(index + 1, { show });
+  }
+
+  private data(): uPlot.AlignedData {
+    const { x, curves, left } = this.spec;
+    const log = (curve: Curve) => left.log === true && curve.axis !== "right";
+    return [Array.from(x.values), ...curves.map((curve) => drawable(curve.y, log(curve)))];
+  }
+
+  private fit(): void {
+    const width = Math.floor(this.canvasHolder.clientWidth);
+    if (width < 40) return;
+    const height = this.spec.height ?? 230;
+    if (this.plot === null) this.plot = this.create(width, height);
+    else if (this.plot.width !== width) this.plot.setSize({ width, height });
+  }
+
+  private create(width: number, height: number): uPlot {
+    const plot = new uPlot(this.options(width, height), this.data(), this.canvasHolder);
+    const canvas = plot.root.querySelector("canvas");
+    canvas?.setAttribute("role", "img");
+    canvas?.setAttribute("aria-label", `${this.spec.left.label} against ${this.spec.x.label}`);
+    if (this.spec.pick) {
+      plot.over.addEventListener("click", () => {
+        const index = plot.cursor.idx;
+        if (index !== null && index !== undefined) this.spec.pick?.(index);
+      });
+    }
+    return plot;
+  }
+
+  private options(width: number, height: number): uPlot.Options {
+    const { x, left, right, curves } = this.spec;
+    const font = "12px system-ui, sans-serif";
+    const { ink, faint, line } = palette();
+    const axis = (label: string, unit: string, extra: Partial<uPlot.Axis>): uPlot.Axis => ({
+      label: axisLabel(label, unit),
+      labelFont: font,
+      font,
+      stroke: ink,
+      labelSize: 22,
+      labelGap: 2,
+      grid: { stroke: line, width: 1 },
+      ticks: { stroke: faint, width: 1, size: 4 },
+      values: (_plot, splits) => splits.map((v) => (v === null ? "" : format(v, 5))),
+      ...extra,
+    });
+    const axes: uPlot.Axis[] = [
+      axis(x.label, x.unit, {
+        size: 34,
+        ...(x.categories
+          ? { splits: () => Array.from(x.values), values: (_p: uPlot, s: number[]) => s.map((v) => x.categories![v] ?? "") }
+          : {}),
+      }),
+      axis(left.label, left.unit, { scale: "y", size: 52 }),
+    ];
+    if (right) axes.push(axis(right.label, right.unit, { scale: "right", side: 1, size: 48, grid: { show: false } }));
+    return {
+      width,
+      height,
+      padding: [8, right ? 0 : 12, 0, 0],
+      legend: { show: false },
+      cursor: { drag: { x: true, y: false }, points: { size: 7 }, y: false },
+      scales: {
+        x: { time: false, range: (_p, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]) },
+        y: left.log ? { distr: 3 } : { range: padded(left.fromZero === true, left.highest) },
+        right: { range: padded(right?.fromZero === true) },
+      },
+      axes,
+      series: [{}, ...curves.map((curve, i) => this.series(curve, i))],
+      hooks: { setCursor: [(plot) => this.showTooltip(plot)], draw: [(plot) => this.drawMarker(plot)] },
+    };
+  }
+
+  private series(curve: Curve, index: number): uPlot.Series {
+    const stroke = this.colour(index);
+    return {
+      label: curve.label,
+      show: !this.hiddenCurves.has(index),
+      scale: curve.axis ?? "y",
+      stroke,
+      width: 1.6,
+      points: curve.points ? { show: true, size: 6, fill: stroke } : { show: false },
+      ...(curve.dash ? { dash: curve.dash } : {}),
+      ...(curve.fill ? { fill: `color-mix(in srgb, ${stroke} 14%, transparent)` } : {}),
+      ...(curve.stepped ? { paths: uPlot.paths.stepped!({ align: 1 }) } : {}),
+    };
+  }
+
+  private drawMarker(plot: uPlot): void {
+    if (this.marker === null) return;
+    const x = Math.round(plot.valToPos(this.marker, "x", true));
+    const { left, top, width, height } = plot.bbox;
+    if (x < left || x > left + width) return;
+    const context = plot.ctx;
+    context.save();
+    context.strokeStyle = palette().accent;
+    context.lineWidth = Math.max(1, devicePixelRatio);
+    context.beginPath();
+    context.moveTo(x, top);
+    context.lineTo(x, top + height);
+    context.stroke();
+    context.restore();
+  }
+
+  private showTooltip(plot: uPlot): void {
+    const index = plot.cursor.idx;
+    const { left, top } = plot.cursor;
+    if (index === null || index === undefined || left === undefined || left < 0) {
+      this.tooltip.hidden = true;
+      return;
+    }
+    const { x, curves } = this.spec;
+    const data = plot.data;
+    const at = x.categories?.[index] ?? withUnit(x.values[index], x.unit, 6);
+    const rows = curves.flatMap((curve, i) => {
+      const value = data[i + 1]?.[index];
+      if (value === null || value === undefined || this.hiddenCurves.has(i)) return [];
+      return [
+        h("span", { class: "swatch", style: `--colour: ${this.colour(i)}` }),
+        h("span", {}, curve.label),
+        h("span", { class: "value" }, withUnit(value, curve.unit)),
+      ];
+    });
+    this.tooltip.replaceChildren(h("div", { class: "tooltip-head" }, `${x.label} ${at}`), ...rows);
+    this.tooltip.hidden = rows.length === 0;
+    placeTooltip(this.tooltip, this.canvasHolder, left + plot.over.offsetLeft, (top ?? 0) + plot.over.offsetTop);
+  }
+
+  private save(): void {
+    const { x, curves, name } = this.spec;
+    const quote = (text: string) => `"${text.replace(/"/g, '""')}"`;
+    const head = [axisLabel(x.label, x.unit), ...curves.map((c) => axisLabel(c.label, c.unit))].map(quote).join(",");
+    const rows = Array.from(x.values, (value, i) =>
+      [x.categories ? quote(x.categories[i] ?? "") : value, ...curves.map((c) => c.y[i] ?? "")].join(","),
+    );
+    saveText(`${name}.csv`, [head, ...rows].join("\n"));
+  }
+}

@@ -1,0 +1,55 @@
+import "uplot/dist/uPlot.min.css";
+import "./style.css";
+
+import { readReport, type Report, type Run } from "./data";
+import { h } from "./dom";
+import { assumptions, header, status } from "./header";
+import { RunView } from "./run_view";
+import { StudyView } from "./study_view";
+import { followSystem } from "./theme";
+
+function showRun(page: HTMLElement, report: Report): void {
+  page.append(...[header(report), assumptions(report.runs[0]!.assumptions), new RunView(report.runs[0]!).element].filter((e) => e !== null));
+}
+
+function showStudy(page: HTMLElement, report: Report): void {
+  const detail = h("section", { class: "detail", "aria-label": "Run in detail" });
+  const study = new StudyView(report, (run) => show(run, true));
+  const picker = h("select", { "aria-label": "Run shown in detail", change: () => show(study.runs[Number(picker.value)]!, false) });
+  study.runs.forEach((run, i) => picker.append(h("option", { value: i }, study.label(run))));
+  const show = (run: Run, scroll: boolean) => {
+    picker.value = String(study.runs.indexOf(run));
+    detail.replaceChildren(
+      ...[h("div", { class: "detail-head" }, h("h2", {}, "Run in detail"), picker, status(run)), assumptions(run.assumptions), new RunView(run).element].filter((e) => e !== null),
+    );
+    study.highlight(run);
+    if (scroll) detail.scrollIntoView({ behavior: "smooth" });
+  };
+  page.append(...[header(report), sharedAssumptions(report.runs), study.element, detail].filter((e) => e !== null));
+  show(study.runs[study.runs.length - 1]!, false);
+}
+
+/** The assumptions of a study: those all runs share, and the names of those that differ. */
+function sharedAssumptions(runs: Run[]): HTMLElement | null {
+  const shared = runs[0]!.assumptions.map(([name, text]): [string, string] => {
+    const texts = new Set(runs.map((run) => run.assumptions.find(([other]) => other === name)?.[1] ?? "not stated"));
+    return [name, texts.size === 1 ? text : [...texts].join(" | ")];
+  });
+  return assumptions(shared);
+}
+
+function start(): void {
+  const page = document.getElementById("page")!;
+  followSystem();
+  try {
+    const report = readReport();
+    if (report.runs.length > 1) showStudy(page, report);
+    else showRun(page, report);
+  } catch (error) {
+    page.append(h("p", { class: "fault" }, `This report cannot be shown: ${error instanceof Error ? error.message : String(error)}`));
+    throw error;
+  }
+}
+
+addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((d) => d.setAttribute("open", "")));
+start();

@@ -1,0 +1,138 @@
+// One run in detail: key figures, table, and all figures, tied together by the timeline.
+
+import { BearingView } from "./bearing_view";
+import { sweepDrawings } from "./canvas";
+import type { Run, SummaryRow } from "./data";
+import { h, segmented } from "./dom";
+import { nearest } from "./film_fields";
+import { sweepPlots } from "./line_plot";
+import type { Abscissa } from "./series";
+import { SystemView } from "./system_view";
+import { Timeline } from "./timeline";
+import { format } from "./units";
+
+/** The rows of the summary that stand large above the figures. */
+const keyFigures: [string, string][] = [
+  ["minimum film thickness (MOFT)", "Minimum film thickness"],
+  ["peak film pressure (POFP)", "Peak film pressure"],
+  ["largest load", "Largest load"],
+  ["mean power loss in the film", "Mean film power loss"],
+  ["worst mass-balance error of the film", "Worst mass-balance error"],
+];
+
+export class RunView {
+  readonly element = h("div", { class: "run" });
+  private bearing: string;
+  private abscissa: Abscissa;
+  private timeline: Timeline | null = null;
+  private time = 0;
+
+  constructor(private readonly run: Run) {
+    this.bearing = run.children("/bearings")[0] ?? "";
+    this.abscissa = run.column("/crank_angle") ? "angle" : "time";
+    this.render();
+  }
+
+  private render(): void {
+    this.timeline?.stop();
+    const { run, bearing, abscissa } = this;
+    const view = bearing ? new BearingView(run, bearing, abscissa, (time) => this.timeline?.show(nearest(instants, time))) : null;
+    const system = new SystemView(run, abscissa);
+    const instants = view?.fields?.time ?? run.column("/time") ?? new Float64Array();
+    const timeline = new Timeline(instants, this.anglesAt(instants), (index) => {
+      this.time = instants[index]!;
+      view?.show(this.time, index);
+      system.show(this.time);
+    });
+    this.timeline = timeline;
+    this.element.replaceChildren(
+      ...[this.controls(), this.headline(), this.table(), view?.element ?? null, this.notes(), system.element, timeline.element].filter((e) => e !== null),
+    );
+    sweepPlots();
+    sweepDrawings();
+    if (instants.length > 0) timeline.show(this.time > 0 ? nearest(instants, this.time) : instants.length - 1);
+    else timeline.element.remove();
+  }
+
+  private anglesAt(instants: ArrayLike<number>): ArrayLike<number> | null {
+    const angle = this.run.column("/crank_angle");
+    const time = this.run.column("/time");
+    return angle && time ? Float64Array.from(instants, (t) => angle[nearest(time, t)]!) : null;
+  }
+
+  private controls(): HTMLElement | null {
+    const bearings = this.run.children("/bearings");
+    const parts: HTMLElement[] = [];
+    if (bearings.length > 1)
+      parts.push(segmented("Bearing", bearings.map((b) => ({ value: b, label: b.replaceAll("_", " ") })), this.bearing, (b) => this.change(() => (this.bearing = b))));
+    if (this.run.column("/crank_angle"))
+      parts.push(segmented("Abscissa", [{ value: "angle", label: "Crank angle" }, { value: "time", label: "Time" }], this.abscissa, (a) => this.change(() => (this.abscissa = a as Abscissa))));
+    return parts.length > 0 ? h("div", { class: "controls view-controls" }, ...parts) : null;
+  }
+
+  private change(set: () => void): void {
+    set();
+    const scroll = scrollY;
+    this.render();
+    scrollTo(0, scroll);
+  }
+
+  private headline(): HTMLElement | null {
+    const rows = this.run.summary.filter((row) => row.group === this.bearing);
+    const tiles = keyFigures.flatMap(([name, label]) => {
+      const row = rows.find((r) => r.name === name);
+      return row ? [tile(label, row)] : [];
+    });
+    return tiles.length > 0 ? h("div", { class: "tiles" }, ...tiles) : null;
+  }
+
+  private notes(): HTMLElement | null {
+    const parts = [
+      this.run.seriesStride > 1 ? `Curves show every ${ordinal(this.run.seriesStride)} stored instant; the summary uses all of them.` : "",
+      this.run.fieldStride > 1 ? `Maps show every ${ordinal(this.run.fieldStride)} stored field.` : "",
+    ].filter((text) => text);
+    return parts.length > 0 ? h("p", { class: "note" }, parts.join(" ")) : null;
+  }
+
+  private table(): HTMLElement {
+    const groups = [...new Set(this.run.summary.map((row) => row.group))];
+    const tables = groups.flatMap((group) => {
+      const rows = this.run.summary.filter((row) => row.group === group);
+      const title = group === "run" ? "Whole run" : `Bearing ${group.replaceAll("_", " ")}`;
+      const half = rows.length > 10 ? Math.ceil(rows.length / 2) : rows.length;
+      return [rows.slice(0, half), rows.slice(half)]
+        .filter((part) => part.length > 0)
+        .map((part, i) => summaryTable(i === 0 ? title : `${title}, continued`, part));
+    });
+    return h("section", { class: "summary", "aria-label": "Summary" }, ...tables);
+  }
+}
+
+function summaryTable(title: string, rows: SummaryRow[]): HTMLElement {
+  return h("table", {}, h("caption", {}, title), h("tbody", {}, ...rows.map(summaryRow)));
+}
+
+function summaryRow(row: SummaryRow): HTMLElement {
+  const name = h("th", { scope: "row" }, capital(row.name), row.where ? h("span", { class: "where" }, row.where) : null);
+  const value = h("td", { class: "number" }, format(row.value), row.unit ? h("span", { class: "unit" }, row.unit === "°" ? "°" : ` ${row.unit}`) : null);
+  return h("tr", { "data-quantity": row.name }, name, value);
+}
+
+function tile(label: string, row: SummaryRow): HTMLElement {
+  return h(
+    "div",
+    { class: "tile" },
+    h("div", { class: "tile-label" }, label),
+    h("div", { class: "tile-value" }, format(row.value), row.unit ? h("span", { class: "unit" }, ` ${row.unit}`) : null),
+    h("div", { class: "tile-where" }, row.where || "\u00a0"),
+  );
+}
+
+export function capital(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+function ordinal(n: number): string {
+  const suffix = n % 10 === 1 && n % 100 !== 11 ? "st" : n % 10 === 2 && n % 100 !== 12 ? "nd" : n % 10 === 3 && n % 100 !== 13 ? "rd" : "th";
+  return `${n}${suffix}`;
+}

@@ -1,0 +1,83 @@
+// What a study varies: parameters, their values in each run, and the combinations of all but the first.
+
+import type { Report, Run } from "./data";
+
+export interface Combination {
+  /** "clearance 34 µm", or empty if only one parameter varies. */
+  label: string;
+  /** In the order of the first parameter. */
+  runs: Run[];
+}
+
+export class Study {
+  readonly runs: Run[];
+  readonly parameters: string[];
+  readonly combinations: Combination[];
+
+  constructor(report: Report) {
+    const first = report.runs[0]!;
+    const named = first.list("/", "study_parameters");
+    this.parameters = named.length > 0 ? named : varying(report.runs);
+    this.runs = [...report.runs].sort((a, b) => this.compare(a, b));
+    const groups = new Map<string, Run[]>();
+    for (const run of this.runs) {
+      const label = this.otherValues(run);
+      groups.set(label, [...(groups.get(label) ?? []), run]);
+    }
+    this.combinations = [...groups].map(([label, runs]) => ({ label, runs }));
+  }
+
+  /** The first parameter: the abscissa. */
+  get abscissa(): string {
+    return this.parameters[0] ?? "run";
+  }
+
+  value(run: Run, parameter: string): string {
+    const value = run.parameters()[parameter];
+    return value === undefined ? "" : tidy(String(value));
+  }
+
+  /** What tells one run from the others. */
+  label(run: Run): string {
+    const values = this.parameters.map((p) => this.value(run, p)).filter((v) => v);
+    return values.length > 0 ? values.join(", ") : run.file.replace(/\.h5$/, "");
+  }
+
+  /** The first parameter's values as numbers in one unit, or null if they are not such. */
+  numbers(): { unit: string; of: (run: Run) => number } | null {
+    const parsed = this.runs.map((run) => quantity(this.value(run, this.abscissa)));
+    const unit = parsed[0]?.unit ?? "";
+    if (parsed.some((p) => p === null || p.unit !== unit)) return null;
+    return { unit, of: (run) => quantity(this.value(run, this.abscissa))!.value };
+  }
+
+  private otherValues(run: Run): string {
+    return this.parameters.slice(1).map((p) => `${p.replaceAll("_", " ")} ${this.value(run, p)}`).join(", ");
+  }
+
+  private compare(a: Run, b: Run): number {
+    for (const parameter of [...this.parameters.slice(1), ...this.parameters.slice(0, 1)]) {
+      const [va, vb] = [this.value(a, parameter), this.value(b, parameter)];
+      const [qa, qb] = [quantity(va), quantity(vb)];
+      const order = qa && qb && qa.unit === qb.unit ? qa.value - qb.value : va.localeCompare(vb);
+      if (order !== 0) return order;
+    }
+    return 0;
+  }
+}
+
+/** Parameters that differ between files whose study is not named. */
+function varying(runs: Run[]): string[] {
+  const names = Object.keys(runs[0]!.parameters());
+  return names.filter((name) => new Set(runs.map((run) => String(run.parameters()[name]))).size > 1);
+}
+
+/** "2500 N" as a number and its unit. */
+export function quantity(text: string): { value: number; unit: string } | null {
+  const match = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$/.exec(text);
+  return match ? { value: Number(match[1]), unit: match[2]! } : null;
+}
+
+function tidy(text: string): string {
+  return text.replace(/\bum\b/, "µm").replace(/(\d)([a-zA-Zµ])/, "$1 $2");
+}

@@ -1,0 +1,187 @@
+// Several runs beside each other: figures over the study's parameters, and a table from which a run is picked.
+
+import { sequence } from "./colormap";
+import type { Report, Run } from "./data";
+import { figure, h, segmented } from "./dom";
+import { FilmFields } from "./film_fields";
+import { LinePlot, type Curve } from "./line_plot";
+import { capital } from "./run_view";
+import { Study } from "./study";
+import { isDark, onThemeChange } from "./theme";
+import { degree, format, megapascal, micrometre, plain, type Display } from "./units";
+
+interface EndValue {
+  name: string;
+  label: string;
+  series: string;
+  display: Display;
+  fromZero: boolean;
+}
+
+const endValues: EndValue[] = [
+  { name: "film-thickness", label: "minimum film thickness", series: "h_min", display: micrometre, fromZero: true },
+  { name: "peak-pressure", label: "peak film pressure", series: "p_max", display: megapascal, fromZero: true },
+  { name: "eccentricity-ratio", label: "eccentricity ratio", series: "eccentricity_ratio", display: plain, fromZero: true },
+  { name: "power-loss", label: "power loss in the film", series: "power_film", display: { factor: 1, unit: "W" }, fromZero: true },
+];
+
+export class StudyView {
+  readonly element = h("section", { class: "study", "aria-label": "Study" });
+  private readonly study: Study;
+  private bearing: string;
+
+  constructor(
+    report: Report,
+    private readonly select: (run: Run) => void,
+  ) {
+    this.study = new Study(report);
+    this.bearing = this.study.runs[0]!.children("/bearings")[0] ?? "";
+    this.render();
+    onThemeChange(() => this.render());
+  }
+
+  get runs(): Run[] {
+    return this.study.runs;
+  }
+
+  label(run: Run): string {
+    return this.study.label(run);
+  }
+
+  /** Shows which run the detailed view is about. */
+  highlight(run: Run): void {
+    this.element.querySelectorAll<HTMLElement>("tr[data-run]").forEach((row) => {
+      const chosen = row.dataset["run"] === run.file;
+      row.classList.toggle("chosen", chosen);
+      row.querySelector("button")?.setAttribute("aria-pressed", chosen ? "true" : "false");
+    });
+  }
+
+  private render(): void {
+    const chosen = this.element.querySelector<HTMLElement>("tr.chosen")?.dataset["run"];
+    const bearings = this.study.runs[0]!.children("/bearings");
+    const controls =
+      bearings.length > 1
+        ? h("div", { class: "controls view-controls" }, segmented("Bearing of the study", bearings.map((b) => ({ value: b, label: b.replaceAll("_", " ") })), this.bearing, (b) => {
+            this.bearing = b;
+            this.render();
+          }))
+        : h("div", {});
+    const figures = h("div", { class: "figures" }, ...this.midplaneFigures(), ...this.endFigures());
+    this.element.replaceChildren(h("h2", {}, `Study over ${this.study.parameters.map((p) => p.replaceAll("_", " ")).join(" and ") || "runs"}`), controls, figures, this.table());
+    const run = this.study.runs.find((r) => r.file === chosen);
+    if (run) this.highlight(run);
+  }
+
+  /** One figure per combination: a curve per value of the first parameter, all at the end of the run. */
+  private midplaneFigures(): HTMLElement[] {
+    const { study } = this;
+    const highest = Math.max(0, ...study.runs.map((run) => Math.max(0, ...(this.midplane(run)?.y ?? []))));
+    return study.combinations.flatMap(({ label, runs }) => {
+      const colours = sequence(runs.length, isDark());
+      const curves: Curve[] = runs.flatMap((run, i) => {
+        const midplane = this.midplane(run);
+        return midplane ? [{ label: study.value(run, study.abscissa) || study.label(run), y: midplane.y, unit: "MPa", colour: colours[i]! }] : [];
+      });
+      const angles = runs.map((run) => this.midplane(run)?.x).find((x) => x !== undefined);
+      if (curves.length === 0 || !angles) return [];
+      const regular = curves.filter((c) => c.y.length === angles.length);
+      const plot = new LinePlot({
+        name: "study-midplane",
+        x: { label: "bearing angle φ", unit: "°", values: angles },
+        left: { label: "pressure at z = 0", unit: "MPa", fromZero: true, highest },
+        curves: regular,
+        height: 280,
+      });
+      const caption = `Pressure along the middle of the bearing at the end of the run, a curve per ${study.abscissa.replaceAll("_", " ")}${label ? `; ${label}` : ""}.`;
+      return [figure("study-midplane", caption, plot.tools, plot.element)];
+    });
+  }
+
+  private midplane(run: Run): { x: number[]; y: number[] } | null {
+    const fields = FilmFields.of(run, this.bearing);
+    const values = fields?.midplane("pressure", fields.instants - 1);
+    if (!values) return null;
+    const n = values.length;
+    return {
+      x: Array.from({ length: n + 1 }, (_, i) => (360 * i) / n),
+      y: Array.from({ length: n + 1 }, (_, i) => values[i % n]! * megapascal.factor),
+    };
+  }
+
+  /** Values at the end of the run over the first parameter, a curve per combination of the others. */
+  private endFigures(): HTMLElement[] {
+    const { study } = this;
+    const numbers = study.numbers();
+    const texts = [...new Set(study.runs.map((run) => study.value(run, study.abscissa) || run.file))];
+    const place = (run: Run) => (numbers ? numbers.of(run) : texts.indexOf(study.value(run, study.abscissa) || run.file));
+    const x = [...new Set(study.runs.map(place))].sort((a, b) => a - b);
+    return endValues.flatMap((end) => {
+      const curves: Curve[] = study.combinations.map(({ label, runs }) => ({
+        label: label || end.label,
+        unit: end.display.unit,
+        points: true,
+        y: x.map((value) => {
+          const run = runs.find((r) => place(r) === value);
+          return run ? this.atEnd(run, end) : null;
+        }),
+      }));
+      if (curves.every((c) => Array.from(c.y).every((v) => v === null))) return [];
+      const plot = new LinePlot({
+        name: `study-${end.name}`,
+        x: { label: study.abscissa.replaceAll("_", " "), unit: numbers?.unit ?? "", values: x, ...(numbers ? {} : { categories: texts }) },
+        left: { label: end.label, unit: end.display.unit, fromZero: end.fromZero },
+        curves,
+      });
+      return [figure(`study-${end.name}`, `${capital(end.label)} at the end of the run.`, plot.tools, plot.element)];
+    });
+  }
+
+  private atEnd(run: Run, end: EndValue): number | null {
+    const values = run.column(`/bearings/${this.bearing}/${end.series}`);
+    return values ? values[values.length - 1]! * end.display.factor : null;
+  }
+
+  private table(): HTMLElement {
+    const { study } = this;
+    const path = (name: string) => `/bearings/${this.bearing}/${name}`;
+    const last = (run: Run, name: string, display: Display) => {
+      const values = run.column(path(name));
+      return values ? format(values[values.length - 1]! * display.factor) : "–";
+    };
+    const summary = (run: Run, name: string) => format(run.summary.find((r) => r.name === name && r.group === this.bearing)?.value);
+    const columns: [string, string, (run: Run) => string][] = [
+      ["ε", "eccentricity ratio at the end", (run) => last(run, "eccentricity_ratio", plain)],
+      ["attitude °", "attitude angle at the end", (run) => last(run, "attitude", degree)],
+      ["h min µm", "minimum film thickness at the end", (run) => last(run, "h_min", micrometre)],
+      ["p max MPa", "peak film pressure at the end", (run) => last(run, "p_max", megapascal)],
+      ["MOFT µm", "minimum film thickness of the run", (run) => summary(run, "minimum film thickness (MOFT)")],
+      ["POFP MPa", "peak film pressure of the run", (run) => summary(run, "peak film pressure (POFP)")],
+      ["power W", "mean power loss in the film", (run) => summary(run, "mean power loss in the film")],
+      ["side flow mm³/s", "mean flow over both edges", (run) => sideFlow(run, this.bearing)],
+      ["mass error", "worst mass-balance error", (run) => summary(run, "worst mass-balance error of the film")],
+      ["status", "how the run ended", (run) => run.attribute("/", "status")],
+    ];
+    const head = [
+      ...study.parameters.map((p) => h("th", { scope: "col" }, p.replaceAll("_", " "))),
+      ...columns.map(([short, long]) => h("th", { scope: "col", class: "number", title: long }, short)),
+      h("th", { scope: "col" }, h("span", { class: "visually-hidden" }, "Detail")),
+    ];
+    const rows = study.runs.map((run) =>
+      h(
+        "tr",
+        { "data-run": run.file },
+        ...study.parameters.map((p) => h("td", {}, study.value(run, p))),
+        ...columns.map(([, , value]) => h("td", { class: "number" }, value(run))),
+        h("td", {}, h("button", { type: "button", class: "quiet", "aria-label": `Show ${study.label(run)} in detail`, click: () => this.select(run) }, "Show")),
+      ),
+    );
+    return h("div", { class: "wide-table" }, h("table", { class: "comparison" }, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows)));
+  }
+}
+
+function sideFlow(run: Run, bearing: string): string {
+  const value = (side: string) => run.summary.find((r) => r.group === bearing && r.name === `mean side flow, ${side}`)?.value;
+  const [left, right] = [value("left"), value("right")];
+  return typeof left === "number" && typeof right === "number" ? format(left + right) : "–";
+}

@@ -1,0 +1,128 @@
+// Collapsible sections about the machine and the solution: mechanism, energy, solver, model file.
+
+import type { Run } from "./data";
+import { figure, h } from "./dom";
+import { LinePlot, type Curve, type LineFigure } from "./line_plot";
+import { Axis, columns, curve, timeDisplay, type Abscissa } from "./series";
+import { plain } from "./units";
+
+/** A section that draws its figures when it is first opened. */
+function section(title: string, open: boolean, fill: (body: HTMLElement) => void): HTMLElement {
+  const body = h("div", { class: "figures" });
+  const details = h("details", { open }, h("summary", {}, title), body);
+  const draw = () => {
+    if (details.open && body.childElementCount === 0) fill(body);
+  };
+  details.addEventListener("toggle", draw);
+  draw();
+  return details;
+}
+
+export class SystemView {
+  readonly element = h("div", { class: "sections" });
+  private readonly axis: Axis;
+  private readonly plots: LinePlot[] = [];
+  private time = 0;
+
+  constructor(
+    private readonly run: Run,
+    abscissa: Abscissa,
+  ) {
+    this.axis = new Axis(run, abscissa);
+    if (run.dataset("/solver/dt") || run.children("/bearings").length > 0)
+      this.element.append(section("Solution: step size, iterations, balances", true, (body) => this.solver(body)));
+    if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", false, (body) => this.power(body)));
+    if (run.children("/joints").length > 0) this.element.append(section("Joints", false, (body) => this.joints(body)));
+    if (run.children("/drives").length > 0) this.element.append(section("Drives", false, (body) => this.drives(body)));
+    if (run.children("/bodies").length > 0) this.element.append(section("Bodies", false, (body) => this.bodies(body)));
+    if (run.model) this.element.append(h("details", {}, h("summary", {}, "Model as it was run"), h("pre", { class: "model" }, run.model)));
+  }
+
+  show(time: number): void {
+    this.time = time;
+    for (const plot of this.plots) plot.mark(this.axis.at(time));
+  }
+
+  private add(body: HTMLElement, name: string, caption: string, left: LineFigure["left"], curves: Curve[]): void {
+    if (curves.length === 0) return;
+    const plot = new LinePlot({ name, x: this.axis.x, left, curves, height: 200 });
+    plot.mark(this.axis.at(this.time));
+    this.plots.push(plot);
+    body.append(figure(name, caption, plot.tools, plot.element));
+  }
+
+  private solver(body: HTMLElement): void {
+    const { run } = this;
+    const time = timeDisplay(run);
+    const fine = time.unit === "ms" ? { factor: 1e6, unit: "µs" } : { factor: 1e3, unit: "ms" };
+    this.add(body, "step", "Length of the time steps.", { label: "step", unit: fine.unit, fromZero: true }, curve(run, "/solver/dt", "step", fine, { stepped: true }));
+    this.add(body, "newton", "Newton iterations in each step.", { label: "iterations", unit: "", fromZero: true }, curve(run, "/solver/newton_iterations", "Newton iterations", plain, { stepped: true }));
+    this.add(body, "residual", "Relative residual left when a step was accepted.", { label: "residual", unit: "", log: true }, [
+      ...curve(run, "/solver/residual", "system", plain),
+      ...curve(run, "/solver/film_residual", "film", plain),
+    ]);
+    this.add(body, "mass", "Mass balance of the film: what supply, side flow and storage leave unexplained, relative.", { label: "mass-balance error", unit: "", log: true },
+      run.children("/bearings").flatMap((bearing) => absolute(curve(run, `/bearings/${bearing}/mass_balance_error`, bearing, plain))));
+    const unit = run.dataset("/power/balance_error")?.unit ?? "1";
+    const display = { factor: 1, unit: unit === "1" ? "" : unit };
+    this.add(body, "balance", "Power balance of the whole system: what drives, loads, losses and storage leave unexplained.", { label: "power-balance error", unit: display.unit, log: true },
+      absolute(curve(run, "/power/balance_error", "power balance", display)));
+  }
+
+  private power(body: HTMLElement): void {
+    const { run } = this;
+    const all = (group: string, unit: string) =>
+      run.datasetNames(group).filter((name) => name !== "balance_error")
+        .flatMap((name) => curve(run, `${group}/${name}`, name.replaceAll("_", " "), { factor: 1, unit }))
+        .filter((c) => Array.from(c.y).some((v) => v !== 0));
+    this.add(body, "power-terms", "Powers, positive where they feed the system.", { label: "power", unit: "W" }, all("/power", "W"));
+    this.add(body, "energy", "Stored energy.", { label: "energy", unit: "J" }, all("/energy", "J"));
+  }
+
+  private joints(body: HTMLElement): void {
+    const { run } = this;
+    for (const joint of run.children("/joints")) {
+      const path = (name: string) => `/joints/${joint}/${name}`;
+      const coordinates = run.dataset(path("coordinates"));
+      const given = coordinates?.columns.length ? coordinates.columns : run.list(`/joints/${joint}`, "coordinate_names");
+      const named = (kind: string) => this.generic(path(kind), given);
+      this.add(body, `${joint}-coordinates`, `${joint}: coordinates`, { label: "coordinate", unit: named("coordinates").unit }, named("coordinates").curves);
+      this.add(body, `${joint}-rates`, `${joint}: rates`, { label: "rate", unit: named("rates").unit }, named("rates").curves);
+      this.vector(body, path("reaction_force"), `${joint}-force`, `${joint}: reaction force`, "reaction force");
+      this.vector(body, path("reaction_torque"), `${joint}-torque`, `${joint}: reaction torque`, "reaction torque");
+    }
+  }
+
+  private drives(body: HTMLElement): void {
+    for (const drive of this.run.children("/drives")) {
+      for (const [name, label] of [["force_or_torque", "force or torque"], ["power", "power"]] as const) {
+        const { curves, unit } = this.generic(`/drives/${drive}/${name}`, [label]);
+        this.add(body, `${drive}-${name}`, `${drive}: ${label}`, { label, unit }, curves);
+      }
+    }
+  }
+
+  private bodies(body: HTMLElement): void {
+    for (const name of this.run.children("/bodies")) {
+      for (const kind of ["position", "velocity", "acceleration", "angular_velocity"]) {
+        const label = kind.replace("_", " ");
+        this.vector(body, `/bodies/${name}/${kind}`, `${name}-${kind}`, `${name}: ${label} of its origin`.replace("angular velocity of its origin", "angular velocity"), label);
+      }
+    }
+  }
+
+  private generic(path: string, labels: string[]): { curves: Curve[]; unit: string } {
+    const curves = columns(this.run, path, labels);
+    return { curves, unit: curves[0]?.unit ?? "" };
+  }
+
+  private vector(body: HTMLElement, path: string, name: string, caption: string, label: string): void {
+    const { curves, unit } = this.generic(path, ["x", "y", "z"]);
+    this.add(body, name, caption, { label, unit }, curves);
+  }
+}
+
+/** Sizes of the values, for a logarithmic axis. */
+function absolute(curves: Curve[]): Curve[] {
+  return curves.map((c) => ({ ...c, y: Float64Array.from(c.y, (v) => Math.abs(v ?? NaN)) }));
+}
