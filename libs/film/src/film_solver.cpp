@@ -24,10 +24,11 @@ double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eig
   const NodeLaw law(model);
   double share = 1;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
-    const double change = std::max(u[i] + du[i], 0.0) - std::max(u[i], 0.0);
-    if (change == 0) continue;
-    const double thickness = C > 0 ? C * std::abs(change) / law.state(motion.g[i], u[i]).h : 0;
-    share = std::min(share, largest_change / std::max(alpha * std::abs(change), thickness));
+    const int j = static_cast<int>(i % model.grid.n_z);
+    const Node before = law.state(motion.g[i], u[i], j), after = law.state(motion.g[i], u[i] + du[i], j);
+    const double change = std::abs(after.p - before.p);
+    const double relative = std::max(alpha * change, C * change / before.h);
+    if (relative > largest_change) share = std::min(share, largest_change / relative);
   }
   return share;
 }
@@ -37,7 +38,7 @@ std::string where(const Grid& grid, int node) {
 }
 
 bool starved(const FilmModel& model, const Eigen::VectorXd& u) {
-  return model.cavitation == Cavitation::mass_conserving && u.maxCoeff() <= 0;
+  return model.cavitation == Cavitation::mass_conserving && u.maxCoeff() <= 1e-9 * fill_scale(model);
 }
 
 // A fill fraction below zero is no film: it says that more oil leaves a node than comes in.

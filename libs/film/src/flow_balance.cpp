@@ -90,12 +90,15 @@ void FlowBalance::lay_pattern() {
 }
 
 bool FlowBalance::edge_row(int j) const {
-  return model_.edges == EdgeKind::pressure && (j == 0 || j == model_.grid.n_z - 1);
+  return model_.edges == EdgeKind::pressure && (j == 0 || j == model_.grid.n_z - 1) && !open_row(j);
 }
 
 double FlowBalance::edge_unknown(int j) const {
   return (j == 0 ? model_.p_edge_left : model_.p_edge_right) - model_.p_cav;
 }
+
+// The line ends at an open edge: it fills the gap there but cannot raise its pressure.
+double FlowBalance::supply_unknown(int j) const { return open_row(j) ? 0 : model_.supply.pressure - model_.p_cav; }
 
 double FlowBalance::supply_conductance() const { return supply_stiffness * D0_; }
 
@@ -143,13 +146,13 @@ void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& histo
   speed_phi_ = 0.5 * (motion.u_shell + motion.u_journal);
   speed_z_ = 0.5 * (motion.w_shell + motion.w_journal);
   for (int i = 0; i < n; ++i) {
-    nodes_[i] = law_.state(motion.g[i], u[i]);
+    nodes_[i] = law_.state(motion.g[i], u[i], i % model_.grid.n_z);
     HERSEY_REQUIRE(nodes_[i].h > 0, "the film has closed at node " + std::to_string(i));
     balance_[i] = storage(i);
     throughput_[i] = std::abs(balance_[i]);
   }
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
-  replace_boundary_rows(u);
+  replace_boundary_rows();
   largest_throughput_ = throughput_.maxCoeff();
 }
 
@@ -200,24 +203,45 @@ double FlowBalance::storage_g_rate(int i) const {
   return area_[i % model_.grid.n_z] * (dt_ == 0 ? nodes_[i].theta : theta_start_[i]);
 }
 
-void FlowBalance::replace_boundary_rows(const Eigen::VectorXd& u) {
+// What a row carries beside its balance: in reynolds the slack of p >= p_cav, on an open edge the outflow.
+double FlowBalance::slack(int node) const {
+  if (model_.cavitation == Cavitation::reynolds) return D0_ * std::min(u_[node], 0.0);
+  return open_row(node % model_.grid.n_z) ? D0_ * std::max(u_[node], 0.0) : 0;
+}
+
+double FlowBalance::slack_u(int node) const {
+  if (model_.cavitation == Cavitation::reynolds) return u_[node] < 0 ? D0_ : 0;
+  return open_row(node % model_.grid.n_z) && u_[node] >= 0 ? D0_ : 0;
+}
+
+double FlowBalance::outflow(int node) const {
+  const int j = node % model_.grid.n_z;
+  if (open_row(j)) return slack(node);
+  return edge_row(j) ? -balance_[node] : 0;
+}
+
+double FlowBalance::supply(int node) const {
+  const int i = node / model_.grid.n_z, j = node % model_.grid.n_z;
+  return supply_share(i, j) > 0 ? balance_[node] + outflow(node) : 0;
+}
+
+void FlowBalance::replace_boundary_rows() {
   const Grid& grid = model_.grid;
-  residual_ = balance_;
-  if (model_.cavitation == Cavitation::reynolds) residual_ += D0_ * u.cwiseMin(0.0);
+  for (int i = 0; i < size(); ++i) residual_[i] = balance_[i] + slack(i);
   for (const SupplyColumn& column : supply_) {
     if (column.chi == 0) continue;
     for (int j = 0; j < grid.n_z; ++j) {
       const int i = grid.index(column.i, j);
-      const double given = supply_conductance() * (u[i] - supply_unknown());
+      const double given = supply_conductance() * (u_[i] - supply_unknown(j));
       residual_[i] = (1 - column.chi) * residual_[i] + column.chi * given;
-      throughput_[i] = std::max(throughput_[i], D0_ * std::abs(supply_unknown()));
+      throughput_[i] = std::max(throughput_[i], D0_ * std::abs(supply_unknown(j)));
     }
   }
   for (int j = 0; j < grid.n_z; ++j) {
     if (!edge_row(j)) continue;
     for (int i = 0; i < grid.n_phi; ++i) {
       const int node = grid.index(i, j);
-      residual_[node] = D0_ * (u[node] - edge_unknown(j));
+      residual_[node] = D0_ * (u_[node] - edge_unknown(j));
       throughput_[node] = std::max(throughput_[node], D0_ * std::abs(edge_unknown(j)));
     }
   }
@@ -237,10 +261,7 @@ int FlowBalance::worst_node() const {
 void FlowBalance::assemble_jacobian() {
   const Grid& grid = model_.grid;
   std::fill(values_.begin(), values_.end(), 0.0);
-  const bool slack = model_.cavitation == Cavitation::reynolds;
-  for (int i = 0; i < size(); ++i) {
-    values_[diagonal_slot_[i]] = storage_u(i) + (slack && u_[i] < 0 ? D0_ : 0);
-  }
+  for (int i = 0; i < size(); ++i) values_[diagonal_slot_[i]] = storage_u(i) + slack_u(i);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
     const FaceFlow& flow = flows_[f];
@@ -295,9 +316,8 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     if (column.chi == 0) continue;
     for (int j = 0; j < grid.n_z; ++j) {
       const int i = grid.index(column.i, j);
-      const double slack = model_.cavitation == Cavitation::reynolds ? D0_ * std::min(u_[i], 0.0) : 0;
-      const double given = supply_conductance() * (u_[i] - supply_unknown());
-      dr[i] = (1 - column.chi) * dr[i] + column.chi_phi * direction.phi_supply * (given - balance_[i] - slack);
+      const double given = supply_conductance() * (u_[i] - supply_unknown(j));
+      dr[i] = (1 - column.chi) * dr[i] + column.chi_phi * direction.phi_supply * (given - balance_[i] - slack(i));
     }
   }
   for (int j = 0; j < grid.n_z; ++j) {

@@ -28,8 +28,8 @@ struct FaceFlow {
 
 /// Balance of oil in every control volume, its Jacobian in u and its derivative along any change of the surfaces.
 ///
-/// Rows of the residual [m^3/s]: outflow plus storage in the film, u - u_given times a conductance where pressure is
-/// given, a blend of both beside the supply line (film.10 to film.13).
+/// Rows of the residual [m^3/s]: outflow plus storage in the film, u - u_given times a conductance on an edge at given
+/// pressure, a blend of both beside the supply line (film.10 to film.13).
 class FlowBalance {
  public:
   explicit FlowBalance(const FilmModel& model);
@@ -60,12 +60,15 @@ class FlowBalance {
   [[nodiscard]] double area(int j) const { return area_[j]; }  ///< of the control volumes in axial row j [m^2]
   [[nodiscard]] double speed_phi() const { return speed_phi_; }
   [[nodiscard]] double speed_z() const { return speed_z_; }
-  [[nodiscard]] bool edge_row(int j) const;
+  [[nodiscard]] bool edge_row(int j) const;  ///< an edge whose pressure is given: no balance there
+  [[nodiscard]] bool open_row(int j) const { return open_edge(model_, j); }  ///< an edge in air
+  [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
+  [[nodiscard]] double supply(int node) const;   ///< oil entering from the supply line at this node [m^3/s]
   /// Share chi of the supply condition in node (i, j)'s row: 0 away from the line, 1 on it.
   [[nodiscard]] double supply_share(int i, int j) const;
-  [[nodiscard]] double supply_conductance() const;  ///< what ties u to the supply in those rows [m^3/(Pa s)]
-  [[nodiscard]] double supply_unknown() const { return model_.supply.pressure - model_.p_cav; }  ///< u on the line [Pa]
-  [[nodiscard]] double edge_unknown(int j) const;                                                ///< u on an edge [Pa]
+  [[nodiscard]] double supply_conductance() const;   ///< what ties u to the supply in those rows [m^3/(Pa s)]
+  [[nodiscard]] double supply_unknown(int j) const;  ///< u on the line [Pa]
+  [[nodiscard]] double edge_unknown(int j) const;    ///< u on an edge [Pa]
 
   [[nodiscard]] const std::vector<int>& column_start() const { return column_start_; }
   [[nodiscard]] const std::vector<int>& row_index() const { return row_index_; }
@@ -85,7 +88,9 @@ class FlowBalance {
   void find_supply(double phi);
   void take_history(const FilmHistory& history);
   void add_face(std::size_t f);
-  void replace_boundary_rows(const Eigen::VectorXd& u);
+  void replace_boundary_rows();
+  [[nodiscard]] double slack(int node) const;
+  [[nodiscard]] double slack_u(int node) const;
   [[nodiscard]] double storage_u(int node) const;
   [[nodiscard]] double storage_g(int node) const;
   [[nodiscard]] double storage_g_rate(int node) const;

@@ -20,25 +20,30 @@ double fill_scale(const FilmModel& model) {
   return 6 * model.lubricant.mu0 * 1000.0 * slope * slope * (2 * std::numbers::pi / model.grid.n_phi);
 }
 
+bool open_edge(const FilmModel& model, int j) {
+  if (model.edges != EdgeKind::pressure || model.cavitation != Cavitation::mass_conserving) return false;
+  return (j == 0 && model.p_edge_left == model.p_cav) || (j == model.grid.n_z - 1 && model.p_edge_right == model.p_cav);
+}
+
 NodeLaw::NodeLaw(const FilmModel& model)
     : model_(model),
       fill_scale_(fill_scale(model)),
       contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus) {}
 
-Node NodeLaw::state(double g, double u) const {
+Node NodeLaw::state(double g, double u, int j) const {
   Node node;
-  pressure_and_fill(u, node);
+  pressure_and_fill(u, open_edge(model_, j), node);
   node.fluidity = std::exp(-model_.lubricant.alpha * node.p) / model_.lubricant.mu0;
   node.fluidity_u = -model_.lubricant.alpha * node.fluidity * node.p_u;
   film_thickness(g, node);
   return node;
 }
 
-void NodeLaw::pressure_and_fill(double u, Node& node) const {
+void NodeLaw::pressure_and_fill(double u, bool open, Node& node) const {
   const bool full = u >= 0;
-  node.wall = model_.p_cav + std::max(u, 0.0);
-  node.wall_u = full ? 1 : 0;
-  node.p = std::max(u, 0.0);
+  node.p = open ? 0 : std::max(u, 0.0);
+  node.wall = model_.p_cav + node.p;
+  node.wall_u = full && !open ? 1 : 0;
   node.p_u = node.wall_u;
   if (model_.cavitation == Cavitation::guembel) node.p = u, node.p_u = 1;
   if (full) return;

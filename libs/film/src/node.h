@@ -16,16 +16,21 @@ struct Node {
   double asperity = 0, asperity_h = 0;  ///< contact pressure [Pa] and its slope in h
 };
 
+/// An edge at the cavitation pressure of a film that conserves oil lies in air: oil may leave over it but none comes
+/// in. There p = p_cav whatever u is; u >= 0 stands for the outflow, u < 0 for the fill fraction (film.11).
+[[nodiscard]] bool open_edge(const FilmModel& model, int j);
+
 /// The laws that hold at every node of one film.
 class NodeLaw {
  public:
   explicit NodeLaw(const FilmModel& model);
 
-  /// State of a node with undeformed gap g [m] and unknown u [Pa]. h <= 0 is left to the caller to judge.
-  [[nodiscard]] Node state(double g, double u) const;
+  /// State of a node in axial row j with undeformed gap g [m] and unknown u [Pa]. h <= 0 is left to the caller to
+  /// judge.
+  [[nodiscard]] Node state(double g, double u, int j) const;
 
  private:
-  void pressure_and_fill(double u, Node& node) const;
+  void pressure_and_fill(double u, bool open, Node& node) const;
   void film_thickness(double g, Node& node) const;
   void contact(double h, Node& node) const;
 

@@ -95,11 +95,8 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
       o.oil_volume += area * node.theta * node.h;
       total += area;
       if (u[k] < -round_off) cavitated += area;
-      if (balance.edge_row(j)) {
-        (j == 0 ? o.flow_left : o.flow_right) -= balance.balance()[k];
-      } else if (balance.supply_share(i, j) > 0) {
-        o.flow_supply += balance.balance()[k];
-      }
+      (j == 0 ? o.flow_left : o.flow_right) += balance.outflow(k);
+      o.flow_supply += balance.supply(k);
     }
   }
   o.cavitated_share = cavitated / total;
@@ -156,7 +153,8 @@ FilmFields fields_of(const std::vector<Node>& nodes) {
 FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u) {
   const NodeLaw law(model);
   std::vector<Node> nodes(u.size());
-  for (Eigen::Index i = 0; i < u.size(); ++i) nodes[i] = law.state(motion.g[i], u[i]);
+  for (Eigen::Index i = 0; i < u.size(); ++i)
+    nodes[i] = law.state(motion.g[i], u[i], static_cast<int>(i % model.grid.n_z));
   return fields_of(nodes);
 }
 

@@ -33,13 +33,13 @@ class Sor {
 
  private:
   void start(const Eigen::VectorXd& u);
+  void place(int node, double u, int j);
   void update_coefficients(const Eigen::VectorXd& u);
   void sweep();
   void relax(int i, int j);
   [[nodiscard]] NodeRow row(int node) const;
   [[nodiscard]] double over_relaxation() const;
   [[nodiscard]] double following() const;
-  [[nodiscard]] Eigen::VectorXd unknown() const;
 
   FlowBalance balance_;
   const SurfaceMotion& motion_;
@@ -47,7 +47,7 @@ class Sor {
   double fill_;
   double omega_ = 1;
   std::vector<std::vector<int>> around_;  ///< the faces of every node
-  Eigen::VectorXd p_, theta_;             ///< latest pressure above p_cav and fill fraction
+  Eigen::VectorXd u_, p_, theta_;         ///< latest unknown, pressure above p_cav and fill fraction
   Eigen::VectorXd storage_known_, storage_theta_;
 };
 
@@ -75,11 +75,17 @@ double Sor::following() const {
 }
 
 void Sor::start(const Eigen::VectorXd& u) {
-  const bool fills = balance_.model().cavitation == Cavitation::mass_conserving;
-  const bool signed_pressure = balance_.model().cavitation == Cavitation::guembel;
-  p_ = signed_pressure ? u : u.cwiseMax(0.0);
-  theta_.setOnes(u.size());
-  if (fills) theta_ += u.cwiseMin(0.0) / fill_;
+  u_ = p_ = theta_ = u;
+  const int n_z = balance_.model().grid.n_z;
+  for (int node = 0; node < balance_.size(); ++node) place(node, u[node], node % n_z);
+}
+
+void Sor::place(int node, double u, int j) {
+  const Cavitation cavitation = balance_.model().cavitation;
+  u_[node] = u;
+  p_[node] = cavitation == Cavitation::guembel ? u : std::max(u, 0.0);
+  if (balance_.open_row(j)) p_[node] = 0;
+  theta_[node] = cavitation == Cavitation::mass_conserving ? 1 + std::min(u, 0.0) / fill_ : 1;
 }
 
 void Sor::update_coefficients(const Eigen::VectorXd& u) {
@@ -115,28 +121,26 @@ NodeRow Sor::row(int node) const {
 }
 
 void Sor::relax(int i, int j) {
-  const FilmModel& model = balance_.model();
-  const int node = model.grid.index(i, j);
-  if (balance_.edge_row(j)) {
-    p_[node] = balance_.edge_unknown(j);
-    return;
-  }
-  NodeRow r = row(node);
-  // Beside the supply line the row is a blend with u = u_supply, where u = p or (theta - 1) P0.
+  const Cavitation cavitation = balance_.model().cavitation;
+  const int node = balance_.model().grid.index(i, j);
+  if (balance_.edge_row(j)) return place(node, balance_.edge_unknown(j), j);
+
+  // Beside the supply line the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
+  const NodeRow r = row(node);
+  const bool open = balance_.open_row(j);
   const double chi = balance_.supply_share(i, j), tie = chi * balance_.supply_conductance();
-  const double K = (1 - chi) * r.K + tie;
-  const double full = (1 - chi) * (r.known + r.transport) - tie * balance_.supply_unknown();
-  const double p = p_[node] + omega_ * (-full / K - p_[node]);
-  if (model.cavitation == Cavitation::guembel || p >= 0) {
-    p_[node] = p;
-    theta_[node] = 1;
-    return;
+  const double full = (1 - chi) * (r.known + r.transport) - tie * balance_.supply_unknown(j);
+  const double conductance = (1 - chi) * (open ? balance_.conductance_scale() : r.K) + tie;
+  const double target = -full / conductance;
+  const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
+  if (u >= 0 || cavitation == Cavitation::guembel) return place(node, u, j);
+
+  // Cavitated: u is the slack of the row (film.12) or tells the fill fraction, which solves it.
+  if (cavitation == Cavitation::reynolds) {
+    return place(node, std::min(0.0, -full / ((1 - chi) * balance_.conductance_scale() + tie)), j);
   }
-  p_[node] = 0;
-  if (model.cavitation == Cavitation::reynolds) return;
-  const double transport = (1 - chi) * r.transport + tie * fill_;
-  const double known = (1 - chi) * r.known - tie * (fill_ + balance_.supply_unknown());
-  theta_[node] = transport > 0 ? std::min(1.0, -known / transport) : 1;
+  const double slope = (1 - chi) * r.transport / fill_ + tie;
+  place(node, slope > 0 ? std::min(0.0, -full / slope) : 0, j);
 }
 
 // With the flow, so that the fill fraction is carried around in one sweep.
@@ -147,23 +151,6 @@ void Sor::sweep() {
     const int i = forwards ? k : grid.n_phi - 1 - k;
     for (int j = 0; j < grid.n_z; ++j) relax(i, j);
   }
-}
-
-// The slack of the model reynolds is what its row leaves: balance + D0 u = 0 (film.12).
-Eigen::VectorXd Sor::unknown() const {
-  const FilmModel& model = balance_.model();
-  Eigen::VectorXd u = p_;
-  for (int node = 0; node < balance_.size(); ++node) {
-    if (p_[node] != 0) continue;
-    const int i = node / model.grid.n_z, j = node % model.grid.n_z;
-    if (model.cavitation == Cavitation::mass_conserving) u[node] = fill_ * (theta_[node] - 1);
-    if (model.cavitation != Cavitation::reynolds || balance_.edge_row(j)) continue;
-    const NodeRow r = row(node);
-    const double chi = balance_.supply_share(i, j), tie = chi * balance_.supply_conductance();
-    const double left = (1 - chi) * (r.known + r.transport) - tie * balance_.supply_unknown();
-    u[node] = std::min(0.0, -left / ((1 - chi) * balance_.conductance_scale() + tie));
-  }
-  return u;
 }
 
 FilmSolveSummary Sor::solve(const FilmSolveOptions& options, Eigen::VectorXd& u) {
@@ -181,7 +168,7 @@ FilmSolveSummary Sor::solve(const FilmSolveOptions& options, Eigen::VectorXd& u)
     followed += following() * (u - followed);
     if (followed != u) update_coefficients(followed);
     for (int s = 0; s < sweeps_per_update; ++s) sweep();
-    u = unknown();
+    u = u_;
   }
 }
 

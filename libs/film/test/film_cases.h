@@ -92,6 +92,7 @@ inline std::vector<CsvRow> read_csv(const std::string& path) {
   std::vector<std::string> header;
   std::vector<CsvRow> rows;
   for (std::string line; std::getline(file, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty() || line[0] == '#') continue;
     const auto cells = split(line);
     if (header.empty()) {
