@@ -107,7 +107,7 @@ struct SpringDamper {
   double free_length = 0;  ///< [m], >= 0
 };
 
-/// Spring and damper on one scalar joint coordinate; translational coordinates take N/m, N s/m, m.
+/// Spring and damper on one rotational joint coordinate.
 struct TorsionSpring {
   std::string joint;
   std::string coordinate;
@@ -138,7 +138,7 @@ enum class CouplingScheme { monolithic, partitioned };
 
 struct Coupling {
   CouplingScheme scheme = CouplingScheme::monolithic;
-  double relaxation = 1;    ///< partitioned: factor on the first update of the film force, in (0, 1]
+  double relaxation = 0.1;    ///< partitioned: share of the first correction taken, in (0, 1]
   double tolerance = 1e-6;  ///< partitioned: relative change of the film wrench between iterations
   int max_iterations = 50;  ///< partitioned
 };

@@ -1,0 +1,160 @@
+#include "format.h"
+
+namespace hersey::model {
+namespace {
+
+TypePtr pressure() { return quantity("Pa", "2 bar"); }
+TypePtr modulus() { return quantity("Pa", "57 GPa", Range::positive()); }
+
+Key composite_modulus_key() {
+  return optional("composite_modulus", modulus(), "E of 1/E = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.", "from `materials`");
+}
+
+TypePtr cavitation_format() {
+  const auto pressure_key = defaulted("pressure", pressure(), "0 Pa",
+                                      "Pressure in the cavitated film, on the scale of all other pressures of the "
+                                      "bearing (gauge or absolute).");
+  return variant("a cavitation model", "model", {pressure_key},
+                 {
+                     {"mass_conserving", "pressure or fill fraction at every place (Jakobsson, Floberg, Olsson)", {}},
+                     {"reynolds", "zero pressure gradient at rupture; oil is lost where the film forms again", {}},
+                     {"guembel", "full film, negative pressures left out of the forces (half Sommerfeld)", {}},
+                 });
+}
+
+TypePtr asperities_format() {
+  const auto keys = std::vector<Key>{
+      required("roughness", quantity("m", "1 um", Range::positive()),
+               "sigma, rms height of the asperity summits of both surfaces together."),
+      defaulted("elastic_factor", number("3e-3", Range::not_negative()), "3e-3", "K in p = K E F(h/sigma)."),
+      composite_modulus_key(),
+      defaulted("friction", number("0.1", Range::not_negative()), "0.1", "Coefficient of boundary friction."),
+  };
+  return variant("an asperity model", "model", {},
+                 {
+                     {"none", "smooth surfaces", {}},
+                     {"greenwood_tripp_fit", "Greenwood and Tripp (1971), F = 4.4086e-5 (4 - h/sigma)^6.804", keys},
+                     {"greenwood_tripp", "the same with the exact integral F_5/2", keys},
+                 });
+}
+
+TypePtr compliance_format() {
+  return variant("a compliance model", "model", {},
+                 {
+                     {"rigid", "surfaces keep their shape", {}},
+                     {"column",
+                      "each place yields by itself, as a column: dh = p length/E",
+                      {
+                          composite_modulus_key(),
+                          optional("length", quantity("m", "22.5 mm", Range::positive()), "Length of the columns.",
+                                   "the bearing's radius"),
+                      }},
+                 });
+}
+
+TypePtr materials_format() {
+  const TypePtr material =
+      object("a material",
+             {
+                 required("youngs_modulus", modulus(), "Young's modulus."),
+                 required("poisson_ratio", number("0.3", {.low = -1, .high = 0.5, .low_open = true, .high_open = true}),
+                          "Poisson's ratio."),
+                 defaulted("density", quantity("kg/m^3", "7850 kg/m^3", Range::not_negative()), "0",
+                           "Density; not used by rigid bodies."),
+             });
+  return object("two materials", {
+                                     required("shell", material, "Of the bearing shell."),
+                                     required("journal", material, "Of the journal."),
+                                 });
+}
+
+TypePtr coupling_format() {
+  return variant(
+      "a coupling", "scheme", {},
+      {
+          {"monolithic", "bodies and film in one Newton system", {}},
+          {"partitioned",
+           "bodies and film in turn, exchanging force and motion until both agree",
+           {
+               defaulted("relaxation", number("0.1", {.low = 0, .high = 1, .low_open = true}), "0.1",
+                         "Share of the first correction of the force that is taken."),
+               defaulted("tolerance", number("1e-6", {.low = 0, .high = 1, .low_open = true, .high_open = true}),
+                         "1e-6", "Relative change of the force at which both agree."),
+               defaulted("max_iterations", integer(50, {.low = 1, .high = 10000}), "50", "Exchanges per step."),
+           }},
+      });
+}
+
+}  // namespace
+
+TypePtr lubricants_format() {
+  const TypePtr lubricant = object(
+      "a lubricant", {
+                         required("viscosity", quantity("Pa.s", "15 mPa.s", Range::positive()),
+                                  "Dynamic viscosity mu0 at ambient pressure."),
+                         defaulted("pressure_viscosity", quantity("1/Pa", "1.28e-10 1/Pa", Range::not_negative()), "0",
+                                   "alpha in mu = mu0 exp(alpha p) (Barus)."),
+                         defaulted("density", quantity("kg/m^3", "850 kg/m^3", Range::positive()), "850 kg/m^3",
+                                   "Density of the liquid."),
+                     });
+  return named("a mapping from names to lubricants", lubricant);
+}
+
+TypePtr bearings_format() {
+  const TypePtr length = quantity("m", "45 mm", Range::positive());
+  const TypePtr clearance = quantity("m", "34 um", Range::positive());
+  const TypePtr grid = object("a grid", {
+                                            defaulted("circumferential", integer(60, {.low = 4, .high = 100000}), "60",
+                                                      "Nodes around the bearing."),
+                                            defaulted("axial", integer(13, {.low = 3, .high = 100000}), "13",
+                                                      "Nodes over the width, both edges included."),
+                                        });
+  const TypePtr edges =
+      any_of("a pressure such as 2 bar, or {left, right}",
+             {pressure(), object("two pressures", {
+                                                      required("left", pressure(), "At the edge with z < 0."),
+                                                      required("right", pressure(), "At the edge with z > 0."),
+                                                  })});
+  const TypePtr supply = object(
+      "a supply line",
+      {
+          required(
+              "line", or_word(quantity("rad", "180 deg"), {{"widest_gap", "always where the gap is widest"}}),
+              "Where oil enters, over the whole width: an angle from the shell's x-axis towards y, or `widest_gap`."),
+          defaulted("pressure", pressure(), "0 Pa", "Supply pressure."),
+      });
+  const TypePtr bearing = object(
+      "a bearing",
+      {
+          required("shell", reference(Refers::frame, "rod.big_end"),
+                   "Frame on the shell's body: z along the bearing's axis, angles from x towards y."),
+          required("journal", reference(Refers::frame, "crank.pin"), "Frame on the journal's body, z along its axis."),
+          required("diameter", length, "Bore diameter."),
+          required("width", length, "Length of the bearing along its axis."),
+          optional("radial_clearance", clearance, "Radius of the bore minus radius of the journal."),
+          optional("diametral_clearance", clearance, "Twice the radial clearance, instead of it."),
+          required("lubricant", reference(Refers::lubricant, "oil"), "Name of the oil."),
+          defaulted("grid", grid, "{}", "Nodes of the oil film."),
+          defaulted("cavitation", cavitation_format(), "mass_conserving", "Where the film would be under tension."),
+          defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges."),
+          optional("supply", supply, "A line along the whole width that is held full at a given pressure.", "none"),
+          defaulted("asperities", asperities_format(), "none", "Contact of rough surfaces."),
+          defaulted("compliance", compliance_format(), "rigid", "Elastic deformation of both surfaces."),
+          optional("materials", materials_format(), "Give the composite modulus where it is not given itself."),
+          defaulted("cavitated_shear",
+                    choice({{"film_share", "the liquid's share of the gap"}, {"full", "as if the gap were full"}}),
+                    "film_share", "Shear in the cavitated film."),
+          defaulted("shear_force",
+                    choice({{"full", "torque and net force"}, {"torque_only", "the net force of shear is left out"}}),
+                    "full", "What shear does to the bodies."),
+          defaulted("solver",
+                    choice({{"newton", "Newton's method with exact derivatives"},
+                            {"sor", "successive over-relaxation, for comparison"}}),
+                    "newton", "Solver of a film by itself (initial film, partitioned coupling)."),
+          defaulted("coupling", coupling_format(), "monolithic", "How film and bodies are solved together."),
+      });
+  return named("a mapping from names to bearings",
+               with_exactly_one(bearing, {"radial_clearance", "diametral_clearance"}));
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,180 @@
+#include "format.h"
+
+namespace hersey::model {
+namespace {
+
+TypePtr frames_format() {
+  const TypePtr rotation = object("an axis and an angle",
+                                  {
+                                      required("axis", vector("1", "0 0 1"), "Direction; its length does not matter."),
+                                      required("angle", quantity("rad", "90 deg"), "Right-handed about the axis."),
+                                  });
+  return named(
+      "a mapping from names to frames",
+      object("a frame", {
+                            defaulted("origin", vector("m", "0 50 0 mm"), "0 0 0 m", "From the body's origin."),
+                            optional("rotation", rotation, "Turns the frame's axes from the body's.", "none"),
+                        }));
+}
+
+TypePtr axis_format() {
+  return or_word(vector("1", "0 0 1"), {{"x", "the frame's x-axis"}, {"y", "its y-axis"}, {"z", "its z-axis"}});
+}
+
+Key between_format() {
+  return required("between", list("two frames", reference(Refers::frame, "crank.pin"), 2),
+                  "Inboard and outboard frame, each `body` or `body.frame`; coordinates count from the first to the "
+                  "second.");
+}
+
+Key axis_key(const std::string& meaning) { return defaulted("axis", axis_format(), "z", meaning); }
+
+Key initial_format(std::vector<Key> coordinates) {
+  return defaulted("initial", object("initial values of coordinates", std::move(coordinates)), "{}",
+                   "Where the joint starts; what is left out starts from 0 and is adjusted where loops demand it.");
+}
+
+Key angle_key(const std::string& name) { return optional(name, quantity("rad", "30 deg"), "Angle at the start.", "0"); }
+Key angle_rate_key(const std::string& name) {
+  return optional(name, quantity("rad/s", "3570 rpm"), "Angular velocity at the start.", "0");
+}
+Key shift_key(const std::string& name) {
+  return optional(name, quantity("m", "0.1 mm"), "Displacement at the start.", "0");
+}
+Key shift_rate_key(const std::string& name) {
+  return optional(name, quantity("m/s", "2 m/s"), "Velocity at the start.", "0");
+}
+
+std::vector<Key> orientation_keys() {
+  return {
+      optional("orientation", vector("rad", "0 0 30 deg"), "Rotation vector at the start.", "0"),
+      optional("angular_velocity", vector("rad/s", "0 0 3570 rpm"), "At the start, in the outboard frame's axes.", "0"),
+  };
+}
+
+std::vector<Key> free_keys() {
+  std::vector<Key> keys = {
+      optional("position", vector("m", "0 0.01 0 mm"), "Position at the start, inboard axes.", "0"),
+      optional("velocity", vector("m/s", "0 0 2 m/s"), "Velocity at the start, inboard axes.", "0"),
+  };
+  for (Key& key : orientation_keys()) keys.push_back(std::move(key));
+  return keys;
+}
+
+std::vector<Key> planar_keys() {
+  return {shift_key("x"),           shift_key("y"),           angle_key("rotation"),
+          shift_rate_key("x_rate"), shift_rate_key("y_rate"), angle_rate_key("rotation_rate")};
+}
+
+}  // namespace
+
+TypePtr bodies_format() {
+  const TypePtr moment = quantity("kg.m^2", "0.01 kg.m^2");
+  const TypePtr principal = quantity("kg.m^2", "0.01 kg.m^2", Range::not_negative());
+  const TypePtr inertia =
+      object("moments of inertia",
+             {
+                 defaulted("xx", principal, "0", "Moment of inertia about x."),
+                 defaulted("yy", principal, "0", "Moment of inertia about y."),
+                 defaulted("zz", principal, "0", "Moment of inertia about z."),
+                 defaulted("xy", moment, "0", "Element xy of the inertia matrix (minus the product of inertia)."),
+                 defaulted("yz", moment, "0", "Element yz."),
+                 defaulted("zx", moment, "0", "Element zx."),
+             });
+  const TypePtr body = object(
+      "a body",
+      {
+          required("mass", quantity("kg", "5 kg", Range::not_negative()), "Mass."),
+          defaulted("inertia", inertia, "{}", "Inertia matrix about the centre of mass, body axes."),
+          defaulted("centre_of_mass", vector("m", "0 48 0 mm"), "0 0 0 m", "From the body's origin, body axes."),
+          optional("frames", frames_format(), "Frames fixed on the body; `body` alone names the body's own frame."),
+      });
+  const TypePtr ground = object("ground", {optional("frames", frames_format(), "Frames fixed in space.")});
+  return named("a mapping from names to bodies", body,
+               {optional("ground", ground, "The resting body; it exists always and may carry frames.")});
+}
+
+TypePtr joints_format() {
+  const auto about = axis_key("Axis of rotation in the inboard frame: x, y, z or three numbers.");
+  const auto along = axis_key("Axis of sliding in the inboard frame.");
+  const auto both = axis_key("Axis of sliding and rotation in the inboard frame.");
+  const auto normal = axis_key("Normal of the plane in the inboard frame.");
+  return named(
+      "a mapping from names to joints",
+      variant("a joint", "type", {between_format()},
+              {
+                  {"fixed", "no motion", {}},
+                  {"revolute",
+                   "rotation about an axis; coordinate `rotation`",
+                   {about, initial_format({angle_key("rotation"), angle_rate_key("rotation_rate")})}},
+                  {"prismatic",
+                   "sliding along an axis; coordinate `translation`",
+                   {along, initial_format({shift_key("translation"), shift_rate_key("translation_rate")})}},
+                  {"cylindrical",
+                   "sliding along and rotation about one axis; coordinates `translation`, `rotation`",
+                   {both, initial_format({shift_key("translation"), angle_key("rotation"),
+                                          shift_rate_key("translation_rate"), angle_rate_key("rotation_rate")})}},
+                  {"spherical",
+                   "a ball; coordinate `orientation` (a rotation vector)",
+                   {initial_format(orientation_keys())}},
+                  {"planar",
+                   "motion in a plane; coordinates `x`, `y`, `rotation`",
+                   {normal, initial_format(planar_keys())}},
+                  {"free", "all six motions; coordinates `position`, `orientation`", {initial_format(free_keys())}},
+              }));
+}
+
+TypePtr drives_format() {
+  const TypePtr drive = object(
+      "a drive",
+      {
+          required("joint", reference(Refers::joint, "main"), "The joint driven."),
+          required("coordinate", reference(Refers::coordinate, "rotation"), "Its coordinate; not an orientation."),
+          optional("position", function_format({"rad", "m"}, "0 deg"), "Function of time the coordinate follows."),
+          optional("speed", function_format({"rad/s", "m/s"}, "3570 rpm"),
+                   "Function of time its rate follows, from the joint's initial position."),
+      });
+  return named("a mapping from names to drives", with_exactly_one(drive, {"position", "speed"}));
+}
+
+TypePtr forces_format() {
+  const auto load_keys = [](const std::string& unit, const std::string& example) {
+    const TypePtr function = function_format({unit}, example);
+    return std::vector<Key>{
+        required("body", reference(Refers::frame, "rod.small_end"), "Where it acts: `body` or `body.frame`."),
+        optional("components", list("three functions", function, 3), "Along x, y and z."),
+        optional("direction", vector("1", "0 -1 0"), "Direction of `magnitude`; its length does not matter."),
+        optional("magnitude", function, "Along `direction`."),
+        defaulted("axes", choice({{"ground", "axes fixed in space"}, {"body", "axes of the frame it acts at"}}),
+                  "ground", "Axes of `components` or `direction`."),
+    };
+  };
+  const Range not_negative = Range::not_negative();
+  const TypePtr force = variant(
+      "a force", "type", {},
+      {
+          {"force", "a force at a point of a body", load_keys("N", "500 N")},
+          {"torque", "a torque on a body", load_keys("N.m", "5 N.m")},
+          {"spring_damper",
+           "along the line between two points",
+           {
+               required("between", list("two frames", reference(Refers::frame, "rod.small_end"), 2), "Its two ends."),
+               defaulted("stiffness", quantity("N/m", "1e5 N/m", not_negative), "0", "Stiffness."),
+               defaulted("damping", quantity("N.s/m", "10 N.s/m", not_negative), "0", "Damping."),
+               defaulted("free_length", quantity("m", "50 mm", not_negative), "0", "Length without force."),
+           }},
+          {"torsion_spring",
+           "on a rotational joint coordinate",
+           {
+               required("joint", reference(Refers::joint, "main"), "The joint it acts in."),
+               defaulted("coordinate", reference(Refers::coordinate, "rotation"), "rotation", "Its coordinate."),
+               defaulted("stiffness", quantity("N.m/rad", "100 N.m/rad", not_negative), "0", "Stiffness."),
+               defaulted("damping", quantity("N.m.s/rad", "0.1 N.m.s/rad", not_negative), "0", "Damping."),
+               defaulted("free_angle", quantity("rad", "0 deg"), "0", "Angle without torque."),
+           }},
+      });
+  return named("a mapping from names to forces",
+               with_together(with_exactly_one(force, {"components", "magnitude"}), {"direction", "magnitude"}));
+}
+
+}  // namespace hersey::model

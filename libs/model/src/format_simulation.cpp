@@ -1,0 +1,63 @@
+#include "format.h"
+
+namespace hersey::model {
+
+TypePtr simulation_format() {
+  const TypePtr span = quantity_in({"s", "rad"}, "0.1 s", Range::positive());
+  const Range fraction{.low = 0, .high = 1, .low_open = true, .high_open = true};
+  const TypePtr settle = object(
+      "a condition", {
+                         defaulted("tolerance", number("1e-4", fraction), "1e-4",
+                                   "Change of every bearing's eccentricity ratio below which it counts as settled."),
+                         required("over", quantity_in({"s", "rad"}, "360 deg", Range::positive()),
+                                  "Time or crank angle between the states compared."),
+                     });
+  return object(
+      "simulation settings",
+      {
+          required("duration", span, "Time to simulate, or the crank's angle."),
+          required("step", quantity_in({"s", "rad"}, "0.1 ms", Range::positive()),
+                   "Time step, or the crank's angle. A step that fails is halved."),
+          optional("crank", reference(Refers::joint, "main"),
+                   "Revolute joint driven at a constant speed: turns angles into times, and is the report's abscissa.",
+                   "angles cannot be used"),
+          defaulted("start", quantity("s", "0 s"), "0 s", "Time at the start."),
+          defaulted("spectral_radius", number("0.8", {.low = 0, .high = 1}), "0.8",
+                    "Damping of the fastest vibrations by generalized-alpha: 1 none, 0 all within a step."),
+          defaulted("tolerance", number("1e-8", fraction), "1e-8",
+                    "Relative residual at which a step counts as solved."),
+          defaulted("max_iterations", integer(20, {.low = 1, .high = 10000}), "20", "Newton iterations per step."),
+          defaulted("smallest_step", quantity("s", "1e-9 s", Range::positive()), "1e-9 s",
+                    "A step that still fails at this length ends the run."),
+          optional("settle", settle, "Ends the run once every bearing repeats itself.", "runs to the end"),
+      });
+}
+
+TypePtr output_format() {
+  return object(
+      "output settings",
+      {
+          defaulted("every", integer(1, {.low = 1, .high = 1000000000}), "1", "Steps between rows of the time series."),
+          optional("fields_every", quantity_in({"s", "rad"}, "5 deg", Range::positive()),
+                   "Time or crank angle between stored pressure and film-thickness fields.", "a hundredth of the run"),
+      });
+}
+
+TypePtr study_format() {
+  auto parameters =
+      std::make_shared<Type>(*named("a mapping from parameters to lists of values",
+                                    list("a list of values", scalar("a number, quantity or word", "100 N"))));
+  parameters->free_names = true;
+  const TypePtr figures =
+      list("a list of figures", choice({{"midplane_pressure", "pressure around the middle of the bearing"},
+                                        {"film_thickness", "least film thickness against the first parameter"}}));
+  return object("a study", {
+                               required("parameters", parameters,
+                                        "Values of each parameter or key path (`bearings.big_end.width`); every "
+                                        "combination is one run."),
+                               defaulted("figures", figures, "[midplane_pressure, film_thickness]",
+                                         "Figures of the report; curves are drawn over the first parameter."),
+                           });
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,123 @@
+#include "interpret.h"
+
+#include <algorithm>
+
+#include "hersey/core/spelling.h"
+#include "hersey/mbd/joint.h"
+
+namespace hersey::model {
+
+void Context::fault(const Value& at, std::string found, std::string expected, std::string suggestion) {
+  faults.push_back({at.position, at.path, std::move(found), std::move(expected), std::move(suggestion)});
+}
+
+void Context::fault_at_key(const Value& at, std::string found, std::string expected, std::string suggestion) {
+  faults.push_back({at.key_position, at.path, std::move(found), std::move(expected), std::move(suggestion)});
+}
+
+double number_of(const Value& parent, const std::string& key) {
+  const Value* value = parent.find(key);
+  return value != nullptr ? value->number : 0;
+}
+
+int integer_of(const Value& parent, const std::string& key) { return static_cast<int>(number_of(parent, key)); }
+
+std::string text_of(const Value& parent, const std::string& key) {
+  const Value* value = parent.find(key);
+  return value != nullptr ? value->text : "";
+}
+
+Vector3 vector_of(const Value& parent, const std::string& key) {
+  const Value* value = parent.find(key);
+  if (value == nullptr || value->numbers.size() != 3) return Vector3::Zero();
+  return {value->numbers[0], value->numbers[1], value->numbers[2]};
+}
+
+const std::vector<std::pair<std::string, Value>>& section(const Value& root, const std::string& key) {
+  static const std::vector<std::pair<std::string, Value>> empty;
+  const Value* value = root.find(key);
+  return value != nullptr ? value->members : empty;
+}
+
+std::vector<std::string> names_in(const Value& root, const std::string& key) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : section(root, key)) names.push_back(name);
+  return names;
+}
+
+Vector3 direction_of(Context& context, const Value& parent, const std::string& key) {
+  const Value* value = parent.find(key);
+  if (value == nullptr || value->broken) return Vector3::UnitZ();
+  if (value->text == "x") return Vector3::UnitX();
+  if (value->text == "y") return Vector3::UnitY();
+  if (value->text == "z") return Vector3::UnitZ();
+  const Vector3 direction = vector_of(parent, key);
+  if (direction.norm() > 0) return direction.normalized();
+  context.fault(*value, "a direction of length 0", value->type->expectation());
+  return Vector3::UnitZ();
+}
+
+FrameName frame_of(Context& context, const Value& reference) {
+  const auto dot = reference.text.find('.');
+  FrameName name{reference.text.substr(0, dot), "", reference.position};
+  if (dot != std::string::npos) name.frame = reference.text.substr(dot + 1);
+  if (reference.broken || context.root.find("bodies") == nullptr) return name;
+  std::vector<std::string> bodies = names_in(context.root, "bodies");
+  if (std::find(bodies.begin(), bodies.end(), "ground") == bodies.end()) bodies.insert(bodies.begin(), "ground");
+  if (std::find(bodies.begin(), bodies.end(), name.body) == bodies.end()) {
+    context.fault(reference, "unknown body '" + name.body + "'", one_of(bodies), did_you_mean(name.body, bodies));
+    return name;
+  }
+  if (name.frame.empty()) return name;
+  const Value* body = context.root.find("bodies")->find(name.body);
+  const std::vector<std::string> frames = body != nullptr ? names_in(*body, "frames") : std::vector<std::string>{};
+  if (std::find(frames.begin(), frames.end(), name.frame) == frames.end()) {
+    const std::string found = "unknown frame '" + name.frame + "' of body '" + name.body + "'";
+    const std::string expected = frames.empty() ? "'" + name.body + "' alone, for it has no frames" : one_of(frames);
+    context.fault(reference, found, expected, did_you_mean(name.frame, frames));
+  }
+  return name;
+}
+
+void require_name(Context& context, const Value& reference, const std::string& key, const std::string& what) {
+  if (reference.broken) return;
+  const std::vector<std::string> names = names_in(context.root, key);
+  if (std::find(names.begin(), names.end(), reference.text) != names.end()) return;
+  context.fault(reference, "unknown " + what + " '" + reference.text + "'",
+                names.empty() ? "a " + what + ", but the model has none" : one_of(names),
+                did_you_mean(reference.text, names));
+}
+
+std::optional<std::vector<JointCoordinate>> coordinates_of_joint(const Value& root, const std::string& name) {
+  for (const auto& [joint_name, joint] : section(root, "joints")) {
+    if (joint_name != name) continue;
+    const auto type = mbd::joint_type_of(joint.text);
+    if (!type) return std::nullopt;
+    std::vector<JointCoordinate> coordinates;
+    for (const mbd::Coordinate& coordinate : mbd::coordinates_of(*type)) {
+      if (coordinate.size == 1) coordinates.push_back({std::string(coordinate.name), coordinate.rotational});
+    }
+    return coordinates;
+  }
+  return std::nullopt;
+}
+
+std::optional<JointCoordinate> coordinate_of(Context& context, const Value& parent) {
+  const Value* joint = parent.find("joint");
+  const Value* coordinate = parent.find("coordinate");
+  if (joint != nullptr) require_name(context, *joint, "joints", "joint");
+  if (joint == nullptr || coordinate == nullptr || coordinate->broken) return std::nullopt;
+  const auto coordinates = coordinates_of_joint(context.root, joint->text);
+  if (!coordinates) return std::nullopt;
+  std::vector<std::string> names;
+  for (const JointCoordinate& candidate : *coordinates) {
+    if (candidate.name == coordinate->text) return candidate;
+    names.push_back(candidate.name);
+  }
+  const std::string found = "unknown coordinate '" + coordinate->text + "' of joint '" + joint->text + "'";
+  const std::string expected = names.empty() ? "a joint with scalar coordinates" : one_of(names);
+  context.fault(*coordinate, found, expected, did_you_mean(coordinate->text, names));
+  return std::nullopt;
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check.h"
+#include "hersey/model/model.h"
+
+namespace hersey::model {
+
+/// What turning checked values into the model needs everywhere. Broken values have been reported: they are read as
+/// zero or empty, so that the rest can still be checked; the model is used only where there are no faults.
+struct Context {
+  const Value& root;
+  Model& model;
+  std::vector<Fault>& faults;
+
+  /// Reports a fault at a value.
+  void fault(const Value& at, std::string found, std::string expected, std::string suggestion = {});
+  /// Reports a fault at the key that opens a value.
+  void fault_at_key(const Value& at, std::string found, std::string expected, std::string suggestion = {});
+};
+
+// Members of a mapping by key; zero, empty or null where missing or broken.
+[[nodiscard]] double number_of(const Value& parent, const std::string& key);
+[[nodiscard]] int integer_of(const Value& parent, const std::string& key);
+[[nodiscard]] std::string text_of(const Value& parent, const std::string& key);
+[[nodiscard]] Vector3 vector_of(const Value& parent, const std::string& key);
+/// The named things in the section `key` of the file, in its order.
+[[nodiscard]] const std::vector<std::pair<std::string, Value>>& section(const Value& root, const std::string& key);
+[[nodiscard]] std::vector<std::string> names_in(const Value& root, const std::string& key);
+
+/// A direction of length 1. A zero vector is a fault.
+[[nodiscard]] Vector3 direction_of(Context& context, const Value& parent, const std::string& key);
+
+/// A frame that exists; reports a fault otherwise.
+[[nodiscard]] FrameName frame_of(Context& context, const Value& reference);
+
+/// Reports a fault unless `reference` names an entry of the section `key`; `what` is such an entry, "joint".
+void require_name(Context& context, const Value& reference, const std::string& key, const std::string& what);
+
+/// A scalar coordinate of a joint.
+struct JointCoordinate {
+  std::string name;
+  bool rotational = false;
+};
+
+/// The scalar coordinates of the joint called `name`; nothing where there is no such joint or its type is broken.
+[[nodiscard]] std::optional<std::vector<JointCoordinate>> coordinates_of_joint(const Value& root,
+                                                                               const std::string& name);
+
+/// The coordinate given by the keys `joint` and `coordinate` of `parent`; reports a fault where it does not exist.
+[[nodiscard]] std::optional<JointCoordinate> coordinate_of(Context& context, const Value& parent);
+
+/// A function whose value is wanted in `si_unit`; reports every fault of its expression, table, units and file.
+[[nodiscard]] Function function_of(Context& context, const Value& value, const std::string& si_unit);
+
+// The sections of the file.
+void interpret_bodies(Context& context);
+void interpret_joints(Context& context);
+void interpret_drives(Context& context);
+void interpret_forces(Context& context);
+void interpret_lubricants(Context& context);
+void interpret_bearings(Context& context);
+void interpret_simulation(Context& context);
+void interpret_study(Context& context);
+
+/// Reports tables that do not cover the run, as far as that can be told before it: over time, and over driven joints.
+void check_table_ranges(Context& context);
+
+}  // namespace hersey::model

@@ -1,0 +1,190 @@
+#include <algorithm>
+
+#include "interpret.h"
+
+namespace hersey::model {
+namespace {
+
+std::optional<fem::ElasticMaterial> material_of(const Value& bearing, const std::string& key) {
+  const Value* materials = bearing.find("materials");
+  const Value* value = materials != nullptr ? materials->find(key) : nullptr;
+  if (value == nullptr || value->broken) return std::nullopt;
+  fem::ElasticMaterial material{number_of(*value, "youngs_modulus"), number_of(*value, "poisson_ratio"),
+                                number_of(*value, "density")};
+  const bool is_usable = material.youngs_modulus > 0 && -1 < material.poisson_ratio && material.poisson_ratio < 0.5;
+  return is_usable ? std::optional(material) : std::nullopt;
+}
+
+/// The film of one bearing, from the values of its mapping.
+class FilmReader {
+ public:
+  FilmReader(Context& context, const Value& value, Bearing& bearing)
+      : context_(context), value_(value), bearing_(bearing), film_(bearing.film) {}
+
+  void read() {
+    film_.R = number_of(value_, "diameter") / 2;
+    film_.L = number_of(value_, "width");
+    film_.c = value_.find("diametral_clearance") != nullptr ? number_of(value_, "diametral_clearance") / 2
+                                                            : number_of(value_, "radial_clearance");
+    if (const Value* grid = value_.find("grid")) {
+      film_.grid = {.n_phi = integer_of(*grid, "circumferential"), .n_z = integer_of(*grid, "axial")};
+    }
+    check_clearance();
+    read_lubricant();
+    read_cavitation();
+    read_edges();
+    read_supply();
+    read_asperities();
+    read_compliance();
+    film_.cavitated_shear =
+        text_of(value_, "cavitated_shear") == "full" ? film::CavitatedShear::full : film::CavitatedShear::film_share;
+    film_.shear_force =
+        text_of(value_, "shear_force") == "torque_only" ? film::ShearForce::torque_only : film::ShearForce::full;
+  }
+
+ private:
+  /// Lubrication theory takes the gap to be thin: a clearance of the bearing's own size is a wrong unit.
+  void check_clearance() {
+    const Value* clearance = value_.find("radial_clearance");
+    if (clearance == nullptr) clearance = value_.find("diametral_clearance");
+    if (clearance == nullptr || clearance->broken || film_.R <= 0 || film_.c < 0.1 * film_.R) return;
+    context_.fault(*clearance, "a clearance of more than a tenth of the radius",
+                   "a thin gap: common are radial clearances of 0.0005 to 0.002 radii");
+  }
+
+  void read_lubricant() {
+    const Value* name = value_.find("lubricant");
+    if (name == nullptr) return;
+    bearing_.lubricant = name->text;
+    require_name(context_, *name, "lubricants", "lubricant");
+    for (const Lubricant& lubricant : context_.model.lubricants) {
+      if (lubricant.name == name->text) film_.lubricant = lubricant.data;
+    }
+  }
+
+  void read_cavitation() {
+    const Value* cavitation = value_.find("cavitation");
+    if (cavitation == nullptr || cavitation->broken) return;
+    film_.p_cav = number_of(*cavitation, "pressure");
+    film_.cavitation = cavitation->text == "guembel"    ? film::Cavitation::guembel
+                       : cavitation->text == "reynolds" ? film::Cavitation::reynolds
+                                                        : film::Cavitation::mass_conserving;
+  }
+
+  void read_edges() {
+    const Value* edges = value_.find("edge_pressure");
+    if (edges == nullptr || edges->broken || edges->members.empty()) return;
+    const Value& content = edges->members.front().second;
+    const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
+    const Value& left = is_pair ? *content.find("left") : content;
+    const Value& right = is_pair ? *content.find("right") : content;
+    film_.p_edge_left = left.number;
+    film_.p_edge_right = right.number;
+    require_above_cavitation(left);
+    if (is_pair) require_above_cavitation(right);
+  }
+
+  void read_supply() {
+    const Value* supply = value_.find("supply");
+    if (supply == nullptr || supply->broken) return;
+    const Value* line = supply->find("line");
+    if (line == nullptr || line->broken) return;
+    film_.supply.kind = line->text == "widest_gap" ? film::SupplyKind::widest_gap : film::SupplyKind::fixed_angle;
+    film_.supply.phi = line->number;
+    film_.supply.pressure = number_of(*supply, "pressure");
+    if (const Value* pressure = supply->find("pressure")) require_above_cavitation(*pressure);
+  }
+
+  void require_above_cavitation(const Value& pressure) {
+    if (pressure.broken || pressure.number >= film_.p_cav) return;
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%g Pa, below the cavitation pressure %g Pa", pressure.number, film_.p_cav);
+    context_.fault(pressure, text.data(), "at least the cavitation pressure, on the same scale",
+                   "with gauge pressures, cavitation is often near -1 bar");
+  }
+
+  void read_asperities() {
+    const Value* asperities = value_.find("asperities");
+    if (asperities == nullptr || asperities->broken || asperities->text == "none") return;
+    film_.asperities.model = asperities->text == "greenwood_tripp" ? film::AsperityModel::greenwood_tripp_exact
+                                                                   : film::AsperityModel::greenwood_tripp_fit;
+    film_.asperities.sigma = number_of(*asperities, "roughness");
+    film_.asperities.elastic_factor = number_of(*asperities, "elastic_factor");
+    film_.asperities.mu_friction = number_of(*asperities, "friction");
+    film_.asperities.composite_modulus = composite_modulus_of(*asperities).value_or(0);
+  }
+
+  void read_compliance() {
+    const Value* compliance = value_.find("compliance");
+    if (compliance == nullptr || compliance->broken || compliance->text == "rigid") return;
+    const std::optional<double> modulus = composite_modulus_of(*compliance);
+    const Value* length = compliance->find("length");
+    if (modulus) film_.compliance = (length != nullptr ? length->number : film_.R) / *modulus;
+  }
+
+  /// The modulus given itself, or that of the two materials.
+  std::optional<double> composite_modulus_of(const Value& parent) {
+    if (const Value* modulus = parent.find("composite_modulus")) {
+      return modulus->broken ? std::nullopt : std::optional(modulus->number);
+    }
+    if (bearing_.shell_material && bearing_.journal_material) {
+      return fem::composite_modulus(*bearing_.shell_material, *bearing_.journal_material);
+    }
+    if (value_.find("materials") == nullptr) {
+      context_.fault_at_key(parent, "missing key 'composite_modulus'", "a pressure > 0, such as 57 GPa",
+                            "or give the bearing's materials");
+    }
+    return std::nullopt;
+  }
+
+  Context& context_;
+  const Value& value_;
+  Bearing& bearing_;
+  film::FilmModel& film_;
+};
+
+Coupling coupling_of(const Value& bearing) {
+  Coupling coupling;
+  const Value* value = bearing.find("coupling");
+  if (value == nullptr || value->text != "partitioned") return coupling;
+  coupling.scheme = CouplingScheme::partitioned;
+  coupling.relaxation = number_of(*value, "relaxation");
+  coupling.tolerance = number_of(*value, "tolerance");
+  coupling.max_iterations = integer_of(*value, "max_iterations");
+  return coupling;
+}
+
+}  // namespace
+
+void interpret_lubricants(Context& context) {
+  for (const auto& [name, value] : section(context.root, "lubricants")) {
+    Lubricant lubricant{name, {}, value.key_position};
+    lubricant.data = {.mu0 = number_of(value, "viscosity"),
+                      .alpha = number_of(value, "pressure_viscosity"),
+                      .density = number_of(value, "density")};
+    context.model.lubricants.push_back(std::move(lubricant));
+  }
+}
+
+void interpret_bearings(Context& context) {
+  for (const auto& [name, value] : section(context.root, "bearings")) {
+    Bearing bearing;
+    bearing.name = name;
+    bearing.position = value.key_position;
+    if (const Value* shell = value.find("shell")) bearing.shell = frame_of(context, *shell);
+    if (const Value* journal = value.find("journal")) {
+      bearing.journal = frame_of(context, *journal);
+      if (!bearing.journal.body.empty() && bearing.journal.body == bearing.shell.body) {
+        context.fault(*journal, "shell and journal on body '" + bearing.shell.body + "'", "frames of two bodies");
+      }
+    }
+    bearing.shell_material = material_of(value, "shell");
+    bearing.journal_material = material_of(value, "journal");
+    FilmReader(context, value, bearing).read();
+    bearing.solver = text_of(value, "solver") == "sor" ? film::FilmSolver::sor : film::FilmSolver::newton;
+    bearing.coupling = coupling_of(value);
+    context.model.bearings.push_back(std::move(bearing));
+  }
+}
+
+}  // namespace hersey::model

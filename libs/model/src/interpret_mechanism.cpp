@@ -1,0 +1,199 @@
+#include <Eigen/Eigenvalues>
+#include <map>
+
+#include "hersey/core/spelling.h"
+#include "interpret.h"
+
+namespace hersey::model {
+namespace {
+
+std::vector<Frame> frames_of(Context& context, const Value& body) {
+  std::vector<Frame> frames;
+  for (const auto& [name, value] : section(body, "frames")) {
+    Frame frame{name, {}, value.key_position};
+    frame.X_BF.r = vector_of(value, "origin");
+    if (const Value* rotation = value.find("rotation"); rotation != nullptr && !rotation->broken) {
+      const Vector3 axis = direction_of(context, *rotation, "axis");
+      frame.X_BF.R = Eigen::AngleAxisd(number_of(*rotation, "angle"), axis).toRotationMatrix();
+    }
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+/// The inertia matrix of a possible body: positive semidefinite, and no principal moment above the sum of the others.
+Matrix3 inertia_of(Context& context, const Value& body) {
+  const Value* value = body.find("inertia");
+  if (value == nullptr || value->broken) return Matrix3::Zero();
+  const double xx = number_of(*value, "xx"), yy = number_of(*value, "yy"), zz = number_of(*value, "zz");
+  const double xy = number_of(*value, "xy"), yz = number_of(*value, "yz"), zx = number_of(*value, "zx");
+  const Matrix3 inertia = (Matrix3() << xx, xy, zx, xy, yy, yz, zx, yz, zz).finished();
+  if (!inertia.allFinite()) return Matrix3::Zero();
+  const Vector3 principal = Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  // Thin plates lie exactly on the limit; data given to some digits may pass it by their rounding.
+  const double slack = 1e-3 * principal[2];
+  if (principal[0] < -slack || principal[2] > principal[0] + principal[1] + slack) {
+    std::array<char, 96> moments{};
+    std::snprintf(moments.data(), moments.size(), "%g, %g and %g kg.m^2", principal[0], principal[1], principal[2]);
+    context.fault_at_key(*value, std::string("principal moments of inertia ") + moments.data(),
+                         "none negative, and none greater than the sum of the others");
+  }
+  return inertia;
+}
+
+/// A pair of frames on two different bodies.
+std::pair<FrameName, FrameName> pair_of(Context& context, const Value& parent) {
+  const Value* between = parent.find("between");
+  if (between == nullptr || between->members.size() != 2) return {};
+  FrameName first = frame_of(context, between->members[0].second);
+  FrameName second = frame_of(context, between->members[1].second);
+  if (!first.body.empty() && first.body == second.body) {
+    context.fault(between->members[1].second, "both frames on body '" + first.body + "'", "frames of two bodies");
+  }
+  return {std::move(first), std::move(second)};
+}
+
+const std::map<std::string, JointType>& joint_types() {
+  static const std::map<std::string, JointType> types = {
+      {"fixed", JointType::fixed},         {"revolute", JointType::revolute},
+      {"prismatic", JointType::prismatic}, {"cylindrical", JointType::cylindrical},
+      {"spherical", JointType::spherical}, {"planar", JointType::planar},
+      {"free", JointType::free},
+  };
+  return types;
+}
+
+BodyLoad load_of(Context& context, const Value& value, bool is_torque) {
+  BodyLoad load;
+  load.is_torque = is_torque;
+  const std::string unit = is_torque ? "N.m" : "N";
+  if (const Value* body = value.find("body")) load.at = frame_of(context, *body);
+  load.axes = text_of(value, "axes") == "body" ? Axes::body : Axes::ground;
+  if (const Value* components = value.find("components")) {
+    for (const auto& [index, component] : components->members) {
+      load.functions.push_back(function_of(context, component, unit));
+    }
+  }
+  if (value.find("direction") != nullptr) load.direction = direction_of(context, value, "direction");
+  if (const Value* magnitude = value.find("magnitude")) {
+    load.functions.push_back(function_of(context, *magnitude, unit));
+  }
+  return load;
+}
+
+TorsionSpring torsion_spring_of(Context& context, const Value& value) {
+  TorsionSpring spring;
+  spring.joint = text_of(value, "joint");
+  spring.coordinate = text_of(value, "coordinate");
+  spring.stiffness = number_of(value, "stiffness");
+  spring.damping = number_of(value, "damping");
+  spring.free_angle = number_of(value, "free_angle");
+  const auto coordinate = coordinate_of(context, value);
+  if (coordinate && !coordinate->rotational) {
+    context.fault(*value.find("coordinate"), "coordinate '" + coordinate->name + "', a displacement",
+                  "a rotational coordinate");
+  }
+  return spring;
+}
+
+Force force_of(Context& context, const std::string& name, const Value& value) {
+  Force force{name, ForceType::load, {}, {}, {}, value.key_position};
+  if (value.text == "force" || value.text == "torque") {
+    force.load = load_of(context, value, value.text == "torque");
+  } else if (value.text == "spring_damper") {
+    force.type = ForceType::spring_damper;
+    auto [from, to] = pair_of(context, value);
+    force.spring_damper = {std::move(from), std::move(to), number_of(value, "stiffness"), number_of(value, "damping"),
+                           number_of(value, "free_length")};
+  } else if (value.text == "torsion_spring") {
+    force.type = ForceType::torsion_spring;
+    force.torsion_spring = torsion_spring_of(context, value);
+  }
+  return force;
+}
+
+/// A drive knows its motion beforehand: it depends on time alone.
+void require_function_of_time(Context& context, const Function& function) {
+  for (const Variable& variable : function.variables) {
+    if (variable.kind == Variable::Kind::time) continue;
+    const std::string name = variable.joint + "." + variable.coordinate;
+    context.faults.push_back(
+        {function.position, function.path, "a drive that depends on " + name, "a function of time alone", ""});
+    return;
+  }
+}
+
+}  // namespace
+
+void interpret_bodies(Context& context) {
+  context.model.ground.name = "ground";
+  for (const auto& [name, value] : section(context.root, "bodies")) {
+    if (name == "ground") {
+      context.model.ground.frames = frames_of(context, value);
+      context.model.ground.position = value.key_position;
+      continue;
+    }
+    Body body;
+    body.name = name;
+    body.position = value.key_position;
+    body.mass = number_of(value, "mass");
+    body.centre_of_mass = vector_of(value, "centre_of_mass");
+    body.inertia = inertia_of(context, value);
+    body.frames = frames_of(context, value);
+    context.model.bodies.push_back(std::move(body));
+  }
+}
+
+void interpret_joints(Context& context) {
+  for (const auto& [name, value] : section(context.root, "joints")) {
+    Joint joint;
+    joint.name = name;
+    joint.position = value.key_position;
+    std::tie(joint.inboard, joint.outboard) = pair_of(context, value);
+    if (const auto type = joint_types().find(value.text); type != joint_types().end()) joint.type = type->second;
+    if (value.find("axis") != nullptr) joint.axis = direction_of(context, value, "axis");
+    for (const auto& [coordinate, initial] : section(value, "initial")) {
+      std::vector<double> numbers = initial.numbers;
+      if (numbers.empty()) numbers = {initial.number};
+      joint.initial.push_back({coordinate, std::move(numbers), initial.key_position});
+    }
+    context.model.joints.push_back(std::move(joint));
+  }
+}
+
+void interpret_drives(Context& context) {
+  std::map<std::string, std::string> driven;  // joint.coordinate -> drive
+  for (const auto& [name, value] : section(context.root, "drives")) {
+    Drive drive;
+    drive.name = name;
+    drive.position = value.key_position;
+    drive.joint = text_of(value, "joint");
+    drive.coordinate = text_of(value, "coordinate");
+    const auto coordinate = coordinate_of(context, value);
+    const Value* motion = value.find("position");
+    if (motion == nullptr) {
+      motion = value.find("speed");
+      drive.prescribes = Drive::Prescribes::speed;
+    }
+    if (coordinate && motion != nullptr) {
+      const std::string unit = coordinate->rotational ? "rad" : "m";
+      const bool is_speed = drive.prescribes == Drive::Prescribes::speed;
+      drive.motion = function_of(context, *motion, is_speed ? unit + "/s" : unit);
+      require_function_of_time(context, drive.motion);
+      const auto [first, is_new] = driven.try_emplace(drive.joint + "." + drive.coordinate, name);
+      if (!is_new) {
+        context.fault_at_key(value, "a second drive of " + first->first, "one drive per coordinate",
+                             "the other is '" + first->second + "'");
+      }
+    }
+    context.model.drives.push_back(std::move(drive));
+  }
+}
+
+void interpret_forces(Context& context) {
+  for (const auto& [name, value] : section(context.root, "forces")) {
+    context.model.forces.push_back(force_of(context, name, value));
+  }
+}
+
+}  // namespace hersey::model

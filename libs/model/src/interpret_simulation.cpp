@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hersey/core/spelling.h"
+#include "interpret.h"
+#include "overrides.h"
+
+namespace hersey::model {
+namespace {
+
+const Joint* joint_called(const Model& model, const std::string& name) {
+  for (const Joint& joint : model.joints) {
+    if (joint.name == name) return &joint;
+  }
+  return nullptr;
+}
+
+double initial_value(const Joint& joint, const std::string& coordinate) {
+  for (const InitialValue& initial : joint.initial) {
+    if (initial.coordinate == coordinate && !initial.value.empty()) return initial.value.front();
+  }
+  return 0;
+}
+
+/// The drive that turns or shifts `coordinate` of `joint` at a constant speed; null if there is none.
+const Drive* constant_drive(const Model& model, const std::string& joint, const std::string& coordinate) {
+  for (const Drive& drive : model.drives) {
+    const bool drives_it = drive.joint == joint && drive.coordinate == coordinate;
+    const bool is_constant =
+        drive.prescribes == Drive::Prescribes::speed && drive.motion.value != nullptr && drive.motion.is_constant();
+    if (drives_it && is_constant) return &drive;
+  }
+  return nullptr;
+}
+
+std::optional<Crank> crank_of(Context& context, const Value& simulation) {
+  const Value* value = simulation.find("crank");
+  if (value == nullptr || value->broken) return std::nullopt;
+  require_name(context, *value, "joints", "joint");
+  const Joint* joint = joint_called(context.model, value->text);
+  if (joint == nullptr) return std::nullopt;
+  if (joint->type != JointType::revolute) {
+    context.fault(*value, "joint '" + joint->name + "', which is not revolute", "a revolute joint");
+    return std::nullopt;
+  }
+  const Drive* drive = constant_drive(context.model, joint->name, "rotation");
+  const double speed = drive != nullptr ? drive->motion.value->value({}) : 0;
+  if (speed == 0) {
+    context.fault(*value, "joint '" + joint->name + "', which no drive turns at a constant speed",
+                  "a joint with a drive such as {joint: " + joint->name + ", coordinate: rotation, speed: 3570 rpm}");
+    return std::nullopt;
+  }
+  return Crank{joint->name, speed, initial_value(*joint, "rotation")};
+}
+
+/// A time, or the time the crank takes for an angle.
+double seconds_of(Context& context, const Value& parent, const std::string& key, const std::optional<Crank>& crank) {
+  const Value* value = parent.find(key);
+  if (value == nullptr || value->broken) return 0;
+  if (value->unit != "rad") return value->number;
+  if (crank) return value->number / std::abs(crank->speed);
+  const Value* simulation = context.root.find("simulation");
+  if (simulation != nullptr && simulation->find("crank") != nullptr) return 0;  // a crank at fault has been reported
+  context.fault(*value, "an angle", "a time, or a crank that turns angles into times",
+                "add simulation.crank with the name of a driven revolute joint");
+  return 0;
+}
+
+std::string in_users_unit(double x, bool is_angle) {
+  std::array<char, 48> text{};
+  const double degrees = x * 180 / std::numbers::pi;
+  std::snprintf(text.data(), text.size(), "%.6g", is_angle ? degrees : x);
+  return text.data();
+}
+
+/// Range of the first variable of a function during the run, as far as it is prescribed.
+std::optional<std::pair<double, double>> range_during_run(const Model& model, const Variable& variable) {
+  const Simulation& simulation = model.simulation;
+  if (variable.kind == Variable::Kind::time) {
+    return std::pair{simulation.start, simulation.start + simulation.duration};
+  }
+  const Joint* joint = joint_called(model, variable.joint);
+  const Drive* drive = constant_drive(model, variable.joint, variable.coordinate);
+  if (variable.kind == Variable::Kind::rate || joint == nullptr || drive == nullptr) return std::nullopt;
+  const double from = initial_value(*joint, variable.coordinate);
+  const double to = from + drive->motion.value->value({}) * simulation.duration;
+  return std::pair{std::min(from, to), std::max(from, to)};
+}
+
+void check_table_range(Context& context, const Function& function) {
+  if (!function.domain || function.variables.empty()) return;
+  const Variable& variable = function.variables.front();
+  const auto range = range_during_run(context.model, variable);
+  if (!range) return;
+  const auto [low, high] = *function.domain;
+  const double slack = 1e-9 * (high - low);
+  if (low - slack <= range->first && range->second <= high + slack) return;
+  const bool is_angle = variable.coordinate == "rotation";
+  const std::string unit = variable.kind == Variable::Kind::time ? " s" : is_angle ? " deg" : " m";
+  const auto text = [&](double from, double to) {
+    return in_users_unit(from, is_angle) + " to " + in_users_unit(to, is_angle) + unit;
+  };
+  context.faults.push_back({function.position, function.path, "a table that covers " + text(low, high),
+                            "one that covers the run, " + text(range->first, range->second),
+                            "add points, or a period after which it repeats"});
+}
+
+}  // namespace
+
+void interpret_simulation(Context& context) {
+  Simulation& simulation = context.model.simulation;
+  Output& output = context.model.output;
+  const Value* value = context.root.find("simulation");
+  if (value == nullptr) return;
+  simulation.position = value->key_position;
+  simulation.crank = crank_of(context, *value);
+  simulation.start = number_of(*value, "start");
+  simulation.duration = seconds_of(context, *value, "duration", simulation.crank);
+  simulation.step = seconds_of(context, *value, "step", simulation.crank);
+  simulation.spectral_radius = number_of(*value, "spectral_radius");
+  simulation.tolerance = number_of(*value, "tolerance");
+  simulation.max_iterations = integer_of(*value, "max_iterations");
+  simulation.smallest_step = number_of(*value, "smallest_step");
+  if (simulation.step > simulation.duration && simulation.duration > 0) {
+    context.fault(*value->find("step"), "a step longer than the run", "a step of at most the duration");
+  }
+  if (simulation.step > 0 && simulation.smallest_step > simulation.step) {
+    context.fault(*value->find("smallest_step"), "a smallest step longer than the step", "at most the step");
+  }
+  if (const Value* settle = value->find("settle"); settle != nullptr && !settle->broken) {
+    simulation.settle = Settle{number_of(*settle, "tolerance"), seconds_of(context, *settle, "over", simulation.crank)};
+  }
+  const Value* out = context.root.find("output");
+  if (out == nullptr) return;
+  output.position = out->key_position;
+  output.every = integer_of(*out, "every");
+  output.fields_every = out->find("fields_every") != nullptr
+                            ? seconds_of(context, *out, "fields_every", simulation.crank)
+                            : simulation.duration / 100;
+}
+
+void interpret_study(Context& context) {
+  const Value* value = context.root.find("study");
+  if (value == nullptr) return;
+  Study study;
+  study.position = value->key_position;
+  const std::vector<std::string> names = names_in(context.root, "parameters");
+  for (const auto& [name, values] : section(*value, "parameters")) {
+    StudyParameter parameter{name, {}, values.key_position};
+    for (const auto& [index, item] : values.members) parameter.values.push_back(item.text);
+    const bool is_path = name.find('.') != std::string::npos;
+    if (!is_path && std::find(names.begin(), names.end(), name) == names.end()) {
+      context.fault_at_key(values, "unknown parameter '" + name + "'",
+                           names.empty() ? "a parameter, but the model has none" : one_of(names),
+                           did_you_mean(name, names));
+    }
+    study.parameters.push_back(std::move(parameter));
+  }
+  for (const auto& [index, figure] : section(*value, "figures")) {
+    study.figures.push_back(figure.text == "film_thickness" ? StudyFigure::film_thickness
+                                                            : StudyFigure::midplane_pressure);
+  }
+  context.model.study = std::move(study);
+}
+
+void check_table_ranges(Context& context) {
+  if (context.model.simulation.duration <= 0) return;
+  for (const Drive& drive : context.model.drives) check_table_range(context, drive.motion);
+  for (const Force& force : context.model.forces) {
+    for (const Function& function : force.load.functions) check_table_range(context, function);
+  }
+}
+
+}  // namespace hersey::model

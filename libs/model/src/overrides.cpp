@@ -1,0 +1,181 @@
+#include "overrides.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include "hersey/core/spelling.h"
+
+namespace hersey::model {
+namespace {
+
+std::vector<std::string> split_path(const std::string& path) {
+  std::vector<std::string> parts{""};
+  for (const char c : path) {
+    if (c == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+std::vector<std::string> keys_of(const Node& node) {
+  std::vector<std::string> keys;
+  for (const Entry& entry : node.entries) keys.push_back(entry.key);
+  return keys;
+}
+
+/// The value of `key` in `node`, made if need be; null where a list has no such item.
+Node* step_into(Node& node, const std::string& key, const SourcePosition& position) {
+  if (node.kind == Node::Kind::sequence) {
+    std::size_t index = node.items.size();
+    std::from_chars(key.data(), key.data() + key.size(), index);
+    return index < node.items.size() ? &node.items[index] : nullptr;
+  }
+  if (node.kind != Node::Kind::mapping) {
+    node = Node{.kind = Node::Kind::mapping, .position = position};
+  }
+  if (Node* found = node.find(key)) return found;
+  node.entries.push_back({key, position, Node{.position = position}});
+  return &node.entries.back().value;
+}
+
+void apply_along_path(Node& root, const Override& change, std::vector<Fault>& faults) {
+  Node* node = &root;
+  for (const std::string& key : split_path(change.name)) {
+    node = step_into(*node, key, change.position);
+    if (node == nullptr) {
+      faults.push_back({change.position, change.name, "no item '" + key + "'", "the number of an item, from 0", ""});
+      return;
+    }
+  }
+  *node = change.value;
+}
+
+/// One pass over a document that replaces ${name}.
+class Substitution {
+ public:
+  explicit Substitution(std::vector<Fault>& faults) : faults_(faults) {}
+
+  void define(const std::string& name, const Node& value) { parameters_[name] = value; }
+
+  void visit(Node& node, const std::string& path) {
+    if (node.kind == Node::Kind::scalar) substitute(node, path);
+    for (std::size_t i = 0; i < node.items.size(); ++i) visit(node.items[i], path + "." + std::to_string(i));
+    for (Entry& entry : node.entries) visit(entry.value, path.empty() ? entry.key : path + "." + entry.key);
+  }
+
+ private:
+  void substitute(Node& node, const std::string& path) {
+    std::string& text = node.text;
+    for (auto start = text.find("${"); start != std::string::npos; start = text.find("${", start)) {
+      const auto end = text.find('}', start);
+      if (end == std::string::npos) {
+        faults_.push_back({node.position, path, "'" + text + "'", "a closing } after ${", ""});
+        return;
+      }
+      const std::string name = text.substr(start + 2, end - start - 2);
+      const auto parameter = parameters_.find(name);
+      if (parameter == parameters_.end()) {
+        report_unknown(node, path, name);
+        return;
+      }
+      note_origin(node, name, parameter->second.position);
+      start = replace(text, start, end + 1, parameter->second.text);
+    }
+  }
+
+  /// Returns where the replacement ends. Of two signs, as in "-${load}" with load = -5 N, one is left.
+  static std::size_t replace(std::string& text, std::size_t start, std::size_t end, std::string value) {
+    const bool negated = start > 0 && text[start - 1] == '-';
+    if (negated && value.starts_with('-')) {
+      value.erase(0, 1);
+      text.replace(start - 1, end - start + 1, value);
+      return start - 1 + value.size();
+    }
+    if (negated && value.starts_with('+')) value.erase(0, 1);
+    text.replace(start, end - start, value);
+    return start + value.size();
+  }
+
+  static void note_origin(Node& node, const std::string& name, const SourcePosition& position) {
+    node.text_offset = -1;
+    if (!node.origin.empty()) node.origin += ", ";
+    node.origin += "parameter " + name;
+    node.origin += position.line > 0 ? " in line " + std::to_string(position.line) : " set by " + position.file;
+  }
+
+  void report_unknown(const Node& node, const std::string& path, const std::string& name) {
+    std::vector<std::string> names;
+    for (const auto& [known, value] : parameters_) names.push_back(known);
+    const std::string expected =
+        names.empty() ? "a parameter, but the model has none" : "one of the parameters " + one_of(names);
+    faults_.push_back({node.position, path, "unknown parameter '" + name + "'", expected, did_you_mean(name, names)});
+  }
+
+  std::vector<Fault>& faults_;
+  std::map<std::string, Node> parameters_;
+};
+
+}  // namespace
+
+std::vector<Override> parse_overrides(const std::vector<std::string>& texts, std::vector<Fault>& faults) {
+  const SourcePosition place{"--set", 0, 0};
+  std::vector<Override> overrides;
+  for (const std::string& text : texts) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      faults.push_back({place, "", "'" + text + "'", "name=value, such as load=500N", ""});
+      continue;
+    }
+    Override change{text.substr(0, equals), {}, place};
+    std::vector<Fault> in_value;
+    change.value = parse_yaml(text.substr(equals + 1), place.file, in_value);
+    for (Fault& fault : in_value) faults.push_back({place, change.name, fault.found, fault.expected, fault.suggestion});
+    move_to(change.value, place);
+    overrides.push_back(std::move(change));
+  }
+  return overrides;
+}
+
+bool is_parameter(const Node& root, const std::string& name) {
+  const Node* parameters = root.find("parameters");
+  return parameters != nullptr && parameters->find(name) != nullptr;
+}
+
+void apply_overrides(Node& root, const std::vector<Override>& overrides, const std::vector<std::string>& top_keys,
+                     std::vector<Fault>& faults) {
+  for (const Override& change : overrides) {
+    if (is_parameter(root, change.name)) {
+      *root.find("parameters")->find(change.name) = change.value;
+      continue;
+    }
+    const std::string first = split_path(change.name).front();
+    if (std::find(top_keys.begin(), top_keys.end(), first) != top_keys.end()) {
+      apply_along_path(root, change, faults);
+      continue;
+    }
+    std::vector<std::string> names = root.find("parameters") != nullptr ? keys_of(*root.find("parameters")) : top_keys;
+    const std::string parameters = root.find("parameters") != nullptr ? "a parameter (" + one_of(names) + ") or " : "";
+    names.insert(names.end(), top_keys.begin(), top_keys.end());
+    faults.push_back({change.position, "", "unknown name '" + change.name + "'",
+                      parameters + "a key path such as simulation.duration", did_you_mean(first, names)});
+  }
+}
+
+void substitute_parameters(Node& root, std::vector<Fault>& faults) {
+  Substitution substitution(faults);
+  if (Node* parameters = root.find("parameters")) {
+    for (Entry& entry : parameters->entries) {
+      substitution.visit(entry.value, "parameters." + entry.key);
+      substitution.define(entry.key, entry.value);
+    }
+  }
+  for (Entry& entry : root.entries) {
+    if (entry.key != "parameters" && entry.key != "study") substitution.visit(entry.value, entry.key);
+  }
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,129 @@
+#include "hersey/model/read.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <tuple>
+
+#include "check.h"
+#include "format.h"
+#include "interpret.h"
+#include "reader.h"
+
+namespace hersey::model {
+namespace {
+
+std::vector<Parameter> parameters_of(const Node& root) {
+  std::vector<Parameter> parameters;
+  const Node* section = root.find("parameters");
+  if (section == nullptr) return parameters;
+  for (const Entry& entry : section->entries) {
+    parameters.push_back({entry.key, entry.value.text, entry.value.position});
+  }
+  return parameters;
+}
+
+std::string resolved(const std::string& text, const std::vector<std::string>& overrides) {
+  std::string header;
+  for (const std::string& change : overrides) {
+    header += "# --set ";
+    for (const char c : change) header += c == '\n' ? ' ' : c;
+    header += '\n';
+  }
+  return header + text;
+}
+
+bool stands_before(const Fault& a, const Fault& b) {
+  const auto key = [](const Fault& fault) {
+    return std::tie(fault.position.file, fault.position.line, fault.position.column);
+  };
+  return key(a) < key(b);
+}
+
+}  // namespace
+
+std::string file_text(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw InputError(Fault{{path, 0, 0}, "", "a directory", "a model file", ""});
+  }
+  if (!stream || (stream.peek() != std::ifstream::traits_type::eof() && !(text << stream.rdbuf()))) {
+    throw InputError(Fault{{path, 0, 0}, "", "no readable file", "a model file", ""});
+  }
+  return text.str();
+}
+
+std::vector<std::string> top_level_keys() {
+  std::vector<std::string> keys;
+  for (const Key* key : all_keys(model_format())) keys.push_back(key->name);
+  return keys;
+}
+
+Model read_tree(Node root, const std::string& file, const std::vector<Override>& overrides,
+                std::vector<Fault>& faults) {
+  Model model;
+  model.file = file;
+  if (root.kind == Node::Kind::null) {
+    faults.push_back({{file, 1, 1}, "", "an empty file", "a model, beginning with 'hersey: 1'", ""});
+    return model;
+  }
+  apply_overrides(root, overrides, top_level_keys(), faults);
+  substitute_parameters(root, faults);
+  model.parameters = parameters_of(root);
+  const Value value = check(root, model_format(), faults, model.positions);
+  Context context{value, model, faults};
+  model.title = text_of(value, "title");
+  model.description = text_of(value, "description");
+  model.gravity = vector_of(value, "gravity");
+  interpret_bodies(context);
+  interpret_joints(context);
+  interpret_drives(context);
+  interpret_forces(context);
+  interpret_lubricants(context);
+  interpret_bearings(context);
+  interpret_simulation(context);
+  interpret_study(context);
+  check_table_ranges(context);
+  return model;
+}
+
+void tidy(std::vector<Fault>& faults) {
+  std::stable_sort(faults.begin(), faults.end(), stands_before);
+  const auto same = [](const Fault& a, const Fault& b) { return a.text() == b.text(); };
+  faults.erase(std::unique(faults.begin(), faults.end(), same), faults.end());
+}
+
+Model read_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+  std::vector<Fault> faults;
+  const std::vector<Override> changes = parse_overrides(overrides, faults);
+  Node root = parse_yaml(text, file, faults);
+  Model model;
+  // After a syntax error the tree is a torso: checking it would report keys as missing that only lie behind the error.
+  const bool is_whole =
+      std::none_of(faults.begin(), faults.end(), [](const Fault& fault) { return fault.expected == "valid YAML"; });
+  if (is_whole) model = read_tree(std::move(root), file, changes, faults);
+  if (!faults.empty()) {
+    tidy(faults);
+    throw InputError(std::move(faults));
+  }
+  model.resolved_text = resolved(text, overrides);
+  return model;
+}
+
+Model read(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_text(file_text(path), path, overrides);
+}
+
+SourcePosition Model::position_of(const std::string& path) const {
+  for (std::string key = path; !key.empty(); key.resize(key.find_last_of('.'))) {
+    const auto found = positions.find(key);
+    if (found != positions.end()) return found->second;
+    if (key.find('.') == std::string::npos) break;
+  }
+  return {file, 0, 0};
+}
+
+}  // namespace hersey::model

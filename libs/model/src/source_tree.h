@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/core/input_error.h"
+
+namespace hersey::model {
+
+struct Entry;
+
+/// A YAML document as plain data: text, structure and where each piece stands. No types are guessed.
+struct Node {
+  enum class Kind { null, scalar, sequence, mapping };
+  Kind kind = Kind::null;
+  SourcePosition position = {};
+  std::string text = {};            ///< of a scalar, after `${parameter}` substitution
+  int text_offset = 0;              ///< columns from `position` to the first letter of `text`; -1 where they do not map
+  std::string origin = {};          ///< where a substituted text comes from, "parameter load, model.yaml:5:9"; or empty
+  std::vector<Node> items = {};     ///< of a sequence
+  std::vector<Entry> entries = {};  ///< of a mapping, in the order of the file
+
+  /// The value of `key` in a mapping; null if it is not there.
+  [[nodiscard]] const Node* find(const std::string& key) const;
+  [[nodiscard]] Node* find(const std::string& key);
+};
+
+/// One `key: value` of a mapping.
+struct Entry {
+  std::string key;
+  SourcePosition position;  ///< of the key
+  Node value;
+};
+
+/// "a mapping", "a list", "nothing", or the scalar in quotes with its origin.
+[[nodiscard]] std::string description_of(const Node& node);
+
+/// Reads `text` as one YAML document. Syntax errors, duplicate keys and keys that are no names are added to `faults`;
+/// the tree is complete up to the first syntax error.
+[[nodiscard]] Node parse_yaml(const std::string& text, const std::string& file, std::vector<Fault>& faults);
+
+/// Gives `node` and everything in it the position `position`.
+void move_to(Node& node, const SourcePosition& position);
+
+}  // namespace hersey::model

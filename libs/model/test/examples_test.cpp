@@ -1,0 +1,35 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+#include "hersey/model/read.h"
+#include "hersey/model/study.h"
+
+namespace hersey::model {
+namespace {
+
+std::vector<std::string> example_files() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(HERSEY_SOURCE_DIR "/examples")) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  }
+  return files;
+}
+
+TEST_CASE("Examples_AreReadWithoutFault") {
+  REQUIRE(example_files().size() >= 2);
+  for (const std::string& file : example_files()) {
+    CAPTURE(file);
+    try {
+      const Model model = read(file);
+      CHECK_FALSE(model.title.empty());
+      CHECK_FALSE(model.bearings.empty());
+      for (const StudyRun& run : expand_study(file)) CHECK_NOTHROW((void)read(file, run.overrides));
+    } catch (const InputError& error) {
+      FAIL_CHECK(error.what());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hersey::model
