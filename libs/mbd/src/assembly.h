@@ -51,7 +51,7 @@ class InertiaTerms {
   void add(Assembly& assembly);
 
  private:
-  void gather(const Tree& tree, const TreeMotion& motion, bool want_tangent);
+  void gather(const Tree& tree, const TreeMotion& motion, double dt, bool want_tangent);
   void add_tangent(Assembly& assembly) const;
 
   std::vector<Matrix6> I_, B_;          ///< composite inertia, composite velocity coupling

@@ -3,6 +3,10 @@
 namespace hersey::mbd {
 namespace {
 
+// Share of the force that would stop a body within the step, counted as a magnitude its rows balance: a relative
+// tolerance of 1e-8 then asks for velocities to 1e-12, which double precision can still deliver.
+constexpr double kMomentumShare = 1e-4;
+
 /// The matrix of D -> D x* h for a momentum h = [n; p].
 Matrix6 momentum_cross(const Vector6& h) {
   Matrix6 c;
@@ -23,8 +27,9 @@ Matrix6 inertia_in_world(const Link& link, const Pose& X_WL) {
 InertiaTerms::InertiaTerms(const Tree& tree)
     : I_(tree.links.size()), B_(tree.links.size()), F_(tree.links.size()), magnitude_(tree.links.size()) {}
 
-void InertiaTerms::gather(const Tree& tree, const TreeMotion& motion, bool want_tangent) {
+void InertiaTerms::gather(const Tree& tree, const TreeMotion& motion, double dt, bool want_tangent) {
   const int n = static_cast<int>(tree.links.size());
+  const double momentum_share = dt > 0 ? kMomentumShare / dt : 0;
   for (int l = 0; l < n; ++l) {
     const Link& link = tree.links[l];
     if (link.mass == 0 && link.inertia.isZero(0)) {
@@ -36,9 +41,12 @@ void InertiaTerms::gather(const Tree& tree, const TreeMotion& motion, bool want_
     }
     const Vector6& V = motion.V(l);
     I_[l] = inertia_in_world(link, motion.X(l));
-    const Vector6 h = I_[l] * V, IA = I_[l] * motion.A(l), Vh = cross_force(V, h);
+    const Vector6 h = I_[l] * V, Vh = cross_force(V, h), weight = I_[l] * motion.A(0);
+    const Vector6 IA = I_[l] * motion.A(l);
     F_[l] = IA + Vh;
-    magnitude_[l] = IA.cwiseAbs() + Vh.cwiseAbs();
+    // In free fall inertia and weight cancel, so each counts by itself; so does what a step's round-off in velocity
+    // means.
+    magnitude_[l] = (IA - weight).cwiseAbs() + weight.cwiseAbs() + Vh.cwiseAbs() + momentum_share * h.cwiseAbs();
     if (want_tangent) B_[l] = cross_force_matrix(V) * I_[l] - I_[l] * cross_motion_matrix(V) + momentum_cross(h);
   }
   for (int l = n - 1; l > 0; --l) {
@@ -53,7 +61,7 @@ void InertiaTerms::gather(const Tree& tree, const TreeMotion& motion, bool want_
 
 void InertiaTerms::add(Assembly& assembly) {
   const Tree& tree = assembly.tree;
-  gather(tree, assembly.motion, assembly.tangent != nullptr);
+  gather(tree, assembly.motion, assembly.stage.dt, assembly.tangent != nullptr);
   for (int k = 0; k < tree.nv; ++k) {
     const Vector6& J = assembly.motion.J(k);
     const int l = tree.columns[k].link;

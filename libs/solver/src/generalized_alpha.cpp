@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hersey/core/contract.h"
+#include "hersey/core/input_error.h"
 #include "hersey/solver/sparse_lu.h"
 #include "kkt.h"
 
@@ -181,8 +182,7 @@ bool GeneralizedAlpha::Workspace::enter_domain(Equations& equations, const State
 bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
                                        const GeneralizedAlphaOptions& options) {
   const Index nv = equations.nv();
-  const VectorXd& lambda = trial.lambda;
-  const VectorXd dq_start = dq, lambda_start = lambda;
+  const VectorXd dq_start = dq, lambda_start = trial.lambda;
   double length = 1;
   for (int halvings = 0; halvings <= options.max_halvings; ++halvings, length *= 0.5) {
     dq = dq_start + length * increment.head(nv);
@@ -211,6 +211,12 @@ void GeneralizedAlpha::reset() { work_->started = false; }
 
 StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt) {
   HERSEY_REQUIRE(dt > 0, "time runs forward");
+  if (options_.spectral_radius == 1 && equations.nlambda() > 0)
+    throw InputError({.position = {},
+                      .path = "spectral_radius",
+                      .found = "1 in a mechanism with drives or closed loops",
+                      .expected = "a value below 1",
+                      .suggestion = "0.95 dissipates little; at 1 the multipliers grow without bound"});
   Workspace& w = *work_;
   StepSummary summary;
   if (!w.started) w.start(equations, state, dt);

@@ -32,7 +32,8 @@ struct StepSummary {
 
 /// Generalized-alpha for constrained mechanical systems of index 3 on a Lie group (theory manual, chapter integrator).
 ///
-/// Second order in positions, velocities and multipliers; step length may change between steps. The algorithmic
+/// Second order in positions, velocities and multipliers. The step length may change between steps, even alternate by
+/// factors of up to 2; larger factors repeated step after step amplify errors of the multipliers. The algorithmic
 /// acceleration a_n approximates vdot(t_n + (alpha_m - alpha_f) dt); it lives here and is rescaled when dt changes.
 ///
 /// @see Chung and Hulbert (1993), J. Appl. Mech. 60, 371-375; Arnold and Bruels (2007), Multibody Syst. Dyn. 18,
@@ -51,6 +52,8 @@ class GeneralizedAlpha {
   void reset();
 
   /// Advances `state` by `dt` > 0, film and other condensed unknowns included.
+  /// @throws InputError if spectral_radius is 1 and the equations have constraints: their multipliers are then
+  /// unstable.
   /// @cost per iteration one assembly, one sparse factorisation, one solve.
   [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt);
 
