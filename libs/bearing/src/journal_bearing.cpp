@@ -51,7 +51,7 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
   wrench_ds_.setZero();
   history_.theta = Eigen::VectorXd::Ones(n);
   history_.w = Eigen::VectorXd::Zero(n);
-  observed_history_ = history_;
+  history_start_ = observed_history_ = history_;
 }
 
 void JournalBearing::place(const mbd::RelativeMotion& motion) {
@@ -83,7 +83,8 @@ void JournalBearing::fill_gap() {
 }
 
 void JournalBearing::begin_step(const mbd::RelativeMotion&, double dt) {
-  if (dt > 0) history_.dt = dt;
+  history_ = history_start_;
+  history_.dt = dt;
   u_ = u_start_;
   linearised_ = false;
   iterations_ = 0;
@@ -156,10 +157,14 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
       domain_error_ = fmt::format("bearing {}: {}", name_, summary.message);
       return;
     }
+    // One more Newton increment: the exchange would otherwise see the film's tolerance as a change of the wrench.
     reynolds_.linearise(surfaces_, history_, u_);
+    reynolds_.newton_increment(du0_);
+    const Vector6 wrench = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du0_);
+    u_ += du0_;
     // Moments over the radius, so that all six entries are forces of comparable size.
     const Vector6 size = (Vector6() << Vector3::Constant(model().R), Vector3::Ones()).finished();
-    const Vector6 x = given_.cwiseQuotient(size), image = -reynolds_.wrench_on_shell().cwiseQuotient(size);
+    const Vector6 x = given_.cwiseQuotient(size), image = -wrench.cwiseQuotient(size);
     const double largest = std::max(x.norm(), image.norm());
     internal_residual_ = largest > 0 ? (image - x).norm() / largest : 0;
     given_ = Vector6(interface_.next(x, image)).cwiseProduct(size);
@@ -175,8 +180,8 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
   observed_history_ = history_;
   observed_iterations_ = iterations_;
-  history_.theta = fields.theta;
-  history_.w = fields.w;
+  history_start_.theta = fields.theta;
+  history_start_.w = fields.w;
   u_start_ = u_;
   given_start_ = given_;
 }

@@ -250,6 +250,11 @@ void Recorder::write_row(const StepRecord& step) {
   power_.asperity_friction.append(asperity_friction);
 }
 
+void Recorder::finish(results::Status status, const std::string& message, double wall_time) {
+  writer_.attribute("/", "wall_time", wall_time);
+  writer_.finish(status, message);
+}
+
 void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObservation& seen, double clearance) const {
   const film::FilmObservables& film = seen.film;
   s.eccentricity.append(seen.e);

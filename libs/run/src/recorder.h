@@ -31,7 +31,7 @@ class Recorder {
   void write_row(const StepRecord& step);
   void write_fields(const StepRecord& step);
   void flush_if_due() { writer_.flush_if_due(); }
-  void finish(results::Status status, const std::string& message) { writer_.finish(status, message); }
+  void finish(results::Status status, const std::string& message, double wall_time);
 
  private:
   struct BodySeries {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <deque>
 #include <exception>
 #include <optional>
 
@@ -206,7 +205,7 @@ class Simulation {
 
   void finish(results::Status status) {
     try {
-      recorder_.finish(status, summary_.message);
+      recorder_.finish(status, summary_.message, elapsed());
     } catch (const results::WriteError& error) {
       fail(error.what());
     }
@@ -231,6 +230,11 @@ class Simulation {
 };
 
 }  // namespace
+
+void check(const model::Model& model) {
+  model::Machine machine = model::build(model);
+  (void)starting_state(model, machine);
+}
 
 Summary simulate(const model::Model& model, const Options& options) { return Simulation(model, options).run(); }
 

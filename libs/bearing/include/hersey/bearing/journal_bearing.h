@@ -93,8 +93,9 @@ class JournalBearing final : public mbd::TwoBodyForce {
   bool linearised_ = false;
 
   // The film at the start of the step: what a rejected step returns to.
-  film::FilmHistory history_;
-  film::FilmHistory observed_history_;
+  film::FilmHistory history_;           // of the step being solved
+  film::FilmHistory history_start_;     // what the next step starts from
+  film::FilmHistory observed_history_;  // of the step last accepted
   Eigen::VectorXd u_start_;
 
   // Partitioned: the wrench on the journal that the bodies have been given.

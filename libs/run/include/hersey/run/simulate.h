@@ -71,4 +71,8 @@ struct Options {
 /// @throws results::FileExists if the results file exists and is not to be overwritten.
 [[nodiscard]] Summary simulate(const model::Model& model, const Options& options);
 
+/// Builds `model` and finds its starting state, as `simulate` does first, and writes nothing.
+/// @throws InputError as `simulate`.
+void check(const model::Model& model);
+
 }  // namespace hersey::run

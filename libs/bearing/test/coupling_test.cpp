@@ -1,0 +1,137 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "hersey/bearing/journal_bearing.h"
+#include "hersey/mbd/mechanism.h"
+#include "hersey/solver/generalized_alpha.h"
+#include "hersey/solver/initialise.h"
+
+namespace hersey::bearing {
+namespace {
+
+constexpr double kSpeed = 3570 * 2 * std::numbers::pi / 60;
+
+film::FilmModel small_film() {
+  film::FilmModel model;
+  model.c = 34e-6;
+  model.grid = {.n_phi = 36, .n_z = 7};
+  model.supply = {.kind = film::SupplyKind::widest_gap, .phi = 0, .pressure = 0};
+  return model;
+}
+
+// A rod floating on a turning pin, pushed by a constant load: the paper's rig.
+struct Rig {
+  std::unique_ptr<mbd::Mechanism> mechanism;
+  std::shared_ptr<JournalBearing> bearing;
+  mbd::ForceId force;
+  solver::State state;
+
+  Rig(const film::FilmModel& film, double load, const BearingOptions& options) {
+    mbd::MechanismBuilder builder;
+    const auto ground = builder.frame_of(mbd::MechanismBuilder::ground());
+    const mbd::BodyId pin = builder.add_body({.name = "pin", .mass = 1, .inertia = 1e-3 * Matrix3::Identity()});
+    const mbd::BodyId rod = builder.add_body({.name = "rod", .mass = 0.5, .inertia = 1e-3 * Matrix3::Identity()});
+    const mbd::JointId main = builder.add_joint({.name = "main",
+                                                 .type = mbd::JointType::revolute,
+                                                 .inboard = ground,
+                                                 .outboard = builder.frame_of(pin),
+                                                 .initial = {0},
+                                                 .initial_rate = {kSpeed}});
+    const mbd::JointId guide = builder.add_joint({.name = "guide",
+                                                  .type = mbd::JointType::planar,
+                                                  .inboard = ground,
+                                                  .outboard = builder.frame_of(rod),
+                                                  .initial = {5e-6, -8e-6, 0}});
+    builder.add_drive({.name = "motor",
+                       .coordinate = {main, 0},
+                       .kind = mbd::DriveSpec::Kind::speed,
+                       .function = std::make_shared<ConstantFunction>(kSpeed)});
+    builder.add_drive({.name = "small_end",
+                       .coordinate = {guide, 2},
+                       .kind = mbd::DriveSpec::Kind::position,
+                       .function = std::make_shared<ConstantFunction>(0.0)});
+    mbd::LoadSpec push{.name = "push", .frame = builder.frame_of(rod), .terms = {}};
+    push.terms.push_back(
+        {.direction = -Vector6::Unit(4), .magnitude = std::make_shared<ConstantFunction>(load), .variables = {}});
+    builder.add_load(push);
+    bearing = std::make_shared<JournalBearing>("big_end", film, options);
+    force = builder.add_force("big_end", builder.frame_of(rod), builder.frame_of(pin), bearing);
+    mechanism = builder.finalise();
+    state = mechanism->initial_state();
+    const solver::InitialiseSummary summary =
+        solver::initialise(*mechanism, state, {.held = mechanism->given_coordinates()});
+    REQUIRE_MESSAGE(summary.consistent(), summary.message);
+  }
+
+  // Newton iterations of all steps.
+  int march(double dt, int steps, double rtol = 1e-8, int max_iterations = 60) {
+    solver::GeneralizedAlpha integrator({.spectral_radius = 0.6, .rtol = rtol, .max_iterations = max_iterations});
+    int iterations = 0;
+    for (int k = 0; k < steps; ++k) {
+      const solver::StepSummary step = integrator.step(*mechanism, state, dt);
+      REQUIRE_MESSAGE(step.converged(), step.message);
+      iterations += step.iterations;
+    }
+    return iterations;
+  }
+
+  [[nodiscard]] BearingObservation observe() { return bearing->observe(mechanism->relative_motion(state, force)); }
+};
+
+TEST_CASE("PartitionedAndMonolithic_Agree") {
+  // Small steps: the partitioned exchange is stable only where the bodies' inertia outweighs the film's damping.
+  const double dt = 2e-5;
+  Rig monolithic(small_film(), 500, {.coupling = Coupling::monolithic, .initial_dt = dt});
+  Rig partitioned(small_film(), 500, {.coupling = Coupling::partitioned, .initial_dt = dt});
+  const int fewer = monolithic.march(dt, 40), more = partitioned.march(dt, 40);
+  MESSAGE("Newton iterations ", fewer, ", exchanges ", more);
+  const Eigen::Vector2d e = monolithic.observe().e, difference = partitioned.observe().e - e;
+  // Each step is solved to rtol = 1e-8 of its forces; 40 steps leave at most a few 1e-7 of the motion.
+  CHECK(difference.norm() <= 1e-6 * e.norm());
+  CHECK(fewer < more);
+}
+
+TEST_CASE("FloatingRod_SettlesWhereTheFilmCarriesTheLoad") {
+  const double load = 1000;
+  Rig rig(small_film(), load, {.initial_dt = 2e-4});
+  rig.march(2e-4, 500);
+  const BearingObservation seen = rig.observe();
+  const Vector3 force = seen.wrench_on_shell.tail<3>();
+  // What is left of the motion after six turns: the force balance holds to the rod's acceleration, 1e-3 of the load.
+  CHECK(force.y() == doctest::Approx(load).epsilon(1e-3));
+  CHECK(std::abs(force.x()) < 1e-3 * load);
+  CHECK(seen.film.mass_balance_error < 1e-6);
+}
+
+TEST_CASE("StepIsSecondOrderInTime_FullFilm") {
+  // A film that stays full (half the supply pressure everywhere keeps it from cavitating): no transported fill, so
+  // the order is the integrator's.
+  film::FilmModel film = small_film();
+  film.p_edge_left = film.p_edge_right = 40e5;
+  film.supply.kind = film::SupplyKind::none;
+  const auto position = [&](int n) {
+    Rig rig(film, 300, {.initial_dt = 1e-4});
+    rig.march(4e-3 / n, n, 1e-11);
+    CHECK(rig.observe().film.cavitated_share == 0);
+    return rig.observe().e;
+  };
+  const Eigen::Vector2d coarse = position(40), middle = position(80), fine = position(160);
+  const double order = std::log2((coarse - middle).norm() / (middle - fine).norm());
+  MESSAGE("observed order ", order);
+  CHECK(order == doctest::Approx(2.0).epsilon(0.05));
+}
+
+TEST_CASE("ClosedGap_IsADomainError") {
+  JournalBearing bearing("big_end", small_film());
+  mbd::RelativeMotion motion;
+  motion.X_AB.r = {40e-6, 0, 0};
+  mbd::ForceResponse response;
+  bearing.evaluate(motion, false, response);
+  CHECK(bearing.domain_error().find("bearing big_end: the journal touches the shell") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace hersey::bearing

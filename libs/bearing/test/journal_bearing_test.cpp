@@ -1,0 +1,100 @@
+#include "hersey/bearing/journal_bearing.h"
+
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+namespace hersey::bearing {
+namespace {
+
+film::FilmModel rough_elastic_film() {
+  film::FilmModel model;
+  model.c = 34e-6;
+  model.grid = {.n_phi = 30, .n_z = 5};
+  model.lubricant.alpha = 1.28e-10;
+  model.supply = {.kind = film::SupplyKind::widest_gap, .phi = 0, .pressure = 2e5};
+  model.asperities = {.model = film::AsperityModel::greenwood_tripp_fit,
+                      .sigma = 3e-6,
+                      .elastic_factor = 3e-3,
+                      .composite_modulus = 57e9,
+                      .mu_friction = 0.1};
+  model.compliance = 0.0225 / 57e9;
+  return model;
+}
+
+mbd::RelativeMotion some_motion() {
+  mbd::RelativeMotion motion;
+  motion.dt = 1e-4;
+  motion.X_AB = {rotation_exp({3e-4, -2e-4, 0.4}).toRotationMatrix(), {18e-6, -19e-6, 0}};
+  motion.V_AB_A << 0.3, -0.2, 370, 4e-3, -9e-3, 0.05;
+  return motion;
+}
+
+// The wrench with the film solved to the end at `motion`, from the filled state at `start`.
+Vector6 converged_wrench(const mbd::RelativeMotion& start, const mbd::RelativeMotion& motion) {
+  JournalBearing bearing("b", rough_elastic_film());
+  mbd::ForceResponse response;
+  mbd::RelativeMotion at_start = start;
+  at_start.dt = 0;
+  bearing.evaluate(at_start, false, response);
+  REQUIRE(bearing.domain_error().empty());
+  bearing.accept_step(at_start);
+  bearing.begin_step(start, motion.dt);
+  for (int k = 0; k < 30; ++k) bearing.evaluate(motion, true, response);
+  REQUIRE(bearing.internal_residual() < 1e-11);
+  return response.W_B_A;
+}
+
+TEST_CASE("CondensedTangent_MatchesFiniteDifferencesOfConvergedFilm") {
+  const mbd::RelativeMotion motion = some_motion();
+  JournalBearing bearing("b", rough_elastic_film());
+  mbd::ForceResponse response;
+  mbd::RelativeMotion at_start = motion;
+  at_start.dt = 0;
+  bearing.evaluate(at_start, false, response);
+  bearing.accept_step(at_start);
+  bearing.begin_step(motion, motion.dt);
+  for (int k = 0; k < 30; ++k) bearing.evaluate(motion, true, response);
+  CHECK((response.W_B_A - converged_wrench(motion, motion)).norm() <= 1e-9 * response.W_B_A.norm());
+
+  // Steps of 1e-4 of the clearance (1e-6 of the radius for turns): small against the gap, so that no node changes
+  // between full and cavitated, large against round-off.
+  for (int j = 0; j < 6; ++j) {
+    CAPTURE(j);
+    const double step = j < 3 ? 1e-7 : 2e-9;
+    mbd::RelativeMotion plus = motion, minus = motion;
+    plus.X_AB = pose_exp(step * Vector6::Unit(j)) * motion.X_AB;
+    minus.X_AB = pose_exp(-step * Vector6::Unit(j)) * motion.X_AB;
+    const Vector6 by_pose = (converged_wrench(motion, plus) - converged_wrench(motion, minus)) / (2 * step);
+    const double pose_scale = std::max(response.dW_dX.col(j).norm(), 1e-3 * response.dW_dX.norm());
+    CHECK((response.dW_dX.col(j) - by_pose).norm() <= 1e-4 * pose_scale);
+
+    const double speed = j < 3 ? 1e-5 : 1e-7;
+    plus = minus = motion;
+    plus.V_AB_A[j] += speed;
+    minus.V_AB_A[j] -= speed;
+    const Vector6 by_speed = (converged_wrench(motion, plus) - converged_wrench(motion, minus)) / (2 * speed);
+    const double speed_scale = std::max(response.dW_dV.col(j).norm(), 1e-6 * response.dW_dV.norm());
+    CHECK((response.dW_dV.col(j) - by_speed).norm() <= 1e-4 * speed_scale);
+  }
+}
+
+TEST_CASE("RejectedStep_LeavesTheFilmAsItWas") {
+  const mbd::RelativeMotion motion = some_motion();
+  JournalBearing bearing("b", rough_elastic_film());
+  mbd::ForceResponse response;
+  mbd::RelativeMotion at_start = motion;
+  at_start.dt = 0;
+  bearing.evaluate(at_start, false, response);
+  bearing.accept_step(at_start);
+  const Eigen::VectorXd before = bearing.fields(motion).p;
+  bearing.begin_step(motion, 1e-4);
+  mbd::RelativeMotion away = motion;
+  away.X_AB.r.x() += 4e-6;
+  for (int k = 0; k < 5; ++k) bearing.evaluate(away, true, response);
+  bearing.begin_step(motion, 0.5e-4);
+  CHECK((bearing.fields(motion).p - before).norm() == 0);
+}
+
+}  // namespace
+}  // namespace hersey::bearing
