@@ -4,6 +4,7 @@
 import glob
 import json
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -194,17 +195,20 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(report.returncode, OK, report.stderr)
 
     def test_full_disk_ends_with_the_reason_and_keeps_what_was_written(self):
-        def small_disk():  # writing beyond the limit fails as on a full disk
+        def small_disk():  # writing beyond the limit, some seconds away, fails as on a full disk
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (4_000_000, 4_000_000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (12_000_000, 12_000_000))
 
-        run = hersey("run", MODEL, "--output", self.out, "--set", "duration=1000 s", "--set",
-                     "output.fields_every=0.1 ms", preexec_fn=small_disk)
+        run = hersey("run", MODEL, "--output", self.out, "--set", "duration=1000 s", preexec_fn=small_disk)
         self.assertEqual(run.returncode, FAILED, run.stdout + run.stderr)
         (path,) = self.results()
-        self.assertIn(os.path.basename(path), run.stderr)
+        self.assertIn("File too large", run.stderr)
+        up_to = re.search(r"results up to t = (\S+) s are in (\S+)", run.stderr)
+        self.assertIsNotNone(up_to, run.stderr)
+        self.assertEqual(up_to.group(2), path)
         with h5py.File(path) as file:
             self.assertGreater(len(file["time"]), 1)
+            self.assertAlmostEqual(file["time"][-1], float(up_to.group(1)), delta=1e-4)  # printed with six digits
 
     def test_report_of_a_file_that_is_no_results_file_is_refused(self):
         run = hersey("report", MODEL)

@@ -1,0 +1,183 @@
+// What a report must do in a real browser. Each check gets an open page and throws where the report falls short.
+import assert from "node:assert/strict";
+
+const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/** Number of pixels of each canvas in a figure that are coloured, not grey: frames and text alone do not count. */
+const colouredPixels = (figure) =>
+  figure.evaluate((element) =>
+    [...element.querySelectorAll("canvas")].map((canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) {
+        const [r, g, b, a] = data.slice(i, i + 4);
+        if (a > 40 && Math.max(r, g, b) - Math.min(r, g, b) > 40) count++;
+      }
+      return count;
+    }),
+  );
+
+/** The picture of a figure's canvases as text, to see whether it changed. */
+const picture = (page, kind) =>
+  page.evaluate((k) => [...document.querySelectorAll(`[data-figure="${k}"] canvas`)].map((c) => c.toDataURL()).join(), kind);
+
+async function pressOnSlider(page, key) {
+  await page.locator(".timeline-slider").focus();
+  await page.keyboard.press(key);
+  await frame(page);
+}
+
+export const everyReport = {
+  "title, assumptions and status come first": async (page) => {
+    assert.ok((await page.locator("h1").innerText()).trim().length > 0, "there is no title");
+    const assumptions = await page.locator(".assumptions").first().innerText();
+    assert.match(assumptions, /cavitation/i, "the assumptions do not name the cavitation condition");
+    assert.ok((await page.locator(".status").count()) > 0, "how the run ended is not shown");
+  },
+
+  "the summary gives numbers with units": async (page) => {
+    const moft = page.locator('tr[data-quantity^="minimum film thickness (MOFT)"]').first();
+    assert.match(await moft.innerText(), /\d.*µm/s, "the minimum film thickness has no value in µm");
+    assert.ok((await page.locator(".tile").count()) >= 4, "key figures are missing");
+  },
+
+  "every figure is drawn": async (page) => {
+    const figures = await page.locator("figure:visible").all();
+    assert.ok(figures.length >= 8, `only ${figures.length} figures`);
+    for (const figure of figures) {
+      await figure.scrollIntoViewIfNeeded();
+      await frame(page);
+      const kind = await figure.getAttribute("data-figure");
+      const counts = await colouredPixels(figure);
+      assert.ok(counts.length > 0, `figure ${kind} has no canvas`);
+      for (const count of counts) assert.ok(count > 30, `figure ${kind} is empty (${count} coloured pixels)`);
+    }
+  },
+
+  "the slider, moved by keys, changes map, mid-plane curve and orbit": async (page) => {
+    for (const kind of ["map", "midplane", "orbit"]) {
+      const pictures = new Set();
+      for (const key of ["Home", "ArrowRight", "ArrowRight", "PageUp", "PageUp", "End"]) {
+        await pressOnSlider(page, key);
+        pictures.add(await picture(page, kind));
+      }
+      assert.ok(pictures.size > 1, `figure ${kind} stays the same from the first instant to the last`);
+    }
+    await pressOnSlider(page, "Home");
+    const first = await page.locator(".timeline-text").innerText();
+    await pressOnSlider(page, "End");
+    assert.notEqual(await page.locator(".timeline-text").innerText(), first, "the time beside the slider does not change");
+    assert.match(first, /t = .* ms/, "the time beside the slider has no unit");
+  },
+
+  "play advances the instant and pause holds it": async (page) => {
+    await pressOnSlider(page, "Home");
+    await page.locator(".play").click();
+    await page.waitForFunction(() => Number(document.querySelector(".timeline-slider").value) >= 2, null, { timeout: 5000 });
+    await page.locator(".play").click();
+    const held = await page.locator(".timeline-slider").inputValue();
+    await page.waitForTimeout(300);
+    assert.equal(await page.locator(".timeline-slider").inputValue(), held, "the pause button does not stop the film");
+  },
+
+  "the map shows every stored field": async (page) => {
+    const choices = await page.locator('[data-figure="map"] .segmented').first().locator("label").all();
+    assert.ok(choices.length >= 2, "only one field can be chosen");
+    const pictures = new Set();
+    for (const choice of choices) {
+      await choice.click();
+      await frame(page);
+      pictures.add(await picture(page, "map"));
+    }
+    assert.equal(pictures.size, choices.length, "two choices of the map look the same");
+  },
+
+  "tooltips tell values with units": async (page) => {
+    const plot = page.locator('[data-figure="peak-pressure"] .u-over');
+    await plot.scrollIntoViewIfNeeded();
+    await plot.hover();
+    const tooltip = page.locator('[data-figure="peak-pressure"] .tooltip');
+    await tooltip.waitFor({ state: "visible", timeout: 2000 });
+    assert.match(await tooltip.innerText(), /MPa/, "the tooltip of the peak pressure has no unit");
+    const map = page.locator('[data-figure="map"] canvas');
+    await map.scrollIntoViewIfNeeded();
+    await map.hover();
+    assert.match(await page.locator('[data-figure="map"] .tooltip').innerText(), /φ .*°, z .*mm/, "the map's tooltip does not tell where");
+  },
+
+  "a legend entry hides its curve": async (page) => {
+    const before = await picture(page, "thickness");
+    await page.locator('[data-figure="thickness"] .legend-entry').first().click();
+    await frame(page);
+    assert.notEqual(await picture(page, "thickness"), before, "the curve is still there");
+    await page.locator('[data-figure="thickness"] .legend-entry').first().click();
+  },
+
+  "collapsed sections draw when opened": async (page) => {
+    for (const details of await page.locator(".sections details").all()) {
+      if ((await details.getAttribute("open")) !== null || (await details.locator("pre").count()) > 0) continue;
+      await details.locator("summary").click();
+      await frame(page);
+      const figure = details.locator("figure").first();
+      await figure.scrollIntoViewIfNeeded();
+      await frame(page);
+      const counts = await colouredPixels(figure);
+      assert.ok(counts.some((n) => n > 30), `section "${await details.locator("summary").innerText()}" draws nothing`);
+    }
+  },
+
+  "light and dark schemes differ, and the button switches": async (page) => {
+    const look = async () => [
+      await page.evaluate(() => getComputedStyle(document.body).backgroundColor),
+      await picture(page, "thickness"),
+    ];
+    await page.emulateMedia({ colorScheme: "light" });
+    await frame(page);
+    const light = await look();
+    await page.emulateMedia({ colorScheme: "dark" });
+    await frame(page);
+    const dark = await look();
+    assert.notEqual(dark[0], light[0], "the background does not follow the system's scheme");
+    assert.notEqual(dark[1], light[1], "the figures are not redrawn for the dark scheme");
+    await page.locator(".theme-button").click();
+    await frame(page);
+    assert.deepEqual(await look(), light, "the button does not bring the light scheme back");
+  },
+
+  "a narrow screen needs no sideways scrolling": async (page) => {
+    await page.setViewportSize({ width: 390, height: 800 });
+    await frame(page);
+    const [content, screen] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    await page.setViewportSize({ width: 1280, height: 900 });
+    assert.ok(content <= screen, `the page is ${content} px wide on a screen of ${screen} px`);
+  },
+
+  "paper is white and without controls": async (page) => {
+    await page.emulateMedia({ media: "print", colorScheme: "light" });
+    await frame(page);
+    assert.equal(await page.locator(".timeline").isVisible(), false, "the slider would be printed");
+    await page.emulateMedia({ media: "screen" });
+  },
+};
+
+export const studyReport = {
+  "the study compares all runs and shows the paper's figures": async (page) => {
+    const rows = await page.locator(".comparison tbody tr").count();
+    assert.ok(rows > 1, "the comparison table has no runs");
+    assert.ok((await page.locator('[data-figure="study-midplane"]').count()) >= 1, "no figure of mid-plane pressures");
+    assert.ok((await page.locator('[data-figure="study-film-thickness"]').count()) === 1, "no figure of film thickness");
+    const curves = await page.locator('[data-figure="study-midplane"] .legend-entry').count();
+    assert.equal(curves, rows, `${curves} mid-plane curves for ${rows} runs`);
+  },
+
+  "a run chosen in the table is shown in detail": async (page) => {
+    const button = page.locator(".comparison tbody button").first();
+    await button.click();
+    await frame(page);
+    assert.equal(await button.getAttribute("aria-pressed"), "true", "the table does not mark the chosen run");
+    const before = await page.locator(".detail .tile").first().innerText();
+    await page.locator(".comparison tbody button").nth(1).click();
+    await frame(page);
+    assert.notEqual(await page.locator(".detail .tile").first().innerText(), before, "the detail still shows the first run");
+  },
+};
