@@ -7,6 +7,8 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
+# Every program lies in the build folder itself: build/release/hersey.
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 # Contracts stay on in release: a wrong answer costs more than a comparison.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 
