@@ -84,8 +84,10 @@ JointId MechanismBuilder::add_joint(JointSpec joint) {
   HERSEY_REQUIRE(0 <= joint.inboard.index && joint.inboard.index < frames, "the inboard frame exists");
   HERSEY_REQUIRE(0 <= joint.outboard.index && joint.outboard.index < frames, "the outboard frame exists");
   HERSEY_REQUIRE(joint.axis.norm() > 0, "a joint's axis has a direction");
-  HERSEY_REQUIRE(joint.initial.empty() || joint.initial.size() == n, "one initial value per degree of freedom");
-  HERSEY_REQUIRE(joint.initial_rate.empty() || joint.initial_rate.size() == n, "one rate per degree of freedom");
+  HERSEY_REQUIRE(joint.initial.empty() || joint.initial.size() == n,
+                 joint.name + ": one initial value per degree of freedom");
+  HERSEY_REQUIRE(joint.initial_rate.empty() || joint.initial_rate.size() == n,
+                 joint.name + ": one rate per degree of freedom");
   joint.axis.normalize();
   return append<JointId>(spec_.joints, std::move(joint));
 }

@@ -84,8 +84,9 @@ AccelerationSolution solve_kkt(const MatrixXd& M, const MatrixXd& G, const Vecto
   const MatrixXd held = Q.leftCols(constraints), free = Q.rightCols(n - constraints);
 
   AccelerationSolution solution;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> inertia(free.transpose() * M_s * free);
-  for (Index i = 0; i < inertia.eigenvalues().size(); ++i) {
+  Eigen::SelfAdjointEigenSolver<MatrixXd> inertia(n - constraints);
+  if (free.cols() > 0) inertia.compute(free.transpose() * M_s * free);
+  for (Index i = 0; i < free.cols(); ++i) {
     if (inertia.eigenvalues()[i] > 1e-12) continue;
     const VectorXd motion = free * inertia.eigenvectors().col(i);
     for (Index k = 0; k < n; ++k)
