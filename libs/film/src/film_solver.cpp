@@ -15,6 +15,9 @@ namespace {
 // of a compliant surface, relative to itself.
 constexpr double largest_change = 1.0;
 
+// Iterations after which a front is taken to be far away.
+constexpr int patience = 12;
+
 /// The share of the step du that keeps viscosity and film thickness within `largest_change` at every node. Only
 /// pressures count: switching a node between full and cavitated bends no law and is never held back.
 double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u,
@@ -31,6 +34,57 @@ double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eig
     if (relative > largest_change) share = std::min(share, largest_change / relative);
   }
   return share;
+}
+
+/// The film seen on every second node around the bearing.
+struct CoarseFilm {
+  FilmModel model;
+  SurfaceMotion motion;
+  FilmHistory history;
+  Eigen::VectorXd u;
+};
+
+Eigen::VectorXd every_second(const Grid& grid, const Eigen::VectorXd& fine) {
+  const int n_z = grid.n_z;
+  Eigen::VectorXd coarse(fine.size() / 2);
+  for (int i = 0; 2 * i < grid.n_phi; ++i) coarse.segment(i * n_z, n_z) = fine.segment(2 * i * n_z, n_z);
+  return coarse;
+}
+
+CoarseFilm coarsen(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
+                   const Eigen::VectorXd& u) {
+  const Grid& grid = model.grid;
+  CoarseFilm coarse{model, motion, history, every_second(grid, u)};
+  coarse.model.grid.n_phi /= 2;
+  coarse.motion.g = every_second(grid, motion.g);
+  coarse.motion.g_rate = every_second(grid, motion.g_rate);
+  if (history.dt == 0) return coarse;
+  coarse.history.theta = every_second(grid, history.theta);
+  coarse.history.w = every_second(grid, history.w);
+  return coarse;
+}
+
+FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                                 const FilmSolveOptions& options, Eigen::VectorXd& u);
+
+// A film front that no flow carries moves by one node per Newton step. It is then sought on coarser grids first, where
+// the way is shorter, so that the iterations stay few on every grid.
+void start_on_coarser_grid(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
+                           Eigen::VectorXd& u) {
+  const Grid& grid = model.grid;
+  if (grid.n_phi % 2 != 0 || grid.n_phi < 48) return;
+  CoarseFilm coarse = coarsen(model, motion, history, u);
+  Reynolds reynolds(coarse.model);
+  if (!solve_by_newton(reynolds, coarse.motion, coarse.history, {.rtol = 1e-8}, coarse.u).converged) return;
+  const int n = coarse.model.grid.n_phi, n_z = grid.n_z;
+  const double to_fine = fill_scale(model) / fill_scale(coarse.model);  // keeps fill fractions
+  for (int i = 0; i < n; ++i) {
+    const auto scaled = [&](double value) { return value < 0 ? to_fine * value : value; };
+    const Eigen::VectorXd here = coarse.u.segment(i * n_z, n_z).unaryExpr(scaled);
+    const Eigen::VectorXd next = coarse.u.segment((i + 1) % n * n_z, n_z).unaryExpr(scaled);
+    u.segment(2 * i * n_z, n_z) = here;
+    u.segment((2 * i + 1) * n_z, n_z) = 0.5 * (here + next);
+  }
 }
 
 std::string where(const Grid& grid, int node) {
@@ -71,8 +125,15 @@ void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, Film
 FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                  const FilmSolveOptions& options, Eigen::VectorXd& u) {
   FilmSolveSummary summary;
+  const Eigen::VectorXd start = u;
   Eigen::VectorXd du(u.size());
+  const bool cold = u.isZero(0);
   for (;; ++summary.iterations) {
+    const bool lost = summary.iterations == patience;
+    if (lost) u = start;
+    if (lost || (summary.iterations == 0 && cold && reynolds.model().cavitation == Cavitation::reynolds)) {
+      start_on_coarser_grid(reynolds.model(), motion, history, u);
+    }
     reynolds.linearise(motion, history, u);
     summary.relative_residual = reynolds.relative_residual();
     summary.worst_node = reynolds.worst_node();

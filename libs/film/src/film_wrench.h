@@ -45,6 +45,7 @@ class FilmWrench {
   FilmModel model_;
   double dx_ = 0, dz_ = 0;
   Eigen::VectorXd cosine_, sine_;
+  Eigen::VectorXd area_;  ///< by which the tractions in axial row j count [m^2]
   Vector6 total_, pressure_, shear_, asperity_;
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_;
   Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z

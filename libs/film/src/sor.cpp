@@ -63,15 +63,15 @@ double Sor::over_relaxation() const {
   return 2 / (1 + std::sqrt(1 - rho * rho));
 }
 
-// Share of a change of pressure that thickness and viscosity follow at once: the gain of that loop is 3 dh/h + alpha
-// dp.
+// Share of a change of pressure that thickness and viscosity follow at once: the gain of that loop at a node is
+// 3 dh/h + alpha dp, and changes of neighbours double it.
 double Sor::following() const {
   const FilmModel& model = balance_.model();
   double gain = 0;
   for (const Node& node : balance_.nodes()) {
-    gain = std::max(gain, 3 * model.compliance * node.wall / node.h + model.lubricant.alpha * node.p);
+    gain = std::max(gain, 3 * model.compliance * node.wall / node.h + model.lubricant.alpha * std::abs(node.p));
   }
-  return 1 / (1 + gain);
+  return 1 / (1 + 2 * gain);
 }
 
 void Sor::start(const Eigen::VectorXd& u) {

@@ -22,7 +22,8 @@ struct FilmSolveSummary {
   std::string message;  ///< why it ended, where it did not converge; also where it converged to a film without oil
 };
 
-/// Solves the film for u at given surfaces, starting from `u` (all zeros is a cold start). On failure `u` is the last
+/// Solves the film for u at given surfaces, starting from `u` (all zeros is a cold start). Where Newton does not arrive
+/// soon, it starts over from the solution on a coarser grid. On failure `u` is the last
 /// iterate.
 [[nodiscard]] FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                           const FilmSolveOptions& options, Eigen::VectorXd& u);

@@ -1,0 +1,142 @@
+#include <doctest/doctest.h>
+
+#include <array>
+
+#include "film_cases.h"
+
+// One bearing seen from different frames, action and reaction, and the balance of power.
+namespace hersey::film {
+namespace {
+
+FilmModel flooded(int n_phi, int n_z) {
+  FilmModel m{.R = 0.03, .L = 0.03, .c = 30e-6, .grid = {n_phi, n_z}};
+  m.p_edge_left = m.p_edge_right = 5e7;  // full film everywhere: smooth, so that orders can be measured
+  return m;
+}
+
+// Ground turns the shell at omega_shell and the journal at omega_journal while the centre moves. A grid that turns at
+// omega_grid sees speeds less its own, and the centre's velocity less omega_grid x e.
+Journal seen_from(const Journal& ground, double omega_grid) {
+  Journal j = ground;
+  j.omega_shell -= omega_grid;
+  j.omega_journal -= omega_grid;
+  j.e_rate -= omega_grid * Eigen::Vector2d(-ground.e.y(), ground.e.x());
+  return j;
+}
+
+const Journal swinging{.e = {8e-6, -13e-6}, .e_rate = {0.002, 0.004}, .omega_shell = 90, .omega_journal = 250};
+
+TEST_CASE("FilmForces_DoNotDependOnTheFrame") {
+  std::array<double, 2> on_shell{}, on_journal{};
+  for (int k = 0; k < 2; ++k) {
+    const FilmModel m = k == 0 ? flooded(48, 13) : flooded(96, 25);
+    const Vector6 ground = solve_cold(m, swinging).wrench;
+    const Vector6 shell = solve_cold(m, seen_from(swinging, swinging.omega_shell)).wrench;
+    const Vector6 journal = solve_cold(m, seen_from(swinging, swinging.omega_journal)).wrench;
+    on_shell[k] = (shell - ground).tail<3>().norm() / ground.tail<3>().norm();
+    on_journal[k] = (journal - ground).tail<3>().norm() / ground.tail<3>().norm();
+  }
+  // Wedge against squeeze: the discretisation error differs, so it must vanish with order two.
+  CHECK(on_shell[1] < 1e-2);
+  CHECK(std::log2(on_shell[0] / on_shell[1]) == doctest::Approx(2).epsilon(0.025));
+  CHECK(std::log2(on_journal[0] / on_journal[1]) == doctest::Approx(2).epsilon(0.025));
+}
+
+TEST_CASE("CavitatedFilmForces_DoNotDependOnTheFrame") {
+  // With rupture the order is not clean; the difference must still shrink with the grid.
+  double coarse = 0;
+  for (const int n : {60, 240}) {
+    FilmModel m = flooded(n, 13);
+    m.cavitation = Cavitation::reynolds;
+    m.p_edge_left = m.p_edge_right = 0;
+    const Vector6 ground = solve_cold(m, swinging).wrench;
+    const Vector6 shell = solve_cold(m, seen_from(swinging, swinging.omega_shell)).wrench;
+    const double difference = (shell - ground).tail<3>().norm() / ground.tail<3>().norm();
+    CHECK(difference < 40.0 / (n * n));
+    if (n == 240) CHECK(difference < coarse / 8);
+    coarse = difference;
+  }
+}
+
+TEST_CASE("CarriedOil_DoesNotDependOnTheFrame") {
+  // Shell and journal turn together: in their own frame nothing moves, seen from ground the fill fraction is carried
+  // round with the grid at rest. A film that is part cavitated keeps its fill in both; the upwind transport smears it
+  // with first order in the step.
+  FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {360, 3}};
+  m.edges = EdgeKind::closed;
+  const double omega = 100, dt = 2 * pi / m.grid.n_phi / omega;  // one node per step
+  Eigen::VectorXd fill(m.grid.size());
+  for (int i = 0; i < m.grid.n_phi; ++i) {
+    for (int j = 0; j < 3; ++j) fill[m.grid.index(i, j)] = 0.5 + 0.3 * std::cos(2 * pi * i / m.grid.n_phi);
+  }
+  Reynolds reynolds(m);
+  FilmHistory history{dt, fill, Eigen::VectorXd::Zero(m.grid.size())};
+  const SurfaceMotion motion = surfaces(m, {.omega_shell = omega, .omega_journal = omega});
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+  const int steps = 45;
+  for (int s = 0; s < steps; ++s) {
+    REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+    history.theta = film_fields(m, motion, u).theta;
+  }
+  double worst = 0;
+  for (int i = 0; i < m.grid.n_phi; ++i) {
+    const double carried = 0.5 + 0.3 * std::cos(2 * pi * (i - steps) / m.grid.n_phi);
+    worst = std::max(worst, std::abs(history.theta[m.grid.index(i, 1)] - carried));
+  }
+  CHECK(worst < 0.3 * steps * std::pow(2 * pi / m.grid.n_phi, 2));  // numerical diffusion D t with D = U dx per step
+}
+
+TEST_CASE("MirroredBearing_MirrorsItsForces") {
+  FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 9}};
+  m.supply = {SupplyKind::widest_gap, 0, 0};
+  const Journal one{.e = {-20e-6, 0}, .tilt = {3e-4, 2e-4}, .omega_journal = 200};
+  const Journal mirrored{.e = {-20e-6, 0}, .tilt = {3e-4, -2e-4}, .omega_journal = -200};
+  const SolvedFilm a = solve_cold(m, one), b = solve_cold(m, mirrored);
+  Vector6 expected = a.wrench;  // y -> -y: forces mirror as vectors, moments as axial vectors
+  expected[0] *= -1, expected[2] *= -1, expected[4] *= -1;
+  CHECK((b.wrench - expected).norm() < 1e-9 * a.wrench.norm());
+}
+
+TEST_CASE("FrictionTorques_DifferByForceTimesEccentricity") {
+  const FilmModel m = flooded(60, 13);
+  const SolvedFilm film = solve_cold(m, swinging);
+  const double couple = swinging.e.x() * film.wrench[4] - swinging.e.y() * film.wrench[3];
+  // Identity of the two definitions: round-off.
+  CHECK(film.observed.torque_journal + film.observed.torque_shell == doctest::Approx(couple).epsilon(1e-12));
+}
+
+// Power the bodies put in = power dissipated, in a full film whose edges are at one pressure.
+TEST_CASE("MechanicalPower_IsDissipated") {
+  std::array<double, 2> error{};
+  for (int k = 0; k < 2; ++k) {
+    const FilmModel m = k == 0 ? flooded(60, 13) : flooded(120, 25);
+    const SolvedFilm film = solve_cold(m, swinging);
+    const Eigen::Vector2d force = film.wrench.segment<2>(3);
+    // On the journal act -force along the centre's velocity and the torque about its own axis; on the shell its torque.
+    const double bodies = -force.dot(swinging.e_rate) + film.observed.torque_journal * swinging.omega_journal +
+                          film.observed.torque_shell * swinging.omega_shell;
+    // Pushing oil out against the edge pressure is no dissipation: a constant pressure does no net work here, as the
+    // volume under a moving round journal does not change.
+    error[k] = (bodies + film.observed.power_film) / film.observed.power_film;
+  }
+  CHECK(std::abs(error[1]) < 2e-3);
+  CHECK(std::log2(std::abs(error[0] / error[1])) == doctest::Approx(2).epsilon(0.1));
+}
+
+TEST_CASE("AsperityFriction_OpposesSlidingAndDissipates") {
+  FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {120, 9}};
+  m.supply = {SupplyKind::widest_gap, 0, 0};
+  m.asperities = {AsperityModel::greenwood_tripp_fit, 1e-6, 3e-3, 57e9, 0.1};
+  const double omega = 50;
+  const SolvedFilm with = solve_cold(m, turning(m, 0.95, omega));
+  m.asperities.mu_friction = 0;
+  const SolvedFilm without = solve_cold(m, turning(m, 0.95, omega));
+  const double torque = with.observed.torque_shell - without.observed.torque_shell;
+  CHECK(torque > 0);
+  // Power of boundary friction = torque on the shell times relative speed.
+  CHECK(with.observed.power_asperity == doctest::Approx(torque * omega).epsilon(1e-3));  // 1 mm/s of smoothing, 1.5 m/s
+  CHECK(with.observed.force_asperity.x() < 0);  // pushes the shell towards the contact, at -x
+}
+
+}  // namespace
+}  // namespace hersey::film
