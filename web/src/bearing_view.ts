@@ -70,7 +70,7 @@ export class BearingView {
       segmented("Colour scale", [{ value: "run", label: "Scale of the run" }, { value: "instant", label: "of the instant" }], "run", (s) => map.rescale(s as "run" | "instant")),
     );
     this.element.append(
-      figure("map", "The film on the unwrapped bearing at the instant shown. Dashed: edge of the full film (fill fraction 1).", null, controls, map.element),
+      figure("map", "The film on the unwrapped bearing at the instant shown. White line: edge of the full film.", null, controls, map.element),
     );
   }
 
@@ -126,7 +126,7 @@ export class BearingView {
       ...(size ? [{ label: "magnitude", y: size, unit: "N" }] : []),
       ...["x", "y", "z"].flatMap((label, column) =>
         force && column < force.width && !negligible(run.column(this.path("force"), column)!, size)
-          ? of("force", label, newton, { column, dash: column === 2 ? [3, 3] : [] })
+          ? of("force", label, newton, { column, ...(column === 2 ? { dash: [3, 3] } : {}) })
           : [],
       ),
     ]);
@@ -142,7 +142,7 @@ export class BearingView {
       ...of("torque_journal", "on the journal", newtonMillimetre),
       ...of("torque_shell", "on the shell", newtonMillimetre),
     ]);
-    this.add("flow", "Oil leaving over the two edges, and entering at the supply.", { label: "flow", unit: "mm³/s" }, [
+    this.add("flow", "Oil leaving over the two edges, and entering at the supply.", { label: "flow", unit: "mm³/s", fromZero: true }, [
       ...of("flow_left", "side flow, left", cubicMillimetrePerSecond),
       ...of("flow_right", "side flow, right", cubicMillimetrePerSecond, { dash: [6, 4] }),
       ...of("flow_supply", "supply", cubicMillimetrePerSecond),

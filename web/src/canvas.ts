@@ -8,7 +8,7 @@ onThemeChange(() => drawings.forEach((drawing) => drawing.draw()));
 
 /** Forgets all drawings whose elements have left the page. */
 export function sweepDrawings(): void {
-  for (const drawing of drawings) if (!drawing.element.isConnected) drawing.destroy();
+  for (const drawing of drawings) if (drawing.wasShown && !drawing.element.isConnected) drawing.destroy();
 }
 
 export abstract class Drawing {
@@ -27,6 +27,11 @@ export abstract class Drawing {
     this.observer = new ResizeObserver(() => this.draw());
     this.observer.observe(this.element);
     drawings.add(this);
+  }
+
+  /** False for a drawing that has not been on the page yet. */
+  get wasShown(): boolean {
+    return this.height > 0;
   }
 
   draw(): void {

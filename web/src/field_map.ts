@@ -38,7 +38,7 @@ export class FieldMap extends Drawing {
   }
 
   protected heightFor(width: number): number {
-    return Math.round(Math.min(300, Math.max(190, 0.4 * width)));
+    return Math.round(Math.min(340, Math.max(190, 0.44 * width)));
   }
 
   protected paint(context: CanvasRenderingContext2D, ratio: number): void {
@@ -126,9 +126,8 @@ export class FieldMap extends Drawing {
     const box = this.box();
     const level = 0.995;
     context.save();
-    context.strokeStyle = "rgb(255 255 255 / 0.85)";
+    context.strokeStyle = "rgb(255 255 255 / 0.7)";
     context.lineWidth = 1.2;
-    context.setLineDash([4, 3]);
     context.beginPath();
     for (let i = 0; i < n; i++)
       for (let j = 0; j < nz - 1; j++) {

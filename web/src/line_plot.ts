@@ -28,12 +28,15 @@ export interface LineFigure {
   height?: number;
 }
 
+/** Steps between the ticks of an angle: parts and multiples of a turn, in degrees. */
+const angleSteps = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360, 720, 1440, 3600, 7200, 18000, 36000, 72000, 180000];
+
 const plots = new Set<LinePlot>();
 onThemeChange(() => plots.forEach((plot) => plot.redraw()));
 
 /** Forgets all plots whose elements have left the page. */
 export function sweepPlots(): void {
-  for (const plot of plots) if (!plot.element.isConnected) plot.destroy();
+  for (const plot of plots) if (plot.wasShown && !plot.element.isConnected) plot.destroy();
 }
 
 /** Drops what cannot be drawn: gaps for NaN, and for zero or less on a logarithmic axis. */
@@ -62,6 +65,11 @@ export class LinePlot {
   private readonly hiddenCurves = new Set<number>();
   private readonly observer: ResizeObserver;
   private plot: uPlot | null = null;
+
+  /** False for a plot that has not been on the page yet. */
+  get wasShown(): boolean {
+    return this.plot !== null;
+  }
   private marker: number | null = null;
 
   constructor(private spec: LineFigure) {
@@ -181,7 +189,8 @@ export class LinePlot {
     });
     const axes: uPlot.Axis[] = [
       axis(x.label, x.unit, {
-        size: 34,
+        size: 26,
+        ...(x.unit === "°" ? { incrs: angleSteps } : {}),
         ...(x.categories
           ? { splits: () => Array.from(x.values), values: (_p: uPlot, s: number[]) => s.map((v) => x.categories![v] ?? "") }
           : {}),
@@ -192,7 +201,7 @@ export class LinePlot {
     return {
       width,
       height,
-      padding: [8, right ? 0 : 12, 0, 0],
+      padding: [8, right ? 0 : 20, 0, 0],
       legend: { show: false },
       cursor: { drag: { x: true, y: false }, points: { size: 7 }, y: false },
       scales: {
@@ -228,6 +237,7 @@ export class LinePlot {
     if (x < left || x > left + width) return;
     const context = plot.ctx;
     context.save();
+    context.setLineDash([]);
     context.strokeStyle = palette().accent;
     context.lineWidth = Math.max(1, devicePixelRatio);
     context.beginPath();

@@ -20,7 +20,7 @@ function showStudy(page: HTMLElement, report: Report): void {
   const show = (run: Run, scroll: boolean) => {
     picker.value = String(study.runs.indexOf(run));
     detail.replaceChildren(
-      ...[h("div", { class: "detail-head" }, h("h2", {}, "Run in detail"), picker, status(run)), assumptions(run.assumptions), new RunView(run).element].filter((e) => e !== null),
+      ...[h("div", { class: "detail-head" }, h("h2", {}, "Run in detail"), picker, status(run)), assumptions(ownAssumptions(report.runs, run)), new RunView(run).element].filter((e) => e !== null),
     );
     study.highlight(run);
     if (scroll) detail.scrollIntoView({ behavior: "smooth" });
@@ -29,13 +29,19 @@ function showStudy(page: HTMLElement, report: Report): void {
   show(study.runs[study.runs.length - 1]!, false);
 }
 
-/** The assumptions of a study: those all runs share, and the names of those that differ. */
+/** What the runs of a study assume under one name, each text once. */
+function texts(runs: Run[], name: string): string[] {
+  return [...new Set(runs.map((run) => run.assumptions.find(([other]) => other === name)?.[1] ?? "not stated"))];
+}
+
+/** The assumptions of a study: where runs differ, what they differ between. */
 function sharedAssumptions(runs: Run[]): HTMLElement | null {
-  const shared = runs[0]!.assumptions.map(([name, text]): [string, string] => {
-    const texts = new Set(runs.map((run) => run.assumptions.find(([other]) => other === name)?.[1] ?? "not stated"));
-    return [name, texts.size === 1 ? text : [...texts].join(" | ")];
-  });
-  return assumptions(shared);
+  return assumptions(runs[0]!.assumptions.map(([name]) => [name, texts(runs, name).join(" | ")]));
+}
+
+/** What one run of a study assumes differently from another. */
+function ownAssumptions(runs: Run[], run: Run): [string, string][] {
+  return run.assumptions.filter(([name]) => texts(runs, name).length > 1);
 }
 
 function start(): void {

@@ -25,7 +25,7 @@ export class RunView {
   private bearing: string;
   private abscissa: Abscissa;
   private timeline: Timeline | null = null;
-  private time = 0;
+  private time: number | null = null;
 
   constructor(private readonly run: Run) {
     this.bearing = run.children("/bearings")[0] ?? "";
@@ -40,9 +40,10 @@ export class RunView {
     const system = new SystemView(run, abscissa);
     const instants = view?.fields?.time ?? run.column("/time") ?? new Float64Array();
     const timeline = new Timeline(instants, this.anglesAt(instants), (index) => {
-      this.time = instants[index]!;
-      view?.show(this.time, index);
-      system.show(this.time);
+      const time = instants[index]!;
+      this.time = time;
+      view?.show(time, index);
+      system.show(time);
     });
     this.timeline = timeline;
     this.element.replaceChildren(
@@ -50,8 +51,19 @@ export class RunView {
     );
     sweepPlots();
     sweepDrawings();
-    if (instants.length > 0) timeline.show(this.time > 0 ? nearest(instants, this.time) : instants.length - 1);
+    if (instants.length > 0) timeline.show(nearest(instants, this.time ?? this.firstShown(instants)));
     else timeline.element.remove();
+  }
+
+  /** A cycle opens at its peak pressure, a run towards an equilibrium at its end. */
+  private firstShown(instants: ArrayLike<number>): number {
+    const time = this.run.column("/time");
+    const pressure = this.run.column(`/bearings/${this.bearing}/p_max`);
+    const last = instants[instants.length - 1]!;
+    if (!time || !pressure || !this.run.column("/crank_angle")) return last;
+    let peak = 0;
+    for (let i = 1; i < pressure.length; i++) if (pressure[i]! > pressure[peak]!) peak = i;
+    return time[peak] ?? last;
   }
 
   private anglesAt(instants: ArrayLike<number>): ArrayLike<number> | null {
@@ -95,7 +107,7 @@ export class RunView {
   }
 
   private table(): HTMLElement {
-    const groups = [...new Set(this.run.summary.map((row) => row.group))];
+    const groups = [this.bearing, "run"];
     const tables = groups.flatMap((group) => {
       const rows = this.run.summary.filter((row) => row.group === group);
       const title = group === "run" ? "Whole run" : `Bearing ${group.replaceAll("_", " ")}`;
@@ -113,7 +125,7 @@ function summaryTable(title: string, rows: SummaryRow[]): HTMLElement {
 }
 
 function summaryRow(row: SummaryRow): HTMLElement {
-  const name = h("th", { scope: "row" }, capital(row.name), row.where ? h("span", { class: "where" }, row.where) : null);
+  const name = h("th", { scope: "row" }, capital(row.name), row.where ? h("span", { class: "where" }, minus(row.where)) : null);
   const value = h("td", { class: "number" }, format(row.value), row.unit ? h("span", { class: "unit" }, row.unit === "°" ? "°" : ` ${row.unit}`) : null);
   return h("tr", { "data-quantity": row.name }, name, value);
 }
@@ -124,8 +136,13 @@ function tile(label: string, row: SummaryRow): HTMLElement {
     { class: "tile" },
     h("div", { class: "tile-label" }, label),
     h("div", { class: "tile-value" }, format(row.value), row.unit ? h("span", { class: "unit" }, ` ${row.unit}`) : null),
-    h("div", { class: "tile-where" }, row.where || "\u00a0"),
+    h("div", { class: "tile-where" }, minus(row.where) || "\u00a0"),
   );
+}
+
+/** Hyphens before digits become minus signs. */
+function minus(text: string): string {
+  return text.replace(/-(?=\d)/g, "−");
 }
 
 export function capital(text: string): string {

@@ -78,8 +78,8 @@ class Summary {
 
   std::string instant(std::size_t row) const {
     if (row >= time_.size()) return {};
-    const std::string time = fmt::format("t = {:.6g} ms", time_[row] * 1e3);
-    return row < crank_angle_.size() ? time + fmt::format(", crank {:.5g}°", crank_angle_[row] * degrees) : time;
+    const std::string time = fmt::format("t = {:.4g} ms", time_[row] * 1e3);
+    return row < crank_angle_.size() ? time + fmt::format(", crank {:.1f}°", crank_angle_[row] * degrees) : time;
   }
 
   /// The most extreme finite value in the sense of `before`, with its instant and, if `placed`, its place on the film.
