@@ -41,6 +41,7 @@ async function check(name, test) {
 /** Opens a report and notes everything a silent report must not do. */
 async function open(browser, file) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });
+  page.setDefaultTimeout(5000);
   const url = pathToFileURL(file).href;
   const complaints = [];
   page.on("console", (message) => {

@@ -207,8 +207,9 @@ std::optional<std::string> Reader::text_attribute(std::string_view object, std::
   const Quiet quiet;
   const Handle attribute = impl_->attribute(object, name);
   if (!attribute.valid()) return std::nullopt;
+  const Handle space(H5Aget_space(attribute.get()));
   std::vector<std::string> texts = impl_->texts(attribute.get());
-  if (texts.size() != 1) return std::nullopt;
+  if (texts.size() != 1 || H5Sget_simple_extent_type(space.get()) != H5S_SCALAR) return std::nullopt;
   return std::move(texts[0]);
 }
 

@@ -49,6 +49,7 @@ TEST_CASE("WhatIsWritten_IsReadBackExactly") {
   CHECK(reader.text_attribute("/", "status") == "completed");
   CHECK(reader.text_attribute("/", "message") == "reached the end");
   CHECK(reader.number_attribute("/bearings/big_end", "radius") == 0.0225);
+  CHECK_FALSE(reader.text_attribute("/", "study_parameters").has_value());  // a list is not a text
   CHECK_FALSE(reader.number_attribute("/", "title").has_value());
   CHECK_FALSE(reader.text_attribute("/nowhere", "title").has_value());
   CHECK(reader.list_attribute("/", "study_parameters") == std::vector<std::string>{"load", "clearance"});

@@ -1,0 +1,148 @@
+#include "hersey/report/report.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "base64.h"
+#include "hersey/core/contract.h"
+#include "small_run.h"
+
+namespace hersey::report {
+namespace {
+
+using nlohmann::json;
+
+std::string content(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// What stands in the page's data element.
+json data_of(const std::string& page) {
+  const std::string opening = R"(<script id="hersey-data" type="application/json">)";
+  const std::size_t from = page.find(opening) + opening.size();
+  return json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+/// The reverse of base64_float32 and base64_float64, written apart from them.
+template <class Number>
+std::vector<Number> decode(const std::string& text) {
+  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0, held = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    held = held << 6 | static_cast<unsigned>(alphabet.find(c));
+    bits += 6;
+    if (bits >= 8) bytes += static_cast<char>(held >> (bits -= 8) & 0xff);
+  }
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  return numbers;
+}
+
+struct Page {
+  TemporaryDirectory directory;
+  std::string text;
+  json data;
+
+  explicit Page(const std::vector<SmallRun>& runs, const ReportOptions& options = {}) {
+    std::vector<std::filesystem::path> files;
+    for (const SmallRun& run : runs) {
+      files.push_back(directory / ("run" + std::to_string(files.size()) + ".h5"));
+      run.write(files.back());
+    }
+    write_html(files, directory / "report.html", options);
+    text = content(directory / "report.html");
+    data = data_of(text);
+  }
+};
+
+TEST_CASE("Base64_MatchesKnownText") {
+  // 1.0f is 00 00 80 3f, 2.0 is 00 00 00 00 00 00 00 40, both little-endian.
+  CHECK(base64_float32(std::vector<double>{1.0}) == "AACAPw==");
+  CHECK(base64_float64(std::vector<double>{2.0}) == "AAAAAAAAAEA=");
+  CHECK(base64_float32({}).empty());
+  const std::vector<double> values{-1.5, 3.25, 1e-12, 7};
+  CHECK(decode<double>(base64_float64(values)) == values);
+}
+
+TEST_CASE("Report_HoldsTheNumbersOfTheRun") {
+  const SmallRun run;
+  const Page page({run});
+  const json& shown = page.data["runs"][0];
+  CHECK(shown["attributes"]["/"]["title"] == "Small run");
+  CHECK(shown["attributes"]["/"]["status"] == "completed");
+  CHECK(shown["assumptions"][0][0] == "cavitation");
+  CHECK(shown["rows"] == 11);
+  const json& thickness = shown["datasets"]["/bearings/big_end/h_min"];
+  CHECK(thickness["unit"] == "m");
+  const auto h = decode<float>(thickness["data"]);
+  REQUIRE(h.size() == 11);
+  for (int k = 0; k < 11; ++k) CHECK(h[static_cast<std::size_t>(k)] == static_cast<float>(run.h_min(k)));
+  const auto time = decode<double>(shown["datasets"]["/time"]["data"]);
+  CHECK(time[10] == 10 * run.dt);
+  CHECK(shown["datasets"]["/bearings/big_end/fields/pressure"]["shape"] == json({11, 4, 3}));
+  CHECK(shown["summary"][0]["unit"] == "µm");
+}
+
+TEST_CASE("Report_LoadsNothingFromElsewhere") {
+  const Page page({SmallRun{}});
+  const std::regex loads(R"re((src|href)\s*=\s*["']?\s*(https?:)?//|@import|url\(\s*["']?(https?:)?//)re",
+                         std::regex::icase);
+  CHECK_FALSE(std::regex_search(page.text, loads));
+  CHECK(page.text.find("http-equiv=\"Content-Security-Policy\"") != std::string::npos);
+}
+
+TEST_CASE("TextThatLooksLikeMarkup_StaysText") {
+  // The model's comment holds a closing script tag: escaped in the page, whole again in the data.
+  const Page page({{.title = "<b>bold & \"quoted\"</b>"}});
+  CHECK(page.text.find("</script> must not") == std::string::npos);
+  CHECK(page.data["runs"][0]["model"] == "hersey: 1\n# </script> must not end the page\n");
+  CHECK(page.data["runs"][0]["attributes"]["/"]["title"] == "<b>bold & \"quoted\"</b>");
+}
+
+TEST_CASE("LongRuns_AreThinnedButKeepTheirEnd") {
+  const SmallRun run{.rows = 1000};
+  const Page page({run}, {.series_rows = 301, .field_bytes = 100 * 12 * sizeof(float)});
+  const json& shown = page.data["runs"][0];
+  CHECK(shown["series_stride"] == 4);
+  CHECK(shown["field_stride"] == 10);
+  const auto time = decode<double>(shown["datasets"]["/time"]["data"]);
+  CHECK(time.size() == 250);
+  CHECK(time.back() == 999 * run.dt);
+  const auto instants = decode<double>(shown["datasets"]["/bearings/big_end/fields/time"]["data"]);
+  CHECK(instants.size() == 100);
+  CHECK(instants.back() == 999 * run.dt);
+  CHECK(shown["datasets"]["/bearings/big_end/fields/pressure"]["shape"] == json({100, 4, 3}));
+  CHECK(shown["datasets"]["/bearings/big_end/fields/phi"]["shape"] == json({4}));  // a grid is not an instant
+}
+
+TEST_CASE("Study_ShowsEveryRunWithItsParameters") {
+  const Page page({{.load = "100 N"}, {.load = "2500 N"}}, {.title = "Two loads"});
+  CHECK(page.data["title"] == "Two loads");
+  REQUIRE(page.data["runs"].size() == 2);
+  CHECK(page.data["runs"][1]["attributes"]["/parameters"]["load"] == "2500 N");
+  CHECK(page.data["runs"][0]["attributes"]["/"]["study_parameters"] == json({"load"}));
+}
+
+TEST_CASE("TroubleWithFiles_IsToldWithThePath") {
+  const TemporaryDirectory directory;
+  CHECK_THROWS_WITH_AS(write_html({directory / "none.h5"}, directory / "r.html"), doctest::Contains("no such file"),
+                       results::ReadError);
+  SmallRun().write(directory / "run.h5");
+  CHECK_THROWS_WITH_AS(write_html({directory / "run.h5"}, directory / "missing" / "r.html"),
+                       doctest::Contains("cannot write the report: No such file or directory"), results::WriteError);
+  CHECK_THROWS_WITH_AS(write_html({directory / "run.h5"}, "/dev/full"), doctest::Contains("No space left on device"),
+                       results::WriteError);
+  CHECK_THROWS_AS(write_html({}, directory / "r.html"), ContractError);
+}
+
+}  // namespace
+}  // namespace hersey::report
