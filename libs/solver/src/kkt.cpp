@@ -39,6 +39,67 @@ VectorXd inertia_scales(const MatrixXd& M) {
   return s;
 }
 
+/// Solves  M x + G^T l = a,  G x = b  for x and l, M semidefinite and G of full row rank, in the null space of G.
+class NullSpaceSolver {
+ public:
+  NullSpaceSolver(const MatrixXd& M, const MatrixXd& G)
+      : s_(inertia_scales(M)), row_scale_(VectorXd::Ones(G.rows())), inertia_(M.rows() - G.rows()) {
+    const Index n = M.rows(), constraints = G.rows();
+    M_s_ = s_.asDiagonal() * M * s_.asDiagonal();
+    MatrixXd G_s = G * s_.asDiagonal();
+    for (Index i = 0; i < constraints; ++i)
+      if (const double norm = G_s.row(i).norm(); norm > 0) row_scale_[i] = 1 / norm;
+    G_s = row_scale_.asDiagonal() * G_s;
+    // G_s^T = Q [R; 0] P^T: the first columns of Q span the constrained directions, the others the free ones.
+    MatrixXd Q = MatrixXd::Identity(n, n);
+    if (constraints > 0) {
+      qr_.compute(G_s.transpose());
+      Q = qr_.householderQ() * Q;
+    }
+    held_ = Q.leftCols(constraints);
+    free_ = Q.rightCols(n - constraints);
+    if (free_.cols() > 0) inertia_.compute(free_.transpose() * M_s_ * free_);
+  }
+
+  /// Components of the free motions that have no inertia.
+  [[nodiscard]] std::vector<Index> undetermined() const {
+    std::set<Index> components;
+    for (Index i = 0; i < free_.cols(); ++i) {
+      if (inertia_.eigenvalues()[i] > 1e-12) continue;
+      const VectorXd motion = (free_ * inertia_.eigenvectors().col(i)).cwiseAbs();
+      for (Index k = 0; k < motion.size(); ++k)
+        if (motion[k] > 0.1 * motion.maxCoeff()) components.insert(k);
+    }
+    return {components.begin(), components.end()};
+  }
+
+  void solve(const VectorXd& a, const VectorXd& b, VectorXd& x, VectorXd& l) const {
+    const Index constraints = held_.cols();
+    const auto R = qr_.matrixR().topLeftCorner(constraints, constraints);
+    VectorXd y = VectorXd::Zero(s_.size());
+    if (constraints > 0) {
+      const VectorXd right = qr_.colsPermutation().transpose() * VectorXd(row_scale_.asDiagonal() * b);
+      y = held_ * R.transpose().template triangularView<Eigen::Lower>().solve(right);
+    }
+    const VectorXd a_s = s_.asDiagonal() * a;
+    if (free_.cols() > 0) {
+      const VectorXd modal = inertia_.eigenvectors().transpose() * (free_.transpose() * (a_s - M_s_ * y));
+      y += free_ * (inertia_.eigenvectors() * modal.cwiseQuotient(inertia_.eigenvalues()));
+    }
+    x = s_.asDiagonal() * y;
+    l = VectorXd::Zero(constraints);
+    if (constraints == 0) return;
+    const VectorXd left = R.template triangularView<Eigen::Upper>().solve(held_.transpose() * (a_s - M_s_ * y));
+    l = row_scale_.asDiagonal() * VectorXd(qr_.colsPermutation() * left);
+  }
+
+ private:
+  VectorXd s_, row_scale_;
+  MatrixXd M_s_, held_, free_;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr_;
+  Eigen::SelfAdjointEigenSolver<MatrixXd> inertia_;
+};
+
 }  // namespace
 
 RankAnalysis analyse_rank(const MatrixXd& G) {
@@ -65,56 +126,16 @@ RankAnalysis analyse_rank(const MatrixXd& G) {
 }
 
 AccelerationSolution solve_kkt(const MatrixXd& M, const MatrixXd& G, const VectorXd& h, const VectorXd& gamma) {
-  const Index n = M.rows(), constraints = G.rows();
-  const VectorXd s = inertia_scales(M);
-  const MatrixXd M_s = s.asDiagonal() * M * s.asDiagonal();
-  MatrixXd G_s = G * s.asDiagonal();
-  VectorXd row_scale = VectorXd::Ones(constraints);
-  for (Index i = 0; i < constraints; ++i)
-    if (const double norm = G_s.row(i).norm(); norm > 0) row_scale[i] = 1 / norm;
-  G_s = row_scale.asDiagonal() * G_s;
-
-  // G_s^T = Q [R; 0] P^T: the first columns of Q span the constrained directions, the others the free ones.
-  MatrixXd Q = MatrixXd::Identity(n, n);
-  Eigen::ColPivHouseholderQR<MatrixXd> qr;
-  if (constraints > 0) {
-    qr.compute(G_s.transpose());
-    Q = qr.householderQ() * MatrixXd::Identity(n, n);
-  }
-  const MatrixXd held = Q.leftCols(constraints), free = Q.rightCols(n - constraints);
-
+  const NullSpaceSolver solver(M, G);
   AccelerationSolution solution;
-  Eigen::SelfAdjointEigenSolver<MatrixXd> inertia(n - constraints);
-  if (free.cols() > 0) inertia.compute(free.transpose() * M_s * free);
-  for (Index i = 0; i < free.cols(); ++i) {
-    if (inertia.eigenvalues()[i] > 1e-12) continue;
-    const VectorXd motion = free * inertia.eigenvectors().col(i);
-    for (Index k = 0; k < n; ++k)
-      if (std::abs(motion[k]) > 0.1 * motion.cwiseAbs().maxCoeff()) solution.undetermined.push_back(k);
-  }
-  std::sort(solution.undetermined.begin(), solution.undetermined.end());
-  solution.undetermined.erase(std::unique(solution.undetermined.begin(), solution.undetermined.end()),
-                              solution.undetermined.end());
+  solution.undetermined = solver.undetermined();
   if (!solution.undetermined.empty()) return solution;
-
-  VectorXd y = VectorXd::Zero(n);
-  const auto triangle = [&] { return qr.matrixR().topLeftCorner(constraints, constraints); };
-  if (constraints > 0) {
-    const VectorXd right = qr.colsPermutation().transpose() * VectorXd(-(row_scale.asDiagonal() * gamma));
-    y = held * triangle().transpose().template triangularView<Eigen::Lower>().solve(right);
-  }
-  const VectorXd h_s = s.asDiagonal() * h;
-  if (free.cols() > 0) {
-    const VectorXd modal = inertia.eigenvectors().transpose() * (free.transpose() * (h_s + M_s * y));
-    y -= free * (inertia.eigenvectors() * modal.cwiseQuotient(inertia.eigenvalues()));
-  }
-  solution.vdot = s.asDiagonal() * y;
-  solution.lambda = VectorXd::Zero(constraints);
-  if (constraints > 0) {
-    const VectorXd load = held.transpose() * -(h_s + M_s * y);
-    const VectorXd l = triangle().template triangularView<Eigen::Upper>().solve(load);
-    solution.lambda = row_scale.asDiagonal() * VectorXd(qr.colsPermutation() * l);
-  }
+  solver.solve(-h, -gamma, solution.vdot, solution.lambda);
+  // One refinement returns the digits that inertias of very different size cost.
+  VectorXd dv, dl;
+  solver.solve(-h - M * solution.vdot - G.transpose() * solution.lambda, -gamma - G * solution.vdot, dv, dl);
+  solution.vdot += dv;
+  solution.lambda += dl;
   return solution;
 }
 
