@@ -25,7 +25,7 @@ test: $(BUILD)/build.ninja  ## builds everything and runs every test (FILTER=reg
 	@scripts/run-tests $(BUILD) $(JOBS) '$(FILTER)'
 
 bench:  ## builds and runs the benchmarks
-	@scripts/setup build bench
+	@scripts/setup build
 	@$(MAKE) --no-print-directory PRESET=bench build/bench/build.ninja
 	@$(PHASE) compile build/log/bench.log cmake --build build/bench -j $(JOBS)
 	@scripts/bench build/bench
