@@ -15,6 +15,9 @@ namespace {
 // of a compliant surface, relative to itself.
 constexpr double largest_change = 1.0;
 
+// exp(20) = 5e8 times the viscosity: no oil, and far from overflow.
+constexpr double largest_exponent = 20;
+
 // Iterations after which a front is taken to be far away.
 constexpr int patience = 12;
 
@@ -34,6 +37,11 @@ double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eig
     if (relative > largest_change) share = std::min(share, largest_change / relative);
   }
   return share;
+}
+
+bool sensible_pressure(const FilmModel& model, const Eigen::VectorXd& u) {
+  const double largest = u.maxCoeff();
+  return std::isfinite(largest) && model.lubricant.alpha * largest <= largest_exponent;
 }
 
 /// The film seen on every second node around the bearing.
@@ -141,6 +149,10 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
     if (summary.converged || summary.iterations == options.max_iterations) return summary;
     reynolds.newton_increment(du);
     u += step_share(reynolds.model(), motion, u, du) * du;
+    if (!sensible_pressure(reynolds.model(), u)) {
+      u = start;
+      return summary;
+    }
   }
 }
 

@@ -4,7 +4,7 @@
 
 namespace hersey::film {
 
-/// Projected successive over-relaxation (theory manual, film.15): sweeps over the nodes, each solved for its pressure
+/// Projected successive over-relaxation (theory manual, film: SOR): sweeps over the nodes, each solved for its pressure
 /// or fill fraction with its neighbours' latest values. One iteration is a thousand sweeps.
 [[nodiscard]] FilmSolveSummary solve_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                             const FilmSolveOptions& options, Eigen::VectorXd& u);

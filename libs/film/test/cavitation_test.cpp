@@ -144,6 +144,23 @@ TEST_CASE("SqueezedFilm_CavitatesAndReforms") {
   CHECK(std::abs(when - 0.3148259) <= 0.02);
 }
 
+// The film must not notice where the line lies between two nodes, nor lack oil there.
+TEST_CASE("SupplyLine_WorksBetweenNodes") {
+  const FilmModel m = bearing();
+  const double e = 0.6, cell = 2 * pi / m.grid.n_phi;
+  const double on_node = solve_cold(m, turning(m, e, omega)).wrench.segment<2>(3).norm();
+  for (const double part : {0.05, 0.3, 0.5, 0.8}) {
+    CAPTURE(part);
+    const double angle = part * cell;
+    const Journal journal{.e = -e * m.c * Eigen::Vector2d(std::cos(angle), std::sin(angle)), .omega_journal = omega};
+    const SolvedFilm film = solve_cold(m, surfaces(m, journal, angle), journal.e);
+    REQUIRE(film.summary.converged);
+    CHECK(film.wrench.segment<2>(3).norm() == doctest::Approx(on_node).epsilon(0.5 * cell * cell));
+    CHECK(film.fields.theta[m.grid.index(1, 6)] > 0.998);               // the first node downstream
+    CHECK(film.fields.theta[m.grid.index(m.grid.n_phi - 1, 6)] < 0.9);  // upstream the film is broken
+  }
+}
+
 TEST_CASE("FillScale_HasNoInfluence") {
   // The clearance only scales unknowns: with twice its value P0 is a quarter, the film the same.
   FilmModel m = bearing();
