@@ -2,8 +2,8 @@
 
 import type { Run } from "./data";
 import { figure, h, segmented } from "./dom";
-import { FieldMap } from "./field_map";
-import { extent, FilmFields, type FieldKind } from "./film_fields";
+import { FieldMap, type Mark } from "./field_map";
+import { extent, FilmFields, nearest, type FieldKind } from "./film_fields";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Orbit } from "./orbit";
 import { Axis, curve, magnitude, scaled, type Abscissa } from "./series";
@@ -61,7 +61,7 @@ export class BearingView {
     if (!fields) return;
     const kinds = fields.kinds();
     const map = new FieldMap(fields, kinds[0]!);
-    this.followers.push((_t, instant) => map.show(instant));
+    this.followers.push((t, instant) => map.show(instant, [...this.mark("p_max", "cross", t), ...this.mark("h_min", "ring", t)]));
     const choices = kinds.map(({ key, label }) => ({ value: key, label: label.replace("Film ", "").replace(/^./, (c) => c.toUpperCase()) }));
     const controls = h(
       "div",
@@ -70,8 +70,18 @@ export class BearingView {
       segmented("Colour scale", [{ value: "run", label: "Scale of the run" }, { value: "instant", label: "of the instant" }], "run", (s) => map.rescale(s as "run" | "instant")),
     );
     this.element.append(
-      figure("map", "The film on the unwrapped bearing at the instant shown. White line: edge of the full film.", null, controls, map.element),
+      figure("map", "The film on the unwrapped bearing at the instant shown. White line: edge of the full film; cross: peak pressure; ring: smallest film thickness.", null, controls, map.element),
     );
+  }
+
+  /** Where a quantity has its extreme at a time. */
+  private mark(series: string, symbol: Mark["symbol"], at: number): Mark[] {
+    const time = this.run.column("/time");
+    const phi = this.run.column(this.path(`${series}_phi`));
+    const z = this.run.column(this.path(`${series}_z`));
+    if (!time || !phi || !z) return [];
+    const row = nearest(time, at);
+    return [{ phi: phi[row]!, z: z[row]!, symbol }];
   }
 
   private addMidplane(): void {

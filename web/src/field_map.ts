@@ -7,10 +7,18 @@ import { extent } from "./film_fields";
 import { palette } from "./theme";
 import { format, withUnit } from "./units";
 
+/** A place on the film worth marking. */
+export interface Mark {
+  phi: number;
+  z: number;
+  symbol: "cross" | "ring";
+}
+
 const margin = { left: 52, right: 92, top: 10, bottom: 40 };
 
 export class FieldMap extends Drawing {
   private instant = 0;
+  private marks: Mark[] = [];
   private readonly image = document.createElement("canvas");
 
   constructor(
@@ -22,8 +30,9 @@ export class FieldMap extends Drawing {
     this.element.classList.add("field-map");
   }
 
-  show(instant: number): void {
+  show(instant: number, marks: Mark[]): void {
     this.instant = instant;
+    this.marks = marks;
     this.draw();
   }
 
@@ -49,6 +58,7 @@ export class FieldMap extends Drawing {
     this.paintImage(field, range, Math.round(box.width * ratio), Math.round(box.height * ratio));
     context.drawImage(this.image, box.left, box.top, box.width, box.height);
     this.paintRupture(context);
+    this.paintMarks(context);
     this.paintFrame(context);
     this.paintColourBar(context, range);
   }
@@ -151,6 +161,29 @@ export class FieldMap extends Drawing {
       }
     context.stroke();
     context.restore();
+  }
+
+  private paintMarks(context: CanvasRenderingContext2D): void {
+    const box = this.box();
+    const z = this.fields.z;
+    const [low, high] = [z[0]!, z[z.length - 1]!];
+    for (const mark of this.marks) {
+      const turn = mark.phi / (2 * Math.PI);
+      const x = box.left + (turn - Math.floor(turn)) * box.width;
+      const y = box.top + (1 - (mark.z - low) / (high - low)) * box.height;
+      // Dark under white: visible on every colour of the map.
+      for (const [colour, width] of [["rgb(0 0 0 / 0.7)", 4], ["#ffffff", 2]] as const) {
+        context.strokeStyle = colour;
+        context.lineWidth = width;
+        context.beginPath();
+        if (mark.symbol === "ring") context.arc(x, y, 5, 0, 2 * Math.PI);
+        else for (const [dx, dy] of [[5, 0], [0, 5]] as const) {
+          context.moveTo(x - dx, y - dy);
+          context.lineTo(x + dx, y + dy);
+        }
+        context.stroke();
+      }
+    }
   }
 
   private paintFrame(context: CanvasRenderingContext2D): void {

@@ -2,6 +2,7 @@
 
 import type { Report, Run } from "./data";
 import { h } from "./dom";
+import { typeset } from "./units";
 import { isDark, onThemeChange, setTheme } from "./theme";
 
 const statusText: Record<string, string> = {
@@ -18,7 +19,7 @@ export function header(report: Report): HTMLElement {
   const description = first.attribute("/", "description");
   const count = report.runs.length;
   const facts = [
-    count > 1 ? `${count} runs` : first.file,
+    count > 1 ? runCount(report) : first.file,
     `hersey ${first.attribute("/", "hersey_version")}`.trim(),
     date(first.attribute("/", "created")),
   ].filter((text) => text);
@@ -31,6 +32,11 @@ export function header(report: Report): HTMLElement {
   );
 }
 
+function runCount(report: Report): string {
+  const completed = report.runs.filter((run) => run.attribute("/", "status") === "completed").length;
+  return `${report.runs.length} runs, ${completed === report.runs.length ? "all" : completed} completed`;
+}
+
 /** How a run ended; what it says goes with it unless all is well. */
 export function status(run: Run): HTMLElement {
   const value = run.attribute("/", "status");
@@ -41,7 +47,10 @@ export function status(run: Run): HTMLElement {
 
 export function assumptions(list: [string, string][]): HTMLElement | null {
   if (list.length === 0) return null;
-  const items = list.flatMap(([name, text]) => [h("dt", {}, name), h("dd", {}, text)]);
+  // "big_end: cavitation": where there is one bearing only, its name goes without saying.
+  const owners = new Set(list.filter(([name]) => name.includes(": ")).map(([name]) => name.split(": ")[0]));
+  const short = (name: string) => (owners.size === 1 ? name.replace(/^.*?: /, "") : name).replaceAll("_", " ");
+  const items = list.flatMap(([name, text]) => [h("dt", {}, short(name)), h("dd", {}, typeset(text))]);
   return h("section", { class: "assumptions", "aria-label": "Assumptions" }, h("h2", {}, "Assumptions"), h("dl", {}, ...items));
 }
 

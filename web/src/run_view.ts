@@ -55,15 +55,19 @@ export class RunView {
     else timeline.element.remove();
   }
 
-  /** A cycle opens at its peak pressure, a run towards an equilibrium at its end. */
+  /** The last time within the last cycle at which the pressure is at its peak: of a settled run, the end. */
   private firstShown(instants: ArrayLike<number>): number {
-    const time = this.run.column("/time");
-    const pressure = this.run.column(`/bearings/${this.bearing}/p_max`);
     const last = instants[instants.length - 1]!;
-    if (!time || !pressure || !this.run.column("/crank_angle")) return last;
-    let peak = 0;
-    for (let i = 1; i < pressure.length; i++) if (pressure[i]! > pressure[peak]!) peak = i;
-    return time[peak] ?? last;
+    const time = this.run.column("/time");
+    const angle = this.run.column("/crank_angle");
+    const pressure = this.run.column(`/bearings/${this.bearing}/p_max`);
+    if (!time || !angle || !pressure) return last;
+    const cycle = 4 * Math.PI;
+    const end = angle.length - 1;
+    let best = end;
+    for (let i = end; i >= 0 && Math.abs(angle[end]! - angle[i]!) <= cycle; i--)
+      if (pressure[i]! > 1.001 * pressure[best]!) best = i;
+    return best === end ? last : time[best]!;
   }
 
   private anglesAt(instants: ArrayLike<number>): ArrayLike<number> | null {
@@ -125,7 +129,7 @@ function summaryTable(title: string, rows: SummaryRow[]): HTMLElement {
 }
 
 function summaryRow(row: SummaryRow): HTMLElement {
-  const name = h("th", { scope: "row" }, capital(row.name), row.where ? h("span", { class: "where" }, minus(row.where)) : null);
+  const name = h("th", { scope: "row" }, capital(row.name), row.where ? h("span", { class: "where" }, place(row.where)) : null);
   const value = h("td", { class: "number" }, format(row.value), row.unit ? h("span", { class: "unit" }, row.unit === "°" ? "°" : ` ${row.unit}`) : null);
   return h("tr", { "data-quantity": row.name }, name, value);
 }
@@ -136,13 +140,13 @@ function tile(label: string, row: SummaryRow): HTMLElement {
     { class: "tile" },
     h("div", { class: "tile-label" }, label),
     h("div", { class: "tile-value" }, format(row.value), row.unit ? h("span", { class: "unit" }, ` ${row.unit}`) : null),
-    h("div", { class: "tile-where" }, minus(row.where) || "\u00a0"),
+    h("div", { class: "tile-where" }, place(row.where) || "\u00a0"),
   );
 }
 
-/** Hyphens before digits become minus signs. */
-function minus(text: string): string {
-  return text.replace(/-(?=\d)/g, "−");
+/** With true minus signs, and line breaks only after commas. */
+function place(text: string): string {
+  return text.replace(/-(?=\d)/g, "−").replace(/(?<!,) /g, "\u00a0");
 }
 
 export function capital(text: string): string {

@@ -1,6 +1,7 @@
 // What a study varies: parameters, their values in each run, and the combinations of all but the first.
 
 import type { Report, Run } from "./data";
+import { typeset } from "./units";
 
 export interface Combination {
   /** "clearance 34 µm", or empty if only one parameter varies. */
@@ -79,5 +80,5 @@ export function quantity(text: string): { value: number; unit: string } | null {
 }
 
 function tidy(text: string): string {
-  return text.replace(/\bum\b/, "µm").replace(/(\d)([a-zA-Zµ])/, "$1 $2");
+  return typeset(text).replace(/(\d)(?![eE][-+\d])([a-zA-Zµ])/, "$1 $2");
 }

@@ -160,8 +160,9 @@ export class StudyView {
       ["power W", "mean power loss in the film", (run) => summary(run, "mean power loss in the film")],
       ["side flow mm³/s", "mean flow over both edges", (run) => sideFlow(run, this.bearing)],
       ["mass error", "worst mass-balance error", (run) => summary(run, "worst mass-balance error of the film")],
-      ["status", "how the run ended", (run) => run.attribute("/", "status")],
     ];
+    if (study.runs.some((run) => run.attribute("/", "status") !== "completed"))
+      columns.push(["status", "how the run ended", (run) => run.attribute("/", "status")]);
     const head = [
       ...study.parameters.map((p) => h("th", { scope: "col" }, p.replaceAll("_", " "))),
       ...columns.map(([short, long]) => h("th", { scope: "col", class: "number", title: long }, short)),

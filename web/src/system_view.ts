@@ -3,8 +3,8 @@
 import type { Run } from "./data";
 import { figure, h } from "./dom";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
-import { Axis, columns, curve, timeDisplay, type Abscissa } from "./series";
-import { plain } from "./units";
+import { Axis, columns, curve, scaled, timeDisplay, type Abscissa } from "./series";
+import { degree, millimetre, plain, type Display } from "./units";
 
 /** A section that draws its figures when it is first opened. */
 function section(title: string, open: boolean, fill: (body: HTMLElement) => void): HTMLElement {
@@ -85,9 +85,8 @@ export class SystemView {
       const path = (name: string) => `/joints/${joint}/${name}`;
       const coordinates = run.dataset(path("coordinates"));
       const given = coordinates?.columns.length ? coordinates.columns : run.list(`/joints/${joint}`, "coordinate_names");
-      const named = (kind: string) => this.generic(path(kind), given);
-      this.add(body, `${joint}-coordinates`, `${joint}: coordinates`, { label: "coordinate", unit: named("coordinates").unit }, named("coordinates").curves);
-      this.add(body, `${joint}-rates`, `${joint}: rates`, { label: "rate", unit: named("rates").unit }, named("rates").curves);
+      for (const [kind, label] of [["coordinates", "coordinate"], ["rates", "rate"]] as const)
+        this.mixed(body, path(kind), `${joint}-${kind}`, `${joint}: ${kind}`, label, given);
       this.vector(body, path("reaction_force"), `${joint}-force`, `${joint}: reaction force`, "reaction force");
       this.vector(body, path("reaction_torque"), `${joint}-torque`, `${joint}: reaction torque`, "reaction torque");
     }
@@ -96,8 +95,9 @@ export class SystemView {
   private drives(body: HTMLElement): void {
     for (const drive of this.run.children("/drives")) {
       for (const [name, label] of [["force_or_torque", "force or torque"], ["power", "power"]] as const) {
-        const { curves, unit } = this.generic(`/drives/${drive}/${name}`, [label]);
-        this.add(body, `${drive}-${name}`, `${drive}: ${label}`, { label, unit }, curves);
+        const { curves, unit: stored } = this.generic(`/drives/${drive}/${name}`, [label]);
+        const unit = stored === "SI" ? "N or N·m" : stored;
+        this.add(body, `${drive}-${name}`, `${drive}: ${label}`, { label, unit }, curves.map((c) => ({ ...c, unit })));
       }
     }
   }
@@ -109,6 +109,19 @@ export class SystemView {
         this.vector(body, `/bodies/${name}/${kind}`, `${name}-${kind}`, `${name}: ${label} of its origin`.replace("angular velocity of its origin", "angular velocity"), label);
       }
     }
+  }
+
+  /** Columns of which some turn and some shift: a figure for each kind where the dataset has no unit of its own. */
+  private mixed(body: HTMLElement, path: string, name: string, caption: string, label: string, columnNames: string[]): void {
+    const { curves, unit } = this.generic(path, columnNames);
+    const rate = name.endsWith("rates");
+    if (unit !== "SI") return this.add(body, name, caption, { label, unit }, curves);
+    const turning = (c: Curve) => /rotation|orientation|angular/.test(c.label);
+    const convert = (c: Curve, display: Display) => ({ ...c, y: scaled(c.y as ArrayLike<number>, display.factor), unit: display.unit });
+    const turn = rate ? { factor: 1, unit: "rad/s" } : degree;
+    const shift = rate ? { factor: 1, unit: "m/s" } : millimetre;
+    this.add(body, `${name}-rotation`, `${caption}, rotation`, { label, unit: turn.unit }, curves.filter(turning).map((c) => convert(c, turn)));
+    this.add(body, `${name}-translation`, `${caption}, translation`, { label, unit: shift.unit }, curves.filter((c) => !turning(c)).map((c) => convert(c, shift)));
   }
 
   private generic(path: string, labels: string[]): { curves: Curve[]; unit: string } {

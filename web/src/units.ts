@@ -54,6 +54,15 @@ export function withUnit(value: number | null | undefined, unit: string, digits 
   return unit === "" ? number : unit === "°" ? `${number}°` : `${number} ${unit}`;
 }
 
+/** Units and products of a plain text as they are printed: 68 um, 60 x 13, 15 mPa.s. */
+export function typeset(text: string): string {
+  return text
+    .replace(/\bum\b/g, "µm")
+    .replace(/(\d) x (?=\d)/g, "$1 × ")
+    .replace(/(?<=[A-Za-z])\.(?=(?:s|m|mm|kg)\b)/g, "·")
+    .replace(/\bdeg\b/g, "°");
+}
+
 function superscript(exponent: number): string {
   const digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
   return String(exponent).replace("-", "⁻").replace(/\d/g, (d) => digits[Number(d)]!);
