@@ -1,1 +1,110 @@
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "commands.h"
+#include "exit_code.h"
+#include "hersey/core/input_error.h"
+#include "hersey/core/version.h"
+#include "hersey/results/error.h"
+
+namespace hersey::cli {
+namespace {
+
+constexpr const char* kAbout =
+    "hersey: oil-film journal bearings inside moving machines.\n"
+    "A model file (YAML, with units) describes bodies, joints, loads and bearings; a run simulates it in time and\n"
+    "leaves one HDF5 results file and one self-contained HTML report.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  hersey run examples/paper_big_end/model.yaml                  all runs of its study\n"
+    "  hersey run model.yaml --set load=500N --output out            one parameter changed\n"
+    "  hersey run model.yaml --set bearings.big_end.grid.circumferential=120\n"
+    "  hersey check model.yaml                                       every fault, nothing simulated\n"
+    "  hersey schema > hersey.schema.json                            completion and checking in an editor\n"
+    "\n"
+    "Exit codes:\n"
+    "  0    done\n"
+    "  1    the simulation failed or its results could not be written; what was written stays readable\n"
+    "  2    wrong usage or input, or results exist already (see --force); nothing was written\n"
+    "  130  stopped by Ctrl-C; results up to then are complete and the report shows them\n";
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command.add_option("--set", overrides, "Override a parameter (load=500N) or any key (bearings.big_end.width=20mm)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+// Declares the command line and calls the command named in it.
+int dispatch(int argc, char** argv) {
+  CLI::App app{kAbout, "hersey"};
+  app.footer(kFooter);
+  app.set_version_flag("--version", fmt::format("hersey {}", version()));
+  app.require_subcommand(1);
+
+  RunArguments run;
+  CLI::App* run_app =
+      app.add_subcommand("run", "Simulate a model, or every run of its study; write results and report");
+  run_app->add_option("MODEL", run.model, "Model file")->required();
+  add_overrides(*run_app, run.overrides);
+  run_app->add_option("--output", run.output, "Folder for results and report (default: results/<model>)")
+      ->type_name("DIR");
+  run_app->add_flag("--force", run.force, "Replace results that exist already");
+  run_app->add_flag("--json", run.json, "Print the closing table as JSON");
+  run_app->add_option("--jobs", run.jobs, "Runs of a study at the same time (default: one per core)")
+      ->check(CLI::PositiveNumber);
+
+  CheckArguments check;
+  CLI::App* check_app = app.add_subcommand("check", "Report everything that can be found wrong without simulating");
+  check_app->add_option("MODEL", check.model, "Model file")->required();
+  add_overrides(*check_app, check.overrides);
+  check_app->add_flag("--json", check.json, "Print the faults as JSON");
+
+  ReportArguments report;
+  CLI::App* report_app =
+      app.add_subcommand("report", "Write the HTML report of results: of one run, or of several as a study");
+  report_app->add_option("RESULTS", report.results, "Results files (.h5)")->required();
+  report_app->add_option("--output", report.output, "The page to write (default: report.html beside the results)")
+      ->type_name("FILE");
+  report_app->add_flag("--json", report.json, "Print the summary as JSON");
+
+  bool markdown = false;
+  CLI::App* schema_app = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
+  schema_app->add_flag("--markdown", markdown, "Print it as the reference page of the documentation instead");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kOk : kWrongInput;
+  }
+  if (*run_app) return run_command(run);
+  if (*check_app) return check_command(check);
+  if (*report_app) return report_command(report);
+  return schema_command(markdown);
+}
+
+}  // namespace
+}  // namespace hersey::cli
+
+int main(int argc, char** argv) {
+  using namespace hersey;
+  try {
+    return cli::dispatch(argc, argv);
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults()) fmt::print(stderr, "{}\n", fault.text());
+    if (error.faults().size() > 1) fmt::print(stderr, "hersey: {} faults\n", error.faults().size());
+    return cli::kWrongInput;
+  } catch (const results::FileExists& error) {
+    fmt::print(stderr, "hersey: {}; use --force to replace it or --output to write elsewhere\n", error.what());
+    return cli::kWrongInput;
+  } catch (const results::ReadError& error) {
+    fmt::print(stderr, "hersey: {}\n", error.what());
+    return cli::kWrongInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "hersey: {}\n", error.what());
+    return cli::kFailed;
+  }
+}

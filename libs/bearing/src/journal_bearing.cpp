@@ -15,6 +15,9 @@ namespace {
 // Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
 constexpr double kDirectionFloor = 1e-6;
 
+// exp(20) = 5e8: no oil, and far from overflow.
+constexpr double kLargestBarusExponent = 20;
+
 // The surfaces' answer to a unit change of each parameter; they are linear in all of them.
 std::array<film::MotionDirection, kParameterCount> unit_directions(const film::FilmModel& model) {
   std::array<film::MotionDirection, kParameterCount> directions;
@@ -57,14 +60,24 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
 void JournalBearing::place(const mbd::RelativeMotion& motion) {
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
   place_surfaces(model(), kinematics_.value, surfaces_);
+  domain_error_.clear();
   // An elastic surface may be pushed beyond the undeformed one; rigid ones may not meet.
   const double gap = smallest_gap(model(), kinematics_.value);
-  domain_error_.clear();
-  if (!std::isfinite(gap) || (model().compliance == 0 && gap <= 0)) {
-    domain_error_ =
-        fmt::format("bearing {}: the journal touches the shell (smallest gap {:.4g} um, eccentricity ratio {:.4f})",
-                    name_, 1e6 * gap, kinematics_.e().norm() / model().c);
-  }
+  if (!std::isfinite(gap) || (model().compliance == 0 && gap <= 0)) report_contact();
+}
+
+void JournalBearing::report_contact() {
+  domain_error_ = fmt::format(
+      "bearing {}: the journal touches the shell (smallest undeformed gap {:.4g} um, eccentricity ratio {:.4f})", name_,
+      1e6 * smallest_gap(model(), kinematics_.value), kinematics_.e().norm() / model().c);
+}
+
+// Pressures from a linear prediction may lie beyond any that a viscosity law means; and where the undeformed surfaces
+// overlap, pressure alone holds them apart.
+bool JournalBearing::is_sensible() const {
+  const double largest = u_.maxCoeff();
+  if (!std::isfinite(largest) || model().lubricant.alpha * largest > kLargestBarusExponent) return false;
+  return smallest_gap(model(), kinematics_.value) > 0 || film::film_fields(model(), surfaces_, u_).h.minCoeff() > 0;
 }
 
 // The film of a freshly filled gap: first without memory of the deformation, then with the deformation it has.
@@ -72,6 +85,7 @@ void JournalBearing::fill_gap() {
   history_.dt = options_.initial_dt;
   history_.theta.setOnes();
   history_.w.setZero();
+  if (!is_sensible()) return report_contact();
   for (int pass = 0; pass < (model().compliance > 0 ? 2 : 1); ++pass) {
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
     if (!summary.converged) {
@@ -96,10 +110,12 @@ void JournalBearing::begin_step(const mbd::RelativeMotion&, double dt) {
 // u += du0 + (du/ds)(s - s_last): the film's share of the Newton increment the bodies have just taken.
 void JournalBearing::follow_surfaces() {
   if (!linearised_) return;
+  u_ = u_linearised_;
   ParameterVector ds = kinematics_.value - s_linearised_;
   ds[kSupplyAngle] = std::remainder(ds[kSupplyAngle], 2 * std::numbers::pi);
   u_ += du0_;
   u_.noalias() += du_ds_ * ds;
+  if (!is_sensible()) u_ = u_linearised_;
 }
 
 void JournalBearing::linearise_parameters() {
@@ -133,10 +149,12 @@ void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tange
 
 void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
   follow_surfaces();
+  if (!is_sensible()) return report_contact();
   reynolds_.linearise(surfaces_, history_, u_);
   reynolds_.newton_increment(du0_);
   internal_residual_ = reynolds_.relative_residual();
   s_linearised_ = kinematics_.value;
+  u_linearised_ = u_;
   ++iterations_;
 
   // The journal takes the negative of what the shell takes.
@@ -151,6 +169,7 @@ void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& 
 void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
   // The first surfaces of a step are a prediction, no answer to any wrench yet.
   if (answered_) {
+    if (!is_sensible()) return report_contact();
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
     iterations_ += summary.iterations;
     if (!summary.converged) {

@@ -70,6 +70,8 @@ class JournalBearing final : public mbd::TwoBodyForce {
 
  private:
   void place(const mbd::RelativeMotion& motion);
+  void report_contact();
+  [[nodiscard]] bool is_sensible() const;
   void fill_gap();
   void follow_surfaces();
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
@@ -85,7 +87,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
 
   // The film in the current step: unknowns, their Newton increment, their answer to each parameter, and where
   // (in parameters) they were last linearised.
-  Eigen::VectorXd u_, du0_;
+  Eigen::VectorXd u_, u_linearised_, du0_;
   Eigen::MatrixXd du_ds_;
   ParameterVector s_linearised_ = ParameterVector::Zero();
   Eigen::Matrix<double, 6, kParameterCount> wrench_ds_;

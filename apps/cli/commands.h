@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hersey::cli {
+
+struct RunArguments {
+  std::string model;
+  std::vector<std::string> overrides;
+  std::filesystem::path output;  ///< empty: results/<name of the model>
+  bool force = false;
+  bool json = false;
+  int jobs = 0;
+};
+
+/// `hersey run`: simulates a model, or every run of its study, writes results and report, prints the closing table.
+/// @returns an ExitCode. @throws InputError, results::FileError.
+[[nodiscard]] int run_command(const RunArguments& arguments);
+
+struct CheckArguments {
+  std::string model;
+  std::vector<std::string> overrides;
+  bool json = false;
+};
+
+/// `hersey check`: everything that can be found wrong without simulating. @returns an ExitCode.
+[[nodiscard]] int check_command(const CheckArguments& arguments);
+
+struct ReportArguments {
+  std::vector<std::filesystem::path> results;
+  std::filesystem::path output;  ///< empty: report.html beside the first results file
+  bool json = false;
+};
+
+/// `hersey report`: the HTML report of one results file, or of several as a study. @returns an ExitCode.
+[[nodiscard]] int report_command(const ReportArguments& arguments);
+
+/// `hersey schema`: the model file's format. @returns an ExitCode.
+[[nodiscard]] int schema_command(bool markdown);
+
+}  // namespace hersey::cli

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "exit_code.h"
+#include "hersey/core/input_error.h"
+#include "hersey/model/read.h"
+#include "hersey/model/schema.h"
+#include "hersey/model/study.h"
+#include "hersey/report/report.h"
+#include "hersey/run/simulate.h"
+#include "table.h"
+
+namespace hersey::cli {
+namespace {
+
+nlohmann::json json_of(const Fault& fault) {
+  return {{"file", fault.position.file},
+          {"line", fault.position.line},
+          {"column", fault.position.column},
+          {"path", fault.path},
+          {"found", fault.found},
+          {"expected", fault.expected},
+          {"suggestion", fault.suggestion}};
+}
+
+std::string contents(const model::Model& model, std::size_t runs) {
+  return fmt::format("{} bodies, {} joints, {} drives, {} forces, {} bearings, {} {}", model.bodies.size(),
+                     model.joints.size(), model.drives.size(), model.forces.size(), model.bearings.size(), runs,
+                     runs == 1 ? "run" : "runs");
+}
+
+}  // namespace
+
+int check_command(const CheckArguments& arguments) {
+  nlohmann::json document{{"model", arguments.model}, {"faults", nlohmann::json::array()}};
+  try {
+    const model::Model model = model::read(arguments.model, arguments.overrides);
+    run::check(model);
+    const std::vector<model::StudyRun> runs = model::expand_study(arguments.model, arguments.overrides);
+    for (const model::StudyRun& run : runs) run::check(model::read(arguments.model, run.overrides));
+    if (!arguments.json) {
+      fmt::print("{}: good ({})\n", arguments.model, contents(model, std::max<std::size_t>(runs.size(), 1)));
+    }
+  } catch (const InputError& error) {
+    if (!arguments.json) throw;
+    for (const Fault& fault : error.faults()) document["faults"].push_back(json_of(fault));
+    fmt::print("{}\n", document.dump(2));
+    return kWrongInput;
+  }
+  if (arguments.json) fmt::print("{}\n", document.dump(2));
+  return kOk;
+}
+
+int report_command(const ReportArguments& arguments) {
+  const std::filesystem::path page =
+      arguments.output.empty() ? arguments.results.front().parent_path() / "report.html" : arguments.output;
+  report::write_html(arguments.results, page);
+  if (arguments.json) {
+    fmt::print("{}\n", report::summary_json(arguments.results));
+    return kOk;
+  }
+  const std::vector<report::SummaryRow> rows = report::summary_table(arguments.results);
+  fmt::print("{}\nreport: {}\n", arguments.results.size() > 1 ? comparison_text(rows) : summary_text(rows),
+             page.string());
+  return kOk;
+}
+
+int schema_command(bool markdown) {
+  fmt::print("{}", markdown ? model::schema_markdown() : model::schema_json());
+  return kOk;
+}
+
+}  // namespace hersey::cli

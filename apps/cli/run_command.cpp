@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "exit_code.h"
+#include "hersey/model/read.h"
+#include "hersey/model/study.h"
+#include "hersey/report/report.h"
+#include "hersey/results/error.h"
+#include "hersey/run/simulate.h"
+#include "hersey/study/study.h"
+#include "interrupt.h"
+#include "progress_bar.h"
+#include "table.h"
+
+namespace hersey::cli {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+// results/<folder> for <folder>/model.yaml, results/<stem> for any other name.
+std::filesystem::path output_folder(const RunArguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  const std::filesystem::path model = std::filesystem::absolute(arguments.model);
+  const bool plain = model.stem() == "model" && !model.parent_path().filename().empty();
+  return std::filesystem::path("results") / (plain ? model.parent_path().filename() : model.stem());
+}
+
+void refuse_existing(const Paths& files, bool force) {
+  if (force) return;
+  for (const std::filesystem::path& file : files) {
+    if (std::filesystem::exists(file)) throw results::FileExists(file);
+  }
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw results::WriteError(folder, "the folder cannot be made: " + error.message());
+}
+
+int exit_code(run::Status status) {
+  switch (status) {
+    case run::Status::completed:
+      return kOk;
+    case run::Status::stopped:
+      return kInterrupted;
+    case run::Status::failed:
+      return kFailed;
+  }
+  return kFailed;
+}
+
+const char* word(run::Status status) {
+  switch (status) {
+    case run::Status::completed:
+      return "completed";
+    case run::Status::stopped:
+      return "stopped";
+    case run::Status::failed:
+      return "failed";
+  }
+  return "";
+}
+
+nlohmann::json json_of(const run::Summary& summary) {
+  return {{"status", word(summary.status)},
+          {"message", summary.message},
+          {"results", summary.results.string()},
+          {"t_end", summary.t_end},
+          {"steps", summary.steps},
+          {"rejected_steps", summary.rejected_steps},
+          {"newton_iterations", summary.newton_iterations},
+          {"worst_power_balance", summary.worst_power_balance},
+          {"wall_time", summary.wall_time}};
+}
+
+// Report and closing table from whatever rows there are; a report that cannot be made does not undo a good run.
+int close(const RunArguments& arguments, const std::filesystem::path& folder, const Paths& files,
+          const std::vector<run::Summary>& summaries, int code) {
+  const std::filesystem::path page = folder / "report.html";
+  std::vector<report::SummaryRow> rows;
+  try {
+    report::write_html(files, page);
+    rows = report::summary_table(files);
+  } catch (const results::FileError& error) {
+    fmt::print(stderr, "hersey: no report: {}\n", error.what());
+    code = std::max(code, static_cast<int>(kFailed));
+  }
+  if (arguments.json) {
+    nlohmann::json document{{"report", page.string()}, {"runs", nlohmann::json::array()}};
+    for (const run::Summary& summary : summaries) document["runs"].push_back(json_of(summary));
+    document["summary"] = nlohmann::json::parse(report::summary_json(files));
+    fmt::print("{}\n", document.dump(2));
+    return code;
+  }
+  fmt::print("{}\n", summaries.size() > 1 ? comparison_text(rows) : summary_text(rows));
+  fmt::print("results: {}\nreport:  {}\n", summaries.size() > 1 ? folder.string() : files.front().string(),
+             page.string());
+  return code;
+}
+
+void tell(const std::string& label, const run::Summary& summary) {
+  const std::string name = label.empty() ? "" : label + ": ";
+  if (summary.status != run::Status::completed) {
+    fmt::print(stderr, "hersey: {}{}\n", name, summary.message);
+    if (summary.steps > 0)
+      fmt::print(stderr, "hersey: results up to t = {:.6g} s are in {}\n", summary.t_end, summary.results.string());
+  } else {
+    fmt::print(stderr, "{}{} steps in {:.2f} s{}{}\n", name, summary.steps, summary.wall_time,
+               summary.message.empty() ? "" : ", ", summary.message);
+  }
+}
+
+int run_one(const RunArguments& arguments, const std::filesystem::path& folder) {
+  const model::Model model = model::read(arguments.model, arguments.overrides);
+  run::Options options;
+  options.results = folder / "results.h5";
+  options.overwrite = arguments.force;
+  options.stop = &catch_interrupts();
+  refuse_existing({options.results}, arguments.force);
+  ProgressBar bar;
+  options.on_progress = [&](const run::Progress& progress) { bar.show("", progress); };
+  run::check(model);
+  make_folder(folder);
+  const run::Summary summary = run::simulate(model, options);
+  bar.clear();
+  tell("", summary);
+  return close(arguments, folder, {options.results}, {summary}, exit_code(summary.status));
+}
+
+int run_all(const RunArguments& arguments, const std::filesystem::path& folder,
+            const std::vector<model::StudyRun>& runs) {
+  study::Options options;
+  options.directory = folder;
+  options.overwrite = arguments.force;
+  options.threads = arguments.jobs;
+  options.stop = &catch_interrupts();
+  Paths planned;
+  for (const model::StudyRun& run : runs) planned.push_back(study::results_file(options, run));
+  refuse_existing(planned, arguments.force);
+  make_folder(folder);
+
+  ProgressBar bar;
+  std::size_t finished = 0;
+  options.on_progress = [&](std::size_t i, const run::Progress& progress) {
+    bar.show(fmt::format("{}/{} {}", finished, runs.size(), runs[i].label), progress);
+  };
+  options.on_finished = [&](std::size_t i, const study::RunResult& result) {
+    ++finished;
+    bar.clear();
+    const std::string label = fmt::format("{}/{} {}", finished, runs.size(), runs[i].label);
+    if (result.error.empty()) {
+      tell(label, result.summary);
+    } else {
+      fmt::print(stderr, "hersey: {}: {}\n", label, result.error);
+    }
+  };
+  const std::vector<study::RunResult> results = study::simulate_all(arguments.model, runs, options);
+
+  int code = kOk;
+  Paths files;
+  std::vector<run::Summary> summaries;
+  for (const study::RunResult& result : results) {
+    code = std::max(code, result.error.empty() ? exit_code(result.summary.status) : static_cast<int>(kFailed));
+    if (!result.error.empty()) continue;
+    files.push_back(result.summary.results);
+    summaries.push_back(result.summary);
+  }
+  if (files.empty()) return code;
+  return close(arguments, folder, files, summaries, code);
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+  const std::filesystem::path folder = output_folder(arguments);
+  const std::vector<model::StudyRun> runs = model::expand_study(arguments.model, arguments.overrides);
+  // A study with every parameter fixed by --set is a single run.
+  const bool varies = !runs.empty() && !runs.front().values.empty();
+  return varies ? run_all(arguments, folder, runs) : run_one(arguments, folder);
+}
+
+}  // namespace hersey::cli

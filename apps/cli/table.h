@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hersey/report/report.h"
+
+namespace hersey::cli {
+
+/// The closing table as text: one block per run, columns aligned.
+[[nodiscard]] std::string summary_text(const std::vector<report::SummaryRow>& rows);
+
+/// One line per run with the figures that are compared first, for a study.
+[[nodiscard]] std::string comparison_text(const std::vector<report::SummaryRow>& rows);
+
+}  // namespace hersey::cli
