@@ -32,9 +32,15 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates) {
   std::string best;
   int least = std::max(1, static_cast<int>(word.size()) / 3) + 1;
+  const auto length_difference = [&](const std::string& name) {
+    return std::max(name.size(), word.size()) - std::min(name.size(), word.size());
+  };
   for (const std::string& candidate : candidates) {
     const int distance = edit_distance(word, candidate);
-    if (distance < least) least = distance, best = candidate;
+    // Of two equally near names the one as long as the word: a slip of the finger is likelier than a lost letter.
+    const bool is_nearer = distance < least || (distance == least && !best.empty() &&
+                                                length_difference(candidate) < length_difference(best));
+    if (is_nearer) least = distance, best = candidate;
   }
   return best;
 }

@@ -23,6 +23,7 @@ TEST_CASE("NearestName_IsFoundOnlyWhenNear") {
   CHECK(nearest_name("widht", keys) == "width");
   CHECK(nearest_name("clearance", keys).empty());
   CHECK(nearest_name("colour", keys).empty());
+  CHECK(nearest_name("mn", std::vector<std::string>{"m", "mm"}) == "mm");  // equally near, but as long
   CHECK(did_you_mean("diamter", keys) == "did you mean 'diameter'?");
   CHECK(did_you_mean("colour", keys).empty());
 }

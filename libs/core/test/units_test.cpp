@@ -96,7 +96,7 @@ TEST_CASE("WrongQuantities_AreNamed") {
   CHECK(error_of("45 kg.K", "m").found == "a quantity in kg.K");
   const QuantityError unknown = error_of("45 mn", "m");
   CHECK(unknown.found == "unknown unit 'mn'");
-  CHECK(unknown.suggestion == "did you mean 'm'?");
+  CHECK(unknown.suggestion == "did you mean 'mm'?");
   CHECK(error_of("2 mpa", "Pa").suggestion == "did you mean 'MPa'?");
   CHECK(error_of("wide", "m").found == "'wide'");
   CHECK(error_of("", "m").found == "''");

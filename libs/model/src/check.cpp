@@ -21,6 +21,13 @@ bool is_mapping_kind(Kind kind) { return kind == Kind::object || kind == Kind::n
 
 std::string joined(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
 
+/// "'a' and 'b'".
+std::string enumeration(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : " and '") + name + "'";
+  return text;
+}
+
 /// Where a value stands and how it is called: all that a check needs besides node and type.
 struct Place {
   std::string path;
@@ -39,7 +46,9 @@ class Checker {
     value.key_position = place.key_position;
     value.path = place.path;
     value.text_offset = node.text_offset;
-    if (is_scalar_kind(type.kind)) {
+    if (node.reported) {
+      value.broken = true;
+    } else if (is_scalar_kind(type.kind)) {
       check_scalar(node, value);
     } else if (type.kind == Kind::any_of) {
       check_any_of(node, value);
@@ -223,7 +232,8 @@ class Checker {
   void check_mapping(const Node& node, Value& value) {
     const Type& type = *value.type;
     if (type.kind == Kind::variant && node.kind == Node::Kind::scalar) return check_shorthand(node, value);
-    if (node.kind != Node::Kind::mapping) {
+    // A mapping whose keys are all commented out reads as nothing; its missing keys are told below.
+    if (node.kind != Node::Kind::mapping && node.kind != Node::Kind::null) {
       std::string expected = type.title;
       if (is_mapping_kind(type.kind) && !expected.starts_with("a mapping")) expected += " {key: value, ...}";
       return fault(value, description_of(node), expected);
@@ -313,7 +323,7 @@ class Checker {
 
   /// The value of a key that was left out; its faults, if any, would be ours.
   Value default_value(const Key& key, const Place& place) {
-    Node node = parse_yaml(*key.default_text, "", faults_);
+    Node node = parse_yaml(*key.default_text, "", faults_).value_or(Node{});
     if (key.default_text->empty()) node = Node{.kind = Node::Kind::scalar};
     move_to(node, place.key_position);
     std::map<std::string, SourcePosition> ignored;
@@ -330,11 +340,12 @@ class Checker {
       if (!has_key(group.front())) continue;  // another variant's group
       std::vector<std::string> given;
       for (const std::string& name : group) {
-        if (node.find(name) != nullptr) given.push_back("'" + name + "'");
+        if (node.find(name) != nullptr) given.push_back(name);
       }
-      if (given.empty()) report_missing(value, one_of(group), "exactly one of them");
-      if (given.size() > 1) {
-        fault_at(position_of(node, group.back(), value), value.path, "keys " + one_of(given) + " together",
+      if (given.empty()) {
+        fault_at(value.key_position, value.path, "none of the keys " + enumeration(group), "exactly one of them");
+      } else if (given.size() > 1) {
+        fault_at(position_of(node, group.back(), value), value.path, "keys " + enumeration(group) + " together",
                  "exactly one of them");
       }
     }
@@ -342,7 +353,9 @@ class Checker {
       for (const std::string& present : group) {
         if (!has_key(present) || node.find(present) == nullptr) continue;
         for (const std::string& absent : group) {
-          if (node.find(absent) == nullptr) report_missing(value, absent, "it beside '" + present + "'");
+          if (node.find(absent) != nullptr) continue;
+          fault_at(position_of(node, present, value), value.path, "key '" + present + "' without '" + absent + "'",
+                   "both or neither");
         }
       }
     }

@@ -1,5 +1,6 @@
 #include "csv_table.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -67,6 +68,7 @@ class Reader {
       read_line(text.substr(0, end));
       text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
+    line_ = std::max(line_, 1);
     if (table_.lines.empty() && count_ == 0) fault(1, "no rows", "a line of column names, then rows of numbers");
     if (count_ > 0) return std::nullopt;
     return std::move(table_);

@@ -4,7 +4,7 @@ namespace hersey::model {
 namespace {
 
 TypePtr pressure() { return quantity("Pa", "2 bar"); }
-TypePtr modulus() { return quantity("Pa", "57 GPa", Range::positive()); }
+TypePtr modulus() { return called(quantity("Pa", "57 GPa", Range::positive()), "an elastic modulus"); }
 
 Key composite_modulus_key() {
   return optional("composite_modulus", modulus(), "E of 1/E = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.", "from `materials`");
@@ -101,7 +101,8 @@ TypePtr lubricants_format() {
 }
 
 TypePtr bearings_format() {
-  const TypePtr length = quantity("m", "45 mm", Range::positive());
+  const TypePtr diameter = quantity("m", "45 mm", Range::positive());
+  const TypePtr width = quantity("m", "20 mm", Range::positive());
   const TypePtr clearance = quantity("m", "34 um", Range::positive());
   const TypePtr grid = object("a grid", {
                                             defaulted("circumferential", integer(60, {.low = 4, .high = 100000}), "60",
@@ -129,8 +130,8 @@ TypePtr bearings_format() {
           required("shell", reference(Refers::frame, "rod.big_end"),
                    "Frame on the shell's body: z along the bearing's axis, angles from x towards y."),
           required("journal", reference(Refers::frame, "crank.pin"), "Frame on the journal's body, z along its axis."),
-          required("diameter", length, "Bore diameter."),
-          required("width", length, "Length of the bearing along its axis."),
+          required("diameter", diameter, "Bore diameter."),
+          required("width", width, "Length of the bearing along its axis."),
           optional("radial_clearance", clearance, "Radius of the bore minus radius of the journal."),
           optional("diametral_clearance", clearance, "Twice the radial clearance, instead of it."),
           required("lubricant", reference(Refers::lubricant, "oil"), "Name of the oil."),

@@ -81,15 +81,16 @@ TypePtr bodies_format() {
                  defaulted("yz", moment, "0", "Element yz."),
                  defaulted("zx", moment, "0", "Element zx."),
              });
-  const TypePtr body = object(
-      "a body",
-      {
-          required("mass", quantity("kg", "5 kg", Range::not_negative()), "Mass."),
-          defaulted("inertia", inertia, "{}", "Inertia matrix about the centre of mass, body axes."),
-          defaulted("centre_of_mass", vector("m", "0 48 0 mm"), "0 0 0 m", "From the body's origin, body axes."),
-          optional("frames", frames_format(), "Frames fixed on the body; `body` alone names the body's own frame."),
-      });
-  const TypePtr ground = object("ground", {optional("frames", frames_format(), "Frames fixed in space.")});
+  const TypePtr frames = frames_format();
+  const TypePtr body =
+      object("a body",
+             {
+                 required("mass", quantity("kg", "5 kg", Range::not_negative()), "Mass."),
+                 defaulted("inertia", inertia, "{}", "Inertia matrix about the centre of mass, body axes."),
+                 defaulted("centre_of_mass", vector("m", "0 48 0 mm"), "0 0 0 m", "From the body's origin, body axes."),
+                 optional("frames", frames, "Frames fixed on the body; `body` alone names the body's own frame."),
+             });
+  const TypePtr ground = object("ground", {optional("frames", frames, "Frames fixed in space.")});
   return named("a mapping from names to bodies", body,
                {optional("ground", ground, "The resting body; it exists always and may carry frames.")});
 }

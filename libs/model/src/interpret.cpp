@@ -15,6 +15,11 @@ void Context::fault_at_key(const Value& at, std::string found, std::string expec
   faults.push_back({at.key_position, at.path, std::move(found), std::move(expected), std::move(suggestion)});
 }
 
+bool Context::has_fault_in(const std::string& path) const {
+  return std::any_of(faults.begin(), faults.end(),
+                     [&](const Fault& fault) { return fault.path == path || fault.path.starts_with(path + "."); });
+}
+
 double number_of(const Value& parent, const std::string& key) {
   const Value* value = parent.find(key);
   return value != nullptr ? value->number : 0;

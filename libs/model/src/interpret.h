@@ -18,6 +18,8 @@ struct Context {
 
   /// Reports a fault at a value.
   void fault(const Value& at, std::string found, std::string expected, std::string suggestion = {});
+  /// Whether a fault has been reported in `path` or below it: what follows from it need not be reported again.
+  [[nodiscard]] bool has_fault_in(const std::string& path) const;
   /// Reports a fault at the key that opens a value.
   void fault_at_key(const Value& at, std::string found, std::string expected, std::string suggestion = {});
 };

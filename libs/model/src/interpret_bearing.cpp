@@ -131,7 +131,7 @@ class FilmReader {
       return fem::composite_modulus(*bearing_.shell_material, *bearing_.journal_material);
     }
     if (value_.find("materials") == nullptr) {
-      context_.fault_at_key(parent, "missing key 'composite_modulus'", "a pressure > 0, such as 57 GPa",
+      context_.fault_at_key(parent, "missing key 'composite_modulus'", "an elastic modulus > 0, such as 57 GPa",
                             "or give the bearing's materials");
     }
     return std::nullopt;

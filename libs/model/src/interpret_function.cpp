@@ -2,7 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "csv_table.h"
 #include "hersey/core/expression.h"
@@ -60,7 +60,11 @@ class FunctionReader {
     try {
       return convert_to_si({1, unit}, si_unit);
     } catch (const QuantityError& error) {
-      context_.fault(at, error.found, "a unit of " + expectation_of(si_unit), error.suggestion);
+      const Dimension& dimension = dimension_of(si_unit);
+      context_.fault(at, error.found,
+                     "a unit of " + dimension.name.substr(dimension.name.find(' ') + 1) +
+                         (si_unit == "1" ? "" : ", such as " + dimension.spelled.front()),
+                     error.suggestion);
       return std::nullopt;
     }
   }
@@ -219,12 +223,13 @@ class FunctionReader {
     if (file.broken || x == nullptr || y == nullptr || x->broken || y->broken) return std::nullopt;
     const std::filesystem::path path = std::filesystem::path(context_.model.file).parent_path() / file.text;
     std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    if (!std::filesystem::is_regular_file(path) || !stream || !(text << stream.rdbuf())) {
+    std::error_code ignored;
+    if (!stream || std::filesystem::is_directory(path, ignored)) {
       context_.fault(file, "no readable file " + path.string(), "a table beside the model file");
       return std::nullopt;
     }
-    const std::optional<CsvTable> table = parse_csv(text.str(), path.string(), context_.faults);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const std::optional<CsvTable> table = parse_csv(text, path.string(), context_.faults);
     if (!table) return std::nullopt;
     const Column* x_column = column_of(*table, *x);
     const Column* y_column = column_of(*table, *y);

@@ -40,7 +40,9 @@ std::optional<Crank> crank_of(Context& context, const Value& simulation) {
   if (value == nullptr || value->broken) return std::nullopt;
   require_name(context, *value, "joints", "joint");
   const Joint* joint = joint_called(context.model, value->text);
-  if (joint == nullptr) return std::nullopt;
+  if (joint == nullptr || context.has_fault_in("joints." + value->text) || context.has_fault_in("drives")) {
+    return std::nullopt;
+  }
   if (joint->type != JointType::revolute) {
     context.fault(*value, "joint '" + joint->name + "', which is not revolute", "a revolute joint");
     return std::nullopt;

@@ -74,6 +74,7 @@ class Substitution {
       const auto end = text.find('}', start);
       if (end == std::string::npos) {
         faults_.push_back({node.position, path, "'" + text + "'", "a closing } after ${", ""});
+        node.reported = true;
         return;
       }
       const std::string name = text.substr(start + 2, end - start - 2);
@@ -107,7 +108,8 @@ class Substitution {
     node.origin += position.line > 0 ? " in line " + std::to_string(position.line) : " set by " + position.file;
   }
 
-  void report_unknown(const Node& node, const std::string& path, const std::string& name) {
+  void report_unknown(Node& node, const std::string& path, const std::string& name) {
+    node.reported = true;
     std::vector<std::string> names;
     for (const auto& [known, value] : parameters_) names.push_back(known);
     const std::string expected =
@@ -132,7 +134,8 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts, std
     }
     Override change{text.substr(0, equals), {}, place};
     std::vector<Fault> in_value;
-    change.value = parse_yaml(text.substr(equals + 1), place.file, in_value);
+    change.value = parse_yaml(text.substr(equals + 1), place.file, in_value).value_or(Node{});
+    change.value.reported = !in_value.empty();
     for (Fault& fault : in_value) faults.push_back({place, change.name, fault.found, fault.expected, fault.suggestion});
     move_to(change.value, place);
     overrides.push_back(std::move(change));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <tuple>
 
 #include "check.h"
@@ -45,15 +45,12 @@ bool stands_before(const Fault& a, const Fault& b) {
 
 std::string file_text(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     throw InputError(Fault{{path, 0, 0}, "", "a directory", "a model file", ""});
   }
-  if (!stream || (stream.peek() != std::ifstream::traits_type::eof() && !(text << stream.rdbuf()))) {
-    throw InputError(Fault{{path, 0, 0}, "", "no readable file", "a model file", ""});
-  }
-  return text.str();
+  if (!stream) throw InputError(Fault{{path, 0, 0}, "", "no readable file", "a model file", ""});
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::vector<std::string> top_level_keys() {
@@ -99,12 +96,9 @@ void tidy(std::vector<Fault>& faults) {
 Model read_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
   std::vector<Fault> faults;
   const std::vector<Override> changes = parse_overrides(overrides, faults);
-  Node root = parse_yaml(text, file, faults);
+  std::optional<Node> root = parse_yaml(text, file, faults);
   Model model;
-  // After a syntax error the tree is a torso: checking it would report keys as missing that only lie behind the error.
-  const bool is_whole =
-      std::none_of(faults.begin(), faults.end(), [](const Fault& fault) { return fault.expected == "valid YAML"; });
-  if (is_whole) model = read_tree(std::move(root), file, changes, faults);
+  if (root) model = read_tree(std::move(*root), file, changes, faults);
   if (!faults.empty()) {
     tidy(faults);
     throw InputError(std::move(faults));

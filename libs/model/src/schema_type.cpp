@@ -33,6 +33,12 @@ std::string name_of(Refers refers) {
   return "a lubricant";
 }
 
+/// The dimension's name without its article.
+std::string bare_name_of(const std::string& si_unit) {
+  const std::string& name = dimension_of(si_unit).name;
+  return name.substr(name.find(' ') + 1);
+}
+
 std::vector<std::string> texts_of(const std::vector<Word>& words) {
   std::vector<std::string> texts;
   for (const Word& word : words) texts.push_back(word.text);
@@ -42,15 +48,15 @@ std::vector<std::string> texts_of(const std::vector<Word>& words) {
 /// "a length > 0": what a quantity is, without its example.
 std::string quantity_title(const Type& type) {
   std::vector<std::string> names = texts_of(type.words);
-  for (const std::string& unit : type.units) {
-    const bool plural = type.count > 1;
-    const std::string name = plural && unit == "1" ? "" : dimension_of(unit).name;
-    if (!name.empty()) names.push_back(plural ? name.substr(name.find(' ') + 1) : name);
+  if (type.count == 1) {
+    if (!type.title.empty()) return type.title + type.range.text();
+    for (const std::string& unit : type.units) names.push_back(dimension_of(unit).name);
+    return one_of(names) + type.range.text();
   }
-  const std::string what = one_of(names);
-  if (type.count == 1) return what + type.range.text();
-  const std::string numbers = std::to_string(type.count) + " numbers";
-  return what.empty() ? numbers : numbers + " with a unit of " + what;
+  std::string numbers = std::to_string(type.count) + " numbers";
+  if (type.units.front() != "1") numbers += " and a unit of " + bare_name_of(type.units.front());
+  names.push_back(numbers);
+  return one_of(names);
 }
 
 std::shared_ptr<Type> make(Type::Kind kind, std::string title, std::string example = {}) {
@@ -82,6 +88,7 @@ std::string Type::expectation() const {
     case Kind::quantity:
       return quantity_title(*this) + such_as;
     case Kind::integer:
+      if (range.low == range.high) return short_number(range.low);
       return "a whole number" + range.text() + such_as;
     case Kind::choice:
       return one_of(texts_of(words));
@@ -115,6 +122,12 @@ TypePtr quantity_in(std::vector<std::string> si_units, std::string example, Rang
 
 TypePtr quantity(std::string si_unit, std::string example, Range range) {
   return quantity_in({std::move(si_unit)}, std::move(example), range);
+}
+
+TypePtr called(const TypePtr& quantity, std::string title) {
+  auto type = copy_of(quantity);
+  type->title = std::move(title);
+  return type;
 }
 
 TypePtr number(std::string example, Range range) { return quantity("1", std::move(example), range); }

@@ -71,7 +71,7 @@ struct Type {
   };
   Kind kind = Kind::text;
   std::string id;                  ///< name of a type that is described once and used often; else empty
-  std::string title;               ///< what the value is, with article, for "expected ..."
+  std::string title;               ///< what the value is, with article; a quantity without it is named by its dimension
   std::vector<std::string> units;  ///< SI units of a quantity; the first one that fits is taken
   std::string example;
   Range range;
@@ -97,6 +97,7 @@ struct Type {
 [[nodiscard]] TypePtr integer(int example, Range range);
 [[nodiscard]] TypePtr quantity(std::string si_unit, std::string example, Range range = {});
 [[nodiscard]] TypePtr quantity_in(std::vector<std::string> si_units, std::string example, Range range = {});
+[[nodiscard]] TypePtr called(const TypePtr& quantity, std::string title);
 [[nodiscard]] TypePtr number(std::string example, Range range = {});
 [[nodiscard]] TypePtr vector(std::string si_unit, std::string example);
 [[nodiscard]] TypePtr choice(std::vector<Word> words);

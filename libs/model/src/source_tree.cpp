@@ -45,7 +45,7 @@ class TreeBuilder final : public YAML::EventHandler {
     const auto target = anchors_.find(anchor);
     if (target == anchors_.end()) {  // an alias inside its own anchor
       report(position(mark), "an alias of the value it stands in", "an alias of an earlier value");
-      add(Node{.position = position(mark)}, 0);
+      add(Node{.position = position(mark), .reported = true}, 0);
       return;
     }
     Node copy = target->second;
@@ -143,6 +143,7 @@ class TreeBuilder final : public YAML::EventHandler {
              "each key once");
       return;
     }
+    if (value.kind == Node::Kind::null) value.position = parent.key_position;  // the parser names the next line
     parent.node.entries.push_back({std::move(parent.key), parent.key_position, std::move(value)});
   }
 
@@ -155,6 +156,41 @@ class TreeBuilder final : public YAML::EventHandler {
   std::size_t count_ = 0;
   int documents_ = 0;
 };
+
+std::string line_of(const std::string& text, int line) {
+  std::istringstream stream(text);
+  std::string content;
+  for (int i = 0; i <= line; ++i) {
+    if (!std::getline(stream, content)) return {};
+  }
+  return content;
+}
+
+/// The parser's messages in the user's words, with the usual cause where the line shows it.
+Fault syntax_fault(const YAML::Exception& error, const std::string& text, const std::string& file) {
+  static const std::map<std::string, std::string> meanings = {
+      {YAML::ErrorMsg::END_OF_SEQ_FLOW, "a '[' without its ']'"},
+      {YAML::ErrorMsg::END_OF_MAP_FLOW, "a '{' without its '}'"},
+      {YAML::ErrorMsg::EOF_IN_SCALAR, "a quote that is not closed"},
+      {YAML::ErrorMsg::MAP_VALUE, "a ':' that does not fit here"},
+  };
+  const auto meaning = meanings.find(error.msg);
+  const std::string line = line_of(text, error.mark.line);
+  const bool has_tab = line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos;
+  std::string hint;
+  if (has_tab) {
+    hint = "indent with spaces, not tabs";
+  } else if (line.find("${") != std::string::npos && line.find("\"${") == std::string::npos) {
+    hint = "inside braces and brackets write \"${name}\" in quotes";
+  } else if (error.msg == YAML::ErrorMsg::MAP_VALUE) {
+    hint = "check the indentation, and quote text that contains ': '";
+  }
+  return {{file, error.mark.line + 1, error.mark.column + 1},
+          "",
+          meaning != meanings.end() ? meaning->second : error.msg,
+          "valid YAML",
+          hint};
+}
 
 }  // namespace
 
@@ -186,7 +222,7 @@ std::string description_of(const Node& node) {
   return "a mapping";
 }
 
-Node parse_yaml(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
+std::optional<Node> parse_yaml(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
   TreeBuilder builder(file, text, faults);
   try {
     std::istringstream stream(text);
@@ -194,15 +230,16 @@ Node parse_yaml(const std::string& text, const std::string& file, std::vector<Fa
     while (parser.HandleNextDocument(builder)) {
       if (builder.documents() > 1) {
         faults.push_back({{file, 0, 0}, "", "a second YAML document", "one document", "remove the line '---'"});
-        break;
+        return std::nullopt;
       }
     }
+    return builder.take_root();
   } catch (const YAML::Exception& error) {
-    faults.push_back({{file, error.mark.line + 1, error.mark.column + 1}, "", error.msg, "valid YAML", ""});
+    faults.push_back(syntax_fault(error, text, file));
   } catch (const TooLarge&) {
     faults.push_back({{file, 0, 0}, "", "more than two million values", "a model file", ""});
   }
-  return builder.take_root();
+  return std::nullopt;
 }
 
 void move_to(Node& node, const SourcePosition& position) {

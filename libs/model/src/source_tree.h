@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Node {
   std::string text = {};            ///< of a scalar, after `${parameter}` substitution
   int text_offset = 0;              ///< columns from `position` to the first letter of `text`; -1 where they do not map
   std::string origin = {};          ///< where a substituted text comes from, "parameter load, model.yaml:5:9"; or empty
+  bool reported = false;            ///< a fault has been reported: nothing more to say about it
   std::vector<Node> items = {};     ///< of a sequence
   std::vector<Entry> entries = {};  ///< of a mapping, in the order of the file
 
@@ -35,9 +37,10 @@ struct Entry {
 /// "a mapping", "a list", "nothing", or the scalar in quotes with its origin.
 [[nodiscard]] std::string description_of(const Node& node);
 
-/// Reads `text` as one YAML document. Syntax errors, duplicate keys and keys that are no names are added to `faults`;
-/// the tree is complete up to the first syntax error.
-[[nodiscard]] Node parse_yaml(const std::string& text, const std::string& file, std::vector<Fault>& faults);
+/// Reads `text` as one YAML document; duplicate keys and keys that are no names are added to `faults`.
+/// @returns nothing after a syntax error, which is added to `faults` too: the rest of the tree would be a torso.
+[[nodiscard]] std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
+                                             std::vector<Fault>& faults);
 
 /// Gives `node` and everything in it the position `position`.
 void move_to(Node& node, const SourcePosition& position);

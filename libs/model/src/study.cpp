@@ -66,11 +66,11 @@ void check_values(const std::string& path, const std::vector<std::string>& overr
                   const std::vector<StudyParameter>& parameters) {
   std::vector<Fault> faults;
   const std::vector<Override> given = parse_overrides(overrides, faults);
-  const Node root = parse_yaml(file_text(path), path, faults);
+  const Node root = parse_yaml(file_text(path), path, faults).value_or(Node{});
   for (const StudyParameter& parameter : parameters) {
     for (const std::string& text : parameter.values) {
       std::vector<Override> changes = given;
-      changes.push_back({parameter.name, parse_yaml(text, path, faults), parameter.position});
+      changes.push_back({parameter.name, parse_yaml(text, path, faults).value_or(Node{}), parameter.position});
       move_to(changes.back().value, parameter.position);
       (void)read_tree(root, path, changes, faults);
     }

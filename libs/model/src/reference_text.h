@@ -1,0 +1,69 @@
+#pragma once
+
+namespace hersey::model {
+
+/// What stands before the tables of the reference page; its example is read by a test.
+inline constexpr const char* reference_introduction = R"md(# Model file
+
+This page is made by `hersey schema --markdown` from the description that the program itself checks models with. A
+[JSON Schema](schema/model.schema.json) from the same source completes and checks models in an editor: put
+`# yaml-language-server: $schema=...` with its place into the first line.
+
+A model is a YAML file. It is read strictly: an unknown key, a missing one, a wrong unit, a value out of range, a name
+that does not exist are each reported with line and column, what was found, what is allowed and the nearest valid name,
+all together. `hersey check MODEL` does only that.
+
+```yaml
+hersey: 1
+title: A journal under a constant load
+parameters:
+  load: 500 N
+bodies:
+  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+joints:
+  bench: {type: planar, between: [ground, shaft], axis: z}
+drives:
+  motor: {joint: bench, coordinate: rotation, speed: 3000 rpm}
+forces:
+  push: {type: force, body: shaft, components: [0 N, "-${load}", 0 N]}
+lubricants:
+  oil: {viscosity: 15 mPa.s}
+bearings:
+  main:
+    shell: ground
+    journal: shaft
+    diameter: 50 mm
+    width: 25 mm
+    radial_clearance: 50 um
+    lubricant: oil
+    supply: {line: widest_gap, pressure: 1 bar}
+simulation:
+  duration: 0.2 s
+  step: 0.2 ms
+```
+
+**Quantities** carry their unit: `45 mm`, `3570 rpm`, `15 mPa.s`, `1.28e-10 1/Pa`. Numbers without a dimension stand
+bare, and so may any `0`. Three numbers share a unit, `0 48 0 mm`, or stand in a list with one each,
+`[0 mm, 48 mm, 0]`. An angular velocity is given in `rpm`, `deg/s` or `rad/s`; `Hz` and `1/s` are refused there, because
+they leave open whether turns or radians are meant. Everything is converted to SI when the file is read.
+
+**Names** are letters, digits and `_`, beginning with a letter. A frame is `body` (the body's own) or `body.frame`.
+
+**Parameters** stand at the top and are used as `${name}` anywhere below, with a minus sign if need be: `"-${load}"`.
+Inside braces and brackets they must be quoted. `--set load=800N` replaces a parameter for one run, and
+`--set bearings.main.grid.axial=25` any other value by its key path.
+)md";
+
+/// What stands before the tables of functions.
+inline constexpr const char* reference_functions =
+    R"md(Loads and drives are functions of time, loads also of joint coordinates and their rates. A function is one of
+
+- a constant: `500 N`
+- an expression: `{expression: "100*sin(2*pi*50*t)", unit: N}`
+- a table: `{table: {file: gas.csv, x: angle, y: pressure}, over: main.rotation, period: 720 deg, scale: 4418 mm^2}`
+
+A table that does not cover the run is reported before it starts, where its argument is the time or a joint that is
+driven at a constant speed.
+)md";
+
+}  // namespace hersey::model

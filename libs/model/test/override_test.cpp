@@ -1,0 +1,102 @@
+#include <vector>
+
+#include "model_text.h"
+
+namespace hersey::model {
+namespace {
+
+double push_force(const std::vector<std::string>& overrides) {
+  return read_text(good_model, "m.yaml", overrides).forces[0].load.functions[1].value->value({});
+}
+
+TEST_CASE("Parameters_AreReplacedFromOutside") {
+  CHECK(push_force({}) == -500);
+  CHECK(push_force({"load=2 kN"}) == -2000);
+  CHECK(push_force({"load=500N", "load=800N"}) == -800);  // the last one counts
+  CHECK(push_force({"parameters.load=3 kN"}) == -3000);
+}
+
+TEST_CASE("NegatedParameter_MayBeNegativeItself") {
+  CHECK(push_force({"load=-300 N"}) == 300);
+  CHECK(push_force({"load=+300 N"}) == -300);
+}
+
+TEST_CASE("KeyPaths_AreReplacedFromOutside") {
+  const Model model = read_text(good_model, "m.yaml",
+                                {"bearings.big_end.grid.circumferential=120", "bearings.big_end.diameter=50 mm",
+                                 "title=Another", "bearings.big_end.edge_pressure={left: 1 bar, right: 2 bar}",
+                                 "forces.push.components.0=7 N", "gravity=0 0 -9.81 m/s^2"});
+  CHECK(model.bearings[0].film.grid.n_phi == 120);
+  CHECK(model.bearings[0].film.grid.n_z == 13);
+  CHECK(model.bearings[0].film.R == doctest::Approx(0.025).epsilon(1e-15));
+  CHECK(model.bearings[0].film.p_edge_right == 2e5);
+  CHECK(model.title == "Another");
+  CHECK(model.forces[0].load.functions[0].value->value({}) == 7);
+  CHECK(model.gravity.z() == -9.81);
+}
+
+TEST_CASE("AnOverride_MayUseParameters") {
+  const Model model = read_text(good_model, "m.yaml", {"forces.push.components.0=${load}"});
+  CHECK(model.forces[0].load.functions[0].value->value({}) == 500);
+}
+
+TEST_CASE("Parameters_MayUseThoseAbove") {
+  const std::string text = edited(edited(good_model, "  speed: 3000 rpm", "  half: \"-${load}\"\n  speed: 3000 rpm"),
+                                  "components: [0 N,", "components: [\"${half}\",");
+  CHECK(read_text(text, "m.yaml").forces[0].load.functions[0].value->value({}) == -500);
+}
+
+TEST_CASE("ParametersInsideText_AreReplaced") {
+  const std::string text = edited(edited(good_model, "title: Test", "title: Test at ${load}, ${speed}"),
+                                  "[0 N, \"-${load}\", 0 N]", "[0 N, {expression: \"-${amount}*t\", unit: N}, 0 N]");
+  const Model model = read_text(edited(text, "  load: 500 N", "  load: 500 N\n  amount: 25"), "m.yaml");
+  CHECK(model.title == "Test at 500 N, 3000 rpm");
+  CHECK(model.forces[0].load.functions[1].value->value(std::array{2.0}) == -50);
+}
+
+TEST_CASE("FaultyOverrides_AreNamed") {
+  CHECK(faults_of(good_model, {"load"}) == "--set: 'load'; expected name=value, such as load=500N");
+  CHECK(faults_of(good_model, {"laod=3 N"}) ==
+        "--set: unknown name 'laod'; expected a parameter (load or speed) or a key path such as simulation.duration; "
+        "did you mean 'load'?");
+  CHECK(faults_of(good_model, {"bearing.big_end.diameter=3 mm"}) ==
+        "--set: unknown name 'bearing.big_end.diameter'; expected a parameter (load or speed) or a key path such as "
+        "simulation.duration; did you mean 'bearings'?");
+  CHECK(faults_of(good_model, {"bearings.big_end.diamter=3 mm"})
+            .starts_with("--set: bearings.big_end: unknown key 'diamter'; expected shell,"));
+  CHECK(faults_of(good_model, {"bearings.big_end.diameter=3 s"}) ==
+        "--set: bearings.big_end.diameter: a time (s); expected a length > 0, such as 45 mm");
+  CHECK(faults_of(good_model, {"forces.push.components.7=3 N"}) ==
+        "--set: forces.push.components.7: no item '7'; expected the number of an item, from 0");
+  CHECK(faults_of(good_model, {"bearings.big_end.grid={axial: 3"}) ==
+        "--set: bearings.big_end.grid: a '{' without its '}'; expected valid YAML");
+  CHECK(faults_of(good_model, {"bearings.big_end.diameter="}) ==
+        "--set: bearings.big_end.diameter: nothing; expected a length > 0, such as 45 mm");
+}
+
+TEST_CASE("FaultyParameter_IsReportedWhereItIsUsed") {
+  CHECK(
+      faults_of(good_model, {"load=5 kPa"}) ==
+      "m.yaml:19:52: forces.push.components.1: a pressure (kPa) (from parameter load set by --set); expected a force, "
+      "such as 500 N");
+  CHECK(faults_after("load: 500 N", "load: 5 kPa") ==
+        "m.yaml:19:52: forces.push.components.1: a pressure (kPa) (from parameter load in line 4); expected a force, "
+        "such as 500 N");
+}
+
+TEST_CASE("UnknownParameter_IsReportedOnce") {
+  CHECK(faults_after("\"-${load}\"", "\"-${laod}\"") ==
+        "m.yaml:19:52: forces.push.components.1: unknown parameter 'laod'; expected one of the parameters load or "
+        "speed; did you mean 'load'?");
+  CHECK(faults_after("\"-${load}\"", "\"-${load\"") ==
+        "m.yaml:19:52: forces.push.components.1: '-${load'; expected a closing } after ${");
+}
+
+TEST_CASE("ResolvedText_NamesTheOverrides") {
+  const Model model = read_text(good_model, "m.yaml", {"load=800 N", "title=New"});
+  CHECK(model.resolved_text == "# --set load=800 N\n# --set title=New\n" + good_model);
+  CHECK(read_text(good_model, "m.yaml").resolved_text == good_model);
+}
+
+}  // namespace
+}  // namespace hersey::model

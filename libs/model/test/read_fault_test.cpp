@@ -1,0 +1,289 @@
+#include "model_text.h"
+
+// One test per kind of fault: where it is, what was found, what is expected, what to write instead.
+namespace hersey::model {
+namespace {
+
+TEST_CASE("UnknownKey_NamesTheNearest") {
+  CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
+        "m.yaml:27:5: bearings.big_end: unknown key 'widht'; expected shell, journal, diameter, width, "
+        "radial_clearance, diametral_clearance, lubricant, grid, cavitation, edge_pressure, supply, asperities, "
+        "compliance, materials, cavitated_shear, shear_force, solver or coupling; did you mean 'width'?");
+}
+
+TEST_CASE("MissingKey_IsReportedAtItsParent") {
+  CHECK(faults_after("    diameter: 45 mm\n", "") ==
+        "m.yaml:23:3: bearings.big_end: missing key 'diameter'; expected a length > 0, such as 45 mm");
+  CHECK(faults_after("hersey: 1\n", "") == "m.yaml:1:1: missing key 'hersey'; expected 1");
+}
+
+TEST_CASE("WrongVersion_IsReported") {
+  CHECK(faults_after("hersey: 1", "hersey: 2") == "m.yaml:1:9: hersey: '2'; expected 1");
+}
+
+TEST_CASE("WrongDimension_IsNamed") {
+  CHECK(faults_after("diameter: 45 mm", "diameter: 45 kPa") ==
+        "m.yaml:26:15: bearings.big_end.diameter: a pressure (kPa); expected a length > 0, such as 45 mm");
+}
+
+TEST_CASE("MissingUnit_IsReported") {
+  CHECK(faults_after("diameter: 45 mm", "diameter: 45") ==
+        "m.yaml:26:15: bearings.big_end.diameter: a number without unit; expected a length > 0, such as 45 mm");
+}
+
+TEST_CASE("UnknownUnit_NamesTheNearest") {
+  CHECK(faults_after("viscosity: 15 mPa.s", "viscosity: 15 mPas") ==
+        "m.yaml:21:20: lubricants.oil.viscosity: unknown unit 'mPas'; expected a dynamic viscosity > 0, such as "
+        "15 mPa.s; did you mean 'mPa.s'?");
+}
+
+TEST_CASE("Frequency_IsNoAngularVelocity") {
+  CHECK(faults_after("speed: \"${speed}\"", "speed: 50 Hz") ==
+        "m.yaml:17:53: drives.motor.speed: a frequency (Hz); expected an angular velocity or a velocity, such as "
+        "3570 rpm");
+}
+
+TEST_CASE("ValueOutOfRange_IsReported") {
+  CHECK(faults_after("diameter: 45 mm", "diameter: -45 mm") ==
+        "m.yaml:26:15: bearings.big_end.diameter: '-45 mm'; expected a length > 0, such as 45 mm");
+  CHECK(faults_after("mass: 1 kg", "mass: -1 kg") ==
+        "m.yaml:8:11: bodies.shaft.mass: '-1 kg'; expected a mass >= 0, such as 5 kg");
+}
+
+TEST_CASE("NotANumber_IsReported") {
+  CHECK(faults_after("diameter: 45 mm", "diameter: nan mm") ==
+        "m.yaml:26:15: bearings.big_end.diameter: 'nan mm'; expected a finite number");
+  CHECK(faults_after("diameter: 45 mm", "diameter: inf mm") ==
+        "m.yaml:26:15: bearings.big_end.diameter: 'inf mm'; expected a finite number");
+  CHECK(faults_after("diameter: 45 mm", "diameter: .nan") ==
+        "m.yaml:26:15: bearings.big_end.diameter: '.nan'; expected a length > 0, such as 45 mm");
+  CHECK(faults_after("diameter: 45 mm", "diameter: 4,5 mm") ==
+        "m.yaml:26:15: bearings.big_end.diameter: '4,5 mm'; expected a decimal point; write 4.5 mm");
+}
+
+TEST_CASE("WrongKindOfValue_IsReported") {
+  CHECK(faults_after("diameter: 45 mm", "diameter: [45 mm]") ==
+        "m.yaml:26:15: bearings.big_end.diameter: a list; expected a length > 0, such as 45 mm");
+  CHECK(faults_after("diameter: 45 mm", "diameter: {mm: 45}") ==
+        "m.yaml:26:15: bearings.big_end.diameter: a mapping; expected a length > 0, such as 45 mm");
+  CHECK(faults_after("diameter: 45 mm", "diameter:") ==
+        "m.yaml:26:5: bearings.big_end.diameter: nothing; expected a length > 0, such as 45 mm");
+  CHECK(faults_after("  oil: {viscosity: 15 mPa.s}", "  oil: 15 mPa.s") ==
+        "m.yaml:21:8: lubricants.oil: '15 mPa.s'; expected a lubricant {key: value, ...}");
+  CHECK(
+      faults_after("between: [ground, rod]", "between: ground") ==
+      "m.yaml:15:34: joints.guide.between: 'ground'; expected two frames in brackets, such as [crank.pin, crank.pin]");
+  CHECK(faults_after("between: [ground, rod]", "between: [ground]") ==
+        "m.yaml:15:34: joints.guide.between: a list of 1; expected two frames in brackets, such as [crank.pin, "
+        "crank.pin]");
+}
+
+TEST_CASE("WrongNumberOfComponents_IsReported") {
+  CHECK(faults_after("origin: 0 50 0 mm", "origin: 0 50 mm") ==
+        "m.yaml:11:21: bodies.shaft.frames.pin.origin: '0 50 mm'; expected 3 numbers and a unit of length, such as "
+        "0 50 0 mm");
+  CHECK(faults_after("origin: 0 50 0 mm", "origin: [0, 50 mm]") ==
+        "m.yaml:11:21: bodies.shaft.frames.pin.origin: a list of 2; expected 3 numbers and a unit of length, such as "
+        "0 50 0 mm");
+}
+
+TEST_CASE("DuplicateKey_NamesTheFirst") {
+  CHECK(faults_after("    width: 15.6 mm\n", "    width: 15.6 mm\n    diameter: 3 mm\n") ==
+        "m.yaml:28:5: duplicate key 'diameter' (first at line 26); expected each key once");
+}
+
+TEST_CASE("SyntaxErrors_AreReportedAlone") {
+  CHECK(faults_after("rod: {mass: 2 kg}", "rod: {mass: 2 kg") ==
+        "m.yaml:13:7: a '{' without its '}'; expected valid YAML");
+  CHECK(faults_after("  oil: {", "\toil: {") ==
+        "m.yaml:21:5: a ':' that does not fit here; expected valid YAML; indent with spaces, not tabs");
+  CHECK(faults_after("\"-${load}\"", "-${load}") ==
+        "m.yaml:19:54: a '[' without its ']'; expected valid YAML; inside braces and brackets write \"${name}\" in "
+        "quotes");
+  CHECK(faults_of("") == "m.yaml:1:1: an empty file; expected a model, beginning with 'hersey: 1'");
+  CHECK(faults_of("- a\n- b\n") == "m.yaml:1:1: a list; expected a model {key: value, ...}");
+}
+
+TEST_CASE("ASecondDocument_IsReported") {
+  CHECK(faults_of(good_model + "---\nhersey: 1\n") ==
+        "m.yaml: a second YAML document; expected one document; remove the line '---'");
+}
+
+TEST_CASE("AnAliasOfItself_IsReported") {
+  CHECK(faults_after("rod: {mass: 2 kg}", "rod: &r {mass: *r}") ==
+        "m.yaml:12:18: an alias of the value it stands in; expected an alias of an earlier value");
+}
+
+TEST_CASE("ExplodingAliases_EndWithAFault") {
+  std::string text = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 12; ++i) {
+    const std::string before = "*a" + std::to_string(i - 1);
+    text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + before;
+    for (int j = 1; j < 10; ++j) text += ", " + before;
+    text += "]\n";
+  }
+  CHECK(faults_of(text) == "m.yaml: more than two million values; expected a model file");
+}
+
+TEST_CASE("Names_AreIdentifiers") {
+  CHECK(faults_after("  oil: {", "  2-oil: {")
+            .starts_with(
+                "m.yaml:21:3: lubricants: name '2-oil'; expected letters, digits and _, beginning with a letter"));
+}
+
+TEST_CASE("UnknownWord_NamesTheNearest") {
+  CHECK(faults_after("type: planar", "type: plannar") ==
+        "m.yaml:15:17: joints.guide.type: 'plannar'; expected fixed, revolute, prismatic, cylindrical, spherical, "
+        "planar or free; did you mean 'planar'?");
+  CHECK(faults_after("    lubricant: oil\n", "    lubricant: oil\n    solver: newtn\n") ==
+        "m.yaml:30:13: bearings.big_end.solver: 'newtn'; expected newton or sor; did you mean 'newton'?");
+}
+
+TEST_CASE("KeyOfAnotherVariant_NamesItsOwner") {
+  CHECK(faults_after("    lubricant: oil\n", "    lubricant: oil\n    compliance: {model: rigid, length: 5 mm}\n") ==
+        "m.yaml:30:32: bearings.big_end.compliance: key 'length', which model rigid does not have; expected model; "
+        "'length' belongs to model column");
+}
+
+TEST_CASE("MissingTag_ListsTheVariants") {
+  CHECK(faults_after("type: revolute, ", "") ==
+        "m.yaml:14:3: joints.main: missing key 'type'; expected fixed, revolute, prismatic, cylindrical, spherical, "
+        "planar or free");
+}
+
+TEST_CASE("ExactlyOneOfTwoKeys_IsDemanded") {
+  CHECK(faults_after("    lubricant: oil\n", "    lubricant: oil\n    diametral_clearance: 68 um\n") ==
+        "m.yaml:30:5: bearings.big_end: keys 'radial_clearance' and 'diametral_clearance' together; expected exactly "
+        "one of them");
+  CHECK(faults_after("    radial_clearance: 34 um\n", "") ==
+        "m.yaml:23:3: bearings.big_end: none of the keys 'radial_clearance' and 'diametral_clearance'; expected "
+        "exactly one of them");
+}
+
+TEST_CASE("KeysThatBelongTogether_AreDemanded") {
+  CHECK(faults_after("body: rod, ", "body: rod, direction: 0 1 0, ") ==
+        "m.yaml:19:34: forces.push: key 'direction' without 'magnitude'; expected both or neither");
+}
+
+TEST_CASE("UnknownReferences_NameTheNearest") {
+  CHECK(faults_after("shell: rod", "shell: rdo") ==
+        "m.yaml:24:12: bearings.big_end.shell: unknown body 'rdo'; expected ground, shaft or rod; did you mean 'rod'?");
+  CHECK(faults_after("journal: shaft.pin", "journal: shaft.pni") ==
+        "m.yaml:25:14: bearings.big_end.journal: unknown frame 'pni' of body 'shaft'; expected pin; did you mean "
+        "'pin'?");
+  CHECK(faults_after("shell: rod", "shell: rod.pin") ==
+        "m.yaml:24:12: bearings.big_end.shell: unknown frame 'pin' of body 'rod'; expected 'rod' alone, for it has no "
+        "frames");
+  CHECK(faults_after("lubricant: oil", "lubricant: oli") ==
+        "m.yaml:29:16: bearings.big_end.lubricant: unknown lubricant 'oli'; expected oil; did you mean 'oil'?");
+  CHECK(
+      faults_after("joint: main", "joint: mian")
+          .starts_with(
+              "m.yaml:17:18: drives.motor.joint: unknown joint 'mian'; expected main or guide; did you mean 'main'?"));
+  CHECK(faults_after("coordinate: rotation", "coordinate: rotatoin")
+            .starts_with("m.yaml:17:36: drives.motor.coordinate: unknown coordinate 'rotatoin' of joint 'main'; "
+                         "expected rotation; did "
+                         "you mean 'rotation'?"));
+  CHECK(faults_after("shell: rod", "shell: rod.big.end") ==
+        "m.yaml:24:12: bearings.big_end.shell: 'rod.big.end'; expected a body or body.frame, such as rod.big_end");
+}
+
+TEST_CASE("PartsOfOneBody_AreNoJointOrBearing") {
+  CHECK(faults_after("shell: rod", "shell: shaft") ==
+        "m.yaml:25:14: bearings.big_end.journal: shell and journal on body 'shaft'; expected frames of two bodies");
+  CHECK(faults_after("between: [ground, rod]", "between: [rod, rod]") ==
+        "m.yaml:15:40: joints.guide.between.1: both frames on body 'rod'; expected frames of two bodies");
+}
+
+TEST_CASE("ImpossibleInertia_IsReported") {
+  CHECK(faults_after("zz: 1e-3 kg.m^2", "zz: 3e-3 kg.m^2") ==
+        "m.yaml:9:5: bodies.shaft.inertia: principal moments of inertia 0.001, 0.001 and 0.003 kg.m^2; expected none "
+        "negative, and none greater than the sum of the others");
+}
+
+TEST_CASE("DirectionWithoutLength_IsReported") {
+  CHECK(faults_after("axis: 0 0 2", "axis: 0 0 0") ==
+        "m.yaml:11:49: bodies.shaft.frames.pin.rotation.axis: a direction of length 0; expected 3 numbers, such as "
+        "0 0 1");
+}
+
+TEST_CASE("ClearanceOfTheBearingsSize_IsAWrongUnit") {
+  CHECK(faults_after("radial_clearance: 34 um", "radial_clearance: 34 mm") ==
+        "m.yaml:28:23: bearings.big_end.radial_clearance: a clearance of more than a tenth of the radius; expected a "
+        "thin gap: common are radial clearances of 0.0005 to 0.002 radii");
+}
+
+TEST_CASE("PressuresBelowCavitation_AreReported") {
+  CHECK(
+      faults_after("    lubricant: oil\n",
+                   "    lubricant: oil\n    cavitation: {model: reynolds, pressure: 1 bar}\n    edge_pressure: 1 bar\n"
+                   "    supply: {line: 0 deg, pressure: 0.5 bar}\n") ==
+      "m.yaml:32:37: bearings.big_end.supply.pressure: 50000 Pa, below the cavitation pressure 100000 Pa; expected at "
+      "least the cavitation pressure, on the same scale; with gauge pressures, cavitation is often near -1 bar");
+}
+
+TEST_CASE("MissingModulus_PointsAtTheMaterials") {
+  CHECK(faults_after("    lubricant: oil\n", "    lubricant: oil\n    compliance: column\n") ==
+        "m.yaml:30:5: bearings.big_end.compliance: missing key 'composite_modulus'; expected an elastic modulus > 0, "
+        "such as 57 GPa; or give the bearing's materials");
+}
+
+TEST_CASE("AngleWithoutCrank_SaysWhatToAdd") {
+  CHECK(faults_after("  crank: main\n", "") ==
+        "m.yaml:31:13: simulation.duration: an angle; expected a time, or a crank that turns angles into times; add "
+        "simulation.crank with the name of a driven revolute joint\n"
+        "m.yaml:32:9: simulation.step: an angle; expected a time, or a crank that turns angles into times; add "
+        "simulation.crank with the name of a driven revolute joint");
+}
+
+TEST_CASE("CrankWithoutDrive_IsReported") {
+  CHECK(faults_after("speed: \"${speed}\"", "position: 0 deg") ==
+        "m.yaml:31:10: simulation.crank: joint 'main', which no drive turns at a constant speed; expected a joint with "
+        "a drive such as {joint: main, coordinate: rotation, speed: 3570 rpm}");
+  CHECK(faults_after("crank: main", "crank: guide") ==
+        "m.yaml:31:10: simulation.crank: joint 'guide', which is not revolute; expected a revolute joint");
+}
+
+TEST_CASE("ImpossibleSteps_AreReported") {
+  CHECK(faults_after("step: 1 deg", "step: 3 rev") ==
+        "m.yaml:33:9: simulation.step: a step longer than the run; expected a step of at most the duration");
+  CHECK(faults_after("step: 1 deg", "step: 1 deg\n  smallest_step: 1 s") ==
+        "m.yaml:34:18: simulation.smallest_step: a smallest step longer than the step; expected at most the step");
+}
+
+TEST_CASE("TwoDrivesOfOneCoordinate_AreReported") {
+  CHECK(faults_after("forces:", "  second: {joint: main, coordinate: rotation, position: 0}\nforces:") ==
+        "m.yaml:18:3: drives.second: a second drive of main.rotation; expected one drive per coordinate; the other is "
+        "'motor'");
+}
+
+TEST_CASE("DriveInTheWrongUnit_IsReported") {
+  CHECK(faults_after("speed: \"${speed}\"", "position: 5 mm")
+            .starts_with("m.yaml:17:56: drives.motor.position: a length; expected an angle, such as 90 deg"));
+}
+
+TEST_CASE("AllFaults_AreReportedTogether") {
+  std::string text = edited(good_model, "diameter: 45 mm", "diamter: 45 mm");
+  text = edited(text, "viscosity: 15 mPa.s", "viscosity: 15 mPa");
+  text = edited(text, "mass: 2 kg", "mass: 2 m");
+  text = edited(text, "journal: shaft.pin", "journal: shaft.pni");
+  text = edited(text, "step: 1 deg", "step: 1 K");
+  try {
+    (void)read_text(text, "m.yaml");
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    std::vector<int> lines;
+    for (const Fault& fault : error.faults()) lines.push_back(fault.position.line);
+    CHECK(lines == std::vector<int>{12, 21, 23, 25, 26, 33});
+  }
+}
+
+TEST_CASE("UnreadableFiles_AreReported") {
+  CHECK_THROWS_WITH_AS((void)read("/nonexistent/m.yaml"),
+                       "/nonexistent/m.yaml: no readable file; expected a model file", InputError);
+  CHECK_THROWS_WITH_AS((void)read(HERSEY_SOURCE_DIR), HERSEY_SOURCE_DIR ": a directory; expected a model file",
+                       InputError);
+}
+
+}  // namespace
+}  // namespace hersey::model

@@ -1,0 +1,238 @@
+#include "hersey/model/read.h"
+
+#include <limits>
+#include <numbers>
+
+#include "model_text.h"
+
+namespace hersey::model {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double rounding = 16 * eps;  // unit factors are decimal fractions: a few roundings each
+
+doctest::Approx near(double value) { return doctest::Approx(value).epsilon(rounding); }
+
+TEST_CASE("GoodModel_IsReadInSI") {
+  const Model model = read_text(good_model, "m.yaml");
+  CHECK(model.title == "Test");
+  REQUIRE(model.parameters.size() == 2);
+  CHECK(model.parameters[0].name == "load");
+  CHECK(model.parameters[0].text == "500 N");
+  REQUIRE(model.bodies.size() == 2);
+  const Body& shaft = model.bodies[0];
+  CHECK(shaft.name == "shaft");
+  CHECK(shaft.mass == 1);
+  CHECK(shaft.inertia == Matrix3(Vector3(1e-3, 1e-3, 1e-3).asDiagonal()));
+  REQUIRE(shaft.frames.size() == 1);
+  CHECK(shaft.frames[0].X_BF.r == Vector3(0, 0.05, 0));
+  // 90 degrees about z, the axis' length 2 not mattering: x goes to y.
+  CHECK((shaft.frames[0].X_BF.R * Vector3::UnitX() - Vector3::UnitY()).norm() < 4 * eps);
+  REQUIRE(model.joints.size() == 2);
+  CHECK(model.joints[0].type == JointType::revolute);
+  CHECK(model.joints[0].inboard.body == "ground");
+  CHECK(model.joints[0].outboard.body == "shaft");
+  CHECK(model.joints[0].axis == Vector3::UnitZ());
+  REQUIRE(model.drives.size() == 1);
+  CHECK(model.drives[0].prescribes == Drive::Prescribes::speed);
+  CHECK(model.drives[0].motion.value->value({}) == near(100 * pi));
+  REQUIRE(model.forces.size() == 1);
+  REQUIRE(model.forces[0].load.functions.size() == 3);
+  CHECK(model.forces[0].load.functions[1].value->value({}) == -500);
+  REQUIRE(model.bearings.size() == 1);
+  const Bearing& bearing = model.bearings[0];
+  CHECK(bearing.journal.body == "shaft");
+  CHECK(bearing.journal.frame == "pin");
+  CHECK(bearing.film.R == near(0.0225));
+  CHECK(bearing.film.L == near(0.0156));
+  CHECK(bearing.film.c == near(34e-6));
+  CHECK(bearing.film.lubricant.mu0 == near(0.015));
+}
+
+TEST_CASE("Defaults_AreThoseOfTheReference") {
+  const Model model = read_text(good_model, "m.yaml");
+  const film::FilmModel& film = model.bearings[0].film;
+  CHECK(film.grid.n_phi == 60);
+  CHECK(film.grid.n_z == 13);
+  CHECK(film.cavitation == film::Cavitation::mass_conserving);
+  CHECK(film.supply.kind == film::SupplyKind::none);
+  CHECK(film.asperities.model == film::AsperityModel::none);
+  CHECK(film.compliance == 0);
+  CHECK(film.lubricant.alpha == 0);
+  CHECK(film.lubricant.density == 850);
+  CHECK(film.cavitated_shear == film::CavitatedShear::film_share);
+  CHECK(film.shear_force == film::ShearForce::full);
+  CHECK(model.bearings[0].solver == film::FilmSolver::newton);
+  CHECK(model.bearings[0].coupling.scheme == CouplingScheme::monolithic);
+  CHECK(model.gravity == Vector3::Zero());
+  CHECK(model.simulation.spectral_radius == 0.8);
+  CHECK(model.simulation.max_iterations == 20);
+  CHECK(model.simulation.smallest_step == 1e-9);
+  CHECK_FALSE(model.simulation.settle.has_value());
+  CHECK(model.output.every == 1);
+  CHECK(model.output.fields_every == near(model.simulation.duration / 100));
+  CHECK_FALSE(model.study.has_value());
+}
+
+TEST_CASE("CrankAngles_BecomeTimes") {
+  const std::string text = good_model + "  settle: {over: 180 deg}\noutput:\n  fields_every: 45 deg\n";
+  const Model model = read_text(
+      edited(text, "between: [ground, shaft]", "between: [ground, shaft], initial: {rotation: 30 deg}"), "m.yaml");
+  // 3000 rpm: one revolution takes 20 ms.
+  CHECK(model.simulation.duration == near(0.04));
+  CHECK(model.simulation.step == near(0.02 / 360));
+  REQUIRE(model.simulation.settle.has_value());
+  CHECK(model.simulation.settle->over == near(0.01));
+  CHECK(model.output.fields_every == near(0.0025));
+  REQUIRE(model.simulation.crank.has_value());
+  CHECK(model.simulation.crank->joint == "main");
+  CHECK(model.simulation.crank->speed == near(100 * pi));
+  CHECK(model.simulation.crank->initial_angle == near(pi / 6));
+}
+
+TEST_CASE("CrankTurningBackwards_StillTakesPositiveTime") {
+  const Model model = read_text(edited(good_model, "speed: 3000 rpm", "speed: -3000 rpm"), "m.yaml");
+  CHECK(model.simulation.duration == near(0.04));
+  CHECK(model.simulation.crank->speed == near(-100 * pi));
+}
+
+TEST_CASE("EverythingAboutABearing_IsRead") {
+  const std::string text = edited(good_model, "    radial_clearance: 34 um\n", R"(    diametral_clearance: 68 um
+    grid: {circumferential: 120, axial: 25}
+    cavitation: {model: reynolds, pressure: -0.5 bar}
+    edge_pressure: {left: 1 bar, right: 2 bar}
+    supply: {line: 180 deg, pressure: 3 bar}
+    asperities: {model: greenwood_tripp, roughness: 1 um, friction: 0.08}
+    compliance: {model: column}
+    materials:
+      shell: {youngs_modulus: 210 GPa, poisson_ratio: 0.3}
+      journal: {youngs_modulus: 210 GPa, poisson_ratio: 0.3}
+    cavitated_shear: full
+    shear_force: torque_only
+    solver: sor
+    coupling: {scheme: partitioned, relaxation: 0.5, max_iterations: 7}
+)");
+  const Bearing bearing = read_text(text, "m.yaml").bearings[0];
+  const film::FilmModel& film = bearing.film;
+  const double E = 210e9 / (2 * 0.91);
+  CHECK(film.c == near(34e-6));
+  CHECK(film.grid.n_phi == 120);
+  CHECK(film.grid.n_z == 25);
+  CHECK(film.cavitation == film::Cavitation::reynolds);
+  CHECK(film.p_cav == -0.5e5);
+  CHECK(film.p_edge_left == 1e5);
+  CHECK(film.p_edge_right == 2e5);
+  CHECK(film.supply.kind == film::SupplyKind::fixed_angle);
+  CHECK(film.supply.phi == near(pi));
+  CHECK(film.supply.pressure == near(3e5));
+  CHECK(film.asperities.model == film::AsperityModel::greenwood_tripp_exact);
+  CHECK(film.asperities.sigma == near(1e-6));
+  CHECK(film.asperities.elastic_factor == 3e-3);
+  CHECK(film.asperities.composite_modulus == near(E));
+  CHECK(film.asperities.mu_friction == 0.08);
+  CHECK(film.compliance == near(0.0225 / E));  // the columns are as long as the radius
+  CHECK(film.cavitated_shear == film::CavitatedShear::full);
+  CHECK(film.shear_force == film::ShearForce::torque_only);
+  CHECK(bearing.solver == film::FilmSolver::sor);
+  CHECK(bearing.coupling.scheme == CouplingScheme::partitioned);
+  CHECK(bearing.coupling.relaxation == 0.5);
+  CHECK(bearing.coupling.max_iterations == 7);
+}
+
+TEST_CASE("OneWord_StandsForAModelWithoutSettings") {
+  const std::string text = edited(good_model, "    lubricant: oil\n",
+                                  "    lubricant: oil\n    cavitation: guembel\n    supply: {line: widest_gap}\n"
+                                  "    compliance: rigid\n    coupling: partitioned\n");
+  const Bearing bearing = read_text(text, "m.yaml").bearings[0];
+  CHECK(bearing.film.cavitation == film::Cavitation::guembel);
+  CHECK(bearing.film.supply.kind == film::SupplyKind::widest_gap);
+  CHECK(bearing.film.compliance == 0);
+  CHECK(bearing.coupling.scheme == CouplingScheme::partitioned);
+}
+
+TEST_CASE("JointsOfEveryType_AreRead") {
+  const std::string text = edited(good_model, "  guide: {type: planar, between: [ground, rod]}\n", R"(
+  guide: {type: planar, between: [ground, rod], axis: x, initial: {x: 1 mm, rotation_rate: 60 deg/s}}
+  a: {type: fixed, between: [ground, rod]}
+  b: {type: prismatic, between: [ground, rod], axis: 0 3 4, initial: {translation: 2 mm, translation_rate: 1 m/s}}
+  c: {type: cylindrical, between: [ground, rod]}
+  d: {type: spherical, between: [ground, rod], initial: {orientation: 0 0 90 deg}}
+  e: {type: free, between: [ground, rod], initial: {position: [1 mm, 0, 2 cm], velocity: 0 1 0 m/s}}
+)");
+  const Model model = read_text(text, "m.yaml");
+  REQUIRE(model.joints.size() == 7);
+  CHECK(model.joints[1].axis == Vector3::UnitX());
+  REQUIRE(model.joints[1].initial.size() == 2);
+  CHECK(model.joints[1].initial[0].coordinate == "x");
+  CHECK(model.joints[1].initial[0].value == std::vector<double>{1e-3});
+  CHECK(model.joints[2].type == JointType::fixed);
+  CHECK(model.joints[3].type == JointType::prismatic);
+  CHECK((model.joints[3].axis - Vector3(0, 0.6, 0.8)).norm() < 4 * eps);
+  CHECK(model.joints[4].type == JointType::cylindrical);
+  CHECK(model.joints[5].type == JointType::spherical);
+  CHECK(model.joints[5].initial[0].value[2] == near(pi / 2));
+  CHECK(model.joints[6].type == JointType::free);
+  CHECK(model.joints[6].initial[0].value == std::vector<double>{1e-3, 0, 0.02});
+}
+
+TEST_CASE("ForcesOfEveryType_AreRead") {
+  const std::string text =
+      edited(good_model,
+             "lubricants:", R"(  twist: {type: torque, body: shaft.pin, direction: 0 0 3, magnitude: 2 N.m, axes: body}
+  spring: {type: spring_damper, between: [ground, rod], stiffness: 10 N/mm, damping: 3 N.s/m, free_length: 5 cm}
+  torsion: {type: torsion_spring, joint: guide, stiffness: 20 N.m, free_angle: 180 deg}
+lubricants:)");
+  const Model model = read_text(text, "m.yaml");
+  REQUIRE(model.forces.size() == 4);
+  CHECK(model.forces[0].type == ForceType::load);
+  CHECK_FALSE(model.forces[0].load.is_torque);
+  CHECK(model.forces[0].load.axes == Axes::ground);
+  const BodyLoad& twist = model.forces[1].load;
+  CHECK(twist.is_torque);
+  CHECK(twist.at.frame == "pin");
+  CHECK(twist.axes == Axes::body);
+  CHECK(twist.direction == Vector3::UnitZ());
+  REQUIRE(twist.functions.size() == 1);
+  CHECK(twist.functions[0].value->value({}) == 2);
+  CHECK(model.forces[2].type == ForceType::spring_damper);
+  CHECK(model.forces[2].spring_damper.to.body == "rod");
+  CHECK(model.forces[2].spring_damper.stiffness == near(1e4));
+  CHECK(model.forces[2].spring_damper.free_length == near(0.05));
+  CHECK(model.forces[3].type == ForceType::torsion_spring);
+  CHECK(model.forces[3].torsion_spring.joint == "guide");
+  CHECK(model.forces[3].torsion_spring.coordinate == "rotation");
+  CHECK(model.forces[3].torsion_spring.stiffness == near(20));
+  CHECK(model.forces[3].torsion_spring.free_angle == near(pi));
+}
+
+TEST_CASE("Positions_PointAtTheKeys") {
+  const Model model = read_text(good_model, "m.yaml");
+  CHECK(model.bodies[1].position.line == 12);
+  CHECK(model.joints[0].position.line == 14);
+  CHECK(model.bearings[0].position.line == 23);
+  const SourcePosition clearance = model.position_of("bearings.big_end.radial_clearance");
+  CHECK(clearance.file == "m.yaml");
+  CHECK(clearance.line == 28);
+  CHECK(clearance.column == 5);
+  // Not in the file: the nearest parent that is.
+  CHECK(model.position_of("bearings.big_end.grid.axial").line == 23);
+  CHECK(model.position_of("output.every").line == 0);
+}
+
+TEST_CASE("AnchorsAndAliases_AreUnderstood") {
+  const std::string text = edited(edited(good_model, "rod: {mass: 2 kg}", "rod: {mass: &m 2 kg}\n  third: {mass: *m}"),
+                                  "  oil:", "  thin: &o {viscosity: 5 mPa.s}\n  copy: *o\n  oil:");
+  const Model model = read_text(text, "m.yaml");
+  CHECK(model.bodies[2].mass == 2);
+  CHECK(model.lubricants[1].data.mu0 == near(0.005));
+}
+
+TEST_CASE("EmptySections_AreAllowed") {
+  // All forces commented out: YAML reads nothing.
+  CHECK(faults_after("  push: {type: force, body: rod, components: [0 N, \"-${load}\", 0 N]}\n", "  # push\n") ==
+        "no fault");
+}
+
+}  // namespace
+}  // namespace hersey::model

@@ -1,0 +1,115 @@
+#include "hersey/model/study.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "model_text.h"
+
+namespace hersey::model {
+namespace {
+
+/// A model file with a study, removed at the end.
+class StudyFile {
+ public:
+  explicit StudyFile(const std::string& text)
+      : path_((std::filesystem::temp_directory_path() / "hersey_study_test.yaml").string()) {
+    std::ofstream(path_) << text;
+  }
+  StudyFile(const StudyFile&) = delete;
+  StudyFile& operator=(const StudyFile&) = delete;
+  ~StudyFile() { std::filesystem::remove(path_); }
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+const std::string study = R"(study:
+  parameters:
+    load: [100 N, 1 kN]
+    bearings.big_end.cavitation: [reynolds, guembel]
+    bearings.big_end.radial_clearance: [34 um, 0.068 mm]
+)";
+
+TEST_CASE("Study_IsEveryCombination") {
+  const StudyFile file(good_model + study);
+  const std::vector<StudyRun> runs = expand_study(file.path(), {"speed=2000 rpm"});
+  REQUIRE(runs.size() == 8);
+  CHECK(runs[0].label ==
+        "load = 100 N, bearings.big_end.cavitation = reynolds, bearings.big_end.radial_clearance = 34 um");
+  CHECK(runs[0].slug == "load_100_N-bearings.big_end.cavitation_reynolds-bearings.big_end.radial_clearance_34_um");
+  CHECK(runs[0].overrides == std::vector<std::string>{"speed=2000 rpm", "load=100 N",
+                                                      "bearings.big_end.cavitation=reynolds",
+                                                      "bearings.big_end.radial_clearance=34 um"});
+  // The last parameter varies fastest.
+  CHECK(runs[1].values[2].text == "0.068 mm");
+  CHECK(runs[1].values[0].text == "100 N");
+  CHECK(runs[7].values[0].text == "1 kN");
+  // Numbers share the unit of the first value; words have none.
+  CHECK(runs[7].values[0].number == doctest::Approx(1000).epsilon(1e-15));
+  CHECK(runs[7].values[0].unit == "N");
+  CHECK(runs[7].values[2].number == doctest::Approx(68).epsilon(1e-14));
+  CHECK(runs[7].values[2].unit == "um");
+  CHECK(runs[7].values[1].unit.empty());
+  const Model model = read(file.path(), runs[7].overrides);
+  CHECK(model.bearings[0].film.cavitation == film::Cavitation::guembel);
+  CHECK(model.bearings[0].film.c == doctest::Approx(68e-6).epsilon(1e-14));
+  CHECK(model.forces[0].load.functions[1].value->value({}) == -1000);
+}
+
+TEST_CASE("FixedParameter_IsNoLongerVaried") {
+  const StudyFile file(good_model + study);
+  const std::vector<StudyRun> runs = expand_study(file.path(), {"load=7 N"});
+  REQUIRE(runs.size() == 4);
+  CHECK(runs[0].overrides.front() == "load=7 N");
+  CHECK(runs[0].values.size() == 2);
+}
+
+TEST_CASE("ModelWithoutStudy_HasNoRuns") {
+  const StudyFile file(good_model);
+  CHECK(expand_study(file.path()).empty());
+}
+
+TEST_CASE("StudySettings_AreRead") {
+  const Model model = read_text(good_model + study + "  figures: [film_thickness]\n", "m.yaml");
+  REQUIRE(model.study.has_value());
+  REQUIRE(model.study->parameters.size() == 3);
+  CHECK(model.study->parameters[0].name == "load");
+  CHECK(model.study->parameters[0].values == std::vector<std::string>{"100 N", "1 kN"});
+  CHECK(model.study->parameters[0].position.line == 36);
+  CHECK(model.study->figures == std::vector<StudyFigure>{StudyFigure::film_thickness});
+}
+
+TEST_CASE("FaultyStudies_ArePlaced") {
+  CHECK(faults_of(good_model + "study:\n  parameters:\n    laod: [1 N]\n") ==
+        "m.yaml:36:5: study.parameters.laod: unknown parameter 'laod'; expected load or speed; did you mean 'load'?");
+  CHECK(faults_of(good_model + "study:\n  parameters:\n    load: []\n") ==
+        "m.yaml:36:11: study.parameters.load: a list of 0; expected a list of values, such as [100 N]");
+  CHECK(faults_of(good_model + "study:\n  parameters:\n    load: 3 N\n") ==
+        "m.yaml:36:11: study.parameters.load: '3 N'; expected a list of values, such as [100 N]");
+  CHECK(faults_of(good_model + "study:\n  figures: [map]\n") ==
+        "m.yaml:34:1: study: missing key 'parameters'; expected a mapping from parameters to lists of values\n"
+        "m.yaml:35:13: study.figures.0: 'map'; expected midplane_pressure or film_thickness");
+}
+
+TEST_CASE("FaultyValueOfAStudy_IsFoundBeforeTheFirstRun") {
+  const StudyFile file(good_model + "study:\n  parameters:\n    bearings.big_end.diameter: [45 mm, 45 N]\n");
+  CHECK_THROWS_WITH_AS((void)expand_study(file.path()),
+                       (file.path() + ":36:5: bearings.big_end.diameter: a force (N); expected a length > 0, such as "
+                                      "45 mm")
+                           .c_str(),
+                       InputError);
+}
+
+TEST_CASE("EndlessStudy_IsRefused") {
+  std::string text = good_model + "study:\n  parameters:\n";
+  for (const char* key : {"load", "speed", "title", "description", "simulation.start", "bearings.big_end.width"}) {
+    text += std::string("    ") + key + ": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\n";
+  }
+  text = edited(edited(text, "    title:", "    bearings.big_end.diameter:"), "    description:", "    output.every:");
+  const StudyFile file(text);
+  CHECK_THROWS_WITH_AS((void)expand_study(file.path()), doctest::Contains("more than 100000 combinations"), InputError);
+}
+
+}  // namespace
+}  // namespace hersey::model
