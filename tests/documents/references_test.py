@@ -47,6 +47,7 @@ class TheoryTables(unittest.TestCase):
     def setUp(self):
         self.faults = []
         self.files = code_files()
+        self.texts = {}
 
     def test_equation_numbers_are_unique(self):
         for page in pages("docs/theory/*.md"):
@@ -75,8 +76,8 @@ class TheoryTables(unittest.TestCase):
             yield [cell.strip() for cell in line.strip().strip("|").split("|")]
 
     def check_references(self, page, cell):
-        """Each `file: name` or, after one, `name`: the file exists and holds the name."""
-        current = []
+        """Each `file: name` and each `name`: the file exists and holds it; a name before any file is in some file."""
+        current = self.files
         for reference in re.findall(r"`([^`]+)`", cell):
             name = reference
             if re.match(r"[\w/.-]+\.(h|cpp|ts|py)\b", reference):
@@ -89,8 +90,16 @@ class TheoryTables(unittest.TestCase):
                     self.faults.append(f"{page} names {path}, which does not exist")
                     return
             for word in re.findall(r"[A-Za-z_]\w*", name):
-                if not any(re.search(rf"\b{word}\b", read(file)) for file in current):
-                    self.faults.append(f"{page} names {word} in `{current[0] if current else 'no file'}`: not there")
+                if not any(self.holds(file, word) for file in current):
+                    place = current[0] if len(current) == 1 else "any source file"
+                    self.faults.append(f"{page} names {word}, which is not in {place}")
+
+    def holds(self, path, word):
+        """The file has this word, or is the program of this name."""
+        if path not in self.texts:
+            self.texts[path] = read(path)
+        stem = os.path.splitext(os.path.basename(path))[0]
+        return stem == word or re.search(rf"\b{word}\b", self.texts[path])
 
 
 if __name__ == "__main__":
