@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import { h, placeTooltip, saveText } from "./dom";
 import { onThemeChange, palette } from "./theme";
-import { axisLabel, format, withUnit } from "./units";
+import { axisLabel, format, superscript, withUnit } from "./units";
 
 export interface Curve {
   label: string;
@@ -15,6 +15,8 @@ export interface Curve {
   points?: boolean;
   stepped?: boolean;
   fill?: boolean;
+  /** Dots without a line between them, for values that jump from row to row. */
+  dots?: boolean;
 }
 
 export interface LineFigure {
@@ -30,6 +32,18 @@ export interface LineFigure {
 
 /** Steps between the ticks of an angle: parts and multiples of a turn, in degrees. */
 const angleSteps = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360, 720, 1440, 3600, 7200, 18000, 36000, 72000, 180000];
+
+/** Powers of ten across a logarithmic axis, at most about six. */
+function decades(_plot: uPlot, _axis: number, low: number, high: number): number[] {
+  const first = Math.ceil(Math.log10(low) - 1e-9);
+  const last = Math.floor(Math.log10(high) + 1e-9);
+  const step = Math.max(1, Math.ceil((last - first) / 6));
+  return Array.from({ length: Math.max(0, Math.floor((last - first) / step)) + 1 }, (_, i) => 10 ** (first + i * step));
+}
+
+function powers(_plot: uPlot, splits: number[]): string[] {
+  return splits.map((v) => `10${superscript(Math.round(Math.log10(v)))}`);
+}
 
 const plots = new Set<LinePlot>();
 onThemeChange(() => plots.forEach((plot) => plot.redraw()));
@@ -195,7 +209,7 @@ export class LinePlot {
           ? { splits: () => Array.from(x.values), values: (_p: uPlot, s: number[]) => s.map((v) => x.categories![v] ?? "") }
           : {}),
       }),
-      axis(left.label, left.unit, { scale: "y", size: 52 }),
+      axis(left.label, left.unit, { scale: "y", size: 52, ...(left.log ? { splits: decades, values: powers, filter: (_p: uPlot, splits: number[]) => splits } : {}) }),
     ];
     if (right) axes.push(axis(right.label, right.unit, { scale: "right", side: 1, size: 48, grid: { show: false } }));
     return {
@@ -223,7 +237,8 @@ export class LinePlot {
       scale: curve.axis ?? "y",
       stroke,
       width: 1.6,
-      points: curve.points ? { show: true, size: 6, fill: stroke } : { show: false },
+      points: curve.points || curve.dots ? { show: true, size: curve.dots ? 2.5 : 6, fill: stroke } : { show: false },
+      ...(curve.dots ? { paths: () => null } : {}),
       ...(curve.dash ? { dash: curve.dash } : {}),
       ...(curve.fill ? { fill: `color-mix(in srgb, ${stroke} 14%, transparent)` } : {}),
       ...(curve.stepped ? { paths: uPlot.paths.stepped!({ align: 1 }) } : {}),

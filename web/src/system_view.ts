@@ -57,16 +57,17 @@ export class SystemView {
     const fine = time.unit === "ms" ? { factor: 1e6, unit: "µs" } : { factor: 1e3, unit: "ms" };
     this.add(body, "step", "Length of the time steps.", { label: "step", unit: fine.unit, fromZero: true }, curve(run, "/solver/dt", "step", fine, { stepped: true }));
     this.add(body, "newton", "Newton iterations in each step.", { label: "iterations", unit: "", fromZero: true }, curve(run, "/solver/newton_iterations", "Newton iterations", plain, { stepped: true }));
-    this.add(body, "residual", "Relative residual left when a step was accepted.", { label: "residual", unit: "", log: true }, [
-      ...curve(run, "/solver/residual", "system", plain),
-      ...curve(run, "/solver/film_residual", "film", plain),
+    const meaning = run.dataset("/solver/residual")?.description || "residual";
+    this.add(body, "residual", `What was left when each step was accepted: ${meaning}.`, { label: "residual", unit: "", log: true }, [
+      ...curve(run, "/solver/residual", "system", plain, { dots: true }),
+      ...curve(run, "/solver/film_residual", "film", plain, { dots: true }),
     ]);
     this.add(body, "mass", "Mass balance of the film: what supply, side flow and storage leave unexplained, relative.", { label: "mass-balance error", unit: "", log: true },
-      run.children("/bearings").flatMap((bearing) => absolute(curve(run, `/bearings/${bearing}/mass_balance_error`, bearing, plain))));
+      run.children("/bearings").flatMap((bearing) => sizes(curve(run, `/bearings/${bearing}/mass_balance_error`, bearing.replaceAll("_", " "), plain))));
     const unit = run.dataset("/power/balance_error")?.unit ?? "1";
     const display = { factor: 1, unit: unit === "1" ? "" : unit };
     this.add(body, "balance", "Power balance of the whole system: what drives, loads, losses and storage leave unexplained.", { label: "power-balance error", unit: display.unit, log: true },
-      absolute(curve(run, "/power/balance_error", "power balance", display)));
+      sizes(curve(run, "/power/balance_error", "power balance", display)));
   }
 
   private power(body: HTMLElement): void {
@@ -135,7 +136,7 @@ export class SystemView {
   }
 }
 
-/** Sizes of the values, for a logarithmic axis. */
-function absolute(curves: Curve[]): Curve[] {
-  return curves.map((c) => ({ ...c, y: Float64Array.from(c.y, (v) => Math.abs(v ?? NaN)) }));
+/** Sizes of errors, as dots on a logarithmic axis. */
+function sizes(curves: Curve[]): Curve[] {
+  return curves.map((c) => ({ ...c, dots: true, y: Float64Array.from(c.y, (v) => Math.abs(v ?? NaN)) }));
 }

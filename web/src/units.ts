@@ -58,12 +58,12 @@ export function withUnit(value: number | null | undefined, unit: string, digits 
 export function typeset(text: string): string {
   return text
     .replace(/\bum\b/g, "µm")
-    .replace(/(\d) x (?=\d)/g, "$1 × ")
+    .replace(/(?<=\w) x (?=\w)/g, " × ")
     .replace(/(?<=[A-Za-z])\.(?=(?:s|m|mm|kg)\b)/g, "·")
     .replace(/\bdeg\b/g, "°");
 }
 
-function superscript(exponent: number): string {
+export function superscript(exponent: number): string {
   const digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
   return String(exponent).replace("-", "⁻").replace(/\d/g, (d) => digits[Number(d)]!);
 }
