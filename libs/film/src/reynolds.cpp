@@ -19,6 +19,7 @@ struct Reynolds::Impl {
   FilmWrench wrench;
   solver::SparseLu lu;
   std::vector<double> shifted;
+  Eigen::VectorXd column;
   bool linearised = false, factorised = false;
 };
 
@@ -72,6 +73,20 @@ void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, V
   impl_->balance.derivative(direction, du);
   impl_->solve_negative(du);
   wrench_partial = impl_->wrench.along(direction);
+}
+
+void Reynolds::responses(std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
+                         Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial) {
+  const auto columns = static_cast<Eigen::Index>(directions.size());
+  du.resize(size(), columns);
+  wrench_partial.resize(6, columns);
+  impl_->factorise();
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    impl_->balance.derivative(directions[k], impl_->column);
+    du.col(k) = -impl_->column;
+    wrench_partial.col(k) = impl_->wrench.along(directions[k]);
+  }
+  impl_->lu.solve({du.data(), static_cast<std::size_t>(du.size())}, static_cast<int>(columns));
 }
 
 Vector6 Reynolds::wrench_gradient(const Eigen::VectorXd& du) const { return impl_->wrench.along_u(du); }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "hersey/core/spatial.h"
@@ -21,7 +22,8 @@ struct MotionDirection {
 ///
 /// One unknown u [Pa] per node: p = p_cav + max(u, 0) and, in `mass_conserving`, theta = 1 + min(u, 0)/P0. In
 /// `guembel`, p = p_cav + u in the equation and p = p_cav + max(u, 0) in the forces. In `reynolds`, u < 0 carries the
-/// slack of the complementarity.
+/// slack of the complementarity. On an edge at p_cav in `mass_conserving`, u > 0 stands for the oil that leaves there
+/// and p = p_cav: take pressures from film_fields(), not from u.
 ///
 /// Holds the sparse pattern, factor and scratch of one film: one object per film and thread, no allocation after the
 /// first call.
@@ -35,7 +37,9 @@ class Reynolds {
   [[nodiscard]] const FilmModel& model() const;
   [[nodiscard]] int size() const;
 
-  /// Linearises about `u` and factorises the Jacobian. After it the members below refer to this state.
+  /// Linearises about `u`. After it the members below refer to this state; the first of them that needs the factorised
+  /// Jacobian factorises it. Where the Jacobian is singular (nothing fixes the fill level) a shift far below its
+  /// entries picks an answer near `u`.
   /// @throws ContractError on a wrong shape or a gap <= 0.
   void linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
@@ -53,6 +57,10 @@ class Reynolds {
   /// Answer to a change of the surfaces: `du` = -J^{-1} dr/d(parameter), and the wrench's *partial* derivative at
   /// fixed u. The total derivative is  partial + wrench_gradient(du).
   void response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial);
+
+  /// Likewise for several changes at once, a column each: one solve with many right-hand sides.
+  void responses(std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
+                 Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial);
 
   /// (d wrench_on_shell / du) du.
   [[nodiscard]] Vector6 wrench_gradient(const Eigen::VectorXd& du) const;
