@@ -186,7 +186,7 @@ class Checker {
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       const std::string index = std::to_string(i);
       const Node& item = node.items[i];
-      value.members.emplace_back(index, check(item, *type.item, {joined(value.path, index), item.position}));
+      value.members.push_back({index, check(item, *type.item, {joined(value.path, index), item.position})});
     }
   }
 
@@ -204,8 +204,8 @@ class Checker {
     if (fitting.empty()) return fault(value, description_of(node), value.type->title);
     value.alternative = fitting.front();
     if (fitting.size() > 1 && !choose_by_first_key(node, fitting, value)) return;
-    value.members.emplace_back("", check(node, *alternatives[value.alternative], {value.path, value.key_position}));
-    value.broken = value.members.front().second.broken;
+    value.members.push_back({"", check(node, *alternatives[value.alternative], {value.path, value.key_position})});
+    value.broken = value.members.front().value.broken;
   }
 
   /// Of several mappings the one whose first key is there, else whose keys are nearest to those there.
@@ -288,11 +288,11 @@ class Checker {
       const Node* child = node.find(key->name);
       const Place place{joined(value.path, key->name), position_of(node, key->name, value)};
       if (child != nullptr) {
-        value.members.emplace_back(key->name, check(*child, *key->type, place));
+        value.members.push_back({key->name, check(*child, *key->type, place)});
       } else if (key->required) {
         report_missing(value, key->name, key->type->expectation());
       } else if (key->default_text) {
-        value.members.emplace_back(key->name, default_value(*key, place));
+        value.members.push_back({key->name, default_value(*key, place)});
       }
     }
   }
@@ -372,7 +372,7 @@ class Checker {
       }
       const Key* special = find_key(value.type->keys, entry.key);
       const Type& type = special != nullptr ? *special->type : *value.type->item;
-      value.members.emplace_back(entry.key, check(entry.value, type, {path, entry.position}));
+      value.members.push_back({entry.key, check(entry.value, type, {path, entry.position})});
     }
   }
 

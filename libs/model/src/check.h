@@ -2,13 +2,14 @@
 
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "schema_type.h"
 #include "source_tree.h"
 
 namespace hersey::model {
+
+struct Member;
 
 /// A checked value in SI units. Where the file is wrong the fault is reported and the value is left `broken`; the tree
 /// stays complete enough to check the rest.
@@ -25,10 +26,16 @@ struct Value {
   std::string text;             ///< text, scalar, choice, reference, word of a quantity, tag of a variant
   int text_offset = -1;         ///< as in Node
   std::size_t alternative = 0;  ///< any_of: which one; its value is `members.front()`
-  std::vector<std::pair<std::string, Value>> members;  ///< object, named, variant by key; list by index
+  std::vector<Member> members;  ///< object, named, variant by key; list by index
 
   /// The value of `key`, given or default; null if it has neither or is missing.
   [[nodiscard]] const Value* find(const std::string& key) const;
+};
+
+/// One `key: value`, or an item of a list with its index.
+struct Member {
+  std::string key;
+  Value value;
 };
 
 /// Checks `node` against `type`.

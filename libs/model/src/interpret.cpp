@@ -38,8 +38,8 @@ Vector3 vector_of(const Value& parent, const std::string& key) {
   return {value->numbers[0], value->numbers[1], value->numbers[2]};
 }
 
-const std::vector<std::pair<std::string, Value>>& section(const Value& root, const std::string& key) {
-  static const std::vector<std::pair<std::string, Value>> empty;
+const std::vector<Member>& section(const Value& root, const std::string& key) {
+  static const std::vector<Member> empty;
   const Value* value = root.find(key);
   return value != nullptr ? value->members : empty;
 }

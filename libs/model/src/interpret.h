@@ -30,7 +30,7 @@ struct Context {
 [[nodiscard]] std::string text_of(const Value& parent, const std::string& key);
 [[nodiscard]] Vector3 vector_of(const Value& parent, const std::string& key);
 /// The named things in the section `key` of the file, in its order.
-[[nodiscard]] const std::vector<std::pair<std::string, Value>>& section(const Value& root, const std::string& key);
+[[nodiscard]] const std::vector<Member>& section(const Value& root, const std::string& key);
 [[nodiscard]] std::vector<std::string> names_in(const Value& root, const std::string& key);
 
 /// A direction of length 1. A zero vector is a fault.

@@ -74,7 +74,7 @@ class FilmReader {
   void read_edges() {
     const Value* edges = value_.find("edge_pressure");
     if (edges == nullptr || edges->broken || edges->members.empty()) return;
-    const Value& content = edges->members.front().second;
+    const Value& content = edges->members.front().value;
     const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
     const Value& left = is_pair ? *content.find("left") : content;
     const Value& right = is_pair ? *content.find("right") : content;

@@ -30,7 +30,7 @@ class FunctionReader {
     function_.path = value.path;
     function_.value = std::make_shared<ConstantFunction>(0);  // where the text is broken
     if (value.broken || value.members.empty()) return function_;
-    const Value& content = value.members.front().second;
+    const Value& content = value.members.front().value;
     if (content.type->kind == Type::Kind::quantity) {
       read_constant(content);
     } else if (content.find("expression") != nullptr) {
@@ -184,7 +184,7 @@ class FunctionReader {
     }
     const Value& table = *content.find("table");
     if (table.broken || table.members.empty()) return;
-    const Value& source = table.members.front().second;
+    const Value& source = table.members.front().value;
     std::optional<Points> points = source.find("file") != nullptr ? points_from_file(source) : points_in_place(source);
     if (!points || !variable) return;
     const bool usable = convert_points(*points, source, content, unit_of(*variable)) && check_order(*points);
@@ -206,11 +206,11 @@ class FunctionReader {
     if (list == nullptr || x_unit == nullptr || y_unit == nullptr || list->broken) return std::nullopt;
     Points points{{}, {}, x_unit->text, y_unit->text, {}};
     for (const auto& [index, pair] : list->members) {
-      if (pair.members.size() != 2 || pair.members[0].second.broken || pair.members[1].second.broken) {
+      if (pair.members.size() != 2 || pair.members[0].value.broken || pair.members[1].value.broken) {
         return std::nullopt;
       }
-      points.x.push_back(pair.members[0].second.number);
-      points.y.push_back(pair.members[1].second.number);
+      points.x.push_back(pair.members[0].value.number);
+      points.y.push_back(pair.members[1].value.number);
       points.positions.push_back(pair.position);
     }
     return points;
@@ -224,7 +224,7 @@ class FunctionReader {
     const std::filesystem::path path = std::filesystem::path(context_.model.file).parent_path() / file.text;
     std::ifstream stream(path, std::ios::binary);
     std::error_code ignored;
-    if (!stream || std::filesystem::is_directory(path, ignored)) {
+    if (!stream || !std::filesystem::is_regular_file(path, ignored)) {
       context_.fault(file, "no readable file " + path.string(), "a table beside the model file");
       return std::nullopt;
     }

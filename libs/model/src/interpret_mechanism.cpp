@@ -45,10 +45,10 @@ Matrix3 inertia_of(Context& context, const Value& body) {
 std::pair<FrameName, FrameName> pair_of(Context& context, const Value& parent) {
   const Value* between = parent.find("between");
   if (between == nullptr || between->members.size() != 2) return {};
-  FrameName first = frame_of(context, between->members[0].second);
-  FrameName second = frame_of(context, between->members[1].second);
+  FrameName first = frame_of(context, between->members[0].value);
+  FrameName second = frame_of(context, between->members[1].value);
   if (!first.body.empty() && first.body == second.body) {
-    context.fault(between->members[1].second, "both frames on body '" + first.body + "'", "frames of two bodies");
+    context.fault(between->members[1].value, "both frames on body '" + first.body + "'", "frames of two bodies");
   }
   return {std::move(first), std::move(second)};
 }

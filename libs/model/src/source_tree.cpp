@@ -11,7 +11,7 @@ namespace hersey::model {
 namespace {
 
 /// More than any model needs; keeps a few lines of nested aliases from filling the memory.
-constexpr std::size_t most_nodes = 2'000'000;
+constexpr std::size_t most_nodes = 1'000'000;
 
 /// Thrown to leave the parser once a limit is passed.
 struct TooLarge {};
@@ -237,7 +237,7 @@ std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
   } catch (const YAML::Exception& error) {
     faults.push_back(syntax_fault(error, text, file));
   } catch (const TooLarge&) {
-    faults.push_back({{file, 0, 0}, "", "more than two million values", "a model file", ""});
+    faults.push_back({{file, 0, 0}, "", "more than a million values", "a model file", ""});
   }
   return std::nullopt;
 }

@@ -15,12 +15,12 @@ struct Node {
   enum class Kind { null, scalar, sequence, mapping };
   Kind kind = Kind::null;
   SourcePosition position = {};
-  std::string text = {};            ///< of a scalar, after `${parameter}` substitution
-  int text_offset = 0;              ///< columns from `position` to the first letter of `text`; -1 where they do not map
-  std::string origin = {};          ///< where a substituted text comes from, "parameter load, model.yaml:5:9"; or empty
-  bool reported = false;            ///< a fault has been reported: nothing more to say about it
-  std::vector<Node> items = {};     ///< of a sequence
-  std::vector<Entry> entries = {};  ///< of a mapping, in the order of the file
+  std::string text = {};       ///< of a scalar, after `${parameter}` substitution
+  int text_offset = 0;         ///< columns from `position` to the first letter of `text`; -1 where they do not map
+  std::string origin = {};     ///< where a substituted text comes from, "parameter load, model.yaml:5:9"; or empty
+  bool reported = false;       ///< a fault has been reported: nothing more to say about it
+  std::vector<Node> items;     ///< of a sequence
+  std::vector<Entry> entries;  ///< of a mapping, in the order of the file
 
   /// The value of `key` in a mapping; null if it is not there.
   [[nodiscard]] const Node* find(const std::string& key) const;

@@ -122,7 +122,7 @@ TEST_CASE("ExplodingAliases_EndWithAFault") {
     for (int j = 1; j < 10; ++j) text += ", " + before;
     text += "]\n";
   }
-  CHECK(faults_of(text) == "m.yaml: more than two million values; expected a model file");
+  CHECK(faults_of(text) == "m.yaml: more than a million values; expected a model file");
 }
 
 TEST_CASE("Names_AreIdentifiers") {
