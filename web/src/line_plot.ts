@@ -237,7 +237,7 @@ export class LinePlot {
       scale: curve.axis ?? "y",
       stroke,
       width: 1.6,
-      points: curve.points || curve.dots ? { show: true, size: curve.dots ? 2.5 : 6, fill: stroke } : { show: false },
+      points: curve.points || curve.dots ? { show: true, size: curve.dots ? (curve.y.length < 300 ? 5 : 2.5) : 6, fill: stroke } : { show: false },
       ...(curve.dots ? { paths: () => null } : {}),
       ...(curve.dash ? { dash: curve.dash } : {}),
       ...(curve.fill ? { fill: `color-mix(in srgb, ${stroke} 14%, transparent)` } : {}),

@@ -56,7 +56,10 @@ export class SystemView {
     const time = timeDisplay(run);
     const fine = time.unit === "ms" ? { factor: 1e6, unit: "µs" } : { factor: 1e3, unit: "ms" };
     this.add(body, "step", "Length of the time steps.", { label: "step", unit: fine.unit, fromZero: true }, curve(run, "/solver/dt", "step", fine, { stepped: true }));
-    this.add(body, "newton", "Newton iterations in each step.", { label: "iterations", unit: "", fromZero: true }, curve(run, "/solver/newton_iterations", "Newton iterations", plain, { stepped: true }));
+    this.add(body, "newton", "Newton iterations of the system in each step, and linearisations of the film.", { label: "iterations", unit: "", fromZero: true }, [
+      ...curve(run, "/solver/newton_iterations", "system", plain, { stepped: true }),
+      ...run.children("/bearings").flatMap((b) => curve(run, `/bearings/${b}/film_iterations`, `film of ${b.replaceAll("_", " ")}`, plain, { stepped: true })),
+    ]);
     const meaning = run.dataset("/solver/residual")?.description || "residual";
     this.add(body, "residual", `What was left when each step was accepted: ${meaning}.`, { label: "residual", unit: "", log: true }, [
       ...curve(run, "/solver/residual", "system", plain, { dots: true }),

@@ -60,8 +60,22 @@ class Summary {
     if (reader_.has(path_ + error)) {
       const std::string unit = reader_.info(path_ + error).unit;
       extreme("worst power-balance error of the system", error, largest_size, 1, unit == "1" ? "" : unit, false);
+      relative_power_error();
     }
     if (const auto wall = reader_.number_attribute("/", "wall_time")) add("computing time", *wall, "s");
+  }
+
+  void relative_power_error() {
+    const auto most = [&](const std::string& name) {
+      double size = 0;
+      for (const double value : values("power/" + name))
+        if (std::isfinite(value)) size = std::max(size, std::abs(value));
+      return size;
+    };
+    double largest_power = 0;
+    for (const std::string& name : reader_.children("/power"))
+      if (name != "balance_error") largest_power = std::max(largest_power, most(name));
+    if (largest_power > 0) add("the same, share of the largest power", most("balance_error") / largest_power, "");
   }
 
   static bool smallest(double a, double b) { return a < b; }

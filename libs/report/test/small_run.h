@@ -68,6 +68,8 @@ struct SmallRun {
     add("/time", "s", [&](int k) { return k * dt; });
     add("/crank_angle", "rad", [&](int k) { return k * std::numbers::pi / 10; });
     add("/solver/newton_iterations", "1", [](int k) { return k % 2 == 0 ? 2.0 : 4.0; });
+    add("/power/drives", "W", [](int k) { return 2.0 * k; });
+    add("/power/loads", "W", [](int k) { return -4.0 * k; });
     add("/power/balance_error", "W", [](int k) { return k == 3 ? -2e-6 : 1e-6; });
     add((bearing + "h_min").c_str(), "m", [&](int k) { return h_min(k); });
     add((bearing + "h_min_phi").c_str(), "rad", [](int k) { return k * std::numbers::pi / 18; });

@@ -47,9 +47,12 @@ TEST_CASE("Means_AreOverTime") {
 }
 
 TEST_CASE("WorstBalanceError_IsTheLargestInSize") {
-  const SummaryRow row = find(summary_of({}), "worst power-balance error of the system");
+  const auto rows = summary_of({});
+  const SummaryRow& row = find(rows, "worst power-balance error of the system");
   CHECK(row.value == -2e-6);
   CHECK(row.unit == "W");
+  // The largest power of the run is 40 W, put in by the loads.
+  CHECK(find(rows, "the same, share of the largest power").value == doctest::Approx(5e-8).epsilon(round_off));
 }
 
 TEST_CASE("SingleRow_HasItsOwnValueAsMean") {
