@@ -6,24 +6,55 @@
 namespace hersey::mbd {
 namespace {
 
-/// Five-point Gauss-Legendre rule over [a, b].
-double gauss5(const ScalarFunction& f, double a, double b) {
+/// Integrals over [a, b] of f and of |f|.
+struct Integral {
+  double value = 0;
+  double size = 0;
+};
+
+/// Five-point Gauss-Legendre rule.
+Integral gauss5(const ScalarFunction& f, double a, double b) {
   // Nodes and weights: Abramowitz and Stegun (1964), table 25.4.
   static constexpr std::array<double, 3> x{0.0, 0.538469310105683091, 0.906179845938663993};
   static constexpr std::array<double, 3> w{0.568888888888888889, 0.478628670499366468, 0.236926885056189088};
   const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
-  const auto at = [&](double t) { return f.value({&t, 1}); };
-  double sum = w[0] * at(middle);
-  for (std::size_t i = 1; i < x.size(); ++i) sum += w[i] * (at(middle - half * x[i]) + at(middle + half * x[i]));
-  return half * sum;
+  Integral sum;
+  const auto add = [&](double t, double weight) {
+    const double value = f.value({&t, 1});
+    sum.value += half * weight * value;
+    sum.size += std::abs(half * weight * value);
+  };
+  add(middle, w[0]);
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    add(middle - half * x[i], w[i]);
+    add(middle + half * x[i], w[i]);
+  }
+  return sum;
 }
 
-/// Bisects until halves and whole agree; kinks of a table stop at the depth limit, where they no longer matter.
-double integrate(const ScalarFunction& f, double a, double b, double whole, int depth) {
+/// Bisects until halves and whole agree to `tolerance`. At a kink or jump of a table the halves shrink towards it, and
+/// the depth limit ends where they no longer matter: one path of the bisection, not all of them.
+double refine(const ScalarFunction& f, double a, double b, double whole, double tolerance, int depth) {
   const double middle = 0.5 * (a + b);
-  const double left = gauss5(f, a, middle), right = gauss5(f, middle, b);
-  if (depth == 0 || std::abs(left + right - whole) <= 1e-13 * (std::abs(left) + std::abs(right))) return left + right;
-  return integrate(f, a, middle, left, depth - 1) + integrate(f, middle, b, right, depth - 1);
+  const double left = gauss5(f, a, middle).value, right = gauss5(f, middle, b).value;
+  if (depth == 0 || !(std::abs(left + right - whole) > tolerance)) return left + right;  // not a number ends it too
+  return refine(f, a, middle, left, tolerance, depth - 1) + refine(f, middle, b, right, tolerance, depth - 1);
+}
+
+/// Adaptive integral over [a, b], to round-off of the integral of |f|: where f changes sign nothing smaller is
+/// reachable.
+double integrate(const ScalarFunction& f, double a, double b) {
+  constexpr int panels = 8, max_depth = 40;
+  std::array<Integral, panels> panel;
+  const auto edge = [&](int i) { return a + (b - a) * i / panels; };
+  double size = 0;
+  for (int i = 0; i < panels; ++i) {
+    panel[i] = gauss5(f, edge(i), edge(i + 1));
+    size += panel[i].size;
+  }
+  double sum = 0;
+  for (int i = 0; i < panels; ++i) sum += refine(f, edge(i), edge(i + 1), panel[i].value, 1e-14 * size, max_depth);
+  return sum;
 }
 
 }  // namespace
@@ -37,7 +68,7 @@ DriveMotion::DriveMotion(const DriveSpec& spec, double initial)
 double DriveMotion::position(double t) const {
   if (kind_ == DriveSpec::Kind::position) return function_->value({&t, 1});
   if (constant_) return anchor_position_ + function_->value({&t, 1}) * t;
-  return anchor_position_ + integrate(*function_, anchor_time_, t, gauss5(*function_, anchor_time_, t), 40);
+  return anchor_position_ + integrate(*function_, anchor_time_, t);
 }
 
 double DriveMotion::velocity(double t) const {
