@@ -67,9 +67,9 @@ void JournalBearing::place(const mbd::RelativeMotion& motion) {
 }
 
 void JournalBearing::report_contact() {
-  domain_error_ = fmt::format(
-      "bearing {}: the journal touches the shell (smallest undeformed gap {:.4g} um, eccentricity ratio {:.4f})", name_,
-      1e6 * smallest_gap(model(), kinematics_.value), kinematics_.e().norm() / model().c);
+  domain_error_ =
+      fmt::format("the journal touches the shell (smallest undeformed gap {:.4g} um, eccentricity ratio {:.4f})",
+                  1e6 * smallest_gap(model(), kinematics_.value), kinematics_.e().norm() / model().c);
 }
 
 // Pressures from a linear prediction may lie beyond any that a viscosity law means; and where the undeformed surfaces
@@ -89,7 +89,7 @@ void JournalBearing::fill_gap() {
   for (int pass = 0; pass < (model().compliance > 0 ? 2 : 1); ++pass) {
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
     if (!summary.converged) {
-      domain_error_ = fmt::format("bearing {}: no film at the start: {}", name_, summary.message);
+      domain_error_ = "no film at the start: " + summary.message;
       return;
     }
     history_.w = film::film_fields(model(), surfaces_, u_).w;
@@ -173,7 +173,7 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
     iterations_ += summary.iterations;
     if (!summary.converged) {
-      domain_error_ = fmt::format("bearing {}: {}", name_, summary.message);
+      domain_error_ = summary.message;
       return;
     }
     // One more Newton increment: the exchange would otherwise see the film's tolerance as a change of the wrench.
@@ -207,10 +207,10 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
 
 std::string JournalBearing::name_of_internal_residual() const {
   if (options_.coupling == Coupling::partitioned) {
-    return fmt::format("bearing {}, wrench exchanged between film and bodies", name_);
+    return "wrench exchanged between film and bodies";
   }
   const int node = reynolds_.worst_node(), n_z = model().grid.n_z;
-  return fmt::format("bearing {}, film node ({}, {})", name_, node / n_z, node % n_z);
+  return fmt::format("film node ({}, {})", node / n_z, node % n_z);
 }
 
 BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,53 +14,21 @@
 namespace hersey::run {
 namespace {
 
-using Range = std::pair<double, double>;
-
-// The values the first variable of a function runs through, where they are known before the run.
-std::optional<Range> range_of(const model::Model& model, const model::Variable& variable) {
-  const model::Simulation& run = model.simulation;
-  const double end = run.start + run.duration;
-  if (variable.kind == model::Variable::Kind::time) return Range{run.start, end};
-  if (variable.kind == model::Variable::Kind::coordinate && run.crank && variable.joint == run.crank->joint) {
-    const double first = run.crank->initial_angle, last = first + run.crank->speed * run.duration;
-    return Range{std::min(first, last), std::max(first, last)};
+// The key path of what a message names first: "joint main, rotation" -> joints.main; "t = 0 s: bearing big_end: ..." ->
+// bearings.big_end.
+std::string path_of(const std::string& message) {
+  const std::array<std::pair<const char*, const char*>, 4> sections{
+      {{"joint ", "joints."}, {"drive ", "drives."}, {"bearing ", "bearings."}, {"body ", "bodies."}}};
+  std::size_t first = std::string::npos;
+  std::string path;
+  for (const auto& [word, section] : sections) {
+    const std::size_t at = message.find(word);
+    if (at >= first) continue;
+    first = at;
+    const std::size_t name = at + std::string(word).size();
+    path = section + message.substr(name, message.find_first_of(",: ", name) - name);
   }
-  return std::nullopt;
-}
-
-void check_covers_run(const model::Model& model, const model::Function& function, std::vector<Fault>& faults) {
-  if (!function.domain || function.variables.empty()) return;
-  const std::optional<Range> needed = range_of(model, function.variables.front());
-  if (!needed) return;
-  // A run whose last step ends a rounding error beyond the table is covered.
-  const double slack = 1e-9 * std::max(std::abs(needed->first), std::abs(needed->second));
-  const auto [first, last] = *function.domain;
-  if (first <= needed->first + slack && needed->second <= last + slack) return;
-  faults.push_back({function.position, function.path,
-                    fmt::format("the table covers {:.6g} to {:.6g} (SI units), the run needs {:.6g} to {:.6g}", first,
-                                last, needed->first, needed->second),
-                    "a table that covers the whole run", "extend the table, shorten the run, or give `period:`"});
-}
-
-void check_tables(const model::Model& model) {
-  std::vector<Fault> faults;
-  for (const model::Drive& drive : model.drives) check_covers_run(model, drive.motion, faults);
-  for (const model::Force& force : model.forces) {
-    for (const model::Function& function : force.load.functions) check_covers_run(model, function, faults);
-  }
-  if (!faults.empty()) throw InputError(std::move(faults));
-}
-
-// "joint main, rotation" -> joints.main; "bearing big_end: ..." -> bearings.big_end.
-std::string path_of(const std::string& row) {
-  const std::size_t space = row.find(' ');
-  if (space == std::string::npos) return {};
-  const std::string kind = row.substr(0, space);
-  const std::string name = row.substr(space + 1, row.find_first_of(",:", space) - space - 1);
-  for (const char* section : {"joint", "drive", "bearing", "body"}) {
-    if (kind == section) return (kind == "body" ? "bodies" : kind + "s") + "." + name;
-  }
-  return {};
+  return path;
 }
 
 Fault fault_at(const model::Model& model, const std::string& row, std::string found, std::string expected,
@@ -96,7 +65,6 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
 }  // namespace
 
 solver::State starting_state(const model::Model& model, model::Machine& machine) {
-  check_tables(model);
   solver::State state = machine.mechanism->initial_state();
   state.t = model.simulation.start;
   solver::InitialiseOptions options;

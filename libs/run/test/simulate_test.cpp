@@ -1,0 +1,162 @@
+#include "hersey/run/simulate.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "hersey/results/error.h"
+#include "hersey/results/reader.h"
+#include "scratch_folder.h"
+#include "small_rig.h"
+
+namespace hersey::run {
+namespace {
+
+double last(const results::Reader& reader, const std::string& path) { return reader.read(path).values.back(); }
+
+TEST_CASE("Run_ReachesItsEndAndBalances") {
+  const ScratchFolder scratch;
+  int calls = 0;
+  Options options{.results = scratch / "run.h5"};
+  options.on_progress = [&](const Progress&) { ++calls; };
+  const Summary summary = simulate(rig(), options);
+  CHECK(summary.status == Status::completed);
+  CHECK(summary.t_end == doctest::Approx(4e-3));
+  CHECK(calls == summary.steps + 1);
+
+  // Every step is solved to 1e-8 of its largest term; powers are sums of such terms.
+  CHECK(summary.worst_power_balance < 1e-6);
+  REQUIRE(summary.bearings.size() == 1);
+  CHECK(summary.bearings[0].worst_mass_balance < 1e-6);
+
+  const results::Reader reader(summary.results);
+  CHECK(reader.text_attribute("/", "status") == "completed");
+  CHECK(static_cast<int>(reader.rows()) == summary.steps + 1);
+  CHECK(last(reader, "/time") == summary.t_end);
+  CHECK(reader.read("/bearings/big_end/h_min").values.size() == reader.rows());
+}
+
+TEST_CASE("PowerOfMotorAndLoad_GoesIntoFrictionOfTheSettledFilm") {
+  // At rest but for the turning pin: what the drives put in, the film dissipates. The dissipation integral and the
+  // shear traction are different discrete sums; on this coarse grid they agree to a few per cent.
+  const ScratchFolder scratch;
+  const Summary summary = simulate(rig(kSmallRig, {"duration=80 ms"}), {.results = scratch / "run.h5"});
+  REQUIRE(summary.status == Status::completed);
+  const results::Reader reader(summary.results);
+  const double in = last(reader, "/power/drives") + last(reader, "/power/loads");
+  const double supply = 1e5 * last(reader, "/bearings/big_end/flow_supply");
+  CHECK(in + supply == doctest::Approx(last(reader, "/power/film_friction")).epsilon(0.03));
+}
+
+TEST_CASE("SmallestStepReached_FailsWithReasonAndKeepsResults") {
+  const ScratchFolder scratch;
+  const model::Model model =
+      rig(kSmallRig, {"simulation.tolerance=1e-30", "simulation.smallest_step=0.05 ms", "duration=1 ms"});
+  const Summary summary = simulate(model, {.results = scratch / "run.h5"});
+  CHECK(summary.status == Status::failed);
+  CHECK(summary.message.find("no convergence with a step of") != std::string::npos);
+  CHECK(summary.message.find("worst equation") != std::string::npos);
+  const results::Reader reader(summary.results);
+  CHECK(reader.text_attribute("/", "status") == "failed");
+  CHECK(reader.text_attribute("/", "message") == summary.message);
+  CHECK(reader.rows() >= 1);
+}
+
+TEST_CASE("HardStep_IsHalvedAndTheRunGoesOn") {
+  // One step of a quarter turn from rest throws the rod across the gap; half of it, or less, does not.
+  const ScratchFolder scratch;
+  const model::Model model = rig(rig_with("step: 2 deg", "step: 90 deg"), {"load=5000 N", "duration=10 ms"});
+  const Summary summary = simulate(model, {.results = scratch / "run.h5"});
+  INFO(summary.message);
+  CHECK(summary.status == Status::completed);
+  CHECK(summary.rejected_steps > 0);
+  CHECK(summary.t_end == doctest::Approx(10e-3));
+}
+
+TEST_CASE("StopFlag_EndsAfterTheStep") {
+  const ScratchFolder scratch;
+  std::atomic<bool> stop{false};
+  Options options{.results = scratch / "run.h5", .stop = &stop};
+  int steps = 0;
+  options.on_progress = [&](const Progress&) { stop = ++steps > 5; };
+  const Summary summary = simulate(rig(), options);
+  CHECK(summary.status == Status::stopped);
+  CHECK(summary.steps == 5);
+  CHECK(results::Reader(summary.results).text_attribute("/", "status") == "stopped");
+}
+
+TEST_CASE("SettledRun_EndsEarly") {
+  const ScratchFolder scratch;
+  const model::Model model =
+      rig(rig_with("  spectral_radius: 0.6", "  spectral_radius: 0.6\n  settle: {tolerance: 1e-4, over: 180 deg}"),
+          {"duration=1 s"});
+  const Summary summary = simulate(model, {.results = scratch / "run.h5"});
+  CHECK(summary.status == Status::completed);
+  CHECK(summary.t_end < 0.5);
+  CHECK(summary.message.find("settled") != std::string::npos);
+  const results::Reader reader(summary.results);
+  CHECK(last(reader, "/bearings/big_end/fields/time") == last(reader, "/time"));
+}
+
+TEST_CASE("ExistingResults_AreKept") {
+  const ScratchFolder scratch;
+  const Options options{.results = scratch / "run.h5"};
+  const model::Model model = rig(kSmallRig, {"duration=0.3 ms"});
+  CHECK(simulate(model, options).status == Status::completed);
+  CHECK_THROWS_AS((void)simulate(model, options), results::FileExists);
+}
+
+TEST_CASE("OutputEvery_ThinsRowsNotExtremes") {
+  const ScratchFolder scratch;
+  const Summary all = simulate(rig(), {.results = scratch / "all.h5"});
+  const Summary some = simulate(rig(kSmallRig + "output: {every: 7}\n"), {.results = scratch / "some.h5"});
+  CHECK(some.bearings[0].moft == all.bearings[0].moft);
+  CHECK(results::Reader(some.results).rows() <= results::Reader(all.results).rows() / 6);
+}
+
+// The fault of a model that reads well but cannot start.
+Fault fault_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    check(rig(text, overrides));
+  } catch (const InputError& error) {
+    return error.faults().front();
+  }
+  FAIL("the model was accepted");
+  return {};
+}
+
+int line_of(const std::string& text, const std::string& what) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(text.find(what)), '\n'));
+}
+
+TEST_CASE("ClosedGapAtTheStart_PointsAtTheBearing") {
+  const std::string text = rig_with("x: 0 um", "x: 40 um");
+  const Fault fault = fault_of(text);
+  CHECK(fault.path == "bearings.big_end");
+  CHECK(fault.position.line == line_of(text, "  big_end:"));
+  CHECK(fault.found.find("the journal touches the shell") != std::string::npos);
+}
+
+TEST_CASE("RedundantConstraints_NameTheJoints") {
+  // A second revolute joint on the same axis says everything twice but turning.
+  const std::string text = rig_with("drives:", "  again: {type: revolute, between: [ground, pin]}\ndrives:");
+  std::string found;
+  try {
+    check(rig(text));
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults()) found += fault.text() + "\n";
+  }
+  CHECK(found.find("singular mechanism") != std::string::npos);
+  CHECK(found.find("again") != std::string::npos);
+  CHECK(found.find("rig.yaml:" + std::to_string(line_of(text, "  again:"))) != std::string::npos);
+}
+
+TEST_CASE("MasslessBody_IsNamed") {
+  const Fault fault = fault_of(rig_with("bodies:", "bodies:\n  ghost: {mass: 0 kg}"));
+  CHECK(fault.found.find("nothing determines the motion") != std::string::npos);
+  CHECK(fault.found.find("ghost") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace hersey::run
