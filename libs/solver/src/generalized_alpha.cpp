@@ -9,7 +9,6 @@
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
 #include "hersey/solver/sparse_lu.h"
-#include "kkt.h"
 
 namespace hersey::solver {
 namespace {
@@ -52,7 +51,6 @@ struct GeneralizedAlpha::Workspace {
   Index worst_index = 0;  ///< its row; -1: a condensed equation
   std::string trouble;    ///< why the last assembly was outside the domain, empty if inside
 
-  void start(Equations& equations, const State& state, double dt);
   void predict(const State& state, double dt);
   void place(Equations& equations, const State& state, const VectorXd& at);
   bool assemble(Equations& equations, const GeneralizedAlphaOptions& options);
@@ -62,26 +60,6 @@ struct GeneralizedAlpha::Workspace {
   bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
 };
-
-/// Theory manual eq. (integrator.6): a_0 = vdot(t_0 + (alpha_m - alpha_f) dt), by reflection of the accelerations at
-/// t_0 + |alpha_m - alpha_f| dt, so that no load is asked for a time before the start.
-void GeneralizedAlpha::Workspace::start(Equations& equations, const State& state, double dt) {
-  a = state.vdot;
-  started = true;
-  last_dt = dt;
-  const double s = std::abs(parameters.alpha_m - parameters.alpha_f) * dt;
-  if (s == 0) return;
-  State ahead = state;
-  ahead.t += s;
-  equations.retract(state.q, s * state.v + 0.5 * s * s * state.vdot, ahead.q);
-  ahead.v = state.v + s * state.vdot;
-  equations.begin_step(state, 0);
-  const VectorXd before = state.vdot;
-  if (!solve_accelerations(equations, ahead)) return;
-  // Stiff forces make the extrapolated state meaningless; then the plain start is the better one.
-  const VectorXd change = ahead.vdot - before;
-  if (change.lpNorm<Eigen::Infinity>() <= before.lpNorm<Eigen::Infinity>()) a -= change;
-}
 
 /// The step with a_{n+1} = a_n: dq, v and vdot that belong together.
 void GeneralizedAlpha::Workspace::predict(const State& state, double dt) {
@@ -219,7 +197,12 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
                       .suggestion = "0.95 dissipates little; at 1 the multipliers grow without bound"});
   Workspace& w = *work_;
   StepSummary summary;
-  if (!w.started) w.start(equations, state, dt);
+  if (!w.started) {
+    // Theory manual eq. (integrator.6). Starting from zero would cost an order.
+    w.a = state.vdot;
+    w.last_dt = dt;
+    w.started = true;
+  }
   equations.begin_step(state, dt);
   w.predict(state, dt);
 

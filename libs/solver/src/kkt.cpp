@@ -162,20 +162,4 @@ std::string assemble_forces(Equations& equations, const State& state, VectorXd& 
                      equations.name_of_internal_residual(), max_iterations, equations.internal_residual());
 }
 
-bool solve_accelerations(Equations& equations, State& state) {
-  VectorXd h, phi, scale, velocity, gamma;
-  MatrixXd M;
-  Equations::SparseMatrix G;
-  if (!assemble_forces(equations, state, h, M).empty()) return false;
-  equations.constraints(state, phi, scale, &G);
-  equations.constraint_rates(state, velocity, gamma);
-  const MatrixXd dense_G(G);
-  if (!analyse_rank(dense_G).involved.empty()) return false;
-  AccelerationSolution solution = solve_kkt(M, dense_G, h, gamma);
-  if (!solution.undetermined.empty()) return false;
-  state.vdot = std::move(solution.vdot);
-  state.lambda = std::move(solution.lambda);
-  return true;
-}
-
 }  // namespace hersey::solver

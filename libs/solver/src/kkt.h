@@ -24,11 +24,6 @@ struct AccelerationSolution {
 [[nodiscard]] AccelerationSolution solve_kkt(const Eigen::MatrixXd& M, const Eigen::MatrixXd& G,
                                              const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
 
-/// Sets vdot and lambda of `state` to those of its positions and velocities. False, with the state unchanged, where the
-/// equations have no answer (outside their domain, redundant, undetermined).
-/// @cost O(n^3)
-[[nodiscard]] bool solve_accelerations(Equations& equations, State& state);
-
 /// Assembles at dt = 0 and vdot = lambda = 0 until condensed unknowns are solved to 1e-10: forces h and mass matrix M.
 /// Returns what went wrong, or nothing.
 [[nodiscard]] std::string assemble_forces(Equations& equations, const State& state, Eigen::VectorXd& h,

@@ -32,9 +32,10 @@ struct StepSummary {
 
 /// Generalized-alpha for constrained mechanical systems of index 3 on a Lie group (theory manual, chapter integrator).
 ///
-/// Second order in positions, velocities and multipliers. The step length may change between steps, even alternate by
-/// factors of up to 2; larger factors repeated step after step amplify errors of the multipliers. The algorithmic
-/// acceleration a_n approximates vdot(t_n + (alpha_m - alpha_f) dt); it lives here and is rescaled when dt changes.
+/// Second order in positions and velocities, and in multipliers once the transient of the start has faded. The step
+/// length may change between steps, even alternate by factors of up to 2; larger factors repeated step after step
+/// amplify errors of the multipliers. The algorithmic acceleration a_n approximates vdot(t_n + (alpha_m - alpha_f) dt);
+/// it lives here and is rescaled when dt changes.
 ///
 /// @see Chung and Hulbert (1993), J. Appl. Mech. 60, 371-375; Arnold and Bruels (2007), Multibody Syst. Dyn. 18,
 ///      185-202; Bruels, Cardona and Arnold (2012), Mech. Mach. Theory 48, 121-137.
