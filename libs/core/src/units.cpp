@@ -50,6 +50,13 @@ class UnitSystem {
 
   [[nodiscard]] Unit parse(const std::string& text) const { return Unit(ut_parse(system_, text.c_str(), UT_UTF8)); }
 
+  /// A unit as users write it: udunits2 also takes "3 mm" and "-4 mm" for units, where a number has slipped in.
+  [[nodiscard]] Unit parse_written(const std::string& text) const {
+    const bool begins_as_number = text.find_first_of("+-.0123456789") == 0;
+    if (begins_as_number && text != "1" && !text.starts_with("1/")) return nullptr;
+    return parse(text);
+  }
+
   static std::mutex& lock() {
     static std::mutex mutex;
     return mutex;
@@ -139,12 +146,46 @@ void require_finite(double number, std::string_view text) {
   if (!std::isfinite(number)) throw QuantityError(quoted(text), "a finite number");
 }
 
-/// Words like nan and inf are numbers to from_chars, and "1,5" is a number followed by rubbish: tell them apart.
 void reject_decimal_comma(std::string_view unit, std::string_view text) {
   if (!unit.starts_with(',')) return;
-  std::string remedy(trimmed(text));
+  std::string remedy(text);
   remedy[remedy.find(',')] = '.';
   throw QuantityError(quoted(text), "a decimal point", "write " + remedy);
+}
+
+/// Takes the words of a unit off the front of `text`, up to the next number.
+std::string take_unit(std::string_view& text) {
+  std::string unit;
+  bool may_be_number = text.empty() || text.front() == ' ' || text.front() == '\t';
+  for (text = trimmed(text); !text.empty(); text = trimmed(text), may_be_number = true) {
+    std::string_view probe = text;
+    double number = 0;
+    if (may_be_number && take_number(probe, number)) break;
+    const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n"));
+    unit += (unit.empty() ? "" : " ") + std::string(word);
+    text.remove_prefix(word.size());
+  }
+  return unit;
+}
+
+/// Splits "0 -2500 N 0 N" or "0 48 0 mm" into numbers with units; a number without unit takes the next one given.
+/// @throws QuantityError unless the text is `count` finite numbers; `expected` is what to say then.
+std::vector<Quantity> split_quantities(std::string_view given, int count, const std::string& expected) {
+  const std::string_view text = trimmed(given);
+  std::vector<Quantity> parts;
+  for (std::string_view rest = text; !rest.empty();) {
+    Quantity part;
+    if (!take_number(rest, part.number)) throw QuantityError(quoted(text), expected);
+    require_finite(part.number, text);
+    part.unit = take_unit(rest);
+    reject_decimal_comma(part.unit, text);
+    parts.push_back(std::move(part));
+  }
+  if (static_cast<int>(parts.size()) != count) throw QuantityError(quoted(text), expected);
+  for (std::size_t i = parts.size() - 1; i > 0; --i) {
+    if (parts[i - 1].unit.empty()) parts[i - 1].unit = parts[i].unit;
+  }
+  return parts;
 }
 
 }  // namespace
@@ -196,15 +237,7 @@ const Dimension& dimension_of(std::string_view si_unit) {
   throw ContractError("no dimension has the SI unit '" + std::string(si_unit) + "'");
 }
 
-Quantity split_quantity(std::string_view text) {
-  std::string_view rest = text;
-  Quantity quantity;
-  if (!take_number(rest, quantity.number)) throw QuantityError(quoted(trimmed(text)), "a number and a unit");
-  require_finite(quantity.number, trimmed(text));
-  reject_decimal_comma(rest, text);
-  quantity.unit = trimmed(rest);
-  return quantity;
-}
+Quantity split_quantity(std::string_view text) { return split_quantities(text, 1, "a number and a unit").front(); }
 
 double convert_to_si(const Quantity& quantity, std::string_view si_unit) {
   const Dimension& wanted = dimension_of(si_unit);
@@ -214,7 +247,7 @@ double convert_to_si(const Quantity& quantity, std::string_view si_unit) {
   }
   const std::lock_guard guard(UnitSystem::lock());
   const UnitSystem& system = UnitSystem::instance();
-  const Unit given = system.parse(quantity.unit);
+  const Unit given = system.parse_written(quantity.unit);
   if (!given) {
     throw QuantityError("unknown unit " + quoted(quantity.unit), expectation(wanted),
                         did_you_mean(quantity.unit, wanted.spelled));
@@ -235,19 +268,8 @@ double parse_quantity(std::string_view text, std::string_view si_unit) {
 std::vector<double> parse_quantities(std::string_view text, std::string_view si_unit, int count) {
   const Dimension& wanted = dimension_of(si_unit);
   const std::string what = count == 1 ? expectation(wanted) : expectation_of_several(wanted, count);
-  std::string_view rest = text;
   std::vector<double> values;
-  double number = 0;
-  while (static_cast<int>(values.size()) < count && take_number(rest, number)) {
-    if (!std::isfinite(number)) throw QuantityError(quoted(trimmed(text)), "a finite number");
-    values.push_back(number);
-    reject_decimal_comma(rest, text);
-  }
-  if (static_cast<int>(values.size()) < count || (count > 1 && take_number(rest, number))) {
-    throw QuantityError(quoted(trimmed(text)), what);
-  }
-  const std::string unit(trimmed(rest));
-  for (double& value : values) value = convert_to_si({value, unit}, si_unit);
+  for (const Quantity& part : split_quantities(text, count, what)) values.push_back(convert_to_si(part, si_unit));
   return values;
 }
 
@@ -255,8 +277,8 @@ double convert(const Quantity& quantity, const std::string& unit) {
   if (quantity.unit == unit) return quantity.number;
   const std::lock_guard guard(UnitSystem::lock());
   const UnitSystem& system = UnitSystem::instance();
-  const Unit from = quantity.unit.empty() ? system.parse("1") : system.parse(quantity.unit);
-  const Unit to = unit.empty() ? system.parse("1") : system.parse(unit);
+  const Unit from = quantity.unit.empty() ? system.parse("1") : system.parse_written(quantity.unit);
+  const Unit to = unit.empty() ? system.parse("1") : system.parse_written(unit);
   if (!from) throw QuantityError("unknown unit " + quoted(quantity.unit), "a unit like " + unit);
   if (!to) throw QuantityError("unknown unit " + quoted(unit), "a unit like " + quantity.unit);
   const bool zero = quantity.number == 0 && quantity.unit.empty();

@@ -32,6 +32,9 @@ TEST_CASE("Quantities_AreConvertedToSI") {
   check_quantity("34um", "m", 34e-6);
   check_quantity("34 µm", "m", 34e-6);
   check_quantity("15 mPa.s", "Pa.s", 0.015);
+  check_quantity("4 mm²", "m^2", 4e-6);
+  check_quantity("5 N·m", "N.m", 5);
+  check_quantity("5 kg m^2", "kg.m^2", 5);
   check_quantity("15 cP", "Pa.s", 0.015);
   check_quantity("1.28e-10 1/Pa", "1/Pa", 1.28e-10);
   check_quantity("1e-3 1/MPa", "1/Pa", 1e-9);
@@ -77,6 +80,9 @@ TEST_CASE("BareZero_IsAnyQuantity") {
 TEST_CASE("Vectors_ShareOneUnit") {
   CHECK(parse_quantities("0 48 -1e3 mm", "m", 3) == std::vector<double>{0, 0.048, -1});
   CHECK(parse_quantities("0 0 1", "1", 3) == std::vector<double>{0, 0, 1});
+  CHECK(parse_quantities("0 -2500 N 0 N", "N", 3) == std::vector<double>{0, -2500, 0});
+  CHECK(parse_quantities("1 m 2 3 mm", "m", 3) == std::vector<double>{1, 0.002, 0.003});
+  CHECK_THROWS_AS((void)parse_quantities("1 m 2 mm 3", "m", 3), QuantityError);
   CHECK_THROWS_WITH_AS((void)parse_quantities("0 48 mm", "m", 3),
                        "found '0 48 mm'; expected 3 numbers and a unit of length, such as 0 0 45 mm", QuantityError);
   CHECK_THROWS_WITH_AS((void)parse_quantities("0 48 0 1 mm", "m", 3),
@@ -104,6 +110,8 @@ TEST_CASE("WrongQuantities_AreNamed") {
   CHECK(error_of("inf m", "m").expected == "a finite number");
   CHECK(error_of("1e999 m", "m").expected == "a finite number");
   CHECK(error_of("1e300 Pm", "m").expected == "a finite number");  // overflows in the conversion only
+  CHECK(error_of("45 3 mm", "m").found == "'45 3 mm'");            // udunits2 takes "3 mm" for a unit
+  CHECK(error_of("3-4 mm", "m").found == "unknown unit '-4 mm'");
   CHECK(error_of("1,5 mm", "m").suggestion == "write 1.5 mm");
 }
 

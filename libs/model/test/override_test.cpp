@@ -54,6 +54,12 @@ TEST_CASE("ParametersInsideText_AreReplaced") {
   CHECK(model.forces[0].load.functions[1].value->value(std::array{2.0}) == -50);
 }
 
+TEST_CASE("ParametersInsideVectors_KeepTheirUnit") {
+  const std::string text = edited(edited(good_model, "  load: 500 N", "  load: 500 N\n  g: 981 cm/s^2"), "bodies:",
+                                  "gravity: 0 -${g} 0 m/s^2\nbodies:");
+  CHECK((read_text(text, "m.yaml").gravity - Vector3(0, -9.81, 0)).norm() < 1e-15);
+}
+
 TEST_CASE("FaultyOverrides_AreNamed") {
   CHECK(faults_of(good_model, {"load"}) == "--set: 'load'; expected name=value, such as load=500N");
   CHECK(faults_of(good_model, {"laod=3 N"}) ==

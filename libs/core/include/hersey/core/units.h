@@ -51,7 +51,7 @@ struct Quantity {
 /// @throws QuantityError telling what was found (an unknown unit, another dimension, no unit) and what is expected.
 [[nodiscard]] double parse_quantity(std::string_view text, std::string_view si_unit);
 
-/// Reads `count` numbers and one unit, "0 48 0 mm"; without a unit only for zeros or si_unit "1".
+/// Reads `count` numbers with one unit, "0 48 0 mm", or one each, "0 48 mm 1 cm"; none for zeros or si_unit "1".
 [[nodiscard]] std::vector<double> parse_quantities(std::string_view text, std::string_view si_unit, int count);
 
 /// `number` in `unit`, converted to `si_unit`.
