@@ -97,9 +97,9 @@ int main(int argc, char** argv) {
   for (const double L_over_D : {1.0, 0.5}) {
     for (const double epsilon : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.97}) {
       const Bearing b = bearing(grid, L_over_D, epsilon);
-      const Timed newton = timed_solve(b, {}, 5);
+      const Timed newton = timed_solve(b, {}, 15);
       const Timed sor = timed_solve(b, {.solver = FilmSolver::sor, .rtol = 1e-8}, 1);
-      const double reference = one_assembly_factorisation_solve(b, newton.u, 5);
+      const double reference = one_assembly_factorisation_solve(b, newton.u, 15);
       const double iteration = newton.seconds / newton.summary.iterations, ratio = iteration / reference;
       worst = std::max(worst, ratio);
       most = std::max(most, newton.summary.iterations);
