@@ -147,7 +147,7 @@ struct Writer::Impl {
     return dataset;
   }
 
-  std::size_t make_growing(std::string_view name, std::vector<hsize_t> row_shape, std::string_view unit,
+  std::size_t make_growing(std::string_view name, const std::vector<hsize_t>& row_shape, std::string_view unit,
                            std::string_view description) {
     Growing entry{{}, {0}, 1, {}};
     for (const hsize_t n : row_shape) {
