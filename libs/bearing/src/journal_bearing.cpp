@@ -19,11 +19,13 @@ constexpr double kDirectionFloor = 1e-6;
 constexpr double kLargestBarusExponent = 20;
 
 // The surfaces' answer to a unit change of each parameter; they are linear in all of them.
-std::array<film::MotionDirection, kParameterCount> unit_directions(const film::FilmModel& model) {
-  std::array<film::MotionDirection, kParameterCount> directions;
+std::vector<film::MotionDirection> unit_directions(const film::FilmModel& model) {
+  // The angle of the widest gap comes last and matters only where the supply follows it.
+  const int count = model.supply.kind == film::SupplyKind::widest_gap ? kParameterCount : kSupplyAngle;
+  std::vector<film::MotionDirection> directions(static_cast<std::size_t>(count));
   film::FilmModel no_clearance = model;
   no_clearance.c = 0;
-  for (int k = 0; k < kParameterCount; ++k) {
+  for (int k = 0; k < count; ++k) {
     film::SurfaceMotion motion;
     place_surfaces(no_clearance, ParameterVector::Unit(k), motion);
     film::MotionDirection& direction = directions[static_cast<std::size_t>(k)];
@@ -36,10 +38,6 @@ std::array<film::MotionDirection, kParameterCount> unit_directions(const film::F
   return directions;
 }
 
-bool acts(const film::FilmModel& model, int parameter) {
-  return parameter != kSupplyAngle || model.supply.kind == film::SupplyKind::widest_gap;
-}
-
 }  // namespace
 
 JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, const BearingOptions& options)
@@ -49,9 +47,8 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
       directions_(unit_directions(model)),
       interface_(options.acceleration, options.relaxation) {
   const int n = model.grid.size();
-  u_ = u_start_ = du0_ = column_ = Eigen::VectorXd::Zero(n);
-  du_ds_ = Eigen::MatrixXd::Zero(n, kParameterCount);
-  wrench_ds_.setZero();
+  u_ = u_start_ = du0_ = Eigen::VectorXd::Zero(n);
+  du_ds_ = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(directions_.size()));
   history_.theta = Eigen::VectorXd::Ones(n);
   history_.w = Eigen::VectorXd::Zero(n);
   history_start_ = observed_history_ = history_;
@@ -114,18 +111,13 @@ void JournalBearing::follow_surfaces() {
   ParameterVector ds = kinematics_.value - s_linearised_;
   ds[kSupplyAngle] = std::remainder(ds[kSupplyAngle], 2 * std::numbers::pi);
   u_ += du0_;
-  u_.noalias() += du_ds_ * ds;
+  u_.noalias() += du_ds_ * ds.head(du_ds_.cols());
   if (!is_sensible()) u_ = u_linearised_;
 }
 
 void JournalBearing::linearise_parameters() {
-  for (int k = 0; k < kParameterCount; ++k) {
-    if (!acts(model(), k)) continue;
-    Vector6 partial;
-    reynolds_.response(directions_[static_cast<std::size_t>(k)], column_, partial);
-    du_ds_.col(k) = column_;
-    wrench_ds_.col(k) = partial + reynolds_.wrench_gradient(column_);
-  }
+  reynolds_.responses(directions_, du_ds_, wrench_ds_);
+  for (Eigen::Index k = 0; k < du_ds_.cols(); ++k) wrench_ds_.col(k) += reynolds_.wrench_gradient(du_ds_.col(k));
 }
 
 void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
@@ -162,8 +154,8 @@ void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& 
   linearised_ = want_tangent;
   if (!want_tangent) return;
   linearise_parameters();
-  response.dW_dX.noalias() = -wrench_ds_ * kinematics_.d_dX;
-  response.dW_dV.noalias() = -wrench_ds_ * kinematics_.d_dV;
+  response.dW_dX.noalias() = -wrench_ds_ * kinematics_.d_dX.topRows(wrench_ds_.cols());
+  response.dW_dV.noalias() = -wrench_ds_ * kinematics_.d_dV.topRows(wrench_ds_.cols());
 }
 
 void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {

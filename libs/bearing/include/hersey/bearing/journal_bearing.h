@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
 #include <string>
+#include <vector>
 
 #include "hersey/bearing/interface_iteration.h"
 #include "hersey/bearing/journal_kinematics.h"
@@ -83,15 +83,14 @@ class JournalBearing final : public mbd::TwoBodyForce {
   film::Reynolds reynolds_;
   film::SurfaceMotion surfaces_;
   JournalKinematics kinematics_;
-  std::array<film::MotionDirection, kParameterCount> directions_;
+  std::vector<film::MotionDirection> directions_;  // one per parameter that acts
 
   // The film in the current step: unknowns, their Newton increment, their answer to each parameter, and where
   // (in parameters) they were last linearised.
   Eigen::VectorXd u_, u_linearised_, du0_;
   Eigen::MatrixXd du_ds_;
   ParameterVector s_linearised_ = ParameterVector::Zero();
-  Eigen::Matrix<double, 6, kParameterCount> wrench_ds_;
-  Eigen::VectorXd column_;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds_;
   bool linearised_ = false;
 
   // The film at the start of the step: what a rejected step returns to.
