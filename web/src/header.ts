@@ -37,11 +37,16 @@ function runCount(report: Report): string {
   return `${report.runs.length} runs, ${completed === report.runs.length ? "all" : completed} completed`;
 }
 
+export function statusName(run: Run): string {
+  const value = run.attribute("/", "status");
+  return statusText[value] ?? value;
+}
+
 /** How a run ended; what it says goes with it unless all is well. */
 export function status(run: Run): HTMLElement {
   const value = run.attribute("/", "status");
   const message = run.attribute("/", "message");
-  const text = statusText[value] ?? value;
+  const text = statusName(run);
   return h("span", { class: `status ${value}` }, value === "completed" || !message ? text : `${text}: ${message}`);
 }
 

@@ -219,7 +219,7 @@ export class LinePlot {
       legend: { show: false },
       cursor: { drag: { x: true, y: false }, points: { size: 7 }, y: false },
       scales: {
-        x: { time: false, range: (_p, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]) },
+        x: { time: false, range: (_p, low, high) => (low === high || x.categories ? [low - 0.5, high + 0.5] : [low, high]) },
         y: left.log ? { distr: 3 } : { range: padded(left.fromZero === true, left.highest) },
         right: { range: padded(right?.fromZero === true) },
       },

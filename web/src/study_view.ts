@@ -4,6 +4,7 @@ import { sequence } from "./colormap";
 import type { Report, Run } from "./data";
 import { figure, h, segmented } from "./dom";
 import { FilmFields } from "./film_fields";
+import { statusName } from "./header";
 import { LinePlot, type Curve } from "./line_plot";
 import { capital } from "./run_view";
 import { Study } from "./study";
@@ -78,10 +79,10 @@ export class StudyView {
     const { study } = this;
     const highest = Math.max(0, ...study.runs.map((run) => Math.max(0, ...(this.midplane(run)?.y ?? []))));
     return study.combinations.flatMap(({ label, runs }) => {
-      const colours = sequence(runs.length, isDark());
+      const colours = study.numbers() ? sequence(runs.length, isDark()) : [];
       const curves: Curve[] = runs.flatMap((run, i) => {
         const midplane = this.midplane(run);
-        return midplane ? [{ label: study.value(run, study.abscissa) || study.label(run), y: midplane.y, unit: "MPa", colour: colours[i]! }] : [];
+        return midplane ? [{ label: study.value(run, study.abscissa) || study.label(run), y: midplane.y, unit: "MPa", ...(colours[i] ? { colour: colours[i] } : {}) }] : [];
       });
       const angles = runs.map((run) => this.midplane(run)?.x).find((x) => x !== undefined);
       if (curves.length === 0 || !angles) return [];
@@ -120,7 +121,7 @@ export class StudyView {
       const curves: Curve[] = study.combinations.map(({ label, runs }) => ({
         label: label || end.label,
         unit: end.display.unit,
-        points: true,
+        ...(numbers ? { points: true } : { dots: true }),
         y: x.map((value) => {
           const run = runs.find((r) => place(r) === value);
           return run ? this.atEnd(run, end) : null;
@@ -162,7 +163,7 @@ export class StudyView {
       ["mass error", "worst mass-balance error", (run) => summary(run, "worst mass-balance error of the film")],
     ];
     if (study.runs.some((run) => run.attribute("/", "status") !== "completed"))
-      columns.push(["status", "how the run ended", (run) => run.attribute("/", "status")]);
+      columns.push(["status", "how the run ended", statusName]);
     const head = [
       ...study.parameters.map((p) => h("th", { scope: "col" }, p.replaceAll("_", " "))),
       ...columns.map(([short, long]) => h("th", { scope: "col", class: "number", title: long }, short)),
