@@ -88,5 +88,111 @@ TEST_CASE("FourBars_PassTheirSingularPositionOnTheRightBranch") {
   CHECK(worst < 1e-3);  // the benchmark's own measure
 }
 
+TEST_CASE("FortyFourBars_MeetTheBenchmark") {
+  // 121 coordinates, 120 constraint rows.
+  const auto m = four_bars(40);
+  solver::State state = test::start(*m);
+  test::run(*m, state, 10, 400, 0.9);
+  const Vector3 B0 = m->frame_motion(state, m->spec().body_frames[1]).X_WF * Vector3(1, 0, 0);
+  const double error = std::hypot(B0.x() - 0.1805122267, B0.y() - 0.9835727406);
+  MESSAGE("error of B0 at the end ", error);
+  CHECK(error < 1e-3);
+}
+
+/// A03: Andrews' squeezer as in the test set for IVP solvers (Mazzia and Magherini, release 2.4, problem "andrews"):
+/// seven plane bodies, three loops that meet in one point, a motor torque and a spring; no gravity.
+class Squeezer {
+ public:
+  Squeezer() {
+    hinge("beta", JointType::revolute, ground_at(0, 0), add("K1", 0.04325, 2.194e-6, {ra, 0}), -0.06171389001427645);
+    // K2 points from the crank's tip backwards: its x axis is minus the direction of beta + Theta.
+    add("K2", 0.00365, 4.410e-7, {-da, 0});
+    hinge("Theta", JointType::revolute, at(last_ - 1, rr, 0), {last_}, 0);
+    const FrameId E = at(last_, -d, 0);
+    add("K3", 0.02373, 5.255e-6, {sa, sb});
+    hinge("gamma", JointType::cylindrical, ground_at(xb, yb), {last_}, 0.45527981916307037);
+    const FrameId D = at(last_, sd, -sc);
+    close("E3", E, at(last_, 0, -ss));
+    add("K5", 0.07050, 1.169e-5, {ta, tb});
+    hinge("delta", JointType::revolute, ground_at(xa, ya), {last_}, 0.48736497954384256);
+    const FrameId G = at(last_, zt, 0);
+    add("K4", 0.00706, 5.667e-7, {0, -(e - ea)});
+    hinge("Phi", JointType::cylindrical, G, {last_}, 0.22266839016588588);
+    close("E4", E, at(last_, 0, -e));
+    add("K7", 0.05498, 1.912e-5, {ua, ub});
+    hinge("epsilon", JointType::revolute, ground_at(xa, ya), {last_}, 1.2305474445498212);
+    const FrameId H = at(last_, 0, -u);
+    add("K6", 0.00706, 5.667e-7, {zf - fa, 0});
+    hinge("Omega", JointType::cylindrical, H, {last_}, -0.22266839016588588);
+    close("E6", E, at(last_, zf, 0));
+    b_.add_force("spring", ground_at(0.014, 0.072), D, std::make_shared<SpringDamper>(4530, 0, 0.07785));
+    b_.add_load({.name = "motor",
+                 .frame = at(1, 0, 0),
+                 .axes = LoadAxes::ground,
+                 .terms = {{(Vector6() << 0, 0, 1, 0, 0, 0).finished(), test::constant(0.033), {}}}});
+    mechanism = b_.finalise();
+  }
+
+  /// Angle of the named joint: the last of its values.
+  [[nodiscard]] double angle(const Observation& seen, const std::string& name) const {
+    for (std::size_t j = 0; j < seen.joints.size(); ++j)
+      if (mechanism->spec().joints[j].name == name) return seen.joints[j].position.back();
+    FAIL("no such joint");
+    return 0;
+  }
+
+  std::unique_ptr<Mechanism> mechanism;
+
+ private:
+  BodyId add(const char* name, double mass, double inertia, const Eigen::Vector2d& com) {
+    // Transverse moments do not matter to a plane motion.
+    const BodyId id = b_.add_body({.name = name,
+                                   .mass = mass,
+                                   .com = {com.x(), com.y(), 0},
+                                   .inertia = Vector3(0.6, 0.6, 1).asDiagonal() * inertia});
+    last_ = id.index;
+    return id;
+  }
+  FrameId at(int body, double x, double y) {
+    return b_.add_frame({.name = "f", .body = {body}, .X_BF = {Matrix3::Identity(), {x, y, 0}}});
+  }
+  FrameId ground_at(double x, double y) { return at(0, x, y); }
+  JointId hinge(const char* name, JointType type, FrameId inboard, BodyId body, double angle) {
+    return b_.add_joint(
+        {.name = name,
+         .type = type,
+         .inboard = inboard,
+         .outboard = b_.frame_of(body),
+         .initial = type == JointType::revolute ? std::vector<double>{angle} : std::vector<double>{0, angle}});
+  }
+  void close(const char* name, FrameId a, FrameId b) {
+    b_.add_joint({.name = name, .type = JointType::spherical, .inboard = a, .outboard = b});
+  }
+
+  static constexpr double xa = -0.06934, ya = -0.00227, xb = -0.03635, yb = 0.03273, d = 0.028, da = 0.0115, e = 0.02,
+                          ea = 0.01421, rr = 0.007, ra = 0.00092, ss = 0.035, sa = 0.01874, sb = 0.01043, sc = 0.018,
+                          sd = 0.02, ta = 0.02308, tb = 0.00916, u = 0.04, ua = 0.01228, ub = 0.00449, zf = 0.02,
+                          zt = 0.04, fa = 0.01421;
+  MechanismBuilder b_;
+  int last_ = 0;
+};
+
+TEST_CASE("AndrewsSqueezer_MeetsTheTestSet") {
+  Squeezer squeezer;
+  Mechanism& m = *squeezer.mechanism;
+  solver::State state = test::start(m);
+  test::run(m, state, 0.03, 6000, 0.9);
+  const Observation seen = m.observe(state);
+  // Reference solution of the test set at t = 0.03 s.
+  const std::pair<const char*, double> reference[] = {{"beta", 15.81077119629904},    {"Theta", -15.75637105984298},
+                                                      {"gamma", 0.04082224013073101}, {"Phi", -0.5347301163226948},
+                                                      {"delta", 0.5244099658805303},  {"Omega", 0.5347301163226948},
+                                                      {"epsilon", 1.048080741042263}};
+  for (const auto& [name, value] : reference) {
+    CAPTURE(std::string(name));
+    CHECK(std::abs(squeezer.angle(seen, name) / value - 1) < 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace hersey::mbd
