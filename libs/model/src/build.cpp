@@ -165,6 +165,8 @@ class Builder {
     bearing::BearingOptions options;
     options.coupling = bearing.coupling.scheme == CouplingScheme::partitioned ? bearing::Coupling::partitioned
                                                                               : bearing::Coupling::monolithic;
+    options.acceleration = bearing.coupling.acceleration;
+    options.relaxation = bearing.coupling.relaxation;
     options.film.solver = bearing.solver;
     options.initial_dt = model_.simulation.step;
     auto film = std::make_shared<bearing::JournalBearing>(bearing.name, bearing.film, options);

@@ -76,10 +76,13 @@ TypePtr coupling_format() {
           {"partitioned",
            "bodies and film in turn, exchanging force and motion until both agree",
            {
+               defaulted("acceleration",
+                         choice({{"quasi_newton", "the interface's Jacobian is learnt from the steps taken (IQN-ILS)"},
+                                 {"aitken", "the share taken follows the last two corrections"},
+                                 {"constant", "the same share of every correction"}}),
+                         "quasi_newton", "How the exchanged force is corrected."),
                defaulted("relaxation", number("0.1", {.low = 0, .high = 1, .low_open = true}), "0.1",
                          "Share of the first correction of the force that is taken."),
-               defaulted("tolerance", number("1e-6", {.low = 0, .high = 1, .low_open = true, .high_open = true}),
-                         "1e-6", "Relative change of the force at which both agree."),
                defaulted("max_iterations", integer(50, {.low = 1, .high = 10000}), "50", "Exchanges per step."),
            }},
       });

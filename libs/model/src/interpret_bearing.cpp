@@ -149,7 +149,10 @@ Coupling coupling_of(const Value& bearing) {
   if (value == nullptr || value->text != "partitioned") return coupling;
   coupling.scheme = CouplingScheme::partitioned;
   coupling.relaxation = number_of(*value, "relaxation");
-  coupling.tolerance = number_of(*value, "tolerance");
+  if (const Value* acceleration = value->find("acceleration")) {
+    if (acceleration->text == "aitken") coupling.acceleration = bearing::Acceleration::aitken;
+    if (acceleration->text == "constant") coupling.acceleration = bearing::Acceleration::constant;
+  }
   coupling.max_iterations = integer_of(*value, "max_iterations");
   return coupling;
 }

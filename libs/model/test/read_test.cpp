@@ -111,7 +111,7 @@ TEST_CASE("EverythingAboutABearing_IsRead") {
     cavitated_shear: full
     shear_force: torque_only
     solver: sor
-    coupling: {scheme: partitioned, relaxation: 0.5, max_iterations: 7}
+    coupling: {scheme: partitioned, acceleration: aitken, relaxation: 0.5, max_iterations: 7}
 )");
   const Bearing bearing = read_text(text, "m.yaml").bearings[0];
   const film::FilmModel& film = bearing.film;
@@ -136,6 +136,7 @@ TEST_CASE("EverythingAboutABearing_IsRead") {
   CHECK(film.shear_force == film::ShearForce::torque_only);
   CHECK(bearing.solver == film::FilmSolver::sor);
   CHECK(bearing.coupling.scheme == CouplingScheme::partitioned);
+  CHECK(bearing.coupling.acceleration == bearing::Acceleration::aitken);
   CHECK(bearing.coupling.relaxation == 0.5);
   CHECK(bearing.coupling.max_iterations == 7);
 }

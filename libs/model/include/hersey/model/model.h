@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "hersey/bearing/interface_iteration.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/core/spatial.h"
@@ -138,9 +139,9 @@ enum class CouplingScheme { monolithic, partitioned };
 
 struct Coupling {
   CouplingScheme scheme = CouplingScheme::monolithic;
-  double relaxation = 0.1;    ///< partitioned: share of the first correction taken, in (0, 1]
-  double tolerance = 1e-6;  ///< partitioned: relative change of the film wrench between iterations
-  int max_iterations = 50;  ///< partitioned
+  double relaxation = 0.1;  ///< partitioned: share of the first correction taken, in (0, 1]
+  bearing::Acceleration acceleration = bearing::Acceleration::quasi_newton;  ///< partitioned
+  int max_iterations = 50;                                                   ///< partitioned: exchanges per step
 };
 
 struct Bearing {
