@@ -1,0 +1,72 @@
+#include "hersey/study/study.h"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "hersey/model/read.h"
+#include "hersey/results/reader.h"
+
+namespace hersey::study {
+namespace {
+
+// The command line tests' model with a study of two loads and two clearances, in a folder of its own.
+class StudyFolder {
+ public:
+  StudyFolder() : path_(std::filesystem::temp_directory_path() / ("hersey-study-test-" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+    std::ifstream source(std::string(HERSEY_SOURCE_DIR) + "/tests/cli/bearing.yaml");
+    std::stringstream text;
+    text << source.rdbuf();
+    REQUIRE(!text.str().empty());
+    std::ofstream(model()) << text.str()
+                           << "\nstudy:\n  parameters:\n    load: [100 N, 300 N]\n"
+                              "    bearings.main.radial_clearance: [40 um, 50 um]\n";
+  }
+  ~StudyFolder() { std::filesystem::remove_all(path_); }
+  StudyFolder(const StudyFolder&) = delete;
+  StudyFolder& operator=(const StudyFolder&) = delete;
+  [[nodiscard]] std::string model() const { return (path_ / "model.yaml").string(); }
+  [[nodiscard]] std::filesystem::path path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+TEST_CASE("RunsAtTheSameTime_GiveTheNumbersOfRunsAlone") {
+  const StudyFolder folder;
+  const std::vector<model::StudyRun> runs = model::expand_study(folder.model());
+  REQUIRE(runs.size() == 4);
+  const auto together = simulate_all(folder.model(), runs, {.directory = folder.path(), .threads = 4});
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    CAPTURE(runs[i].label);
+    REQUIRE(together[i].error.empty());
+    const run::Summary alone = run::simulate(model::read(folder.model(), runs[i].overrides),
+                                             {.results = folder.path() / ("alone" + std::to_string(i) + ".h5")});
+    // No state is shared between runs: the same operations in the same order.
+    CHECK(together[i].summary.bearings[0].moft == alone.bearings[0].moft);
+    CHECK(together[i].summary.bearings[0].eccentricity_ratio == alone.bearings[0].eccentricity_ratio);
+    const results::Reader reader(together[i].summary.results);
+    CHECK(reader.list_attribute("/", "study_parameters").size() == 2);
+  }
+}
+
+TEST_CASE("FailedRun_LeavesTheOthersAlone") {
+  const StudyFolder folder;
+  const std::vector<model::StudyRun> runs = model::expand_study(folder.model());
+  // The second run's results exist already and may not be replaced.
+  std::ofstream(results_file({.directory = folder.path()}, runs[1])) << "not mine";
+  std::size_t finished = 0;
+  Options options{.directory = folder.path(), .threads = 2};
+  options.on_finished = [&](std::size_t, const RunResult&) { ++finished; };
+  const auto results = simulate_all(folder.model(), runs, options);
+  CHECK(finished == 4);
+  CHECK(!results[1].error.empty());
+  for (std::size_t i : {0, 2, 3}) CHECK(results[i].summary.status == run::Status::completed);
+}
+
+}  // namespace
+}  // namespace hersey::study
