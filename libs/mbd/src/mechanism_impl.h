@@ -11,7 +11,7 @@
 
 namespace hersey::mbd {
 
-/// A drive or spring bound to its column.
+/// A drive bound to its column.
 struct BoundDrive {
   int column = 0;
   int q = 0;
@@ -51,11 +51,11 @@ struct Mechanism::Implementation {
   [[nodiscard]] FrameMotion frame_motion(const Attachment& frame) const;
   void observe_joint_coordinates(const solver::State& state, Observation& seen) const;
   void observe_efforts(const solver::State& state, Observation& seen);
-  void observe_reactions(const solver::State& state, Observation& seen) const;
-  void observe_energies(const solver::State& state, Observation& seen) const;
+  void observe_reactions(const solver::State& state, Observation& seen);
+  void observe_energies(Observation& seen) const;
 };
 
-/// Value, velocity term and scale of the wrench of a closure's multipliers.
+/// The wrench of a closure's multipliers, with its geometric stiffness, in the form of a two-body force.
 [[nodiscard]] ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const Eigen::VectorXd& lambda);
 
 }  // namespace hersey::mbd

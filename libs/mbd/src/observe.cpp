@@ -1,5 +1,6 @@
 // What a mechanism shows of itself: motion, joint coordinates, reactions, efforts, powers, energies.
 #include <cmath>
+#include <ranges>
 
 #include "mechanism_impl.h"
 
@@ -124,7 +125,7 @@ void Mechanism::Implementation::observe_efforts(const solver::State& state, Obse
   }
 }
 
-void Mechanism::Implementation::observe_reactions(const solver::State& state, Observation& seen) const {
+void Mechanism::Implementation::observe_reactions(const solver::State& state, Observation& seen) {
   // Balance of each body: what is left of inertia and weight after the known forces comes through its joints.
   std::vector<Vector6> need(spec.bodies.size(), Vector6::Zero());
   const auto body_of = [&](FrameId frame) { return spec.frames[frame.index].body.index; };
@@ -139,10 +140,7 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
     const Vector6& V = motion.V(at.link);
     need[b] = I * motion.A(at.link) + cross_force(V, I * V);
   }
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    Load load = loads[i];
-    need[body_of(spec.loads[i].frame)] -= load.wrench(motion, state);
-  }
+  for (std::size_t i = 0; i < loads.size(); ++i) need[body_of(spec.loads[i].frame)] -= loads[i].wrench(motion, state);
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
     const Vector6 W = force_transform(motion.pose(tree.forces[i].a)) * seen.force_wrenches[i];
     need[body_of(spec.forces[i].b)] -= W;
@@ -157,7 +155,7 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
     need[body_of(spec.joints[closure.joint].outboard)] -= W;
     need[body_of(spec.joints[closure.joint].inboard)] += W;
   }
-  for (auto b = tree.body_order.rbegin(); b != tree.body_order.rend(); ++b) need[tree.body_parent[*b]] += need[*b];
+  for (int b : std::views::reverse(tree.body_order)) need[tree.body_parent[b]] += need[b];
   for (std::size_t j = 0; j < spec.joints.size(); ++j)
     if (tree.joints[j].outboard_body >= 0) through[j] = need[tree.joints[j].outboard_body];
 
@@ -189,7 +187,7 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
   }
 }
 
-void Mechanism::Implementation::observe_energies(const solver::State&, Observation& seen) const {
+void Mechanism::Implementation::observe_energies(Observation& seen) const {
   for (std::size_t l = 1; l < tree.links.size(); ++l) {
     const Link& link = tree.links[l];
     const Vector6& V = motion.V(static_cast<int>(l));
@@ -208,7 +206,7 @@ Observation Mechanism::observe(const solver::State& state) {
   m.observe_joint_coordinates(state, seen);
   m.observe_efforts(state, seen);
   m.observe_reactions(state, seen);
-  m.observe_energies(state, seen);
+  m.observe_energies(seen);
   return seen;
 }
 

@@ -9,7 +9,8 @@
 
 namespace hersey::mbd {
 
-/// Poses, velocities and accelerations of all links of a tree at one state (theory manual eq. (mechanisms.2) to (mechanisms.5)).
+/// Poses, velocities and accelerations of all links of a tree at one state (theory manual eq. (mechanisms.2) to
+/// (mechanisms.5)).
 ///
 /// All spatial vectors are taken at ground's origin and in ground's axes. Accelerations are the derivatives of these
 /// velocities; ground's is minus gravity, so that inertia forces contain the weight.
