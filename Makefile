@@ -1,14 +1,15 @@
 # Everything from a bare checkout: each target installs what it needs (scripts/setup), configures, builds and runs.
-# Logs: build/log/. Settings: JOBS=n, PRESET=release|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test).
+# Logs: build/log/. Settings: JOBS=n, PRESET=release|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test), TIME=n (fuzz).
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
 FILTER ?= .
+TIME ?= 60
 BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help program demo test bench validate web web-check web-test docs format lint install clean
+.PHONY: help program demo test bench validate fuzz web web-check web-test docs format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -33,6 +34,12 @@ bench:  ## builds and runs the benchmarks
 validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
+
+fuzz:  ## feeds the model reader with mutated models for TIME=60, address and undefined-behaviour checks on
+	@scripts/setup build fuzz
+	@$(MAKE) --no-print-directory PRESET=fuzz build/fuzz/build.ninja
+	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target model_read_fuzz -j $(JOBS)
+	@scripts/fuzz build/fuzz $(TIME)
 
 web:  ## rebuilds the report's front end (needs Node; the C++ build does not)
 	@scripts/web build

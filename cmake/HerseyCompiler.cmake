@@ -34,3 +34,9 @@ if(HERSEY_WERROR)
   target_compile_options(hersey_options INTERFACE -Werror)
 endif()
 target_compile_features(hersey_options INTERFACE cxx_std_20)
+if(HERSEY_FUZZ)
+  # Everything is instrumented, so that the fuzzer sees which branches its input reaches.
+  target_compile_options(hersey_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-omit-frame-pointer
+                                                  -fno-sanitize-recover=undefined)
+  target_link_options(hersey_options INTERFACE -fsanitize=address,undefined)
+endif()

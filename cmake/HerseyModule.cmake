@@ -2,7 +2,8 @@
 #
 # A module is libs/<name>: one static library with its own include root. It sees the headers of the modules it names
 # and of those below them, and no others, so an include that runs up or sideways does not compile.
-# Its tests, libs/<name>/test/*_test.cpp, become one executable, each case one test of ctest.
+# Its tests, libs/<name>/test/*_test.cpp, become one executable, each case one test of ctest. With HERSEY_FUZZ each of
+# libs/<name>/fuzz/*_fuzz.cpp becomes the fuzzer <name>_<file>.
 
 # One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers.
 add_library(hersey_pch OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
@@ -45,14 +46,27 @@ function(hersey_module name)
   install(TARGETS hersey_${name} EXPORT herseyTargets FILE_SET HEADERS)
   set_property(GLOBAL APPEND PROPERTY HERSEY_MODULES ${name})
 
+  if(HERSEY_FUZZ)
+    file(GLOB fuzzers CONFIGURE_DEPENDS ${dir}/fuzz/*_fuzz.cpp)
+    foreach(source ${fuzzers})
+      cmake_path(GET source STEM fuzzer)
+      add_executable(${name}_${fuzzer} ${source})
+      target_link_libraries(${name}_${fuzzer} PRIVATE hersey_${name} hersey_options)
+      target_link_options(${name}_${fuzzer} PRIVATE -fsanitize=fuzzer)
+    endforeach()
+  endif()
+
   if(BUILD_TESTING AND tests)
     add_executable(${name}_test ${tests})
     file(GLOB verification CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/verification/*.h)
     target_include_directories(${name}_test PRIVATE ${dir}/src ${CMAKE_CURRENT_SOURCE_DIR}/verification)
     target_link_libraries(${name}_test PRIVATE hersey_${name} hersey_test_main ${M_PRIVATE})
     target_compile_definitions(${name}_test PRIVATE HERSEY_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
-    # Each case is a test of its own, `<module>.<case>`; a filter that selects no case must not pass.
+    # Each case is a test of its own, `<module>.<case>`; a filter that selects no case must not pass. Cases of a module
+    # take turns and have a folder for their files, so that one does not find another's.
+    file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/tmp/${name})
     doctest_discover_tests(${name}_test TEST_PREFIX "${name}."
-                           PROPERTIES FAIL_REGULAR_EXPRESSION "test cases: +0 [|]")
+                           PROPERTIES FAIL_REGULAR_EXPRESSION "test cases: +0 [|]" RESOURCE_LOCK ${name}
+                                      ENVIRONMENT "TMPDIR=${CMAKE_CURRENT_BINARY_DIR}/tmp/${name}")
   endif()
 endfunction()
