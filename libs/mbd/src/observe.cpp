@@ -1,6 +1,5 @@
 // What a mechanism shows of itself: motion, joint coordinates, reactions, efforts, powers, energies.
 #include <cmath>
-#include <ranges>
 
 #include "mechanism_impl.h"
 
@@ -155,7 +154,10 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
     need[body_of(spec.joints[closure.joint].outboard)] -= W;
     need[body_of(spec.joints[closure.joint].inboard)] += W;
   }
-  for (int b : std::views::reverse(tree.body_order)) need[tree.body_parent[b]] += need[b];
+  for (std::size_t i = tree.body_order.size(); i-- > 0;) {
+    const int b = tree.body_order[i];
+    need[tree.body_parent[b]] += need[b];
+  }
   for (std::size_t j = 0; j < spec.joints.size(); ++j)
     if (tree.joints[j].outboard_body >= 0) through[j] = need[tree.joints[j].outboard_body];
 
