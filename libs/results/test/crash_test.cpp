@@ -8,7 +8,9 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
+#include <sstream>
 
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
@@ -132,6 +134,30 @@ TEST_CASE("KilledAtAnyMoment_LeavesAReadableFile") {
   }
   MESSAGE("most rows in a killed file: ", most_rows);
   CHECK(most_rows > 1);
+}
+
+TEST_CASE("IndexNodes_LieInOneMemoryPageEach") {
+  // What the kills above meet only once in some hundred times: a write cut at a page's end cannot cut a node.
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5";
+  {
+    Run run(path);
+    for (int k = 0; k < 300; ++k) run.step();
+  }
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  const std::string bytes = content.str();
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  // A chunk index node of a one-dimensional dataset, the smallest there is: head, 64 children, 65 keys (HDF5 file
+  // format 3.0, III.A.1); its fifth byte, the node type, is 1.
+  const std::size_t least = 24 + 64 * 8 + 65 * 24;
+  int nodes = 0;
+  for (std::size_t at = bytes.find("TREE"); at != std::string::npos; at = bytes.find("TREE", at + 1)) {
+    if (bytes[at + 4] != 1) continue;
+    ++nodes;
+    CHECK(at % page + least <= page);
+  }
+  CHECK(nodes > 40);  // one for each series, several for the field
 }
 
 /// Runs in a child with a small file size limit, which to a program looks like a full disk.
