@@ -71,6 +71,7 @@ nlohmann::json json_of(const run::Summary& summary) {
           {"message", summary.message},
           {"results", summary.results.string()},
           {"t_end", summary.t_end},
+          {"t_results", summary.t_results},
           {"steps", summary.steps},
           {"rejected_steps", summary.rejected_steps},
           {"newton_iterations", summary.newton_iterations},
@@ -108,7 +109,7 @@ void tell(const std::string& label, const run::Summary& summary) {
   if (summary.status != run::Status::completed) {
     fmt::print(stderr, "hersey: {}{}\n", name, summary.message);
     if (summary.steps > 0)
-      fmt::print(stderr, "hersey: results up to t = {:.6g} s are in {}\n", summary.t_end, summary.results.string());
+      fmt::print(stderr, "hersey: results up to t = {:.6g} s are in {}\n", summary.t_results, summary.results.string());
   } else {
     fmt::print(stderr, "{}{} steps in {:.2f} s{}{}\n", name, summary.steps, summary.wall_time,
                summary.message.empty() ? "" : ", ", summary.message);

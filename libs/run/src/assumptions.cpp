@@ -81,8 +81,8 @@ Rows assumptions(const model::Model& model) {
   for (const model::Bearing& bearing : model.bearings) describe(bearing, rows);
   const model::Simulation& run = model.simulation;
   rows.emplace_back("time integration",
-                    fmt::format("generalized-alpha, spectral radius {:.3g}, step {:.6g} s, Newton tolerance {:.1e}",
-                                run.spectral_radius, run.step, run.tolerance));
+                    fmt::format("generalized-alpha, spectral radius {:.3g}, step {:.4g} us, Newton tolerance {:.1e}",
+                                run.spectral_radius, 1e6 * run.step, run.tolerance));
   return rows;
 }
 

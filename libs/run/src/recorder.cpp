@@ -117,7 +117,9 @@ void Recorder::declare_machine() {
   }
   for (const mbd::DriveSpec& drive : spec.drives) {
     const std::string path = "/drives/" + drive.name + "/";
-    drives_.push_back({writer_.series(path + "force_or_torque", 1, "SI", "effort on the driven coordinate"),
+    const mbd::JointSpec& joint = spec.joints[static_cast<std::size_t>(drive.coordinate.joint.index)];
+    const char* unit = is_rotational(joint, drive.coordinate.value) ? "N.m" : "N";
+    drives_.push_back({writer_.series(path + "force_or_torque", 1, unit, "effort on the driven coordinate"),
                        writer_.series(path + "power", 1, "W", "power put into the machine")});
   }
   energy_ = {writer_.series("/energy/kinetic", 1, "J", "kinetic energy"),

@@ -9,6 +9,7 @@
 
 #include "extremes.h"
 #include "hersey/model/build.h"
+#include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "recorder.h"
@@ -30,6 +31,13 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
     }
   }
   return options;
+}
+
+// Read back: after a write error the file holds less than was handed to it.
+double last_time(const std::filesystem::path& file) {
+  const results::Reader reader(file);
+  const std::size_t rows = reader.rows();
+  return rows > 0 ? reader.read_rows("/time", rows - 1, 1).values.front() : 0;
 }
 
 // Says whether every journal is where it was `over` ago.
@@ -98,6 +106,7 @@ class Simulation {
       finish(results::Status::failed);
     }
     summary_.t_end = state_.t;
+    summary_.t_results = last_time(options_.results);
     for (const BearingExtremes& bearing : extremes_) summary_.bearings.push_back(bearing.summary());
     summary_.worst_power_balance = largest_power_ > 0 ? largest_error_ / largest_power_ : 0;
     summary_.wall_time = elapsed();

@@ -40,8 +40,9 @@ struct BearingSummary {
 
 struct Summary {
   Status status = Status::completed;
-  std::string message;  ///< why it ended early; "settled" where it did because nothing changed any more
-  double t_end = 0;     ///< last accepted time [s]
+  std::string message;   ///< why it ended early; "settled" where it did because nothing changed any more
+  double t_end = 0;      ///< last accepted time [s]
+  double t_results = 0;  ///< last time in the results file [s]
   int steps = 0, rejected_steps = 0;
   int newton_iterations = 0;
   double worst_power_balance = 0;  ///< largest |power in - power out - energy rate| over the largest power [-]
