@@ -54,6 +54,7 @@ class NullSpaceSolver {
     MatrixXd Q = MatrixXd::Identity(n, n);
     if (constraints > 0) {
       qr_.compute(G_s.transpose());
+      R_ = qr_.matrixR().topLeftCorner(constraints, constraints);
       Q = qr_.householderQ() * Q;
     }
     held_ = Q.leftCols(constraints);
@@ -75,11 +76,10 @@ class NullSpaceSolver {
 
   void solve(const VectorXd& a, const VectorXd& b, VectorXd& x, VectorXd& l) const {
     const Index constraints = held_.cols();
-    const auto R = qr_.matrixR().topLeftCorner(constraints, constraints);
     VectorXd y = VectorXd::Zero(s_.size());
     if (constraints > 0) {
       const VectorXd right = qr_.colsPermutation().transpose() * VectorXd(row_scale_.asDiagonal() * b);
-      y = held_ * R.transpose().template triangularView<Eigen::Lower>().solve(right);
+      y = held_ * R_.transpose().template triangularView<Eigen::Lower>().solve(right);
     }
     const VectorXd a_s = s_.asDiagonal() * a;
     if (free_.cols() > 0) {
@@ -89,13 +89,13 @@ class NullSpaceSolver {
     x = s_.asDiagonal() * y;
     l = VectorXd::Zero(constraints);
     if (constraints == 0) return;
-    const VectorXd left = R.template triangularView<Eigen::Upper>().solve(held_.transpose() * (a_s - M_s_ * y));
+    const VectorXd left = R_.template triangularView<Eigen::Upper>().solve(held_.transpose() * (a_s - M_s_ * y));
     l = row_scale_.asDiagonal() * VectorXd(qr_.colsPermutation() * left);
   }
 
  private:
   VectorXd s_, row_scale_;
-  MatrixXd M_s_, held_, free_;
+  MatrixXd M_s_, held_, free_, R_;
   Eigen::ColPivHouseholderQR<MatrixXd> qr_;
   Eigen::SelfAdjointEigenSolver<MatrixXd> inertia_;
 };
