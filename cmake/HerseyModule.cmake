@@ -14,6 +14,7 @@ if(BUILD_TESTING)
   find_package(doctest REQUIRED)
   include(doctest)
   add_library(hersey_test_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/main.cpp)
+  target_include_directories(hersey_test_main PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/support)
   target_link_libraries(hersey_test_main PUBLIC doctest::doctest $<BUILD_INTERFACE:hersey_options>)
 endif()
 

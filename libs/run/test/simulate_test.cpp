@@ -7,8 +7,8 @@
 
 #include "hersey/results/error.h"
 #include "hersey/results/reader.h"
-#include "scratch_folder.h"
 #include "small_rig.h"
+#include "temporary_directory.h"
 
 namespace hersey::run {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 double last(const results::Reader& reader, const std::string& path) { return reader.read(path).values.back(); }
 
 TEST_CASE("Run_ReachesItsEndAndBalances") {
-  const ScratchFolder scratch;
+  const TemporaryDirectory scratch;
   int calls = 0;
   Options options{.results = scratch / "run.h5"};
   options.on_progress = [&](const Progress&) { ++calls; };
@@ -40,7 +40,7 @@ TEST_CASE("Run_ReachesItsEndAndBalances") {
 TEST_CASE("PowerOfMotorAndLoad_GoesIntoFrictionOfTheSettledFilm") {
   // At rest but for the turning pin: what the drives put in, the film dissipates. The dissipation integral and the
   // shear traction are different discrete sums; on this coarse grid they agree to a few per cent.
-  const ScratchFolder scratch;
+  const TemporaryDirectory scratch;
   const Summary summary = simulate(rig(kSmallRig, {"duration=80 ms"}), {.results = scratch / "run.h5"});
   REQUIRE(summary.status == Status::completed);
   const results::Reader reader(summary.results);
@@ -50,7 +50,7 @@ TEST_CASE("PowerOfMotorAndLoad_GoesIntoFrictionOfTheSettledFilm") {
 }
 
 TEST_CASE("SmallestStepReached_FailsWithReasonAndKeepsResults") {
-  const ScratchFolder scratch;
+  const TemporaryDirectory scratch;
   const model::Model model =
       rig(kSmallRig, {"simulation.tolerance=1e-30", "simulation.smallest_step=0.05 ms", "duration=1 ms"});
   const Summary summary = simulate(model, {.results = scratch / "run.h5"});
@@ -65,7 +65,7 @@ TEST_CASE("SmallestStepReached_FailsWithReasonAndKeepsResults") {
 
 TEST_CASE("HardStep_IsHalvedAndTheRunGoesOn") {
   // One step of a quarter turn from rest throws the rod across the gap; half of it, or less, does not.
-  const ScratchFolder scratch;
+  const TemporaryDirectory scratch;
   const model::Model model = rig(rig_with("step: 2 deg", "step: 90 deg"), {"load=5000 N", "duration=10 ms"});
   const Summary summary = simulate(model, {.results = scratch / "run.h5"});
   INFO(summary.message);
@@ -75,7 +75,7 @@ TEST_CASE("HardStep_IsHalvedAndTheRunGoesOn") {
 }
 
 TEST_CASE("StopFlag_EndsAfterTheStep") {
-  const ScratchFolder scratch;
+  const TemporaryDirectory scratch;
   std::atomic<bool> stop{false};
   Options options{.results = scratch / "run.h5", .stop = &stop};
   int steps = 0;
@@ -87,7 +87,7 @@ TEST_CASE("StopFlag_EndsAfterTheStep") {
 }
 
 TEST_CASE("SettledRun_EndsEarly") {
-  const ScratchFolder scratch;
+  const TemporaryDirectory scratch;
   const model::Model model =
       rig(rig_with("  spectral_radius: 0.6", "  spectral_radius: 0.6\n  settle: {tolerance: 1e-4, over: 180 deg}"),
           {"duration=1 s"});
@@ -100,7 +100,7 @@ TEST_CASE("SettledRun_EndsEarly") {
 }
 
 TEST_CASE("ExistingResults_AreKept") {
-  const ScratchFolder scratch;
+  const TemporaryDirectory scratch;
   const Options options{.results = scratch / "run.h5"};
   const model::Model model = rig(kSmallRig, {"duration=0.3 ms"});
   CHECK(simulate(model, options).status == Status::completed);
@@ -108,7 +108,7 @@ TEST_CASE("ExistingResults_AreKept") {
 }
 
 TEST_CASE("OutputEvery_ThinsRowsNotExtremes") {
-  const ScratchFolder scratch;
+  const TemporaryDirectory scratch;
   const Summary all = simulate(rig(), {.results = scratch / "all.h5"});
   const Summary some = simulate(rig(kSmallRig + "output: {every: 7}\n"), {.results = scratch / "some.h5"});
   CHECK(some.bearings[0].moft == all.bearings[0].moft);

@@ -1,7 +1,6 @@
 #include "hersey/study/study.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,6 +8,7 @@
 
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
+#include "temporary_directory.h"
 
 namespace hersey::study {
 namespace {
@@ -16,8 +16,7 @@ namespace {
 // The command line tests' model with a study of two loads and two clearances, in a folder of its own.
 class StudyFolder {
  public:
-  StudyFolder() : path_(std::filesystem::temp_directory_path() / ("hersey-study-test-" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path_);
+  StudyFolder() {
     std::ifstream source(std::string(HERSEY_SOURCE_DIR) + "/tests/cli/bearing.yaml");
     std::stringstream text;
     text << source.rdbuf();
@@ -26,14 +25,11 @@ class StudyFolder {
                            << "\nstudy:\n  parameters:\n    load: [100 N, 300 N]\n"
                               "    bearings.main.radial_clearance: [40 um, 50 um]\n";
   }
-  ~StudyFolder() { std::filesystem::remove_all(path_); }
-  StudyFolder(const StudyFolder&) = delete;
-  StudyFolder& operator=(const StudyFolder&) = delete;
-  [[nodiscard]] std::string model() const { return (path_ / "model.yaml").string(); }
-  [[nodiscard]] std::filesystem::path path() const { return path_; }
+  [[nodiscard]] std::string model() const { return (directory_ / "model.yaml").string(); }
+  [[nodiscard]] std::filesystem::path path() const { return directory_.path(); }
 
  private:
-  std::filesystem::path path_;
+  TemporaryDirectory directory_;
 };
 
 TEST_CASE("RunsAtTheSameTime_GiveTheNumbersOfRunsAlone") {
