@@ -60,24 +60,29 @@ std::string summary_text(const std::vector<SummaryRow>& rows) {
 
 std::string comparison_text(const std::vector<SummaryRow>& rows) {
   // What a study is read for: the state it ends in and the extremes on the way.
-  const std::array<std::pair<const char*, const char*>, 5> wanted{{{"eccentricity ratio at the end", "ecc. ratio"},
-                                                                   {"attitude angle at the end", "attitude"},
-                                                                   {"minimum film thickness at the end", "h_min"},
-                                                                   {"peak film pressure at the end", "p_max"},
-                                                                   {"minimum film thickness (MOFT)", "MOFT"}}};
+  struct Figure {
+    const char* name;
+    const char* heading;
+  };
+  const std::array<Figure, 5> wanted{{{"eccentricity ratio at the end", "ecc. ratio"},
+                                      {"attitude angle at the end", "attitude"},
+                                      {"minimum film thickness at the end", "h_min"},
+                                      {"peak film pressure at the end", "p_max"},
+                                      {"minimum film thickness (MOFT)", "MOFT"}}};
   std::vector<std::vector<std::string>> lines{{"at the end", "bearing"}};
-  for (const auto& [name, heading] : wanted) {
-    const auto found = std::find_if(rows.begin(), rows.end(), [&](const SummaryRow& row) { return row.name == name; });
+  for (const Figure& figure : wanted) {
+    const auto found =
+        std::find_if(rows.begin(), rows.end(), [&](const SummaryRow& row) { return row.name == figure.name; });
     const std::string unit = found == rows.end() || found->unit.empty() ? "" : " [" + found->unit + "]";
-    lines.front().push_back(heading + unit);
+    lines.front().push_back(figure.heading + unit);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].group == "run" || (i > 0 && rows[i].run == rows[i - 1].run && rows[i].group == rows[i - 1].group))
       continue;
     std::vector<std::string> line{rows[i].run, rows[i].group};
-    for (const auto& [name, heading] : wanted) {
+    for (const Figure& figure : wanted) {
       const auto found = std::find_if(rows.begin(), rows.end(), [&](const SummaryRow& row) {
-        return row.run == rows[i].run && row.group == rows[i].group && row.name == name;
+        return row.run == rows[i].run && row.group == rows[i].group && row.name == figure.name;
       });
       line.push_back(found == rows.end() ? "-" : number(found->value));
     }

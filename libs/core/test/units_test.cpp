@@ -136,6 +136,7 @@ TEST_CASE("Conversion_BetweenUnitsOfOneDimension") {
 TEST_CASE("Units_AreReadFromSeveralThreads") {
   std::vector<std::thread> threads;
   std::vector<int> wrong(4, 0);
+  threads.reserve(wrong.size());
   for (int& count : wrong) {
     threads.emplace_back([&count] {
       for (int i = 0; i < 200; ++i) {

@@ -134,7 +134,8 @@ TEST_CASE("ResidualAlongSurfaceChanges_MatchesFiniteDifference") {
   for (const State& s : rough_states()) {
     CAPTURE(s.name);
     FlowBalance balance(s.model);
-    for (const auto& [what, direction] : directions(s)) {
+    for (const auto& [name, direction] : directions(s)) {
+      const std::string what = name;  // clang 14 captures no structured binding
       CAPTURE(what);
       balance.evaluate(moved(s.motion, direction, d), s.history, s.u);
       const Eigen::VectorXd after = balance.residual();
@@ -166,7 +167,8 @@ TEST_CASE("WrenchDerivatives_MatchFiniteDifference") {
     const Vector6 unit = (Vector6() << 1 / s.model.R, 1 / s.model.R, 1 / s.model.R, 1, 1, 1).finished();
     const double scale = unit.cwiseProduct(wrench(s.motion, s.u)).norm();
     CHECK(unit.cwiseProduct(reynolds.wrench_gradient(du) - by_u).norm() < 10 * tolerance * scale);
-    for (const auto& [what, direction] : directions(s)) {
+    for (const auto& [name, direction] : directions(s)) {
+      const std::string what = name;  // clang 14 captures no structured binding
       CAPTURE(what);
       const Vector6 difference =
           (wrench(moved(s.motion, direction, d), s.u) - wrench(moved(s.motion, direction, -d), s.u)) / (2 * d);
@@ -190,7 +192,8 @@ TEST_CASE("ResponseOfASolvedFilm_MatchesFiniteDifference") {
     Reynolds reynolds(s.model);
     const FilmSolveOptions options{.rtol = 1e-13};
     REQUIRE(solve_film(reynolds, s.motion, s.history, options, s.u).converged);
-    for (const auto& [what, direction] : directions(s)) {
+    for (const auto& [name, direction] : directions(s)) {
+      const std::string what = name;  // clang 14 captures no structured binding
       CAPTURE(what);
       Eigen::VectorXd du;
       Vector6 partial;
