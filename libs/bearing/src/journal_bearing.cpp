@@ -22,19 +22,8 @@ constexpr double kLargestBarusExponent = 20;
 std::vector<film::MotionDirection> unit_directions(const film::FilmModel& model) {
   // The angle of the widest gap comes last and matters only where the supply follows it.
   const int count = model.supply.kind == film::SupplyKind::widest_gap ? kParameterCount : kSupplyAngle;
-  std::vector<film::MotionDirection> directions(static_cast<std::size_t>(count));
-  film::FilmModel no_clearance = model;
-  no_clearance.c = 0;
-  for (int k = 0; k < count; ++k) {
-    film::SurfaceMotion motion;
-    place_surfaces(no_clearance, ParameterVector::Unit(k), motion);
-    film::MotionDirection& direction = directions[static_cast<std::size_t>(k)];
-    if (k <= kTy) direction.g = motion.g;
-    if (k >= kExRate && k <= kTyRate) direction.g_rate = motion.g_rate;
-    direction.u_journal = motion.u_journal;
-    direction.w_journal = motion.w_journal;
-    direction.phi_supply = motion.phi_supply;
-  }
+  std::vector<film::MotionDirection> directions;
+  for (int k = 0; k < count; ++k) directions.push_back(surface_direction(model, k));
   return directions;
 }
 

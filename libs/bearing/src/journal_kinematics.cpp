@@ -115,7 +115,22 @@ void place_surfaces(const film::FilmModel& model, const ParameterVector& paramet
   motion.u_journal = parameters[kJournalSpeed];
   motion.w_shell = 0;
   motion.w_journal = parameters[kAxialSpeed];
-  motion.phi_supply = parameters[kSupplyAngle];
+  motion.phi_supply = model.supply.kind == film::SupplyKind::fixed_angle ? model.supply.phi : parameters[kSupplyAngle];
+}
+
+film::MotionDirection surface_direction(const film::FilmModel& model, int parameter) {
+  film::FilmModel no_clearance = model;
+  no_clearance.c = 0;
+  film::SurfaceMotion motion;
+  place_surfaces(no_clearance, ParameterVector::Unit(parameter), motion);
+  film::MotionDirection direction;
+  if (parameter <= kTy) direction.g = motion.g;
+  if (parameter >= kExRate && parameter <= kTyRate) direction.g_rate = motion.g_rate;
+  direction.u_journal = motion.u_journal;
+  direction.w_journal = motion.w_journal;
+  const bool follows = model.supply.kind == film::SupplyKind::widest_gap;
+  direction.phi_supply = follows && parameter == kSupplyAngle ? 1 : 0;
+  return direction;
 }
 
 double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters) {

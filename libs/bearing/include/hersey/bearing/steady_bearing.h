@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <string>
+
+#include "hersey/film/film_model.h"
+#include "hersey/film/observables.h"
+
+namespace hersey::bearing {
+
+/// What acts on a bearing by itself. Bearing axes rest; angles count from x towards y.
+struct OperatingPoint {
+  double journal_speed = 0;                        ///< angular velocity of the journal about z [rad/s]
+  double shell_speed = 0;                          ///< angular velocity of the shell about z [rad/s]
+  std::optional<Eigen::Vector2d> load;             ///< on the journal [N], not zero; without it the position is given
+  Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal, where no load is given [m]
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis [-]
+
+  /// Sum of both speeds, which drags the oil [rad/s].
+  [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed; }
+};
+
+struct SteadyOptions {
+  double rtol = 1e-10;                   ///< on the film's relative residual, and on force over load, > 0
+  int max_iterations = 40;               ///< of one Newton iteration on film and position
+  std::optional<Eigen::Vector2d> start;  ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
+};
+
+struct SteadySummary {
+  bool converged = false;
+  int iterations = 0;      ///< linearisations of the film on the way
+  double force_error = 0;  ///< |force - load| / |load|; 0 where the position is given
+  std::string message;     ///< why there is no answer; also a remark on the answer, such as a film without oil
+};
+
+/// Force of the film on the shell, Q = (F_x, F_y, M_y, -M_x), against position s = (e_x, e_y, t_x, t_y) of the journal:
+/// stiffness dQ/ds, damping dQ/ds' (theory manual, chapter bearing). Moments about the bearing's origin are those that
+/// work on the tilt. Units N/m, N (s) for the force rows against e and t; N and N m against e and t in the moment rows.
+struct DynamicCoefficients {
+  Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();
+  Eigen::Matrix4d damping = Eigen::Matrix4d::Zero();
+};
+
+/// A solved operating point.
+struct SteadyState {
+  OperatingPoint point;
+  Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
+  Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< that the film carries: its force on the shell [N]
+  Eigen::VectorXd u;                               ///< the film's unknowns
+  film::FilmObservables film;
+  DynamicCoefficients coefficients;
+};
+
+/// The position at which the film carries the load, or the film at a given position.
+///
+/// Newton on film and position together with exact derivatives, the film condensed; where that does not settle, the
+/// load is raised from what the film carries at the start (bearing.13). A smooth rigid journal never leaves its bore
+/// on the way.
+/// @throws ContractError for a load of zero, speeds that drag no oil, or a rigid journal placed outside its bore.
+[[nodiscard]] SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point,
+                                         const SteadyOptions& options, SteadyState& state);
+
+/// Surfaces of the film with the journal at `e`.
+[[nodiscard]] film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
+                                                  const Eigen::Vector2d& e);
+
+/// Where Ocvirk's short bearing (half film) of the same size carries the load of `point` [m].
+[[nodiscard]] Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoint& point);
+
+}  // namespace hersey::bearing

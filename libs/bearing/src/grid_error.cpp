@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "hersey/bearing/bearing_numbers.h"
+
+namespace hersey::bearing {
+namespace {
+
+// Below this a film has no shape left to compare with.
+constexpr int kFewestNodesAround = 8, kFewestNodesAcross = 3;
+
+struct Figures {
+  double h_min, p_max, eccentricity_ratio, attitude, load, friction_journal, side_flow;
+};
+
+Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
+  const BearingNumbers n = bearing_numbers(model, state);
+  return {state.film.h_min,
+          state.film.p_max,
+          n.eccentricity_ratio,
+          n.attitude,
+          n.load,
+          n.friction_journal,
+          state.film.flow_left + state.film.flow_right};
+}
+
+film::FilmModel with_half_grid(film::FilmModel model) {
+  model.grid = {.n_phi = (model.grid.n_phi + 1) / 2, .n_z = model.grid.n_z / 2 + 1};
+  return model;
+}
+
+bool is_fine_enough(const film::Grid& grid) {
+  return grid.n_phi >= kFewestNodesAround && grid.n_z >= kFewestNodesAcross;
+}
+
+// Richardson's error of `fine`. Steps of opposite sign or growing ones are no order at all: then, and without a third
+// grid, the first order is taken, which overestimates.
+double error_of(double fine, double half, const double* quarter) {
+  double order = 1;
+  if (quarter != nullptr) {
+    const double ratio = (half - *quarter) / (fine - half);
+    if (std::isfinite(ratio) && ratio > 0) order = std::clamp(std::log2(ratio), 1.0, 2.0);
+  }
+  return std::abs(fine - half) / (std::exp2(order) - 1);
+}
+
+}  // namespace
+
+GridError estimate_grid_error(const film::FilmModel& model, const SteadyState& state, const SteadyOptions& options) {
+  SteadyOptions from_here = options;
+  if (state.point.load) from_here.start = state.e;
+  std::vector<Figures> figures{figures_of(model, state)};
+  film::FilmModel coarse = model;
+  while (figures.size() < 3) {
+    coarse = with_half_grid(coarse);
+    SteadyState coarse_state;
+    if (!is_fine_enough(coarse.grid) || !solve_steady(coarse, state.point, from_here, coarse_state).converged) break;
+    figures.push_back(figures_of(coarse, coarse_state));
+  }
+  GridError error;
+  if (figures.size() < 2) return error;
+  error.known = true;
+  const auto of = [&](double Figures::*member) {
+    const double* quarter = figures.size() > 2 ? &(figures[2].*member) : nullptr;
+    return error_of(figures[0].*member, figures[1].*member, quarter);
+  };
+  error.h_min = of(&Figures::h_min);
+  error.p_max = of(&Figures::p_max);
+  error.eccentricity_ratio = of(&Figures::eccentricity_ratio);
+  error.attitude = of(&Figures::attitude);
+  error.load = of(&Figures::load);
+  error.friction_journal = of(&Figures::friction_journal);
+  error.side_flow = of(&Figures::side_flow);
+  return error;
+}
+
+}  // namespace hersey::bearing

@@ -1,0 +1,219 @@
+#include "hersey/bearing/steady_bearing.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+#include "hersey/bearing/bearing_numbers.h"
+
+namespace hersey::bearing {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Full from the widest gap on: the film of Raimondi and Boyd.
+film::FilmModel flooded_film(int n_phi, int n_z) {
+  film::FilmModel model{.R = 0.025, .L = 0.05, .c = 25e-6, .grid = {n_phi, n_z}};
+  model.supply = {.kind = film::SupplyKind::widest_gap, .phi = 0, .pressure = 0};
+  return model;
+}
+
+// Barus' oil between rough, elastic, tilted surfaces fed from a fixed line: everything the model has.
+film::FilmModel rough_elastic_film() {
+  film::FilmModel model;
+  model.grid = {.n_phi = 60, .n_z = 13};
+  model.lubricant.alpha = 1.28e-10;
+  model.supply = {.kind = film::SupplyKind::fixed_angle, .phi = 1.5, .pressure = 2e5};
+  model.asperities = {.model = film::AsperityModel::greenwood_tripp_exact,
+                      .sigma = 1e-6,
+                      .elastic_factor = 3e-3,
+                      .composite_modulus = 57e9,
+                      .mu_friction = 0.1};
+  model.compliance = 0.0225 / 57e9;
+  return model;
+}
+
+OperatingPoint under_load(double newtons, double angle, double omega) {
+  OperatingPoint point{.journal_speed = omega};
+  point.load = newtons * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  return point;
+}
+
+SteadyState solved(const film::FilmModel& model, const OperatingPoint& point, SteadyOptions options = {}) {
+  SteadyState state;
+  const SteadySummary summary = solve_steady(model, point, options, state);
+  CAPTURE(summary.message);
+  REQUIRE(summary.converged);
+  return state;
+}
+
+// The force that works on (e_x, e_y, t_x, t_y).
+Eigen::Vector4d generalised_force(const SteadyState& state) {
+  const Vector6& W = state.film.wrench_on_shell;
+  return {W[3], W[4], W[1], -W[0]};
+}
+
+TEST_CASE("RaimondiBoyd_FromLoadToPosition") {
+  std::ifstream file(std::string(HERSEY_SOURCE_DIR) + "/verification/data/finite_360.csv");
+  int rows = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line.front() == '#' || line.front() == 'L') continue;
+    std::vector<double> cells;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(std::stod(cell));
+    const double L_over_D = cells[0], epsilon = cells[1], S = cells[2], attitude = cells[3];
+    CAPTURE(L_over_D);
+    CAPTURE(epsilon);
+    film::FilmModel model = flooded_film(180, 25);
+    model.L = 2 * model.R * L_over_D;
+    model.shear_force = film::ShearForce::torque_only;  // the table's load is that of the pressure
+    const double omega = 100, R_c = model.R / model.c;
+    const double load = model.lubricant.mu0 * omega / (2 * pi) * R_c * R_c * model.L * 2 * model.R / S;
+    const SteadyState state = solved(model, under_load(load, -pi / 2, omega));
+    const BearingNumbers numbers = bearing_numbers(model, state);
+    CHECK(std::abs(numbers.eccentricity_ratio - epsilon) < 2e-3);
+    CHECK(std::abs(numbers.attitude * 180 / pi - attitude) < 0.5);
+    CHECK(numbers.sommerfeld_S == doctest::Approx(S).epsilon(1e-8));
+    CHECK(numbers.sommerfeld_So == doctest::Approx(1 / (2 * pi * S)).epsilon(1e-8));
+    ++rows;
+  }
+  CHECK(rows > 20);
+}
+
+TEST_CASE("ShortBearing_WhirlsAtOcvirksThreshold") {
+  // omega sqrt(c/g) of a rigid rotor on short bearings with half film, from the closed forms of the coefficients.
+  const std::vector<std::pair<double, double>> closed{{0.1, 2.741}, {0.4, 2.545}, {0.5, 2.542}, {0.7, 3.628}};
+  for (const auto& [epsilon, number] : closed) {
+    CAPTURE(epsilon);
+    film::FilmModel model{.R = 0.05, .L = 0.002, .c = 50e-6, .grid = {360, 13}};
+    model.cavitation = film::Cavitation::guembel;
+    model.shear_force = film::ShearForce::torque_only;
+    OperatingPoint point{.journal_speed = 300};
+    // Where the half film ends its derivative jumps to zero. Half-way between nodes the sum over them is the midpoint
+    // rule there; on a node it would count that node's share wholly or not at all.
+    const double angle = -pi / 2 + pi / model.grid.n_phi;
+    point.e = epsilon * model.c * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    const SteadyState state = solved(model, point);
+    const BearingNumbers numbers = bearing_numbers(model, state);
+    CHECK(std::tan(numbers.attitude) ==
+          doctest::Approx(pi * std::sqrt(1 - epsilon * epsilon) / (4 * epsilon)).epsilon(5e-3));
+    const WhirlStability whirl = whirl_stability(in_load_axes(model, state), model.c, numbers.load, 300);
+    CHECK(whirl.stability_number == doctest::Approx(number).epsilon(5e-3));
+    CHECK(whirl.critical_mass ==
+          doctest::Approx(std::pow(whirl.stability_number, 2) * numbers.load / (model.c * 9e4)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Coefficients_MatchDifferencesOfTheForce") {
+  const film::FilmModel model = rough_elastic_film();
+  OperatingPoint point{.journal_speed = 370, .shell_speed = -40};
+  point.e = 0.9 * model.c * Eigen::Vector2d(std::cos(-1.1), std::sin(-1.1));
+  point.tilt = {1e-4, -2e-4};
+  const SteadyState state = solved(model, point);
+  CHECK(bearing_numbers(model, state).asperity_share > 1e-4);
+  for (int k = 0; k < 4; ++k) {
+    CAPTURE(k);
+    const double step = 1e-6 * (k < 2 ? model.c : model.c / model.L);
+    const auto at = [&](double sign) {
+      OperatingPoint moved = point;
+      (k < 2 ? moved.e[k] : moved.tilt[k - 2]) += sign * step;
+      return generalised_force(solved(model, moved));
+    };
+    const Eigen::Vector4d difference = (at(1) - at(-1)) / (2 * step);
+    CHECK((state.coefficients.stiffness.col(k) - difference).norm() <= 1e-4 * difference.norm());
+  }
+}
+
+TEST_CASE("DampingOfAFullFilm_IsSymmetricAndPositive") {
+  film::FilmModel model = flooded_film(60, 13);
+  model.supply.kind = film::SupplyKind::none;
+  model.cavitation = film::Cavitation::mass_conserving;
+  model.p_edge_left = model.p_edge_right = 1e9;  // far above anything that could cavitate
+  model.shear_force = film::ShearForce::torque_only;
+  OperatingPoint point{.journal_speed = 100};
+  point.e = {0.4 * model.c, -0.3 * model.c};
+  point.tilt = {1e-4, 2e-4};
+  const SteadyState state = solved(model, point);
+  CHECK(state.film.cavitated_share == 0);
+  const Eigen::Matrix4d& C = state.coefficients.damping;
+  const Eigen::Matrix2d radial = C.topLeftCorner<2, 2>();
+  // The quadrature across the width differs from the control volumes by its end corrections, of fourth order.
+  CHECK((radial - radial.transpose()).norm() <= 1e-4 * radial.norm());
+  // The moments hold those of the shear tractions, which are smaller by c/R.
+  CHECK((C - C.transpose()).norm() <= model.c / model.R * C.norm());
+  CHECK(Eigen::LLT<Eigen::Matrix4d>(C).info() == Eigen::Success);
+}
+
+TEST_CASE("DampingAndSpeed_AreTheSameFlow") {
+  // A journal that circles with its position at Omega squeezes the film as both surfaces turning at -2 Omega drag it:
+  // turning the position by Omega dt is seen from a frame that turns along as an entraining speed less by 2 Omega.
+  film::FilmModel model{.R = 0.05, .L = 0.05, .c = 50e-6, .grid = {180, 13}};
+  model.cavitation = film::Cavitation::guembel;
+  model.shear_force = film::ShearForce::torque_only;
+  OperatingPoint point{.journal_speed = 300};
+  point.e = 0.6 * model.c * Eigen::Vector2d(std::cos(pi / 180), std::sin(pi / 180));  // half-way between nodes
+  const SteadyState state = solved(model, point);
+  // Only both together lift the oil: force(omega, Omega) ~ omega - 2 Omega, hence C e' for e' = Omega x e is -2
+  // F/omega.
+  const Eigen::Vector2d circling =
+      state.coefficients.damping.topLeftCorner<2, 2>() * Eigen::Vector2d(-point.e.y(), point.e.x());
+  CHECK((circling + 2 / 300.0 * state.load).norm() <= 1e-2 * circling.norm());
+}
+
+TEST_CASE("HeavyLoads_AreFoundFromAnywhere") {
+  const film::FilmModel model = rough_elastic_film();
+  for (const double load : {10.0, 2500.0, 50e3}) {
+    for (const double epsilon : {0.01, 0.5, 0.99}) {
+      CAPTURE(load);
+      CAPTURE(epsilon);
+      SteadyOptions options;
+      options.start = epsilon * model.c * Eigen::Vector2d(0.6, 0.8);
+      const OperatingPoint point = under_load(load, -pi / 2, 370);
+      const SteadyState state = solved(model, point, options);
+      CHECK((state.load - *point.load).norm() <= 1e-8 * load);
+      const SteadyState again = solved(model, point);
+      CHECK((state.e - again.e).norm() <= 1e-6 * model.c);
+    }
+  }
+}
+
+TEST_CASE("PositionOfALoad_CarriesThatLoad") {
+  const film::FilmModel model = flooded_film(60, 13);
+  const OperatingPoint loaded = under_load(3000, 0.7, -200);
+  const SteadyState state = solved(model, loaded);
+  OperatingPoint placed = loaded;
+  placed.load.reset();
+  placed.e = state.e;
+  CHECK((solved(model, placed).load - *loaded.load).norm() <= 1e-7 * 3000);
+  CHECK(bearing_numbers(model, state).attitude > 0.3);  // in the sense of rotation, which is backwards here
+}
+
+TEST_CASE("FilmWithoutOil_IsToldSo") {
+  film::FilmModel model = flooded_film(30, 7);
+  model.supply.kind = film::SupplyKind::none;
+  SteadyState state;
+  const SteadySummary summary = solve_steady(model, under_load(1000, 0, 100), {}, state);
+  CHECK_FALSE(summary.converged);
+  CHECK_FALSE(summary.message.empty());
+}
+
+TEST_CASE("GridError_CoversTheErrorOfAFinerGrid") {
+  const OperatingPoint point = under_load(5000, -pi / 2, 100);
+  const film::FilmModel model = flooded_film(60, 13), fine = flooded_film(480, 97);
+  const SteadyState state = solved(model, point), reference = solved(fine, point);
+  const GridError error = estimate_grid_error(model, state, {});
+  REQUIRE(error.known);
+  const double h_error = std::abs(state.film.h_min - reference.film.h_min);
+  const double p_error = std::abs(state.film.p_max - reference.film.p_max);
+  CHECK(h_error < 1.5 * error.h_min);
+  CHECK(error.h_min < 20 * h_error);
+  CHECK(p_error < 1.5 * error.p_max);
+  CHECK(error.p_max < 20 * p_error);
+}
+
+}  // namespace
+}  // namespace hersey::bearing
