@@ -37,6 +37,21 @@ struct ReportArguments {
 /// `hersey report`: the HTML report of one results file, or of several as a study. @returns an ExitCode.
 [[nodiscard]] int report_command(const ReportArguments& arguments);
 
+struct BearingArguments {
+  std::string model;
+  std::vector<std::string> overrides;
+  std::string bearing;                                                                       ///< empty: the only one
+  std::string speed, shell_speed, load, load_angle, eccentricity_ratio, eccentricity_angle;  ///< empty: the file's
+  std::vector<std::string> sweeps;
+  std::filesystem::path csv, fields;  ///< files to write; empty: none
+  bool json = false;
+  bool no_grid_error = false;
+  int jobs = 0;
+};
+
+/// `hersey bearing`: equilibrium or load of one bearing by itself, once or over sweeps. @returns an ExitCode.
+[[nodiscard]] int bearing_command(const BearingArguments& arguments);
+
 /// `hersey schema`: the model file's format. @returns an ExitCode.
 [[nodiscard]] int schema_command(bool markdown);
 

@@ -22,6 +22,7 @@ constexpr const char* kFooter =
     "  hersey run examples/paper_big_end/model.yaml                  all runs of its study\n"
     "  hersey run model.yaml --set load=500N --output out            one parameter changed\n"
     "  hersey run model.yaml --set bearings.big_end.grid.circumferential=120\n"
+    "  hersey bearing model.yaml --sweep load=100N:2500N:10          one bearing by itself\n"
     "  hersey check model.yaml                                       every fault, nothing simulated\n"
     "  hersey schema > hersey.schema.json                            completion and checking in an editor\n"
     "\n"
@@ -36,6 +37,39 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+CLI::App* add_bearing_command(CLI::App& app, BearingArguments& bearing) {
+  CLI::App* command = app.add_subcommand(
+      "bearing",
+      "Solve one bearing by itself: position under a load, coefficients, friction, flows; once or in sweeps");
+  command->add_option("MODEL", bearing.model, "Model file; bodies and a simulation are not needed")->required();
+  add_overrides(*command, bearing.overrides);
+  command->add_option("--bearing", bearing.bearing, "Which bearing, if the model has several")->type_name("NAME");
+  const auto value = [&](const char* option, std::string& text, const char* description, const char* type) {
+    command->add_option(option, text, description)->type_name(type);
+  };
+  value("--speed", bearing.speed, "Angular velocity of the journal", "3000rpm");
+  value("--shell-speed", bearing.shell_speed, "Angular velocity of the shell", "0rpm");
+  value("--load", bearing.load, "Load on the journal: its position is sought", "2500N");
+  value("--load-angle", bearing.load_angle, "Direction of the load, from x towards y", "-90deg");
+  value("--eccentricity-ratio", bearing.eccentricity_ratio, "Position of the journal: its load is sought", "0.6");
+  value("--eccentricity-angle", bearing.eccentricity_angle, "Direction of that position", "-60deg");
+  command
+      ->add_option("--sweep", bearing.sweeps,
+                   "Solve at several values of load, speed, clearance, viscosity, eccentricity_ratio, any parameter or "
+                   "key path: load=100N:2500N:10, speed=1rpm:3000rpm:20:log or load=100N,500N; several sweeps combine")
+      ->type_name("NAME=VALUES")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--csv", bearing.csv, "Write every figure of every solution as a table")->type_name("FILE");
+  command->add_option("--fields", bearing.fields, "Write pressure, film thickness and fill fraction of a solution")
+      ->type_name("FILE");
+  command->add_flag("--json", bearing.json, "Print every figure as JSON");
+  command->add_flag("--no-grid-error", bearing.no_grid_error, "Leave out the estimate of the grid's error");
+  command->add_option("--jobs", bearing.jobs, "Solutions at the same time (default: one per core)")
+      ->check(CLI::PositiveNumber);
+  return command;
 }
 
 // Declares the command line and calls the command named in it.
@@ -71,6 +105,9 @@ int dispatch(int argc, char** argv) {
       ->type_name("FILE");
   report_app->add_flag("--json", report.json, "Print the summary as JSON");
 
+  BearingArguments bearing;
+  const CLI::App* bearing_app = add_bearing_command(app, bearing);
+
   bool markdown = false;
   CLI::App* schema_app = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
   schema_app->add_flag("--markdown", markdown, "Print it as the reference page of the documentation instead");
@@ -83,6 +120,7 @@ int dispatch(int argc, char** argv) {
   if (*run_app) return run_command(run);
   if (*check_app) return check_command(check);
   if (*report_app) return report_command(report);
+  if (*bearing_app) return bearing_command(bearing);
   return schema_command(markdown);
 }
 

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "exit_code.h"
+#include "hersey/core/input_error.h"
 #include "hersey/model/read.h"
 #include "hersey/model/study.h"
 #include "hersey/report/report.h"
@@ -179,6 +180,13 @@ int run_all(const RunArguments& arguments, const std::filesystem::path& folder,
 
 int run_command(const RunArguments& arguments) {
   const std::filesystem::path folder = output_folder(arguments);
+  if (model::read(arguments.model, arguments.overrides).is_of_bearings_alone()) {
+    throw InputError(Fault{{arguments.model, 0, 0},
+                           "",
+                           "bearings alone",
+                           "bodies and a simulation to run",
+                           "'hersey bearing' solves bearings by themselves"});
+  }
   const std::vector<model::StudyRun> runs = model::expand_study(arguments.model, arguments.overrides);
   // A study with every parameter fixed by --set is a single run.
   const bool varies = !runs.empty() && !runs.front().values.empty();

@@ -21,7 +21,10 @@ std::string padded(const std::string& text, std::size_t width, bool right = fals
   return right ? blank + text : text + blank;
 }
 
-// Lines of cells; the first column is aligned left, the others right, but for the last if it is text.
+std::string number(double value) { return fmt::format("{:.5g}", value); }
+
+}  // namespace
+
 std::string aligned(const std::vector<std::vector<std::string>>& lines, std::size_t left_from) {
   std::vector<std::size_t> widths;
   for (const auto& line : lines) {
@@ -36,10 +39,6 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines, std::siz
   }
   return text;
 }
-
-std::string number(double value) { return fmt::format("{:.5g}", value); }
-
-}  // namespace
 
 std::string summary_text(const std::vector<SummaryRow>& rows) {
   std::string text, group;

@@ -8,6 +8,9 @@
 
 namespace hersey::cli {
 
+/// Lines of cells in columns; the first is aligned left, the others right, those from `left_from` on left again.
+[[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& lines, std::size_t left_from);
+
 /// The closing table as text: one block per run, columns aligned.
 [[nodiscard]] std::string summary_text(const std::vector<report::SummaryRow>& rows);
 

@@ -18,6 +18,7 @@ import h5py
 HERSEY = os.path.abspath(sys.argv.pop(1))
 HERE = os.path.dirname(os.path.abspath(__file__))
 MODEL = os.path.join(HERE, "bearing.yaml")
+ALONE = os.path.join(HERE, "../../examples/bearing_alone/model.yaml")
 
 OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 
@@ -60,7 +61,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, OK, run.stderr)
         for word in ("run", "check", "report", "schema", "130"):
             self.assertIn(word, run.stdout)
-        for command in ("run", "check", "report", "schema"):
+        for command in ("run", "check", "report", "schema", "bearing"):
             help_of_command = hersey(command, "--help")
             self.assertEqual(help_of_command.returncode, OK, help_of_command.stderr)
             self.assertGreater(len(help_of_command.stdout.splitlines()), 4)
@@ -129,6 +130,86 @@ class CommandLine(unittest.TestCase):
         with h5py.File(self.results()[0]) as file:
             self.assertEqual(file["bearings/main/fields/pressure"].shape[1:], (20, 5))
             self.assertIn("500", str(file["parameters"].attrs["load"]))
+
+    def test_bearing_by_itself_finds_its_position_and_its_load(self):
+        run = hersey("bearing", ALONE, "--json")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        figures = json.loads(run.stdout)["solutions"][0]["figures"]
+        self.assertAlmostEqual(figures["load"]["value"], 2500, places=4)
+        # paper_case.csv, c = 34 um, rigid, Reynolds rupture: 0.83476, 5.618 um, 15.136 MPa
+        self.assertAlmostEqual(figures["eccentricity_ratio"]["value"], 0.8348, delta=0.001)
+        self.assertAlmostEqual(figures["h_min"]["value"], 5.618, delta=0.03)
+        self.assertLess(figures["h_min"]["grid_error"], 0.1)
+        self.assertAlmostEqual(figures["p_max"]["value"], 15.136, delta=0.15)
+        back = hersey("bearing", ALONE, "--json", "--eccentricity-ratio",
+                      str(figures["eccentricity_ratio"]["value"]), "--eccentricity-angle",
+                      f"{figures['eccentricity_angle']['value']}deg")
+        self.assertEqual(back.returncode, OK, back.stderr)
+        load = json.loads(back.stdout)["solutions"][0]["figures"]["load"]["value"]
+        self.assertAlmostEqual(load, 2500, delta=0.1)
+
+    def test_bearing_prints_the_error_of_the_grid(self):
+        run = hersey("bearing", ALONE)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertRegex(run.stdout, r"minimum film thickness +\d\.\d+ +um +\+- 0\.0\d+ \(grid\)")
+        self.assertIn("mass_conserving", run.stdout)
+
+    def test_bearing_of_a_machine_takes_speed_and_load_as_options(self):
+        run = hersey("bearing", MODEL, "--speed", "3000rpm", "--load", "200N", "--no-grid-error", "--json")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertAlmostEqual(json.loads(run.stdout)["solutions"][0]["figures"]["load"]["value"], 200, places=4)
+        without = hersey("bearing", MODEL)
+        self.assertEqual(without.returncode, WRONG_INPUT)
+        self.assertIn("operating_point", without.stderr)
+
+    def test_bearing_sweeps_combine_and_are_written_as_a_table(self):
+        table = os.path.join(self._folder.name, "table.csv")
+        run = hersey("bearing", ALONE, "--set", "bearings.main.grid.circumferential=40", "--set",
+                     "bearings.main.grid.axial=9", "--sweep", "load=100N:500N:3", "--sweep", "clearance=30um,40um",
+                     "--csv", table, "--jobs", "2")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        with open(table, encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        self.assertEqual(len(lines), 7)
+        self.assertTrue(lines[0].startswith("load [N], bearings.main.radial_clearance [um], "))
+        self.assertEqual([line.split(", ")[:2] for line in lines[1:3]], [["100", "30"], ["100", "40"]])
+        self.assertEqual({len(line.split(", ")) for line in lines}, {len(lines[0].split(", "))})
+
+    def test_bearing_writes_its_fields(self):
+        table = os.path.join(self._folder.name, "fields.csv")
+        run = hersey("bearing", ALONE, "--fields", table, "--no-grid-error")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        with open(table, encoding="utf-8") as file:
+            self.assertEqual(len(file.read().splitlines()), 120 * 25 + 1)
+
+    def test_bearing_faults_are_wrong_input(self):
+        for arguments, word in ((["--bearing", "mian"], "'main'"), (["--sweep", "load=1N:2N"], "first:last:count"),
+                                (["--sweep", "lod=1N,2N"], "lod"), (["--load", "3 mm"], "a length"),
+                                (["--speed", "0rpm"], "drag no oil"),
+                                (["--fields", "x", "--sweep", "load=1N,2N"], "single")):
+            run = hersey("bearing", ALONE, *arguments)
+            self.assertEqual(run.returncode, WRONG_INPUT, arguments)
+            self.assertIn(word, run.stderr)
+
+    def test_bearing_without_oil_fails_and_says_why(self):
+        with open(ALONE, encoding="utf-8") as file:
+            text = file.read()
+        path = os.path.join(self._folder.name, "dry.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(re.sub(r"    (supply|asperities): .*\n", "", text))
+        dry = hersey("bearing", path)
+        self.assertEqual(dry.returncode, FAILED)
+        self.assertIn("no oil in", dry.stderr)
+        # With the older condition the film forms again from nowhere.
+        run = hersey("bearing", path, "--set", "bearings.main.cavitation=reynolds")
+        self.assertEqual(run.returncode, OK, run.stderr)
+
+    def test_bearing_alone_cannot_be_run_but_checked(self):
+        self.assertEqual(hersey("check", ALONE).returncode, OK)
+        run = hersey("run", ALONE, "--output", self.out)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("hersey bearing", run.stderr)
+        self.assertFalse(os.path.exists(self.out))
 
     def test_existing_results_are_kept_unless_forced(self):
         self.assertEqual(hersey("run", MODEL, "--output", self.out).returncode, OK)

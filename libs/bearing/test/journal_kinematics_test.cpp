@@ -116,5 +116,21 @@ TEST_CASE("JournalAcrossTheBearing_IsRejected") {
   CHECK_THROWS_AS((void)journal_kinematics(across, Vector6::Zero(), kR, 0), ContractError);
 }
 
+TEST_CASE("SupplyLine_StaysOrFollowsTheWidestGap") {
+  film::FilmModel model;
+  ParameterVector parameters = ParameterVector::Zero();
+  parameters[kSupplyAngle] = 2;
+  film::SurfaceMotion motion;
+  model.supply = {.kind = film::SupplyKind::fixed_angle, .phi = 0.5, .pressure = 0};
+  place_surfaces(model, parameters, motion);
+  CHECK(motion.phi_supply == 0.5);
+  CHECK(surface_direction(model, kSupplyAngle).phi_supply == 0);
+  model.supply.kind = film::SupplyKind::widest_gap;
+  place_surfaces(model, parameters, motion);
+  CHECK(motion.phi_supply == 2);
+  CHECK(surface_direction(model, kSupplyAngle).phi_supply == 1);
+  CHECK(surface_direction(model, kEx).phi_supply == 0);
+}
+
 }  // namespace
 }  // namespace hersey::bearing

@@ -88,6 +88,26 @@ TypePtr coupling_format() {
       });
 }
 
+TypePtr operating_point_format() {
+  const TypePtr speed = quantity("rad/s", "3000 rpm"), angle = quantity("rad", "-90 deg"),
+                tilt = quantity("rad", "0.01 deg");
+  const std::vector<Word> not_given{{"none", "not given; for `--set`"}};
+  return object(
+      "an operating point",
+      {
+          required("journal_speed", speed, "Angular velocity of the journal about the bearing's z-axis."),
+          defaulted("shell_speed", speed, "0 rpm", "Angular velocity of the shell; the bearing's axes rest."),
+          optional("load", or_word(quantity("N", "2500 N", Range::positive()), not_given),
+                   "Load on the journal: its position is sought."),
+          defaulted("load_angle", angle, "-90 deg", "Direction of the load, from x towards y."),
+          optional("eccentricity_ratio", or_word(number("0.6", {.low = 0, .high = 1, .high_open = true}), not_given),
+                   "Position of the journal, instead of a load: its load is sought."),
+          defaulted("eccentricity_angle", angle, "-90 deg", "Direction of that position, from x towards y."),
+          defaulted("tilt_x", tilt, "0 deg", "Slope of the journal's axis towards x."),
+          defaulted("tilt_y", tilt, "0 deg", "Slope of the journal's axis towards y."),
+      });
+}
+
 }  // namespace
 
 TypePtr lubricants_format() {
@@ -130,9 +150,11 @@ TypePtr bearings_format() {
   const TypePtr bearing = object(
       "a bearing",
       {
-          required("shell", reference(Refers::frame, "rod.big_end"),
-                   "Frame on the shell's body: z along the bearing's axis, angles from x towards y."),
-          required("journal", reference(Refers::frame, "crank.pin"), "Frame on the journal's body, z along its axis."),
+          optional("shell", reference(Refers::frame, "rod.big_end"),
+                   "Frame on the shell's body: z along the bearing's axis, angles from x towards y.",
+                   "**required** to simulate"),
+          optional("journal", reference(Refers::frame, "crank.pin"), "Frame on the journal's body, z along its axis.",
+                   "**required** to simulate"),
           required("diameter", diameter, "Bore diameter."),
           required("width", width, "Length of the bearing along its axis."),
           optional("radial_clearance", clearance, "Radius of the bore minus radius of the journal."),
@@ -155,6 +177,10 @@ TypePtr bearings_format() {
                     choice({{"newton", "Newton's method with exact derivatives"},
                             {"sor", "successive over-relaxation, for comparison"}}),
                     "newton", "Solver of a film by itself (initial film, partitioned coupling)."),
+          optional("operating_point", operating_point_format(),
+                   "Speeds and load, or position, of the bearing by itself (`hersey bearing`); a simulation has its "
+                   "own.",
+                   "given on the command line"),
           defaulted("coupling", coupling_format(), "monolithic", "How film and bodies are solved together."),
       });
   return named("a mapping from names to bearings",

@@ -93,6 +93,24 @@ void require_name(Context& context, const Value& reference, const std::string& k
                 did_you_mean(reference.text, names));
 }
 
+void check_completeness(Context& context) {
+  const auto has = [&](const char* key) { return context.root.find(key) != nullptr; };
+  const bool has_machine =
+      has("bodies") || has("simulation") || has("joints") || has("drives") || has("forces") || !has("bearings");
+  if (!has_machine || context.root.broken) return;
+  const auto require = [&](const Value& parent, const std::string& key) {
+    if (parent.broken || parent.find(key) != nullptr) return;
+    const TypePtr& type = find_key(parent.type->keys, key)->type;
+    context.fault_at_key(parent, "missing key '" + key + "'", type->expectation());
+  };
+  require(context.root, "bodies");
+  require(context.root, "simulation");
+  for (const auto& [name, bearing] : section(context.root, "bearings")) {
+    require(bearing, "shell");
+    require(bearing, "journal");
+  }
+}
+
 std::optional<std::vector<JointCoordinate>> coordinates_of_joint(const Value& root, const std::string& name) {
   for (const auto& [joint_name, joint] : section(root, "joints")) {
     if (joint_name != name) continue;

@@ -68,6 +68,9 @@ void interpret_bearings(Context& context);
 void interpret_simulation(Context& context);
 void interpret_study(Context& context);
 
+/// A file has all that a simulation needs, or it holds bearings alone; reports what is missing.
+void check_completeness(Context& context);
+
 /// Reports tables that do not cover the run, as far as that can be told before it: over time, and over driven joints.
 void check_table_ranges(Context& context);
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "interpret.h"
 
@@ -157,6 +159,51 @@ Coupling coupling_of(const Value& bearing) {
   return coupling;
 }
 
+/// A member that is there and not the word "none".
+const Value* given(const Value& parent, const std::string& key) {
+  const Value* value = parent.find(key);
+  return value != nullptr && (value->broken || value->text != "none") ? value : nullptr;
+}
+
+/// A tilted journal may touch the shell at an edge although its middle is inside the bore.
+void check_room(Context& context, const Value& value, const film::FilmModel& film, const OperatingPoint& point) {
+  const double epsilon = point.eccentricity_ratio.value_or(0);
+  const Eigen::Vector2d e =
+      epsilon * film.c * Eigen::Vector2d(std::cos(point.eccentricity_angle), std::sin(point.eccentricity_angle));
+  const Eigen::Vector2d offset = 0.5 * film.L * Eigen::Vector2d(point.tilt_x, point.tilt_y);
+  if (film.c <= 0 || epsilon >= 1 || std::max((e + offset).norm(), (e - offset).norm()) < film.c) return;
+  context.fault_at_key(value, "a journal that touches the shell at an edge", "a tilt that leaves a gap over the width",
+                       "reduce tilt_x, tilt_y or eccentricity_ratio");
+}
+
+std::optional<OperatingPoint> operating_point_of(Context& context, const Value& bearing, const film::FilmModel& film) {
+  const Value* value = bearing.find("operating_point");
+  if (value == nullptr || value->broken) return std::nullopt;
+  OperatingPoint point;
+  point.position = value->key_position;
+  point.journal_speed = number_of(*value, "journal_speed");
+  point.shell_speed = number_of(*value, "shell_speed");
+  const Value *load = given(*value, "load"), *ratio = given(*value, "eccentricity_ratio");
+  if (load != nullptr) point.load = load->number;
+  if (ratio != nullptr) point.eccentricity_ratio = ratio->number;
+  point.load_angle = number_of(*value, "load_angle");
+  point.eccentricity_angle = number_of(*value, "eccentricity_angle");
+  point.tilt_x = number_of(*value, "tilt_x");
+  point.tilt_y = number_of(*value, "tilt_y");
+  if (load == nullptr && ratio == nullptr) {
+    context.fault_at_key(*value, "neither 'load' nor 'eccentricity_ratio'", "exactly one of them");
+  } else if (load != nullptr && ratio != nullptr) {
+    context.fault_at_key(*ratio, "keys 'load' and 'eccentricity_ratio' together", "exactly one of them",
+                         "with --set, give the other one as 'none'");
+  }
+  if (!context.has_fault_in(value->path) && point.journal_speed + point.shell_speed == 0) {
+    context.fault(*value->find("journal_speed"), "speeds that drag no oil into the gap (their sum is 0)",
+                  "surfaces that carry oil: half the sum of both speeds does");
+  }
+  if (!context.has_fault_in(value->path)) check_room(context, *value, film, point);
+  return point;
+}
+
 }  // namespace
 
 void interpret_lubricants(Context& context) {
@@ -186,6 +233,7 @@ void interpret_bearings(Context& context) {
     FilmReader(context, value, bearing).read();
     bearing.solver = text_of(value, "solver") == "sor" ? film::FilmSolver::sor : film::FilmSolver::newton;
     bearing.coupling = coupling_of(value);
+    bearing.operating_point = operating_point_of(context, value, bearing.film);
     context.model.bearings.push_back(std::move(bearing));
   }
 }

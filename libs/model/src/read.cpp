@@ -75,6 +75,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   model.title = text_of(value, "title");
   model.description = text_of(value, "description");
   model.gravity = vector_of(value, "gravity");
+  check_completeness(context);
   interpret_bodies(context);
   interpret_joints(context);
   interpret_drives(context);

@@ -82,23 +82,29 @@ void check_values(const std::string& path, const std::vector<std::string>& overr
 
 }  // namespace
 
+std::vector<StudyRun> expand_parameters(const std::string& path, const std::vector<std::string>& overrides,
+                                        const std::vector<StudyParameter>& parameters) {
+  std::size_t count = 1;
+  for (const StudyParameter& parameter : parameters) {
+    count *= parameter.values.size();
+    if (count <= most_runs) continue;
+    throw InputError(Fault{parameter.position, "study.parameters", "more than 100000 combinations",
+                           "at most 100000 runs in a study", "leave out values"});
+  }
+  check_values(path, overrides, parameters);
+  std::vector<StudyRun> runs;
+  for (std::size_t i = 0; i < count; ++i) runs.push_back(run_of(parameters, i, overrides));
+  return runs;
+}
+
 std::vector<StudyRun> expand_study(const std::string& path, const std::vector<std::string>& overrides) {
   const Model model = read(path, overrides);
   if (!model.study) return {};
   std::vector<StudyParameter> varied;
-  std::size_t count = 1;
   for (const StudyParameter& parameter : model.study->parameters) {
-    if (is_fixed_by(overrides, parameter.name)) continue;
-    varied.push_back(parameter);
-    count *= parameter.values.size();
-    if (count <= most_runs) continue;
-    throw InputError(Fault{model.study->position, "study.parameters", "more than 100000 combinations",
-                           "at most 100000 runs in a study", "leave out values"});
+    if (!is_fixed_by(overrides, parameter.name)) varied.push_back(parameter);
   }
-  check_values(path, overrides, varied);
-  std::vector<StudyRun> runs;
-  for (std::size_t i = 0; i < count; ++i) runs.push_back(run_of(varied, i, overrides));
-  return runs;
+  return expand_parameters(path, overrides, varied);
 }
 
 }  // namespace hersey::model

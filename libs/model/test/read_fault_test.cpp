@@ -8,7 +8,7 @@ TEST_CASE("UnknownKey_NamesTheNearest") {
   CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
         "m.yaml:27:5: bearings.big_end: unknown key 'widht'; expected shell, journal, diameter, width, "
         "radial_clearance, diametral_clearance, lubricant, grid, cavitation, edge_pressure, supply, asperities, "
-        "compliance, materials, cavitated_shear, shear_force, solver or coupling; did you mean 'width'?");
+        "compliance, materials, cavitated_shear, shear_force, solver, operating_point or coupling; did you mean 'width'?");
 }
 
 TEST_CASE("MissingKey_IsReportedAtItsParent") {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "extremes.h"
+#include "hersey/core/input_error.h"
 #include "hersey/model/build.h"
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
@@ -241,10 +242,20 @@ class Simulation {
 }  // namespace
 
 void check(const model::Model& model) {
+  if (model.is_of_bearings_alone()) return;
   model::Machine machine = model::build(model);
   (void)starting_state(model, machine);
 }
 
-Summary simulate(const model::Model& model, const Options& options) { return Simulation(model, options).run(); }
+Summary simulate(const model::Model& model, const Options& options) {
+  if (model.is_of_bearings_alone()) {
+    throw InputError(Fault{{model.file, 0, 0},
+                           "",
+                           "bearings alone",
+                           "bodies and a simulation to run",
+                           "'hersey bearing' solves bearings by themselves"});
+  }
+  return Simulation(model, options).run();
+}
 
 }  // namespace hersey::run

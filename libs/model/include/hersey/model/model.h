@@ -144,14 +144,26 @@ struct Coupling {
   int max_iterations = 50;                                                   ///< partitioned: exchanges per step
 };
 
+/// What acts on a bearing that is looked at by itself. Either the load or the position is given.
+struct OperatingPoint {
+  double journal_speed = 0, shell_speed = 0;  ///< about the bearing's axis [rad/s]; their sum is not 0
+  std::optional<double> load;                 ///< on the journal [N], > 0
+  double load_angle = 0;                      ///< its direction, from x towards y [rad]
+  std::optional<double> eccentricity_ratio;   ///< [0, 1)
+  double eccentricity_angle = 0;              ///< direction of the journal's position, from x towards y [rad]
+  double tilt_x = 0, tilt_y = 0;              ///< slope of the journal's axis towards x and y
+  SourcePosition position;
+};
+
 struct Bearing {
   std::string name;
-  FrameName shell, journal;
+  FrameName shell, journal;  ///< empty in a model of bearings alone
   std::string lubricant;
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;
   std::optional<fem::ElasticMaterial> shell_material, journal_material;
+  std::optional<OperatingPoint> operating_point;
   SourcePosition position;
 };
 
@@ -226,6 +238,9 @@ struct Model {
   std::string resolved_text;  ///< the file's text, preceded by comments naming the overrides of this run
 
   std::map<std::string, SourcePosition> positions;  ///< of every key in the file, by key path
+
+  /// Whether the file holds bearings without a machine around them: something to solve, nothing to simulate.
+  [[nodiscard]] bool is_of_bearings_alone() const { return bodies.empty() && simulation.duration == 0; }
 
   /// Where `path` ("bearings.big_end.radial_clearance") is given; of its nearest given parent if it was left out.
   [[nodiscard]] SourcePosition position_of(const std::string& path) const;

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "hersey/model/model.h"
+
 namespace hersey::model {
 
 /// One parameter's value in one run of a study.
@@ -26,5 +28,11 @@ struct StudyRun {
 /// @throws InputError with the faults of the file and of every combination.
 [[nodiscard]] std::vector<StudyRun> expand_study(const std::string& path,
                                                  const std::vector<std::string>& overrides = {});
+
+/// Every combination of `parameters`, as expand_study for parameters that do not stand in the file.
+/// @throws InputError with the faults of the file and of every value.
+[[nodiscard]] std::vector<StudyRun> expand_parameters(const std::string& path,
+                                                      const std::vector<std::string>& overrides,
+                                                      const std::vector<StudyParameter>& parameters);
 
 }  // namespace hersey::model

@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bearing_table.h"
+#include "commands.h"
+#include "exit_code.h"
+#include "hersey/core/input_error.h"
+#include "hersey/model/read.h"
+#include "hersey/results/error.h"
+
+namespace hersey::cli {
+namespace {
+
+// Names for what is varied most, and the key paths of the bearing at hand that they stand for.
+class ShortNames {
+ public:
+  ShortNames(const model::Model& model, const model::Bearing& bearing) : model_(model) {
+    const std::string path = "bearings." + bearing.name + ".", point = path + "operating_point.";
+    const bool is_diametral = model.positions.contains(path + "diametral_clearance");
+    paths_ = {{"speed", point + "journal_speed"},
+              {"shell_speed", point + "shell_speed"},
+              {"load", point + "load"},
+              {"load_angle", point + "load_angle"},
+              {"eccentricity_ratio", point + "eccentricity_ratio"},
+              {"eccentricity_angle", point + "eccentricity_angle"},
+              {"clearance", path + (is_diametral ? "diametral_clearance" : "radial_clearance")},
+              {"width", path + "width"},
+              {"diameter", path + "diameter"},
+              {"viscosity", "lubricants." + bearing.lubricant + ".viscosity"}};
+  }
+
+  // A parameter of the model comes before a short name; any other name is a key path already.
+  [[nodiscard]] std::string path_of(const std::string& name) const {
+    const bool is_parameter = std::any_of(model_.parameters.begin(), model_.parameters.end(),
+                                          [&](const model::Parameter& parameter) { return parameter.name == name; });
+    return is_parameter ? name : key_path(name);
+  }
+
+  [[nodiscard]] std::string key_path(const std::string& name) const {
+    const auto found = std::find_if(paths_.begin(), paths_.end(), [&](const auto& pair) { return pair.first == name; });
+    return found == paths_.end() ? name : found->second;
+  }
+
+ private:
+  const model::Model& model_;
+  std::vector<std::pair<std::string, std::string>> paths_;
+};
+
+// What is to be solved, from the command line and the file.
+struct Plan {
+  std::vector<std::string> overrides;
+  std::vector<model::StudyParameter> sweeps;
+};
+
+// A load on the command line takes the place of a position in the file, and the other way round.
+void replace_other(const ShortNames& names, const model::Bearing& bearing, Plan& plan) {
+  if (!bearing.operating_point) return;
+  const auto is_set = [&](const std::string& name) {
+    const std::string path = names.key_path(name);
+    const bool by_option = std::any_of(plan.overrides.begin(), plan.overrides.end(),
+                                       [&](const std::string& text) { return text.starts_with(path + "="); });
+    return by_option || std::any_of(plan.sweeps.begin(), plan.sweeps.end(),
+                                    [&](const model::StudyParameter& sweep) { return sweep.name == path; });
+  };
+  if (is_set("eccentricity_ratio") && !is_set("load") && bearing.operating_point->load) {
+    plan.overrides.push_back(names.key_path("load") + "=none");
+  }
+  if (is_set("load") && !is_set("eccentricity_ratio") && bearing.operating_point->eccentricity_ratio) {
+    plan.overrides.push_back(names.key_path("eccentricity_ratio") + "=none");
+  }
+}
+
+Plan plan_of(const BearingArguments& arguments) {
+  const model::Model model = model::read(arguments.model, arguments.overrides);
+  const model::Bearing& bearing = study::bearing_called(model, arguments.bearing);
+  const ShortNames names(model, bearing);
+  Plan plan{arguments.overrides, {}};
+  const std::array<std::pair<const char*, const std::string*>, 6> options{
+      {{"speed", &arguments.speed},
+       {"shell_speed", &arguments.shell_speed},
+       {"load", &arguments.load},
+       {"load_angle", &arguments.load_angle},
+       {"eccentricity_ratio", &arguments.eccentricity_ratio},
+       {"eccentricity_angle", &arguments.eccentricity_angle}}};
+  for (const auto& [name, text] : options) {
+    if (!text->empty()) plan.overrides.push_back(names.key_path(name) + "=" + *text);
+  }
+  for (const std::string& text : arguments.sweeps) {
+    plan.sweeps.push_back(study::parse_sweep(text));
+    plan.sweeps.back().name = names.path_of(plan.sweeps.back().name);
+  }
+  replace_other(names, bearing, plan);
+  // Each value is checked with the others at their first, so that a sweep may complete what the file leaves open.
+  for (const model::StudyParameter& sweep : plan.sweeps) {
+    plan.overrides.push_back(sweep.name + "=" + sweep.values.front());
+  }
+  return plan;
+}
+
+std::vector<model::StudyRun> runs_of(const BearingArguments& arguments, const Plan& plan) {
+  std::vector<model::StudyRun> runs = plan.sweeps.empty()
+                                          ? model::expand_study(arguments.model, plan.overrides)
+                                          : model::expand_parameters(arguments.model, plan.overrides, plan.sweeps);
+  if (runs.empty()) runs.push_back({plan.overrides, "", "", {}});
+  // The last part of a key path says enough in a table.
+  for (model::StudyRun& run : runs) {
+    run.label.clear();
+    for (const model::StudyValue& value : run.values) {
+      const std::string name = value.name.substr(value.name.find_last_of('.') + 1);
+      run.label += (run.label.empty() ? "" : ", ") + name + " = " + value.text;
+    }
+  }
+  return runs;
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw results::WriteError(path, "the file cannot be written");
+}
+
+void print(const BearingArguments& arguments, const std::vector<study::BearingSolution>& solutions) {
+  if (arguments.json) {
+    nlohmann::json document{{"model", arguments.model}, {"solutions", nlohmann::json::array()}};
+    for (const study::BearingSolution& solution : solutions) document["solutions"].push_back(bearing_json(solution));
+    fmt::print("{}\n", document.dump(2));
+  } else if (solutions.size() > 1) {
+    fmt::print("{}", bearing_comparison_text(solutions));
+  } else if (solutions.front().solved()) {
+    fmt::print("{}", bearing_text(solutions.front()));
+  }
+}
+
+}  // namespace
+
+int bearing_command(const BearingArguments& arguments) {
+  const std::vector<model::StudyRun> runs = runs_of(arguments, plan_of(arguments));
+  if (!arguments.fields.empty() && runs.size() > 1) {
+    throw InputError(Fault{{"--fields", 0, 0}, "", fmt::format("{} solutions", runs.size()), "a single one", ""});
+  }
+  const std::vector<study::BearingSolution> solutions = study::solve_bearings(
+      arguments.model, runs,
+      {.bearing = arguments.bearing, .grid_error = !arguments.no_grid_error, .threads = arguments.jobs});
+  print(arguments, solutions);
+  bool all_solved = true;
+  for (const study::BearingSolution& solution : solutions) {
+    if (solution.solved()) continue;
+    all_solved = false;
+    fmt::print(stderr, "hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.error);
+  }
+  if (!arguments.csv.empty()) write_file(arguments.csv, bearing_csv(solutions));
+  if (!arguments.fields.empty() && all_solved) write_file(arguments.fields, bearing_fields_csv(solutions.front()));
+  return all_solved ? kOk : kFailed;
+}
+
+}  // namespace hersey::cli

@@ -1,0 +1,160 @@
+#include "bearing_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "table.h"
+
+namespace hersey::cli {
+namespace {
+
+using study::BearingFigure;
+using study::BearingSolution;
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+}
+
+// As many decimals as two digits of the error make sense of: 5.618 +- 0.031.
+std::string value_text(const BearingFigure& figure) {
+  if (figure.grid_error <= 0 || figure.grid_error > std::abs(figure.value)) return fmt::format("{:.5g}", figure.value);
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(figure.grid_error))), 0, 12);
+  return fmt::format("{:.{}f}", figure.value, decimals);
+}
+
+std::string error_text(const BearingFigure& figure) {
+  return figure.grid_error < 0 ? "" : fmt::format("+- {:.2g} (grid)", figure.grid_error);
+}
+
+std::string pressures_of(const film::FilmModel& film) {
+  const auto bar = [](double pascal) { return fmt::format("{:.4g} bar", 1e-5 * pascal); };
+  std::string text = film.edges == film::EdgeKind::closed ? "edges closed"
+                     : film.p_edge_left == film.p_edge_right
+                         ? "edges at " + bar(film.p_edge_left)
+                         : "edges at " + bar(film.p_edge_left) + " and " + bar(film.p_edge_right);
+  if (film.supply.kind == film::SupplyKind::widest_gap) text += ", fed at the widest gap, " + bar(film.supply.pressure);
+  if (film.supply.kind == film::SupplyKind::fixed_angle) {
+    text += fmt::format(", fed at {:.4g} deg, {}", film.supply.phi * 57.29577951308232, bar(film.supply.pressure));
+  }
+  return text;
+}
+
+// Under which condition the figures hold: at light loads it decides about them.
+std::string condition_of(const BearingSolution& solution) {
+  constexpr std::array<const char*, 3> cavitation{"guembel", "reynolds", "mass_conserving"};
+  const film::FilmModel& film = solution.model;
+  return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} linearisations, {:.3g} s\n",
+                     cavitation[static_cast<std::size_t>(film.cavitation)], 1e-5 * film.p_cav, pressures_of(film),
+                     film.grid.n_phi, film.grid.n_z, solution.summary.iterations, solution.wall_time);
+}
+
+std::string whirl_remark(const BearingSolution& solution) {
+  if (solution.whirl.always_stable) return "  a rigid rotor is stable at every mass\n";
+  if (solution.whirl.never_stable) return "  a rigid rotor is unstable at every mass\n";
+  return "";
+}
+
+const BearingFigure& figure(const std::vector<BearingFigure>& figures, const std::string& key) {
+  return *std::find_if(figures.begin(), figures.end(), [&](const BearingFigure& f) { return f.key == key; });
+}
+
+}  // namespace
+
+std::string bearing_text(const BearingSolution& solution) {
+  std::vector<std::vector<std::string>> lines;
+  for (const BearingFigure& f : study::figures_of(solution)) {
+    lines.push_back({f.name, value_text(f), f.unit, error_text(f)});
+  }
+  return condition_of(solution) + aligned(lines, 2) + whirl_remark(solution);
+}
+
+std::string bearing_comparison_text(const std::vector<BearingSolution>& solutions) {
+  const std::array<std::pair<const char*, const char*>, 9> wanted{{{"load", "W"},
+                                                                   {"eccentricity_ratio", "ecc. ratio"},
+                                                                   {"attitude", "attitude"},
+                                                                   {"h_min", "h_min"},
+                                                                   {"p_max", "p_max"},
+                                                                   {"friction_journal", "friction"},
+                                                                   {"asperity_share", "contact"},
+                                                                   {"side_flow", "side flow"},
+                                                                   {"sommerfeld_S", "S"}}};
+  std::vector<std::vector<std::string>> lines;
+  for (const BearingSolution& solution : solutions) {
+    if (!solution.solved()) continue;
+    const std::vector<BearingFigure> figures = study::figures_of(solution);
+    if (lines.empty()) {
+      lines.push_back({""});
+      for (const auto& [key, heading] : wanted) lines.back().push_back(with_unit(heading, figure(figures, key).unit));
+      lines.back().push_back("h_min +- (grid)");
+    }
+    lines.push_back({solution.run.label});
+    for (const auto& [key, heading] : wanted) lines.back().push_back(fmt::format("{:.5g}", figure(figures, key).value));
+    const double error = figure(figures, "h_min").grid_error;
+    lines.back().push_back(error < 0 ? "-" : fmt::format("{:.2g}", error));
+  }
+  return aligned(lines, 99);
+}
+
+std::string bearing_csv(const std::vector<BearingSolution>& solutions) {
+  std::string text;
+  for (const BearingSolution& solution : solutions) {
+    if (!solution.solved()) continue;
+    std::string head, row;
+    const auto add = [&](const std::string& name, double value) {
+      head += (head.empty() ? "" : ", ") + name;
+      row += fmt::format("{}{:.10g}", row.empty() ? "" : ", ", value);
+    };
+    for (const model::StudyValue& value : solution.run.values) add(with_unit(value.name, value.unit), value.number);
+    for (const BearingFigure& f : study::figures_of(solution)) {
+      add(with_unit(f.key, f.unit), f.value);
+      if (f.grid_error >= 0) add(with_unit(f.key + " grid error", f.unit), f.grid_error);
+    }
+    if (text.empty()) text = head + "\n";
+    text += row + "\n";
+  }
+  return text;
+}
+
+std::string bearing_fields_csv(const BearingSolution& solution) {
+  const film::FilmModel& model = solution.model;
+  const bearing::SteadyState& state = solution.state;
+  const film::FilmFields fields =
+      film::film_fields(model, bearing::steady_surfaces(model, state.point, state.e), state.u);
+  std::string text =
+      "angle [deg], z [mm], pressure [MPa], asperity pressure [MPa], film thickness [um], fill fraction\n";
+  for (int i = 0; i < model.grid.n_phi; ++i) {
+    for (int j = 0; j < model.grid.n_z; ++j) {
+      const int k = model.grid.index(i, j);
+      text += fmt::format("{:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}\n", 360.0 * i / model.grid.n_phi,
+                          1e3 * model.L * (static_cast<double>(j) / (model.grid.n_z - 1) - 0.5), 1e-6 * fields.p[k],
+                          1e-6 * fields.p_asperity[k], 1e6 * fields.h[k], fields.theta[k]);
+    }
+  }
+  return text;
+}
+
+nlohmann::json bearing_json(const BearingSolution& solution) {
+  nlohmann::json document{{"label", solution.run.label}, {"error", solution.error}};
+  for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;
+  if (!solution.solved()) return document;
+  document["linearisations"] = solution.summary.iterations;
+  document["wall_time"] = solution.wall_time;
+  for (const BearingFigure& f : study::figures_of(solution)) {
+    nlohmann::json& entry = document["figures"][f.key];
+    entry = {{"name", f.name}, {"value", f.value}, {"unit", f.unit}};
+    if (f.grid_error >= 0) entry["grid_error"] = f.grid_error;
+  }
+  const auto rows = [](const Eigen::Matrix4d& M) {
+    nlohmann::json list = nlohmann::json::array();
+    for (Eigen::Index i = 0; i < 4; ++i) list.push_back({M(i, 0), M(i, 1), M(i, 2), M(i, 3)});
+    return list;
+  };
+  document["stiffness_with_tilt"] = rows(solution.state.coefficients.stiffness);
+  document["damping_with_tilt"] = rows(solution.state.coefficients.damping);
+  return document;
+}
+
+}  // namespace hersey::cli

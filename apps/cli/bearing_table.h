@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "hersey/study/bearing_study.h"
+
+namespace hersey::cli {
+
+/// Every figure of one solution, one a line, with the error of the grid.
+[[nodiscard]] std::string bearing_text(const study::BearingSolution& solution);
+
+/// One line per solution with the figures that are compared first.
+[[nodiscard]] std::string bearing_comparison_text(const std::vector<study::BearingSolution>& solutions);
+
+/// Every figure of every solution that was found, comma-separated; the first line names figures and units.
+[[nodiscard]] std::string bearing_csv(const std::vector<study::BearingSolution>& solutions);
+
+/// The fields of one solution at the nodes, comma-separated.
+[[nodiscard]] std::string bearing_fields_csv(const study::BearingSolution& solution);
+
+[[nodiscard]] nlohmann::json bearing_json(const study::BearingSolution& solution);
+
+}  // namespace hersey::cli

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hersey/bearing/bearing_numbers.h"
+#include "hersey/model/study.h"
+
+namespace hersey::study {
+
+/// A bearing by itself at one operating point, and all that is to be said about it.
+struct BearingSolution {
+  model::StudyRun run;
+  std::string error;  ///< why there is no solution; then the rest is empty
+  film::FilmModel model;
+  bearing::SteadySummary summary;
+  bearing::SteadyState state;
+  bearing::BearingNumbers numbers;
+  bearing::LoadAxesCoefficients coefficients;
+  bearing::WhirlStability whirl;
+  bearing::GridError grid_error;
+  double wall_time = 0;  ///< grid error included [s]
+
+  [[nodiscard]] bool solved() const { return error.empty(); }
+};
+
+struct BearingStudyOptions {
+  std::string bearing;     ///< empty: the only one of the model
+  bool grid_error = true;  ///< solve on coarser grids too
+  int threads = 0;         ///< solutions at the same time; 0: one per core
+};
+
+/// The bearing of `model` called `name`, or its only one.
+/// @throws InputError for a name that is not there or ambiguous.
+[[nodiscard]] const model::Bearing& bearing_called(const model::Model& model, const std::string& name);
+
+/// @throws InputError where the bearing has none.
+[[nodiscard]] bearing::OperatingPoint operating_point_of(const model::Bearing& bearing);
+
+/// Solves the bearing of the model file at `path` at every run of `runs`, several at a time. One that has no solution
+/// does not stop the others.
+[[nodiscard]] std::vector<BearingSolution> solve_bearings(const std::string& path,
+                                                          const std::vector<model::StudyRun>& runs,
+                                                          const BearingStudyOptions& options);
+
+/// "load=100N:2500N:10", "journal_speed=1rpm:1000rpm:7:log" or "load=100N,200N,500N" as a study's parameter with its
+/// values written out. @throws InputError for any other text.
+[[nodiscard]] model::StudyParameter parse_sweep(const std::string& text);
+
+/// One reported figure in the unit people use.
+struct BearingFigure {
+  std::string key;   ///< "h_min"
+  std::string name;  ///< "minimum film thickness"
+  std::string unit;  ///< "um"; empty for a bare number
+  double value = 0;
+  double grid_error = -1;  ///< estimated error of the grid; negative: none estimated
+};
+
+/// Every figure of a solution, always the same ones in the same order.
+[[nodiscard]] std::vector<BearingFigure> figures_of(const BearingSolution& solution);
+
+}  // namespace hersey::study

@@ -1,0 +1,172 @@
+#include "hersey/study/bearing_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <thread>
+
+#include "hersey/core/input_error.h"
+#include "hersey/core/spelling.h"
+#include "hersey/core/units.h"
+#include "hersey/model/read.h"
+
+namespace hersey::study {
+namespace {
+
+constexpr int kMostSweepValues = 10'000;
+
+Eigen::Vector2d polar(double length, double angle) {
+  return length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+}
+
+void solve_one(const std::string& path, const BearingStudyOptions& options, BearingSolution& solution) {
+  const auto began = std::chrono::steady_clock::now();
+  const model::Model model = model::read(path, solution.run.overrides);
+  const model::Bearing& bearing = bearing_called(model, options.bearing);
+  const bearing::OperatingPoint point = operating_point_of(bearing);
+  solution.model = bearing.film;
+  solution.summary = bearing::solve_steady(solution.model, point, {}, solution.state);
+  if (!solution.summary.converged) {
+    solution.error = fmt::format("bearing {}: {}", bearing.name, solution.summary.message);
+    return;
+  }
+  const double omega = std::abs(point.entraining_speed());
+  solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
+  solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
+  solution.whirl = bearing::whirl_stability(solution.coefficients, solution.model.c, solution.numbers.load, omega);
+  if (options.grid_error) solution.grid_error = bearing::estimate_grid_error(solution.model, solution.state, {});
+  solution.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+[[noreturn]] void fault(const std::string& found, const std::string& suggestion = {}) {
+  throw InputError(Fault{{"--sweep", 0, 0},
+                         "",
+                         found,
+                         "name=first:last:count, name=first:last:count:log or name=value,value,...",
+                         suggestion});
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t from = 0;
+  for (std::size_t to = text.find(separator); to != std::string::npos; to = text.find(separator, from)) {
+    parts.push_back(text.substr(from, to - from));
+    from = to + 1;
+  }
+  parts.push_back(text.substr(from));
+  return parts;
+}
+
+// `count` values from first to last in the unit of `first`.
+std::vector<std::string> spaced_values(const std::vector<std::string>& parts, const std::string& text) {
+  int count = 0;
+  double first = 0, last = 0;
+  std::string unit;
+  try {
+    count = static_cast<int>(parse_quantity(parts[2], "1"));
+    const Quantity from = split_quantity(parts[0]);
+    unit = from.unit;
+    first = from.number;
+    last = convert(split_quantity(parts[1]), unit);
+  } catch (const QuantityError& error) {
+    fault("'" + text + "': " + error.found, error.suggestion);
+  }
+  const bool is_log = parts.size() == 4;
+  if (count < 2 || count > kMostSweepValues) fault(fmt::format("'{}': {} values", text, count), "2 to 10000 values");
+  if (is_log && (parts[3] != "log" || first <= 0 || last <= 0)) {
+    fault("'" + text + "'", "a logarithmic sweep goes from one value > 0 to another");
+  }
+  std::vector<std::string> values;
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / (count - 1);
+    const double value = is_log ? first * std::pow(last / first, share) : first + share * (last - first);
+    values.push_back(fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit));
+  }
+  return values;
+}
+
+}  // namespace
+
+const model::Bearing& bearing_called(const model::Model& model, const std::string& name) {
+  std::vector<std::string> names;
+  for (const model::Bearing& bearing : model.bearings) names.push_back(bearing.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (names.empty()) throw InputError(Fault{{model.file, 0, 0}, "", "no bearing", "a model with a bearing", ""});
+  if (name.empty() && names.size() > 1) {
+    throw InputError(Fault{{model.file, 0, 0}, "bearings", "several bearings", "--bearing " + one_of(names), ""});
+  }
+  if (!name.empty() && found == names.end()) {
+    throw InputError(
+        Fault{{"--bearing", 0, 0}, "", "unknown bearing '" + name + "'", one_of(names), did_you_mean(name, names)});
+  }
+  return name.empty() ? model.bearings.front() : model.bearings[static_cast<std::size_t>(found - names.begin())];
+}
+
+bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
+  if (!bearing.operating_point) {
+    throw InputError(Fault{bearing.position, "bearings." + bearing.name, "no operating point",
+                           "an 'operating_point' in the file, or --speed with --load or --eccentricity-ratio", ""});
+  }
+  const model::OperatingPoint& given = *bearing.operating_point;
+  bearing::OperatingPoint point{.journal_speed = given.journal_speed, .shell_speed = given.shell_speed};
+  point.tilt = {std::tan(given.tilt_x), std::tan(given.tilt_y)};
+  if (given.load) {
+    point.load = polar(*given.load, given.load_angle);
+  } else {
+    point.e = polar(*given.eccentricity_ratio * bearing.film.c, given.eccentricity_angle);
+  }
+  return point;
+}
+
+std::vector<BearingSolution> solve_bearings(const std::string& path, const std::vector<model::StudyRun>& runs,
+                                            const BearingStudyOptions& options) {
+  std::vector<BearingSolution> solutions(runs.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < runs.size(); i = next++) {
+      solutions[i].run = runs[i];
+      try {
+        solve_one(path, options, solutions[i]);
+      } catch (const std::exception& error) {
+        solutions[i].error = error.what();
+      }
+    }
+  };
+  // Faults of the model itself are told once, from here, before any thread is started.
+  if (!runs.empty()) {
+    const model::Model model = model::read(path, runs.front().overrides);
+    (void)operating_point_of(bearing_called(model, options.bearing));
+  }
+  const std::size_t wanted =
+      options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
+  std::vector<std::jthread> threads;
+  for (std::size_t i = 1; i < std::min(std::max<std::size_t>(wanted, 1), runs.size()); ++i) threads.emplace_back(work);
+  work();
+  threads.clear();
+  return solutions;
+}
+
+model::StudyParameter parse_sweep(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) fault("'" + text + "'");
+  model::StudyParameter parameter{text.substr(0, equals), {}, {"--sweep", 0, 0}};
+  const std::string values = text.substr(equals + 1);
+  const std::vector<std::string> parts = split(values, ':');
+  if (parts.size() == 1) {
+    parameter.values = split(values, ',');
+  } else if (parts.size() == 3 || parts.size() == 4) {
+    parameter.values = spaced_values(parts, text);
+  } else {
+    fault("'" + text + "'");
+  }
+  for (const std::string& value : parameter.values) {
+    if (value.empty()) fault("'" + text + "': an empty value");
+  }
+  return parameter;
+}
+
+}  // namespace hersey::study

@@ -1,0 +1,92 @@
+#include "hersey/study/bearing_study.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/core/input_error.h"
+
+namespace hersey::study {
+namespace {
+
+const std::string example = std::string(HERSEY_SOURCE_DIR) + "/examples/bearing_alone/model.yaml";
+
+double value_of(const BearingSolution& solution, const std::string& key) {
+  for (const BearingFigure& figure : figures_of(solution)) {
+    if (figure.key == key) return figure.value;
+  }
+  FAIL("no figure " << key);
+  return 0;
+}
+
+TEST_CASE("Sweeps_AreListsAndRanges") {
+  using Values = std::vector<std::string>;
+  CHECK(parse_sweep("load=100N,2 kN").values == Values{"100N", "2 kN"});
+  CHECK(parse_sweep("load=100N:2.5kN:4").values == Values{"100 N", "900 N", "1700 N", "2500 N"});
+  CHECK(parse_sweep("speed=1rpm:100rpm:3:log").values == Values{"1 rpm", "10 rpm", "100 rpm"});
+  CHECK(parse_sweep("x.y=0.1:0.2:2").name == "x.y");
+  for (const char* wrong : {"load", "load=", "=3", "load=1N:2N", "load=1N:2m:3", "load=1N:2N:1", "load=1N:2N:3:lin",
+                            "load=0N:2N:3:log", "load=1N,,2N", "load=a:b:3"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_AS((void)parse_sweep(wrong), InputError);
+  }
+}
+
+TEST_CASE("Stribeck_FallsFromBoundaryFrictionAndRisesWithTheFilm") {
+  const auto runs = model::expand_parameters(example, {"bearings.main.grid={circumferential: 60, axial: 13}"},
+                                             {parse_sweep("speed=10rpm:30000rpm:10:log")});
+  const auto curve = solve_bearings(example, runs, {.bearing = "", .grid_error = false, .threads = 2});
+  REQUIRE(curve.size() == 10);
+  std::vector<double> friction;
+  for (const BearingSolution& solution : curve) {
+    CAPTURE(solution.run.label);
+    CAPTURE(solution.error);
+    REQUIRE(solution.solved());
+    CHECK(value_of(solution, "load") == doctest::Approx(2500).epsilon(1e-8));
+    friction.push_back(value_of(solution, "friction_journal"));
+  }
+  // Asperities bear nine tenths of the load, with a friction coefficient of 0.12.
+  CHECK(friction.front() > 0.1);
+  CHECK(friction.front() < 0.12);
+  CHECK(value_of(curve.front(), "asperity_share") > 0.85);
+  CHECK(value_of(curve.back(), "asperity_share") < 1e-6);
+  const auto least = std::min_element(friction.begin(), friction.end());
+  CHECK(least != friction.begin());
+  CHECK(least != friction.end() - 1);
+  CHECK(*least < 0.02);
+  CHECK(std::is_sorted(least, friction.end()));
+  CHECK(std::is_sorted(friction.begin(), least + 1, std::greater<>()));
+}
+
+TEST_CASE("Threads_DoNotChangeNumbers") {
+  const auto runs = model::expand_parameters(example, {}, {parse_sweep("load=100N,1000N,2500N")});
+  const auto one = solve_bearings(example, runs, {.bearing = "main", .grid_error = true, .threads = 1});
+  const auto three = solve_bearings(example, runs, {.bearing = "main", .grid_error = true, .threads = 3});
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto a = figures_of(one[i]), b = figures_of(three[i]);
+    REQUIRE(a.size() == b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k].value == b[k].value);
+    CHECK(one[i].grid_error.known);
+  }
+}
+
+TEST_CASE("WrongBearing_IsNamed") {
+  const model::StudyRun run{};
+  CHECK_THROWS_WITH_AS((void)solve_bearings(example, {run}, {.bearing = "mian"}),
+                       doctest::Contains("did you mean 'main'?"), InputError);
+}
+
+TEST_CASE("SolutionThatFails_LeavesTheOthers") {
+  const auto runs = model::expand_parameters(example, {"bearings.main.asperities=none"},
+                                             {parse_sweep("bearings.main.supply.line=90deg,widest_gap")});
+  std::vector<model::StudyRun> both = runs;
+  both[0].overrides.push_back("bearings.main.radial_clearance=-1um");
+  std::reverse(both.begin(), both.end());
+  const auto solutions = solve_bearings(example, both, {});
+  CHECK(solutions[0].solved());
+  CHECK_FALSE(solutions[1].solved());
+}
+
+}  // namespace
+}  // namespace hersey::study
