@@ -41,6 +41,7 @@ std::string bare_name_of(const std::string& si_unit) {
 
 std::vector<std::string> texts_of(const std::vector<Word>& words) {
   std::vector<std::string> texts;
+  texts.reserve(words.size());
   for (const Word& word : words) texts.push_back(word.text);
   return texts;
 }

@@ -48,10 +48,11 @@ std::string slug_of(const std::string& label) {
 StudyRun run_of(const std::vector<StudyParameter>& parameters, std::size_t index,
                 const std::vector<std::string>& overrides) {
   StudyRun run{overrides, "", "", {}};
-  for (auto parameter = parameters.rbegin(); parameter != parameters.rend(); ++parameter) {
-    const std::string& text = parameter->values[index % parameter->values.size()];
-    index /= parameter->values.size();
-    run.values.insert(run.values.begin(), value_of(*parameter, text));
+  for (std::size_t k = parameters.size(); k-- > 0;) {  // the last parameter varies fastest
+    const StudyParameter& parameter = parameters[k];
+    const std::string& text = parameter.values[index % parameter.values.size()];
+    index /= parameter.values.size();
+    run.values.insert(run.values.begin(), value_of(parameter, text));
   }
   for (const StudyValue& value : run.values) {
     run.overrides.push_back(value.name + "=" + value.text);
