@@ -16,7 +16,7 @@ namespace {
 constexpr double kDirectionFloor = 1e-6;
 
 // exp(20) = 5e8: no oil, and far from overflow.
-constexpr double kLargestBarusExponent = 20;
+constexpr double kLargestExponent = 20;
 
 // The surfaces' answer to a unit change of each parameter; they are linear in all of them.
 std::vector<film::MotionDirection> unit_directions(const film::FilmModel& model) {
@@ -62,7 +62,7 @@ void JournalBearing::report_contact() {
 // overlap, pressure alone holds them apart.
 bool JournalBearing::is_sensible() const {
   const double largest = u_.maxCoeff();
-  if (!std::isfinite(largest) || model().lubricant.alpha * largest > kLargestBarusExponent) return false;
+  if (!std::isfinite(largest) || film::log_viscosity_ratio(model().lubricant, largest).value > kLargestExponent) return false;
   return smallest_gap(model(), kinematics_.value) > 0 || film::film_fields(model(), surfaces_, u_).h.minCoeff() > 0;
 }
 
@@ -71,6 +71,7 @@ void JournalBearing::fill_gap() {
   history_.dt = options_.initial_dt;
   history_.theta.setOnes();
   history_.w.setZero();
+  history_.density.setOnes(u_.size());
   if (!is_sensible()) return report_contact();
   for (int pass = 0; pass < (model().compliance > 0 ? 2 : 1); ++pass) {
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
@@ -182,6 +183,7 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   observed_iterations_ = iterations_;
   history_start_.theta = fields.theta;
   history_start_.w = fields.w;
+  history_start_.density = fields.density;
   u_start_ = u_;
   given_start_ = given_;
 }

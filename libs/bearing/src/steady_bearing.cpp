@@ -17,7 +17,7 @@ namespace hersey::bearing {
 namespace {
 
 // exp(20) = 5e8 times the viscosity: no oil, and far from overflow.
-constexpr double kLargestBarusExponent = 20;
+constexpr double kLargestExponent = 20;
 
 // One Newton step may use up this share of the smallest gap of rigid surfaces, or of the film between elastic ones.
 constexpr double kLargestApproach = 0.7;
@@ -163,7 +163,7 @@ class Search {
 
   [[nodiscard]] bool is_sensible(const Eigen::VectorXd& u) const {
     const double largest = u.maxCoeff();
-    if (!u.allFinite() || model_.lubricant.alpha * largest > kLargestBarusExponent) return false;
+    if (!u.allFinite() || film::log_viscosity_ratio(model_.lubricant, largest).value > kLargestExponent) return false;
     return gap_at(e_) > 0 || film::film_fields(model_, motion_, u).h.minCoeff() > 0;
   }
 

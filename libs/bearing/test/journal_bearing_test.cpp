@@ -11,7 +11,7 @@ film::FilmModel rough_elastic_film() {
   film::FilmModel model;
   model.c = 34e-6;
   model.grid = {.n_phi = 30, .n_z = 5};
-  model.lubricant.alpha = 1.28e-10;
+  model.lubricant.viscosity_law = film::Barus{1.28e-10};
   model.supply = {.kind = film::SupplyKind::widest_gap, .phi = 0, .pressure = 2e5};
   model.asperities = {.model = film::AsperityModel::greenwood_tripp_fit,
                       .sigma = 3e-6,

@@ -26,7 +26,7 @@ film::FilmModel flooded_film(int n_phi, int n_z) {
 film::FilmModel rough_elastic_film() {
   film::FilmModel model;
   model.grid = {.n_phi = 60, .n_z = 13};
-  model.lubricant.alpha = 1.28e-10;
+  model.lubricant.viscosity_law = film::Barus{1.28e-10};
   model.supply = {.kind = film::SupplyKind::fixed_angle, .phi = 1.5, .pressure = 2e5};
   model.asperities = {.model = film::AsperityModel::greenwood_tripp_exact,
                       .sigma = 1e-6,

@@ -11,8 +11,8 @@
 namespace hersey::film {
 namespace {
 
-// What one Newton step may change where the law is strongly curved: the exponent of Barus' law and the film thickness
-// of a compliant surface, relative to itself.
+// What one Newton step may change where the law is strongly curved: the logarithm of the viscosity and the film
+// thickness of a compliant surface, relative to itself.
 constexpr double largest_change = 1.0;
 
 // exp(20) = 5e8 times the viscosity: no oil, and far from overflow.
@@ -25,15 +25,16 @@ constexpr int patience = 12;
 /// pressures count: switching a node between full and cavitated bends no law and is never held back.
 double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u,
                   const Eigen::VectorXd& du) {
-  const double C = model.compliance, alpha = model.lubricant.alpha;
-  if (C == 0 && alpha == 0) return 1;
+  const double C = model.compliance;
+  const Lubricant& oil = model.lubricant;
+  if (C == 0 && std::holds_alternative<ConstantViscosity>(oil.viscosity_law)) return 1;
   const NodeLaw law(model);
   double share = 1;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     const int j = static_cast<int>(i % model.grid.n_z);
     const Node before = law.state(motion.g[i], u[i], j), after = law.state(motion.g[i], u[i] + du[i], j);
-    const double change = std::abs(after.p - before.p);
-    const double relative = std::max(alpha * change, C * change / before.h);
+    const double exponent = log_viscosity_ratio(oil, after.p).value - log_viscosity_ratio(oil, before.p).value;
+    const double relative = std::max(std::abs(exponent), C * std::abs(after.p - before.p) / before.h);
     if (relative > largest_change) share = std::min(share, largest_change / relative);
   }
   return share;
@@ -41,7 +42,7 @@ double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eig
 
 bool sensible_pressure(const FilmModel& model, const Eigen::VectorXd& u) {
   const double largest = u.maxCoeff();
-  return std::isfinite(largest) && model.lubricant.alpha * largest <= largest_exponent;
+  return std::isfinite(largest) && log_viscosity_ratio(model.lubricant, largest).value <= largest_exponent;
 }
 
 /// The film seen on every second node around the bearing.
@@ -69,6 +70,7 @@ CoarseFilm coarsen(const FilmModel& model, const SurfaceMotion& motion, const Fi
   if (history.dt == 0) return coarse;
   coarse.history.theta = every_second(grid, history.theta);
   coarse.history.w = every_second(grid, history.w);
+  if (history.density.size() != 0) coarse.history.density = every_second(grid, history.density);
   return coarse;
 }
 

@@ -17,7 +17,7 @@ constexpr double supply_stiffness = 1000;
 void check(const FilmModel& m) {
   HERSEY_REQUIRE(m.R > 0 && m.L > 0 && m.c > 0, "a bearing has radius, width and clearance");
   HERSEY_REQUIRE(m.grid.n_phi >= 4 && m.grid.n_z >= 3, "the grid needs 4 x 3 nodes at least");
-  HERSEY_REQUIRE(m.lubricant.mu0 > 0 && m.lubricant.alpha >= 0, "viscosity is positive");
+  HERSEY_REQUIRE(m.lubricant.mu0 > 0, "viscosity is positive");
   HERSEY_REQUIRE(m.compliance >= 0, "compliance is not negative");
   HERSEY_REQUIRE(m.p_edge_left >= m.p_cav && m.p_edge_right >= m.p_cav, "edges lie at or above p_cav");
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.supply.pressure >= m.p_cav, "supply lies at or above p_cav");
@@ -40,7 +40,7 @@ FlowBalance::FlowBalance(const FilmModel& model) : model_(model), law_(model_) {
   nodes_.resize(n);
   flows_.resize(faces_.size());
   for (auto* field : {&residual_, &balance_, &throughput_, &g_rate_, &w_start_, &u_}) field->setZero(n);
-  theta_start_.setOnes(n);
+  content_start_.setOnes(n);
 }
 
 void FlowBalance::lay_faces() {
@@ -131,7 +131,12 @@ void FlowBalance::take_history(const FilmHistory& history) {
   dt_ = history.dt;
   if (dt_ == 0) return;
   HERSEY_REQUIRE(history.theta.size() == size() && history.w.size() == size(), "history of shape (grid.size())");
-  if (model_.cavitation == Cavitation::mass_conserving) theta_start_ = history.theta;
+  content_start_.setOnes();
+  if (model_.cavitation == Cavitation::mass_conserving) content_start_ = history.theta;
+  if (history.density.size() != 0) {
+    HERSEY_REQUIRE(history.density.size() == size(), "density at the start of shape (grid.size()) or empty");
+    content_start_.array() *= history.density.array();
+  }
   w_start_ = history.w;
 }
 
@@ -149,7 +154,7 @@ void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& histo
     nodes_[i] = law_.state(motion.g[i], u[i], i % model_.grid.n_z);
     HERSEY_REQUIRE(nodes_[i].h > 0, "the film has closed at node " + std::to_string(i));
     balance_[i] = storage(i);
-    throughput_[i] = std::abs(balance_[i]);
+    throughput_[i] = std::max(std::abs(balance_[i]), std::abs(storage_g_rate(i) * g_rate_[i]));
   }
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
   replace_boundary_rows();
@@ -161,15 +166,18 @@ void FlowBalance::add_face(std::size_t f) {
   const Node &a = nodes_[face.a], &b = nodes_[face.b];
   const double speed = entrainment(f);
 
-  // Flow (film.9): q = K (p_a - p_b) + U h theta_upwind, with K = h^3/(12 mu) width/length.
+  // Flow (film.9): q = K (p_a - p_b) + rho U h theta_upwind, with K = rho h^3/(12 mu) width/length.
   const double h = 0.5 * (a.h + b.h), fluidity = 0.5 * (a.fluidity + b.fluidity);
   const double theta = speed >= 0 ? a.theta : b.theta;
   const double unit = h * h * face.width / (12 * face.length), drop = a.p - b.p;
+  const double density = 0.5 * (a.density + b.density);
   FaceFlow& flow = flows_[f];
-  flow.K = unit * h * fluidity;
-  flow.couette = speed * h * face.width;
-  flow.q_h = 3 * unit * fluidity * drop + speed * face.width * theta;
-  flow.q_fluidity = unit * h * drop;
+  flow.density = density;
+  flow.K = density * unit * h * fluidity;
+  flow.couette = density * speed * h * face.width;
+  flow.q_h = density * (3 * unit * fluidity * drop + speed * face.width * theta);
+  flow.q_fluidity = density * unit * h * drop;
+  flow.q_density = unit * h * fluidity * drop + speed * h * face.width * theta;
 
   const double poiseuille = flow.K * drop, entrained = flow.couette * theta;
   balance_[face.a] += poiseuille + entrained;
@@ -179,28 +187,28 @@ void FlowBalance::add_face(std::size_t f) {
   throughput_[face.b] += passing;
 }
 
-// Storage (film.8): theta_n g_rate + ((theta - theta_n) h + theta_n (w - w_n))/dt per area; in a steady film theta
-// g_rate.
+// Storage (film.8): m_n g_rate + ((m - m_n) h + m_n (w - w_n))/dt per area with the content m = rho theta; in a steady
+// film m g_rate.
 double FlowBalance::storage(int i) const {
   const Node& node = nodes_[i];
   const double a = area_[i % model_.grid.n_z];
-  if (dt_ == 0) return a * node.theta * g_rate_[i];
-  const double theta_n = theta_start_[i];
-  return a * (theta_n * g_rate_[i] + ((node.theta - theta_n) * node.h + theta_n * (node.w - w_start_[i])) / dt_);
+  if (dt_ == 0) return a * node.content * g_rate_[i];
+  const double m_n = content_start_[i];
+  return a * (m_n * g_rate_[i] + ((node.content - m_n) * node.h + m_n * (node.w - w_start_[i])) / dt_);
 }
 
 double FlowBalance::storage_u(int i) const {
   const Node& node = nodes_[i];
   const double a = area_[i % model_.grid.n_z];
-  return dt_ == 0 ? a * node.theta_u * g_rate_[i] : a * (node.theta_u * node.h + node.theta * node.h_u) / dt_;
+  return dt_ == 0 ? a * node.content_u * g_rate_[i] : a * (node.content_u * node.h + node.content * node.h_u) / dt_;
 }
 
 double FlowBalance::storage_g(int i) const {
-  return dt_ == 0 ? 0 : area_[i % model_.grid.n_z] * (nodes_[i].theta * nodes_[i].h_g - theta_start_[i]) / dt_;
+  return dt_ == 0 ? 0 : area_[i % model_.grid.n_z] * (nodes_[i].content * nodes_[i].h_g - content_start_[i]) / dt_;
 }
 
 double FlowBalance::storage_g_rate(int i) const {
-  return area_[i % model_.grid.n_z] * (dt_ == 0 ? nodes_[i].theta : theta_start_[i]);
+  return area_[i % model_.grid.n_z] * (dt_ == 0 ? nodes_[i].content : content_start_[i]);
 }
 
 // What a row carries beside its balance: in reynolds the slack of p >= p_cav, on an open edge the outflow.
@@ -267,10 +275,11 @@ void FlowBalance::assemble_jacobian() {
     const FaceFlow& flow = flows_[f];
     const Node &a = nodes_[face.a], &b = nodes_[face.b];
     const bool from_a = entrainment(f) >= 0;
-    const double q_a = flow.K * a.p_u + 0.5 * (flow.q_h * a.h_u + flow.q_fluidity * a.fluidity_u) +
-                       (from_a ? flow.couette * a.theta_u : 0);
-    const double q_b = -flow.K * b.p_u + 0.5 * (flow.q_h * b.h_u + flow.q_fluidity * b.fluidity_u) +
-                       (from_a ? 0 : flow.couette * b.theta_u);
+    const auto by_laws = [&](const Node& node) {
+      return 0.5 * (flow.q_h * node.h_u + flow.q_fluidity * node.fluidity_u + flow.q_density * node.density_u);
+    };
+    const double q_a = flow.K * a.p_u + by_laws(a) + (from_a ? flow.couette * a.theta_u : 0);
+    const double q_b = -flow.K * b.p_u + by_laws(b) + (from_a ? 0 : flow.couette * b.theta_u);
     values_[face.slots[0]] += q_a;
     values_[face.slots[1]] += q_b;
     values_[face.slots[2]] -= q_a;
@@ -307,7 +316,8 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     const Face& face = faces_[f];
     const Node &a = nodes_[face.a], &b = nodes_[face.b];
     const double theta = entrainment(f) >= 0 ? a.theta : b.theta;
-    double q = (f < first_axial_face_ ? speed_phi : speed_z) * 0.5 * (a.h + b.h) * face.width * theta;
+    const double speed = f < first_axial_face_ ? speed_phi : speed_z;
+    double q = speed * flows_[f].density * 0.5 * (a.h + b.h) * face.width * theta;
     if (gap) q += flows_[f].q_h * 0.5 * (a.h_g * direction.g[face.a] + b.h_g * direction.g[face.b]);
     dr[face.a] += q;
     dr[face.b] -= q;

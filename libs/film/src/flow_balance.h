@@ -17,10 +17,12 @@ struct Face {
   std::array<int, 4> slots{};  ///< where (a,a), (a,b), (b,a), (b,b) stand among the Jacobian's values
 };
 
-/// The flow over a face, linearised (film.9): dq = K d(p_a - p_b) + q_h dh + q_fluidity d(1/mu) + couette d
-/// theta_upwind.
+/// The flow over a face, linearised (film.9): dq = K d(p_a - p_b) + q_h dh + q_fluidity d(1/mu) + q_density d density +
+/// couette d theta_upwind. Flows are of mass over rho0.
 struct FaceFlow {
   double K = 0;           ///< conductance [m^3/(Pa s)]
+  double density = 1;     ///< rho/rho0 on the face [-]
+  double q_density = 0;   ///< with it: the volume that flows [m^3/s]
   double q_h = 0;         ///< with the face's film thickness [m^2/s]
   double q_fluidity = 0;  ///< with the face's 1/mu
   double couette = 0;     ///< entrained flow of a full gap [m^3/s]
@@ -109,7 +111,7 @@ class FlowBalance {
   std::vector<Node> nodes_;
   std::vector<FaceFlow> flows_;
   std::vector<double> values_;  ///< one more than the pattern: rows without a balance scatter there
-  Eigen::VectorXd residual_, balance_, throughput_, g_rate_, theta_start_, w_start_, u_;
+  Eigen::VectorXd residual_, balance_, throughput_, g_rate_, content_start_, w_start_, u_;
   std::array<SupplyColumn, 2> supply_{};
   double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, largest_throughput_ = 0;
 };

@@ -33,8 +33,7 @@ NodeLaw::NodeLaw(const FilmModel& model)
 Node NodeLaw::state(double g, double u, int j) const {
   Node node;
   pressure_and_fill(u, open_edge(model_, j), node);
-  node.fluidity = std::exp(-model_.lubricant.alpha * node.p) / model_.lubricant.mu0;
-  node.fluidity_u = -model_.lubricant.alpha * node.fluidity * node.p_u;
+  rheology(node);
   film_thickness(g, node);
   return node;
 }
@@ -59,6 +58,17 @@ void NodeLaw::pressure_and_fill(double u, bool open, Node& node) const {
     node.share = std::max(0.0, 1 + u / (shear_fade * fill_scale_));
     node.share_u = node.share > 0 ? 1 / (shear_fade * fill_scale_) : 0;
   }
+}
+
+void NodeLaw::rheology(Node& node) const {
+  const Lubricant& oil = model_.lubricant;
+  const ValueAndSlope viscosity = log_viscosity_ratio(oil, node.p), density = density_ratio(oil, node.p);
+  node.fluidity = std::exp(-viscosity.value) / oil.mu0;
+  node.fluidity_u = -viscosity.slope * node.fluidity * node.p_u;
+  node.density = density.value;
+  node.density_u = density.slope * node.p_u;
+  node.content = node.density * node.theta;
+  node.content_u = node.density_u * node.theta + node.density * node.theta_u;
 }
 
 void NodeLaw::film_thickness(double g, Node& node) const {

@@ -11,6 +11,8 @@ struct Node {
   double theta = 1, theta_u = 0;        ///< fill fraction [-]
   double share = 1, share_u = 0;        ///< share of the gap that carries Couette shear [-]
   double fluidity = 0, fluidity_u = 0;  ///< 1/mu [1/(Pa s)]
+  double density = 1, density_u = 0;    ///< rho/rho0 [-]
+  double content = 1, content_u = 0;    ///< oil in the gap, density theta [-]
   double h = 0, h_u = 0, h_g = 1;       ///< film thickness [m]
   double w = 0;                         ///< column deformation [m]
   double asperity = 0, asperity_h = 0;  ///< contact pressure [Pa] and its slope in h
@@ -31,6 +33,7 @@ class NodeLaw {
 
  private:
   void pressure_and_fill(double u, bool open, Node& node) const;
+  void rheology(Node& node) const;
   void film_thickness(double g, Node& node) const;
   void contact(double h, Node& node) const;
 

@@ -92,7 +92,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
       const Node& node = balance.nodes()[k];
       const double area = balance.area(j);
       o.storage_rate += balance.storage(k);
-      o.oil_volume += area * node.theta * node.h;
+      o.oil_volume += area * node.content * node.h;
       total += area;
       if (u[k] < -round_off) cavitated += area;
       (j == 0 ? o.flow_left : o.flow_right) += balance.outflow(k);
@@ -119,7 +119,8 @@ void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, doub
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
     const Face& face = balance.faces()[f];
     const double drop = balance.nodes()[face.a].wall - balance.nodes()[face.b].wall;
-    o.power_film += balance.flows()[f].K * drop * drop;
+    const FaceFlow& flow = balance.flows()[f];
+    o.power_film += flow.K / flow.density * drop * drop;
   }
 }
 
@@ -136,11 +137,13 @@ void observe_forces(const FilmWrench& wrench, const Eigen::Vector2d& e, FilmObse
 FilmFields fields_of(const std::vector<Node>& nodes) {
   const auto n = static_cast<Eigen::Index>(nodes.size());
   FilmFields fields;
-  for (auto* field : {&fields.p, &fields.theta, &fields.h, &fields.w, &fields.p_asperity}) field->resize(n);
+  for (auto* field : {&fields.p, &fields.theta, &fields.density, &fields.h, &fields.w, &fields.p_asperity})
+    field->resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Node& node = nodes[i];
     fields.p[i] = node.wall;
     fields.theta[i] = node.theta;
+    fields.density[i] = node.density;
     fields.h[i] = node.h;
     fields.w[i] = node.w;
     fields.p_asperity[i] = node.asperity;

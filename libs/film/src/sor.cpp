@@ -69,7 +69,9 @@ double Sor::following() const {
   const FilmModel& model = balance_.model();
   double gain = 0;
   for (const Node& node : balance_.nodes()) {
-    gain = std::max(gain, 3 * model.compliance * node.wall / node.h + model.lubricant.alpha * std::abs(node.p));
+    const double pressure = std::abs(node.p);
+    gain = std::max(gain, 3 * model.compliance * node.wall / node.h +
+                              log_viscosity_ratio(model.lubricant, node.p).slope * pressure);
   }
   return 1 / (1 + 2 * gain);
 }
@@ -96,7 +98,7 @@ void Sor::update_coefficients(const Eigen::VectorXd& u) {
   for (int i = 0; i < balance_.size(); ++i) {
     const double area = balance_.area(i % n_z);
     const Node& node = balance_.nodes()[i];
-    storage_theta_[i] = area * (history_.dt == 0 ? motion_.g_rate[i] : node.h / history_.dt);
+    storage_theta_[i] = area * node.density * (history_.dt == 0 ? motion_.g_rate[i] : node.h / history_.dt);
     storage_known_[i] = balance_.storage(i) - storage_theta_[i] * node.theta;
   }
 }

@@ -27,7 +27,8 @@ State rough_state(Cavitation cavitation, bool all_laws, bool transient) {
   s.model.p_edge_left = 2e5, s.model.p_edge_right = 3e5;
   s.model.supply = {SupplyKind::widest_gap, 0, 4e5};
   if (all_laws) {
-    s.model.lubricant.alpha = 2e-8;
+    s.model.lubricant.viscosity_law = Barus{2e-8};
+    s.model.lubricant.density_law = DowsonHigginson{5e-9, 2e-9};  // ten times as soft as oil
     s.model.compliance = 5e-13;
     s.model.asperities = {AsperityModel::greenwood_tripp_exact, 4e-6, 3e-3, 57e9, 0.1};  // many nodes in contact
   }
@@ -46,6 +47,7 @@ State rough_state(Cavitation cavitation, bool all_laws, bool transient) {
     s.history.dt = 1e-4;
     s.history.theta.resize(n), s.history.w.resize(n);
     for (int i = 0; i < n; ++i) s.history.theta[i] = uniform(generator), s.history.w[i] = 1e-6 * uniform(generator);
+    s.history.density = Eigen::VectorXd::Constant(n, 1.01);
   }
   s.name = "cavitation " + std::to_string(static_cast<int>(cavitation)) + (all_laws ? ", all laws" : "") +
            (transient ? ", transient" : ", steady");

@@ -26,7 +26,7 @@ TEST_CASE("Sor_MeetsNewton") {
         FilmModel m = big_end(cavitation);
         if (laws) {
           m.compliance = m.R / 57e9;
-          m.lubricant.alpha = 1.28e-8;
+          m.lubricant.viscosity_law = Barus{1.28e-8};
           m.asperities = {AsperityModel::greenwood_tripp_fit, 1e-6, 3e-3, 57e9, 0.1};
         }
         Journal journal = turning(m, e, omega);
@@ -70,7 +70,7 @@ TEST_CASE("HardFilms_ConvergeFromColdStart") {
           CAPTURE(grid.n_phi);
           FilmModel m = big_end(cavitation);
           m.grid = grid;
-          m.lubricant.alpha = alpha;
+          m.lubricant.viscosity_law = Barus{alpha};
           m.compliance = m.R / 57e9;
           m.asperities = {AsperityModel::greenwood_tripp_exact, 1e-6, 3e-3, 57e9, 0.1};
           const SolvedFilm film = solve_cold(m, turning(m, e, omega));

@@ -108,6 +108,31 @@ TypePtr operating_point_format() {
       });
 }
 
+TypePtr pressure_viscosity_format() {
+  const TypePtr alpha = quantity("1/Pa", "1.28e-10 1/Pa", Range::not_negative());
+  return any_of("a coefficient such as 1.28e-10 1/Pa, or {law, ...}",
+                {alpha, variant("a pressure-viscosity law", "law", {},
+                                {
+                                    {"barus", "mu = mu0 exp(alpha p)", {required("alpha", alpha, "Its coefficient.")}},
+                                    {"roelands",
+                                     "ln mu + 9.67 = (ln mu0 + 9.67) (1 + p/196.2 MPa)^z with mu in Pa.s",
+                                     {required("z", number("0.6", {.low = 0, .high = 2}),
+                                               "Pressure-viscosity index; mineral oils: 0.5 to 0.7.")}},
+                                })});
+}
+
+TypePtr compressibility_format() {
+  const auto coefficient = [] { return quantity("1/Pa", "0.6e-9 1/Pa", Range::not_negative()); };
+  return variant("a density law", "law", {},
+                 {
+                     {"incompressible", "the density does not depend on pressure", {}},
+                     {"dowson_higginson",
+                      "rho = rho0 (1 + rise p/(1 + saturation p))",
+                      {defaulted("rise", coefficient(), "0.6e-9 1/Pa", "Compressibility at p = 0."),
+                       defaulted("saturation", coefficient(), "1.7e-9 1/Pa", "How soon it wears off.")}},
+                 });
+}
+
 }  // namespace
 
 TypePtr lubricants_format() {
@@ -115,10 +140,13 @@ TypePtr lubricants_format() {
       "a lubricant", {
                          required("viscosity", quantity("Pa.s", "15 mPa.s", Range::positive()),
                                   "Dynamic viscosity mu0 at ambient pressure."),
-                         defaulted("pressure_viscosity", quantity("1/Pa", "1.28e-10 1/Pa", Range::not_negative()), "0",
-                                   "alpha in mu = mu0 exp(alpha p) (Barus)."),
+                         defaulted("pressure_viscosity", pressure_viscosity_format(), "0",
+                                   "How the viscosity rises with pressure: alpha in mu = mu0 exp(alpha p) (Barus), or "
+                                   "a law. p counts from the cavitation pressure."),
                          defaulted("density", quantity("kg/m^3", "850 kg/m^3", Range::positive()), "850 kg/m^3",
-                                   "Density of the liquid."),
+                                   "Density of the liquid at ambient pressure."),
+                         defaulted("compressibility", compressibility_format(), "incompressible",
+                                   "How the density rises with pressure."),
                      });
   return named("a mapping from names to lubricants", lubricant);
 }

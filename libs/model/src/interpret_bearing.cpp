@@ -204,14 +204,39 @@ std::optional<OperatingPoint> operating_point_of(Context& context, const Value& 
   return point;
 }
 
+film::ViscosityLaw viscosity_law_of(Context& context, const Value& lubricant, double mu0) {
+  const Value* given = lubricant.find("pressure_viscosity");
+  if (given == nullptr || given->broken || given->members.empty()) return {};
+  const Value& law = given->members.front().value;
+  if (law.type->kind == Type::Kind::quantity) {
+    if (law.number == 0) return film::ConstantViscosity{};
+    return film::Barus{law.number};
+  }
+  if (law.text == "barus") return film::Barus{number_of(law, "alpha")};
+  const Value* viscosity = lubricant.find("viscosity");
+  if (viscosity != nullptr && !viscosity->broken && mu0 <= film::Roelands::smallest_viscosity) {
+    context.fault(*viscosity, "a viscosity at or below Roelands' 0.0632 mPa.s",
+                  "a larger one, or another law in pressure_viscosity");
+  }
+  return film::Roelands{number_of(law, "z")};
+}
+
+film::DensityLaw density_law_of(const Value& lubricant) {
+  const Value* law = lubricant.find("compressibility");
+  if (law == nullptr || law->broken || law->text != "dowson_higginson") return {};
+  return film::DowsonHigginson{number_of(*law, "rise"), number_of(*law, "saturation")};
+}
+
 }  // namespace
 
 void interpret_lubricants(Context& context) {
   for (const auto& [name, value] : section(context.root, "lubricants")) {
     Lubricant lubricant{name, {}, value.key_position};
-    lubricant.data = {.mu0 = number_of(value, "viscosity"),
-                      .alpha = number_of(value, "pressure_viscosity"),
-                      .density = number_of(value, "density")};
+    const double mu0 = number_of(value, "viscosity");
+    lubricant.data = {.mu0 = mu0,
+                      .viscosity_law = viscosity_law_of(context, value, mu0),
+                      .density = number_of(value, "density"),
+                      .density_law = density_law_of(value)};
     context.model.lubricants.push_back(std::move(lubricant));
   }
 }

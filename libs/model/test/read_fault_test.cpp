@@ -207,6 +207,13 @@ TEST_CASE("DirectionWithoutLength_IsReported") {
         "0 0 1");
 }
 
+TEST_CASE("ThinOilOfRoelands_IsRefused") {
+  CHECK(
+      faults_after("{viscosity: 15 mPa.s}", "{viscosity: 0.05 mPa.s, pressure_viscosity: {law: roelands, z: 0.6}}") ==
+      "m.yaml:21:20: lubricants.oil.viscosity: a viscosity at or below Roelands' 0.0632 mPa.s; expected a larger one, "
+      "or another law in pressure_viscosity");
+}
+
 TEST_CASE("ClearanceOfTheBearingsSize_IsAWrongUnit") {
   CHECK(faults_after("radial_clearance: 34 um", "radial_clearance: 34 mm") ==
         "m.yaml:28:23: bearings.big_end.radial_clearance: a clearance of more than a tenth of the radius; expected a "

@@ -59,7 +59,8 @@ TEST_CASE("Defaults_AreThoseOfTheReference") {
   CHECK(film.supply.kind == film::SupplyKind::none);
   CHECK(film.asperities.model == film::AsperityModel::none);
   CHECK(film.compliance == 0);
-  CHECK(film.lubricant.alpha == 0);
+  CHECK(std::holds_alternative<film::ConstantViscosity>(film.lubricant.viscosity_law));
+  CHECK(std::holds_alternative<film::Incompressible>(film.lubricant.density_law));
   CHECK(film.lubricant.density == 850);
   CHECK(film.cavitated_shear == film::CavitatedShear::film_share);
   CHECK(film.shear_force == film::ShearForce::full);
@@ -227,6 +228,19 @@ TEST_CASE("AnchorsAndAliases_AreUnderstood") {
   const Model model = read_text(text, "m.yaml");
   CHECK(model.bodies[2].mass == 2);
   CHECK(model.lubricants[1].data.mu0 == near(0.005));
+}
+
+TEST_CASE("Lubricants_HaveTheirLaws") {
+  const std::string text =
+      edited(good_model, "  oil: {viscosity: 15 mPa.s}\n",
+             "  oil: {viscosity: 15 mPa.s, pressure_viscosity: 2e-8 1/Pa, compressibility: dowson_higginson}\n"
+             "  thick: {viscosity: 40 mPa.s, pressure_viscosity: {law: roelands, z: 0.6}}\n"
+             "  same: {viscosity: 15 mPa.s, pressure_viscosity: {law: barus, alpha: 2e-8 1/Pa}}\n");
+  const Model model = read_text(text, "m.yaml");
+  CHECK(std::get<film::Barus>(model.bearings[0].film.lubricant.viscosity_law).alpha == near(2e-8));
+  CHECK(std::get<film::DowsonHigginson>(model.bearings[0].film.lubricant.density_law).saturation == near(1.7e-9));
+  CHECK(std::get<film::Roelands>(model.lubricants[1].data.viscosity_law).z == near(0.6));
+  CHECK(std::get<film::Barus>(model.lubricants[2].data.viscosity_law).alpha == near(2e-8));
 }
 
 TEST_CASE("EmptySections_AreAllowed") {

@@ -39,7 +39,15 @@ std::string supply(const film::FilmModel& film) {
 
 std::string viscosity(const film::Lubricant& oil) {
   std::string text = fmt::format("{:.4g} mPa.s", 1e3 * oil.mu0);
-  if (oil.alpha > 0) text += fmt::format(" exp({:.4g}/Pa p) (Barus)", oil.alpha);
+  if (const auto* barus = std::get_if<film::Barus>(&oil.viscosity_law)) {
+    text += fmt::format(" exp({:.4g}/Pa p) (Barus)", barus->alpha);
+  } else if (const auto* roelands = std::get_if<film::Roelands>(&oil.viscosity_law)) {
+    text += fmt::format(" at p_cav, Roelands with z = {:.4g}", roelands->z);
+  }
+  if (const auto* law = std::get_if<film::DowsonHigginson>(&oil.density_law)) {
+    return text + fmt::format(", density rises by {:.4g}/Pa p/(1 + {:.4g}/Pa p) (Dowson-Higginson), isothermal",
+                              law->rise, law->saturation);
+  }
   return text + ", incompressible, isothermal";
 }
 

@@ -2,6 +2,9 @@
 
 #include <Eigen/Dense>
 
+#include "hersey/film/density_law.h"
+#include "hersey/film/viscosity_law.h"
+
 namespace hersey::film {
 
 /// Circumferential x axial grid of nodes. Node (i, j) sits at phi_i = 2 pi i / n_phi (periodic) and
@@ -13,12 +16,24 @@ struct Grid {
   [[nodiscard]] int index(int i, int j) const { return i * n_z + j; }
 };
 
-/// mu(p) = mu0 exp(alpha p) (Barus); pressures in mu's argument are gauge, above the cavitation pressure.
+/// Pressures in the laws' arguments are counted from the cavitation pressure.
 struct Lubricant {
-  double mu0 = 0.015;    ///< dynamic viscosity at ambient pressure [Pa s], > 0
-  double alpha = 0;      ///< pressure-viscosity coefficient [1/Pa], >= 0
-  double density = 850;  ///< [kg/m^3], > 0; constant
+  double mu0 = 0.015;           ///< dynamic viscosity at the cavitation pressure [Pa s], > 0
+  ViscosityLaw viscosity_law;   ///< mu(p)/mu0
+  double density = 850;         ///< at the cavitation pressure [kg/m^3], > 0
+  DensityLaw density_law = {};  ///< rho(p)/rho0
 };
+
+/// ln(mu/mu0) and its slope [1/Pa] at a pressure above the cavitation pressure.
+[[nodiscard]] inline ValueAndSlope log_viscosity_ratio(const Lubricant& oil, double p) {
+  return std::visit([&](const auto& law) { return law.log_ratio(p, oil.mu0); }, oil.viscosity_law);
+}
+
+/// rho/rho0 and its slope [1/Pa] at a pressure above the cavitation pressure; tension does not thin the oil.
+[[nodiscard]] inline ValueAndSlope density_ratio(const Lubricant& oil, double p) {
+  if (p < 0) return {1, 0};
+  return std::visit([&](const auto& law) { return law.ratio(p); }, oil.density_law);
+}
 
 enum class Cavitation {
   guembel,          ///< full film solved, negative pressures dropped from the forces (half Sommerfeld)
@@ -92,9 +107,10 @@ struct SurfaceMotion {
 /// The film at the start of the step being solved. dt = 0 leaves theta g_rate as the only storage: a steady film under
 /// the given g_rate. The fill fraction is first order in time, a full film follows the exact g_rate (film.8).
 struct FilmHistory {
-  double dt = 0;          ///< [s]
-  Eigen::VectorXd theta;  ///< fill fraction at the start [-], shape (grid.size()); unused for dt = 0
-  Eigen::VectorXd w;      ///< compliance deformation at the start [m]; unused for dt = 0
+  double dt = 0;            ///< [s]
+  Eigen::VectorXd theta;    ///< fill fraction at the start [-], shape (grid.size()); unused for dt = 0
+  Eigen::VectorXd w;        ///< compliance deformation at the start [m]; unused for dt = 0
+  Eigen::VectorXd density;  ///< rho/rho0 at the start [-]; empty: 1; unused for dt = 0
 };
 
 }  // namespace hersey::film

@@ -1,12 +1,8 @@
 #pragma once
 
-namespace hersey::film {
+#include "hersey/film/value_and_slope.h"
 
-/// A value and its derivative.
-struct ValueAndSlope {
-  double value = 0;
-  double slope = 0;
-};
+namespace hersey::film {
 
 /// F_{5/2}(H) = 1/sqrt(2 pi) int_H^inf (s - H)^{5/2} exp(-s^2/2) ds, the pressure integral of Greenwood and Tripp
 /// (film.16), and its derivative -5/2 F_{3/2}(H). Relative error below 1e-12 for -4 <= H <= 8; zero beyond H = 8, where

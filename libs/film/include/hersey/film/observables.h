@@ -11,12 +11,14 @@ namespace hersey::film {
 struct FilmFields {
   Eigen::VectorXd p;           ///< film pressure [Pa]
   Eigen::VectorXd theta;       ///< fill fraction [-]
+  Eigen::VectorXd density;     ///< rho/rho0 [-]
   Eigen::VectorXd h;           ///< film thickness, deformation included [m]
   Eigen::VectorXd w;           ///< column deformation [m]
   Eigen::VectorXd p_asperity;  ///< asperity contact pressure [Pa]
 };
 
-/// What an engineer asks of a film (docs: definitions as in theory manual, chapter film).
+/// What an engineer asks of a film (docs: definitions as in theory manual, chapter film). Flows and volumes of oil are
+/// those at the density rho0: masses over rho0.
 struct FilmObservables {
   double h_min = 0, h_min_phi = 0,
          h_min_z = 0;       ///< smallest film thickness on the surface, edges included, and where [m, rad, m]

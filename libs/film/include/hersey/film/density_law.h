@@ -1,0 +1,30 @@
+#pragma once
+
+#include <variant>
+
+#include "hersey/film/value_and_slope.h"
+
+namespace hersey::film {
+
+// Each law gives rho/rho0 and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa]. A new law is a
+// struct like these and its name in DensityLaw.
+
+/// rho = rho0.
+struct Incompressible {
+  [[nodiscard]] ValueAndSlope ratio(double /*p*/) const { return {1, 0}; }
+};
+
+/// rho = rho0 (1 + rise p/(1 + saturation p)).
+/// @see Dowson and Higginson (1966), Elasto-Hydrodynamic Lubrication, Pergamon.
+struct DowsonHigginson {
+  double rise = 0.6e-9;        ///< compressibility at p = 0 [1/Pa], >= 0
+  double saturation = 1.7e-9;  ///< [1/Pa], >= 0
+  [[nodiscard]] ValueAndSlope ratio(double p) const {
+    const double d = 1 + saturation * p;
+    return {1 + rise * p / d, rise / (d * d)};
+  }
+};
+
+using DensityLaw = std::variant<Incompressible, DowsonHigginson>;
+
+}  // namespace hersey::film

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <variant>
+
+#include "hersey/film/value_and_slope.h"
+
+namespace hersey::film {
+
+// Each law gives ln(mu/mu0) and its slope [1/Pa] at a pressure p above the cavitation pressure [Pa]; the film takes its
+// exponential. A new law is a struct like these and its name in ViscosityLaw.
+
+/// mu = mu0.
+struct ConstantViscosity {
+  [[nodiscard]] ValueAndSlope log_ratio(double /*p*/, double /*mu0*/) const { return {}; }
+};
+
+/// mu = mu0 exp(alpha p).
+/// @see Barus (1893), Am. J. Sci. 45, 87-96.
+struct Barus {
+  double alpha = 0;  ///< pressure-viscosity coefficient [1/Pa], >= 0
+  [[nodiscard]] ValueAndSlope log_ratio(double p, double /*mu0*/) const { return {alpha * p, alpha}; }
+};
+
+/// ln mu + 9.67 = (ln mu0 + 9.67) (1 + p/196.2 MPa)^z, mu in Pa s. Where p < 0 (guembel only) it goes on along its
+/// tangent.
+/// @see Roelands (1966), Correlational Aspects of the Viscosity-Temperature-Pressure Relationship of Lubricating Oils.
+struct Roelands {
+  double z = 0;  ///< pressure-viscosity index [-], >= 0
+
+  static constexpr double pole_pressure = 196.2e6;          ///< [Pa]
+  static constexpr double smallest_viscosity = 6.3151e-05;  ///< exp(-9.67) [Pa s]: mu0 lies above it
+
+  [[nodiscard]] ValueAndSlope log_ratio(double p, double mu0) const {
+    const double size = std::log(mu0 / smallest_viscosity), slope = size * z / pole_pressure;
+    if (p <= 0) return {slope * p, slope};
+    const double power = std::pow(1 + p / pole_pressure, z);
+    return {size * (power - 1), slope * power / (1 + p / pole_pressure)};
+  }
+};
+
+using ViscosityLaw = std::variant<ConstantViscosity, Barus, Roelands>;
+
+}  // namespace hersey::film

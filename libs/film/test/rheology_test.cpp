@@ -1,0 +1,113 @@
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "film_cases.h"
+
+// Laws of viscosity and density against their own values and against closed forms of the film.
+namespace hersey::film {
+namespace {
+
+TEST_CASE("LawSlopes_MatchFiniteDifference") {
+  const std::vector<Lubricant> oils = {{.mu0 = 0.02, .viscosity_law = Barus{2e-8}},
+                                       {.mu0 = 0.02, .viscosity_law = Roelands{0.6}, .density_law = DowsonHigginson{}}};
+  for (const Lubricant& oil : oils) {
+    for (const double p : {1e5, 2e7, 5e8}) {
+      CAPTURE(p);
+      const double d = 1e-4 * p;
+      const double viscosity = log_viscosity_ratio(oil, p + d).value - log_viscosity_ratio(oil, p - d).value;
+      CHECK(log_viscosity_ratio(oil, p).slope == doctest::Approx(viscosity / (2 * d)).epsilon(1e-6));
+      const double density = density_ratio(oil, p + d).value - density_ratio(oil, p - d).value;
+      // Round-off of ratios near 1 over the smallest difference, 10 Pa.
+      CHECK(std::abs(density_ratio(oil, p).slope - density / (2 * d)) < 1e-6 * 0.6e-9 + 1e-16 / d);
+    }
+  }
+}
+
+TEST_CASE("Laws_HaveTheirPublishedValues") {
+  // Dowson and Higginson: 22 % at 1 GPa, a third at most. Roelands: tends to Barus at low pressure.
+  const Lubricant oil{.mu0 = 0.04, .viscosity_law = Roelands{0.68}, .density_law = DowsonHigginson{}};
+  CHECK(density_ratio(oil, 1e9).value == doctest::Approx(1 + 0.6 / 2.7).epsilon(1e-12));
+  CHECK(density_ratio(oil, 0).value == 1);
+  CHECK(log_viscosity_ratio(oil, 196.2e6).value ==
+        doctest::Approx((std::log(0.04) + 9.67) * (std::pow(2, 0.68) - 1)).epsilon(1e-4));
+  CHECK(log_viscosity_ratio(oil, 1e3).value == doctest::Approx(1e3 * log_viscosity_ratio(oil, 0).slope).epsilon(1e-5));
+  CHECK(log_viscosity_ratio(oil, -1e3).value < 0);
+}
+
+// Barus' fluid has the closed form p = -ln(1 - alpha q)/alpha with the isoviscous pressure q (Weibull's
+// transformation).
+TEST_CASE("BarusFilm_MeetsWeibullsTransformation") {
+  FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {240, 3}};
+  m.edges = EdgeKind::closed;
+  m.supply = {SupplyKind::fixed_angle, 0, 0};
+  m.cavitation = Cavitation::reynolds;
+  const SolvedFilm isoviscous = solve_cold(m, turning(m, 0.6, 200));
+  const double alpha = 0.5 / isoviscous.observed.p_max;
+  m.lubricant.viscosity_law = Barus{alpha};
+  const SolvedFilm film = solve_cold(m, turning(m, 0.6, 200));
+  REQUIRE(film.summary.converged);
+  double worst = 0;
+  for (Eigen::Index i = 0; i < film.u.size(); ++i) {
+    const double exact = -std::log(1 - alpha * isoviscous.fields.p[i]) / alpha;
+    worst = std::max(worst, std::abs(film.fields.p[i] - exact));
+  }
+  CHECK(film.observed.p_max > 1.3 * isoviscous.observed.p_max);
+  CHECK(worst < 1e-3 * film.observed.p_max);  // (alpha dp)^2/12 per face, 0.05 per face at most
+}
+
+// Nothing leaves a closed bearing: its oil is as dense as the gap is narrow.
+TEST_CASE("ClosedGap_CompressesItsOil") {
+  FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {12, 3}};
+  m.edges = EdgeKind::closed;
+  m.lubricant.density_law = DowsonHigginson{};
+  SurfaceMotion motion = surfaces(m, {});
+  const double dt = 1e-4, closing = 0.002;  // by 0.2 % in one step
+  motion.g_rate.setConstant(-closing * m.c / dt);
+  FilmHistory history{.dt = dt,
+                      .theta = Eigen::VectorXd::Ones(m.grid.size()),
+                      .w = Eigen::VectorXd::Zero(m.grid.size()),
+                      .density = {}};
+  Reynolds reynolds(m);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+  const FilmSolveSummary summary = solve_film(reynolds, motion, history, {}, u);
+  CAPTURE(summary.message);
+  REQUIRE(summary.converged);
+  // rho/rho0 = 1 + 0.6e-9 p/(1 + 1.7e-9 p) = 1.002.
+  const double p = closing / (0.6e-9 - 1.7e-9 * closing);
+  CHECK((u.array() - p).abs().maxCoeff() < 1e-8 * p);
+  CHECK(film_fields(m, motion, u).density.isConstant(1 + closing, 1e-12));
+}
+
+TEST_CASE("CompressibleSteps_ConserveOil") {
+  FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {40, 9}};
+  m.lubricant.viscosity_law = Roelands{0.6};
+  m.lubricant.density_law = DowsonHigginson{6e-9, 1.7e-9};
+  m.p_edge_left = m.p_edge_right = 2e5;
+  Journal journal{.e = {15e-6, 0}, .e_rate = {0.01, 0.005}, .omega_journal = 300};
+  const double dt = 2e-4;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(m.grid.size());
+  FilmHistory history{.dt = dt, .theta = none.array() + 1, .w = none, .density = none.array() + 1};
+  Reynolds reynolds(m);
+  Eigen::VectorXd u = none;
+  double volume = 0;
+  for (int step = 0; step < 3; ++step) {
+    journal.e += dt * journal.e_rate;
+    const SurfaceMotion motion = surfaces(m, journal);
+    const FilmSolveSummary summary = solve_film(reynolds, motion, history, {}, u);
+    CAPTURE(summary.message);
+    REQUIRE(summary.converged);
+    const FilmObservables o = observe_film(m, motion, history, journal.e, u);
+    CHECK(o.mass_balance_error < 1e-9);
+    CHECK(o.cavitated_share > 0.02);
+    if (step > 0) CHECK(o.oil_volume - volume == doctest::Approx(dt * o.storage_rate).epsilon(1e-6));
+    volume = o.oil_volume;
+    const FilmFields fields = film_fields(m, motion, u);
+    CHECK(fields.density.maxCoeff() > 1.005);
+    history.theta = fields.theta;
+    history.density = fields.density;
+  }
+}
+
+}  // namespace
+}  // namespace hersey::film
