@@ -152,10 +152,13 @@ export class BearingView {
       ...of("torque_journal", "on the journal", newtonMillimetre),
       ...of("torque_shell", "on the shell", newtonMillimetre),
     ]);
-    this.add("flow", "Oil leaving over the two edges, and entering at the supply.", { label: "flow", unit: "mm³/s", fromZero: true }, [
+    this.add("flow", "Oil leaving over the two edges, and entering at the supply and through its holes and grooves.", { label: "flow", unit: "mm³/s", fromZero: true }, [
       ...of("flow_left", "side flow, left", cubicMillimetrePerSecond),
       ...of("flow_right", "side flow, right", cubicMillimetrePerSecond, { dash: [6, 4] }),
       ...of("flow_supply", "supply", cubicMillimetrePerSecond),
+      ...run
+        .namesAfter(this.path("flow_feature_"))
+        .flatMap((name) => of(`flow_feature_${name}`, name, cubicMillimetrePerSecond, { dash: [2, 3] })),
     ]);
     this.add("cavitated", "Share of the bearing’s surface where the film is cavitated.", { label: "cavitated share", unit: "%", fromZero: true }, of("cavitated_share", "cavitated share", percent));
     const tilt = run.dataset(this.path("tilt"));

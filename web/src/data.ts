@@ -83,6 +83,11 @@ export class Run {
     return this.text.model;
   }
 
+  /** Datasets whose path begins with `prefix`: what follows it. */
+  namesAfter(prefix: string): string[] {
+    return Object.keys(this.text.datasets).flatMap((path) => (path.startsWith(prefix) ? [path.slice(prefix.length)] : []));
+  }
+
   attribute(object: string, name: string): string {
     const value = this.text.attributes[object]?.[name];
     return value === undefined ? "" : Array.isArray(value) ? value.join(", ") : String(value);

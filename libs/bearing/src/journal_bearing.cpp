@@ -20,8 +20,13 @@ constexpr double kLargestExponent = 20;
 
 // The surfaces' answer to a unit change of each parameter; they are linear in all of them.
 std::vector<film::MotionDirection> unit_directions(const film::FilmModel& model) {
-  // The angle of the widest gap comes last and matters only where the supply follows it.
-  const int count = model.supply.kind == film::SupplyKind::widest_gap ? kParameterCount : kSupplyAngle;
+  // The angles come last: that of the widest gap matters only where the supply follows it, the journal's only where it
+  // carries features.
+  const bool turns = std::any_of(model.features.begin(), model.features.end(), [](const film::SurfaceFeature& feature) {
+    return feature.surface == film::Surface::journal;
+  });
+  const bool follows = model.supply.kind == film::SupplyKind::widest_gap;
+  const int count = turns ? kParameterCount : follows ? kSupplyAngle + 1 : kSupplyAngle;
   std::vector<film::MotionDirection> directions;
   for (int k = 0; k < count; ++k) directions.push_back(surface_direction(model, k));
   return directions;
@@ -46,10 +51,19 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
 void JournalBearing::place(const mbd::RelativeMotion& motion) {
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
   place_surfaces(model(), kinematics_.value, surfaces_);
+  feed(motion.t, surfaces_);
   domain_error_.clear();
   // An elastic surface may be pushed beyond the undeformed one; rigid ones may not meet.
   const double gap = smallest_gap(model(), kinematics_.value);
   if (!std::isfinite(gap) || (model().compliance == 0 && gap <= 0)) report_contact();
+}
+
+void JournalBearing::feed(double t, film::SurfaceMotion& surfaces) const {
+  const auto& pressures = options_.feature_pressures;
+  surfaces.feature_pressure.resize(static_cast<Eigen::Index>(pressures.size()));
+  for (std::size_t f = 0; f < pressures.size(); ++f) {
+    surfaces.feature_pressure[static_cast<Eigen::Index>(f)] = pressures[f]->value({&t, 1});
+  }
 }
 
 void JournalBearing::report_contact() {
@@ -62,7 +76,8 @@ void JournalBearing::report_contact() {
 // overlap, pressure alone holds them apart.
 bool JournalBearing::is_sensible() const {
   const double largest = u_.maxCoeff();
-  if (!std::isfinite(largest) || film::log_viscosity_ratio(model().lubricant, largest).value > kLargestExponent) return false;
+  if (!std::isfinite(largest) || film::log_viscosity_ratio(model().lubricant, largest).value > kLargestExponent)
+    return false;
   return smallest_gap(model(), kinematics_.value) > 0 || film::film_fields(model(), surfaces_, u_).h.minCoeff() > 0;
 }
 
@@ -99,7 +114,7 @@ void JournalBearing::follow_surfaces() {
   if (!linearised_) return;
   u_ = u_linearised_;
   ParameterVector ds = kinematics_.value - s_linearised_;
-  ds[kSupplyAngle] = std::remainder(ds[kSupplyAngle], 2 * std::numbers::pi);
+  for (const int angle : {kSupplyAngle, kRotation}) ds[angle] = std::remainder(ds[angle], 2 * std::numbers::pi);
   u_ += du0_;
   u_.noalias() += du_ds_ * ds.head(du_ds_.cols());
   if (!is_sensible()) u_ = u_linearised_;
@@ -200,6 +215,7 @@ BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) co
   const JournalKinematics k = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
   film::SurfaceMotion surfaces;
   place_surfaces(model(), k.value, surfaces);
+  feed(motion.t, surfaces);
   BearingObservation seen;
   seen.e = k.e();
   seen.tilt = k.tilt();
@@ -215,6 +231,7 @@ film::FilmFields JournalBearing::fields(const mbd::RelativeMotion& motion) const
   const JournalKinematics k = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
   film::SurfaceMotion surfaces;
   place_surfaces(model(), k.value, surfaces);
+  feed(motion.t, surfaces);
   return film::film_fields(model(), surfaces, u_start_);
 }
 

@@ -57,6 +57,13 @@ void widest_gap(double e_floor, JournalKinematics& k) {
   k.d_dX.row(kSupplyAngle) = (ex * k.d_dX.row(kEy) - ey * k.d_dX.row(kEx)) / e2;
 }
 
+// Angle of the journal's x-axis, seen along the bearing's axis.
+void rotation(const VariedVector& x_axis, JournalKinematics& k) {
+  const Varied x = x_axis[0], y = x_axis[1];
+  k.value[kRotation] = std::atan2(y.value, x.value);
+  k.d_dX.row(kRotation) = (x.value * y.d - y.value * x.d) / (x.value * x.value + y.value * y.value);
+}
+
 }  // namespace
 
 JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, double R, double e_floor) {
@@ -92,6 +99,9 @@ JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, do
   k.d_dX.row(kAxialSpeed) = omega.x() * k.d_dX.row(kEy) - omega.y() * k.d_dX.row(kEx);
 
   widest_gap(e_floor, k);
+  VariedVector x_axis{X_AB.R.col(0), Map36::Zero()};
+  x_axis.d << -skew(x_axis.value), Matrix3::Zero();
+  rotation(x_axis, k);
   return k;
 }
 
@@ -116,6 +126,7 @@ void place_surfaces(const film::FilmModel& model, const ParameterVector& paramet
   motion.w_shell = 0;
   motion.w_journal = parameters[kAxialSpeed];
   motion.phi_supply = model.supply.kind == film::SupplyKind::fixed_angle ? model.supply.phi : parameters[kSupplyAngle];
+  motion.phi_journal = parameters[kRotation];
 }
 
 film::MotionDirection surface_direction(const film::FilmModel& model, int parameter) {
@@ -130,6 +141,7 @@ film::MotionDirection surface_direction(const film::FilmModel& model, int parame
   direction.w_journal = motion.w_journal;
   const bool follows = model.supply.kind == film::SupplyKind::widest_gap;
   direction.phi_supply = follows && parameter == kSupplyAngle ? 1 : 0;
+  direction.phi_journal = motion.phi_journal;
   return direction;
 }
 

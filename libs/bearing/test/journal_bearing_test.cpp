@@ -19,6 +19,13 @@ film::FilmModel rough_elastic_film() {
                       .composite_modulus = 57e9,
                       .mu_friction = 0.1};
   model.compliance = 0.0225 / 57e9;
+  model.features = {{.name = "hole",
+                     .shape = film::FeatureShape::ellipse,
+                     .surface = film::Surface::journal,
+                     .phi = 2,
+                     .arc = 0.9,
+                     .length = 8e-3,
+                     .pressure = 3e5}};
   return model;
 }
 

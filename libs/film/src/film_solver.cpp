@@ -123,8 +123,8 @@ void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, Film
                     where(model.grid, empty));
   } else if (summary.converged && starved(model, u)) {
     summary.message =
-        "the film carries no pressure: nothing supplies it above the cavitation pressure; add a supply line "
-        "or an edge pressure above it";
+        "the film carries no pressure: nothing supplies it above the cavitation pressure; add a supply line, "
+        "a hole or an edge pressure above it";
   } else if (!summary.converged) {
     summary.message =
         fmt::format("relative residual {:.2e} after {} iterations, {:.0e} was asked; worst in {}",

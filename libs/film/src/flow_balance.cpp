@@ -41,6 +41,8 @@ FlowBalance::FlowBalance(const FilmModel& model) : model_(model), law_(model_) {
   flows_.resize(faces_.size());
   for (auto* field : {&residual_, &balance_, &throughput_, &g_rate_, &w_start_, &u_}) field->setZero(n);
   content_start_.setOnes(n);
+  held_index_.assign(n, -1);
+  unit_conductance_ = unit_conductance(model_);
 }
 
 void FlowBalance::lay_faces() {
@@ -97,33 +99,91 @@ double FlowBalance::edge_unknown(int j) const {
   return (j == 0 ? model_.p_edge_left : model_.p_edge_right) - model_.p_cav;
 }
 
-// The line ends at an open edge: it fills the gap there but cannot raise its pressure.
-double FlowBalance::supply_unknown(int j) const { return open_row(j) ? 0 : model_.supply.pressure - model_.p_cav; }
-
-double FlowBalance::supply_conductance() const { return supply_stiffness * D0_; }
-
-double FlowBalance::supply_share(int i, int j) const {
-  if (edge_row(j)) return 0;
-  double chi = 0;
-  for (const SupplyColumn& column : supply_) {
-    if (column.i == i) chi = std::max(chi, column.chi);
-  }
-  return chi;
+const FlowBalance::HeldNode* FlowBalance::held_at(int node) const {
+  const int index = held_index_[node];
+  return index < 0 ? nullptr : &held_[index];
 }
 
-void FlowBalance::find_supply(double phi) {
-  supply_ = {};
-  if (model_.supply.kind == SupplyKind::none) return;
+double FlowBalance::supply_share(int node) const {
+  const HeldNode* held = held_at(node);
+  return held == nullptr ? 0 : held->chi;
+}
+
+double FlowBalance::supply_unknown(int node) const {
+  const HeldNode* held = held_at(node);
+  return held == nullptr ? 0 : held->u;
+}
+
+double FlowBalance::supply_conductance(int node) const {
+  const HeldNode* held = held_at(node);
+  return held == nullptr ? 0 : tie(*held).k;
+}
+
+int FlowBalance::feature_at(int node) const {
+  const HeldNode* held = held_at(node);
+  return held == nullptr ? -1 : held->feature;
+}
+
+// The line's is a constant, a feature's the film's own conductance: what lies between node and edge is film (film.25).
+FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
+  if (held.feature < 0) return {supply_stiffness * D0_, 0, 0};
+  const Node& node = nodes_[held.node];
+  const double k = unit_conductance_ * node.density * node.h * node.h * node.h * node.fluidity / 12;
+  const double by_h = 3 * k / node.h;
+  return {k, by_h * node.h_u + k * (node.fluidity_u / node.fluidity + node.density_u / node.density), by_h * node.h_g};
+}
+
+// Edges win where they meet a line or a feature. One in air is filled there, but its pressure cannot rise.
+void FlowBalance::hold(const HeldNode& held) {
+  const int j = held.node % model_.grid.n_z;
+  if (held.chi == 0 || edge_row(j)) return;
+  int& index = held_index_[held.node];
+  if (index >= 0 && held_[index].chi >= held.chi) return;
+  if (index < 0) {
+    index = static_cast<int>(held_.size());
+    held_.emplace_back();
+  }
+  held_[index] = held;
+  if (open_row(j)) held_[index].u = 0;
+}
+
+void FlowBalance::hold_line(double phi) {
   const int n_phi = model_.grid.n_phi;
   const double dphi = 2 * std::numbers::pi / n_phi;
   const double place = phi / dphi, below = std::floor(place + 1e-9);
-  const double t = std::max(0.0, place - below);
+  const double t = std::max(0.0, place - below), u = model_.supply.pressure - model_.p_cav;
   const int i = static_cast<int>(std::fmod(std::fmod(below, n_phi) + n_phi, n_phi));
   // Fourth power of the hat function: each node lets go of the line over a good part of a cell.
   const auto column = [&](int index, double hat, double hat_phi) {
-    return SupplyColumn{index, std::pow(hat, 4), 4 * std::pow(hat, 3) * hat_phi};
+    for (int j = 0; j < model_.grid.n_z; ++j) {
+      hold({.node = model_.grid.index(index, j),
+            .chi = std::pow(hat, 4),
+            .chi_line = 4 * std::pow(hat, 3) * hat_phi,
+            .u = u});
+    }
   };
-  supply_ = {column(i, 1 - t, -1 / dphi), column((i + 1) % n_phi, t, 1 / dphi)};
+  column(i, 1 - t, -1 / dphi);
+  column((i + 1) % n_phi, t, 1 / dphi);
+}
+
+void FlowBalance::find_supply(const SurfaceMotion& motion) {
+  for (const HeldNode& held : held_) held_index_[held.node] = -1;
+  held_.clear();
+  if (model_.supply.kind != SupplyKind::none) hold_line(motion.phi_supply);
+  for (std::size_t f = 0; f < model_.features.size(); ++f) {
+    const SurfaceFeature& feature = model_.features[f];
+    const auto index = static_cast<Eigen::Index>(f);
+    const double pressure = motion.feature_pressure.size() == 0 ? feature.pressure : motion.feature_pressure[index];
+    covered_.clear();
+    cover(model_, feature, motion.phi_journal, covered_);
+    for (const CoveredNode& node : covered_) {
+      hold({.node = node.node,
+            .chi = node.share,
+            .chi_journal = node.share_phi,
+            .feature = static_cast<int>(f),
+            .u = std::max(0.0, pressure - model_.p_cav)});
+    }
+  }
 }
 
 void FlowBalance::take_history(const FilmHistory& history) {
@@ -145,7 +205,10 @@ void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& histo
   HERSEY_REQUIRE(motion.g.size() == n && motion.g_rate.size() == n, "gap and rate of shape (grid.size())");
   HERSEY_REQUIRE(u.size() == n, "u of shape (grid.size())");
   take_history(history);
-  find_supply(motion.phi_supply);
+  const auto features = static_cast<Eigen::Index>(model_.features.size());
+  HERSEY_REQUIRE(motion.feature_pressure.size() == 0 || motion.feature_pressure.size() == features,
+                 "a pressure for each feature or none");
+  find_supply(motion);
   g_rate_ = motion.g_rate;
   u_ = u;
   speed_phi_ = 0.5 * (motion.u_shell + motion.u_journal);
@@ -228,22 +291,16 @@ double FlowBalance::outflow(int node) const {
   return edge_row(j) ? -balance_[node] : 0;
 }
 
-double FlowBalance::supply(int node) const {
-  const int i = node / model_.grid.n_z, j = node % model_.grid.n_z;
-  return supply_share(i, j) > 0 ? balance_[node] + outflow(node) : 0;
-}
+double FlowBalance::supply(int node) const { return supply_share(node) > 0 ? balance_[node] + outflow(node) : 0; }
 
 void FlowBalance::replace_boundary_rows() {
   const Grid& grid = model_.grid;
   for (int i = 0; i < size(); ++i) residual_[i] = balance_[i] + slack(i);
-  for (const SupplyColumn& column : supply_) {
-    if (column.chi == 0) continue;
-    for (int j = 0; j < grid.n_z; ++j) {
-      const int i = grid.index(column.i, j);
-      const double given = supply_conductance() * (u_[i] - supply_unknown(j));
-      residual_[i] = (1 - column.chi) * residual_[i] + column.chi * given;
-      throughput_[i] = std::max(throughput_[i], D0_ * std::abs(supply_unknown(j)));
-    }
+  for (const HeldNode& held : held_) {
+    const int i = held.node;
+    const double given = tie(held).k * (u_[i] - held.u);
+    residual_[i] = (1 - held.chi) * residual_[i] + held.chi * given;
+    throughput_[i] = std::max(throughput_[i], D0_ * std::abs(held.u));
   }
   for (int j = 0; j < grid.n_z; ++j) {
     if (!edge_row(j)) continue;
@@ -285,13 +342,11 @@ void FlowBalance::assemble_jacobian() {
     values_[face.slots[2]] -= q_a;
     values_[face.slots[3]] -= q_b;
   }
-  for (const SupplyColumn& column : supply_) {
-    if (column.chi == 0) continue;
-    for (int j = 0; j < grid.n_z; ++j) {
-      const int i = grid.index(column.i, j);
-      for (int slot : row_slots_[i]) values_[slot] *= 1 - column.chi;
-      values_[diagonal_slot_[i]] += column.chi * supply_conductance();
-    }
+  for (const HeldNode& held : held_) {
+    const int i = held.node;
+    const Tie t = tie(held);
+    for (int slot : row_slots_[i]) values_[slot] *= 1 - held.chi;
+    values_[diagonal_slot_[i]] += held.chi * (t.k + t.k_u * (u_[i] - held.u));
   }
   for (int j = 0; j < grid.n_z; ++j) {
     if (!edge_row(j)) continue;
@@ -322,13 +377,13 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     dr[face.a] += q;
     dr[face.b] -= q;
   }
-  for (const SupplyColumn& column : supply_) {
-    if (column.chi == 0) continue;
-    for (int j = 0; j < grid.n_z; ++j) {
-      const int i = grid.index(column.i, j);
-      const double given = supply_conductance() * (u_[i] - supply_unknown(j));
-      dr[i] = (1 - column.chi) * dr[i] + column.chi_phi * direction.phi_supply * (given - balance_[i] - slack(i));
-    }
+  for (const HeldNode& held : held_) {
+    const int i = held.node;
+    const Tie t = tie(held);
+    const double excess = u_[i] - held.u;
+    const double chi = held.chi_line * direction.phi_supply + held.chi_journal * direction.phi_journal;
+    dr[i] = (1 - held.chi) * dr[i] + chi * (t.k * excess - balance_[i] - slack(i));
+    if (gap) dr[i] += held.chi * t.k_g * direction.g[i] * excess;
   }
   for (int j = 0; j < grid.n_z; ++j) {
     if (!edge_row(j)) continue;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "feature_cover.h"
 #include "hersey/film/reynolds.h"
 #include "node.h"
 
@@ -31,7 +32,7 @@ struct FaceFlow {
 /// Balance of oil in every control volume, its Jacobian in u and its derivative along any change of the surfaces.
 ///
 /// Rows of the residual [m^3/s]: outflow plus storage in the film, u - u_given times a conductance on an edge at given
-/// pressure, a blend of both beside the supply line (film.10 to film.13).
+/// pressure, a blend of both beside the supply line and on features (film.10 to film.13, film.25).
 class FlowBalance {
  public:
   explicit FlowBalance(const FilmModel& model);
@@ -65,12 +66,13 @@ class FlowBalance {
   [[nodiscard]] bool edge_row(int j) const;  ///< an edge whose pressure is given: no balance there
   [[nodiscard]] bool open_row(int j) const { return open_edge(model_, j); }  ///< an edge in air
   [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
-  [[nodiscard]] double supply(int node) const;   ///< oil entering from the supply line at this node [m^3/s]
-  /// Share chi of the supply condition in node (i, j)'s row: 0 away from the line, 1 on it.
-  [[nodiscard]] double supply_share(int i, int j) const;
-  [[nodiscard]] double supply_conductance() const;   ///< what ties u to the supply in those rows [m^3/(Pa s)]
-  [[nodiscard]] double supply_unknown(int j) const;  ///< u on the line [Pa]
-  [[nodiscard]] double edge_unknown(int j) const;    ///< u on an edge [Pa]
+  [[nodiscard]] double supply(int node) const;   ///< oil entering from line or feature at this node [m^3/s]
+  [[nodiscard]] int feature_at(int node) const;  ///< the feature that feeds this node; -1 for none
+  /// Share chi of the supply condition in a node's row: 0 away from line and features, 1 on them.
+  [[nodiscard]] double supply_share(int node) const;
+  [[nodiscard]] double supply_conductance(int node) const;  ///< what ties u to the supply in those rows [m^3/(Pa s)]
+  [[nodiscard]] double supply_unknown(int node) const;      ///< u that the supply gives [Pa]
+  [[nodiscard]] double edge_unknown(int j) const;           ///< u on an edge [Pa]
 
   [[nodiscard]] const std::vector<int>& column_start() const { return column_start_; }
   [[nodiscard]] const std::vector<int>& row_index() const { return row_index_; }
@@ -80,14 +82,27 @@ class FlowBalance {
   [[nodiscard]] double conductance_scale() const { return D0_; }
 
  private:
-  struct SupplyColumn {
-    int i = 0;
-    double chi = 0, chi_phi = 0;  ///< share of the condition and d/d phi_supply [-, 1/rad]
+  /// A node whose row the supply holds wholly or in part.
+  struct HeldNode {
+    int node = 0;
+    double chi = 0;          ///< share of the condition [-]
+    double chi_line = 0;     ///< with phi_supply [1/rad]
+    double chi_journal = 0;  ///< with phi_journal [1/rad]
+    int feature = -1;        ///< -1: the line
+    double u = 0;            ///< given [Pa]
+  };
+  /// What ties a held node to its u, with derivatives.
+  struct Tie {
+    double k = 0, k_u = 0, k_g = 0;
   };
 
   void lay_faces();
   void lay_pattern();
-  void find_supply(double phi);
+  void find_supply(const SurfaceMotion& motion);
+  void hold_line(double phi);
+  void hold(const HeldNode& held);
+  [[nodiscard]] const HeldNode* held_at(int node) const;
+  [[nodiscard]] Tie tie(const HeldNode& held) const;
   void take_history(const FilmHistory& history);
   void add_face(std::size_t f);
   void replace_boundary_rows();
@@ -101,7 +116,7 @@ class FlowBalance {
 
   FilmModel model_;
   NodeLaw law_;
-  double dx_ = 0, dz_ = 0, D0_ = 0;
+  double dx_ = 0, dz_ = 0, D0_ = 0, unit_conductance_ = 0;
   std::vector<double> area_;
   std::vector<Face> faces_;
   std::size_t first_axial_face_ = 0;
@@ -112,7 +127,9 @@ class FlowBalance {
   std::vector<FaceFlow> flows_;
   std::vector<double> values_;  ///< one more than the pattern: rows without a balance scatter there
   Eigen::VectorXd residual_, balance_, throughput_, g_rate_, content_start_, w_start_, u_;
-  std::array<SupplyColumn, 2> supply_{};
+  std::vector<HeldNode> held_;
+  std::vector<int> held_index_;  ///< of every node its place in held_, -1 for none
+  std::vector<CoveredNode> covered_;
   double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, largest_throughput_ = 0;
 };
 

@@ -97,12 +97,14 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
       if (u[k] < -round_off) cavitated += area;
       (j == 0 ? o.flow_left : o.flow_right) += balance.outflow(k);
       o.flow_supply += balance.supply(k);
+      if (const int feature = balance.feature_at(k); feature >= 0) o.flow_features[feature] += balance.supply(k);
     }
   }
   o.cavitated_share = cavitated / total;
   const double fastest = std::max(std::abs(motion.u_journal), std::abs(motion.u_shell));
-  const double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_supply),
-                                 std::abs(o.storage_rate), fastest * model.c * model.L});
+  double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_supply),
+                           std::abs(o.storage_rate), fastest * model.c * model.L});
+  if (o.flow_features.size() > 0) scale = std::max(scale, o.flow_features.cwiseAbs().maxCoeff());
   const double error = o.flow_supply - o.flow_left - o.flow_right - o.storage_rate;
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
@@ -170,6 +172,7 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
   const FilmFields fields = fields_of(balance.nodes());
 
   FilmObservables o;
+  o.flow_features.setZero(static_cast<Eigen::Index>(model.features.size()));
   const Peak thinnest = smallest(model, fields.h), peak = largest(model, fields.p);
   o.h_min = thinnest.value, o.h_min_phi = thinnest.phi, o.h_min_z = thinnest.z;
   o.h_min_centre = smallest_in_the_middle(model, fields.h);

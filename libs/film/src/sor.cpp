@@ -130,8 +130,8 @@ void Sor::relax(int i, int j) {
   // Beside the supply line the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
   const NodeRow r = row(node);
   const bool open = balance_.open_row(j);
-  const double chi = balance_.supply_share(i, j), tie = chi * balance_.supply_conductance();
-  const double full = (1 - chi) * (r.known + r.transport) - tie * balance_.supply_unknown(j);
+  const double chi = balance_.supply_share(node), tie = chi * balance_.supply_conductance(node);
+  const double full = (1 - chi) * (r.known + r.transport) - tie * balance_.supply_unknown(node);
   const double conductance = (1 - chi) * (open ? balance_.conductance_scale() : r.K) + tie;
   const double target = -full / conductance;
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);

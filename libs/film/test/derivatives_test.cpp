@@ -26,6 +26,15 @@ State rough_state(Cavitation cavitation, bool all_laws, bool transient) {
   s.model = {.R = 0.03, .L = 0.02, .c = 20e-6, .grid = {14, 6}, .cavitation = cavitation, .p_cav = 1e4};
   s.model.p_edge_left = 2e5, s.model.p_edge_right = 3e5;
   s.model.supply = {SupplyKind::widest_gap, 0, 4e5};
+  s.model.features = {{.name = "groove", .phi = 4, .arc = 0.7, .length = 0.009, .pressure = 5e5},
+                      {.name = "hole",
+                       .shape = FeatureShape::ellipse,
+                       .surface = Surface::journal,
+                       .phi = 2.9,
+                       .z = 1e-3,
+                       .arc = 0.8,
+                       .length = 0.008,
+                       .pressure = 6e5}};
   if (all_laws) {
     s.model.lubricant.viscosity_law = Barus{2e-8};
     s.model.lubricant.density_law = DowsonHigginson{5e-9, 2e-9};  // ten times as soft as oil
@@ -35,6 +44,7 @@ State rough_state(Cavitation cavitation, bool all_laws, bool transient) {
   const Journal journal{
       .e = {9e-6, 14e-6}, .e_rate = {0.01, -0.02}, .tilt = {2e-4, -1e-4}, .omega_shell = -20, .omega_journal = 300};
   s.motion = surfaces(s.model, journal, 1.3);
+  s.motion.phi_journal = -0.3;
   s.motion.w_journal = 0.4, s.motion.w_shell = -0.1;
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> uniform(0.1, 1.0);
@@ -89,6 +99,7 @@ SurfaceMotion moved(const SurfaceMotion& motion, const MotionDirection& directio
   m.w_shell += step * direction.w_shell;
   m.w_journal += step * direction.w_journal;
   m.phi_supply += step * direction.phi_supply;
+  m.phi_journal += step * direction.phi_journal;
   return m;
 }
 
@@ -102,7 +113,8 @@ std::vector<std::pair<std::string, MotionDirection>> directions(const State& s) 
           {"u_journal", {.g = {}, .g_rate = {}, .u_journal = speed}},
           {"w_shell", {.g = {}, .g_rate = {}, .w_shell = speed}},
           {"w_journal", {.g = {}, .g_rate = {}, .w_journal = speed}},
-          {"phi_supply", {.g = {}, .g_rate = {}, .phi_supply = 0.1}}};
+          {"phi_supply", {.g = {}, .g_rate = {}, .phi_supply = 0.1}},
+          {"phi_journal", {.g = {}, .g_rate = {}, .phi_journal = 0.1}}};
 }
 
 Eigen::VectorXd sparse_times(const FlowBalance& balance, const Eigen::VectorXd& x) {

@@ -31,6 +31,43 @@ mbd::JointType joint_type(JointType type) {
   return {};
 }
 
+// A function of time and of the crank's rotation as one of time alone: the crank turns at constant speed.
+class OverTime final : public ScalarFunction {
+ public:
+  OverTime(Function function, const Simulation& simulation) : function_(std::move(function)), simulation_(simulation) {}
+
+  [[nodiscard]] double value(std::span<const double> t) const override {
+    std::vector<double> x;
+    for (const Variable& variable : function_.variables) x.push_back(argument(variable.kind, t[0]));
+    return function_.value->value(x);
+  }
+  void gradient(std::span<const double> t, std::span<double> gradient) const override {
+    std::vector<double> x, by_x(function_.variables.size());
+    for (const Variable& variable : function_.variables) x.push_back(argument(variable.kind, t[0]));
+    function_.value->gradient(x, by_x);
+    gradient[0] = 0;
+    for (std::size_t i = 0; i < by_x.size(); ++i) gradient[0] += by_x[i] * rate(function_.variables[i].kind);
+  }
+  [[nodiscard]] double second_derivative(std::span<const double> t) const override {
+    const double d = 1e-6, now = t[0], before = now - d, after = now + d;
+    return (value({&before, 1}) - 2 * value(t) + value({&after, 1})) / (d * d);
+  }
+
+ private:
+  [[nodiscard]] double argument(Variable::Kind kind, double t) const {
+    if (kind == Variable::Kind::time) return t;
+    if (kind == Variable::Kind::rate) return simulation_.crank->speed;
+    return simulation_.crank->initial_angle + simulation_.crank->speed * (t - simulation_.start);
+  }
+  [[nodiscard]] double rate(Variable::Kind kind) const {
+    if (kind == Variable::Kind::time) return 1;
+    return kind == Variable::Kind::rate ? 0 : simulation_.crank->speed;
+  }
+
+  Function function_;
+  Simulation simulation_;
+};
+
 // Walks the model once, in the order in which parts refer to each other.
 class Builder {
  public:
@@ -169,6 +206,9 @@ class Builder {
     options.relaxation = bearing.coupling.relaxation;
     options.film.solver = bearing.solver;
     options.initial_dt = model_.simulation.step;
+    for (const Function& pressure : bearing.feature_pressures) {
+      options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
+    }
     auto film = std::make_shared<bearing::JournalBearing>(bearing.name, bearing.film, options);
     const mbd::ForceId id =
         mechanism_.add_force("bearing " + bearing.name, frame(bearing.shell), frame(bearing.journal), film);

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "format.h"
 
 namespace hersey::model {
@@ -66,6 +68,38 @@ TypePtr materials_format() {
                                      required("shell", material, "Of the bearing shell."),
                                      required("journal", material, "Of the journal."),
                                  });
+}
+
+TypePtr features_format() {
+  const TypePtr extent = quantity("m", "5 mm", Range::positive());
+  const Range whole_turn{.low = 0, .high = 2 * std::numbers::pi + 1e-9, .low_open = true};
+  const TypePtr arc = quantity("rad", "20 deg", whole_turn);
+  const std::vector<Key> common = {
+      defaulted("on", choice({{"shell", "the bore"}, {"journal", "the journal: it travels as the journal turns"}}),
+                "shell", "The surface it is made in."),
+      defaulted("angle", quantity("rad", "90 deg"), "0 deg",
+                "Its middle, from the x-axis of that surface's frame towards y."),
+      defaulted("z", quantity("m", "0 mm"), "0 mm", "Its middle along the axis, from the middle of the bearing."),
+      required("pressure", function_format({"Pa"}, "2 bar"),
+               "Supply pressure; a function of time or of the rotation of `simulation.crank`."),
+  };
+  return named("a mapping from names to holes and grooves",
+               variant("a hole or groove", "shape", common,
+                       {
+                           {"hole", "a round hole", {required("diameter", extent, "Its diameter.")}},
+                           {"oval_hole",
+                            "an elliptical hole",
+                            {required("around", extent, "Its axis around the bearing, measured along the surface."),
+                             required("along", extent, "Its axis along the bearing.")}},
+                           {"axial_groove",
+                            "a rectangle, over the whole width unless a length is given",
+                            {required("arc", arc, "Its extent around the bearing."),
+                             optional("length", extent, "Its extent along the axis.", "the bearing's width")}},
+                           {"circumferential_groove",
+                            "a rectangle, all around unless an arc is given",
+                            {required("length", extent, "Its extent along the axis."),
+                             defaulted("arc", arc, "360 deg", "Its extent around the bearing.")}},
+                       }));
 }
 
 TypePtr coupling_format() {
@@ -192,6 +226,7 @@ TypePtr bearings_format() {
           defaulted("cavitation", cavitation_format(), "mass_conserving", "Where the film would be under tension."),
           defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges."),
           optional("supply", supply, "A line along the whole width that is held full at a given pressure.", "none"),
+          optional("features", features_format(), "Holes and grooves through which oil is fed.", "none"),
           defaulted("asperities", asperities_format(), "none", "Contact of rough surfaces."),
           defaulted("compliance", compliance_format(), "rigid", "Elastic deformation of both surfaces."),
           optional("materials", materials_format(), "Give the composite modulus where it is not given itself."),

@@ -66,6 +66,8 @@ void interpret_forces(Context& context);
 void interpret_lubricants(Context& context);
 void interpret_bearings(Context& context);
 void interpret_simulation(Context& context);
+/// Reports supply pressures that follow a joint other than the crank.
+void check_feature_pressures(Context& context);
 void interpret_study(Context& context);
 
 /// A file has all that a simulation needs, or it holds bearings alone; reports what is missing.

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "interpret.h"
 
@@ -36,6 +39,7 @@ class FilmReader {
     read_cavitation();
     read_edges();
     read_supply();
+    read_features();
     read_asperities();
     read_compliance();
     film_.cavitated_shear =
@@ -95,6 +99,83 @@ class FilmReader {
     film_.supply.phi = line->number;
     film_.supply.pressure = number_of(*supply, "pressure");
     if (const Value* pressure = supply->find("pressure")) require_above_cavitation(*pressure);
+  }
+
+  void read_features() {
+    for (const auto& [name, value] : section(value_, "features")) {
+      if (value.broken) continue;
+      const Value* pressure = value.find("pressure");
+      if (pressure == nullptr) continue;
+      film_.features.push_back(feature_of(value, name));
+      bearing_.feature_pressures.push_back(function_of(context_, *pressure, "Pa"));
+      const Function& function = bearing_.feature_pressures.back();
+      if (function.is_constant()) {
+        Value constant = *pressure;
+        constant.number = film_.features.back().pressure = function.value->value({});
+        require_above_cavitation(constant);
+      }
+      check_place(value, film_.features.back());
+      check_resolution(value, film_.features.back());
+      check_overlap(value);
+    }
+  }
+
+  [[nodiscard]] film::SurfaceFeature feature_of(const Value& value, const std::string& name) const {
+    film::SurfaceFeature feature;
+    feature.name = name;
+    feature.surface = text_of(value, "on") == "journal" ? film::Surface::journal : film::Surface::shell;
+    feature.phi = number_of(value, "angle");
+    feature.z = number_of(value, "z");
+    const bool is_round = value.text == "hole", is_oval = value.text == "oval_hole";
+    feature.shape = is_round || is_oval ? film::FeatureShape::ellipse : film::FeatureShape::rectangle;
+    if (is_round || is_oval) {
+      feature.arc = number_of(value, is_round ? "diameter" : "around") / std::max(film_.R, 1e-12);
+      feature.length = number_of(value, is_round ? "diameter" : "along");
+    } else {
+      feature.arc = number_of(value, "arc");
+      feature.length = value.find("length") != nullptr ? number_of(value, "length") : film_.L;
+    }
+    return feature;
+  }
+
+  void check_place(const Value& value, const film::SurfaceFeature& feature) {
+    const double reach = std::abs(feature.z) + 0.5 * feature.length, round_off = 1e-9 * film_.L;
+    if (film_.L > 0 && reach > 0.5 * film_.L + round_off) {
+      context_.fault_at_key(value, fmt::format("it reaches {:.4g} mm from the middle of the bearing", 1e3 * reach),
+                            fmt::format("at most half the bearing's width, {:.4g} mm", 0.5e3 * film_.L));
+    }
+    if (feature.arc > 2 * std::numbers::pi + 1e-6) {
+      context_.fault_at_key(value, "a hole wider than the bearing's circumference", "a smaller one");
+    }
+  }
+
+  /// Fewer than three nodes across do not show the shape.
+  void check_resolution(const Value& value, const film::SurfaceFeature& feature) {
+    const film::Grid& grid = film_.grid;
+    if (context_.has_fault_in(value.path) || grid.n_phi < 4 || grid.n_z < 3 || film_.L <= 0) return;
+    const int around = static_cast<int>(std::ceil(4 * std::numbers::pi / feature.arc - 1e-6));
+    const int along = static_cast<int>(std::ceil(2 * film_.L / feature.length - 1e-6)) + 1;
+    if (grid.n_phi >= around && grid.n_z >= along) return;
+    context_.fault_at_key(value, fmt::format("fewer than 3 nodes of the {} x {} grid across it", grid.n_phi, grid.n_z),
+                          fmt::format("a finer grid or a larger one of it"),
+                          fmt::format("grid: {{circumferential: {}, axial: {}}} would do", std::max(around, grid.n_phi),
+                                      std::max(along, grid.n_z)));
+  }
+
+  /// Two features of one surface that overlap must have one pressure. Those of two surfaces may pass each other.
+  void check_overlap(const Value& value) {
+    const film::SurfaceFeature& last = film_.features.back();
+    for (std::size_t k = 0; k + 1 < film_.features.size(); ++k) {
+      const film::SurfaceFeature& other = film_.features[k];
+      const double apart = std::abs(std::remainder(last.phi - other.phi, 2 * std::numbers::pi));
+      const bool overlap = other.surface == last.surface && apart < 0.5 * (last.arc + other.arc) - 1e-9 &&
+                           std::abs(last.z - other.z) < 0.5 * (last.length + other.length) - 1e-12;
+      const bool same = bearing_.feature_pressures[k].is_constant() &&
+                        bearing_.feature_pressures.back().is_constant() && other.pressure == last.pressure;
+      if (!overlap || same) continue;
+      context_.fault_at_key(value, "overlaps '" + other.name + "', which has another pressure",
+                            "the same constant pressure, or room between them");
+    }
   }
 
   void require_above_cavitation(const Value& pressure) {
@@ -260,6 +341,20 @@ void interpret_bearings(Context& context) {
     bearing.coupling = coupling_of(value);
     bearing.operating_point = operating_point_of(context, value, bearing.film);
     context.model.bearings.push_back(std::move(bearing));
+  }
+}
+
+void check_feature_pressures(Context& context) {
+  const std::optional<Crank>& crank = context.model.simulation.crank;
+  for (const Bearing& bearing : context.model.bearings) {
+    for (const Function& pressure : bearing.feature_pressures) {
+      for (const Variable& variable : pressure.variables) {
+        if (variable.kind == Variable::Kind::time || (crank && variable.joint == crank->joint)) continue;
+        context.faults.push_back({pressure.position, pressure.path,
+                                  "a pressure that follows '" + variable.joint + "." + variable.coordinate + "'",
+                                  "a function of time or of the rotation of simulation.crank", ""});
+      }
+    }
   }
 }
 

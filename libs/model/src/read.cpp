@@ -83,6 +83,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_lubricants(context);
   interpret_bearings(context);
   interpret_simulation(context);
+  check_feature_pressures(context);
   interpret_study(context);
   check_table_ranges(context);
   return model;

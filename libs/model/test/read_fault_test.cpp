@@ -7,8 +7,10 @@ namespace {
 TEST_CASE("UnknownKey_NamesTheNearest") {
   CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
         "m.yaml:27:5: bearings.big_end: unknown key 'widht'; expected shell, journal, diameter, width, "
-        "radial_clearance, diametral_clearance, lubricant, grid, cavitation, edge_pressure, supply, asperities, "
-        "compliance, materials, cavitated_shear, shear_force, solver, operating_point or coupling; did you mean 'width'?");
+        "radial_clearance, diametral_clearance, lubricant, grid, cavitation, edge_pressure, supply, features, "
+        "asperities, "
+        "compliance, materials, cavitated_shear, shear_force, solver, operating_point or coupling; did you mean "
+        "'width'?");
 }
 
 TEST_CASE("MissingKey_IsReportedAtItsParent") {
@@ -205,6 +207,29 @@ TEST_CASE("DirectionWithoutLength_IsReported") {
   CHECK(faults_after("axis: 0 0 2", "axis: 0 0 0") ==
         "m.yaml:11:49: bodies.shaft.frames.pin.rotation.axis: a direction of length 0; expected 3 numbers, such as "
         "0 0 1");
+}
+
+TEST_CASE("FeaturesThatCannotBe_AreReported") {
+  const auto faults = [](const std::string& features) {
+    return faults_after("    lubricant: oil\n", "    lubricant: oil\n    features:\n" + features);
+  };
+  CHECK(faults("      a: {shape: hole, z: 6 mm, diameter: 5 mm, pressure: 0 Pa}\n") ==
+        "m.yaml:31:7: bearings.big_end.features.a: it reaches 8.5 mm from the middle of the bearing; expected at most "
+        "half the bearing's width, 7.8 mm");
+  CHECK(faults("      a: {shape: hole, diameter: 2 mm, pressure: 0 Pa}\n") ==
+        "m.yaml:31:7: bearings.big_end.features.a: fewer than 3 nodes of the 60 x 13 grid across it; expected a finer "
+        "grid or a larger one of it; grid: {circumferential: 142, axial: 17} would do");
+  CHECK(
+      faults("      a: {shape: hole, diameter: 5 mm, pressure: 1 bar}\n"
+             "      b: {shape: axial_groove, angle: 10 deg, arc: 20 deg, pressure: 2 bar}\n") ==
+      "m.yaml:32:7: bearings.big_end.features.b: overlaps 'a', which has another pressure; expected the same constant "
+      "pressure, or room between them");
+  CHECK(faults("      a: {shape: hole, diameter: 5 mm, pressure: -1 bar}\n")
+            .starts_with(
+                "m.yaml:31:50: bearings.big_end.features.a.pressure: -100000 Pa, below the cavitation pressure"));
+  CHECK(faults("      a: {shape: hole, diameter: 5 mm, pressure: {expression: \"1 + guide.x\", unit: bar}}\n")
+            .ends_with("a pressure that follows 'guide.x'; expected a function of time or of the rotation of "
+                       "simulation.crank"));
 }
 
 TEST_CASE("ThinOilOfRoelands_IsRefused") {

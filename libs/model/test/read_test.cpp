@@ -243,11 +243,34 @@ TEST_CASE("Lubricants_HaveTheirLaws") {
   CHECK(std::get<film::Barus>(model.lubricants[2].data.viscosity_law).alpha == near(2e-8));
 }
 
-TEST_CASE("EmptySections_AreAllowed") {
-  // All forces commented out: YAML reads nothing.
-  CHECK(faults_after("  push: {type: force, body: rod, components: [0 N, \"-${load}\", 0 N]}\n", "  # push\n") ==
-        "no fault");
+TEST_CASE("Features_AreHolesAndGrooves") {
+  const std::string text = edited(good_model, "    lubricant: oil\n", R"(    lubricant: oil
+    features:
+      feed: {shape: hole, on: journal, angle: 30 deg, z: 1 mm, diameter: 5 mm,
+             pressure: {expression: '3 + sin(main.rotation)', unit: bar}}
+      groove: {shape: axial_groove, angle: 180 deg, arc: 20 deg, pressure: 2 bar}
+      ring: {shape: circumferential_groove, angle: 0 deg, length: 4 mm, arc: 90 deg, pressure: 0 Pa}
+      slot: {shape: oval_hole, angle: 90 deg, around: 9 mm, along: 4.5 mm, pressure: 1 bar}
+)");
+  const Model model = read_text(text, "m.yaml");
+  const std::vector<film::SurfaceFeature>& features = model.bearings[0].film.features;
+  REQUIRE(features.size() == 4);
+  CHECK(features[0].surface == film::Surface::journal);
+  CHECK(features[0].shape == film::FeatureShape::ellipse);
+  CHECK(features[0].arc == near(5.0 / 22.5));
+  CHECK(features[0].z == near(1e-3));
+  CHECK(model.bearings[0].feature_pressures[0].variables.size() == 1);
+  CHECK(features[1].length == near(0.0156));
+  CHECK(features[1].pressure == near(2e5));
+  CHECK(features[2].arc == near(pi / 2));
+  CHECK(features[3].arc == near(0.4));
 }
 
-}  // namespace
-}  // namespace hersey::model
+TEST_CASE("EmptySections_AreAllowed") {
+        // All forces commented out: YAML reads nothing.
+        CHECK(faults_after("  push: {type: force, body: rod, components: [0 N, \"-${load}\", 0 N]}\n", "  # push\n") ==
+              "no fault");
+      }
+
+      }  // namespace
+      }  // namespace hersey::model

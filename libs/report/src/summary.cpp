@@ -42,11 +42,21 @@ class Summary {
       mean("mean side flow, left", "flow_left", 1e9, "mm³/s");
       mean("mean side flow, right", "flow_right", 1e9, "mm³/s");
       mean("mean supply flow", "flow_supply", 1e9, "mm³/s");
+      feature_flows(bearing);
       last("eccentricity ratio at the end", "eccentricity_ratio", 1, "");
       last("attitude angle at the end", "attitude", degrees, "°");
       last("minimum film thickness at the end", "h_min", 1e6, "µm");
       last("peak film pressure at the end", "p_max", 1e-6, "MPa");
       extreme("worst mass-balance error of the film", "mass_balance_error", largest_size, 1, "", false);
+    }
+  }
+
+  void feature_flows(const std::string& bearing) {
+    const std::string prefix = "flow_feature_";
+    for (const std::string& series : reader_.children("/bearings/" + bearing)) {
+      if (series.starts_with(prefix)) {
+        mean("mean flow through " + series.substr(prefix.size()), series, 1e9, "mm³/s");
+      }
     }
   }
 

@@ -27,7 +27,7 @@ std::string cavitation(const film::FilmModel& film) {
 std::string supply(const film::FilmModel& film) {
   switch (film.supply.kind) {
     case film::SupplyKind::none:
-      return "none: oil enters over the edges only";
+      return film.features.empty() ? "none: oil enters over the edges only" : "no line: oil enters through features";
     case film::SupplyKind::fixed_angle:
       return fmt::format("line along the bearing at {:.4g} deg, {}", film.supply.phi * 180 / std::numbers::pi,
                          pressure(film.supply.pressure));
@@ -35,6 +35,14 @@ std::string supply(const film::FilmModel& film) {
       return "line along the bearing, held at the widest gap, " + pressure(film.supply.pressure);
   }
   return {};
+}
+
+std::string described(const film::SurfaceFeature& feature) {
+  const bool is_hole = feature.shape == film::FeatureShape::ellipse;
+  return fmt::format("{} in the {} at {:.4g} deg, z = {:.4g} mm, {:.4g} deg x {:.4g} mm", is_hole ? "hole" : "groove",
+                     feature.surface == film::Surface::shell ? "shell" : "journal",
+                     feature.phi * 180 / std::numbers::pi, 1e3 * feature.z, feature.arc * 180 / std::numbers::pi,
+                     1e3 * feature.length);
 }
 
 std::string viscosity(const film::Lubricant& oil) {
@@ -67,6 +75,8 @@ void describe(const model::Bearing& bearing, Rows& rows) {
   row("cavitation", cavitation(film));
   row("edge pressure", pressure(film.p_edge_left) + " left, " + pressure(film.p_edge_right) + " right");
   row("supply", supply(film));
+  for (const film::SurfaceFeature& feature : film.features)
+    row(("feature " + feature.name).c_str(), described(feature));
   row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral)", 1e6 * film.c, 2e6 * film.c));
   row("grid", fmt::format("{} x {} nodes (circumferential x axial, edges included)", film.grid.n_phi, film.grid.n_z));
   row("viscosity", viscosity(film.lubricant));

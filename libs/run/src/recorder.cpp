@@ -177,6 +177,10 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   s.flow_left = series("flow_left", "m^3/s", "oil leaving over the edge z = -L/2");
   s.flow_right = series("flow_right", "m^3/s", "oil leaving over the edge z = +L/2");
   s.flow_supply = series("flow_supply", "m^3/s", "oil entering through the supply");
+  for (const film::SurfaceFeature& feature : film.features) {
+    s.flow_features.push_back(
+        series(("flow_feature_" + feature.name).c_str(), "m^3/s", "oil entering through this feature"));
+  }
   s.storage_rate = series("storage_rate", "m^3/s", "rate of change of the oil volume in the film");
   s.oil_volume = series("oil_volume", "m^3", "oil volume in the film");
   s.mass_balance_error = series("mass_balance_error", "1", "|supply - edges - storage| over the largest flow");
@@ -285,6 +289,9 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
   s.flow_left.append(film.flow_left);
   s.flow_right.append(film.flow_right);
   s.flow_supply.append(film.flow_supply);
+  for (std::size_t f = 0; f < s.flow_features.size(); ++f) {
+    s.flow_features[f].append(film.flow_features[static_cast<Eigen::Index>(f)]);
+  }
   s.storage_rate.append(film.storage_rate);
   s.oil_volume.append(film.oil_volume);
   s.mass_balance_error.append(film.mass_balance_error);

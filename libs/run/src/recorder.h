@@ -55,6 +55,7 @@ class Recorder {
         p_max_z, p_max_node, force, force_pressure, force_shear, force_asperity, moment, speed, torque_journal,
         torque_shell, power_film, power_asperity, power_into_bodies, flow_left, flow_right, flow_supply, storage_rate,
         oil_volume, mass_balance_error, cavitated_share, film_iterations;
+    std::vector<results::Series> flow_features;
     results::Series field_time, pressure, thickness, fill, asperity_pressure;
   };
 

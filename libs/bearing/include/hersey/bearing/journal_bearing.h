@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "hersey/bearing/interface_iteration.h"
 #include "hersey/bearing/journal_kinematics.h"
+#include "hersey/core/scalar_function.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/observables.h"
 #include "hersey/film/reynolds.h"
@@ -25,6 +27,8 @@ struct BearingOptions {
   double relaxation = 0.1;      ///< partitioned: share of the first correction taken, in (0, 1]
   film::FilmSolveOptions film;  ///< the film's own solver: initial film, and every film solve of a partitioned coupling
   double initial_dt = 1e-4;     ///< the film at the start is that of a full gap after a step of this length [s], > 0
+  /// Pressure of each of the film's features over time [Pa]; empty: the pressures of the film model.
+  std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
 };
 
 /// What one bearing shows at an accepted state.
@@ -70,6 +74,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
 
  private:
   void place(const mbd::RelativeMotion& motion);
+  void feed(double t, film::SurfaceMotion& surfaces) const;
   void report_contact();
   [[nodiscard]] bool is_sensible() const;
   void fill_gap();

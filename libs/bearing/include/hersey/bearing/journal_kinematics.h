@@ -22,6 +22,7 @@ enum Parameter : int {
   kJournalSpeed,  ///< circumferential speed of the journal surface relative to the shell [m/s]
   kAxialSpeed,    ///< axial speed of the journal relative to the shell [m/s]
   kSupplyAngle,   ///< angle of the widest gap at z = 0 [rad]
+  kRotation,      ///< by which the journal has turned about the bearing's axis [rad], -pi to pi
   kParameterCount
 };
 

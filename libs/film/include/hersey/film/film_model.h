@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <vector>
 
 #include "hersey/film/density_law.h"
+#include "hersey/film/surface_feature.h"
 #include "hersey/film/viscosity_law.h"
 
 namespace hersey::film {
@@ -86,6 +88,7 @@ struct FilmModel {
   CavitatedShear cavitated_shear = CavitatedShear::film_share;
   ShearForce shear_force = ShearForce::full;
   EdgeKind edges = EdgeKind::pressure;
+  std::vector<SurfaceFeature> features;  ///< where several lie over a place, the one that holds more of it counts
 };
 
 /// P0, the constant [Pa] that scales the fill fraction's unknown: theta = 1 + min(u, 0)/P0. It equals the pressure
@@ -102,6 +105,8 @@ struct SurfaceMotion {
   double w_shell = 0;      ///< axial speed of the shell surface [m/s]
   double w_journal = 0;    ///< axial speed of the journal surface [m/s]
   double phi_supply = 0;   ///< where the supply line is now [rad]; ignored without one
+  double phi_journal = 0;  ///< by which the journal has turned over the grid [rad]; moves the journal's features
+  Eigen::VectorXd feature_pressure = {};  ///< of each feature now [Pa], below p_cav counts as p_cav; empty: the model's
 };
 
 /// The film at the start of the step being solved. dt = 0 leaves theta g_rate as the only storage: a steady film under

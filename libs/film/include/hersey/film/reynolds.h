@@ -14,7 +14,7 @@ namespace hersey::film {
 struct MotionDirection {
   Eigen::VectorXd g;       ///< d gap / d parameter at the nodes; empty means zero
   Eigen::VectorXd g_rate;  ///< d gap rate / d parameter; empty means zero
-  double u_shell = 0, u_journal = 0, w_shell = 0, w_journal = 0, phi_supply = 0;
+  double u_shell = 0, u_journal = 0, w_shell = 0, w_journal = 0, phi_supply = 0, phi_journal = 0;
 };
 
 /// Reynolds' equation on the grid with its derivatives (theory manual, chapter film): residual and Jacobian at a state,

@@ -160,6 +160,7 @@ struct Bearing {
   FrameName shell, journal;  ///< empty in a model of bearings alone
   std::string lubricant;
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
+  std::vector<Function> feature_pressures;  ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;
   std::optional<fem::ElasticMaterial> shell_material, journal_material;

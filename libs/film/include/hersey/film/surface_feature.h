@@ -1,0 +1,24 @@
+#pragma once
+
+#include <numbers>
+#include <string>
+
+namespace hersey::film {
+
+enum class Surface { shell, journal };
+enum class FeatureShape { rectangle, ellipse };
+
+/// A hole, groove or pocket in one of the surfaces: a rectangle or an ellipse in phi x z, seen in the frame of that
+/// surface. One in the journal travels over the grid with SurfaceMotion::phi_journal.
+struct SurfaceFeature {
+  std::string name;
+  FeatureShape shape = FeatureShape::rectangle;
+  Surface surface = Surface::shell;
+  double phi = 0;                          ///< its middle [rad]
+  double z = 0;                            ///< its middle [m]
+  double arc = 2 * std::numbers::pi / 18;  ///< whole extent around the bearing [rad], in (0, 2 pi]
+  double length = 1e-3;                    ///< whole extent along the axis [m], > 0
+  double pressure = 0;                     ///< [Pa]; SurfaceMotion::feature_pressure takes its place
+};
+
+}  // namespace hersey::film

@@ -1,0 +1,152 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "feature_cover.h"
+#include "film_cases.h"
+
+// Holes and grooves: where their edges lie, how smoothly they travel, and published bearings with grooves.
+namespace hersey::film {
+namespace {
+
+// A film without wedge between an axial groove and the edges' pressure is a chain of flat channels: between two grooves
+// the pressure is linear and the flow exactly that of the true distance, wherever the grooves' edges lie in their
+// cells.
+TEST_CASE("GrooveEdges_LieWhereTheyAre") {
+  FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {60, 3}};
+  m.edges = EdgeKind::closed;
+  const SurfaceFeature high{.name = "high", .phi = 0, .arc = 0.5, .length = m.L, .pressure = 3e6};
+  for (const double arc : {0.30, 0.33, 0.37, 0.41}) {
+    CAPTURE(arc);
+    m.features = {high, {.name = "low", .phi = pi, .arc = arc, .length = m.L, .pressure = 1e6}};
+    const SolvedFilm film = solve_cold(m, turning(m, 0, 0));
+    REQUIRE(film.summary.converged);
+    const double distance = m.R * (pi - 0.5 * (0.5 + arc));
+    const double flow = 2 * m.c * m.c * m.c / (12 * m.lubricant.mu0) * m.L * 2e6 / distance;
+    CHECK(film.observed.flow_features[0] == doctest::Approx(flow).epsilon(1e-9));
+    CHECK(film.observed.flow_features[1] == doctest::Approx(-flow).epsilon(1e-9));
+    CHECK(film.observed.mass_balance_error < 1e-9);
+  }
+}
+
+TEST_CASE("HeldShares_HaveTheirDerivative") {
+  const FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {40, 9}};
+  for (const auto shape : {FeatureShape::rectangle, FeatureShape::ellipse}) {
+    const SurfaceFeature feature{
+        .name = "a", .shape = shape, .surface = Surface::journal, .phi = 6.2, .z = 1e-3, .arc = 0.5, .length = 8e-3};
+    const double d = 1e-7;
+    std::vector<CoveredNode> here, before, after;
+    cover(m, feature, 0.123, here);
+    cover(m, feature, 0.123 - d, before);
+    cover(m, feature, 0.123 + d, after);
+    REQUIRE(here.size() > 8);
+    REQUIRE(here.size() == before.size());
+    REQUIRE(here.size() == after.size());
+    double largest = 0;
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      CHECK(std::abs(here[k].share_phi - (after[k].share - before[k].share) / (2 * d)) < 1e-6);
+      largest = std::max(largest, std::abs(here[k].share_phi));
+    }
+    CHECK(largest > 0.5);
+  }
+}
+
+// What the feature does to the film as it travels: force and flow in 1000 steps over four cells.
+struct Sweep {
+  double largest = 0, jump = 0, bend = 0;  // of the force: size, largest first and second difference
+};
+
+Sweep sweep(FeatureShape shape, double pressure, double omega) {
+  FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 13}};
+  m.features = {
+      {.name = "hole", .shape = shape, .surface = Surface::journal, .arc = 0.35, .length = 7e-3, .pressure = pressure}};
+  SurfaceMotion motion = surfaces(m, {.omega_journal = omega});
+  Reynolds reynolds(m);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+  std::vector<Eigen::Vector2d> force;
+  for (int step = 0; step < 1000; ++step) {
+    motion.phi_journal = 4 * 2 * pi / 60 * step / 1000;
+    REQUIRE(solve_film(reynolds, motion, {}, {}, u).converged);
+    const Eigen::Rotation2Dd back(-motion.phi_journal);  // seen from the hole the force hardly changes
+    force.emplace_back(back * reynolds.wrench_on_shell().segment<2>(3));
+  }
+  Sweep s;
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    s.largest = std::max(s.largest, force[k].norm());
+    if (k > 0) s.jump = std::max(s.jump, (force[k] - force[k - 1]).norm());
+    if (k > 1) s.bend = std::max(s.bend, (force[k] - 2 * force[k - 1] + force[k - 2]).norm());
+  }
+  return s;
+}
+
+TEST_CASE("HoleSweptOverAUniformFilm_GivesASmoothForce") {
+  for (const auto shape : {FeatureShape::rectangle, FeatureShape::ellipse}) {
+    CAPTURE(static_cast<int>(shape));
+    const Sweep s = sweep(shape, 5e5, 0);
+    CAPTURE(s.jump / s.largest);
+    CAPTURE(s.bend / s.largest);
+    CHECK(s.largest > 50);
+    // A hole that snapped to nodes would make the force jump by a third of itself; 250 steps cross a cell. A straight
+    // edge passes a whole row of nodes at once, where the slope of the force may change, an ellipse one after the
+    // other.
+    CHECK(s.jump < 2e-3 * s.largest);
+    CHECK(s.bend < (shape == FeatureShape::ellipse ? 2e-4 : 1e-3) * s.largest);
+  }
+}
+
+double sommerfeld(const FilmModel& m, double omega, double W) {
+  return m.lubricant.mu0 * omega / (2 * pi) * std::pow(m.R / m.c, 2) * m.L * 2 * m.R / W;
+}
+
+// Two axial grooves of 20 degrees at +-90 degrees to the load, L/D = 0.5 (Lund and Thomsen 1978, table as read there).
+TEST_CASE("LundThomsen_TwoAxialGrooves") {
+  struct Row {
+    double S, epsilon, attitude;
+  };
+  for (const Row& row : {Row{1.656, 0.244, 65.85}, Row{0.378, 0.570, 45.43}}) {
+    CAPTURE(row.S);
+    FilmModel m{.R = 0.025, .L = 0.025, .c = 25e-6, .grid = {144, 25}, .cavitation = Cavitation::reynolds};
+    m.shear_force = ShearForce::torque_only;
+    const double arc = pi / 9;
+    m.features = {{.name = "left", .phi = 0.5 * pi, .arc = arc, .length = m.L},
+                  {.name = "right", .phi = -0.5 * pi, .arc = arc, .length = m.L}};
+    const double omega = 100;
+    const auto force = [&](double attitude) {
+      const Journal journal{.e = row.epsilon * m.c * Eigen::Vector2d(std::cos(attitude), std::sin(attitude)),
+                            .omega_journal = omega};
+      const SolvedFilm film = solve_cold(m, journal);
+      REQUIRE(film.summary.converged);
+      return Eigen::Vector2d(film.wrench.segment<2>(3));
+    };
+    // The load acts along x: the attitude at which the film answers along x, by bisection.
+    double low = row.attitude * pi / 180 - 0.3, high = low + 0.6;
+    REQUIRE(force(low).y() * force(high).y() < 0);
+    const bool rises = force(high).y() > 0;
+    for (int k = 0; k < 20; ++k) {
+      const double middle = 0.5 * (low + high);
+      ((force(middle).y() > 0) == rises ? high : low) = middle;
+    }
+    CHECK(low * 180 / pi == doctest::Approx(row.attitude).epsilon(0.03));
+    CHECK(sommerfeld(m, omega, force(low).x()) == doctest::Approx(row.S).epsilon(0.03));
+  }
+}
+
+TEST_CASE("FeatureFlows_AddUp") {
+  for (const auto solver : {FilmSolver::newton, FilmSolver::sor}) {
+    FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 13}};
+    m.features = {
+        {.name = "hole", .shape = FeatureShape::ellipse, .phi = 4.5, .arc = 0.3, .length = 6e-3, .pressure = 3e5},
+        {.name = "groove", .phi = 0.4, .arc = 0.3, .length = 12e-3, .pressure = 1e5}};
+    const SolvedFilm film = solve_cold(m, turning(m, 0.6, 300), {.solver = solver, .rtol = 1e-9});
+    CAPTURE(film.summary.message);
+    REQUIRE(film.summary.converged);
+    CHECK(film.observed.flow_features.sum() == doctest::Approx(film.observed.flow_supply).epsilon(1e-12));
+    CHECK(film.observed.mass_balance_error < 1e-7);
+    CHECK(film.observed.flow_features[0] > 0);
+    CHECK(film.observed.flow_features[1] > 0);
+  }
+}
+
+}  // namespace
+}  // namespace hersey::film
