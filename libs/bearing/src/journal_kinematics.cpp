@@ -121,6 +121,7 @@ void place_surfaces(const film::FilmModel& model, const ParameterVector& paramet
       motion.g_rate[grid.index(i, j)] = -radial(kExRate, kTxRate);
     }
   }
+  if (!model.profiles.empty()) motion.g += film::gap_profile(model.profiles, grid, model.L);
   motion.u_shell = 0;
   motion.u_journal = parameters[kJournalSpeed];
   motion.w_shell = 0;
@@ -132,6 +133,7 @@ void place_surfaces(const film::FilmModel& model, const ParameterVector& paramet
 film::MotionDirection surface_direction(const film::FilmModel& model, int parameter) {
   film::FilmModel no_clearance = model;
   no_clearance.c = 0;
+  no_clearance.profiles.clear();
   film::SurfaceMotion motion;
   place_surfaces(no_clearance, ParameterVector::Unit(parameter), motion);
   film::MotionDirection direction;
@@ -146,6 +148,11 @@ film::MotionDirection surface_direction(const film::FilmModel& model, int parame
 }
 
 double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters) {
+  if (!model.profiles.empty()) {
+    film::SurfaceMotion motion;
+    place_surfaces(model, parameters, motion);
+    return motion.g.minCoeff();
+  }
   const auto offset = [&](double z) { return (parameters.segment<2>(kEx) + parameters.segment<2>(kTx) * z).norm(); };
   return model.c - std::max(offset(-0.5 * model.L), offset(0.5 * model.L));
 }

@@ -19,6 +19,7 @@ film::FilmModel rough_elastic_film() {
                       .composite_modulus = 57e9,
                       .mu_friction = 0.1};
   model.compliance = 0.0225 / 57e9;
+  model.profiles = {film::Ovality{3e-6, 0.4}, film::Barrel{2e-6}};
   model.features = {{.name = "hole",
                      .shape = film::FeatureShape::ellipse,
                      .surface = film::Surface::journal,

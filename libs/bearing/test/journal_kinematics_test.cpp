@@ -92,6 +92,18 @@ TEST_CASE("Gap_IsDistanceOfCylinders") {
   CHECK(smallest_gap(model, value(X, Vector6::Zero())) > smallest - 1e-6);
 }
 
+TEST_CASE("Profiles_WidenTheGap") {
+  film::FilmModel model;
+  model.grid = {.n_phi = 24, .n_z = 5};
+  const ParameterVector parameters = value(some_pose(), Vector6::Zero());
+  film::SurfaceMotion round, shaped;
+  place_surfaces(model, parameters, round);
+  model.profiles = {film::Ovality{3e-6, 0}, film::Taper{2e-6}};
+  place_surfaces(model, parameters, shaped);
+  CHECK((shaped.g - round.g)[model.grid.index(6, 4)] == doctest::Approx(-3e-6 + 1e-6));
+  CHECK(smallest_gap(model, parameters) == shaped.g.minCoeff());
+}
+
 TEST_CASE("Parameters_AreTheSameFromAnyGround") {
   // The bearing sees relative motion only; a common rigid motion of both frames cancels before it gets here, so all
   // that can differ is the choice of x-axis: turned by alpha, vectors turn back by alpha, scalars stay.

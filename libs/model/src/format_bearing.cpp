@@ -102,6 +102,33 @@ TypePtr features_format() {
                        }));
 }
 
+TypePtr shape_format() {
+  const TypePtr size = quantity("m", "5 um", Range::not_negative());
+  const TypePtr angle = quantity("rad", "90 deg");
+  return list(
+      "a list of deviations from a cylinder",
+      variant("a deviation from a cylinder", "profile", {},
+              {
+                  {"barrel",
+                   "bore or journal falls off towards both edges, as a parabola",
+                   {required("drop", size, "By how much the gap is wider at the edges.")}},
+                  {"taper",
+                   "bore or journal is conical",
+                   {required("rise", quantity("m", "5 um"), "By how much the gap grows from z < 0 to z > 0.")}},
+                  {"ovality",
+                   "the bore is an ellipse",
+                   {required("amplitude", size, "By how much its radius is larger at `angle` and smaller across."),
+                    defaulted("angle", angle, "0 deg", "Where it is wide.")}},
+                  {"lobes",
+                   "the bore is made of equal arcs; two make a lemon bore",
+                   {defaulted("count", integer(2, {.low = 2, .high = 100}), "2", "Number of arcs."),
+                    required("offset", size,
+                             "By how much the centre of each arc is moved away from its middle, where the gap "
+                             "stays that of the clearance."),
+                    defaulted("angle", angle, "90 deg", "Middle of one arc.")}},
+              }));
+}
+
 TypePtr coupling_format() {
   return variant(
       "a coupling", "scheme", {},
@@ -227,6 +254,8 @@ TypePtr bearings_format() {
           defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges."),
           optional("supply", supply, "A line along the whole width that is held full at a given pressure.", "none"),
           optional("features", features_format(), "Holes and grooves through which oil is fed.", "none"),
+          optional("shape", shape_format(), "What makes bore and journal differ from cylinders; all add up.",
+                   "cylinders"),
           defaulted("asperities", asperities_format(), "none", "Contact of rough surfaces."),
           defaulted("compliance", compliance_format(), "rigid", "Elastic deformation of both surfaces."),
           optional("materials", materials_format(), "Give the composite modulus where it is not given itself."),

@@ -40,6 +40,7 @@ class FilmReader {
     read_edges();
     read_supply();
     read_features();
+    read_shape();
     read_asperities();
     read_compliance();
     film_.cavitated_shear =
@@ -176,6 +177,26 @@ class FilmReader {
       context_.fault_at_key(value, "overlaps '" + other.name + "', which has another pressure",
                             "the same constant pressure, or room between them");
     }
+  }
+
+  void read_shape() {
+    const Value* shape = value_.find("shape");
+    if (shape == nullptr) return;
+    for (const auto& [index, value] : shape->members) {
+      if (!value.broken) film_.profiles.push_back(profile_of(value));
+    }
+    if (context_.has_fault_in(value_.path) || film_.c <= 0 || film_.L <= 0) return;
+    const double smallest = film_.c + film::gap_profile(film_.profiles, film_.grid, film_.L).minCoeff();
+    if (smallest > 0) return;
+    context_.fault_at_key(*shape, fmt::format("a shape that closes the gap by {:.4g} um", -1e6 * smallest),
+                          fmt::format("deviations within the clearance, {:.4g} um", 1e6 * film_.c));
+  }
+
+  static film::Profile profile_of(const Value& value) {
+    if (value.text == "barrel") return film::Barrel{number_of(value, "drop")};
+    if (value.text == "taper") return film::Taper{number_of(value, "rise")};
+    if (value.text == "ovality") return film::Ovality{number_of(value, "amplitude"), number_of(value, "angle")};
+    return film::Lobes{integer_of(value, "count"), number_of(value, "offset"), number_of(value, "angle")};
   }
 
   void require_above_cavitation(const Value& pressure) {

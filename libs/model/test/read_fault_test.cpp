@@ -7,7 +7,7 @@ namespace {
 TEST_CASE("UnknownKey_NamesTheNearest") {
   CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
         "m.yaml:27:5: bearings.big_end: unknown key 'widht'; expected shell, journal, diameter, width, "
-        "radial_clearance, diametral_clearance, lubricant, grid, cavitation, edge_pressure, supply, features, "
+        "radial_clearance, diametral_clearance, lubricant, grid, cavitation, edge_pressure, supply, features, shape, "
         "asperities, "
         "compliance, materials, cavitated_shear, shear_force, solver, operating_point or coupling; did you mean "
         "'width'?");
@@ -230,6 +230,13 @@ TEST_CASE("FeaturesThatCannotBe_AreReported") {
   CHECK(faults("      a: {shape: hole, diameter: 5 mm, pressure: {expression: \"1 + guide.x\", unit: bar}}\n")
             .ends_with("a pressure that follows 'guide.x'; expected a function of time or of the rotation of "
                        "simulation.crank"));
+}
+
+TEST_CASE("ShapeThatClosesTheGap_IsReported") {
+  CHECK(
+      faults_after("    lubricant: oil\n", "    lubricant: oil\n    shape: [{profile: ovality, amplitude: 40 um}]\n") ==
+      "m.yaml:30:5: bearings.big_end.shape: a shape that closes the gap by 6 um; expected deviations within the "
+      "clearance, 34 um");
 }
 
 TEST_CASE("ThinOilOfRoelands_IsRefused") {

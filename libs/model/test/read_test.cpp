@@ -266,11 +266,28 @@ TEST_CASE("Features_AreHolesAndGrooves") {
   CHECK(features[3].arc == near(0.4));
 }
 
-TEST_CASE("EmptySections_AreAllowed") {
-        // All forces commented out: YAML reads nothing.
-        CHECK(faults_after("  push: {type: force, body: rod, components: [0 N, \"-${load}\", 0 N]}\n", "  # push\n") ==
-              "no fault");
-      }
+TEST_CASE("Shape_IsAListOfProfiles") {
+  const Model model = read_text(edited(good_model, "    lubricant: oil\n", R"(    lubricant: oil
+    shape:
+      - {profile: barrel, drop: 5 um}
+      - {profile: taper, rise: -3 um}
+      - {profile: ovality, amplitude: 4 um, angle: 90 deg}
+      - {profile: lobes, offset: 20 um}
+)"),
+                                "m.yaml");
+  const std::vector<film::Profile>& profiles = model.bearings[0].film.profiles;
+  REQUIRE(profiles.size() == 4);
+  CHECK(std::get<film::Barrel>(profiles[0]).drop == near(5e-6));
+  CHECK(std::get<film::Taper>(profiles[1]).rise == near(-3e-6));
+  CHECK(std::get<film::Ovality>(profiles[2]).angle == near(pi / 2));
+  CHECK(std::get<film::Lobes>(profiles[3]).count == 2);
+}
 
-      }  // namespace
-      }  // namespace hersey::model
+TEST_CASE("EmptySections_AreAllowed") {
+  // All forces commented out: YAML reads nothing.
+  CHECK(faults_after("  push: {type: force, body: rod, components: [0 N, \"-${load}\", 0 N]}\n", "  # push\n") ==
+        "no fault");
+}
+
+}  // namespace
+}  // namespace hersey::model

@@ -78,6 +78,11 @@ void describe(const model::Bearing& bearing, Rows& rows) {
   for (const film::SurfaceFeature& feature : film.features)
     row(("feature " + feature.name).c_str(), described(feature));
   row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral)", 1e6 * film.c, 2e6 * film.c));
+  if (!film.profiles.empty()) {
+    const Eigen::VectorXd opening = film::gap_profile(film.profiles, film.grid, film.L);
+    row("shape", fmt::format("{} profile(s): the gap differs from that of cylinders by {:.4g} to {:.4g} um",
+                             film.profiles.size(), 1e6 * opening.minCoeff(), 1e6 * opening.maxCoeff()));
+  }
   row("grid", fmt::format("{} x {} nodes (circumferential x axial, edges included)", film.grid.n_phi, film.grid.n_z));
   row("viscosity", viscosity(film.lubricant));
   row("contact", asperities(film.asperities));

@@ -37,6 +37,25 @@ TEST_CASE("Run_ReachesItsEndAndBalances") {
   CHECK(reader.read("/bearings/big_end/h_min").values.size() == reader.rows());
 }
 
+TEST_CASE("HoleInTheTurningPin_FeedsTheFilmAndIsReported") {
+  const TemporaryDirectory scratch;
+  const std::string text = rig_with("    supply: {line: widest_gap, pressure: 1 bar}\n",
+                                    "    supply: {line: widest_gap, pressure: 1 bar}\n"
+                                    "    features:\n"
+                                    "      bore: {shape: oval_hole, on: journal, around: 14 mm, along: 8 mm, pressure: "
+                                    "{expression: '3 + sin(main.rotation)', unit: bar}}\n");
+  const Summary summary = simulate(rig(text, {"duration=25 ms"}), {.results = scratch / "run.h5"});
+  CAPTURE(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  CHECK(summary.rejected_steps == 0);
+  CHECK(summary.bearings[0].worst_mass_balance < 1e-6);
+  CHECK(summary.worst_power_balance < 1e-6);
+  const results::Reader reader(summary.results);
+  const std::vector<double> hole = reader.read("/bearings/big_end/flow_feature_bore").values;
+  CHECK(hole.size() == reader.rows());
+  CHECK(*std::max_element(hole.begin(), hole.end()) > 1e-8);
+}
+
 TEST_CASE("PowerOfMotorAndLoad_GoesIntoFrictionOfTheSettledFilm") {
   // At rest but for the turning pin: what the drives put in, the film dissipates. The dissipation integral and the
   // shear traction are different discrete sums; on this coarse grid they agree to a few per cent.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hersey/film/density_law.h"
+#include "hersey/film/gap_profile.h"
 #include "hersey/film/surface_feature.h"
 #include "hersey/film/viscosity_law.h"
 
@@ -89,6 +90,7 @@ struct FilmModel {
   ShearForce shear_force = ShearForce::full;
   EdgeKind edges = EdgeKind::pressure;
   std::vector<SurfaceFeature> features;  ///< where several lie over a place, the one that holds more of it counts
+  std::vector<Profile> profiles;  ///< shapes of bore and journal, added to the gap by whoever places the surfaces
 };
 
 /// P0, the constant [Pa] that scales the fill fraction's unknown: theta = 1 + min(u, 0)/P0. It equals the pressure
