@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-/// Closed forms for journal bearing films, in the notation of the theory manual. Angles [rad] from the widest gap in the
-/// direction of rotation; e is the eccentricity ratio; forces are dimensionless as stated.
+/// Closed forms for journal bearing films, in the notation of the theory manual. Angles [rad] from the widest gap in
+/// the direction of rotation; e is the eccentricity ratio; forces are dimensionless as stated.
 namespace hersey::verification {
 
 inline constexpr double pi = std::numbers::pi;

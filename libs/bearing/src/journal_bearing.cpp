@@ -28,6 +28,7 @@ std::vector<film::MotionDirection> unit_directions(const film::FilmModel& model)
   const bool follows = model.supply.kind == film::SupplyKind::widest_gap;
   const int count = turns ? kParameterCount : follows ? kSupplyAngle + 1 : kSupplyAngle;
   std::vector<film::MotionDirection> directions;
+  directions.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) directions.push_back(surface_direction(model, k));
   return directions;
 }

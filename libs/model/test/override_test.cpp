@@ -55,8 +55,8 @@ TEST_CASE("ParametersInsideText_AreReplaced") {
 }
 
 TEST_CASE("ParametersInsideVectors_KeepTheirUnit") {
-  const std::string text = edited(edited(good_model, "  load: 500 N", "  load: 500 N\n  g: 981 cm/s^2"), "bodies:",
-                                  "gravity: 0 -${g} 0 m/s^2\nbodies:");
+  const std::string text = edited(edited(good_model, "  load: 500 N", "  load: 500 N\n  g: 981 cm/s^2"),
+                                  "bodies:", "gravity: 0 -${g} 0 m/s^2\nbodies:");
   CHECK((read_text(text, "m.yaml").gravity - Vector3(0, -9.81, 0)).norm() < 1e-15);
 }
 
