@@ -128,9 +128,9 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
   for (int i = 0; i < model.grid.n_phi; ++i) {
     for (int j = 0; j < model.grid.n_z; ++j) {
       const int k = model.grid.index(i, j);
-      text += fmt::format("{:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}\n", 360.0 * i / model.grid.n_phi,
-                          1e3 * model.L * (static_cast<double>(j) / (model.grid.n_z - 1) - 0.5), 1e-6 * fields.p[k],
-                          1e-6 * fields.p_asperity[k], 1e6 * fields.h[k], fields.theta[k]);
+      text += fmt::format("{:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}\n",
+                          180 / std::numbers::pi * model.grid.phi(i), 1e3 * model.L * model.grid.z_over_L(j),
+                          1e-6 * fields.p[k], 1e-6 * fields.p_asperity[k], 1e6 * fields.h[k], fields.theta[k]);
     }
   }
   return text;

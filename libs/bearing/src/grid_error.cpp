@@ -26,7 +26,7 @@ Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
 }
 
 film::FilmModel with_half_grid(film::FilmModel model) {
-  model.grid = {.n_phi = (model.grid.n_phi + 1) / 2, .n_z = model.grid.n_z / 2 + 1};
+  model.grid = film::resampled(model.grid, (model.grid.n_phi + 1) / 2, model.grid.n_z / 2 + 1);
   return model;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "hersey/core/contract.h"
 
@@ -110,10 +109,10 @@ void place_surfaces(const film::FilmModel& model, const ParameterVector& paramet
   motion.g.resize(grid.size());
   motion.g_rate.resize(grid.size());
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double phi = 2 * std::numbers::pi * i / grid.n_phi;
+    const double phi = grid.phi(i);
     const double C = std::cos(phi), S = std::sin(phi);
     for (int j = 0; j < grid.n_z; ++j) {
-      const double z = model.L * (static_cast<double>(j) / (grid.n_z - 1) - 0.5);
+      const double z = model.L * grid.z_over_L(j);
       const auto radial = [&](int e, int t) {
         return (parameters[e] + parameters[t] * z) * C + (parameters[e + 1] + parameters[t + 1] * z) * S;
       };

@@ -16,7 +16,29 @@ struct Share {
   double phi = 0;
 };
 
-double axial_step(const FilmModel& model) { return model.L / (model.grid.n_z - 1); }
+/// A node's surroundings: how far its neighbours are and how wide its control volume is [m, m], seen by a feature whose
+/// middle lies at a distance `d` around the bearing [rad] and `z` along it [m] behind the node.
+struct Surroundings {
+  double d = 0, z = 0;
+  double to_phi = 0, to_z = 0;        ///< distance of the neighbours towards the feature [m]
+  double width_phi = 0, width_z = 0;  ///< of the control volume [m]
+  double back = 0, ahead = 0;         ///< half-way to the neighbours around the bearing [rad]
+  double below = 0, above = 0;        ///< likewise along it [m]; mirrored at an edge
+};
+
+Surroundings surroundings(const GridGeometry& g, double R, int i, int j, double d, double z) {
+  const auto n_phi = static_cast<int>(g.dx.size()), last = static_cast<int>(g.dz.size());
+  const double behind = g.dx[(i + n_phi - 1) % n_phi], before = g.dx[i];
+  const double under = g.dz[std::max(j - 1, 0)], over = g.dz[std::min(j, last - 1)];
+  Surroundings s;
+  s.d = d, s.z = z;
+  s.to_phi = d > 0 ? behind : before;
+  s.to_z = z > 0 ? under : over;
+  s.width_phi = g.width_phi[i], s.width_z = g.width_z[j];
+  s.back = 0.5 * behind / R, s.ahead = 0.5 * before / R;
+  s.below = 0.5 * under, s.above = 0.5 * over;
+  return s;
+}
 
 /// From 1 inside an interval of half-width `half` to 0 one `step` beyond it; d is the distance from its middle.
 Share ramp(double d, double half, double step) {
@@ -27,46 +49,47 @@ Share ramp(double d, double half, double step) {
 }
 
 /// Row shares (film.25): the conductance from a node to the feature's edge where that is a share of one cell away.
-Share held_rectangle(const FilmModel& model, const Share& around, double along) {
-  const double dx = model.R * turn / model.grid.n_phi, dz = axial_step(model);
-  const double to_phi = dx / dz, to_z = dz / dx, unit = unit_conductance(model);
+Share held_rectangle(const SurfaceFeature& feature, const Surroundings& s, double R, double unit) {
+  const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / R);
+  const double along = ramp(s.z, 0.5 * feature.length, s.to_z).value;
   const double covered = around.value * along;
-  const double gap = unit * ((1 - around.value) * to_phi + (1 - along) * to_z);
   if (covered == 0) return {};
-  const double sum = covered + gap;
-  const double covered_phi = around.phi * along, gap_phi = -unit * to_phi * around.phi;
+  const double by_phi = unit * s.to_phi / s.width_z, by_z = unit * s.to_z / s.width_phi;
+  const double sum = covered + (1 - around.value) * by_phi + (1 - along) * by_z, gap = sum - covered;
+  const double covered_phi = around.phi * along, gap_phi = -by_phi * around.phi;
   return {covered / sum, (covered_phi * gap - covered * gap_phi) / (sum * sum)};
 }
 
-/// Share of the cell around (d, z) that an ellipse with the given half-axes covers, by Gauss' rule along z and exact
-/// around: dimensionless in both directions.
-Share ellipse_share(double d, double z, double half_arc, double half_length, double dphi, double dz) {
+/// Share of a node's cell that an ellipse with the given half-axes covers, by Gauss' rule along z and exact around.
+Share ellipse_share(const Surroundings& s, double half_arc, double half_length) {
   // Four points on each half of the cell: Abramowitz and Stegun (1964), table 25.4.
   static constexpr std::array<double, 4> place{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
                                                0.861136311594052575};
   static constexpr std::array<double, 4> weight{0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
                                                 0.347854845137453857};
+  const double cell = s.back + s.ahead, height = s.below + s.above;
+  const double first = s.d - s.back, last = s.d + s.ahead;
   Share share;
-  for (int half = -1; half <= 1; half += 2) {
+  for (const double half : {0.25, 0.75}) {
     for (std::size_t k = 0; k < place.size(); ++k) {
-      const double y = (z + 0.25 * dz * (half + place[k])) / half_length;
+      const double y = (s.z - s.below + height * (half + 0.25 * place[k])) / half_length;
       if (std::abs(y) >= 1) continue;
       const double reach = half_arc * std::sqrt(1 - y * y);
-      const double right = std::min(d + 0.5 * dphi, reach), left = std::max(d - 0.5 * dphi, -reach);
+      const double right = std::min(last, reach), left = std::max(first, -reach);
       if (right <= left) continue;
       // Seen from the feature the cell moves backwards as the feature turns forwards.
-      const double moving = (d - 0.5 * dphi > -reach ? 1.0 : 0.0) - (d + 0.5 * dphi < reach ? 1.0 : 0.0);
-      share.value += 0.25 * weight[k] * (right - left) / dphi;
-      share.phi += 0.25 * weight[k] * moving / dphi;
+      const double moving = (first > -reach ? 1.0 : 0.0) - (last < reach ? 1.0 : 0.0);
+      share.value += 0.25 * weight[k] * (right - left) / cell;
+      share.phi += 0.25 * weight[k] * moving / cell;
     }
   }
   return share;
 }
 
-Share held_ellipse(const FilmModel& model, const SurfaceFeature& feature, double d, double z) {
-  const double dphi = turn / model.grid.n_phi, dz = axial_step(model);
+Share held_ellipse(const SurfaceFeature& feature, const Surroundings& s) {
   // Grown by half a cell all around, as the ramps of a rectangle are: its edge then lies where the ellipse's does.
-  const Share covered = ellipse_share(d, z, 0.5 * (feature.arc + dphi), 0.5 * (feature.length + dz), dphi, dz);
+  const Share covered =
+      ellipse_share(s, 0.5 * (feature.arc + s.back + s.ahead), 0.5 * (feature.length + s.below + s.above));
   const double unit = 4;  // conductance of all four faces over that of one, both directions alike
   const double open = 1 - covered.value, sum = covered.value + unit * open;
   if (covered.value == 0) return {};
@@ -75,26 +98,24 @@ Share held_ellipse(const FilmModel& model, const SurfaceFeature& feature, double
 
 }  // namespace
 
-double unit_conductance(const FilmModel& model) {
-  const double dx = model.R * turn / model.grid.n_phi, dz = axial_step(model);
-  return 2 * (dz / dx + dx / dz);
+double unit_conductance(const GridGeometry& geometry) {
+  return 2 * (geometry.mean_dz / geometry.mean_dx + geometry.mean_dx / geometry.mean_dz);
 }
 
-void cover(const FilmModel& model, const SurfaceFeature& feature, double phi_journal, std::vector<CoveredNode>& nodes) {
+void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFeature& feature, double phi_journal,
+           std::vector<CoveredNode>& nodes) {
   const Grid& grid = model.grid;
-  const double dphi = turn / grid.n_phi, dz = axial_step(model);
+  const double unit = unit_conductance(geometry);
   const bool travels = feature.surface == Surface::journal;
   const double middle = feature.phi + (travels ? phi_journal : 0.0);
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double d = std::remainder(i * dphi - middle, turn);
-    if (std::abs(d) >= 0.5 * feature.arc + dphi) continue;
+    const double d = std::remainder(geometry.phi[i] - middle, turn);
     for (int j = 0; j < grid.n_z; ++j) {
-      const double z = j * dz - 0.5 * model.L - feature.z;
-      if (std::abs(z) >= 0.5 * feature.length + dz) continue;
+      const Surroundings s = surroundings(geometry, model.R, i, j, d, geometry.z[j] - feature.z);
+      if (std::abs(d) >= 0.5 * feature.arc + s.to_phi / model.R) break;
+      if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
       const Share held =
-          feature.shape == FeatureShape::ellipse
-              ? held_ellipse(model, feature, d, z)
-              : held_rectangle(model, ramp(d, 0.5 * feature.arc, dphi), ramp(z, 0.5 * feature.length, dz).value);
+          feature.shape == FeatureShape::ellipse ? held_ellipse(feature, s) : held_rectangle(feature, s, model.R, unit);
       if (held.value > 0) nodes.push_back({grid.index(i, j), held.value, travels ? held.phi : 0});
     }
   }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "grid_geometry.h"
 #include "hersey/film/film_model.h"
 
 namespace hersey::film {
@@ -14,10 +15,11 @@ struct CoveredNode {
   double share_phi = 0;
 };
 
-/// Conductance between two neighbours over both directions, per h^3/(12 mu): what shares refer to [-].
-[[nodiscard]] double unit_conductance(const FilmModel& model);
+/// Conductance of a mean cell to its four neighbours, per h^3/(12 mu): what shares refer to [-].
+[[nodiscard]] double unit_conductance(const GridGeometry& geometry);
 
 /// Appends the nodes a feature holds wholly or in part, with the journal turned by `phi_journal` [rad].
-void cover(const FilmModel& model, const SurfaceFeature& feature, double phi_journal, std::vector<CoveredNode>& nodes);
+void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFeature& feature, double phi_journal,
+           std::vector<CoveredNode>& nodes);
 
 }  // namespace hersey::film

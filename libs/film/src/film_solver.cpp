@@ -64,7 +64,7 @@ CoarseFilm coarsen(const FilmModel& model, const SurfaceMotion& motion, const Fi
                    const Eigen::VectorXd& u) {
   const Grid& grid = model.grid;
   CoarseFilm coarse{model, motion, history, every_second(grid, u)};
-  coarse.model.grid.n_phi /= 2;
+  coarse.model.grid = resampled(grid, grid.n_phi / 2, grid.n_z);
   coarse.motion.g = every_second(grid, motion.g);
   coarse.motion.g_rate = every_second(grid, motion.g_rate);
   if (history.dt == 0) return coarse;

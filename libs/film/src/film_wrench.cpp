@@ -1,7 +1,6 @@
 #include "film_wrench.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace hersey::film {
 namespace {
@@ -15,31 +14,27 @@ struct Stencil {
   std::array<double, 3> weight{};
 };
 
-Stencil slope_phi(const Grid& grid, double dx, int i, int j) {
-  const int before = grid.index((i + grid.n_phi - 1) % grid.n_phi, j), after = grid.index((i + 1) % grid.n_phi, j);
-  return {{before, after, after}, {-0.5 / dx, 0.5 / dx, 0}};
+// The slope at x = 0 of the parabola through three nodes, two of them at x = a and x = b.
+std::array<double, 3> parabola_slope(double a, double b) {
+  return {-(a + b) / (a * b), b / (a * (b - a)), -a / (b * (b - a))};
+}
+
+Stencil slope_at(int k, int first, double a, int second, double b) {
+  return {{k, first, second}, parabola_slope(a, b)};
+}
+
+Stencil slope_phi(const Grid& grid, const GridGeometry& geometry, int i, int j) {
+  const int before = (i + grid.n_phi - 1) % grid.n_phi, after = (i + 1) % grid.n_phi;
+  return slope_at(grid.index(i, j), grid.index(before, j), -geometry.dx[before], grid.index(after, j), geometry.dx[i]);
 }
 
 // Second order up to the edges, where the difference is one-sided.
-Stencil slope_z(const Grid& grid, double dz, int i, int j) {
-  const int k = grid.index(i, j);
-  if (j == 0) return {{k, k + 1, k + 2}, {-1.5 / dz, 2 / dz, -0.5 / dz}};
-  if (j == grid.n_z - 1) return {{k, k - 1, k - 2}, {1.5 / dz, -2 / dz, 0.5 / dz}};
-  return {{k - 1, k + 1, k + 1}, {-0.5 / dz, 0.5 / dz, 0}};
-}
-
-// Weights of the integral over [0, n - 1] from values at 0, 1, ..., n - 1 (Gregory's end corrections of second order;
-// Newton-Cotes below six points). Exact for parabolas: a film's pressure is nearly one across the width, and the
-// trapezoidal rule alone would lose 1/(n - 1)^2 of the load.
-Eigen::VectorXd quadrature(int n) {
-  if (n == 3) return Eigen::Vector3d(1, 4, 1) / 3;
-  if (n == 4) return Eigen::Vector4d(3, 9, 9, 3) / 8;
-  if (n == 5) return (Eigen::VectorXd(5) << 1, 4, 2, 4, 1).finished() / 3;
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
-  const Eigen::Vector3d end(9.0 / 24, 28.0 / 24, 23.0 / 24);
-  weights.head<3>() = end;
-  weights.tail<3>() = end.reverse();
-  return weights;
+Stencil slope_z(const Grid& grid, const GridGeometry& geometry, int i, int j) {
+  const int k = grid.index(i, j), last = grid.n_z - 1;
+  const Eigen::VectorXd& dz = geometry.dz;
+  if (j == 0) return slope_at(k, k + 1, dz[0], k + 2, dz[0] + dz[1]);
+  if (j == last) return slope_at(k, k - 1, -dz[last - 1], k - 2, -dz[last - 1] - dz[last - 2]);
+  return slope_at(k, k - 1, -dz[j - 1], k + 1, dz[j]);
 }
 
 double slope(const Stencil& stencil, const std::vector<Node>& nodes) {
@@ -50,24 +45,16 @@ double slope(const Stencil& stencil, const std::vector<Node>& nodes) {
 
 }  // namespace
 
-FilmWrench::FilmWrench(const FilmModel& model) : model_(model) {
+FilmWrench::FilmWrench(const FilmModel& model) : model_(model), geometry_(model_) {
   const Grid& grid = model_.grid;
-  const double dphi = 2 * std::numbers::pi / grid.n_phi;
-  dx_ = model_.R * dphi;
-  dz_ = model_.L / (grid.n_z - 1);
-  cosine_.resize(grid.n_phi);
-  sine_.resize(grid.n_phi);
-  for (int i = 0; i < grid.n_phi; ++i) {
-    cosine_[i] = std::cos(i * dphi);
-    sine_[i] = std::sin(i * dphi);
-  }
-  area_ = dx_ * dz_ * quadrature(grid.n_z);
+  cosine_ = geometry_.phi.array().cos();
+  sine_ = geometry_.phi.array().sin();
   by_u_.setZero(6, grid.size());
   by_g_.setZero(6, grid.size());
 }
 
 FilmWrench::Basis FilmWrench::basis(int i, int j) const {
-  const double R = model_.R, z = -0.5 * model_.L + j * dz_, c = cosine_[i], s = sine_[i];
+  const double R = model_.R, z = geometry_.z[j], c = cosine_[i], s = sine_[i];
   // Moments r x f about the origin with r = R e_r + z e_z.
   Basis b;
   b.radial << -z * s, z * c, 0, c, s, 0;
@@ -105,11 +92,11 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, int i, int j, bool wan
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j);
   const Node& node = nodes[k];
-  const double area = area_[j];
+  const double area = geometry_.weight_phi[i] * geometry_.weight_z[j];
   const Basis b = basis(i, j);
 
   // Shear on the shell (film.18): tau = share mu slip/h - h/2 grad p, along phi and along z.
-  const Stencil by_phi = slope_phi(grid, dx_, i, j), by_z = slope_z(grid, dz_, i, j);
+  const Stencil by_phi = slope_phi(grid, geometry_, i, j), by_z = slope_z(grid, geometry_, i, j);
   const double p_phi = slope(by_phi, nodes), p_z = slope(by_z, nodes);
   const double mu = 1 / node.fluidity, couette = node.share * mu / node.h;
   pressure_ += area * node.wall * b.radial;

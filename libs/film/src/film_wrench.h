@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "grid_geometry.h"
 #include "hersey/core/spatial.h"
 #include "hersey/film/reynolds.h"
 #include "node.h"
@@ -43,9 +44,8 @@ class FilmWrench {
   void set_speeds(const SurfaceMotion& motion);
 
   FilmModel model_;
-  double dx_ = 0, dz_ = 0;
+  GridGeometry geometry_;
   Eigen::VectorXd cosine_, sine_;
-  Eigen::VectorXd area_;  ///< by which the tractions in axial row j count [m^2]
   Vector6 total_, pressure_, shear_, asperity_;
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_;
   Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z

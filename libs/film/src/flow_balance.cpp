@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "hersey/core/contract.h"
@@ -16,7 +15,6 @@ constexpr double supply_stiffness = 1000;
 
 void check(const FilmModel& m) {
   HERSEY_REQUIRE(m.R > 0 && m.L > 0 && m.c > 0, "a bearing has radius, width and clearance");
-  HERSEY_REQUIRE(m.grid.n_phi >= 4 && m.grid.n_z >= 3, "the grid needs 4 x 3 nodes at least");
   HERSEY_REQUIRE(m.lubricant.mu0 > 0, "viscosity is positive");
   HERSEY_REQUIRE(m.compliance >= 0, "compliance is not negative");
   HERSEY_REQUIRE(m.p_edge_left >= m.p_cav && m.p_edge_right >= m.p_cav, "edges lie at or above p_cav");
@@ -26,14 +24,13 @@ void check(const FilmModel& m) {
 
 }  // namespace
 
-FlowBalance::FlowBalance(const FilmModel& model) : model_(model), law_(model_) {
+FlowBalance::FlowBalance(const FilmModel& model) : model_(model), law_(model_), geometry_(model_) {
   check(model_);
   const Grid& grid = model_.grid;
-  dx_ = 2 * std::numbers::pi * model_.R / grid.n_phi;
-  dz_ = model_.L / (grid.n_z - 1);
-  D0_ = model_.c * model_.c * model_.c / (12 * model_.lubricant.mu0) * 2 * (dz_ / dx_ + dx_ / dz_);
-  area_.assign(grid.n_z, dx_ * dz_);
-  area_.front() = area_.back() = dx_ * dz_ / 2;
+  unit_conductance_ = unit_conductance(geometry_);
+  D0_ = model_.c * model_.c * model_.c / (12 * model_.lubricant.mu0) * unit_conductance_;
+  area_.resize(grid.size());
+  for (int k = 0; k < grid.size(); ++k) area_[k] = geometry_.area(k / grid.n_z, k % grid.n_z);
   lay_faces();
   lay_pattern();
   const int n = grid.size();
@@ -42,20 +39,21 @@ FlowBalance::FlowBalance(const FilmModel& model) : model_(model), law_(model_) {
   for (auto* field : {&residual_, &balance_, &throughput_, &g_rate_, &w_start_, &u_}) field->setZero(n);
   content_start_.setOnes(n);
   held_index_.assign(n, -1);
-  unit_conductance_ = unit_conductance(model_);
 }
 
 void FlowBalance::lay_faces() {
   const Grid& grid = model_.grid;
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
-      const double width = area_[j] / dx_;
-      faces_.push_back({grid.index(i, j), grid.index((i + 1) % grid.n_phi, j), width, dx_, {}});
+      const int next = grid.index((i + 1) % grid.n_phi, j);
+      faces_.push_back({grid.index(i, j), next, geometry_.width_z[j], geometry_.dx[i], {}});
     }
   }
   first_axial_face_ = faces_.size();
   for (int i = 0; i < grid.n_phi; ++i) {
-    for (int j = 0; j + 1 < grid.n_z; ++j) faces_.push_back({grid.index(i, j), grid.index(i, j + 1), dx_, dz_, {}});
+    for (int j = 0; j + 1 < grid.n_z; ++j) {
+      faces_.push_back({grid.index(i, j), grid.index(i, j + 1), geometry_.width_phi[i], geometry_.dz[j], {}});
+    }
   }
 }
 
@@ -149,10 +147,8 @@ void FlowBalance::hold(const HeldNode& held) {
 
 void FlowBalance::hold_line(double phi) {
   const int n_phi = model_.grid.n_phi;
-  const double dphi = 2 * std::numbers::pi / n_phi;
-  const double place = phi / dphi, below = std::floor(place + 1e-9);
-  const double t = std::max(0.0, place - below), u = model_.supply.pressure - model_.p_cav;
-  const int i = static_cast<int>(std::fmod(std::fmod(below, n_phi) + n_phi, n_phi));
+  const auto [i, t] = geometry_.place_of(phi);
+  const double to_next = geometry_.dx[i] / model_.R, u = model_.supply.pressure - model_.p_cav;
   // Fourth power of the hat function: each node lets go of the line over a good part of a cell.
   const auto column = [&](int index, double hat, double hat_phi) {
     for (int j = 0; j < model_.grid.n_z; ++j) {
@@ -162,8 +158,8 @@ void FlowBalance::hold_line(double phi) {
             .u = u});
     }
   };
-  column(i, 1 - t, -1 / dphi);
-  column((i + 1) % n_phi, t, 1 / dphi);
+  column(i, 1 - t, -1 / to_next);
+  column((i + 1) % n_phi, t, 1 / to_next);
 }
 
 void FlowBalance::find_supply(const SurfaceMotion& motion) {
@@ -175,7 +171,7 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
     const auto index = static_cast<Eigen::Index>(f);
     const double pressure = motion.feature_pressure.size() == 0 ? feature.pressure : motion.feature_pressure[index];
     covered_.clear();
-    cover(model_, feature, motion.phi_journal, covered_);
+    cover(model_, geometry_, feature, motion.phi_journal, covered_);
     for (const CoveredNode& node : covered_) {
       hold({.node = node.node,
             .chi = node.share,
@@ -254,7 +250,7 @@ void FlowBalance::add_face(std::size_t f) {
 // film m g_rate.
 double FlowBalance::storage(int i) const {
   const Node& node = nodes_[i];
-  const double a = area_[i % model_.grid.n_z];
+  const double a = area_[i];
   if (dt_ == 0) return a * node.content * g_rate_[i];
   const double m_n = content_start_[i];
   return a * (m_n * g_rate_[i] + ((node.content - m_n) * node.h + m_n * (node.w - w_start_[i])) / dt_);
@@ -262,16 +258,16 @@ double FlowBalance::storage(int i) const {
 
 double FlowBalance::storage_u(int i) const {
   const Node& node = nodes_[i];
-  const double a = area_[i % model_.grid.n_z];
+  const double a = area_[i];
   return dt_ == 0 ? a * node.content_u * g_rate_[i] : a * (node.content_u * node.h + node.content * node.h_u) / dt_;
 }
 
 double FlowBalance::storage_g(int i) const {
-  return dt_ == 0 ? 0 : area_[i % model_.grid.n_z] * (nodes_[i].content * nodes_[i].h_g - content_start_[i]) / dt_;
+  return dt_ == 0 ? 0 : area_[i] * (nodes_[i].content * nodes_[i].h_g - content_start_[i]) / dt_;
 }
 
 double FlowBalance::storage_g_rate(int i) const {
-  return area_[i % model_.grid.n_z] * (dt_ == 0 ? nodes_[i].content : content_start_[i]);
+  return area_[i] * (dt_ == 0 ? nodes_[i].content : content_start_[i]);
 }
 
 // What a row carries beside its balance: in reynolds the slack of p >= p_cav, on an open edge the outflow.

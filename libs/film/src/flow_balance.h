@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "feature_cover.h"
+#include "grid_geometry.h"
 #include "hersey/film/reynolds.h"
 #include "node.h"
 
@@ -60,7 +61,8 @@ class FlowBalance {
   [[nodiscard]] double largest_throughput() const { return largest_throughput_; }
   [[nodiscard]] double relative_residual() const;
   [[nodiscard]] int worst_node() const;
-  [[nodiscard]] double area(int j) const { return area_[j]; }  ///< of the control volumes in axial row j [m^2]
+  [[nodiscard]] double area(int node) const { return area_[node]; }  ///< of the control volume [m^2]
+  [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] double speed_phi() const { return speed_phi_; }
   [[nodiscard]] double speed_z() const { return speed_z_; }
   [[nodiscard]] bool edge_row(int j) const;  ///< an edge whose pressure is given: no balance there
@@ -116,8 +118,9 @@ class FlowBalance {
 
   FilmModel model_;
   NodeLaw law_;
-  double dx_ = 0, dz_ = 0, D0_ = 0, unit_conductance_ = 0;
-  std::vector<double> area_;
+  GridGeometry geometry_;
+  double D0_ = 0, unit_conductance_ = 0;
+  std::vector<double> area_;  ///< of the control volumes [m^2]
   std::vector<Face> faces_;
   std::size_t first_axial_face_ = 0;
   std::vector<int> column_start_, row_index_, diagonal_slot_;

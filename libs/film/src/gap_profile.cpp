@@ -28,7 +28,7 @@ Eigen::VectorXd gap_profile(const std::vector<Profile>& profiles, const Grid& gr
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(grid.size());
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
-      const double phi = turn * i / grid.n_phi, z = L * (static_cast<double>(j) / (grid.n_z - 1) - 0.5);
+      const double phi = grid.phi(i), z = L * grid.z_over_L(j);
       for (const Profile& profile : profiles) {
         sum[grid.index(i, j)] += std::visit([&](const auto& shape) { return shape.opening(phi, z, L); }, profile);
       }

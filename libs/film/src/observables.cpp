@@ -15,69 +15,83 @@ struct Peak {
   double value = 0, phi = 0, z = 0;
 };
 
-/// Vertex of the parabola through three equidistant values, as offset from the middle in steps and rise above it.
+/// Vertex of the parabola through values at -before, 0 and after: place and rise above the middle one. It is sought no
+/// further than half-way to the neighbours.
 struct Vertex {
   double offset = 0, rise = 0;
 };
 
-Vertex vertex(double before, double middle, double after) {
-  const double curvature = before - 2 * middle + after;
+Vertex vertex(double left, double middle, double right, double before, double after) {
+  const double down = (middle - left) / before, up = (right - middle) / after;
+  const double curvature = (up - down) / (0.5 * (before + after));
   if (curvature == 0) return {};
-  const double offset = std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
-  return {offset, 0.5 * offset * (after - before) + 0.5 * offset * offset * curvature};
+  const double slope = (down * after + up * before) / (before + after);
+  const double offset = std::clamp(-slope / curvature, -0.5 * before, 0.5 * after);
+  return {offset, offset * (slope + 0.5 * offset * curvature)};
 }
 
-double z_of(const FilmModel& model, double j) { return model.L * (j / (model.grid.n_z - 1) - 0.5); }
+/// Peaks of fields between the nodes of one grid.
+class PeakFinder {
+ public:
+  PeakFinder(const FilmModel& model, const GridGeometry& geometry) : R_(model.R), grid_(model.grid), at_(geometry) {}
 
-double phi_of(const FilmModel& model, double i) {
-  const double turn = 2 * std::numbers::pi, phi = std::fmod(i * turn / model.grid.n_phi, turn);
-  return phi < 0 ? phi + turn : phi;
-}
-
-/// Extremum next to node (i, j) by parabolas, along phi always and along z inside the width; a mirror of the sign makes
-/// a minimum of it. Edges count: there only phi is interpolated.
-Peak refine(const FilmModel& model, const Eigen::VectorXd& field, int i, int j) {
-  const Grid& grid = model.grid;
-  const auto at = [&](int a, int b) { return field[grid.index((a + grid.n_phi) % grid.n_phi, b)]; };
-  const Vertex along = vertex(at(i - 1, j), at(i, j), at(i + 1, j));
-  const bool inside = j > 0 && j < grid.n_z - 1;
-  const Vertex across = inside ? vertex(at(i, j - 1), at(i, j), at(i, j + 1)) : Vertex{};
-  return {at(i, j) + along.rise + across.rise, phi_of(model, i + along.offset), z_of(model, j + across.offset)};
-}
-
-Peak largest(const FilmModel& model, const Eigen::VectorXd& field) {
-  int node = 0;
-  field.maxCoeff(&node);
-  return refine(model, field, node / model.grid.n_z, node % model.grid.n_z);
-}
-
-// Every row is interpolated on its own: a tilted or bent film has its minimum on an edge, between two nodes.
-Peak smallest(const FilmModel& model, const Eigen::VectorXd& field) {
-  const Grid& grid = model.grid;
-  const Eigen::VectorXd mirrored = -field;
-  Peak best{field[0], 0, z_of(model, 0)};
-  for (int j = 0; j < grid.n_z; ++j) {
-    int i = 0;
-    for (int k = 0; k < grid.n_phi; ++k) {
-      if (field[grid.index(k, j)] < field[grid.index(i, j)]) i = k;
-    }
-    const Peak peak = refine(model, mirrored, i, j);
-    if (-peak.value < best.value) best = {-peak.value, peak.phi, peak.z};
+  [[nodiscard]] Peak largest(const Eigen::VectorXd& field) const {
+    int node = 0;
+    field.maxCoeff(&node);
+    return refine(field, node / grid_.n_z, node % grid_.n_z);
   }
-  return best;
-}
 
-// Film thickness along the middle of the bearing: the middle row, or the mean of the two beside it.
-double smallest_in_the_middle(const FilmModel& model, const Eigen::VectorXd& h) {
-  const Grid& grid = model.grid;
-  const int low = (grid.n_z - 1) / 2, high = grid.n_z / 2;
-  Eigen::VectorXd middle(grid.n_phi);
-  for (int i = 0; i < grid.n_phi; ++i) middle[i] = 0.5 * (h[grid.index(i, low)] + h[grid.index(i, high)]);
-  int i = 0;
-  middle.minCoeff(&i);
-  const int n = grid.n_phi;
-  return middle[i] + vertex(middle[(i + n - 1) % n], middle[i], middle[(i + 1) % n]).rise;
-}
+  // Every row is interpolated on its own: a tilted or bent film has its minimum on an edge, between two nodes.
+  [[nodiscard]] Peak smallest(const Eigen::VectorXd& field) const {
+    const Eigen::VectorXd mirrored = -field;
+    Peak best{field[0], 0, at_.z[0]};
+    for (int j = 0; j < grid_.n_z; ++j) {
+      int i = 0;
+      for (int k = 0; k < grid_.n_phi; ++k) {
+        if (field[grid_.index(k, j)] < field[grid_.index(i, j)]) i = k;
+      }
+      const Peak peak = refine(mirrored, i, j);
+      if (-peak.value < best.value) best = {-peak.value, peak.phi, peak.z};
+    }
+    return best;
+  }
+
+  /// Smallest value along z = 0, where the rows on both sides are joined by straight lines.
+  [[nodiscard]] double smallest_in_the_middle(const Eigen::VectorXd& field) const {
+    int low = 0;
+    while (low + 2 < grid_.n_z && at_.z[low + 1] <= 0) ++low;
+    const double t = -at_.z[low] / at_.dz[low];
+    Eigen::VectorXd middle(grid_.n_phi);
+    for (int i = 0; i < grid_.n_phi; ++i) {
+      middle[i] = (1 - t) * field[grid_.index(i, low)] + t * field[grid_.index(i, low + 1)];
+    }
+    int i = 0;
+    middle.minCoeff(&i);
+    return middle[i] + around(i, [&](int k) { return middle[k]; }).rise;
+  }
+
+ private:
+  template <class Value>
+  [[nodiscard]] Vertex around(int i, Value&& value) const {
+    const int before = (i + grid_.n_phi - 1) % grid_.n_phi, after = (i + 1) % grid_.n_phi;
+    return vertex(value(before), value(i), value(after), at_.dx[before], at_.dx[i]);
+  }
+
+  /// Maximum next to node (i, j) by parabolas, along phi always and along z inside the width. Edges count: there only
+  /// phi is interpolated.
+  [[nodiscard]] Peak refine(const Eigen::VectorXd& field, int i, int j) const {
+    const auto at = [&](int a, int b) { return field[grid_.index(a, b)]; };
+    const Vertex along = around(i, [&](int k) { return at(k, j); });
+    const bool inside = j > 0 && j < grid_.n_z - 1;
+    const Vertex across = inside ? vertex(at(i, j - 1), at(i, j), at(i, j + 1), at_.dz[j - 1], at_.dz[j]) : Vertex{};
+    const double turn = 2 * std::numbers::pi, phi = std::fmod(at_.phi[i] + along.offset / R_ + turn, turn);
+    return {at(i, j) + along.rise + across.rise, phi, at_.z[j] + across.offset};
+  }
+
+  double R_;
+  const Grid& grid_;
+  const GridGeometry& at_;
+};
 
 /// Flows over the boundaries, storage and volume (film.22).
 void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const Eigen::VectorXd& u,
@@ -90,7 +104,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
     for (int j = 0; j < grid.n_z; ++j) {
       const int k = grid.index(i, j);
       const Node& node = balance.nodes()[k];
-      const double area = balance.area(j);
+      const double area = balance.area(k);
       o.storage_rate += balance.storage(k);
       o.oil_volume += area * node.content * node.h;
       total += area;
@@ -111,12 +125,11 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
 
 /// Dissipation (film.21): Couette share mu slip^2/h and Poiseuille K (p_a - p_b)^2, and boundary friction.
 void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, double friction, FilmObservables& o) {
-  const int n_z = balance.model().grid.n_z;
   const double slip2 = std::pow(motion.u_journal - motion.u_shell, 2) + std::pow(motion.w_journal - motion.w_shell, 2);
   for (int k = 0; k < balance.size(); ++k) {
     const Node& node = balance.nodes()[k];
-    o.power_film += balance.area(k % n_z) * node.share * slip2 / (node.fluidity * node.h);
-    o.power_asperity += balance.area(k % n_z) * node.asperity * friction;
+    o.power_film += balance.area(k) * node.share * slip2 / (node.fluidity * node.h);
+    o.power_asperity += balance.area(k) * node.asperity * friction;
   }
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
     const Face& face = balance.faces()[f];
@@ -173,9 +186,10 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
 
   FilmObservables o;
   o.flow_features.setZero(static_cast<Eigen::Index>(model.features.size()));
-  const Peak thinnest = smallest(model, fields.h), peak = largest(model, fields.p);
+  const PeakFinder peaks(model, balance.geometry());
+  const Peak thinnest = peaks.smallest(fields.h), peak = peaks.largest(fields.p);
   o.h_min = thinnest.value, o.h_min_phi = thinnest.phi, o.h_min_z = thinnest.z;
-  o.h_min_centre = smallest_in_the_middle(model, fields.h);
+  o.h_min_centre = peaks.smallest_in_the_middle(fields.h);
   o.p_max = peak.value, o.p_max_phi = peak.phi, o.p_max_z = peak.z;
   o.p_max_node = fields.p.maxCoeff();
   observe_forces(wrench, e, o);

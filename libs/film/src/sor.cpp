@@ -92,11 +92,10 @@ void Sor::place(int node, double u, int j) {
 
 void Sor::update_coefficients(const Eigen::VectorXd& u) {
   balance_.evaluate(motion_, history_, u);
-  const int n_z = balance_.model().grid.n_z;
   storage_theta_.resize(u.size());
   storage_known_.resize(u.size());
   for (int i = 0; i < balance_.size(); ++i) {
-    const double area = balance_.area(i % n_z);
+    const double area = balance_.area(i);
     const Node& node = balance_.nodes()[i];
     storage_theta_[i] = area * node.density * (history_.dt == 0 ? motion_.g_rate[i] : node.h / history_.dt);
     storage_known_[i] = balance_.storage(i) - storage_theta_[i] * node.theta;

@@ -21,9 +21,9 @@ struct State {
 };
 
 // A rough film: full and cavitated nodes side by side, nothing symmetric, nothing within a difference step of a switch.
-State rough_state(Cavitation cavitation, bool all_laws, bool transient) {
+State rough_state(Cavitation cavitation, bool all_laws, bool transient, const Grid& grid = {14, 6}) {
   State s;
-  s.model = {.R = 0.03, .L = 0.02, .c = 20e-6, .grid = {14, 6}, .cavitation = cavitation, .p_cav = 1e4};
+  s.model = {.R = 0.03, .L = 0.02, .c = 20e-6, .grid = grid, .cavitation = cavitation, .p_cav = 1e4};
   s.model.p_edge_left = 2e5, s.model.p_edge_right = 3e5;
   s.model.supply = {SupplyKind::widest_gap, 0, 4e5};
   s.model.features = {{.name = "groove", .phi = 4, .arc = 0.7, .length = 0.009, .pressure = 5e5},
@@ -64,6 +64,14 @@ State rough_state(Cavitation cavitation, bool all_laws, bool transient) {
   return s;
 }
 
+State graded_state() {
+  const Grid grid =
+      graded_grid(14, 6, {{.place = 1.0, .reach = 0.6, .factor = 3}}, {{.place = 0.5, .reach = 0.2, .factor = 3}});
+  State s = rough_state(Cavitation::mass_conserving, true, true, grid);
+  s.name = "graded grid";
+  return s;
+}
+
 std::vector<State> rough_states() {
   std::vector<State> states;
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
@@ -82,6 +90,7 @@ std::vector<State> rough_states() {
   s.motion.u_journal *= -1, s.motion.w_journal *= -1;
   s.name = "turning backwards";
   states.push_back(s);
+  states.push_back(graded_state());
   return states;
 }
 

@@ -31,15 +31,17 @@ TEST_CASE("GrooveEdges_LieWhereTheyAre") {
 }
 
 TEST_CASE("HeldShares_HaveTheirDerivative") {
-  const FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {40, 9}};
+  FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
+  m.grid = graded_grid(40, 9, {{.place = 0.2, .reach = 0.5, .factor = 3}}, {{.place = 0.1, .reach = 0.2, .factor = 2}});
+  const GridGeometry geometry(m);
   for (const auto shape : {FeatureShape::rectangle, FeatureShape::ellipse}) {
     const SurfaceFeature feature{
         .name = "a", .shape = shape, .surface = Surface::journal, .phi = 6.2, .z = 1e-3, .arc = 0.5, .length = 8e-3};
     const double d = 1e-7;
     std::vector<CoveredNode> here, before, after;
-    cover(m, feature, 0.123, here);
-    cover(m, feature, 0.123 - d, before);
-    cover(m, feature, 0.123 + d, after);
+    cover(m, geometry, feature, 0.123, here);
+    cover(m, geometry, feature, 0.123 - d, before);
+    cover(m, geometry, feature, 0.123 + d, after);
     REQUIRE(here.size() > 8);
     REQUIRE(here.size() == before.size());
     REQUIRE(here.size() == after.size());

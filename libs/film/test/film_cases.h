@@ -34,10 +34,10 @@ inline SurfaceMotion surfaces(const FilmModel& model, const Journal& journal, do
   motion.g.resize(grid.size());
   motion.g_rate.resize(grid.size());
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double phi = 2 * pi * i / grid.n_phi;
+    const double phi = grid.phi(i);
     const Eigen::Vector2d e_r(std::cos(phi), std::sin(phi));
     for (int j = 0; j < grid.n_z; ++j) {
-      const double z = model.L * (static_cast<double>(j) / (grid.n_z - 1) - 0.5);
+      const double z = model.L * grid.z_over_L(j);
       motion.g[grid.index(i, j)] = model.c - (journal.e + journal.tilt * z).dot(e_r);
       motion.g_rate[grid.index(i, j)] = -journal.e_rate.dot(e_r);
     }

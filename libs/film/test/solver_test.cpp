@@ -63,7 +63,7 @@ TEST_CASE("HardFilms_ConvergeFromColdStart") {
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
     for (const double e : {0.05, 0.9, 0.98, 1.01}) {
       for (const double alpha : {0.0, 2e-8}) {
-        for (const Grid grid : {Grid{60, 13}, Grid{61, 6}, Grid{180, 21}}) {
+        for (const Grid& grid : {Grid{60, 13}, Grid{61, 6}, Grid{180, 21}}) {
           CAPTURE(static_cast<int>(cavitation));
           CAPTURE(e);
           CAPTURE(alpha);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <numbers>
 #include <string>
 
 #include "assumptions.h"
@@ -22,14 +21,14 @@ double attitude(const bearing::BearingObservation& seen) {
 
 std::vector<double> angles(const film::Grid& grid) {
   std::vector<double> phi(static_cast<std::size_t>(grid.n_phi));
-  for (int i = 0; i < grid.n_phi; ++i) phi[static_cast<std::size_t>(i)] = 2 * std::numbers::pi * i / grid.n_phi;
+  for (int i = 0; i < grid.n_phi; ++i) phi[static_cast<std::size_t>(i)] = grid.phi(i);
   return phi;
 }
 
 std::vector<double> heights(const film::FilmModel& film) {
   std::vector<double> z(static_cast<std::size_t>(film.grid.n_z));
   for (int j = 0; j < film.grid.n_z; ++j) {
-    z[static_cast<std::size_t>(j)] = film.L * (static_cast<double>(j) / (film.grid.n_z - 1) - 0.5);
+    z[static_cast<std::size_t>(j)] = film.L * film.grid.z_over_L(j);
   }
   return z;
 }

@@ -5,19 +5,11 @@
 
 #include "hersey/film/density_law.h"
 #include "hersey/film/gap_profile.h"
+#include "hersey/film/grid.h"
 #include "hersey/film/surface_feature.h"
 #include "hersey/film/viscosity_law.h"
 
 namespace hersey::film {
-
-/// Circumferential x axial grid of nodes. Node (i, j) sits at phi_i = 2 pi i / n_phi (periodic) and
-/// z_j = -L/2 + L j / (n_z - 1): the first and last rows lie on the bearing's edges. Its index is i n_z + j.
-struct Grid {
-  int n_phi = 60;  ///< >= 4
-  int n_z = 13;    ///< >= 3
-  [[nodiscard]] int size() const { return n_phi * n_z; }
-  [[nodiscard]] int index(int i, int j) const { return i * n_z + j; }
-};
 
 /// Pressures in the laws' arguments are counted from the cavitation pressure.
 struct Lubricant {

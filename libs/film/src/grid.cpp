@@ -1,0 +1,97 @@
+#include "hersey/film/grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::film {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+// Points of the table by which a density is integrated, per node: the places of nodes are then exact to 1e-4 of a cell.
+constexpr int points_per_node = 32;
+
+/// Places of `count` nodes between `first` and `last` so that equal shares of the integral of `density` lie between
+/// neighbours; the last node lies on `last`.
+template <class Density>
+std::vector<double> equal_shares(int count, double first, double last, Density&& density) {
+  const int points = points_per_node * count;
+  const double step = (last - first) / points;
+  std::vector<double> integral(points + 1, 0.0);
+  for (int k = 0; k < points; ++k) integral[k + 1] = integral[k] + step * density(first + (k + 0.5) * step);
+  std::vector<double> nodes(count);
+  int k = 0;
+  for (int i = 0; i < count; ++i) {
+    const double share = integral.back() * i / (count - 1);
+    while (k + 1 < points && integral[k + 1] < share) ++k;
+    nodes[i] = first + step * (k + (share - integral[k]) / (integral[k + 1] - integral[k]));
+  }
+  nodes.front() = first, nodes.back() = last;
+  return nodes;
+}
+
+double density_at(double distance, const Refinement& r) {
+  const double ratio = distance / r.reach;
+  return (r.factor - 1) / (1 + ratio * ratio);
+}
+
+/// Places at fractional indices, by straight lines between the nodes.
+double between(const std::vector<double>& nodes, double index) {
+  const int last = static_cast<int>(nodes.size()) - 1;
+  const int below = std::clamp(static_cast<int>(std::floor(index + 1e-9)), 0, last - 1);
+  const double t = index - below;
+  return t < 1e-9 ? nodes[below] : (1 - t) * nodes[below] + t * nodes[below + 1];
+}
+
+void check(const std::vector<Refinement>& places) {
+  for (const Refinement& r : places) HERSEY_REQUIRE(r.reach > 0 && r.factor >= 1, "a refinement has reach and factor");
+}
+
+}  // namespace
+
+Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, const std::vector<Refinement>& along) {
+  check(around), check(along);
+  Grid grid{.n_phi = n_phi, .n_z = n_z};
+  if (!around.empty()) {
+    const auto density = [&](double phi) {
+      double sum = 1;
+      for (const Refinement& r : around) sum += density_at(std::remainder(phi - r.place, turn), r);
+      return sum;
+    };
+    grid.angles = equal_shares(n_phi + 1, 0, turn, density);
+    grid.angles.pop_back();
+  }
+  if (!along.empty()) {
+    const auto density = [&](double z) {
+      double sum = 1;
+      for (const Refinement& r : along) sum += density_at(z - r.place, r);
+      return sum;
+    };
+    grid.heights = equal_shares(n_z, -0.5, 0.5, density);
+  }
+  return grid;
+}
+
+Grid resampled(const Grid& grid, int n_phi, int n_z) {
+  Grid other{.n_phi = n_phi, .n_z = n_z};
+  if (!grid.angles.empty()) {
+    std::vector<double> whole_turn = grid.angles;
+    whole_turn.push_back(grid.angles.front() + turn);
+    other.angles.resize(n_phi);
+    for (int i = 0; i < n_phi; ++i) {
+      other.angles[i] = between(whole_turn, static_cast<double>(i) * grid.n_phi / n_phi);
+    }
+  }
+  if (!grid.heights.empty()) {
+    other.heights.resize(n_z);
+    for (int j = 0; j < n_z; ++j) {
+      other.heights[j] = between(grid.heights, static_cast<double>(j) * (grid.n_z - 1) / (n_z - 1));
+    }
+    other.heights.back() = 0.5;
+  }
+  return other;
+}
+
+}  // namespace hersey::film
