@@ -14,6 +14,9 @@ namespace hersey::model {
 [[nodiscard]] TypePtr forces_format();
 [[nodiscard]] TypePtr lubricants_format();
 [[nodiscard]] TypePtr bearings_format();
+[[nodiscard]] TypePtr features_format();
+[[nodiscard]] TypePtr shape_format();
+[[nodiscard]] TypePtr grid_format();
 [[nodiscard]] TypePtr simulation_format();
 [[nodiscard]] TypePtr output_format();
 [[nodiscard]] TypePtr study_format();

@@ -1,5 +1,3 @@
-#include <numbers>
-
 #include "format.h"
 
 namespace hersey::model {
@@ -68,65 +66,6 @@ TypePtr materials_format() {
                                      required("shell", material, "Of the bearing shell."),
                                      required("journal", material, "Of the journal."),
                                  });
-}
-
-TypePtr features_format() {
-  const TypePtr extent = quantity("m", "5 mm", Range::positive());
-  const Range whole_turn{.low = 0, .high = 2 * std::numbers::pi + 1e-9, .low_open = true};
-  const TypePtr arc = quantity("rad", "20 deg", whole_turn);
-  const std::vector<Key> common = {
-      defaulted("on", choice({{"shell", "the bore"}, {"journal", "the journal: it travels as the journal turns"}}),
-                "shell", "The surface it is made in."),
-      defaulted("angle", quantity("rad", "90 deg"), "0 deg",
-                "Its middle, from the x-axis of that surface's frame towards y."),
-      defaulted("z", quantity("m", "0 mm"), "0 mm", "Its middle along the axis, from the middle of the bearing."),
-      required("pressure", function_format({"Pa"}, "2 bar"),
-               "Supply pressure; a function of time or of the rotation of `simulation.crank`."),
-  };
-  return named("a mapping from names to holes and grooves",
-               variant("a hole or groove", "shape", common,
-                       {
-                           {"hole", "a round hole", {required("diameter", extent, "Its diameter.")}},
-                           {"oval_hole",
-                            "an elliptical hole",
-                            {required("around", extent, "Its axis around the bearing, measured along the surface."),
-                             required("along", extent, "Its axis along the bearing.")}},
-                           {"axial_groove",
-                            "a rectangle, over the whole width unless a length is given",
-                            {required("arc", arc, "Its extent around the bearing."),
-                             optional("length", extent, "Its extent along the axis.", "the bearing's width")}},
-                           {"circumferential_groove",
-                            "a rectangle, all around unless an arc is given",
-                            {required("length", extent, "Its extent along the axis."),
-                             defaulted("arc", arc, "360 deg", "Its extent around the bearing.")}},
-                       }));
-}
-
-TypePtr shape_format() {
-  const TypePtr size = quantity("m", "5 um", Range::not_negative());
-  const TypePtr angle = quantity("rad", "90 deg");
-  return list(
-      "a list of deviations from a cylinder",
-      variant("a deviation from a cylinder", "profile", {},
-              {
-                  {"barrel",
-                   "bore or journal falls off towards both edges, as a parabola",
-                   {required("drop", size, "By how much the gap is wider at the edges.")}},
-                  {"taper",
-                   "bore or journal is conical",
-                   {required("rise", quantity("m", "5 um"), "By how much the gap grows from z < 0 to z > 0.")}},
-                  {"ovality",
-                   "the bore is an ellipse",
-                   {required("amplitude", size, "By how much its radius is larger at `angle` and smaller across."),
-                    defaulted("angle", angle, "0 deg", "Where it is wide.")}},
-                  {"lobes",
-                   "the bore is made of equal arcs; two make a lemon bore",
-                   {defaulted("count", integer(2, {.low = 2, .high = 100}), "2", "Number of arcs."),
-                    required("offset", size,
-                             "By how much the centre of each arc is moved away from its middle, where the gap "
-                             "stays that of the clearance."),
-                    defaulted("angle", angle, "90 deg", "Middle of one arc.")}},
-              }));
 }
 
 TypePtr coupling_format() {
@@ -216,12 +155,6 @@ TypePtr bearings_format() {
   const TypePtr diameter = quantity("m", "45 mm", Range::positive());
   const TypePtr width = quantity("m", "20 mm", Range::positive());
   const TypePtr clearance = quantity("m", "34 um", Range::positive());
-  const TypePtr grid = object("a grid", {
-                                            defaulted("circumferential", integer(60, {.low = 4, .high = 100000}), "60",
-                                                      "Nodes around the bearing."),
-                                            defaulted("axial", integer(13, {.low = 3, .high = 100000}), "13",
-                                                      "Nodes over the width, both edges included."),
-                                        });
   const TypePtr edges =
       any_of("a pressure such as 2 bar, or {left, right}",
              {pressure(), object("two pressures", {
@@ -249,7 +182,7 @@ TypePtr bearings_format() {
           optional("radial_clearance", clearance, "Radius of the bore minus radius of the journal."),
           optional("diametral_clearance", clearance, "Twice the radial clearance, instead of it."),
           required("lubricant", reference(Refers::lubricant, "oil"), "Name of the oil."),
-          defaulted("grid", grid, "{}", "Nodes of the oil film."),
+          defaulted("grid", grid_format(), "{}", "Nodes of the oil film."),
           defaulted("cavitation", cavitation_format(), "mass_conserving", "Where the film would be under tension."),
           defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges."),
           optional("supply", supply, "A line along the whole width that is held full at a given pressure.", "none"),

@@ -55,6 +55,12 @@ struct JointCoordinate {
 /// The coordinate given by the keys `joint` and `coordinate` of `parent`; reports a fault where it does not exist.
 [[nodiscard]] std::optional<JointCoordinate> coordinate_of(Context& context, const Value& parent);
 
+/// Reports a pressure of a bearing that lies below its cavitation pressure.
+void require_above_cavitation(Context& context, const Value& pressure, const film::FilmModel& film);
+
+/// Features, grid and shape of a bearing whose size and cavitation have been read.
+void read_surfaces(Context& context, const Value& value, Bearing& bearing);
+
 /// A function whose value is wanted in `si_unit`; reports every fault of its expression, table, units and file.
 [[nodiscard]] Function function_of(Context& context, const Value& value, const std::string& si_unit);
 

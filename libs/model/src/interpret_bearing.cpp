@@ -31,16 +31,12 @@ class FilmReader {
     film_.L = number_of(value_, "width");
     film_.c = value_.find("diametral_clearance") != nullptr ? number_of(value_, "diametral_clearance") / 2
                                                             : number_of(value_, "radial_clearance");
-    if (const Value* grid = value_.find("grid")) {
-      film_.grid = {.n_phi = integer_of(*grid, "circumferential"), .n_z = integer_of(*grid, "axial")};
-    }
     check_clearance();
     read_lubricant();
     read_cavitation();
     read_edges();
     read_supply();
-    read_features();
-    read_shape();
+    read_surfaces(context_, value_, bearing_);
     read_asperities();
     read_compliance();
     film_.cavitated_shear =
@@ -87,8 +83,8 @@ class FilmReader {
     const Value& right = is_pair ? *content.find("right") : content;
     film_.p_edge_left = left.number;
     film_.p_edge_right = right.number;
-    require_above_cavitation(left);
-    if (is_pair) require_above_cavitation(right);
+    require_above_cavitation(context_, left, film_);
+    if (is_pair) require_above_cavitation(context_, right, film_);
   }
 
   void read_supply() {
@@ -99,112 +95,7 @@ class FilmReader {
     film_.supply.kind = line->text == "widest_gap" ? film::SupplyKind::widest_gap : film::SupplyKind::fixed_angle;
     film_.supply.phi = line->number;
     film_.supply.pressure = number_of(*supply, "pressure");
-    if (const Value* pressure = supply->find("pressure")) require_above_cavitation(*pressure);
-  }
-
-  void read_features() {
-    for (const auto& [name, value] : section(value_, "features")) {
-      if (value.broken) continue;
-      const Value* pressure = value.find("pressure");
-      if (pressure == nullptr) continue;
-      film_.features.push_back(feature_of(value, name));
-      bearing_.feature_pressures.push_back(function_of(context_, *pressure, "Pa"));
-      const Function& function = bearing_.feature_pressures.back();
-      if (function.is_constant()) {
-        Value constant = *pressure;
-        constant.number = film_.features.back().pressure = function.value->value({});
-        require_above_cavitation(constant);
-      }
-      check_place(value, film_.features.back());
-      check_resolution(value, film_.features.back());
-      check_overlap(value);
-    }
-  }
-
-  [[nodiscard]] film::SurfaceFeature feature_of(const Value& value, const std::string& name) const {
-    film::SurfaceFeature feature;
-    feature.name = name;
-    feature.surface = text_of(value, "on") == "journal" ? film::Surface::journal : film::Surface::shell;
-    feature.phi = number_of(value, "angle");
-    feature.z = number_of(value, "z");
-    const bool is_round = value.text == "hole", is_oval = value.text == "oval_hole";
-    feature.shape = is_round || is_oval ? film::FeatureShape::ellipse : film::FeatureShape::rectangle;
-    if (is_round || is_oval) {
-      feature.arc = number_of(value, is_round ? "diameter" : "around") / std::max(film_.R, 1e-12);
-      feature.length = number_of(value, is_round ? "diameter" : "along");
-    } else {
-      feature.arc = number_of(value, "arc");
-      feature.length = value.find("length") != nullptr ? number_of(value, "length") : film_.L;
-    }
-    return feature;
-  }
-
-  void check_place(const Value& value, const film::SurfaceFeature& feature) {
-    const double reach = std::abs(feature.z) + 0.5 * feature.length, round_off = 1e-9 * film_.L;
-    if (film_.L > 0 && reach > 0.5 * film_.L + round_off) {
-      context_.fault_at_key(value, fmt::format("it reaches {:.4g} mm from the middle of the bearing", 1e3 * reach),
-                            fmt::format("at most half the bearing's width, {:.4g} mm", 0.5e3 * film_.L));
-    }
-    if (feature.arc > 2 * std::numbers::pi + 1e-6) {
-      context_.fault_at_key(value, "a hole wider than the bearing's circumference", "a smaller one");
-    }
-  }
-
-  /// Fewer than three nodes across do not show the shape.
-  void check_resolution(const Value& value, const film::SurfaceFeature& feature) {
-    const film::Grid& grid = film_.grid;
-    if (context_.has_fault_in(value.path) || grid.n_phi < 4 || grid.n_z < 3 || film_.L <= 0) return;
-    const int around = static_cast<int>(std::ceil(4 * std::numbers::pi / feature.arc - 1e-6));
-    const int along = static_cast<int>(std::ceil(2 * film_.L / feature.length - 1e-6)) + 1;
-    if (grid.n_phi >= around && grid.n_z >= along) return;
-    context_.fault_at_key(value, fmt::format("fewer than 3 nodes of the {} x {} grid across it", grid.n_phi, grid.n_z),
-                          fmt::format("a finer grid or a larger one of it"),
-                          fmt::format("grid: {{circumferential: {}, axial: {}}} would do", std::max(around, grid.n_phi),
-                                      std::max(along, grid.n_z)));
-  }
-
-  /// Two features of one surface that overlap must have one pressure. Those of two surfaces may pass each other.
-  void check_overlap(const Value& value) {
-    const film::SurfaceFeature& last = film_.features.back();
-    for (std::size_t k = 0; k + 1 < film_.features.size(); ++k) {
-      const film::SurfaceFeature& other = film_.features[k];
-      const double apart = std::abs(std::remainder(last.phi - other.phi, 2 * std::numbers::pi));
-      const bool overlap = other.surface == last.surface && apart < 0.5 * (last.arc + other.arc) - 1e-9 &&
-                           std::abs(last.z - other.z) < 0.5 * (last.length + other.length) - 1e-12;
-      const bool same = bearing_.feature_pressures[k].is_constant() &&
-                        bearing_.feature_pressures.back().is_constant() && other.pressure == last.pressure;
-      if (!overlap || same) continue;
-      context_.fault_at_key(value, "overlaps '" + other.name + "', which has another pressure",
-                            "the same constant pressure, or room between them");
-    }
-  }
-
-  void read_shape() {
-    const Value* shape = value_.find("shape");
-    if (shape == nullptr) return;
-    for (const auto& [index, value] : shape->members) {
-      if (!value.broken) film_.profiles.push_back(profile_of(value));
-    }
-    if (context_.has_fault_in(value_.path) || film_.c <= 0 || film_.L <= 0) return;
-    const double smallest = film_.c + film::gap_profile(film_.profiles, film_.grid, film_.L).minCoeff();
-    if (smallest > 0) return;
-    context_.fault_at_key(*shape, fmt::format("a shape that closes the gap by {:.4g} um", -1e6 * smallest),
-                          fmt::format("deviations within the clearance, {:.4g} um", 1e6 * film_.c));
-  }
-
-  static film::Profile profile_of(const Value& value) {
-    if (value.text == "barrel") return film::Barrel{number_of(value, "drop")};
-    if (value.text == "taper") return film::Taper{number_of(value, "rise")};
-    if (value.text == "ovality") return film::Ovality{number_of(value, "amplitude"), number_of(value, "angle")};
-    return film::Lobes{integer_of(value, "count"), number_of(value, "offset"), number_of(value, "angle")};
-  }
-
-  void require_above_cavitation(const Value& pressure) {
-    if (pressure.broken || pressure.number >= film_.p_cav) return;
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%g Pa, below the cavitation pressure %g Pa", pressure.number, film_.p_cav);
-    context_.fault(pressure, text.data(), "at least the cavitation pressure, on the same scale",
-                   "with gauge pressures, cavitation is often near -1 bar");
+    if (const Value* pressure = supply->find("pressure")) require_above_cavitation(context_, *pressure, film_);
   }
 
   void read_asperities() {

@@ -289,5 +289,34 @@ TEST_CASE("EmptySections_AreAllowed") {
         "no fault");
 }
 
+TEST_CASE("RefinedGrid_IsFineWhereAsked") {
+  const Model model = read_text(edited(good_model, "    lubricant: oil\n", R"(    lubricant: oil
+    features:
+      groove: {shape: axial_groove, angle: 90 deg, arc: 20 deg, length: 8 mm, pressure: 2 bar}
+    grid:
+      circumferential: 90
+      axial: 21
+      refine:
+        - {towards: edges, factor: 4}
+        - {towards: features, reach: 1 mm}
+        - {towards: angle, angle: 270 deg, factor: 5}
+)"),
+                                "m.yaml");
+  const film::Grid& grid = model.bearings[0].film.grid;
+  REQUIRE(grid.n_phi == 90);
+  REQUIRE(grid.n_z == 21);
+  const auto cell_at = [&](double degrees) {
+    int i = 0;
+    while (grid.phi(i + 1) < degrees * pi / 180) ++i;
+    return (grid.phi(i + 1) - grid.phi(i)) * 180 / pi;
+  };
+  CHECK(cell_at(270) < 0.3 * cell_at(180));
+  CHECK(cell_at(80) < 0.5 * cell_at(180));
+  CHECK(cell_at(100) < 0.5 * cell_at(180));
+  const auto height = [&](int j) { return grid.z_over_L(j + 1) - grid.z_over_L(j); };
+  CHECK(height(0) < 0.7 * height(10));
+  CHECK(height(0) == near(height(19)));
+}
+
 }  // namespace
 }  // namespace hersey::model

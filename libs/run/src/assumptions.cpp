@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace hersey::run {
@@ -67,6 +68,17 @@ std::string asperities(const film::Asperities& contact) {
                      1e-6 * contact.elastic_factor * contact.composite_modulus, contact.mu_friction);
 }
 
+std::string grid(const film::FilmModel& film) {
+  const film::Grid& g = film.grid;
+  std::string text = fmt::format("{} x {} nodes (circumferential x axial, edges included)", g.n_phi, g.n_z);
+  if (g.is_uniform()) return text;
+  double narrowest = g.phi(0) + 2 * std::numbers::pi - g.phi(g.n_phi - 1), lowest = 1;
+  for (int i = 0; i + 1 < g.n_phi; ++i) narrowest = std::min(narrowest, g.phi(i + 1) - g.phi(i));
+  for (int j = 0; j + 1 < g.n_z; ++j) lowest = std::min(lowest, g.z_over_L(j + 1) - g.z_over_L(j));
+  return text + fmt::format(", graded: the smallest cells are {:.3g} deg by {:.3g} mm",
+                            180 / std::numbers::pi * narrowest, 1e3 * film.L * lowest);
+}
+
 void describe(const model::Bearing& bearing, Rows& rows) {
   const film::FilmModel& film = bearing.film;
   const auto row = [&](const char* name, std::string text) {
@@ -83,7 +95,7 @@ void describe(const model::Bearing& bearing, Rows& rows) {
     row("shape", fmt::format("{} profile(s): the gap differs from that of cylinders by {:.4g} to {:.4g} um",
                              film.profiles.size(), 1e6 * opening.minCoeff(), 1e6 * opening.maxCoeff()));
   }
-  row("grid", fmt::format("{} x {} nodes (circumferential x axial, edges included)", film.grid.n_phi, film.grid.n_z));
+  row("grid", grid(film));
   row("viscosity", viscosity(film.lubricant));
   row("contact", asperities(film.asperities));
   row("compliance", film.compliance > 0

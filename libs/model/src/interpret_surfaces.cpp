@@ -1,0 +1,227 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "interpret.h"
+
+namespace hersey::model {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+/// Places of a grid's nodes as fractional indices.
+double index_of_angle(const film::Grid& grid, double phi) {
+  const double whole = std::floor(phi / turn), within = phi - turn * whole;
+  int i = 0;
+  while (i + 1 < grid.n_phi && grid.phi(i + 1) <= within) ++i;
+  const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + turn;
+  return whole * grid.n_phi + i + (within - grid.phi(i)) / (next - grid.phi(i));
+}
+
+double index_of_height(const film::Grid& grid, double z_over_L) {
+  int j = 0;
+  while (j + 2 < grid.n_z && grid.z_over_L(j + 1) <= z_over_L) ++j;
+  return j + (z_over_L - grid.z_over_L(j)) / (grid.z_over_L(j + 1) - grid.z_over_L(j));
+}
+
+/// Cells of the grid that a feature is wide; where it travels, on the coarsest part of its way.
+struct Cells {
+  double around = 0, along = 0;
+};
+
+Cells cells_across(const film::FilmModel& film, const film::SurfaceFeature& feature) {
+  const film::Grid& grid = film.grid;
+  const double bottom = (feature.z - 0.5 * feature.length) / film.L, top = (feature.z + 0.5 * feature.length) / film.L;
+  Cells cells;
+  cells.along = index_of_height(grid, top) - index_of_height(grid, bottom);
+  if (feature.surface == film::Surface::shell) {
+    cells.around =
+        index_of_angle(grid, feature.phi + 0.5 * feature.arc) - index_of_angle(grid, feature.phi - 0.5 * feature.arc);
+    return cells;
+  }
+  double widest = grid.phi(0) + turn - grid.phi(grid.n_phi - 1);
+  for (int i = 0; i + 1 < grid.n_phi; ++i) widest = std::max(widest, grid.phi(i + 1) - grid.phi(i));
+  cells.around = feature.arc / widest;
+  return cells;
+}
+
+/// Features, grid and shape of one bearing's film.
+class SurfaceReader {
+ public:
+  SurfaceReader(Context& context, const Value& value, Bearing& bearing)
+      : context_(context), value_(value), bearing_(bearing), film_(bearing.film) {}
+
+  void read() {
+    read_features();
+    read_grid();
+    check_resolution();
+    read_shape();
+  }
+
+ private:
+  void read_features() {
+    for (const auto& [name, value] : section(value_, "features")) {
+      if (value.broken) continue;
+      const Value* pressure = value.find("pressure");
+      if (pressure == nullptr) continue;
+      film_.features.push_back(feature_of(value, name));
+      bearing_.feature_pressures.push_back(function_of(context_, *pressure, "Pa"));
+      const Function& function = bearing_.feature_pressures.back();
+      if (function.is_constant()) {
+        Value constant = *pressure;
+        constant.number = film_.features.back().pressure = function.value->value({});
+        require_above_cavitation(context_, constant, film_);
+      }
+      check_place(value, film_.features.back());
+      check_overlap(value);
+    }
+  }
+
+  [[nodiscard]] film::SurfaceFeature feature_of(const Value& value, const std::string& name) const {
+    film::SurfaceFeature feature;
+    feature.name = name;
+    feature.surface = text_of(value, "on") == "journal" ? film::Surface::journal : film::Surface::shell;
+    feature.phi = number_of(value, "angle");
+    feature.z = number_of(value, "z");
+    const bool is_round = value.text == "hole", is_oval = value.text == "oval_hole";
+    feature.shape = is_round || is_oval ? film::FeatureShape::ellipse : film::FeatureShape::rectangle;
+    if (is_round || is_oval) {
+      feature.arc = number_of(value, is_round ? "diameter" : "around") / std::max(film_.R, 1e-12);
+      feature.length = number_of(value, is_round ? "diameter" : "along");
+    } else {
+      feature.arc = number_of(value, "arc");
+      feature.length = value.find("length") != nullptr ? number_of(value, "length") : film_.L;
+    }
+    return feature;
+  }
+
+  void check_place(const Value& value, const film::SurfaceFeature& feature) {
+    const double reach = std::abs(feature.z) + 0.5 * feature.length, round_off = 1e-9 * film_.L;
+    if (film_.L > 0 && reach > 0.5 * film_.L + round_off) {
+      context_.fault_at_key(value, fmt::format("it reaches {:.4g} mm from the middle of the bearing", 1e3 * reach),
+                            fmt::format("at most half the bearing's width, {:.4g} mm", 0.5e3 * film_.L));
+    }
+    if (feature.arc > 2 * std::numbers::pi + 1e-6) {
+      context_.fault_at_key(value, "a hole wider than the bearing's circumference", "a smaller one");
+    }
+  }
+
+  void check_resolution() {
+    const film::Grid& grid = film_.grid;
+    for (const auto& [name, value] : section(value_, "features")) {
+      const auto feature = std::find_if(film_.features.begin(), film_.features.end(),
+                                        [&, &wanted = name](const auto& f) { return f.name == wanted; });
+      if (feature == film_.features.end() || context_.has_fault_in(value.path) || film_.L <= 0) continue;
+      const Cells cells = cells_across(film_, *feature);
+      if (cells.around >= 2 - 1e-6 && cells.along >= 2 - 1e-6) continue;
+      const auto enough = [](int n, double has) {
+        return has >= 2 ? n : static_cast<int>(std::ceil(2 * n / has - 1e-6));
+      };
+      context_.fault_at_key(value,
+                            fmt::format("fewer than 3 nodes of the {} x {} grid across it", grid.n_phi, grid.n_z),
+                            fmt::format("a finer grid or a larger one of it"),
+                            fmt::format("grid: {{circumferential: {}, axial: {}}} would do",
+                                        enough(grid.n_phi, cells.around), enough(grid.n_z - 1, cells.along) + 1));
+    }
+  }
+
+  /// Two features of one surface that overlap must have one pressure. Those of two surfaces may pass each other.
+  void check_overlap(const Value& value) {
+    const film::SurfaceFeature& last = film_.features.back();
+    for (std::size_t k = 0; k + 1 < film_.features.size(); ++k) {
+      const film::SurfaceFeature& other = film_.features[k];
+      const double apart = std::abs(std::remainder(last.phi - other.phi, 2 * std::numbers::pi));
+      const bool overlap = other.surface == last.surface && apart < 0.5 * (last.arc + other.arc) - 1e-9 &&
+                           std::abs(last.z - other.z) < 0.5 * (last.length + other.length) - 1e-12;
+      const bool same = bearing_.feature_pressures[k].is_constant() &&
+                        bearing_.feature_pressures.back().is_constant() && other.pressure == last.pressure;
+      if (!overlap || same) continue;
+      context_.fault_at_key(value, "overlaps '" + other.name + "', which has another pressure",
+                            "the same constant pressure, or room between them");
+    }
+  }
+
+  void read_shape() {
+    const Value* shape = value_.find("shape");
+    if (shape == nullptr) return;
+    for (const auto& [index, value] : shape->members) {
+      if (!value.broken) film_.profiles.push_back(profile_of(value));
+    }
+    if (context_.has_fault_in(value_.path) || film_.c <= 0 || film_.L <= 0) return;
+    const double smallest = film_.c + film::gap_profile(film_.profiles, film_.grid, film_.L).minCoeff();
+    if (smallest > 0) return;
+    context_.fault_at_key(*shape, fmt::format("a shape that closes the gap by {:.4g} um", -1e6 * smallest),
+                          fmt::format("deviations within the clearance, {:.4g} um", 1e6 * film_.c));
+  }
+
+  static film::Profile profile_of(const Value& value) {
+    if (value.text == "barrel") return film::Barrel{number_of(value, "drop")};
+    if (value.text == "taper") return film::Taper{number_of(value, "rise")};
+    if (value.text == "ovality") return film::Ovality{number_of(value, "amplitude"), number_of(value, "angle")};
+    return film::Lobes{integer_of(value, "count"), number_of(value, "offset"), number_of(value, "angle")};
+  }
+
+  void read_grid() {
+    const Value* grid = value_.find("grid");
+    if (grid == nullptr || grid->broken) return;
+    film_.grid = {.n_phi = integer_of(*grid, "circumferential"), .n_z = integer_of(*grid, "axial")};
+    const Value* refine = grid->find("refine");
+    if (refine == nullptr || context_.has_fault_in(grid->path) || film_.L <= 0 || film_.R <= 0) return;
+    std::vector<film::Refinement> around, along;
+    for (const auto& [index, place] : refine->members) {
+      if (place.text == "angle") {
+        around.push_back({number_of(place, "angle"), number_of(place, "reach"), number_of(place, "factor")});
+      } else if (place.text == "edges") {
+        refine_edges(place, along);
+      } else {
+        refine_features(place, around, along);
+      }
+    }
+    film_.grid = film::graded_grid(film_.grid.n_phi, film_.grid.n_z, around, along);
+  }
+
+  void refine_edges(const Value& place, std::vector<film::Refinement>& along) const {
+    const double reach = place.find("reach") != nullptr ? number_of(place, "reach") / film_.L : 0.125;
+    for (const double edge : {-0.5, 0.5}) along.push_back({edge, reach, number_of(place, "factor")});
+  }
+
+  void refine_features(const Value& place, std::vector<film::Refinement>& around,
+                       std::vector<film::Refinement>& along) const {
+    const double given = place.find("reach") != nullptr ? number_of(place, "reach") : 0;
+    const double factor = number_of(place, "factor");
+    for (const film::SurfaceFeature& feature : film_.features) {
+      for (const double side : {-0.5, 0.5}) {
+        const double border = (feature.z + side * feature.length) / film_.L;
+        if (std::abs(border) < 0.5 - 1e-9) {
+          along.push_back({border, (given > 0 ? given : 0.25 * feature.length) / film_.L, factor});
+        }
+        if (feature.surface == film::Surface::journal || feature.arc >= turn - 1e-9) continue;
+        around.push_back({feature.phi + side * feature.arc, given > 0 ? given / film_.R : 0.25 * feature.arc, factor});
+      }
+    }
+  }
+
+  Context& context_;
+  const Value& value_;
+  Bearing& bearing_;
+  film::FilmModel& film_;
+};
+
+}  // namespace
+
+void require_above_cavitation(Context& context, const Value& pressure, const film::FilmModel& film) {
+  if (pressure.broken || pressure.number >= film.p_cav) return;
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%g Pa, below the cavitation pressure %g Pa", pressure.number, film.p_cav);
+  context.fault(pressure, text.data(), "at least the cavitation pressure, on the same scale",
+                "with gauge pressures, cavitation is often near -1 bar");
+}
+
+void read_surfaces(Context& context, const Value& value, Bearing& bearing) {
+  SurfaceReader(context, value, bearing).read();
+}
+
+}  // namespace hersey::model
