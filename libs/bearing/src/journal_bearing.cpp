@@ -18,19 +18,14 @@ constexpr double kDirectionFloor = 1e-6;
 // exp(20) = 5e8: no oil, and far from overflow.
 constexpr double kLargestExponent = 20;
 
-// The surfaces' answer to a unit change of each parameter; they are linear in all of them.
-std::vector<film::MotionDirection> unit_directions(const film::FilmModel& model) {
-  // The angles come last: that of the widest gap matters only where the supply follows it, the journal's only where it
-  // carries features.
-  const bool turns = std::any_of(model.features.begin(), model.features.end(), [](const film::SurfaceFeature& feature) {
-    return feature.surface == film::Surface::journal;
-  });
-  const bool follows = model.supply.kind == film::SupplyKind::widest_gap;
-  const int count = turns ? kParameterCount : follows ? kSupplyAngle + 1 : kSupplyAngle;
-  std::vector<film::MotionDirection> directions;
-  directions.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) directions.push_back(surface_direction(model, k));
-  return directions;
+// How many of the parameters act. The angles come last: that of the widest gap matters only where the supply follows
+// it, the journal's only where it carries features or a shape of its own.
+int acting_parameters(const film::FilmModel& model) {
+  const auto is_journals = [](const auto& thing) { return thing.surface == film::Surface::journal; };
+  const bool turns = std::any_of(model.features.begin(), model.features.end(), is_journals) ||
+                     std::any_of(model.profiles.begin(), model.profiles.end(), is_journals);
+  if (turns) return kParameterCount;
+  return model.supply.kind == film::SupplyKind::widest_gap ? kSupplyAngle + 1 : kSupplyAngle;
 }
 
 }  // namespace
@@ -39,7 +34,8 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
     : name_(std::move(name)),
       options_(options),
       reynolds_(model),
-      directions_(unit_directions(model)),
+      rigid_(model),
+      directions_(static_cast<std::size_t>(acting_parameters(model))),
       interface_(options.acceleration, options.relaxation) {
   const int n = model.grid.size();
   u_ = u_start_ = du0_ = Eigen::VectorXd::Zero(n);
@@ -51,26 +47,26 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
 
 void JournalBearing::place(const mbd::RelativeMotion& motion) {
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
-  place_surfaces(model(), kinematics_.value, surfaces_);
-  feed(motion.t, surfaces_);
+  rigid_.place(kinematics_.value, surfaces_);
+  feed(motion.t);
   domain_error_.clear();
   // An elastic surface may be pushed beyond the undeformed one; rigid ones may not meet.
-  const double gap = smallest_gap(model(), kinematics_.value);
+  const double gap = rigid_.smallest_gap();
   if (!std::isfinite(gap) || (model().compliance == 0 && gap <= 0)) report_contact();
 }
 
-void JournalBearing::feed(double t, film::SurfaceMotion& surfaces) const {
+void JournalBearing::feed(double t) {
   const auto& pressures = options_.feature_pressures;
-  surfaces.feature_pressure.resize(static_cast<Eigen::Index>(pressures.size()));
+  surfaces_.feature_pressure.resize(static_cast<Eigen::Index>(pressures.size()));
   for (std::size_t f = 0; f < pressures.size(); ++f) {
-    surfaces.feature_pressure[static_cast<Eigen::Index>(f)] = pressures[f]->value({&t, 1});
+    surfaces_.feature_pressure[static_cast<Eigen::Index>(f)] = pressures[f]->value({&t, 1});
   }
 }
 
 void JournalBearing::report_contact() {
   domain_error_ =
       fmt::format("the journal touches the shell (smallest undeformed gap {:.4g} um, eccentricity ratio {:.4f})",
-                  1e6 * smallest_gap(model(), kinematics_.value), kinematics_.e().norm() / model().c);
+                  1e6 * rigid_.smallest_gap(), kinematics_.e().norm() / model().c);
 }
 
 // Pressures from a linear prediction may lie beyond any that a viscosity law means; and where the undeformed surfaces
@@ -79,7 +75,7 @@ bool JournalBearing::is_sensible() const {
   const double largest = u_.maxCoeff();
   if (!std::isfinite(largest) || film::log_viscosity_ratio(model().lubricant, largest).value > kLargestExponent)
     return false;
-  return smallest_gap(model(), kinematics_.value) > 0 || film::film_fields(model(), surfaces_, u_).h.minCoeff() > 0;
+  return rigid_.smallest_gap() > 0 || film::film_fields(model(), surfaces_, u_).h.minCoeff() > 0;
 }
 
 // The film of a freshly filled gap: first without memory of the deformation, then with the deformation it has.
@@ -99,7 +95,9 @@ void JournalBearing::fill_gap() {
   }
 }
 
-void JournalBearing::begin_step(const mbd::RelativeMotion&, double dt) {
+void JournalBearing::begin_step(const mbd::RelativeMotion& start, double dt) {
+  const Vector3 x_axis = start.X_AB.R.col(0);
+  rigid_.begin_step(std::atan2(x_axis.y(), x_axis.x()), dt);
   history_ = history_start_;
   history_.dt = dt;
   u_ = u_start_;
@@ -122,6 +120,7 @@ void JournalBearing::follow_surfaces() {
 }
 
 void JournalBearing::linearise_parameters() {
+  for (std::size_t k = 0; k < directions_.size(); ++k) directions_[k] = rigid_.direction(static_cast<int>(k));
   reynolds_.responses(directions_, du_ds_, wrench_ds_);
   for (Eigen::Index k = 0; k < du_ds_.cols(); ++k) wrench_ds_.col(k) += reynolds_.wrench_gradient(du_ds_.col(k));
 }
@@ -133,6 +132,7 @@ void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tange
   response.dW_dV.setZero();
   if (!domain_error_.empty()) return;
   if (motion.dt == 0) {
+    observed_surfaces_ = surfaces_;
     fill_gap();
     if (!domain_error_.empty()) return;
     linearised_ = false;
@@ -195,6 +195,7 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
 void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   place(end);
   const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
+  observed_surfaces_ = surfaces_;
   observed_history_ = history_;
   observed_iterations_ = iterations_;
   history_start_.theta = fields.theta;
@@ -214,26 +215,17 @@ std::string JournalBearing::name_of_internal_residual() const {
 
 BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) const {
   const JournalKinematics k = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
-  film::SurfaceMotion surfaces;
-  place_surfaces(model(), k.value, surfaces);
-  feed(motion.t, surfaces);
   BearingObservation seen;
   seen.e = k.e();
   seen.tilt = k.tilt();
   seen.speed = motion.V_AB_A[2];
-  seen.film = film::observe_film(model(), surfaces, observed_history_, seen.e, u_start_);
+  seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.e, u_start_);
   seen.wrench_on_shell = seen.film.wrench_on_shell;
   seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
   seen.film_iterations = observed_iterations_;
   return seen;
 }
 
-film::FilmFields JournalBearing::fields(const mbd::RelativeMotion& motion) const {
-  const JournalKinematics k = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
-  film::SurfaceMotion surfaces;
-  place_surfaces(model(), k.value, surfaces);
-  feed(motion.t, surfaces);
-  return film::film_fields(model(), surfaces, u_start_);
-}
+film::FilmFields JournalBearing::fields() const { return film::film_fields(model(), observed_surfaces_, u_start_); }
 
 }  // namespace hersey::bearing

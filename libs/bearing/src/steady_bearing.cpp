@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "hersey/bearing/journal_kinematics.h"
+#include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/reynolds.h"

@@ -56,54 +56,6 @@ TEST_CASE("Rates_AreTimeDerivatives") {
   for (int i = 0; i < 4; ++i) CHECK(now[kExRate + i] == doctest::Approx(rate[i]).epsilon(1e-6));
 }
 
-TEST_CASE("Gap_IsDistanceOfCylinders") {
-  // The distance between bore and tilted journal, measured along e_r by intersecting the journal's cylinder.
-  film::FilmModel model;
-  model.R = kR;
-  model.L = 0.0156;
-  model.c = 60e-6;
-  model.grid = {.n_phi = 24, .n_z = 5};
-  const Pose X{rotation_exp({4e-4, -3e-4, 0.2}).toRotationMatrix(), {20e-6, -13e-6, 4e-3}};
-  film::SurfaceMotion motion;
-  place_surfaces(model, value(X, Vector6::Zero()), motion);
-  const double journal_radius = model.R - model.c;
-  // (bearing.2) drops e^2/(2R) and the journal's ellipse R tilt^2/2: together some 20 nm of 60 um here.
-  const ParameterVector s0 = value(X, Vector6::Zero());
-  const double furthest = s0.segment<2>(kEx).norm() + s0.segment<2>(kTx).norm() * model.L / 2;
-  const double dropped = (furthest * furthest / model.R + model.R * s0.segment<2>(kTx).squaredNorm()) / 2;
-  double smallest = 1;
-  for (int i = 0; i < model.grid.n_phi; ++i) {
-    const double phi = 2 * std::numbers::pi * i / model.grid.n_phi;
-    for (int j = 0; j < model.grid.n_z; ++j) {
-      const double z = model.L * (j / 4.0 - 0.5);
-      // Largest s with the point (s e_r, z) within the journal: |(1 - d d^T)(point - r)| = journal_radius.
-      const Vector3 e_r{std::cos(phi), std::sin(phi), 0}, d = X.R.col(2);
-      const Matrix3 across = Matrix3::Identity() - d * d.transpose();
-      const Vector3 a = across * e_r, b = across * (Vector3{0, 0, z} - X.r);
-      const double s = (-a.dot(b) + std::sqrt(a.dot(b) * a.dot(b) -
-                                              a.squaredNorm() * (b.squaredNorm() - journal_radius * journal_radius))) /
-                       a.squaredNorm();
-      const double g = motion.g[model.grid.index(i, j)];
-      CHECK(std::abs(g - (model.R - s)) < dropped);
-      smallest = std::min(smallest, g);
-    }
-  }
-  CHECK(smallest_gap(model, value(X, Vector6::Zero())) <= smallest);
-  CHECK(smallest_gap(model, value(X, Vector6::Zero())) > smallest - 1e-6);
-}
-
-TEST_CASE("Profiles_WidenTheGap") {
-  film::FilmModel model;
-  model.grid = {.n_phi = 24, .n_z = 5};
-  const ParameterVector parameters = value(some_pose(), Vector6::Zero());
-  film::SurfaceMotion round, shaped;
-  place_surfaces(model, parameters, round);
-  model.profiles = {film::Ovality{3e-6, 0}, film::Taper{2e-6}};
-  place_surfaces(model, parameters, shaped);
-  CHECK((shaped.g - round.g)[model.grid.index(6, 4)] == doctest::Approx(-3e-6 + 1e-6));
-  CHECK(smallest_gap(model, parameters) == shaped.g.minCoeff());
-}
-
 TEST_CASE("Parameters_AreTheSameFromAnyGround") {
   // The bearing sees relative motion only; a common rigid motion of both frames cancels before it gets here, so all
   // that can differ is the choice of x-axis: turned by alpha, vectors turn back by alpha, scalars stay.
@@ -126,22 +78,6 @@ TEST_CASE("Parameters_AreTheSameFromAnyGround") {
 TEST_CASE("JournalAcrossTheBearing_IsRejected") {
   const Pose across{rotation_exp({std::numbers::pi / 2, 0, 0}).toRotationMatrix(), Vector3::Zero()};
   CHECK_THROWS_AS((void)journal_kinematics(across, Vector6::Zero(), kR, 0), ContractError);
-}
-
-TEST_CASE("SupplyLine_StaysOrFollowsTheWidestGap") {
-  film::FilmModel model;
-  ParameterVector parameters = ParameterVector::Zero();
-  parameters[kSupplyAngle] = 2;
-  film::SurfaceMotion motion;
-  model.supply = {.kind = film::SupplyKind::fixed_angle, .phi = 0.5, .pressure = 0};
-  place_surfaces(model, parameters, motion);
-  CHECK(motion.phi_supply == 0.5);
-  CHECK(surface_direction(model, kSupplyAngle).phi_supply == 0);
-  model.supply.kind = film::SupplyKind::widest_gap;
-  place_surfaces(model, parameters, motion);
-  CHECK(motion.phi_supply == 2);
-  CHECK(surface_direction(model, kSupplyAngle).phi_supply == 1);
-  CHECK(surface_direction(model, kEx).phi_supply == 0);
 }
 
 }  // namespace

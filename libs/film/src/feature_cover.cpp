@@ -96,6 +96,32 @@ Share held_ellipse(const SurfaceFeature& feature, const Surroundings& s) {
   return {covered.value / sum, unit * covered.phi / (sum * sum)};
 }
 
+/// Length of [first, last] that lies within +-half, or within it a whole turn away, and its growth as the interval's
+/// borders move backwards.
+Share overlap(double first, double last, double half) {
+  Share sum;
+  for (const double image : {-turn, 0.0, turn}) {
+    const double left = std::max(first, image - half), right = std::min(last, image + half);
+    if (right <= left) continue;
+    sum.value += right - left;
+    sum.phi += (first > image - half ? 1.0 : 0.0) - (last < image + half ? 1.0 : 0.0);
+  }
+  return sum;
+}
+
+/// Share of the cell's height that a rectangle covers.
+double overlap_along(const SurfaceFeature& feature, const Surroundings& s) {
+  const double half = 0.5 * feature.length;
+  return std::max(0.0, std::min(s.z + s.above, half) - std::max(s.z - s.below, -half)) / (s.below + s.above);
+}
+
+Share covered_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
+  if (feature.arc >= turn) return {overlap_along(feature, s), 0};
+  const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
+  const double along = overlap_along(feature, s) / (s.back + s.ahead);
+  return {around.value * along, around.phi * along};
+}
+
 }  // namespace
 
 double unit_conductance(const GridGeometry& geometry) {
@@ -117,6 +143,25 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
       const Share held =
           feature.shape == FeatureShape::ellipse ? held_ellipse(feature, s) : held_rectangle(feature, s, model.R, unit);
       if (held.value > 0) nodes.push_back({grid.index(i, j), held.value, travels ? held.phi : 0});
+    }
+  }
+}
+
+void cover_cells(const FilmModel& model, const GridGeometry& geometry, const SurfaceFeature& feature,
+                 double phi_journal, std::vector<CoveredNode>& nodes) {
+  const Grid& grid = model.grid;
+  const bool travels = feature.surface == Surface::journal;
+  const double middle = feature.phi + (travels ? phi_journal : 0.0);
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double d = std::remainder(geometry.phi[i] - middle, turn);
+    for (int j = 0; j < grid.n_z; ++j) {
+      Surroundings s = surroundings(geometry, model.R, i, j, d, geometry.z[j] - feature.z);
+      if (j == 0) s.below = 0;
+      if (j == grid.n_z - 1) s.above = 0;
+      const Share covered = feature.shape == FeatureShape::ellipse
+                                ? ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length)
+                                : covered_rectangle(feature, s);
+      if (covered.value > 0) nodes.push_back({grid.index(i, j), covered.value, travels ? covered.phi : 0});
     }
   }
 }

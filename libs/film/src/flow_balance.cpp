@@ -168,6 +168,7 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
   if (model_.supply.kind != SupplyKind::none) hold_line(motion.phi_supply);
   for (std::size_t f = 0; f < model_.features.size(); ++f) {
     const SurfaceFeature& feature = model_.features[f];
+    if (!feature.is_fed) continue;
     const auto index = static_cast<Eigen::Index>(f);
     const double pressure = motion.feature_pressure.size() == 0 ? feature.pressure : motion.feature_pressure[index];
     covered_.clear();

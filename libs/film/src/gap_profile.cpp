@@ -1,40 +1,48 @@
 #include "hersey/film/gap_profile.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "hersey/film/film_model.h"
-
 namespace hersey::film {
-namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+Opening Barrel::opening(double /*phi*/, double z, double L) const { return {drop * std::pow(2 * z / L, 2)}; }
 
-}  // namespace
+Opening Taper::opening(double /*phi*/, double z, double L) const { return {rise * z / L}; }
 
-double Barrel::opening(double /*phi*/, double z, double L) const { return drop * std::pow(2 * z / L, 2); }
-
-double Taper::opening(double /*phi*/, double z, double L) const { return rise * z / L; }
-
-double Ovality::opening(double phi, double /*z*/, double /*L*/) const {
-  return amplitude * std::cos(2 * (phi - angle));
+Opening Ovality::opening(double phi, double /*z*/, double /*L*/) const {
+  const double C = amplitude * std::cos(2 * (phi - angle)), S = amplitude * std::sin(2 * (phi - angle));
+  return {C, -2 * S, -4 * C};
 }
 
-double Lobes::opening(double phi, double /*z*/, double /*L*/) const {
-  return offset * (1 - std::cos(std::remainder(phi - angle, turn / count)));
+Opening Lobes::opening(double phi, double /*z*/, double /*L*/) const {
+  const double from_middle = std::remainder(phi - angle, 2 * std::numbers::pi / count);
+  const double C = offset * std::cos(from_middle);
+  return {offset - C, offset * std::sin(from_middle), C};
 }
 
-Eigen::VectorXd gap_profile(const std::vector<Profile>& profiles, const Grid& grid, double L) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(grid.size());
-  for (int i = 0; i < grid.n_phi; ++i) {
-    for (int j = 0; j < grid.n_z; ++j) {
-      const double phi = grid.phi(i), z = L * grid.z_over_L(j);
-      for (const Profile& profile : profiles) {
-        sum[grid.index(i, j)] += std::visit([&](const auto& shape) { return shape.opening(phi, z, L); }, profile);
-      }
-    }
-  }
-  return sum;
+Opening MeasuredShape::opening(double phi, double height, double /*L*/) const {
+  const auto along = [&](std::size_t k) {
+    Opening o{openings[k]->value({&phi, 1})};
+    openings[k]->gradient({&phi, 1}, {&o.phi, 1});
+    o.phi_phi = openings[k]->second_derivative({&phi, 1});
+    return o;
+  };
+  const auto above = static_cast<std::size_t>(std::upper_bound(z.begin(), z.end(), height) - z.begin());
+  if (above == 0) return along(0);
+  if (above == z.size()) return along(z.size() - 1);
+  const double t = (height - z[above - 1]) / (z[above] - z[above - 1]);
+  const Opening low = along(above - 1), high = along(above);
+  return {(1 - t) * low.value + t * high.value, (1 - t) * low.phi + t * high.phi,
+          (1 - t) * low.phi_phi + t * high.phi_phi};
+}
+
+bool Profile::varies_around() const {
+  return !std::holds_alternative<Barrel>(shape) && !std::holds_alternative<Taper>(shape);
+}
+
+Opening Profile::opening(double phi, double z, double L) const {
+  return std::visit([&](const auto& s) { return s.opening(phi, z, L); }, shape);
 }
 
 }  // namespace hersey::film

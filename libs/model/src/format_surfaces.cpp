@@ -15,11 +15,14 @@ TypePtr features_format() {
       defaulted("angle", quantity("rad", "90 deg"), "0 deg",
                 "Its middle, from the x-axis of that surface's frame towards y."),
       defaulted("z", quantity("m", "0 mm"), "0 mm", "Its middle along the axis, from the middle of the bearing."),
-      required("pressure", function_format({"Pa"}, "2 bar"),
-               "Supply pressure; a function of time or of the rotation of `simulation.crank`."),
+      optional("pressure", function_format({"Pa"}, "2 bar"),
+               "Supply pressure; a function of time or of the rotation of `simulation.crank`.",
+               "not fed: a pocket of the given depth"),
+      defaulted("depth", quantity("m", "0.5 mm", Range::not_negative()), "0 mm",
+                "By how much it widens the gap, and its friction falls; 0 leaves the gap as it is."),
   };
-  return named("a mapping from names to holes and grooves",
-               variant("a hole or groove", "shape", common,
+  return named("a mapping from names to holes, grooves and pockets",
+               variant("a hole, groove or pocket", "shape", common,
                        {
                            {"hole", "a round hole", {required("diameter", extent, "Its diameter.")}},
                            {"oval_hole",
@@ -34,34 +37,47 @@ TypePtr features_format() {
                             "a rectangle, all around unless an arc is given",
                             {required("length", extent, "Its extent along the axis."),
                              defaulted("arc", arc, "360 deg", "Its extent around the bearing.")}},
+                           {"pocket",
+                            "a rectangular recess",
+                            {required("arc", arc, "Its extent around the bearing."),
+                             required("length", extent, "Its extent along the axis.")}},
                        }));
 }
 
 TypePtr shape_format() {
   const TypePtr size = quantity("m", "5 um", Range::not_negative());
   const TypePtr angle = quantity("rad", "90 deg");
+  const Key on = defaulted("on", choice({{"shell", "the bore"}, {"journal", "the journal: it turns with it"}}), "shell",
+                           "The surface that has it.");
   return list(
       "a list of deviations from a cylinder",
-      variant("a deviation from a cylinder", "profile", {},
-              {
-                  {"barrel",
-                   "bore or journal falls off towards both edges, as a parabola",
-                   {required("drop", size, "By how much the gap is wider at the edges.")}},
-                  {"taper",
-                   "bore or journal is conical",
-                   {required("rise", quantity("m", "5 um"), "By how much the gap grows from z < 0 to z > 0.")}},
-                  {"ovality",
-                   "the bore is an ellipse",
-                   {required("amplitude", size, "By how much its radius is larger at `angle` and smaller across."),
-                    defaulted("angle", angle, "0 deg", "Where it is wide.")}},
-                  {"lobes",
-                   "the bore is made of equal arcs; two make a lemon bore",
-                   {defaulted("count", integer(2, {.low = 2, .high = 100}), "2", "Number of arcs."),
-                    required("offset", size,
-                             "By how much the centre of each arc is moved away from its middle, where the gap "
-                             "stays that of the clearance."),
-                    defaulted("angle", angle, "90 deg", "Middle of one arc.")}},
-              }));
+      variant(
+          "a deviation from a cylinder", "profile", {on},
+          {
+              {"barrel",
+               "falls off towards both edges, as a parabola",
+               {required("drop", size, "By how much the gap is wider at the edges.")}},
+              {"taper",
+               "a cone",
+               {required("rise", quantity("m", "5 um"), "By how much the gap grows from z < 0 to z > 0.")}},
+              {"ovality",
+               "an ellipse",
+               {required("amplitude", size, "By how much the gap is wider at `angle` and narrower across."),
+                defaulted("angle", angle, "0 deg", "Where it is wide.")}},
+              {"lobes",
+               "equal arcs; two make a lemon bore",
+               {defaulted("count", integer(2, {.low = 2, .high = 100}), "2", "Number of arcs."),
+                required("offset", size,
+                         "By how much the centre of each arc is moved away from its middle, where the gap "
+                         "stays that of the clearance."),
+                defaulted("angle", angle, "90 deg", "Middle of one arc.")}},
+              {"table",
+               "a measured surface: smooth around the bearing, straight lines along it",
+               {required("file", text("a file", "bore.csv"),
+                         "CSV file beside the model file with the columns `angle`, `z` and `opening`, units in "
+                         "brackets: by how much the gap is wider than that of the clearance at every combination of "
+                         "the angles, which lie within one turn, and the heights.")}},
+          }));
 }
 
 TypePtr grid_format() {

@@ -61,6 +61,9 @@ void require_above_cavitation(Context& context, const Value& pressure, const fil
 /// Features, grid and shape of a bearing whose size and cavitation have been read.
 void read_surfaces(Context& context, const Value& value, Bearing& bearing);
 
+/// The surface in the table that `file` names, for a bearing of width L [m]; reports what is wrong with it.
+[[nodiscard]] std::optional<film::MeasuredShape> measured_shape_of(Context& context, const Value& file, double L);
+
 /// A function whose value is wanted in `si_unit`; reports every fault of its expression, table, units and file.
 [[nodiscard]] Function function_of(Context& context, const Value& value, const std::string& si_unit);
 

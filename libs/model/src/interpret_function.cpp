@@ -1,15 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
-#include "csv_table.h"
 #include "hersey/core/expression.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/table_function.h"
 #include "hersey/core/units.h"
-#include "interpret.h"
+#include "table_file.h"
 
 namespace hersey::model {
 namespace {
@@ -55,27 +51,13 @@ class FunctionReader {
     return dimension.name + ", such as " + dimension.example;
   }
 
-  /// Factor from `unit` to `si_unit`; reports a fault at `at` where they do not fit.
-  std::optional<double> factor(const Value& at, const std::string& unit, const std::string& si_unit) {
-    try {
-      return convert_to_si({1, unit}, si_unit);
-    } catch (const QuantityError& error) {
-      const Dimension& dimension = dimension_of(si_unit);
-      context_.fault(at, error.found,
-                     "a unit of " + dimension.name.substr(dimension.name.find(' ') + 1) +
-                         (si_unit == "1" ? "" : ", such as " + dimension.spelled.front()),
-                     error.suggestion);
-      return std::nullopt;
-    }
-  }
-
   // --- expressions -----------------------------------------------------------------------------------------------
 
   void read_expression(const Value& content) {
     const Value& expression = *content.find("expression");
     const Value* unit = content.find("unit");
     if (expression.broken || unit == nullptr || unit->broken) return;
-    const std::optional<double> scale = factor(*unit, unit->text, si_unit_);
+    const std::optional<double> scale = unit_factor(context_, *unit, unit->text, si_unit_);
     const std::vector<std::string> names = variables_of(expression.text);
     std::vector<Variable> variables;
     for (const std::string& name : names) {
@@ -221,15 +203,7 @@ class FunctionReader {
     const Value* x = source.find("x");
     const Value* y = source.find("y");
     if (file.broken || x == nullptr || y == nullptr || x->broken || y->broken) return std::nullopt;
-    const std::filesystem::path path = std::filesystem::path(context_.model.file).parent_path() / file.text;
-    std::ifstream stream(path, std::ios::binary);
-    std::error_code ignored;
-    if (!stream || !std::filesystem::is_regular_file(path, ignored)) {
-      context_.fault(file, "no readable file " + path.string(), "a table beside the model file");
-      return std::nullopt;
-    }
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    const std::optional<CsvTable> table = parse_csv(text, path.string(), context_.faults);
+    const std::optional<CsvTable> table = read_table_file(context_, file);
     if (!table) return std::nullopt;
     const Column* x_column = column_of(*table, *x);
     const Column* y_column = column_of(*table, *y);
@@ -252,7 +226,7 @@ class FunctionReader {
   bool convert_points(Points& points, const Value& source, const Value& content, const std::string& x_si_unit) {
     const Value& x_place = *source.find(source.find("x_unit") != nullptr ? "x_unit" : "x");
     const Value& y_place = *source.find(source.find("y_unit") != nullptr ? "y_unit" : "y");
-    const std::optional<double> x_factor = factor(x_place, points.x_unit, x_si_unit);
+    const std::optional<double> x_factor = unit_factor(context_, x_place, points.x_unit, x_si_unit);
     const Value& scale_value = *content.find("scale");
     Quantity scale;
     try {
@@ -264,7 +238,8 @@ class FunctionReader {
     const bool has_y_unit = !points.y_unit.empty(), has_scale_unit = !scale.unit.empty();
     const std::string unit =
         has_y_unit && has_scale_unit ? "(" + points.y_unit + ").(" + scale.unit + ")" : points.y_unit + scale.unit;
-    const std::optional<double> y_factor = factor(has_scale_unit ? scale_value : y_place, unit, si_unit_);
+    const std::optional<double> y_factor =
+        unit_factor(context_, has_scale_unit ? scale_value : y_place, unit, si_unit_);
     if (!x_factor || !y_factor) return false;
     for (double& x : points.x) x *= *x_factor;
     for (double& y : points.y) y *= *y_factor * scale.number;

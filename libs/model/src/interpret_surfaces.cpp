@@ -5,12 +5,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "hersey/film/gap_shape.h"
 #include "interpret.h"
 
 namespace hersey::model {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
+
+// Positions of a turning journal in which its shape is held against that of the bore.
+constexpr int angles_tried = 72;
 
 /// Places of a grid's nodes as fractional indices.
 double index_of_angle(const film::Grid& grid, double phi) {
@@ -65,19 +69,29 @@ class SurfaceReader {
   void read_features() {
     for (const auto& [name, value] : section(value_, "features")) {
       if (value.broken) continue;
-      const Value* pressure = value.find("pressure");
-      if (pressure == nullptr) continue;
       film_.features.push_back(feature_of(value, name));
-      bearing_.feature_pressures.push_back(function_of(context_, *pressure, "Pa"));
-      const Function& function = bearing_.feature_pressures.back();
-      if (function.is_constant()) {
-        Value constant = *pressure;
-        constant.number = film_.features.back().pressure = function.value->value({});
-        require_above_cavitation(context_, constant, film_);
-      }
+      read_feed(value, film_.features.back());
       check_place(value, film_.features.back());
       check_overlap(value);
     }
+  }
+
+  void read_feed(const Value& value, film::SurfaceFeature& feature) {
+    const Value* pressure = value.find("pressure");
+    feature.is_fed = pressure != nullptr;
+    if (!feature.is_fed) {
+      bearing_.feature_pressures.push_back({std::make_shared<ConstantFunction>(film_.p_cav), {}, {}, {}, value.path});
+      if (feature.depth == 0) {
+        context_.fault_at_key(value, "neither 'pressure' nor 'depth'", "a pressure that feeds it, a depth, or both");
+      }
+      return;
+    }
+    bearing_.feature_pressures.push_back(function_of(context_, *pressure, "Pa"));
+    const Function& function = bearing_.feature_pressures.back();
+    if (!function.is_constant()) return;
+    Value constant = *pressure;
+    constant.number = feature.pressure = function.value->value({});
+    require_above_cavitation(context_, constant, film_);
   }
 
   [[nodiscard]] film::SurfaceFeature feature_of(const Value& value, const std::string& name) const {
@@ -86,6 +100,7 @@ class SurfaceReader {
     feature.surface = text_of(value, "on") == "journal" ? film::Surface::journal : film::Surface::shell;
     feature.phi = number_of(value, "angle");
     feature.z = number_of(value, "z");
+    feature.depth = number_of(value, "depth");
     const bool is_round = value.text == "hole", is_oval = value.text == "oval_hole";
     feature.shape = is_round || is_oval ? film::FeatureShape::ellipse : film::FeatureShape::rectangle;
     if (is_round || is_oval) {
@@ -128,14 +143,12 @@ class SurfaceReader {
     }
   }
 
-  /// Two features of one surface that overlap must have one pressure. Those of two surfaces may pass each other.
+  /// Two fed features of one surface that overlap must have one pressure. Those of two surfaces may pass each other.
   void check_overlap(const Value& value) {
     const film::SurfaceFeature& last = film_.features.back();
     for (std::size_t k = 0; k + 1 < film_.features.size(); ++k) {
       const film::SurfaceFeature& other = film_.features[k];
-      const double apart = std::abs(std::remainder(last.phi - other.phi, 2 * std::numbers::pi));
-      const bool overlap = other.surface == last.surface && apart < 0.5 * (last.arc + other.arc) - 1e-9 &&
-                           std::abs(last.z - other.z) < 0.5 * (last.length + other.length) - 1e-12;
+      const bool overlap = last.is_fed && other.is_fed && other.surface == last.surface && film::overlap(last, other);
       const bool same = bearing_.feature_pressures[k].is_constant() &&
                         bearing_.feature_pressures.back().is_constant() && other.pressure == last.pressure;
       if (!overlap || same) continue;
@@ -148,16 +161,28 @@ class SurfaceReader {
     const Value* shape = value_.find("shape");
     if (shape == nullptr) return;
     for (const auto& [index, value] : shape->members) {
-      if (!value.broken) film_.profiles.push_back(profile_of(value));
+      if (!value.broken) read_profile(value);
     }
     if (context_.has_fault_in(value_.path) || film_.c <= 0 || film_.L <= 0) return;
-    const double smallest = film_.c + film::gap_profile(film_.profiles, film_.grid, film_.L).minCoeff();
+    double smallest = film_.c;
+    for (int k = 0; k < angles_tried; ++k) {
+      smallest = std::min(smallest, film_.c + film::gap_opening(film_, turn * k / angles_tried).minCoeff());
+    }
     if (smallest > 0) return;
     context_.fault_at_key(*shape, fmt::format("a shape that closes the gap by {:.4g} um", -1e6 * smallest),
                           fmt::format("deviations within the clearance, {:.4g} um", 1e6 * film_.c));
   }
 
-  static film::Profile profile_of(const Value& value) {
+  void read_profile(const Value& value) {
+    const auto on = text_of(value, "on") == "journal" ? film::Surface::journal : film::Surface::shell;
+    if (value.text != "table") {
+      film_.profiles.push_back({formula_of(value), on});
+    } else if (const Value* file = value.find("file")) {
+      if (auto shape = measured_shape_of(context_, *file, film_.L)) film_.profiles.push_back({std::move(*shape), on});
+    }
+  }
+
+  static film::ProfileShape formula_of(const Value& value) {
     if (value.text == "barrel") return film::Barrel{number_of(value, "drop")};
     if (value.text == "taper") return film::Taper{number_of(value, "rise")};
     if (value.text == "ovality") return film::Ovality{number_of(value, "amplitude"), number_of(value, "angle")};

@@ -251,10 +251,11 @@ TEST_CASE("Features_AreHolesAndGrooves") {
       groove: {shape: axial_groove, angle: 180 deg, arc: 20 deg, pressure: 2 bar}
       ring: {shape: circumferential_groove, angle: 0 deg, length: 4 mm, arc: 90 deg, pressure: 0 Pa}
       slot: {shape: oval_hole, angle: 90 deg, around: 9 mm, along: 4.5 mm, pressure: 1 bar}
+      recess: {shape: pocket, angle: 270 deg, arc: 30 deg, length: 8 mm, depth: 0.3 mm}
 )");
   const Model model = read_text(text, "m.yaml");
   const std::vector<film::SurfaceFeature>& features = model.bearings[0].film.features;
-  REQUIRE(features.size() == 4);
+  REQUIRE(features.size() == 5);
   CHECK(features[0].surface == film::Surface::journal);
   CHECK(features[0].shape == film::FeatureShape::ellipse);
   CHECK(features[0].arc == near(5.0 / 22.5));
@@ -264,6 +265,10 @@ TEST_CASE("Features_AreHolesAndGrooves") {
   CHECK(features[1].pressure == near(2e5));
   CHECK(features[2].arc == near(pi / 2));
   CHECK(features[3].arc == near(0.4));
+  CHECK(features[3].is_fed);
+  CHECK(features[3].depth == 0);
+  CHECK_FALSE(features[4].is_fed);
+  CHECK(features[4].depth == near(3e-4));
 }
 
 TEST_CASE("Shape_IsAListOfProfiles") {
@@ -271,16 +276,18 @@ TEST_CASE("Shape_IsAListOfProfiles") {
     shape:
       - {profile: barrel, drop: 5 um}
       - {profile: taper, rise: -3 um}
-      - {profile: ovality, amplitude: 4 um, angle: 90 deg}
+      - {profile: ovality, on: journal, amplitude: 4 um, angle: 90 deg}
       - {profile: lobes, offset: 20 um}
 )"),
                                 "m.yaml");
   const std::vector<film::Profile>& profiles = model.bearings[0].film.profiles;
   REQUIRE(profiles.size() == 4);
-  CHECK(std::get<film::Barrel>(profiles[0]).drop == near(5e-6));
-  CHECK(std::get<film::Taper>(profiles[1]).rise == near(-3e-6));
-  CHECK(std::get<film::Ovality>(profiles[2]).angle == near(pi / 2));
-  CHECK(std::get<film::Lobes>(profiles[3]).count == 2);
+  CHECK(std::get<film::Barrel>(profiles[0].shape).drop == near(5e-6));
+  CHECK(std::get<film::Taper>(profiles[1].shape).rise == near(-3e-6));
+  CHECK(std::get<film::Ovality>(profiles[2].shape).angle == near(pi / 2));
+  CHECK(std::get<film::Lobes>(profiles[3].shape).count == 2);
+  CHECK(profiles[2].surface == film::Surface::journal);
+  CHECK(profiles[3].surface == film::Surface::shell);
 }
 
 TEST_CASE("EmptySections_AreAllowed") {

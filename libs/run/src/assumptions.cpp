@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "hersey/film/gap_shape.h"
+
 namespace hersey::run {
 namespace {
 
@@ -40,10 +42,14 @@ std::string supply(const film::FilmModel& film) {
 
 std::string described(const film::SurfaceFeature& feature) {
   const bool is_hole = feature.shape == film::FeatureShape::ellipse;
-  return fmt::format("{} in the {} at {:.4g} deg, z = {:.4g} mm, {:.4g} deg x {:.4g} mm", is_hole ? "hole" : "groove",
+  const std::string depth = feature.depth > 0 ? fmt::format(", {:.4g} um deep", 1e6 * feature.depth) : "";
+  return fmt::format("{} in the {} at {:.4g} deg, z = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
+                     is_hole          ? "hole"
+                     : feature.is_fed ? "groove"
+                                      : "pocket",
                      feature.surface == film::Surface::shell ? "shell" : "journal",
                      feature.phi * 180 / std::numbers::pi, 1e3 * feature.z, feature.arc * 180 / std::numbers::pi,
-                     1e3 * feature.length);
+                     1e3 * feature.length, depth, feature.is_fed ? "" : ", not fed");
 }
 
 std::string viscosity(const film::Lubricant& oil) {
@@ -91,7 +97,7 @@ void describe(const model::Bearing& bearing, Rows& rows) {
     row(("feature " + feature.name).c_str(), described(feature));
   row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral)", 1e6 * film.c, 2e6 * film.c));
   if (!film.profiles.empty()) {
-    const Eigen::VectorXd opening = film::gap_profile(film.profiles, film.grid, film.L);
+    const Eigen::VectorXd opening = film::gap_opening(film);
     row("shape", fmt::format("{} profile(s): the gap differs from that of cylinders by {:.4g} to {:.4g} um",
                              film.profiles.size(), 1e6 * opening.minCoeff(), 1e6 * opening.maxCoeff()));
   }

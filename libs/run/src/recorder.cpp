@@ -300,7 +300,7 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
 
 void Recorder::write_fields(const StepRecord& step) {
   for (std::size_t i = 0; i < bearings_.size(); ++i) {
-    const film::FilmFields fields = machine_.bearings[i].bearing->fields(step.journal_motions[i]);
+    const film::FilmFields fields = machine_.bearings[i].bearing->fields();
     bearings_[i].field_time.append(step.mechanism.t);
     bearings_[i].pressure.append(fields.p);
     bearings_[i].thickness.append(fields.h);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hersey/bearing/interface_iteration.h"
-#include "hersey/bearing/journal_kinematics.h"
+#include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/observables.h"
@@ -70,11 +70,11 @@ class JournalBearing final : public mbd::TwoBodyForce {
   [[nodiscard]] BearingObservation observe(const mbd::RelativeMotion& motion) const;
 
   /// Fields at the nodes at the state last accepted.
-  [[nodiscard]] film::FilmFields fields(const mbd::RelativeMotion& motion) const;
+  [[nodiscard]] film::FilmFields fields() const;
 
  private:
   void place(const mbd::RelativeMotion& motion);
-  void feed(double t, film::SurfaceMotion& surfaces) const;
+  void feed(double t);
   void report_contact();
   [[nodiscard]] bool is_sensible() const;
   void fill_gap();
@@ -86,7 +86,9 @@ class JournalBearing final : public mbd::TwoBodyForce {
   std::string name_;
   BearingOptions options_;
   film::Reynolds reynolds_;
+  RigidSurfaces rigid_;
   film::SurfaceMotion surfaces_;
+  film::SurfaceMotion observed_surfaces_;  // at the state last accepted
   JournalKinematics kinematics_;
   std::vector<film::MotionDirection> directions_;  // one per parameter that acts
 

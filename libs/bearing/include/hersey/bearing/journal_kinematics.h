@@ -47,15 +47,4 @@ struct JournalKinematics {
 /// @verified_by journal_kinematics_test.cpp: Derivatives_MatchFiniteDifferences, Rates_AreTimeDerivatives
 [[nodiscard]] JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, double R, double e_floor);
 
-/// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi), widened by their profiles, its rate at fixed grid
-/// points, the speeds, the place of the supply line and the journal's angle into `motion`.
-void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion);
-
-/// What a unit change of one Parameter does to the surfaces, which are linear in all of them.
-[[nodiscard]] film::MotionDirection surface_direction(const film::FilmModel& model, int parameter);
-
-/// Smallest gap of the two cylinders over the film's width, exact in phi: c - max over both edges of |e + t z| [m];
-/// with profiles the smallest at a node.
-[[nodiscard]] double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters);
-
 }  // namespace hersey::bearing

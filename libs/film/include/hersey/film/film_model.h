@@ -82,7 +82,7 @@ struct FilmModel {
   ShearForce shear_force = ShearForce::full;
   EdgeKind edges = EdgeKind::pressure;
   std::vector<SurfaceFeature> features;  ///< where several lie over a place, the one that holds more of it counts
-  std::vector<Profile> profiles;  ///< shapes of bore and journal, added to the gap by whoever places the surfaces
+  std::vector<Profile> profiles;  ///< shapes of bore and journal; whoever places the surfaces adds them (GapShape)
 };
 
 /// P0, the constant [Pa] that scales the fill fraction's unknown: theta = 1 + min(u, 0)/P0. It equals the pressure

@@ -1,33 +1,39 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <memory>
 #include <variant>
 #include <vector>
 
+#include "hersey/core/table_function.h"
+#include "hersey/film/surface_feature.h"
+
 namespace hersey::film {
 
-struct Grid;
+/// By how much a profile widens the gap at a place [m], with its first and second derivative around the bearing.
+struct Opening {
+  double value = 0, phi = 0, phi_phi = 0;
+};
 
-// Deviations of a surface from its cylinder, as metal that is missing: by how much they widen the gap [m] at (phi, z).
-// A new one is a struct like these and its name in Profile.
+// Deviations of a surface from its cylinder, as metal that is missing: by how much they widen the gap at (phi, z), in
+// the frame of their surface. A new one is a struct like these and its name in ProfileShape.
 
 /// Falls off towards both edges as a parabola.
 struct Barrel {
   double drop = 0;  ///< at the edges [m]
-  [[nodiscard]] double opening(double phi, double z, double L) const;
+  [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
 /// Opens along the axis, by nothing at z = 0.
 struct Taper {
   double rise = 0;  ///< from z = -L/2 to L/2 [m]
-  [[nodiscard]] double opening(double phi, double z, double L) const;
+  [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
 /// An ellipse: wider by `amplitude` at `angle` and opposite, narrower by as much in between.
 struct Ovality {
   double amplitude = 0;  ///< [m]
   double angle = 0;      ///< [rad]
-  [[nodiscard]] double opening(double phi, double z, double L) const;
+  [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
 /// Equal circular arcs, each with its centre moved by `offset` away from the middle of its arc: there the gap is that
@@ -36,12 +42,27 @@ struct Lobes {
   int count = 2;      ///< >= 2
   double offset = 0;  ///< [m], >= 0
   double angle = 0;   ///< middle of one arc [rad]
-  [[nodiscard]] double opening(double phi, double z, double L) const;
+  [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
-using Profile = std::variant<Barrel, Taper, Ovality, Lobes>;
+/// A measured surface: closed smooth curves around the bearing at some heights, straight in between and constant beyond
+/// them.
+struct MeasuredShape {
+  std::vector<double> z;                                       ///< ascending [m]
+  std::vector<std::shared_ptr<const TableFunction>> openings;  ///< [m] over phi [rad], one for every z, of period 2 pi
+  [[nodiscard]] Opening opening(double phi, double z, double L) const;
+};
 
-/// Sum of all openings at the nodes of the grid [m], shape (grid.size()).
-[[nodiscard]] Eigen::VectorXd gap_profile(const std::vector<Profile>& profiles, const Grid& grid, double L);
+using ProfileShape = std::variant<Barrel, Taper, Ovality, Lobes, MeasuredShape>;
+
+/// A shape made in one of the surfaces.
+struct Profile {
+  ProfileShape shape;
+  Surface surface = Surface::shell;
+
+  /// Whether it makes the gap change as its surface turns.
+  [[nodiscard]] bool varies_around() const;
+  [[nodiscard]] Opening opening(double phi, double z, double L) const;
+};
 
 }  // namespace hersey::film

@@ -9,7 +9,8 @@ enum class Surface { shell, journal };
 enum class FeatureShape { rectangle, ellipse };
 
 /// A hole, groove or pocket in one of the surfaces: a rectangle or an ellipse in phi x z, seen in the frame of that
-/// surface. One in the journal travels over the grid with SurfaceMotion::phi_journal.
+/// surface. One in the journal travels over the grid with SurfaceMotion::phi_journal. Where it is fed the film has its
+/// pressure; its depth widens the gap (GapShape).
 struct SurfaceFeature {
   std::string name;
   FeatureShape shape = FeatureShape::rectangle;
@@ -19,6 +20,14 @@ struct SurfaceFeature {
   double arc = 2 * std::numbers::pi / 18;  ///< whole extent around the bearing [rad], in (0, 2 pi]
   double length = 1e-3;                    ///< whole extent along the axis [m], > 0
   double pressure = 0;                     ///< [Pa]; SurfaceMotion::feature_pressure takes its place
+  bool is_fed = true;                      ///< without it the pressure means nothing
+  double depth = 0;                        ///< [m], >= 0
 };
+
+/// Whether a place seen in the frame of its surface [rad, m] lies within a feature.
+[[nodiscard]] bool contains(const SurfaceFeature& feature, double phi, double z);
+
+/// Whether two features of one surface have a part in common, to a fiftieth of their size.
+[[nodiscard]] bool overlap(const SurfaceFeature& a, const SurfaceFeature& b);
 
 }  // namespace hersey::film

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+
+#include "hersey/bearing/journal_kinematics.h"
+#include "hersey/film/gap_shape.h"
+
+namespace hersey::bearing {
+
+/// The gap between two rigid surfaces and its motion, from the parameters of the journal's position (theory manual,
+/// chapter bearing). One object per bearing and thread; no allocation after the first call.
+class RigidSurfaces {
+ public:
+  explicit RigidSurfaces(const film::FilmModel& model);
+
+  /// A step of length `dt` [s] begins with the journal turned by `phi_journal` [rad]. Borders of the journal's pockets
+  /// may pass whole cells within a step: from now on the rate they give the gap is the mean one of the step, which
+  /// conserves oil. With dt = 0 it is the rate of the instant.
+  void begin_step(double phi_journal, double dt);
+
+  /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi), widened by profiles and pockets, its rate at fixed
+  /// grid points, the speeds, the place of the supply line and the journal's angle into `motion`.
+  void place(const ParameterVector& parameters, film::SurfaceMotion& motion);
+
+  /// What a unit change of one Parameter does to the surfaces last placed.
+  [[nodiscard]] const film::MotionDirection& direction(int parameter) const { return directions_[parameter]; }
+
+  /// Smallest gap over the film's width at the parameters last placed [m]: exact in phi for cylinders, otherwise the
+  /// smallest at a node.
+  [[nodiscard]] double smallest_gap() const { return smallest_gap_; }
+
+ private:
+  void lay_directions();
+  void add_turning(double phi_journal, double omega, film::SurfaceMotion& motion);
+
+  film::FilmModel model_;
+  film::GapShape shape_;
+  Eigen::VectorXd cosine_, sine_;  // of every node's angle
+  Eigen::VectorXd z_;              // of every node
+  std::array<film::MotionDirection, kParameterCount> directions_;
+  double dt_ = 0, smallest_gap_ = 0;
+  Eigen::VectorXd opening_, first_, second_, pockets_start_;
+};
+
+// The same for a single use.
+void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion);
+[[nodiscard]] double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters);
+/// Of a parameter that does not turn the journal.
+[[nodiscard]] film::MotionDirection surface_direction(const film::FilmModel& model, int parameter);
+
+}  // namespace hersey::bearing

@@ -1,0 +1,70 @@
+#include "hersey/film/gap_shape.h"
+
+#include "feature_cover.h"
+#include "grid_geometry.h"
+
+namespace hersey::film {
+
+GapShape::GapShape(const FilmModel& model) : model_(model), geometry_(std::make_unique<GridGeometry>(model)) {
+  still_.setZero(model.grid.size());
+  for (const Profile& profile : model.profiles) {
+    if (profile.surface == Surface::journal && profile.varies_around()) {
+      turning_profiles_.push_back(profile);
+      continue;
+    }
+    for (int k = 0; k < still_.size(); ++k) still_[k] += opening_at(profile, k, 0).value;
+  }
+  for (const SurfaceFeature& feature : model.features) {
+    if (feature.depth == 0) continue;
+    if (feature.surface == Surface::journal) {
+      turning_pockets_.push_back(feature);
+      continue;
+    }
+    covered_.clear();
+    cover_cells(model_, *geometry_, feature, 0, covered_);
+    for (const CoveredNode& node : covered_) still_[node.node] += feature.depth * node.share;
+  }
+}
+
+GapShape::~GapShape() = default;
+GapShape::GapShape(GapShape&&) noexcept = default;
+GapShape& GapShape::operator=(GapShape&&) noexcept = default;
+
+Opening GapShape::opening_at(const Profile& profile, int node, double turned) const {
+  const int n_z = model_.grid.n_z;
+  return profile.opening(geometry_->phi[node / n_z] - turned, geometry_->z[node % n_z], model_.L);
+}
+
+void GapShape::turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
+                             Eigen::VectorXd& second) const {
+  for (auto* field : {&opening, &first, &second}) field->setZero(still_.size());
+  for (const Profile& profile : turning_profiles_) {
+    for (int k = 0; k < still_.size(); ++k) {
+      // Seen from the journal the node moves backwards.
+      const Opening o = opening_at(profile, k, phi_journal);
+      opening[k] += o.value, first[k] -= o.phi, second[k] += o.phi_phi;
+    }
+  }
+}
+
+void GapShape::turn_pockets(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first) {
+  for (auto* field : {&opening, &first}) field->setZero(still_.size());
+  for (const SurfaceFeature& pocket : turning_pockets_) {
+    covered_.clear();
+    cover_cells(model_, *geometry_, pocket, phi_journal, covered_);
+    for (const CoveredNode& node : covered_) {
+      opening[node.node] += pocket.depth * node.share;
+      first[node.node] += pocket.depth * node.share_phi;
+    }
+  }
+}
+
+Eigen::VectorXd gap_opening(const FilmModel& model, double phi_journal) {
+  GapShape shape(model);
+  Eigen::VectorXd profiles, pockets, first, second;
+  shape.turn_profiles(phi_journal, profiles, first, second);
+  shape.turn_pockets(phi_journal, pockets, first);
+  return shape.still() + profiles + pockets;
+}
+
+}  // namespace hersey::film

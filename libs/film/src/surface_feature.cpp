@@ -1,0 +1,33 @@
+#include "hersey/film/surface_feature.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hersey::film {
+namespace {
+
+constexpr int samples = 50;
+
+}  // namespace
+
+bool contains(const SurfaceFeature& feature, double phi, double z) {
+  const double x = std::remainder(phi - feature.phi, 2 * std::numbers::pi) / (0.5 * feature.arc);
+  const double y = (z - feature.z) / (0.5 * feature.length);
+  return feature.shape == FeatureShape::ellipse ? x * x + y * y < 1 : std::abs(x) < 1 && std::abs(y) < 1;
+}
+
+bool overlap(const SurfaceFeature& a, const SurfaceFeature& b) {
+  const double low = std::max(a.z - 0.5 * a.length, b.z - 0.5 * b.length);
+  const double high = std::min(a.z + 0.5 * a.length, b.z + 0.5 * b.length);
+  const SurfaceFeature& narrow = a.arc < b.arc ? a : b;
+  for (int i = 0; i < samples; ++i) {
+    const double phi = narrow.phi + narrow.arc * ((i + 0.5) / samples - 0.5);
+    for (int j = 0; j < samples; ++j) {
+      const double z = low + (high - low) * (j + 0.5) / samples;
+      if (contains(a, phi, z) && contains(b, phi, z)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,38 @@
+#include "table_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "hersey/core/units.h"
+
+namespace hersey::model {
+
+std::optional<CsvTable> read_table_file(Context& context, const Value& file) {
+  if (file.broken) return std::nullopt;
+  const std::filesystem::path path = std::filesystem::path(context.model.file).parent_path() / file.text;
+  std::ifstream stream(path, std::ios::binary);
+  std::error_code ignored;
+  if (!stream || !std::filesystem::is_regular_file(path, ignored)) {
+    context.fault(file, "no readable file " + path.string(), "a table beside the model file");
+    return std::nullopt;
+  }
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return parse_csv(text, path.string(), context.faults);
+}
+
+std::optional<double> unit_factor(Context& context, const Value& at, const std::string& unit,
+                                  const std::string& si_unit) {
+  try {
+    return convert_to_si({1, unit}, si_unit);
+  } catch (const QuantityError& error) {
+    const Dimension& dimension = dimension_of(si_unit);
+    context.fault(at, error.found,
+                  "a unit of " + dimension.name.substr(dimension.name.find(' ') + 1) +
+                      (si_unit == "1" ? "" : ", such as " + dimension.spelled.front()),
+                  error.suggestion);
+    return std::nullopt;
+  }
+}
+
+}  // namespace hersey::model
