@@ -97,7 +97,7 @@ export class BearingView {
     ];
     const plot = new LinePlot({
       name: `${this.bearing}-midplane`,
-      x: { label: "bearing angle φ", unit: "°", values: Array.from({ length: n + 1 }, (_, i) => (360 * i) / n) },
+      x: { label: "bearing angle φ", unit: "°", values: fields.degrees() },
       left: { label: "pressure at z = 0", unit: "MPa", fromZero: true },
       ...(fields.at("thickness", 0) ? { right: { label: "film thickness", unit: "µm", fromZero: true } } : {}),
       curves: curves(0),

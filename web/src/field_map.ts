@@ -72,7 +72,7 @@ export class FieldMap extends Drawing {
     const height = z[0]! + v * (z[z.length - 1]! - z[0]!);
     const { label, display } = this.kind;
     return [
-      `${label} ${withUnit(this.sample(field, u, v) * display.factor, display.unit)}`,
+      `${label} ${withUnit(this.sample(field, this.fields.indexAround(u), this.fields.indexAlong(v)) * display.factor, display.unit)}`,
       `φ ${format(360 * u, 4)}°, z ${withUnit(1e3 * height, "mm", 3)}`,
     ];
   }
@@ -96,11 +96,9 @@ export class FieldMap extends Drawing {
     return high > bottom ? [bottom, high] : [bottom, bottom + 1];
   }
 
-  /** Bilinear between the nodes; u around the bearing and v along it, both 0 to 1. */
-  private sample(field: ArrayLike<number>, u: number, v: number): number {
+  /** Bilinear between the nodes; x and y are fractional indices around and along the bearing. */
+  private sample(field: ArrayLike<number>, x: number, y: number): number {
     const [n, nz] = [this.fields.phi.length, this.fields.z.length];
-    const x = u * n;
-    const y = v * (nz - 1);
     const i = Math.floor(x);
     const j = Math.min(nz - 2, Math.floor(y));
     const [s, t] = [x - i, y - j];
@@ -118,10 +116,11 @@ export class FieldMap extends Drawing {
     const pixels = context.createImageData(width, height);
     const words = new Uint32Array(pixels.data.buffer);
     const factor = 255 / (high - low);
+    const around = Array.from({ length: width }, (_, column) => this.fields.indexAround((column + 0.5) / width));
     for (let row = 0; row < height; row++) {
-      const v = 1 - (row + 0.5) / height;
+      const along = this.fields.indexAlong(1 - (row + 0.5) / height);
       for (let column = 0; column < width; column++) {
-        const value = (this.sample(field, (column + 0.5) / width, v) - low) * factor;
+        const value = (this.sample(field, around[column]!, along) - low) * factor;
         words[row * width + column] = colourTable[value <= 0 ? 0 : value >= 255 ? 255 : Math.round(value)]!;
       }
     }
@@ -153,8 +152,8 @@ export class FieldMap extends Drawing {
         });
         for (let k = 0; k + 1 < crossings.length; k += 2)
           [crossings[k]!, crossings[k + 1]!].forEach(([x, y], end) => {
-            const px = box.left + (x / n) * box.width;
-            const py = box.top + (1 - y / (nz - 1)) * box.height;
+            const px = box.left + this.fields.shareAround(x) * box.width;
+            const py = box.top + (1 - this.fields.shareAlong(y)) * box.height;
             if (end === 0) context.moveTo(px, py);
             else context.lineTo(px, py);
           });

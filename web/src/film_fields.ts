@@ -61,6 +61,42 @@ export class FilmFields {
     return extent(this.fields.get(key)?.values ?? []);
   }
 
+  /** Angles of the nodes in degrees, closed at 360. */
+  degrees(): number[] {
+    return [...Array.from(this.phi, (phi) => (180 / Math.PI) * phi), 360 + (180 / Math.PI) * this.phi[0]!];
+  }
+
+  /** Index of the node at or before the share u of a turn, with the share of the way to the next. Grids may be graded. */
+  indexAround(u: number): number {
+    const turn = 2 * Math.PI;
+    const n = this.phi.length;
+    const angle = u * turn < this.phi[0]! ? (u + 1) * turn : u * turn;
+    const i = lastNotAbove(this.phi, angle);
+    const next = i + 1 < n ? this.phi[i + 1]! : this.phi[0]! + turn;
+    return i + (angle - this.phi[i]!) / (next - this.phi[i]!);
+  }
+
+  /** Likewise for the share v of the width. */
+  indexAlong(v: number): number {
+    const last = this.z.length - 1;
+    const height = this.z[0]! + v * (this.z[last]! - this.z[0]!);
+    const j = Math.min(last - 1, lastNotAbove(this.z, height));
+    return j + (height - this.z[j]!) / (this.z[j + 1]! - this.z[j]!);
+  }
+
+  /** Shares of a turn and of the width at a fractional index. */
+  shareAround(index: number): number {
+    const i = Math.floor(index);
+    const at = (k: number) => (k < this.phi.length ? this.phi[k]! : this.phi[0]! + 2 * Math.PI);
+    return (at(i) + (index - i) * (at(i + 1) - at(i))) / (2 * Math.PI);
+  }
+
+  shareAlong(index: number): number {
+    const last = this.z.length - 1;
+    const j = Math.min(last - 1, Math.floor(index));
+    return (this.z[j]! + (index - j) * (this.z[j + 1]! - this.z[j]!) - this.z[0]!) / (this.z[last]! - this.z[0]!);
+  }
+
   /** The field along the angle at z = 0, between two rows if none lies there. */
   midplane(key: string, instant: number): Float64Array | null {
     const field = this.at(key, instant);
@@ -75,6 +111,17 @@ export class FilmFields {
       return t === 0 ? field[at]! : (1 - t) * field[at]! + t * field[at + 1]!;
     });
   }
+}
+
+function lastNotAbove(ascending: Numbers, value: number): number {
+  let low = 0;
+  let high = ascending.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (ascending[middle]! <= value) low = middle;
+    else high = middle;
+  }
+  return low;
 }
 
 export function extent(values: ArrayLike<number>): [number, number] {

@@ -105,7 +105,7 @@ export class StudyView {
     if (!values) return null;
     const n = values.length;
     return {
-      x: Array.from({ length: n + 1 }, (_, i) => (360 * i) / n),
+      x: fields!.degrees(),
       y: Array.from({ length: n + 1 }, (_, i) => values[i % n]! * megapascal.factor),
     };
   }
