@@ -67,6 +67,9 @@ void read_surfaces(Context& context, const Value& value, Bearing& bearing);
 /// A function whose value is wanted in `si_unit`; reports every fault of its expression, table, units and file.
 [[nodiscard]] Function function_of(Context& context, const Value& value, const std::string& si_unit);
 
+/// The shapes of a body, or of ground.
+[[nodiscard]] std::vector<mbd::Shape> shapes_of(Context& context, const Value& body);
+
 // The sections of the file.
 void interpret_bodies(Context& context);
 void interpret_joints(Context& context);

@@ -130,6 +130,7 @@ void interpret_bodies(Context& context) {
   for (const auto& [name, value] : section(context.root, "bodies")) {
     if (name == "ground") {
       context.model.ground.frames = frames_of(context, value);
+      context.model.ground.shapes = shapes_of(context, value);
       context.model.ground.position = value.key_position;
       continue;
     }
@@ -140,6 +141,7 @@ void interpret_bodies(Context& context) {
     body.centre_of_mass = vector_of(value, "centre_of_mass");
     body.inertia = inertia_of(context, value);
     body.frames = frames_of(context, value);
+    body.shapes = shapes_of(context, value);
     context.model.bodies.push_back(std::move(body));
   }
 }

@@ -13,6 +13,7 @@
 #include "hersey/core/spatial.h"
 #include "hersey/fem/elastic_material.h"
 #include "hersey/film/film_model.h"
+#include "hersey/mbd/shape.h"
 
 /// The model file as checked, plain data: SI units, names resolved, nothing built yet.
 ///
@@ -58,6 +59,7 @@ struct Body {
   Vector3 centre_of_mass = Vector3::Zero();  ///< from the body's origin, body axes [m]
   Matrix3 inertia = Matrix3::Zero();  ///< about the centre of mass, body axes [kg m^2]; symmetric, physically possible
   std::vector<Frame> frames;
+  std::vector<mbd::Shape> shapes;
   SourcePosition position;
 };
 

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "hersey/core/spatial.h"
+
+namespace hersey::mbd {
+
+// Shapes of bodies, in the body's frame [m]: what a picture shows and what may touch.
+
+struct Sphere {
+  Vector3 centre = Vector3::Zero();
+  double radius = 0;  ///< > 0
+};
+
+/// Solid, with flat ends.
+struct Cylinder {
+  Vector3 from = Vector3::Zero(), to = Vector3::UnitZ();  ///< centres of both ends, apart
+  double radius = 0;                                      ///< > 0
+};
+
+/// All points no further than `radius` from a straight line.
+struct Capsule {
+  Vector3 from = Vector3::Zero(), to = Vector3::UnitZ();  ///< ends of the line, apart
+  double radius = 0;                                      ///< > 0
+};
+
+struct Box {
+  Pose X_BS;                       ///< of its centre and axes
+  Vector3 size = Vector3::Zero();  ///< whole edges, > 0
+};
+
+/// Everything on the side of a plane to which its normal does not point.
+struct HalfSpace {
+  Vector3 point = Vector3::Zero();
+  Vector3 normal = Vector3::UnitZ();  ///< unit vector
+};
+
+/// A triangulated surface, closed or not; seen against their normals, corners turn clockwise.
+struct TriangleMesh {
+  std::vector<Vector3> corners;
+  std::vector<std::array<int, 3>> triangles;  ///< indices of corners
+};
+
+using ShapeGeometry = std::variant<Sphere, Cylinder, Capsule, Box, HalfSpace, std::shared_ptr<const TriangleMesh>>;
+
+struct Shape {
+  std::string name;
+  ShapeGeometry geometry;
+};
+
+}  // namespace hersey::mbd

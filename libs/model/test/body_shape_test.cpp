@@ -1,0 +1,131 @@
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "model_text.h"
+#include "stl_file.h"
+#include "temporary_directory.h"
+
+// Shapes of bodies: from the model file and from STL files.
+namespace hersey::model {
+namespace {
+
+std::string with_shapes(const std::string& shapes) {
+  return edited(good_model, "  rod: {mass: 2 kg}\n", "  rod:\n    mass: 2 kg\n    shapes:\n" + shapes);
+}
+
+const mbd::Shape& shape(const Model& model, std::size_t index) { return model.bodies[1].shapes.at(index); }
+
+TEST_CASE("Shapes_AreRead") {
+  const Model model = read_text(with_shapes(R"(      ball: {shape: sphere, centre: 1 2 3 mm, diameter: 10 mm}
+      bar: {shape: cylinder, to: 0 140 0 mm, diameter: 8 mm}
+      round: {shape: capsule, from: 0 1 0 mm, to: 0 140 0 mm, diameter: 8 mm}
+      block: {shape: box, size: 20 40 10 mm, rotation: {axis: 0 0 1, angle: 90 deg}}
+      floor: {shape: half_space, normal: 0 0 2}
+)"),
+                                "m.yaml");
+  REQUIRE(model.bodies[1].shapes.size() == 5);
+  CHECK(shape(model, 0).name == "ball");
+  const auto& ball = std::get<mbd::Sphere>(shape(model, 0).geometry);
+  CHECK((ball.centre - Vector3(1e-3, 2e-3, 3e-3)).norm() < 1e-15);
+  CHECK(ball.radius == doctest::Approx(5e-3));
+  CHECK(std::get<mbd::Cylinder>(shape(model, 1).geometry).to.y() == doctest::Approx(0.14));
+  CHECK(std::get<mbd::Capsule>(shape(model, 2).geometry).from.y() == doctest::Approx(1e-3));
+  const auto& block = std::get<mbd::Box>(shape(model, 3).geometry);
+  CHECK((block.X_BS.R.col(0) - Vector3::UnitY()).norm() < 1e-12);
+  CHECK(std::get<mbd::HalfSpace>(shape(model, 4).geometry).normal == Vector3::UnitZ());
+}
+
+const std::string tetrahedron = R"(solid t
+facet normal 0 0 -1
+ outer loop
+  vertex 0 0 0
+  vertex 0 1 0
+  vertex 1 0 0
+ endloop
+endfacet
+facet normal 0 -1 0
+ outer loop
+  vertex 0 0 0
+  vertex 1 0 0
+  vertex 0 0 1
+ endloop
+endfacet
+facet normal -1 0 0
+ outer loop
+  vertex 0 0 0
+  vertex 0 0 1
+  vertex 0 1 0
+ endloop
+endfacet
+facet normal 1 1 1
+ outer loop
+  vertex 1 0 0
+  vertex 0 1 0
+  vertex 0 0 1
+ endloop
+endfacet
+endsolid t
+)";
+
+// The same triangles as the format's binary form.
+std::string binary(const mbd::TriangleMesh& mesh) {
+  std::string content(80, ' ');
+  const auto append = [&](const auto& value) {
+    content.append(reinterpret_cast<const char*>(&value), sizeof value);  // NOLINT: bytes of a file
+  };
+  append(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    append(std::array<float, 3>{});
+    for (const int corner : triangle) {
+      const Vector3& r = mesh.corners[static_cast<std::size_t>(corner)];
+      append(std::array<float, 3>{static_cast<float>(r.x()), static_cast<float>(r.y()), static_cast<float>(r.z())});
+    }
+    append(std::uint16_t{0});
+  }
+  return content;
+}
+
+TEST_CASE("StlFiles_AreReadAsTextAndBinary") {
+  const StlResult text = parse_stl(tetrahedron);
+  CHECK(text.fault.empty());
+  CHECK(text.mesh.corners.size() == 4);
+  CHECK(text.mesh.triangles.size() == 4);
+  const StlResult same = parse_stl(binary(text.mesh));
+  CHECK(same.fault.empty());
+  CHECK(same.mesh.corners == text.mesh.corners);
+  CHECK(same.mesh.triangles == text.mesh.triangles);
+  CHECK(parse_stl("").fault == "no triangles");
+  CHECK(parse_stl("solid x\nouter loop\nvertex 0 0\n").fault == "line 3: 'vertex 0 0' is no corner of a triangle");
+  CHECK(parse_stl(binary(text.mesh).substr(0, 200)).fault == "no triangles");
+}
+
+TEST_CASE("Mesh_IsScaledAndShifted") {
+  const TemporaryDirectory folder;
+  std::ofstream(folder / "t.stl") << tetrahedron;
+  std::ofstream(folder / "m.yaml") << with_shapes(
+      "      t: {shape: mesh, file: t.stl, unit: 1 cm, origin: 0 0 5 mm}\n");
+  const Model model = read((folder / "m.yaml").string());
+  const auto& mesh = *std::get<std::shared_ptr<const mbd::TriangleMesh>>(shape(model, 0).geometry);
+  double highest = 0;
+  for (const Vector3& corner : mesh.corners) highest = std::max(highest, corner.z());
+  CHECK(highest == doctest::Approx(0.015));
+}
+
+TEST_CASE("ShapesThatCannotBe_AreReported") {
+  const auto faults = [](const std::string& shape) {
+    return faults_after("  rod: {mass: 2 kg}\n", "  rod:\n    mass: 2 kg\n    shapes:\n      a: " + shape + "\n");
+  };
+  CHECK(faults("{shape: cylinder, from: 0 1 0 mm, to: 0 1 0 mm, diameter: 1 mm}") ==
+        "m.yaml:15:7: bodies.rod.shapes.a: both ends at the same place; expected two ends apart");
+  CHECK(faults("{shape: box, size: 1 0 1 mm}") ==
+        "m.yaml:15:29: bodies.rod.shapes.a.size: an edge that is not > 0; expected three lengths > 0, such as 20 40 10 "
+        "mm");
+  CHECK(faults("{shape: half_space, normal: 0 0 0}").find("a direction of length 0") != std::string::npos);
+  CHECK(faults("{shape: mesh, file: none.stl}")
+            .starts_with("m.yaml:15:30: bodies.rod.shapes.a.file: no readable file none.stl"));
+}
+
+}  // namespace
+}  // namespace hersey::model
