@@ -11,10 +11,11 @@ file(WRITE ${OUTPUT} "// Generated from ${INPUT}.
 namespace hersey::report {
 
 std::string_view report_page() {
-  static constexpr std::string_view page = R\"${delimiter}(")
+  // Its length is left to the compiler: counting it in a constant expression would exceed that one's limits.
+  static const char page[] = R\"${delimiter}(")
 file(APPEND ${OUTPUT} "${page}")
 file(APPEND ${OUTPUT} ")${delimiter}\";
-  return page;
+  return {page, sizeof page - 1};
 }
 
 }  // namespace hersey::report

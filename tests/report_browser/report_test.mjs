@@ -7,7 +7,7 @@ import { pathToFileURL } from "node:url";
 import { everyReport, studyReport } from "./checks.mjs";
 
 const flags = [
-  "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync",
 ];
 
@@ -41,7 +41,7 @@ async function check(name, test) {
 /** Opens a report and notes everything a silent report must not do. */
 async function open(browser, file) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });
-  page.setDefaultTimeout(5000);
+  page.setDefaultTimeout(20000);
   const url = pathToFileURL(file).href;
   const complaints = [];
   page.on("console", (message) => {

@@ -6,6 +6,7 @@ import type { Run, SummaryRow } from "./data";
 import { h, segmented } from "./dom";
 import { nearest } from "./film_fields";
 import { sweepPlots } from "./line_plot";
+import { MachineView, sweepMachineViews } from "./machine_view";
 import type { Abscissa } from "./series";
 import { SystemView } from "./system_view";
 import { Timeline } from "./timeline";
@@ -37,20 +38,23 @@ export class RunView {
     this.timeline?.stop();
     const { run, bearing, abscissa } = this;
     const view = bearing ? new BearingView(run, bearing, abscissa, (time) => this.timeline?.show(nearest(instants, time))) : null;
+    const machine = MachineView.of(run);
     const system = new SystemView(run, abscissa);
     const instants = view?.fields?.time ?? run.column("/time") ?? new Float64Array();
     const timeline = new Timeline(instants, this.anglesAt(instants), (index) => {
       const time = instants[index]!;
       this.time = time;
       view?.show(time, index);
+      machine?.show(time);
       system.show(time);
     });
     this.timeline = timeline;
     this.element.replaceChildren(
-      ...[this.controls(), this.headline(), this.table(), view?.element ?? null, this.notes(), system.element, timeline.element].filter((e) => e !== null),
+      ...[this.controls(), this.headline(), this.table(), view?.element ?? null, machine ? h("div", { class: "figures" }, machine.element) : null, this.notes(), system.element, timeline.element].filter((e) => e !== null),
     );
     sweepPlots();
     sweepDrawings();
+    sweepMachineViews();
     if (instants.length > 0) timeline.show(nearest(instants, this.time ?? this.firstShown(instants)));
     else timeline.element.remove();
   }

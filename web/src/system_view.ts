@@ -2,6 +2,7 @@
 
 import type { Run } from "./data";
 import { figure, h } from "./dom";
+import { mechanismGraph } from "./mechanism_graph";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Axis, columns, curve, scaled, timeDisplay, type Abscissa } from "./series";
 import { degree, millimetre, plain, type Display } from "./units";
@@ -32,6 +33,8 @@ export class SystemView {
     if (run.dataset("/solver/dt") || run.children("/bearings").length > 0)
       this.element.append(section("Solution: step size, iterations, balances", true, (body) => this.solver(body)));
     if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", false, (body) => this.power(body)));
+    const graph = mechanismGraph(run);
+    if (graph) this.element.append(section("Mechanism", false, (body) => body.append(graph)));
     if (run.children("/joints").length > 0) this.element.append(section("Joints", false, (body) => this.joints(body)));
     if (run.children("/drives").length > 0) this.element.append(section("Drives", false, (body) => this.drives(body)));
     if (run.children("/bodies").length > 0) this.element.append(section("Bodies", false, (body) => this.bodies(body)));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "assumptions.h"
+#include "geometry_record.h"
 #include "hersey/core/version.h"
 
 namespace hersey::run {
@@ -58,6 +59,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
   declare_run(options);
   declare_machine();
   for (const model::Bearing& bearing : model.bearings) bearings_.push_back(declare_bearing(bearing));
+  write_geometry(model, machine.mechanism->spec(), writer_);
   writer_.flush();
 }
 

@@ -37,6 +37,24 @@ TEST_CASE("Run_ReachesItsEndAndBalances") {
   CHECK(reader.read("/bearings/big_end/h_min").values.size() == reader.rows());
 }
 
+TEST_CASE("Results_TellWhatTheMachineLooksLike") {
+  const TemporaryDirectory scratch;
+  const std::string text =
+      rig_with("  rod: {mass: 0.5 kg, ",
+               "  rod: {shapes: {shank: {shape: capsule, to: 0 0.1 0 m, diameter: 2 cm}}, mass: 0.5 kg, ");
+  const Summary summary = simulate(rig(text, {"duration=1 ms"}), {.results = scratch / "run.h5"});
+  REQUIRE(summary.status == Status::completed);
+  const results::Reader reader(summary.results);
+  CHECK(reader.text_attribute("/bodies/rod/shapes/shank", "shape") == "capsule");
+  CHECK(reader.read("/bodies/rod/shapes/shank/to").values == std::vector<double>{0, 0.1, 0});
+  CHECK(reader.read("/bodies/rod/shapes/shank/radius").values == std::vector<double>{0.01});
+  CHECK(reader.text_attribute("/joints/main", "type") == "revolute");
+  CHECK(reader.text_attribute("/joints/main", "inboard") == "ground");
+  CHECK(reader.text_attribute("/bearings/big_end", "inboard") == "rod");
+  CHECK(reader.text_attribute("/bearings/big_end", "outboard") == "pin");
+  CHECK(reader.read("/bearings/big_end/axis").values == std::vector<double>{0, 0, 1});
+}
+
 TEST_CASE("HoleInTheTurningPin_FeedsTheFilmAndIsReported") {
   const TemporaryDirectory scratch;
   const std::string text = rig_with("    supply: {line: widest_gap, pressure: 1 bar}\n",

@@ -1,0 +1,126 @@
+// What the machine looks like, from the results: shapes of bodies, places of joints and bearings, motion of the bodies.
+
+import { Matrix4, Quaternion, Vector3 } from "three";
+import type { Numbers, Run } from "./data";
+
+export interface BodyMotion {
+  name: string;
+  position: Numbers;
+  orientation: Numbers;
+}
+
+/** Two bodies and the place in each where something connects them; the axis is one of the inboard body. */
+export interface Link {
+  name: string;
+  kind: string;
+  inboard: string;
+  outboard: string;
+  inboardPlace: Vector3;
+  outboardPlace: Vector3;
+  axis: Vector3;
+}
+
+export interface ShapeData {
+  name: string;
+  kind: string;
+  point: (name: string) => Vector3;
+  number: (name: string) => number;
+  list: (name: string) => Numbers;
+}
+
+export class MachineGeometry {
+  readonly time: Numbers;
+  readonly bodies: BodyMotion[];
+  readonly joints: Link[];
+  readonly bearings: Link[];
+  readonly forces: Link[];
+
+  private constructor(private readonly run: Run) {
+    this.time = run.column("/time") ?? new Float64Array();
+    this.bodies = run.children("/bodies").flatMap((name) => {
+      const position = run.dataset(`/bodies/${name}/position`)?.values;
+      const orientation = run.dataset(`/bodies/${name}/orientation`)?.values;
+      return position && orientation ? [{ name, position, orientation }] : [];
+    });
+    this.joints = this.links("/joints", (name) => run.attribute(`/joints/${name}`, "type"));
+    this.bearings = this.links("/bearings", () => "bearing");
+    this.forces = this.links("/forces", () => "force");
+  }
+
+  /** Nothing where the results hold no motion of bodies or were written without their geometry. */
+  static of(run: Run): MachineGeometry | null {
+    const geometry = new MachineGeometry(run);
+    return geometry.bodies.length > 0 && geometry.joints.length + geometry.forces.length > 0 && geometry.time.length > 0 ? geometry : null;
+  }
+
+  /** Up is against gravity; y without gravity. */
+  up(): Vector3 {
+    const g = vector(this.run.dataset("/ground/gravity")?.values);
+    return g.lengthSq() > 0 ? g.normalize().negate() : new Vector3(0, 1, 0);
+  }
+
+  centreOfMass(body: string): Vector3 {
+    return vector(this.run.dataset(`/bodies/${body}/centre_of_mass`)?.values);
+  }
+
+  bearingSize(name: string): { radius: number; width: number } {
+    return { radius: this.run.number(`/bearings/${name}`, "radius") ?? 0, width: this.run.number(`/bearings/${name}`, "width") ?? 0 };
+  }
+
+  shapes(body: string): ShapeData[] {
+    const group = body === "ground" ? "/ground/shapes" : `/bodies/${body}/shapes`;
+    return this.run.children(group).map((name) => {
+      const values = (part: string) => this.run.dataset(`${group}/${name}/${part}`)?.values ?? new Float64Array();
+      return {
+        name,
+        kind: this.run.attribute(`${group}/${name}`, "shape"),
+        point: (part) => vector(values(part)),
+        number: (part) => values(part)[0] ?? 0,
+        list: values,
+      };
+    });
+  }
+
+  /** Places where joints, bearings and forces hold a body. */
+  attachments(body: string): Vector3[] {
+    return [...this.joints, ...this.bearings, ...this.forces].flatMap((link) => [
+      ...(link.inboard === body ? [link.inboardPlace] : []),
+      ...(link.outboard === body ? [link.outboardPlace] : []),
+    ]);
+  }
+
+  /** Pose of a body at a time, between the stored instants. */
+  pose(body: BodyMotion, time: number, into: Matrix4): Matrix4 {
+    const last = this.time.length - 1;
+    let low = 0;
+    let high = last;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.time[middle]! <= time) low = middle;
+      else high = middle;
+    }
+    const span = this.time[high]! - this.time[low]!;
+    const share = span > 0 ? Math.min(1, Math.max(0, (time - this.time[low]!) / span)) : 0;
+    const at = (k: number) => new Vector3().fromArray(body.position, 3 * k);
+    // Stored w first, three.js has it last.
+    const turned = (k: number) => {
+      const [w, x, y, z] = [0, 1, 2, 3].map((i) => body.orientation[4 * k + i]!);
+      return new Quaternion(x, y, z, w);
+    };
+    return into.compose(at(low).lerp(at(high), share), turned(low).slerp(turned(high), share), new Vector3(1, 1, 1));
+  }
+
+  private links(group: string, kind: (name: string) => string): Link[] {
+    return this.run.children(group).flatMap((name) => {
+      const path = `${group}/${name}`;
+      const [inboard, outboard] = [this.run.attribute(path, "inboard"), this.run.attribute(path, "outboard")];
+      if (!inboard || !outboard) return [];
+      const place = (part: string) => vector(this.run.dataset(`${path}/${part}`)?.values);
+      return [{ name, kind: kind(name), inboard, outboard, inboardPlace: place("inboard_origin"), outboardPlace: place("outboard_origin"), axis: place("axis") }];
+    });
+  }
+}
+
+function vector(values: ArrayLike<number> | undefined): Vector3 {
+  return new Vector3(values?.[0] ?? 0, values?.[1] ?? 0, values?.[2] ?? 0);
+}

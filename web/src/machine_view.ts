@@ -1,0 +1,292 @@
+// The machine in space at the instant of the timeline: shapes of its bodies, or bars between their joints.
+
+import {
+  AmbientLight,
+  Box3,
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  Group,
+  Line,
+  LineBasicMaterial,
+  Matrix4,
+  PerspectiveCamera,
+  Scene,
+  Sphere,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Run } from "./data";
+import { figure, h } from "./dom";
+import { MachineGeometry, type BodyMotion, type Link } from "./machine_geometry";
+import { ball, bar, material, rod, shapeMesh } from "./shape_mesh";
+import { onThemeChange, palette } from "./theme";
+
+const views = new Set<MachineView>();
+onThemeChange(() => views.forEach((view) => view.repaint()));
+
+/** Forgets views that have left the page, with their graphics memory. */
+export function sweepMachineViews(): void {
+  for (const view of views) if (view.wasShown && !view.element.isConnected) view.destroy();
+}
+
+export class MachineView {
+  readonly element: HTMLElement;
+  private readonly holder = h("div", { class: "machine-space", role: "img", "aria-label": "The machine in space" });
+  private readonly legend = h("div", { class: "machine-legend" });
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(30, 1, 0.01, 100);
+  private readonly groups = new Map<string, Group>();
+  private readonly paths = new Group();
+  private readonly forceLines: { link: Link; line: Line }[] = [];
+  private renderer: WebGLRenderer | null = null;
+  private controls: OrbitControls | null = null;
+  private readonly observer: ResizeObserver;
+  private readonly bounds: Sphere;
+  private time = 0;
+
+  static of(run: Run): MachineView | null {
+    const geometry = MachineGeometry.of(run);
+    return geometry ? new MachineView(geometry) : null;
+  }
+
+  private constructor(private readonly geometry: MachineGeometry) {
+    this.bounds = this.boundingSphere();
+    const toggle = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, "Paths");
+    toggle.addEventListener("click", () => {
+      this.paths.visible = !this.paths.visible;
+      toggle.setAttribute("aria-pressed", String(this.paths.visible));
+      this.render();
+    });
+    const home = h("button", { type: "button", class: "quiet" }, "Reset view");
+    home.addEventListener("click", () => this.lookFromStart());
+    const caption = "The machine at the instant shown. Drag to turn it, wheel to come nearer, right button to shift it.";
+    this.element = figure("machine", caption, h("span", { class: "tools" }, toggle, home), this.holder, this.legend);
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(this.holder);
+    views.add(this);
+  }
+
+  /** False for a view that has not been on the page yet. */
+  get wasShown(): boolean {
+    return this.renderer !== null;
+  }
+
+  show(time: number): void {
+    this.time = time;
+    if (this.renderer) this.place();
+  }
+
+  /** After a change of theme. */
+  repaint(): void {
+    if (!this.renderer) return;
+    this.build();
+    this.place();
+  }
+
+  destroy(): void {
+    this.observer.disconnect();
+    this.controls?.dispose();
+    this.renderer?.dispose();
+    this.renderer?.forceContextLoss();
+    views.delete(this);
+  }
+
+  private start(): boolean {
+    if (this.renderer) return true;
+    try {
+      this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    } catch {
+      this.holder.replaceChildren(h("p", { class: "note" }, "This browser shows no 3-D graphics (WebGL)."));
+      this.observer.disconnect();
+      return false;
+    }
+    this.holder.append(this.renderer.domElement);
+    this.camera.up.copy(this.geometry.up());
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.addEventListener("change", () => this.render());
+    this.build();
+    this.lookFromStart();
+    return true;
+  }
+
+  private resize(): void {
+    const [width, height] = [this.holder.clientWidth, this.holder.clientHeight];
+    if (width < 40 || height < 40 || !this.start()) return;
+    this.renderer!.setPixelRatio(devicePixelRatio || 1);
+    this.renderer!.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.place();
+  }
+
+  /** A machine that moves in a plane is seen from almost along its normal, any other from a corner. */
+  private lookFromStart(): void {
+    const { centre, normal } = { centre: this.bounds.center, normal: this.normalOfMotion() };
+    const up = this.geometry.up();
+    const side = new Vector3().crossVectors(up, normal).normalize();
+    if (side.lengthSq() === 0) side.set(1, 0, 0);
+    const direction = normal.clone().addScaledVector(side, 0.35).addScaledVector(up, 0.3).normalize();
+    const distance = (0.92 * this.bounds.radius) / Math.sin((0.5 * this.camera.fov * Math.PI) / 180);
+    this.camera.near = 0.01 * distance;
+    this.camera.far = 20 * distance;
+    this.camera.position.copy(centre).addScaledVector(direction, distance);
+    this.camera.updateProjectionMatrix();
+    this.controls!.target.copy(centre);
+    this.controls!.update();
+    this.render();
+  }
+
+  private normalOfMotion(): Vector3 {
+    const box = new Box3();
+    for (const body of this.geometry.bodies)
+      for (let k = 0; k < body.position.length; k += 3) box.expandByPoint(new Vector3().fromArray(body.position, k));
+    const size = box.getSize(new Vector3());
+    const largest = Math.max(size.x, size.y, size.z);
+    const up = this.geometry.up();
+    const flat = ([["z", 2], ["x", 0], ["y", 1]] as const).find(([axis, i]) => size[axis] < 0.02 * largest && Math.abs(up.getComponent(i)) < 0.9);
+    const normal = new Vector3();
+    if (flat) return normal.setComponent(flat[1], flat[0] === "y" ? -1 : 1);
+    const across = Math.abs(up.z) > 0.9 ? new Vector3(1, -1, 0) : new Vector3(1, 0, 1).addScaledVector(up, -new Vector3(1, 0, 1).dot(up));
+    return across.normalize();
+  }
+
+  private boundingSphere(): Sphere {
+    const box = new Box3();
+    const pose = new Matrix4();
+    const { geometry } = this;
+    const step = Math.max(1, Math.floor(geometry.time.length / 50));
+    for (const body of geometry.bodies) {
+      const places = [new Vector3(), ...geometry.attachments(body.name), ...this.corners(body.name)];
+      for (let k = 0; k < geometry.time.length; k += step) {
+        geometry.pose(body, geometry.time[k]!, pose);
+        for (const place of places) box.expandByPoint(place.clone().applyMatrix4(pose));
+      }
+    }
+    for (const place of geometry.attachments("ground")) box.expandByPoint(place);
+    const sphere = box.getBoundingSphere(new Sphere());
+    if (!(sphere.radius > 0)) sphere.radius = Math.max(0.1, ...geometry.bearings.map((b) => 3 * geometry.bearingSize(b.name).radius));
+    return sphere;
+  }
+
+  private corners(body: string): Vector3[] {
+    return this.geometry.shapes(body).flatMap((shape) => {
+      const mesh = shape.kind === "half_space" ? null : shapeMesh(shape, material("#000"), 1);
+      if (!mesh) return [];
+      mesh.updateMatrix();
+      const box = new Box3().setFromObject(mesh);
+      return [box.min, box.max];
+    });
+  }
+
+  private build(): void {
+    const colours = palette();
+    this.scene.clear();
+    this.paths.clear();
+    this.groups.clear();
+    this.forceLines.length = 0;
+    this.scene.add(new AmbientLight(0xffffff, 1.1));
+    // Lights hang on the camera: what is seen is lit.
+    const light = new DirectionalLight(0xffffff, 2.4);
+    light.position.set(0.6, 1, 0.8);
+    this.camera.clear();
+    this.camera.add(light);
+    this.scene.add(this.camera);
+    const colourOf = (i: number) => colours.series[i % colours.series.length]!;
+    this.legend.replaceChildren();
+    this.geometry.bodies.forEach((body, i) => {
+      this.addBody(body.name, colourOf(i));
+      this.addPath(body, colourOf(i));
+      this.legend.append(h("span", { class: "chip" }, h("i", { style: `background:${colourOf(i)}` }), body.name.replaceAll("_", " ")));
+    });
+    this.addBody("ground", colours.faint);
+    const size = 0.018 * this.bounds.radius;
+    for (const joint of this.geometry.joints) this.addJoint(joint, size, colours.ink);
+    for (const bearing of this.geometry.bearings) this.addBearing(bearing, colours.accent);
+    for (const link of this.geometry.forces) {
+      const line = new Line(new BufferGeometry().setFromPoints([new Vector3(), new Vector3()]), new LineBasicMaterial({ color: new Color(colours.ink) }));
+      this.forceLines.push({ link, line });
+      this.scene.add(line);
+    }
+    this.scene.add(this.paths);
+    this.paths.visible = false;
+  }
+
+  private addBody(name: string, colour: string): void {
+    const group = new Group();
+    group.matrixAutoUpdate = false;
+    const shapes = this.geometry.shapes(name);
+    for (const shape of shapes) {
+      const paint = material(colour, shape.kind === "half_space" ? 0.25 : 1);
+      const mesh = shapeMesh(shape, paint, this.bounds.radius);
+      if (mesh) group.add(mesh);
+    }
+    if (shapes.length === 0 && name !== "ground") this.addBars(name, group, colour);
+    this.groups.set(name, group);
+    this.scene.add(group);
+  }
+
+  /** Bars from the middle of a body's joints to each of them; a ball where its mass lies. */
+  private addBars(name: string, group: Group, colour: string): void {
+    const radius = 0.022 * this.bounds.radius;
+    const paint = material(colour);
+    const apart = distinct(this.geometry.attachments(name), 0.1 * radius);
+    const mass = this.geometry.centreOfMass(name);
+    const ends = apart.length < 2 ? distinct([...apart, mass], 0.1 * radius) : apart;
+    if (ends.length === 2) group.add(bar(ends[0]!, ends[1]!, radius, paint));
+    if (ends.length > 2) {
+      const middle = ends.reduce((sum, end) => sum.add(end), new Vector3()).divideScalar(ends.length);
+      for (const end of ends) group.add(bar(middle, end, radius, paint));
+    }
+    group.add(ball(mass, 1.8 * radius, paint));
+  }
+
+  private addJoint(joint: Link, size: number, colour: string): void {
+    const group = this.groups.get(joint.inboard);
+    if (!group || joint.axis.lengthSq() === 0) return;
+    const paint = material(colour);
+    const end = joint.axis.clone().normalize().multiplyScalar(3.2 * size);
+    if (joint.kind === "spherical") group.add(ball(joint.inboardPlace, 2.2 * size, paint));
+    else if (["revolute", "cylindrical", "prismatic", "universal", "screw"].includes(joint.kind))
+      group.add(rod(joint.inboardPlace.clone().sub(end), joint.inboardPlace.clone().add(end), size, paint));
+  }
+
+  /** The shell, see-through and a little wider than the bore. */
+  private addBearing(bearing: Link, colour: string): void {
+    const { radius, width } = this.geometry.bearingSize(bearing.name);
+    const group = this.groups.get(bearing.inboard);
+    if (!group || radius === 0 || bearing.axis.lengthSq() === 0) return;
+    const half = bearing.axis.clone().normalize().multiplyScalar(0.5 * width);
+    group.add(rod(bearing.inboardPlace.clone().sub(half), bearing.inboardPlace.clone().add(half), 1.12 * radius, material(colour, 0.45), true));
+  }
+
+  private addPath(body: BodyMotion, colour: string): void {
+    const pose = new Matrix4();
+    const mass = this.geometry.centreOfMass(body.name);
+    const points = Array.from(this.geometry.time, (t) => mass.clone().applyMatrix4(this.geometry.pose(body, t, pose)));
+    this.paths.add(new Line(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: new Color(colour) })));
+  }
+
+  private place(): void {
+    for (const body of this.geometry.bodies) {
+      const group = this.groups.get(body.name);
+      if (group) this.geometry.pose(body, this.time, group.matrix);
+    }
+    const end = (body: string, place: Vector3) => {
+      const group = this.groups.get(body);
+      return group ? place.clone().applyMatrix4(group.matrix) : place.clone();
+    };
+    for (const { link, line } of this.forceLines)
+      line.geometry.setFromPoints([end(link.inboard, link.inboardPlace), end(link.outboard, link.outboardPlace)]);
+    this.render();
+  }
+
+  private render(): void {
+    this.renderer?.render(this.scene, this.camera);
+  }
+}
+
+function distinct(places: Vector3[], apart: number): Vector3[] {
+  return places.reduce<Vector3[]>((kept, place) => (kept.some((k) => k.distanceTo(place) < apart) ? kept : [...kept, place]), []);
+}
