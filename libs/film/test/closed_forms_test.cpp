@@ -149,6 +149,10 @@ TEST_CASE("SqueezedJournal_MeetsTheClosedForm") {
 }
 
 TEST_CASE("SqueezedPlates_MeetTheClosedForm") {
+  // The reference's digits.
+  CHECK(std::abs(verification::squeeze_plates(1) - 0.421731) < 6e-7);
+  CHECK(std::abs(verification::squeeze_plates(2) - 0.686045) < 6e-7);
+  CHECK(std::abs(verification::squeeze_plates(4) - 0.842439) < 6e-7);
   // The unwrapped film with a supply line at edge pressure is a rectangle with p = 0 all around.
   for (const double L_over_B : {1.0, 2.0, 4.0}) {
     CAPTURE(L_over_B);
