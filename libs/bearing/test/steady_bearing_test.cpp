@@ -108,6 +108,44 @@ TEST_CASE("ShortBearing_WhirlsAtOcvirksThreshold") {
   }
 }
 
+// Two axial grooves of 20 degrees at +-90 degrees to the load, L/D = 0.5 (Lund and Thomsen 1978, as read there).
+TEST_CASE("LundThomsen_StiffnessAndDamping") {
+  struct Row {
+    double S, epsilon, attitude;
+    Eigen::Matrix2d K, C;
+  };
+  const auto matrix = [](double xx, double xy, double yx, double yy) {
+    return Eigen::Matrix2d((Eigen::Matrix2d() << xx, xy, yx, yy).finished());
+  };
+  const std::vector<Row> table{{1.656, 0.244, 65.85, matrix(1.69, 5.06, -2.20, 1.95), matrix(9.93, 2.15, 2.15, 4.80)},
+                               {0.378, 0.570, 45.43, matrix(3.33, 3.64, -0.43, 1.68), matrix(6.76, 1.87, 1.87, 1.89)}};
+  // Oil carried on from the ruptured film hardly matters, as both grooves are flooded: conserving it or not, the table
+  // is met. Dropping negative pressures alone is not: at S = 0.378 it is off by 9 to 41 %.
+  for (const auto cavitation : {film::Cavitation::reynolds, film::Cavitation::mass_conserving}) {
+    for (const Row& row : table) {
+      CAPTURE(static_cast<int>(cavitation));
+      CAPTURE(row.S);
+      film::FilmModel model{.R = 0.025, .L = 0.025, .c = 25e-6, .grid = {288, 49}, .cavitation = cavitation};
+      model.shear_force = film::ShearForce::torque_only;
+      const double arc = pi / 9, omega = 100, R_c = model.R / model.c;
+      model.features = {{.name = "right", .phi = 0, .arc = arc, .length = model.L},
+                        {.name = "left", .phi = pi, .arc = arc, .length = model.L}};
+      const double load = model.lubricant.mu0 * omega / (2 * pi) * R_c * R_c * model.L * 2 * model.R / row.S;
+      const SteadyState state = solved(model, under_load(load, -pi / 2, omega));
+      const BearingNumbers numbers = bearing_numbers(model, state);
+      CHECK(std::abs(numbers.eccentricity_ratio - row.epsilon) < 1e-3);
+      CHECK(std::abs(numbers.attitude * 180 / pi - row.attitude) < 0.3);
+      const LoadAxesCoefficients found = in_load_axes(model, state);
+      // Three percent, and half of the last digit printed.
+      for (int i = 0; i < 4; ++i) {
+        CAPTURE(i);
+        CHECK(std::abs(found.K(i / 2, i % 2) - row.K(i / 2, i % 2)) < 0.03 * std::abs(row.K(i / 2, i % 2)) + 0.005);
+        CHECK(std::abs(found.C(i / 2, i % 2) - row.C(i / 2, i % 2)) < 0.03 * std::abs(row.C(i / 2, i % 2)) + 0.005);
+      }
+    }
+  }
+}
+
 TEST_CASE("Coefficients_MatchDifferencesOfTheForce") {
   const film::FilmModel model = rough_elastic_film();
   OperatingPoint point{.journal_speed = 370, .shell_speed = -40};

@@ -11,8 +11,8 @@ namespace hersey::film {
 namespace {
 
 struct Slider {
-  double length = 0, U = 0, mu = 0;     ///< [m, m/s, Pa s]
-  double end_pressure = 0;              ///< at both ends [Pa]
+  double length = 0, U = 0, mu = 0;   ///< [m, m/s, Pa s]
+  double end_pressure = 0;            ///< at both ends [Pa]
   std::function<double(double)> gap;  ///< [m] at x in [0, length]
 };
 
@@ -90,7 +90,8 @@ TEST_CASE("RayleighStep_MeetsTheClosedForm") {
 // Parabolic slider between ends at the cavitation pressure (reference: exact solution of the mass-conserving problem).
 TEST_CASE("ParabolicSlider_MeetsTheExactSolutionWithOrderTwo") {
   const double length = 0.0762;
-  const Slider slider{length, 4.57, 0.039, 0, [&](double x) { return 25.4e-6 * (1 + std::pow(2 * x / length - 1, 2)); }};
+  const Slider slider{length, 4.57, 0.039, 0,
+                      [&](double x) { return 25.4e-6 * (1 + std::pow(2 * x / length - 1, 2)); }};
   std::array<double, 2> load_error{}, peak_error{};
   for (int k = 0; k < 2; ++k) {
     const SolvedSlider s = solve(slider, k == 0 ? 190 : 380);
