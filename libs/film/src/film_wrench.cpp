@@ -77,48 +77,68 @@ void FilmWrench::set_speeds(const SurfaceMotion& motion) {
   friction_slip_ = mu_friction / speed * (Eigen::Matrix2d::Identity() - slip_ * slip_.transpose() / square);
 }
 
-void FilmWrench::evaluate(const std::vector<Node>& nodes, const SurfaceMotion& motion, bool want_gradient) {
+void FilmWrench::evaluate(const std::vector<Node>& nodes, const RoughGaps& rough, const SurfaceMotion& motion,
+                          bool want_gradient) {
   const Grid& grid = model_.grid;
   set_speeds(motion);
   pressure_.setZero(), shear_.setZero(), asperity_.setZero();
   if (want_gradient) by_u_.setZero(), by_g_.setZero(), by_slip_.setZero();
   for (int i = 0; i < grid.n_phi; ++i) {
-    for (int j = 0; j < grid.n_z; ++j) add_node(nodes, i, j, want_gradient);
+    for (int j = 0; j < grid.n_z; ++j) {
+      add_node(nodes, rough.empty() ? nullptr : &rough[grid.index(i, j)], i, j, want_gradient);
+    }
   }
   total_ = pressure_ + shear_ + asperity_;
 }
 
-void FilmWrench::add_node(const std::vector<Node>& nodes, int i, int j, bool want_gradient) {
+FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap* rough) {
+  Shear s;
+  const double mu = 1 / node.fluidity, couette = node.share * mu / node.h;
+  const double couette_u = (node.share_u * mu - node.share * mu * mu * node.fluidity_u) / node.h;
+  for (int k = 0; k < 2; ++k) {
+    const double factor = rough == nullptr ? 1 : rough->couette[k],
+                 factor_h = rough == nullptr ? 0 : rough->couette_h[k];
+    s.couette[k] = couette * factor;
+    s.couette_u[k] = couette_u * factor;
+    s.couette_h[k] = couette * (factor_h - factor / node.h);
+    s.half_gap[k] = 0.5 * (rough == nullptr ? node.h : rough->mean + rough->drag[k]);
+    s.half_gap_h[k] = 0.5 * (rough == nullptr ? 1 : rough->mean_h + rough->drag_h[k]);
+  }
+  return s;
+}
+
+void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient) {
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j);
   const Node& node = nodes[k];
   const double area = geometry_.weight_phi[i] * geometry_.weight_z[j];
   const Basis b = basis(i, j);
-
-  // Shear on the shell (film.18): tau = share mu slip/h - h/2 grad p, along phi and along z.
   const Stencil by_phi = slope_phi(grid, geometry_, i, j), by_z = slope_z(grid, geometry_, i, j);
   const double p_phi = slope(by_phi, nodes), p_z = slope(by_z, nodes);
-  const double mu = 1 / node.fluidity, couette = node.share * mu / node.h;
+  const Shear s = shear_of(node, rough);
+  const auto sheared = [&](double along_phi, double along_z) -> Vector6 {
+    return along_phi * b.shear_tangential + along_z * b.shear_axial;
+  };
   pressure_ += area * node.wall * b.radial;
-  shear_ += area * ((couette * slip_[0] - 0.5 * node.h * p_phi) * b.shear_tangential +
-                    (couette * slip_[1] - 0.5 * node.h * p_z) * b.shear_axial);
+  shear_ +=
+      area * sheared(s.couette[0] * slip_[0] - s.half_gap[0] * p_phi, s.couette[1] * slip_[1] - s.half_gap[1] * p_z);
   const Vector6 contact = b.radial + friction_[0] * b.tangential + friction_[1] * b.axial;
   if (node.asperity != 0) asperity_ += area * node.asperity * contact;
   if (!want_gradient) return;
 
-  const Vector6 sheared = slip_[0] * b.shear_tangential + slip_[1] * b.shear_axial;
-  const Vector6 by_h = area * (-couette / node.h * sheared - 0.5 * (p_phi * b.shear_tangential + p_z * b.shear_axial) +
+  const Vector6 by_h = area * (sheared(s.couette_h[0] * slip_[0] - s.half_gap_h[0] * p_phi,
+                                       s.couette_h[1] * slip_[1] - s.half_gap_h[1] * p_z) +
                                node.asperity_h * contact);
-  const double couette_u = (node.share_u * mu - node.share * mu * mu * node.fluidity_u) / node.h;
-  by_u_.col(k) += node.h_u * by_h + area * (node.wall_u * b.radial + couette_u * sheared);
+  by_u_.col(k) +=
+      node.h_u * by_h + area * (node.wall_u * b.radial + sheared(s.couette_u[0] * slip_[0], s.couette_u[1] * slip_[1]));
   by_g_.col(k) += node.h_g * by_h;
-  for (int s = 0; s < 3; ++s) {
-    const double half = -0.5 * area * node.h;
-    by_u_.col(by_phi.node[s]) += half * by_phi.weight[s] * nodes[by_phi.node[s]].wall_u * b.shear_tangential;
-    by_u_.col(by_z.node[s]) += half * by_z.weight[s] * nodes[by_z.node[s]].wall_u * b.shear_axial;
+  for (int n = 0; n < 3; ++n) {
+    const double wall_phi = nodes[by_phi.node[n]].wall_u, wall_z = nodes[by_z.node[n]].wall_u;
+    by_u_.col(by_phi.node[n]) -= area * s.half_gap[0] * by_phi.weight[n] * wall_phi * b.shear_tangential;
+    by_u_.col(by_z.node[n]) -= area * s.half_gap[1] * by_z.weight[n] * wall_z * b.shear_axial;
   }
-  by_slip_.col(0) += area * couette * b.shear_tangential;
-  by_slip_.col(1) += area * couette * b.shear_axial;
+  by_slip_.col(0) += area * s.couette[0] * b.shear_tangential;
+  by_slip_.col(1) += area * s.couette[1] * b.shear_axial;
   if (node.asperity == 0) return;
   by_slip_ += area * node.asperity * (b.tangential * friction_slip_.row(0) + b.axial * friction_slip_.row(1));
 }

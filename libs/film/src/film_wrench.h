@@ -7,6 +7,7 @@
 #include "hersey/core/spatial.h"
 #include "hersey/film/reynolds.h"
 #include "node.h"
+#include "rough_gap.h"
 
 namespace hersey::film {
 
@@ -17,7 +18,9 @@ class FilmWrench {
   explicit FilmWrench(const FilmModel& model);
 
   /// Sums the tractions of all nodes; with `want_gradient` also their derivatives.
-  void evaluate(const std::vector<Node>& nodes, const SurfaceMotion& motion, bool want_gradient);
+  /// @param rough  of every node, or empty for smooth surfaces.
+  void evaluate(const std::vector<Node>& nodes, const RoughGaps& rough, const SurfaceMotion& motion,
+                bool want_gradient);
 
   [[nodiscard]] const Vector6& total() const { return total_; }
   [[nodiscard]] const Vector6& pressure() const { return pressure_; }
@@ -40,7 +43,14 @@ class FilmWrench {
     Vector6 radial, tangential, axial, shear_tangential, shear_axial;
   };
   [[nodiscard]] Basis basis(int i, int j) const;
-  void add_node(const std::vector<Node>& nodes, int i, int j, bool want_gradient);
+  /// Shear on the shell at one node (film.18, film.32): couette . slip - half_gap . grad p, index 0 along phi, 1 along
+  /// z.
+  struct Shear {
+    Eigen::Vector2d couette, couette_u, couette_h;  ///< [Pa s/m] and slopes at given film thickness and at given u
+    Eigen::Vector2d half_gap, half_gap_h;           ///< [m]
+  };
+  [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap* rough);
+  void add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient);
   void set_speeds(const SurfaceMotion& motion);
 
   FilmModel model_;

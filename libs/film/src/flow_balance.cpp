@@ -35,6 +35,11 @@ FlowBalance::FlowBalance(const FilmModel& model) : model_(model), law_(model_), 
   lay_pattern();
   const int n = grid.size();
   nodes_.resize(n);
+  if (model_.roughness.counts()) {
+    rough_law_.emplace(model_.roughness);
+    rough_.resize(n);
+    mean_start_.resize(n);
+  }
   flows_.resize(faces_.size());
   for (auto* field : {&residual_, &balance_, &throughput_, &g_rate_, &w_start_, &u_}) field->setZero(n);
   content_start_.setOnes(n);
@@ -126,8 +131,13 @@ int FlowBalance::feature_at(int node) const {
 FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
   if (held.feature < 0) return {supply_stiffness * D0_, 0, 0};
   const Node& node = nodes_[held.node];
-  const double k = unit_conductance_ * node.density * node.h * node.h * node.h * node.fluidity / 12;
-  const double by_h = 3 * k / node.h;
+  double k = unit_conductance_ * node.density * node.h * node.h * node.h * node.fluidity / 12, by_h = 3 * k / node.h;
+  if (!rough_.empty()) {
+    const RoughGap& rough = rough_[held.node];
+    const double factor = 0.5 * (rough.pressure[0] + rough.pressure[1]);
+    by_h = by_h * factor + 0.5 * k * (rough.pressure_h[0] + rough.pressure_h[1]);
+    k *= factor;
+  }
   return {k, by_h * node.h_u + k * (node.fluidity_u / node.fluidity + node.density_u / node.density), by_h * node.h_g};
 }
 
@@ -210,9 +220,10 @@ void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& histo
   u_ = u;
   speed_phi_ = 0.5 * (motion.u_shell + motion.u_journal);
   speed_z_ = 0.5 * (motion.w_shell + motion.w_journal);
+  half_slip_phi_ = 0.5 * (motion.u_shell - motion.u_journal);
+  half_slip_z_ = 0.5 * (motion.w_shell - motion.w_journal);
+  evaluate_nodes(motion, u);
   for (int i = 0; i < n; ++i) {
-    nodes_[i] = law_.state(motion.g[i], u[i], i % model_.grid.n_z);
-    HERSEY_REQUIRE(nodes_[i].h > 0, "the film has closed at node " + std::to_string(i));
     balance_[i] = storage(i);
     throughput_[i] = std::max(std::abs(balance_[i]), std::abs(storage_g_rate(i) * g_rate_[i]));
   }
@@ -221,7 +232,18 @@ void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& histo
   largest_throughput_ = throughput_.maxCoeff();
 }
 
+void FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+  for (int i = 0; i < size(); ++i) {
+    nodes_[i] = law_.state(motion.g[i], u[i], i % model_.grid.n_z);
+    HERSEY_REQUIRE(nodes_[i].h > 0, "the film has closed at node " + std::to_string(i));
+    if (!rough_law_) continue;
+    rough_[i] = rough_law_->state(nodes_[i].h);
+    if (dt_ > 0) mean_start_[i] = rough_law_->mean(motion.g[i] - dt_ * motion.g_rate[i] + w_start_[i]);
+  }
+}
+
 void FlowBalance::add_face(std::size_t f) {
+  if (!rough_.empty()) return add_rough_face(f);
   const Face& face = faces_[f];
   const Node &a = nodes_[face.a], &b = nodes_[face.b];
   const double speed = entrainment(f);
@@ -235,11 +257,52 @@ void FlowBalance::add_face(std::size_t f) {
   flow.density = density;
   flow.K = density * unit * h * fluidity;
   flow.couette = density * speed * h * face.width;
-  flow.q_h = density * (3 * unit * fluidity * drop + speed * face.width * theta);
+  flow.q_h_a = flow.q_h_b = 0.5 * density * (3 * unit * fluidity * drop + speed * face.width * theta);
   flow.q_fluidity = density * unit * h * drop;
   flow.q_density = unit * h * fluidity * drop + speed * h * face.width * theta;
 
-  const double poiseuille = flow.K * drop, entrained = flow.couette * theta;
+  add_flow(f, theta);
+}
+
+double FlowBalance::carrying_area(std::size_t f, double speed, double half_slip) const {
+  const Face& face = faces_[f];
+  const Node &a = nodes_[face.a], &b = nodes_[face.b];
+  if (rough_.empty()) return 0.5 * (a.h + b.h) * speed * face.width;
+  const RoughGap &rough_a = rough_[face.a], &rough_b = rough_[face.b];
+  const int k = axial(f) ? 1 : 0;
+  return 0.5 * ((rough_a.mean + rough_b.mean) * speed + (rough_a.drag[k] + rough_b.drag[k]) * half_slip) * face.width;
+}
+
+// Between rough surfaces (film.29): factors are means of those at both nodes.
+void FlowBalance::add_rough_face(std::size_t f) {
+  const Face& face = faces_[f];
+  const Node &a = nodes_[face.a], &b = nodes_[face.b];
+  const RoughGap &rough_a = rough_[face.a], &rough_b = rough_[face.b];
+  const int k = axial(f) ? 1 : 0;
+  const double speed = entrainment(f), half_slip = axial(f) ? half_slip_z_ : half_slip_phi_;
+  const double h = 0.5 * (a.h + b.h), fluidity = 0.5 * (a.fluidity + b.fluidity);
+  const double density = 0.5 * (a.density + b.density), drop = a.p - b.p;
+  const double cube = h * h * h * face.width / (12 * face.length);
+  const double factor = 0.5 * (rough_a.pressure[k] + rough_b.pressure[k]);
+  const double carried = carrying_area(f, speed, half_slip), theta = carried >= 0 ? a.theta : b.theta;
+  FaceFlow& flow = flows_[f];
+  flow.density = density;
+  flow.K = density * factor * cube * fluidity;
+  flow.couette = density * carried;
+  flow.q_fluidity = density * factor * cube * drop;
+  flow.q_density = factor * cube * fluidity * drop + carried * theta;
+  const auto by_h = [&](const RoughGap& rough) {
+    const double pressure_flow = (3 * factor / h + rough.pressure_h[k]) * cube * fluidity * drop;
+    return 0.5 * density * (pressure_flow + (rough.mean_h * speed + rough.drag_h[k] * half_slip) * face.width * theta);
+  };
+  flow.q_h_a = by_h(rough_a), flow.q_h_b = by_h(rough_b);
+  add_flow(f, theta);
+}
+
+void FlowBalance::add_flow(std::size_t f, double theta) {
+  const Face& face = faces_[f];
+  const FaceFlow& flow = flows_[f];
+  const double poiseuille = flow.K * (nodes_[face.a].p - nodes_[face.b].p), entrained = flow.couette * theta;
   balance_[face.a] += poiseuille + entrained;
   balance_[face.b] -= poiseuille + entrained;
   const double passing = 0.5 * (std::abs(poiseuille) + std::abs(entrained));
@@ -248,27 +311,43 @@ void FlowBalance::add_face(std::size_t f) {
 }
 
 // Storage (film.8): m_n g_rate + ((m - m_n) h + m_n (w - w_n))/dt per area with the content m = rho theta; in a steady
-// film m g_rate.
+// film m g_rate. Between rough surfaces the mean gap h_T takes the place of h (film.30): (m h_T - m_n h_T*)/dt, h_T* at
+// the gap from which the rate leads to the present one.
 double FlowBalance::storage(int i) const {
   const Node& node = nodes_[i];
   const double a = area_[i];
-  if (dt_ == 0) return a * node.content * g_rate_[i];
+  if (dt_ == 0) return node.content * storage_by_content(i);
   const double m_n = content_start_[i];
+  if (!rough_.empty()) return a * (node.content * rough_[i].mean - m_n * mean_start_[i].value) / dt_;
   return a * (m_n * g_rate_[i] + ((node.content - m_n) * node.h + m_n * (node.w - w_start_[i])) / dt_);
+}
+
+double FlowBalance::storage_by_content(int i) const {
+  if (dt_ > 0) return area_[i] * oil_gap(i) / dt_;
+  return area_[i] * g_rate_[i] * (rough_.empty() ? 1.0 : rough_[i].mean_h);
 }
 
 double FlowBalance::storage_u(int i) const {
   const Node& node = nodes_[i];
-  const double a = area_[i];
-  return dt_ == 0 ? a * node.content_u * g_rate_[i] : a * (node.content_u * node.h + node.content * node.h_u) / dt_;
+  return node.content_u * storage_by_content(i) + storage_h(i) * node.h_u;
+}
+
+// With the film thickness, at a given content and start.
+double FlowBalance::storage_h(int i) const {
+  const double by_h = rough_.empty() ? 1.0 : rough_[i].mean_h;
+  if (dt_ > 0) return area_[i] * nodes_[i].content * by_h / dt_;
+  return rough_.empty() ? 0 : area_[i] * nodes_[i].content * g_rate_[i] * rough_[i].mean_hh;
 }
 
 double FlowBalance::storage_g(int i) const {
-  return dt_ == 0 ? 0 : area_[i] * (nodes_[i].content * nodes_[i].h_g - content_start_[i]) / dt_;
+  const double now = storage_h(i) * nodes_[i].h_g;
+  if (dt_ == 0) return now;
+  return now - area_[i] * content_start_[i] * (rough_.empty() ? 1.0 : mean_start_[i].slope) / dt_;
 }
 
 double FlowBalance::storage_g_rate(int i) const {
-  return area_[i] * (dt_ == 0 ? nodes_[i].content : content_start_[i]);
+  if (dt_ == 0) return area_[i] * nodes_[i].content * (rough_.empty() ? 1.0 : rough_[i].mean_h);
+  return area_[i] * content_start_[i] * (rough_.empty() ? 1.0 : mean_start_[i].slope);
 }
 
 // What a row carries beside its balance: in reynolds the slack of p >= p_cav, on an open edge the outflow.
@@ -328,12 +407,12 @@ void FlowBalance::assemble_jacobian() {
     const Face& face = faces_[f];
     const FaceFlow& flow = flows_[f];
     const Node &a = nodes_[face.a], &b = nodes_[face.b];
-    const bool from_a = entrainment(f) >= 0;
-    const auto by_laws = [&](const Node& node) {
-      return 0.5 * (flow.q_h * node.h_u + flow.q_fluidity * node.fluidity_u + flow.q_density * node.density_u);
+    const bool from_a = flow.couette >= 0;
+    const auto by_laws = [&](const Node& node, double q_h) {
+      return q_h * node.h_u + 0.5 * (flow.q_fluidity * node.fluidity_u + flow.q_density * node.density_u);
     };
-    const double q_a = flow.K * a.p_u + by_laws(a) + (from_a ? flow.couette * a.theta_u : 0);
-    const double q_b = -flow.K * b.p_u + by_laws(b) + (from_a ? 0 : flow.couette * b.theta_u);
+    const double q_a = flow.K * a.p_u + by_laws(a, flow.q_h_a) + (from_a ? flow.couette * a.theta_u : 0);
+    const double q_b = -flow.K * b.p_u + by_laws(b, flow.q_h_b) + (from_a ? 0 : flow.couette * b.theta_u);
     values_[face.slots[0]] += q_a;
     values_[face.slots[1]] += q_b;
     values_[face.slots[2]] -= q_a;
@@ -364,13 +443,17 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   }
   const double speed_phi = 0.5 * (direction.u_shell + direction.u_journal);
   const double speed_z = 0.5 * (direction.w_shell + direction.w_journal);
+  const double half_slip_phi = 0.5 * (direction.u_shell - direction.u_journal);
+  const double half_slip_z = 0.5 * (direction.w_shell - direction.w_journal);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
     const Node &a = nodes_[face.a], &b = nodes_[face.b];
-    const double theta = entrainment(f) >= 0 ? a.theta : b.theta;
-    const double speed = f < first_axial_face_ ? speed_phi : speed_z;
-    double q = speed * flows_[f].density * 0.5 * (a.h + b.h) * face.width * theta;
-    if (gap) q += flows_[f].q_h * 0.5 * (a.h_g * direction.g[face.a] + b.h_g * direction.g[face.b]);
+    const FaceFlow& flow = flows_[f];
+    const double theta = flow.couette >= 0 ? a.theta : b.theta;
+    const double carried =
+        axial(f) ? carrying_area(f, speed_z, half_slip_z) : carrying_area(f, speed_phi, half_slip_phi);
+    double q = flow.density * carried * theta;
+    if (gap) q += flow.q_h_a * a.h_g * direction.g[face.a] + flow.q_h_b * b.h_g * direction.g[face.b];
     dr[face.a] += q;
     dr[face.b] -= q;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "grid_geometry.h"
 #include "hersey/film/reynolds.h"
 #include "node.h"
+#include "rough_gap.h"
 
 namespace hersey::film {
 
@@ -19,13 +21,14 @@ struct Face {
   std::array<int, 4> slots{};  ///< where (a,a), (a,b), (b,a), (b,b) stand among the Jacobian's values
 };
 
-/// The flow over a face, linearised (film.9): dq = K d(p_a - p_b) + q_h dh + q_fluidity d(1/mu) + q_density d density +
-/// couette d theta_upwind. Flows are of mass over rho0.
+/// The flow over a face, linearised (film.9): dq = K d(p_a - p_b) + q_h_a dh_a + q_h_b dh_b + q_fluidity d(1/mu) +
+/// q_density d density + couette d theta_upwind. Flows are of mass over rho0.
 struct FaceFlow {
   double K = 0;           ///< conductance [m^3/(Pa s)]
   double density = 1;     ///< rho/rho0 on the face [-]
   double q_density = 0;   ///< with it: the volume that flows [m^3/s]
-  double q_h = 0;         ///< with the face's film thickness [m^2/s]
+  double q_h_a = 0;       ///< with the film thickness at a [m^2/s]
+  double q_h_b = 0;       ///< with that at b [m^2/s]
   double q_fluidity = 0;  ///< with the face's 1/mu
   double couette = 0;     ///< entrained flow of a full gap [m^3/s]
 };
@@ -52,12 +55,16 @@ class FlowBalance {
   void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] const RoughGaps& rough_gaps() const { return rough_; }  ///< empty for smooth surfaces
   [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
   [[nodiscard]] const std::vector<FaceFlow>& flows() const { return flows_; }
   [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
   /// Outflow plus storage of every control volume, boundary nodes included: there it is the oil fed from outside.
   [[nodiscard]] const Eigen::VectorXd& balance() const { return balance_; }
-  [[nodiscard]] double storage(int node) const;  ///< [m^3/s]
+  [[nodiscard]] double storage(int node) const;             ///< [m^3/s]
+  [[nodiscard]] double storage_by_content(int node) const;  ///< its derivative with the oil's content [m^3/s]
+  /// The gap that holds oil at a node: the film thickness, between rough surfaces the mean of the local gap [m].
+  [[nodiscard]] double oil_gap(int node) const { return rough_.empty() ? nodes_[node].h : rough_[node].mean; }
   [[nodiscard]] double largest_throughput() const { return largest_throughput_; }
   [[nodiscard]] double relative_residual() const;
   [[nodiscard]] int worst_node() const;
@@ -106,18 +113,26 @@ class FlowBalance {
   [[nodiscard]] const HeldNode* held_at(int node) const;
   [[nodiscard]] Tie tie(const HeldNode& held) const;
   void take_history(const FilmHistory& history);
+  void evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
   void add_face(std::size_t f);
+  void add_rough_face(std::size_t f);
+  void add_flow(std::size_t f, double theta);
   void replace_boundary_rows();
   [[nodiscard]] double slack(int node) const;
   [[nodiscard]] double slack_u(int node) const;
   [[nodiscard]] double storage_u(int node) const;
+  [[nodiscard]] double storage_h(int node) const;
   [[nodiscard]] double storage_g(int node) const;
   [[nodiscard]] double storage_g_rate(int node) const;
+  [[nodiscard]] bool axial(std::size_t f) const { return f >= first_axial_face_; }
   /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
-  [[nodiscard]] double entrainment(std::size_t f) const { return f < first_axial_face_ ? speed_phi_ : speed_z_; }
+  [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : speed_phi_; }
+  /// Flow over face f per density, fill fraction and unit of the speeds' mean and of half their difference [m^2].
+  [[nodiscard]] double carrying_area(std::size_t f, double speed, double half_slip) const;
 
   FilmModel model_;
   NodeLaw law_;
+  std::optional<RoughGapLaw> rough_law_;
   GridGeometry geometry_;
   double D0_ = 0, unit_conductance_ = 0;
   std::vector<double> area_;  ///< of the control volumes [m^2]
@@ -127,13 +142,15 @@ class FlowBalance {
   std::vector<std::vector<int>> row_slots_;  ///< of every row the slots of its entries
 
   std::vector<Node> nodes_;
+  RoughGaps rough_;
   std::vector<FaceFlow> flows_;
   std::vector<double> values_;  ///< one more than the pattern: rows without a balance scatter there
   Eigen::VectorXd residual_, balance_, throughput_, g_rate_, content_start_, w_start_, u_;
+  std::vector<ValueAndSlope> mean_start_;  ///< rough surfaces: the mean gap the step starts from
   std::vector<HeldNode> held_;
   std::vector<int> held_index_;  ///< of every node its place in held_, -1 for none
   std::vector<CoveredNode> covered_;
-  double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, largest_throughput_ = 0;
+  double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, half_slip_phi_ = 0, half_slip_z_ = 0, largest_throughput_ = 0;
 };
 
 }  // namespace hersey::film

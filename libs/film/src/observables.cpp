@@ -106,7 +106,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
       const Node& node = balance.nodes()[k];
       const double area = balance.area(k);
       o.storage_rate += balance.storage(k);
-      o.oil_volume += area * node.content * node.h;
+      o.oil_volume += area * node.content * balance.oil_gap(k);
       total += area;
       if (u[k] < -round_off) cavitated += area;
       (j == 0 ? o.flow_left : o.flow_right) += balance.outflow(k);
@@ -123,11 +123,16 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
-/// Dissipation (film.21): Couette share mu slip^2/h and Poiseuille K (p_a - p_b)^2, and boundary friction.
+/// Dissipation (film.21, film.33): Couette share mu slip^2/h, more of it between rough surfaces, and Poiseuille
+/// K (p_a - p_b)^2, and boundary friction.
 void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, double friction, FilmObservables& o) {
-  const double slip2 = std::pow(motion.u_journal - motion.u_shell, 2) + std::pow(motion.w_journal - motion.w_shell, 2);
+  const double slip2_phi = std::pow(motion.u_journal - motion.u_shell, 2);
+  const double slip2_z = std::pow(motion.w_journal - motion.w_shell, 2);
+  const RoughGaps& rough = balance.rough_gaps();
   for (int k = 0; k < balance.size(); ++k) {
     const Node& node = balance.nodes()[k];
+    const double slip2 =
+        rough.empty() ? slip2_phi + slip2_z : rough[k].couette[0] * slip2_phi + rough[k].couette[1] * slip2_z;
     o.power_film += balance.area(k) * node.share * slip2 / (node.fluidity * node.h);
     o.power_asperity += balance.area(k) * node.asperity * friction;
   }
@@ -181,7 +186,7 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
   FlowBalance balance(model);
   balance.evaluate(motion, history, u);
   FilmWrench wrench(model);
-  wrench.evaluate(balance.nodes(), motion, false);
+  wrench.evaluate(balance.nodes(), balance.rough_gaps(), motion, false);
   const FilmFields fields = fields_of(balance.nodes());
 
   FilmObservables o;

@@ -55,7 +55,7 @@ void Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& history
   impl_->linearised = impl_->factorised = false;
   impl_->balance.evaluate(motion, history, u);
   impl_->balance.assemble_jacobian();
-  impl_->wrench.evaluate(impl_->balance.nodes(), motion, true);
+  impl_->wrench.evaluate(impl_->balance.nodes(), impl_->balance.rough_gaps(), motion, true);
   impl_->linearised = true;
 }
 

@@ -95,9 +95,8 @@ void Sor::update_coefficients(const Eigen::VectorXd& u) {
   storage_theta_.resize(u.size());
   storage_known_.resize(u.size());
   for (int i = 0; i < balance_.size(); ++i) {
-    const double area = balance_.area(i);
     const Node& node = balance_.nodes()[i];
-    storage_theta_[i] = area * node.density * (history_.dt == 0 ? motion_.g_rate[i] : node.h / history_.dt);
+    storage_theta_[i] = node.density * balance_.storage_by_content(i);
     storage_known_[i] = balance_.storage(i) - storage_theta_[i] * node.theta;
   }
 }

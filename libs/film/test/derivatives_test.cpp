@@ -91,6 +91,12 @@ std::vector<State> rough_states() {
   s.name = "turning backwards";
   states.push_back(s);
   states.push_back(graded_state());
+  for (const bool transient : {false, true}) {
+    s = rough_state(Cavitation::mass_conserving, true, transient);
+    s.model.roughness = {FlowFactors::patir_cheng, {3e-6, 0.2}, {5e-6, 4}};  // from contact to full film
+    s.name = std::string("flow factors") + (transient ? ", transient" : ", steady");
+    states.push_back(s);
+  }
   return states;
 }
 

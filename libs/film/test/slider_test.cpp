@@ -34,15 +34,15 @@ SolvedSlider solve(const Slider& slider, int n) {
   FilmModel m{.R = all * s.dx / (2 * pi), .L = 0.01, .c = slider.gap(slider.length), .grid = {all, 3}};
   m.lubricant.mu0 = slider.mu;
   m.edges = EdgeKind::closed;
-  const double cell = 2 * pi / all, arc = groove_cells * cell;
-  m.features = {{.name = "inlet", .phi = -0.5 * arc, .arc = arc, .length = m.L, .pressure = slider.end_pressure},
+  const double cell = 2 * pi / all, arc = groove_cells * cell, inlet = arc - 0.5 * cell;
+  m.features = {{.name = "inlet", .phi = -0.5 * inlet, .arc = inlet, .length = m.L, .pressure = slider.end_pressure},
                 {.name = "outlet", .phi = n * cell + 0.5 * arc, .arc = arc, .length = m.L}};
   m.features[1].pressure = slider.end_pressure;
   SurfaceMotion motion = surfaces(m, {});
   motion.u_journal = slider.U;
   const double between = slider.gap(slider.length);
   for (int k = 0; k < all; ++k) {
-    const double g = k <= n ? slider.gap(k * s.dx) : k <= n + groove_cells ? between : slider.gap(0);
+    const double g = k <= n ? slider.gap(k * s.dx) : k <= n + groove_cells + 1 ? between : slider.gap(0);
     motion.g.segment(m.grid.index(k, 0), 3).setConstant(g);
   }
   s.film = solve_cold(m, motion, {0, 0});

@@ -6,6 +6,7 @@
 #include "hersey/film/density_law.h"
 #include "hersey/film/gap_profile.h"
 #include "hersey/film/grid.h"
+#include "hersey/film/roughness.h"
 #include "hersey/film/surface_feature.h"
 #include "hersey/film/viscosity_law.h"
 
@@ -77,6 +78,7 @@ struct FilmModel {
   double p_edge_right = 0;  ///< pressure at z = +L/2 [Pa], >= p_cav
   SupplyLine supply;
   Asperities asperities;
+  Roughness roughness;
   double compliance = 0;  ///< column compliance w/p = length / composite modulus [m/Pa], >= 0; 0: rigid
   CavitatedShear cavitated_shear = CavitatedShear::film_share;
   ShearForce shear_force = ShearForce::full;
