@@ -34,6 +34,8 @@ BearingNumbers bearing_numbers(const film::FilmModel& model, const SteadyState& 
     const Eigen::Vector2d borne = state.film.force_asperity.head<2>();
     n.asperity_share = std::max(0.0, borne.dot(state.load) / (W * W));
     n.film_ratio = state.film.h_min / model.asperities.sigma;
+  } else if (model.roughness.counts()) {
+    n.film_ratio = state.film.h_min / model.roughness.composite_sigma();
   }
   return n;
 }

@@ -107,10 +107,14 @@ bool starved(const FilmModel& model, const Eigen::VectorXd& u) {
 
 // A fill fraction below zero is no film: it says that more oil leaves a node than comes in.
 int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
-  int node = 0;
-  u.minCoeff(&node);
-  const bool fills = model.cavitation == Cavitation::mass_conserving;
-  return fills && u[node] < -fill_scale(model) * (1 + 1e-9) ? node : -1;
+  if (model.cavitation != Cavitation::mass_conserving) return -1;
+  int emptiest = -1;
+  double least = -fill_scale(model) * (1 + 1e-9);
+  for (int node = 0; node < model.grid.size(); ++node) {
+    // An edge that lets oil in has no fill fraction below that of its surroundings.
+    if (u[node] < least && ambient_fill(model, node % model.grid.n_z) == 0) emptiest = node, least = u[node];
+  }
+  return emptiest;
 }
 
 void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, FilmSolveSummary& summary) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "hersey/core/contract.h"
@@ -18,6 +19,8 @@ void check(const FilmModel& m) {
   HERSEY_REQUIRE(m.lubricant.mu0 > 0, "viscosity is positive");
   HERSEY_REQUIRE(m.compliance >= 0, "compliance is not negative");
   HERSEY_REQUIRE(m.p_edge_left >= m.p_cav && m.p_edge_right >= m.p_cav, "edges lie at or above p_cav");
+  const auto is_share = [](double x) { return 0 <= x && x <= 1; };
+  HERSEY_REQUIRE(is_share(m.ambient_fill_left) && is_share(m.ambient_fill_right), "fill lies between 0 and 1");
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.supply.pressure >= m.p_cav, "supply lies at or above p_cav");
   HERSEY_REQUIRE(m.asperities.model == AsperityModel::none || m.asperities.sigma > 0, "roughness is positive");
 }
@@ -34,6 +37,11 @@ FlowBalance::FlowBalance(const FilmModel& model) : model_(model), law_(model_), 
   lay_faces();
   lay_pattern();
   const int n = grid.size();
+  const auto ambient_unknown_at = [&](int j) {
+    const double fill = ambient_fill(model_, j);
+    return fill > 0 ? (fill - 1) * fill_scale(model_) : -std::numeric_limits<double>::infinity();
+  };
+  ambient_left_ = ambient_unknown_at(0), ambient_right_ = ambient_unknown_at(grid.n_z - 1);
   nodes_.resize(n);
   if (model_.roughness.counts()) {
     rough_law_.emplace(model_.roughness);
@@ -350,15 +358,18 @@ double FlowBalance::storage_g_rate(int i) const {
   return area_[i] * content_start_[i] * (rough_.empty() ? 1.0 : mean_start_[i].slope);
 }
 
-// What a row carries beside its balance: in reynolds the slack of p >= p_cav, on an open edge the outflow.
+// What a row carries beside its balance: in reynolds the slack of p >= p_cav, on an open edge the outflow or
+// inflow.
 double FlowBalance::slack(int node) const {
   if (model_.cavitation == Cavitation::reynolds) return D0_ * std::min(u_[node], 0.0);
-  return open_row(node % model_.grid.n_z) ? D0_ * std::max(u_[node], 0.0) : 0;
+  const int j = node % model_.grid.n_z;
+  return open_row(j) ? D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(j), 0.0)) : 0;
 }
 
 double FlowBalance::slack_u(int node) const {
   if (model_.cavitation == Cavitation::reynolds) return u_[node] < 0 ? D0_ : 0;
-  return open_row(node % model_.grid.n_z) && u_[node] >= 0 ? D0_ : 0;
+  const int j = node % model_.grid.n_z;
+  return open_row(j) && (u_[node] >= 0 || u_[node] < ambient_unknown(j)) ? D0_ : 0;
 }
 
 double FlowBalance::outflow(int node) const {

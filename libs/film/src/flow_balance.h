@@ -73,7 +73,9 @@ class FlowBalance {
   [[nodiscard]] double speed_phi() const { return speed_phi_; }
   [[nodiscard]] double speed_z() const { return speed_z_; }
   [[nodiscard]] bool edge_row(int j) const;  ///< an edge whose pressure is given: no balance there
-  [[nodiscard]] bool open_row(int j) const { return open_edge(model_, j); }  ///< an edge in air
+  [[nodiscard]] bool open_row(int j) const { return open_edge(model_, j); }  ///< an edge at p_cav
+  /// u at which an edge at p_cav is as full as what lies outside; -infinity where nothing comes in [Pa].
+  [[nodiscard]] double ambient_unknown(int j) const { return j == 0 ? ambient_left_ : ambient_right_; }
   [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
   [[nodiscard]] double supply(int node) const;   ///< oil entering from line or feature at this node [m^3/s]
   [[nodiscard]] int feature_at(int node) const;  ///< the feature that feeds this node; -1 for none
@@ -135,6 +137,7 @@ class FlowBalance {
   std::optional<RoughGapLaw> rough_law_;
   GridGeometry geometry_;
   double D0_ = 0, unit_conductance_ = 0;
+  double ambient_left_ = 0, ambient_right_ = 0;
   std::vector<double> area_;  ///< of the control volumes [m^2]
   std::vector<Face> faces_;
   std::size_t first_axial_face_ = 0;

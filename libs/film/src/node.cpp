@@ -25,6 +25,11 @@ bool open_edge(const FilmModel& model, int j) {
   return (j == 0 && model.p_edge_left == model.p_cav) || (j == model.grid.n_z - 1 && model.p_edge_right == model.p_cav);
 }
 
+double ambient_fill(const FilmModel& model, int j) {
+  if (!open_edge(model, j)) return 0;
+  return j == 0 ? model.ambient_fill_left : model.ambient_fill_right;
+}
+
 NodeLaw::NodeLaw(const FilmModel& model)
     : model_(model),
       fill_scale_(fill_scale(model)),
@@ -32,14 +37,14 @@ NodeLaw::NodeLaw(const FilmModel& model)
 
 Node NodeLaw::state(double g, double u, int j) const {
   Node node;
-  pressure_and_fill(u, open_edge(model_, j), node);
+  pressure_and_fill(u, j, node);
   rheology(node);
   film_thickness(g, node);
   return node;
 }
 
-void NodeLaw::pressure_and_fill(double u, bool open, Node& node) const {
-  const bool full = u >= 0;
+void NodeLaw::pressure_and_fill(double u, int j, Node& node) const {
+  const bool full = u >= 0, open = open_edge(model_, j);
   node.p = open ? 0 : std::max(u, 0.0);
   node.wall = model_.p_cav + node.p;
   node.wall_u = full && !open ? 1 : 0;
@@ -49,6 +54,8 @@ void NodeLaw::pressure_and_fill(double u, bool open, Node& node) const {
   if (model_.cavitation == Cavitation::mass_conserving) {
     node.theta = 1 + u / fill_scale_;
     node.theta_u = 1 / fill_scale_;
+    const double least = open ? ambient_fill(model_, j) : 0;
+    if (least > 0 && node.theta < least) node.theta = least, node.theta_u = 0;
   }
   if (model_.cavitated_shear == CavitatedShear::full) return;
   if (model_.cavitation == Cavitation::mass_conserving) {

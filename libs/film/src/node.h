@@ -22,6 +22,10 @@ struct Node {
 /// in. There p = p_cav whatever u is; u >= 0 stands for the outflow, u < 0 for the fill fraction (film.11).
 [[nodiscard]] bool open_edge(const FilmModel& model, int j);
 
+/// Fill fraction of what an open edge lets in; 0 in all other rows. Where the film would be emptier than that, it draws
+/// in what it lacks: u then stands for the inflow (film.34).
+[[nodiscard]] double ambient_fill(const FilmModel& model, int j);
+
 /// The laws that hold at every node of one film.
 class NodeLaw {
  public:
@@ -32,7 +36,7 @@ class NodeLaw {
   [[nodiscard]] Node state(double g, double u, int j) const;
 
  private:
-  void pressure_and_fill(double u, bool open, Node& node) const;
+  void pressure_and_fill(double u, int j, Node& node) const;
   void rheology(Node& node) const;
   void film_thickness(double g, Node& node) const;
   void contact(double h, Node& node) const;

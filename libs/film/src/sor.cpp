@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -87,7 +88,8 @@ void Sor::place(int node, double u, int j) {
   u_[node] = u;
   p_[node] = cavitation == Cavitation::guembel ? u : std::max(u, 0.0);
   if (balance_.open_row(j)) p_[node] = 0;
-  theta_[node] = cavitation == Cavitation::mass_conserving ? 1 + std::min(u, 0.0) / fill_ : 1;
+  const double ambient = balance_.open_row(j) ? balance_.ambient_unknown(j) : -std::numeric_limits<double>::infinity();
+  theta_[node] = cavitation == Cavitation::mass_conserving ? 1 + std::min(std::max(u, ambient), 0.0) / fill_ : 1;
 }
 
 void Sor::update_coefficients(const Eigen::VectorXd& u) {
@@ -140,7 +142,11 @@ void Sor::relax(int i, int j) {
     return place(node, std::min(0.0, -full / ((1 - chi) * balance_.conductance_scale() + tie)), j);
   }
   const double slope = (1 - chi) * r.transport / fill_ + tie;
-  place(node, slope > 0 ? std::min(0.0, -full / slope) : 0, j);
+  const double filling = slope > 0 ? std::min(0.0, -full / slope) : 0, ambient = balance_.ambient_unknown(j);
+  if (!open || filling >= ambient) return place(node, filling, j);
+  // Emptier than what lies outside: u is the inflow that keeps it as full (film.34).
+  const double lack = full + slope * ambient;
+  place(node, std::min(ambient, ambient - lack / (balance_.conductance_scale() * (1 - chi) + tie)), j);
 }
 
 // With the flow, so that the fill fraction is carried around in one sweep.

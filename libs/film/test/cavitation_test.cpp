@@ -234,6 +234,67 @@ TEST_CASE("CarriedFill_IsOfFirstOrder") {
   CHECK(std::log2(error[0] / error[1]) == doctest::Approx(1).epsilon(0.05));
 }
 
+// The film of an edge at p_cav draws in what its surroundings hold. Oil outside (fill 1) is the limit of a flooded edge
+// whose pressure falls to p_cav, air (fill 0) gives nothing.
+TEST_CASE("AmbientFill_IsDrawnIn") {
+  FilmModel m = bearing();
+  m.p_cav = -0.5e5;
+  const auto solved = [&](double p_edge, double fill, FilmSolver solver = FilmSolver::newton) {
+    FilmModel other = m;
+    other.p_edge_left = other.p_edge_right = p_edge;
+    other.ambient_fill_left = other.ambient_fill_right = fill;
+    other.supply.pressure = m.p_cav;
+    const SolvedFilm film = solve_cold(other, turning(other, 0.6, omega), {.solver = solver, .rtol = 1e-10});
+    REQUIRE(film.summary.converged);
+    CHECK(film.observed.mass_balance_error < 1e-9);
+    return film;
+  };
+  const SolvedFilm flooded = solved(m.p_cav + 1e-3, 0), oil = solved(m.p_cav, 1);
+  CHECK((flooded.wrench - oil.wrench).norm() < 1e-6 * oil.wrench.norm());
+  CHECK(flooded.observed.flow_left == doctest::Approx(oil.observed.flow_left).epsilon(1e-6));
+  CHECK(oil.fields.theta[m.grid.index(45, 0)] == 1);  // where the film is broken inside
+
+  const SolvedFilm air = solved(m.p_cav, 0), mist = solved(m.p_cav, 0.9);
+  double least_air = 1, least_mist = 1;
+  for (int i = 0; i < m.grid.n_phi; ++i) {
+    least_air = std::min(least_air, air.fields.theta[m.grid.index(i, 0)]);
+    least_mist = std::min(least_mist, mist.fields.theta[m.grid.index(i, 0)]);
+  }
+  CHECK(least_air < 0.9);
+  CHECK(least_mist == 0.9);
+  // The more comes in beside the broken film, the less leaves in all.
+  CHECK(air.observed.flow_left > 1.001 * mist.observed.flow_left);
+  CHECK(mist.observed.flow_left > 1.001 * oil.observed.flow_left);
+  const SolvedFilm sor = solved(m.p_cav, 0.9, FilmSolver::sor);
+  CHECK((sor.wrench - mist.wrench).norm() < 1e-6 * mist.wrench.norm());
+  CHECK(sor.observed.flow_left == doctest::Approx(mist.observed.flow_left).epsilon(1e-6));
+}
+
+// Plates that part suck in what lies around them, as far as the film is emptier than that.
+TEST_CASE("PartingPlates_DrawInTheAmbient") {
+  FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {8, 9}};
+  const double dt = 1e-3, h = 20e-6;
+  for (const double fill : {0.0, 0.4, 0.8}) {
+    CAPTURE(fill);
+    m.ambient_fill_left = fill;
+    Reynolds reynolds(m);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+    FilmHistory history{dt, Eigen::VectorXd::Ones(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
+    SurfaceMotion motion = surfaces(m, {});
+    motion.g.setConstant(2 * h), motion.g_rate.setConstant(h / dt);  // from h to 2 h in one step: half full
+    REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+    const FilmFields fields = film_fields(m, motion, u);
+    const double edge = std::max(0.5, fill);
+    CHECK(fields.theta[m.grid.index(3, 0)] == doctest::Approx(edge).epsilon(1e-9));
+    CHECK(fields.theta[m.grid.index(3, 1)] == doctest::Approx(0.5).epsilon(1e-9));
+    CHECK(fields.theta[m.grid.index(3, 8)] == doctest::Approx(0.5).epsilon(1e-9));
+    const FilmObservables o = observe_film(m, motion, history, {0, 0}, u);
+    const double half_row = 2 * pi * m.R * m.L / 16;
+    CHECK(o.flow_left == doctest::Approx(-(edge - 0.5) * 2 * h * half_row / dt).epsilon(1e-9));
+    CHECK(std::abs(o.storage_rate + o.flow_left + o.flow_right) < 1e-9 * h * half_row / dt);
+  }
+}
+
 // The film must not notice where the line lies between two nodes, nor lack oil there.
 TEST_CASE("SupplyLine_WorksBetweenNodes") {
   const FilmModel m = bearing();

@@ -91,6 +91,11 @@ std::vector<State> rough_states() {
   s.name = "turning backwards";
   states.push_back(s);
   states.push_back(graded_state());
+  s = rough_state(Cavitation::mass_conserving, true, true);
+  s.model.p_edge_left = s.model.p_cav, s.model.p_edge_right = s.model.p_cav;
+  s.model.ambient_fill_left = 0.8, s.model.ambient_fill_right = 1;
+  s.name = "edges in oil mist and in oil";
+  states.push_back(s);
   for (const bool transient : {false, true}) {
     s = rough_state(Cavitation::mass_conserving, true, transient);
     s.model.roughness = {FlowFactors::patir_cheng, {3e-6, 0.2}, {5e-6, 4}};  // from contact to full film

@@ -24,8 +24,9 @@ TypePtr cavitation_format() {
 
 TypePtr asperities_format() {
   const auto keys = std::vector<Key>{
-      required("roughness", quantity("m", "1 um", Range::positive()),
-               "sigma, rms height of the asperity summits of both surfaces together."),
+      optional("roughness", quantity("m", "1 um", Range::positive()),
+               "sigma, rms height of the asperity summits of both surfaces together.",
+               "rms height of both surfaces in the bearing's `roughness`"),
       defaulted("elastic_factor", number("3e-3", Range::not_negative()), "3e-3", "K in p = K E F(h/sigma)."),
       composite_modulus_key(),
       defaulted("friction", number("0.1", Range::not_negative()), "0.1", "Coefficient of boundary friction."),
@@ -36,6 +37,27 @@ TypePtr asperities_format() {
                      {"greenwood_tripp_fit", "Greenwood and Tripp (1971), F = 4.4086e-5 (4 - h/sigma)^6.804", keys},
                      {"greenwood_tripp", "the same with the exact integral F_5/2", keys},
                  });
+}
+
+TypePtr roughness_format() {
+  const TypePtr surface = object(
+      "a rough surface",
+      {
+          required("sigma", quantity("m", "0.8 um", Range::positive()), "Its rms height."),
+          defaulted("gamma", number("1", {.low = 1.0 / 9 - 1e-9, .high = 9}), "1",
+                    "Peklenik's ratio: how much longer its features are around the bearing than along it. Ridges "
+                    "around, as from turning: 9; along the axis: 0.111 (1/9); no direction: 1."),
+      });
+  return object(
+      "the roughness of both surfaces",
+      {
+          optional("shell", surface, "The bore.", "smooth"),
+          optional("journal", surface, "The journal.", "smooth"),
+          defaulted("flow_factors",
+                    choice({{"patir_cheng", "it changes flow and shear of the oil (Patir and Cheng 1978, 1979)"},
+                            {"none", "it matters to contact only"}}),
+                    "patir_cheng", "What it does to the oil."),
+      });
 }
 
 TypePtr compliance_format() {
@@ -161,6 +183,13 @@ TypePtr bearings_format() {
                                                       required("left", pressure(), "At the edge with z < 0."),
                                                       required("right", pressure(), "At the edge with z > 0."),
                                                   })});
+  const TypePtr fill = number("0.5", {.low = 0, .high = 1});
+  const TypePtr fills =
+      any_of("a number from 0 to 1, or {left, right}",
+             {fill, object("two fill fractions", {
+                                                     required("left", fill, "At the edge with z < 0."),
+                                                     required("right", fill, "At the edge with z > 0."),
+                                                 })});
   const TypePtr supply = object(
       "a supply line",
       {
@@ -183,12 +212,21 @@ TypePtr bearings_format() {
           optional("diametral_clearance", clearance, "Twice the radial clearance, instead of it."),
           required("lubricant", reference(Refers::lubricant, "oil"), "Name of the oil."),
           defaulted("grid", grid_format(), "{}", "Nodes of the oil film."),
+          defaulted("pressures",
+                    choice({{"gauge", "0 is the atmosphere, -1.01325 bar is a vacuum"}, {"absolute", "0 is a vacuum"}}),
+                    "gauge", "The scale on which all pressures of this bearing are given and reported."),
           defaulted("cavitation", cavitation_format(), "mass_conserving", "Where the film would be under tension."),
           defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges."),
+          optional("ambient_fill", fills,
+                   "Share of oil in what surrounds an edge at the cavitation pressure and is drawn in there: 0 air, 1 "
+                   "oil. An edge above that pressure is always flooded.",
+                   "0"),
           optional("supply", supply, "A line along the whole width that is held full at a given pressure.", "none"),
           optional("features", features_format(), "Holes and grooves through which oil is fed.", "none"),
           optional("shape", shape_format(), "What makes bore and journal differ from cylinders; all add up.",
                    "cylinders"),
+          optional("roughness", roughness_format(), "Roughness of both surfaces, as the flow of the oil sees it.",
+                   "smooth"),
           defaulted("asperities", asperities_format(), "none", "Contact of rough surfaces."),
           defaulted("compliance", compliance_format(), "rigid", "Elastic deformation of both surfaces."),
           optional("materials", materials_format(), "Give the composite modulus where it is not given itself."),

@@ -35,10 +35,13 @@ class FilmReader {
     read_lubricant();
     read_cavitation();
     read_edges();
+    read_ambient_fill();
     read_supply();
     read_surfaces(context_, value_, bearing_);
+    read_roughness();
     read_asperities();
     read_compliance();
+    check_pressure_scale();
     film_.cavitated_shear =
         text_of(value_, "cavitated_shear") == "full" ? film::CavitatedShear::full : film::CavitatedShear::film_share;
     film_.shear_force =
@@ -87,6 +90,53 @@ class FilmReader {
     if (is_pair) require_above_cavitation(context_, right, film_);
   }
 
+  /// What comes in over an edge at the cavitation pressure. Elsewhere it has no meaning.
+  void read_ambient_fill() {
+    const Value* fill = value_.find("ambient_fill");
+    if (fill == nullptr || fill->broken || fill->members.empty()) return;
+    const Value& content = fill->members.front().value;
+    const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
+    const Value& left = is_pair ? *content.find("left") : content;
+    const Value& right = is_pair ? *content.find("right") : content;
+    film_.ambient_fill_left = left.number;
+    film_.ambient_fill_right = right.number;
+    if (film_.cavitation != film::Cavitation::mass_conserving) {
+      context_.fault_at_key(*fill, "a fill fraction outside a film that has none inside",
+                            "cavitation: mass_conserving, or no ambient_fill");
+      return;
+    }
+    const auto check = [&](const Value& given, double pressure) {
+      if (given.broken || given.number == 1 || pressure <= film_.p_cav) return;
+      context_.fault(given, fmt::format("{:g} at an edge above the cavitation pressure", given.number),
+                     "1: such an edge is flooded", "or the cavitation pressure as this edge's pressure");
+    };
+    if (is_pair) {
+      check(left, film_.p_edge_left);
+      check(right, film_.p_edge_right);
+    } else {
+      check(content, std::max(film_.p_edge_left, film_.p_edge_right));
+    }
+  }
+
+  /// No pressure lies below a vacuum. On the absolute scale a default of 0 would be one: edges have to be given.
+  void check_pressure_scale() {
+    bearing_.absolute_pressures = text_of(value_, "pressures") == "absolute";
+    const double vacuum = bearing_.absolute_pressures ? 0 : -101325;
+    const Value* edges = value_.find("edge_pressure");
+    if (bearing_.absolute_pressures && edges != nullptr && !edges->given) {
+      context_.fault_at_key(*value_.find("pressures"), "absolute pressures without 'edge_pressure'",
+                            "the pressure outside both edges", "edge_pressure: 1.013 bar is the atmosphere");
+    }
+    const Value* cavitation = value_.find("cavitation");
+    const Value* pressure = cavitation != nullptr && !cavitation->broken ? cavitation->find("pressure") : nullptr;
+    // All others are known to lie above it.
+    if (pressure == nullptr || pressure->broken || pressure->number >= vacuum) return;
+    context_.fault(*pressure, fmt::format("{:g} bar, below a vacuum", 1e-5 * pressure->number),
+                   bearing_.absolute_pressures ? "an absolute pressure of at least 0"
+                                               : "a gauge pressure of at least -1.01325 bar",
+                   bearing_.absolute_pressures ? "pressures: gauge counts from the atmosphere" : "");
+  }
+
   void read_supply() {
     const Value* supply = value_.find("supply");
     if (supply == nullptr || supply->broken) return;
@@ -98,12 +148,41 @@ class FilmReader {
     if (const Value* pressure = supply->find("pressure")) require_above_cavitation(context_, *pressure, film_);
   }
 
+  void read_roughness() {
+    const Value* roughness = value_.find("roughness");
+    if (roughness == nullptr || roughness->broken) return;
+    film_.roughness.flow_factors =
+        text_of(*roughness, "flow_factors") == "none" ? film::FlowFactors::none : film::FlowFactors::patir_cheng;
+    const auto surface = [&](const char* key, film::SurfaceRoughness& target) {
+      const Value* given = roughness->find(key);
+      if (given != nullptr && !given->broken) target = {number_of(*given, "sigma"), number_of(*given, "gamma")};
+    };
+    surface("shell", film_.roughness.shell);
+    surface("journal", film_.roughness.journal);
+    if (context_.has_fault_in(roughness->path)) return;
+    if (film_.roughness.composite_sigma() == 0) {
+      context_.fault_at_key(*roughness, "neither 'shell' nor 'journal'", "at least one of them, with its sigma");
+    } else if (film_.c > 0 && 3 * film_.roughness.composite_sigma() > film_.c) {
+      context_.fault_at_key(*roughness,
+                            fmt::format("a roughness of {:.3g} um in a clearance of {:.3g} um",
+                                        1e6 * film_.roughness.composite_sigma(), 1e6 * film_.c),
+                            "at most a third of the clearance: else the surfaces touch all around");
+    }
+  }
+
   void read_asperities() {
     const Value* asperities = value_.find("asperities");
     if (asperities == nullptr || asperities->broken || asperities->text == "none") return;
     film_.asperities.model = asperities->text == "greenwood_tripp" ? film::AsperityModel::greenwood_tripp_exact
                                                                    : film::AsperityModel::greenwood_tripp_fit;
-    film_.asperities.sigma = number_of(*asperities, "roughness");
+    if (asperities->find("roughness") != nullptr) {
+      film_.asperities.sigma = number_of(*asperities, "roughness");
+    } else if (value_.find("roughness") != nullptr) {
+      film_.asperities.sigma = film_.roughness.composite_sigma();
+    } else {
+      context_.fault_at_key(*asperities, "missing key 'roughness'", "a length > 0, such as 1 um",
+                            "or give the bearing's roughness, surface by surface");
+    }
     film_.asperities.elastic_factor = number_of(*asperities, "elastic_factor");
     film_.asperities.mu_friction = number_of(*asperities, "friction");
     film_.asperities.composite_modulus = composite_modulus_of(*asperities).value_or(0);

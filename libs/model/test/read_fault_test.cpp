@@ -7,10 +7,50 @@ namespace {
 TEST_CASE("UnknownKey_NamesTheNearest") {
   CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
         "m.yaml:27:5: bearings.big_end: unknown key 'widht'; expected shell, journal, diameter, width, "
-        "radial_clearance, diametral_clearance, lubricant, grid, cavitation, edge_pressure, supply, features, shape, "
-        "asperities, "
+        "radial_clearance, diametral_clearance, lubricant, grid, pressures, cavitation, edge_pressure, ambient_fill, "
+        "supply, features, shape, roughness, asperities, "
         "compliance, materials, cavitated_shear, shear_force, solver, operating_point or coupling; did you mean "
         "'width'?");
+}
+
+TEST_CASE("UnphysicalPressures_AreReported") {
+  const auto with = [](const std::string& lines) {
+    return faults_after("    lubricant: oil\n", "    lubricant: oil\n" + lines);
+  };
+  CHECK(with("    cavitation: {model: reynolds, pressure: -1.2 bar}\n") ==
+        "m.yaml:30:45: bearings.big_end.cavitation.pressure: -1.2 bar, below a vacuum; expected a gauge pressure of at "
+        "least -1.01325 bar");
+  CHECK(with("    pressures: absolute\n    edge_pressure: 1 bar\n    cavitation: {model: reynolds, pressure: -0.2 bar}\n") ==
+        "m.yaml:32:45: bearings.big_end.cavitation.pressure: -0.2 bar, below a vacuum; expected an absolute pressure "
+        "of at least 0; pressures: gauge counts from the atmosphere");
+  CHECK(with("    pressures: absolute\n") ==
+        "m.yaml:30:5: bearings.big_end.pressures: absolute pressures without 'edge_pressure'; expected the pressure "
+        "outside both edges; edge_pressure: 1.013 bar is the atmosphere");
+  CHECK(with("    edge_pressure: 1 bar\n    ambient_fill: 0.5\n") ==
+        "m.yaml:31:19: bearings.big_end.ambient_fill: 0.5 at an edge above the cavitation pressure; expected 1: such "
+        "an edge is flooded; or the cavitation pressure as this edge's pressure");
+  CHECK(with("    cavitation: reynolds\n    ambient_fill: 0.5\n") ==
+        "m.yaml:31:5: bearings.big_end.ambient_fill: a fill fraction outside a film that has none inside; expected "
+        "cavitation: mass_conserving, or no ambient_fill");
+  CHECK(with("    ambient_fill: 1.5\n").find(">= 0 and <= 1") != std::string::npos);
+}
+
+TEST_CASE("ImpossibleRoughness_IsReported") {
+  const auto with = [](const std::string& lines) {
+    return faults_after("    lubricant: oil\n", "    lubricant: oil\n" + lines);
+  };
+  CHECK(with("    roughness: {}\n") ==
+        "m.yaml:30:5: bearings.big_end.roughness: neither 'shell' nor 'journal'; expected at least one of them, with "
+        "its sigma");
+  CHECK(with("    roughness: {shell: {sigma: 20 um}}\n") ==
+        "m.yaml:30:5: bearings.big_end.roughness: a roughness of 20 um in a clearance of 34 um; expected at most a "
+        "third of the clearance: else the surfaces touch all around");
+  CHECK(with("    roughness: {shell: {sigma: 1 um, gamma: 12}}\n").find("gamma: '12'; expected a number") !=
+        std::string::npos);
+  CHECK(with("    roughness: {shell: {gamma: 1}}\n").find("missing key 'sigma'") != std::string::npos);
+  CHECK(with("    asperities: {model: greenwood_tripp, composite_modulus: 57 GPa}\n") ==
+        "m.yaml:30:5: bearings.big_end.asperities: missing key 'roughness'; expected a length > 0, such as 1 um; or "
+        "give the bearing's roughness, surface by surface");
 }
 
 TEST_CASE("MissingKey_IsReportedAtItsParent") {

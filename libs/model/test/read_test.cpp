@@ -142,6 +142,39 @@ TEST_CASE("EverythingAboutABearing_IsRead") {
   CHECK(bearing.coupling.max_iterations == 7);
 }
 
+TEST_CASE("RoughnessAndSurroundings_AreRead") {
+  const std::string text = edited(good_model, "    lubricant: oil\n", R"(    lubricant: oil
+    pressures: absolute
+    cavitation: {model: mass_conserving, pressure: 0.3 bar}
+    edge_pressure: {left: 0.3 bar, right: 1 bar}
+    ambient_fill: {left: 0.4, right: 1}
+    roughness: {shell: {sigma: 0.6 um, gamma: 3}, journal: {sigma: 0.8 um}}
+    asperities: {model: greenwood_tripp, composite_modulus: 57 GPa}
+)");
+  const Bearing bearing = read_text(text, "m.yaml").bearings[0];
+  CHECK(bearing.absolute_pressures);
+  CHECK(bearing.film.ambient_fill_left == 0.4);
+  CHECK(bearing.film.ambient_fill_right == 1);
+  const film::Roughness& roughness = bearing.film.roughness;
+  CHECK(roughness.flow_factors == film::FlowFactors::patir_cheng);
+  CHECK(roughness.shell.sigma == near(0.6e-6));
+  CHECK(roughness.shell.gamma == 3);
+  CHECK(roughness.journal.sigma == near(0.8e-6));
+  CHECK(roughness.journal.gamma == 1);
+  CHECK(bearing.film.asperities.sigma == near(1e-6));  // of both surfaces together
+
+  const Bearing plain = read_text(good_model, "m.yaml").bearings[0];
+  CHECK_FALSE(plain.absolute_pressures);
+  CHECK(plain.film.ambient_fill_left == 0);
+  CHECK_FALSE(plain.film.roughness.counts());
+  const std::string one = edited(good_model, "    lubricant: oil\n",
+                                 "    lubricant: oil\n    ambient_fill: 0.25\n    roughness: {shell: {sigma: 1 um}, "
+                                 "flow_factors: none}\n");
+  const Bearing other = read_text(one, "m.yaml").bearings[0];
+  CHECK(other.film.ambient_fill_right == 0.25);
+  CHECK_FALSE(other.film.roughness.counts());
+}
+
 TEST_CASE("OneWord_StandsForAModelWithoutSettings") {
   const std::string text = edited(good_model, "    lubricant: oil\n",
                                   "    lubricant: oil\n    cavitation: guembel\n    supply: {line: widest_gap}\n"

@@ -27,6 +27,27 @@ std::string cavitation(const film::FilmModel& film) {
   return {};
 }
 
+std::string edge(const film::FilmModel& film, double p, double fill) {
+  if (film.cavitation != film::Cavitation::mass_conserving || p > film.p_cav) return pressure(p);
+  if (fill == 0) return pressure(p) + ", in air: oil may leave, none comes in";
+  return pressure(p) + fmt::format(", in {:.3g} of oil: the film draws it in where it would be emptier", fill);
+}
+
+std::string surface(const film::SurfaceRoughness& roughness) {
+  return roughness.sigma == 0 ? std::string("smooth")
+                              : fmt::format("{:.4g} um rms, gamma {:.3g}", 1e6 * roughness.sigma, roughness.gamma);
+}
+
+/// Which of the readings of roughness the run took: in flow and shear, in contact, or nowhere.
+std::string roughness(const film::FilmModel& film) {
+  const film::Roughness& r = film.roughness;
+  if (r.composite_sigma() == 0) return "the oil sees smooth surfaces";
+  const std::string both = "shell " + surface(r.shell) + ", journal " + surface(r.journal);
+  if (!r.counts()) return both + "; not in the oil's flow";
+  return both + fmt::format("; flow factors of Patir and Cheng on the distance of the mean planes, {:.4g} um together",
+                            1e6 * r.composite_sigma());
+}
+
 std::string supply(const film::FilmModel& film) {
   switch (film.supply.kind) {
     case film::SupplyKind::none:
@@ -67,7 +88,7 @@ std::string viscosity(const film::Lubricant& oil) {
 }
 
 std::string asperities(const film::Asperities& contact) {
-  if (contact.model == film::AsperityModel::none) return "smooth surfaces, no contact";
+  if (contact.model == film::AsperityModel::none) return "none";
   const bool fit = contact.model == film::AsperityModel::greenwood_tripp_fit;
   return fmt::format("Greenwood-Tripp ({}), roughness {:.4g} um, K E = {:.4g} MPa, boundary friction {:.3g}",
                      fit ? "fit of F_5/2 to h/sigma = 4" : "exact F_5/2", 1e6 * contact.sigma,
@@ -91,7 +112,9 @@ void describe(const model::Bearing& bearing, Rows& rows) {
     rows.emplace_back(bearing.name + ": " + name, std::move(text));
   };
   row("cavitation", cavitation(film));
-  row("edge pressure", pressure(film.p_edge_left) + " left, " + pressure(film.p_edge_right) + " right");
+  row("pressures", bearing.absolute_pressures ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
+  row("edge pressure left", edge(film, film.p_edge_left, film.ambient_fill_left));
+  row("edge pressure right", edge(film, film.p_edge_right, film.ambient_fill_right));
   row("supply", supply(film));
   for (const film::SurfaceFeature& feature : film.features)
     row(("feature " + feature.name).c_str(), described(feature));
@@ -103,6 +126,7 @@ void describe(const model::Bearing& bearing, Rows& rows) {
   }
   row("grid", grid(film));
   row("viscosity", viscosity(film.lubricant));
+  row("roughness", roughness(film));
   row("contact", asperities(film.asperities));
   row("compliance", film.compliance > 0
                         ? fmt::format("column, {:.4g} um/MPa, film and contact pressure", 1e12 * film.compliance)

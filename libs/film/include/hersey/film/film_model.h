@@ -76,6 +76,8 @@ struct FilmModel {
   double p_cav = 0;         ///< cavitation pressure [Pa]
   double p_edge_left = 0;   ///< pressure at z = -L/2 [Pa], >= p_cav
   double p_edge_right = 0;  ///< pressure at z = +L/2 [Pa], >= p_cav
+  /// Fill fraction of what an edge at p_cav lets in, from 0 (air) to 1 (oil); only where oil is conserved [-].
+  double ambient_fill_left = 0, ambient_fill_right = 0;
   SupplyLine supply;
   Asperities asperities;
   Roughness roughness;
