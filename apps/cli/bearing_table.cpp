@@ -39,7 +39,22 @@ std::string pressures_of(const film::FilmModel& film) {
   if (film.supply.kind == film::SupplyKind::fixed_angle) {
     text += fmt::format(", fed at {:.4g} deg, {}", film.supply.phi * 57.29577951308232, bar(film.supply.pressure));
   }
-  return text;
+  const auto fill = [&](const char* edge, double p, double ambient) {
+    if (p <= film.p_cav && ambient > 0) text += fmt::format(", {} one in {:.3g} of oil", edge, ambient);
+  };
+  fill("left", film.p_edge_left, film.ambient_fill_left);
+  fill("right", film.p_edge_right, film.ambient_fill_right);
+  return film.pressures == film::PressureScale::absolute ? text + " (absolute)" : text;
+}
+
+// How the roughness of both surfaces was read, where there is any.
+std::string roughness_of(const film::Roughness& roughness) {
+  if (!roughness.counts()) return "";
+  const auto surface = [](const film::SurfaceRoughness& s) {
+    return s.sigma == 0 ? std::string("smooth") : fmt::format("{:.3g} um, gamma {:.3g}", 1e6 * s.sigma, s.gamma);
+  };
+  return fmt::format("  flow factors of Patir and Cheng: rms roughness of the shell {}, of the journal {}\n",
+                     surface(roughness.shell), surface(roughness.journal));
 }
 
 // Under which condition the figures hold: at light loads it decides about them.
@@ -48,7 +63,8 @@ std::string condition_of(const BearingSolution& solution) {
   const film::FilmModel& film = solution.model;
   return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} linearisations, {:.3g} s\n",
                      cavitation[static_cast<std::size_t>(film.cavitation)], 1e-5 * film.p_cav, pressures_of(film),
-                     film.grid.n_phi, film.grid.n_z, solution.summary.iterations, solution.wall_time);
+                     film.grid.n_phi, film.grid.n_z, solution.summary.iterations, solution.wall_time) +
+         roughness_of(film.roughness);
 }
 
 std::string whirl_remark(const BearingSolution& solution) {

@@ -120,10 +120,11 @@ class FilmReader {
 
   /// No pressure lies below a vacuum. On the absolute scale a default of 0 would be one: edges have to be given.
   void check_pressure_scale() {
-    bearing_.absolute_pressures = text_of(value_, "pressures") == "absolute";
-    const double vacuum = bearing_.absolute_pressures ? 0 : -101325;
+    const bool absolute = text_of(value_, "pressures") == "absolute";
+    film_.pressures = absolute ? film::PressureScale::absolute : film::PressureScale::gauge;
+    const double vacuum = absolute ? 0 : -101325;
     const Value* edges = value_.find("edge_pressure");
-    if (bearing_.absolute_pressures && edges != nullptr && !edges->given) {
+    if (absolute && edges != nullptr && !edges->given) {
       context_.fault_at_key(*value_.find("pressures"), "absolute pressures without 'edge_pressure'",
                             "the pressure outside both edges", "edge_pressure: 1.013 bar is the atmosphere");
     }
@@ -132,9 +133,8 @@ class FilmReader {
     // All others are known to lie above it.
     if (pressure == nullptr || pressure->broken || pressure->number >= vacuum) return;
     context_.fault(*pressure, fmt::format("{:g} bar, below a vacuum", 1e-5 * pressure->number),
-                   bearing_.absolute_pressures ? "an absolute pressure of at least 0"
-                                               : "a gauge pressure of at least -1.01325 bar",
-                   bearing_.absolute_pressures ? "pressures: gauge counts from the atmosphere" : "");
+                   absolute ? "an absolute pressure of at least 0" : "a gauge pressure of at least -1.01325 bar",
+                   absolute ? "pressures: gauge counts from the atmosphere" : "");
   }
 
   void read_supply() {

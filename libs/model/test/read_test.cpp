@@ -152,7 +152,7 @@ TEST_CASE("RoughnessAndSurroundings_AreRead") {
     asperities: {model: greenwood_tripp, composite_modulus: 57 GPa}
 )");
   const Bearing bearing = read_text(text, "m.yaml").bearings[0];
-  CHECK(bearing.absolute_pressures);
+  CHECK(bearing.film.pressures == film::PressureScale::absolute);
   CHECK(bearing.film.ambient_fill_left == 0.4);
   CHECK(bearing.film.ambient_fill_right == 1);
   const film::Roughness& roughness = bearing.film.roughness;
@@ -164,7 +164,7 @@ TEST_CASE("RoughnessAndSurroundings_AreRead") {
   CHECK(bearing.film.asperities.sigma == near(1e-6));  // of both surfaces together
 
   const Bearing plain = read_text(good_model, "m.yaml").bearings[0];
-  CHECK_FALSE(plain.absolute_pressures);
+  CHECK(plain.film.pressures == film::PressureScale::gauge);
   CHECK(plain.film.ambient_fill_left == 0);
   CHECK_FALSE(plain.film.roughness.counts());
   const std::string one = edited(good_model, "    lubricant: oil\n",

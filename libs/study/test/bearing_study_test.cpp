@@ -33,6 +33,38 @@ TEST_CASE("Sweeps_AreListsAndRanges") {
   }
 }
 
+// Flow factors matter in between: at boundary lubrication the asperities decide, in a thick film roughness is lost.
+TEST_CASE("StribeckWithFlowFactors_DiffersWhereFilmAndAsperitiesMeet") {
+  const auto sweep = [](const std::string& roughness) {
+    const auto runs = model::expand_parameters(
+        example, {"bearings.main.grid={circumferential: 60, axial: 13}", "bearings.main.roughness=" + roughness},
+        {parse_sweep("speed=10rpm:30000rpm:10:log")});
+    auto curve = solve_bearings(example, runs, {.bearing = "", .grid_error = false, .threads = 2});
+    for (const BearingSolution& solution : curve) {
+      CAPTURE(solution.run.label);
+      CAPTURE(solution.error);
+      REQUIRE(solution.solved());
+      CHECK(value_of(solution, "mass_balance_error") < 1e-9);
+    }
+    return curve;
+  };
+  const auto contact_only = sweep("{shell: {sigma: 0.4 um}, journal: {sigma: 0.3 um}, flow_factors: none}");
+  const auto with_flow = sweep("{shell: {sigma: 0.4 um, gamma: 0.2}, journal: {sigma: 0.3 um, gamma: 0.2}}");
+  double largest = 0;
+  std::size_t where = 0;
+  for (std::size_t k = 0; k < with_flow.size(); ++k) {
+    const double change = std::abs(value_of(with_flow[k], "h_min") / value_of(contact_only[k], "h_min") - 1);
+    if (change > largest) largest = change, where = k;
+  }
+  CHECK(largest > 0.03);
+  CHECK(value_of(with_flow[where], "film_ratio") < 6);
+  const auto friction = [](const BearingSolution& s) { return value_of(s, "friction_journal"); };
+  CHECK(friction(with_flow.front()) == doctest::Approx(friction(contact_only.front())).epsilon(0.1));
+  CHECK(friction(with_flow.back()) == doctest::Approx(friction(contact_only.back())).epsilon(2e-3));
+  CHECK(value_of(with_flow.front(), "asperity_share") > 0.8);
+  CHECK(value_of(with_flow.back(), "asperity_share") < 1e-6);
+}
+
 TEST_CASE("Stribeck_FallsFromBoundaryFrictionAndRisesWithTheFilm") {
   const auto runs = model::expand_parameters(example, {"bearings.main.grid={circumferential: 60, axial: 13}"},
                                              {parse_sweep("speed=10rpm:30000rpm:10:log")});

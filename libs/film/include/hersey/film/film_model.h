@@ -65,7 +65,10 @@ enum class FilmSolver { newton, sor };
 /// width).
 enum class EdgeKind { pressure, closed };
 
-/// Everything constant about one film. Pressures are on one common scale, gauge or absolute alike.
+/// What the pressure 0 is: the atmosphere or a vacuum. The equations do not ask.
+enum class PressureScale { gauge, absolute };
+
+/// Everything constant about one film. All its pressures are on one scale.
 struct FilmModel {
   double R = 0.0225;  ///< bearing radius [m], > 0
   double L = 0.0156;  ///< bearing width [m], > 0
@@ -73,6 +76,7 @@ struct FilmModel {
   Grid grid;
   Lubricant lubricant;
   Cavitation cavitation = Cavitation::mass_conserving;
+  PressureScale pressures = PressureScale::gauge;
   double p_cav = 0;         ///< cavitation pressure [Pa]
   double p_edge_left = 0;   ///< pressure at z = -L/2 [Pa], >= p_cav
   double p_edge_right = 0;  ///< pressure at z = +L/2 [Pa], >= p_cav

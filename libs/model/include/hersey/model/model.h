@@ -161,7 +161,6 @@ struct Bearing {
   std::string name;
   FrameName shell, journal;  ///< empty in a model of bearings alone
   std::string lubricant;
-  bool absolute_pressures = false;  ///< 0 is a vacuum; else 0 is the atmosphere
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
   std::vector<Function> feature_pressures;  ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
