@@ -43,7 +43,7 @@ class FilmWrench {
     Vector6 radial, tangential, axial, shear_tangential, shear_axial;
   };
   [[nodiscard]] Basis basis(int i, int j) const;
-  /// Shear on the shell at one node (film.18, film.32): couette . slip - half_gap . grad p, index 0 along phi, 1 along
+  /// Shear on the shell at one node (film.18, film.35): couette . slip - half_gap . grad p, index 0 along phi, 1 along
   /// z.
   struct Shear {
     Eigen::Vector2d couette, couette_u, couette_h;  ///< [Pa s/m] and slopes at given film thickness and at given u

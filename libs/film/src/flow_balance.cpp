@@ -281,7 +281,7 @@ double FlowBalance::carrying_area(std::size_t f, double speed, double half_slip)
   return 0.5 * ((rough_a.mean + rough_b.mean) * speed + (rough_a.drag[k] + rough_b.drag[k]) * half_slip) * face.width;
 }
 
-// Between rough surfaces (film.29): factors are means of those at both nodes.
+// Between rough surfaces (film.32): factors are means of those at both nodes.
 void FlowBalance::add_rough_face(std::size_t f) {
   const Face& face = faces_[f];
   const Node &a = nodes_[face.a], &b = nodes_[face.b];
@@ -319,7 +319,7 @@ void FlowBalance::add_flow(std::size_t f, double theta) {
 }
 
 // Storage (film.8): m_n g_rate + ((m - m_n) h + m_n (w - w_n))/dt per area with the content m = rho theta; in a steady
-// film m g_rate. Between rough surfaces the mean gap h_T takes the place of h (film.30): (m h_T - m_n h_T*)/dt, h_T* at
+// film m g_rate. Between rough surfaces the mean gap h_T takes the place of h (film.33): (m h_T - m_n h_T*)/dt, h_T* at
 // the gap from which the rate leads to the present one.
 double FlowBalance::storage(int i) const {
   const Node& node = nodes_[i];

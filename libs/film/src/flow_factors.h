@@ -9,7 +9,7 @@ inline constexpr double smallest_gamma = 1.0 / 9, largest_gamma = 9;
 
 /// Flow factors of Gaussian roughness with one Peklenik ratio, correlation length in the direction of the flow over
 /// that across it. Values and slopes against H = h/sigma > 0; linear in ln gamma between the tabulated ratios and
-/// continued smoothly where H lies outside the fits' range (film.29 to film.31).
+/// continued smoothly where H lies outside the fits' range (film.32 to film.34).
 /// @see Patir & Cheng (1978), J. Lubr. Technol. 100, 12-17; (1979), J. Lubr. Technol. 101, 220-230.
 class PatirCheng {
  public:
@@ -28,11 +28,11 @@ class PatirCheng {
   double weight_ = 0;  ///< of the next row
 };
 
-/// phi_f: mean of h over the local gap, for Couette shear; gaps below sigma/100 count as that (film.31). The same for
+/// phi_f: mean of h over the local gap, for Couette shear; gaps below sigma/100 count as that (film.34). The same for
 /// every gamma.
 [[nodiscard]] ValueAndSlope couette_stress_factor(double H);
 
-/// Mean of the local gap over sigma, 0 where the surfaces overlap, with slope and curvature in H (film.28).
+/// Mean of the local gap over sigma, 0 where the surfaces overlap, with slope and curvature in H (film.31).
 struct MeanGap {
   double value = 0, slope = 0, curvature = 0;
 };

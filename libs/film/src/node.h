@@ -23,7 +23,7 @@ struct Node {
 [[nodiscard]] bool open_edge(const FilmModel& model, int j);
 
 /// Fill fraction of what an open edge lets in; 0 in all other rows. Where the film would be emptier than that, it draws
-/// in what it lacks: u then stands for the inflow (film.34).
+/// in what it lacks: u then stands for the inflow (film.37).
 [[nodiscard]] double ambient_fill(const FilmModel& model, int j);
 
 /// The laws that hold at every node of one film.

@@ -123,7 +123,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
-/// Dissipation (film.21, film.33): Couette share mu slip^2/h, more of it between rough surfaces, and Poiseuille
+/// Dissipation (film.21, film.36): Couette share mu slip^2/h, more of it between rough surfaces, and Poiseuille
 /// K (p_a - p_b)^2, and boundary friction.
 void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, double friction, FilmObservables& o) {
   const double slip2_phi = std::pow(motion.u_journal - motion.u_shell, 2);

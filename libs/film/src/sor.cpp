@@ -144,7 +144,7 @@ void Sor::relax(int i, int j) {
   const double slope = (1 - chi) * r.transport / fill_ + tie;
   const double filling = slope > 0 ? std::min(0.0, -full / slope) : 0, ambient = balance_.ambient_unknown(j);
   if (!open || filling >= ambient) return place(node, filling, j);
-  // Emptier than what lies outside: u is the inflow that keeps it as full (film.34).
+  // Emptier than what lies outside: u is the inflow that keeps it as full (film.37).
   const double lack = full + slope * ambient;
   place(node, std::min(ambient, ambient - lack / (balance_.conductance_scale() * (1 - chi) + tie)), j);
 }
