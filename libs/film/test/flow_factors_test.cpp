@@ -34,6 +34,11 @@ TEST_CASE("FlowFactors_HaveTheirPublishedValues") {
   CHECK(PatirCheng(1).shear(1).value == doctest::Approx(1.899 * std::exp(-0.87)).epsilon(1e-12));
   CHECK(PatirCheng(1.0 / 3).shear(8).value == doctest::Approx(1.561 * std::exp(-2.0)).epsilon(1e-12));
   CHECK(PatirCheng(3).stress(1).value == doctest::Approx(9.8 * std::exp(-2.62)).epsilon(1e-12));
+  // Both published branches of Phi_s meet at H = 5: a wrong digit in either would show.
+  for (const double gamma : tabulated) {
+    CHECK(PatirCheng(gamma).shear(5).value ==
+          doctest::Approx(std::exp(0.125) * PatirCheng(gamma).shear(5.5).value).epsilon(5e-4));
+  }
   // Between rows: linear in ln gamma.
   const double between = std::sqrt(3.0);
   CHECK(PatirCheng(between).shear(2).value ==
