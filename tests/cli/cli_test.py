@@ -131,6 +131,17 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(file["bearings/main/fields/pressure"].shape[1:], (20, 5))
             self.assertIn("500", str(file["parameters"].attrs["load"]))
 
+    def test_bearing_says_how_roughness_and_surroundings_were_read(self):
+        run = hersey("bearing", ALONE, "--set", "bearings.main.roughness={shell: {sigma: 0.4 um, gamma: 3}}",
+                     "--set", "bearings.main.ambient_fill=0.5")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertIn("flow factors of Patir and Cheng: rms roughness of the shell 0.4 um, gamma 3, of the journal smooth",
+                      run.stdout)
+        self.assertIn("left one in 0.5 of oil", run.stdout)
+        run = hersey("bearing", ALONE, "--set", "bearings.main.roughness={shell: {sigma: 0.4 um, gamma: 30}}")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("roughness.shell.gamma", run.stderr)
+
     def test_bearing_by_itself_finds_its_position_and_its_load(self):
         run = hersey("bearing", ALONE, "--json")
         self.assertEqual(run.returncode, OK, run.stderr)

@@ -102,7 +102,12 @@ std::string where(const Grid& grid, int node) {
 }
 
 bool starved(const FilmModel& model, const Eigen::VectorXd& u) {
-  return model.cavitation == Cavitation::mass_conserving && u.maxCoeff() <= 1e-9 * fill_scale(model);
+  if (model.cavitation != Cavitation::mass_conserving) return false;
+  for (int node = 0; node < model.grid.size(); ++node) {
+    // On an edge at p_cav, u > 0 is oil that leaves, not pressure.
+    if (u[node] > 1e-9 * fill_scale(model) && !open_edge(model, node % model.grid.n_z)) return false;
+  }
+  return true;
 }
 
 // A fill fraction below zero is no film: it says that more oil leaves a node than comes in.

@@ -375,7 +375,11 @@ double FlowBalance::slack_u(int node) const {
 double FlowBalance::outflow(int node) const {
   const int j = node % model_.grid.n_z;
   if (open_row(j)) return slack(node);
-  return edge_row(j) ? -balance_[node] : 0;
+  if (!edge_row(j)) return 0;
+  // A film that does not conserve oil lacks some wherever it is broken: the half volumes on an edge do not draw it in.
+  const int inside = j == 0 ? node + 1 : node - 1;
+  const bool broken = model_.cavitation == Cavitation::reynolds && edge_unknown(j) == 0 && u_[inside] < 0;
+  return broken ? 0 : -balance_[node];
 }
 
 double FlowBalance::supply(int node) const { return supply_share(node) > 0 ? balance_[node] + outflow(node) : 0; }

@@ -81,7 +81,8 @@ ValueAndSlope pressure_row(int row, double H) {
   return {limit.value / denominator, limit.slope / (denominator * denominator)};
 }
 
-// Both fits differ by less than 0.1 % where they meet: one fades into the other. Towards contact a parabola leads to zero.
+// Both fits differ by less than 0.1 % where they meet: one fades into the other. Towards contact a parabola leads to
+// zero.
 ValueAndSlope shear_row(int row, double H) {
   const ShearFit& fit = shear_fits[row];
   if (H < smallest_H) {

@@ -270,6 +270,17 @@ TEST_CASE("AmbientFill_IsDrawnIn") {
   CHECK(sor.observed.flow_left == doctest::Approx(mist.observed.flow_left).epsilon(1e-6));
 }
 
+// Oil around the edges at p_cav has nothing that would drive it in: without a supply the film starves all the same.
+TEST_CASE("FilmInOilAtTheCavitationPressure_Starves") {
+  FilmModel m = bearing();
+  m.supply = {};
+  m.ambient_fill_left = m.ambient_fill_right = 1;
+  const SolvedFilm film = solve_cold(m, turning(m, 0.6, omega));
+  CHECK(film.summary.converged);
+  CHECK(film.summary.message.find("supply") != std::string::npos);
+  CHECK(film.observed.p_max < 1e-6);
+}
+
 // Plates that part suck in what lies around them, as far as the film is emptier than that.
 TEST_CASE("PartingPlates_DrawInTheAmbient") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {8, 9}};

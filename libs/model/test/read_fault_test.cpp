@@ -20,7 +20,8 @@ TEST_CASE("UnphysicalPressures_AreReported") {
   CHECK(with("    cavitation: {model: reynolds, pressure: -1.2 bar}\n") ==
         "m.yaml:30:45: bearings.big_end.cavitation.pressure: -1.2 bar, below a vacuum; expected a gauge pressure of at "
         "least -1.01325 bar");
-  CHECK(with("    pressures: absolute\n    edge_pressure: 1 bar\n    cavitation: {model: reynolds, pressure: -0.2 bar}\n") ==
+  CHECK(with("    pressures: absolute\n    edge_pressure: 1 bar\n    cavitation: {model: reynolds, pressure: -0.2 "
+             "bar}\n") ==
         "m.yaml:32:45: bearings.big_end.cavitation.pressure: -0.2 bar, below a vacuum; expected an absolute pressure "
         "of at least 0; pressures: gauge counts from the atmosphere");
   CHECK(with("    pressures: absolute\n") ==

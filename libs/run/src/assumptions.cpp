@@ -112,7 +112,8 @@ void describe(const model::Bearing& bearing, Rows& rows) {
     rows.emplace_back(bearing.name + ": " + name, std::move(text));
   };
   row("cavitation", cavitation(film));
-  row("pressures", film.pressures == film::PressureScale::absolute ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
+  row("pressures",
+      film.pressures == film::PressureScale::absolute ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
   row("edge pressure left", edge(film, film.p_edge_left, film.ambient_fill_left));
   row("edge pressure right", edge(film, film.p_edge_right, film.ambient_fill_right));
   row("supply", supply(film));
