@@ -109,7 +109,7 @@ ValueAndSlope stress_row(int row, double H) {
 }  // namespace
 
 PatirCheng::PatirCheng(double gamma) {
-  HERSEY_REQUIRE(smallest_gamma * (1 - 1e-12) <= gamma && gamma <= largest_gamma * (1 + 1e-12),
+  HERSEY_REQUIRE(0.11 - 1e-9 <= gamma && gamma <= 1 / 0.11 + 1e-9,
                  "flow factors are known for Peklenik ratios from 1/9 to 9");
   while (row_ + 2 < rows && gamma >= gammas[row_ + 1]) ++row_;
   weight_ = std::clamp(std::log(gamma / gammas[row_]) / std::log(gammas[row_ + 1] / gammas[row_]), 0.0, 1.0);

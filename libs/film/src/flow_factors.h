@@ -4,16 +4,13 @@
 
 namespace hersey::film {
 
-/// Range of Peklenik's ratio over which flow factors are tabulated.
-inline constexpr double smallest_gamma = 1.0 / 9, largest_gamma = 9;
-
 /// Flow factors of Gaussian roughness with one Peklenik ratio, correlation length in the direction of the flow over
 /// that across it. Values and slopes against H = h/sigma > 0; linear in ln gamma between the tabulated ratios and
 /// continued smoothly where H lies outside the fits' range (film.32 to film.34).
 /// @see Patir & Cheng (1978), J. Lubr. Technol. 100, 12-17; (1979), J. Lubr. Technol. 101, 220-230.
 class PatirCheng {
  public:
-  /// @throws ContractError for gamma outside [1/9, 9].
+  /// @throws ContractError for gamma outside [1/9, 9], give or take what two digits of it round to.
   explicit PatirCheng(double gamma);
 
   [[nodiscard]] ValueAndSlope pressure(double H) const;  ///< phi_x: pressure flow over that between smooth surfaces

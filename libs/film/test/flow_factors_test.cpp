@@ -43,6 +43,7 @@ TEST_CASE("FlowFactors_HaveTheirPublishedValues") {
   const double between = std::sqrt(3.0);
   CHECK(PatirCheng(between).shear(2).value ==
         doctest::Approx(0.5 * (PatirCheng(1).shear(2).value + PatirCheng(3).shear(2).value)).epsilon(1e-12));
+  CHECK(PatirCheng(0.11).pressure(2).value == PatirCheng(1.0 / 9).pressure(2).value);  // 1/9 in two digits
   CHECK_THROWS(PatirCheng(10));
   CHECK_THROWS(PatirCheng(0.1));
 }

@@ -44,9 +44,9 @@ TypePtr roughness_format() {
       "a rough surface",
       {
           required("sigma", quantity("m", "0.8 um", Range::positive()), "Its rms height."),
-          defaulted("gamma", number("1", {.low = 1.0 / 9 - 1e-9, .high = 9}), "1",
+          defaulted("gamma", number("1", {.low = 0.11, .high = 9}), "1",
                     "Peklenik's ratio: how much longer its features are around the bearing than along it. Ridges "
-                    "around, as from turning: 9; along the axis: 0.111 (1/9); no direction: 1."),
+                    "around, as from turning: 9; along the axis: 0.11; no direction: 1."),
       });
   return object(
       "the roughness of both surfaces",

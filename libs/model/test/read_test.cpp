@@ -148,7 +148,7 @@ TEST_CASE("RoughnessAndSurroundings_AreRead") {
     cavitation: {model: mass_conserving, pressure: 0.3 bar}
     edge_pressure: {left: 0.3 bar, right: 1 bar}
     ambient_fill: {left: 0.4, right: 1}
-    roughness: {shell: {sigma: 0.6 um, gamma: 3}, journal: {sigma: 0.8 um}}
+    roughness: {shell: {sigma: 0.6 um, gamma: 0.11}, journal: {sigma: 0.8 um}}
     asperities: {model: greenwood_tripp, composite_modulus: 57 GPa}
 )");
   const Bearing bearing = read_text(text, "m.yaml").bearings[0];
@@ -158,7 +158,7 @@ TEST_CASE("RoughnessAndSurroundings_AreRead") {
   const film::Roughness& roughness = bearing.film.roughness;
   CHECK(roughness.flow_factors == film::FlowFactors::patir_cheng);
   CHECK(roughness.shell.sigma == near(0.6e-6));
-  CHECK(roughness.shell.gamma == 3);
+  CHECK(roughness.shell.gamma == 0.11);
   CHECK(roughness.journal.sigma == near(0.8e-6));
   CHECK(roughness.journal.gamma == 1);
   CHECK(bearing.film.asperities.sigma == near(1e-6));  // of both surfaces together
