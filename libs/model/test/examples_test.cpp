@@ -23,7 +23,7 @@ TEST_CASE("Examples_AreReadWithoutFault") {
     try {
       const Model model = read(file);
       CHECK_FALSE(model.title.empty());
-      CHECK_FALSE(model.bearings.empty());
+      CHECK(model.bearings.size() + model.joints.size() > 0);
       for (const StudyRun& run : expand_study(file)) CHECK_NOTHROW((void)read(file, run.overrides));
     } catch (const InputError& error) {
       FAIL_CHECK(error.what());
