@@ -74,6 +74,8 @@ TypePtr function_format(const std::vector<std::string>& si_units, const std::str
                      defaulted("over", text("time or joint.coordinate", "main.rotation"), "time", "What x is."),
                      optional("period", quantity_in({"s", "rad", "m"}, "720 deg", Range::positive()),
                               "The table repeats with this period.", "does not repeat"),
+                     optional("shift", quantity_in({"s", "rad", "m"}, "180 deg"),
+                              "By how much later the table begins: 180 deg for the cylinder that fires then.", "0"),
                      defaulted("interpolation",
                                choice({{"linear", "straight between points"},
                                        {"smooth", "monotone cubic: no overshoot, continuous first derivative"}}),

@@ -170,8 +170,10 @@ class FunctionReader {
     std::optional<Points> points = source.find("file") != nullptr ? points_from_file(source) : points_in_place(source);
     if (!points || !variable) return;
     const bool usable = convert_points(*points, source, content, unit_of(*variable)) && check_order(*points);
-    const std::optional<double> period = period_of(content, unit_of(*variable));
-    if (!usable || !period || !check_period(*points, *period, source)) return;
+    const std::optional<double> period = argument_of(content, "period", unit_of(*variable));
+    const std::optional<double> shift = argument_of(content, "shift", unit_of(*variable));
+    if (!usable || !period || !shift || !check_period(*points, *period, source)) return;
+    for (double& x : points->x) x += *shift;
     const bool smooth = text_of(content, "interpolation") == "smooth";
     if (*period == 0) function_.domain = {points->x.front(), points->x.back()};
     function_.value = std::make_shared<TableFunction>(
@@ -256,13 +258,13 @@ class FunctionReader {
     return true;
   }
 
-  /// The period in SI, 0 without one; nothing where it is broken or measures something else than x.
-  std::optional<double> period_of(const Value& content, const std::string& x_si_unit) {
-    const Value* period = content.find("period");
-    if (period == nullptr) return 0.0;
-    if (period->broken) return std::nullopt;
-    if (period->unit == x_si_unit) return period->number;
-    context_.fault(*period, dimension_of(period->unit).name, expectation_of(x_si_unit));
+  /// Period or shift in SI, 0 without one; nothing where it is broken or measures something else than x.
+  std::optional<double> argument_of(const Value& content, const std::string& key, const std::string& x_si_unit) {
+    const Value* value = content.find(key);
+    if (value == nullptr) return 0.0;
+    if (value->broken) return std::nullopt;
+    if (value->unit == x_si_unit) return value->number;
+    context_.fault(*value, dimension_of(value->unit).name, expectation_of(x_si_unit));
     return std::nullopt;
   }
 

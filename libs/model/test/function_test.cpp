@@ -182,6 +182,17 @@ TEST_CASE("FaultyTablesInPlace_ArePlaced") {
         "m.yaml:19:118: forces.push.components.1.period: an angle; expected a time, such as 0.1 ms");
 }
 
+TEST_CASE("ShiftedTable_BeginsLater") {
+  const std::string table =
+      "{table: {x_unit: deg, y_unit: N, points: [[0, 1], [90, 5], [360, 1]]}, over: main.rotation, period: 360 deg";
+  const Function plain = force_of(table + "}"), shifted = force_of(table + ", shift: 120 deg}");
+  for (const double angle : {0.0, 1.0, 2.5, 6.0}) {
+    const double later = angle + 2 * pi / 3;
+    CHECK(shifted.value->value({&later, 1}) == doctest::Approx(plain.value->value({&angle, 1})));
+  }
+  CHECK(faults_of(with_force(table + ", shift: 1 ms}")).find("shift: a time; expected an angle") != std::string::npos);
+}
+
 TEST_CASE("TableThatDoesNotCoverTheRun_IsReportedBeforeIt") {
   // The run lasts two turns at 3000 rpm: 40 ms, 720 degrees.
   CHECK(faults_of(with_force("{table: {x_unit: ms, y_unit: N, points: [[0, 1], [40, 1]]}}")) == "no fault");
