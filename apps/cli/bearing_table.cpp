@@ -61,9 +61,12 @@ std::string roughness_of(const film::Roughness& roughness) {
 std::string condition_of(const BearingSolution& solution) {
   constexpr std::array<const char*, 3> cavitation{"guembel", "reynolds", "mass_conserving"};
   const film::FilmModel& film = solution.model;
-  return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} linearisations, {:.3g} s\n",
+  const bearing::SteadySummary& work = solution.summary;
+  const std::string film_work =
+      work.film_iterations > 0 ? fmt::format(" and {} film iterations", work.film_iterations) : "";
+  return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} film linearisations{}, {:.3g} s\n",
                      cavitation[static_cast<std::size_t>(film.cavitation)], 1e-5 * film.p_cav, pressures_of(film),
-                     film.grid.n_phi, film.grid.n_z, solution.summary.iterations, solution.wall_time) +
+                     film.grid.n_phi, film.grid.n_z, work.iterations, film_work, solution.wall_time) +
          roughness_of(film.roughness);
 }
 
@@ -157,6 +160,7 @@ nlohmann::json bearing_json(const BearingSolution& solution) {
   for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;
   if (!solution.solved()) return document;
   document["linearisations"] = solution.summary.iterations;
+  document["film_iterations"] = solution.summary.film_iterations;
   document["wall_time"] = solution.wall_time;
   for (const BearingFigure& f : study::figures_of(solution)) {
     nlohmann::json& entry = document["figures"][f.key];

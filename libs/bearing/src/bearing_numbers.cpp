@@ -59,7 +59,7 @@ WhirlStability whirl_stability(const LoadAxesCoefficients& coefficients, double 
   const double k0 = (K(0, 0) * C(1, 1) + K(1, 1) * C(0, 0) - K(0, 1) * C(1, 0) - K(1, 0) * C(0, 1)) / C.trace();
   const double gamma2 = ((K(0, 0) - k0) * (K(1, 1) - k0) - K(0, 1) * K(1, 0)) / C.determinant();
   const double infinity = std::numeric_limits<double>::infinity();
-  if (gamma2 <= 0) {
+  if (omega == 0 || gamma2 <= 0) {
     result.always_stable = true;
     result.critical_mass = result.stability_number = result.threshold_speed = infinity;
     return result;

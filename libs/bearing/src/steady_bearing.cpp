@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -16,14 +17,30 @@
 namespace hersey::bearing {
 namespace {
 
+// No film has such a pressure above that of cavitation [Pa]; its deformation would not be a finite number for long.
+constexpr double kLargestPressure = 1e11;
+
 // exp(20) = 5e8 times the viscosity: no oil, and far from overflow.
 constexpr double kLargestExponent = 20;
 
-// One Newton step may use up this share of the smallest gap of rigid surfaces, or of the film between elastic ones.
-constexpr double kLargestApproach = 0.7;
+// One Newton step may thin the film at a node to this share of itself, an elastic one may thicken it by this factor,
+// and turn the journal by this angle [rad].
+constexpr double kThinnest = 0.3, kThickest = 5, kLargestTurn = 0.3;
 
-// Fractions of the load below which raising it is given up.
+// Fractions of the way to the load below which raising it is given up.
 constexpr double kSmallestLoadStep = 1e-3;
+
+// Iterations on film and position together without getting nearer by half, after which they are taken in turn.
+constexpr int kPatience = 6;
+
+// A gap of this share of the clearance is none.
+constexpr double kTouching = 3e-3;
+
+// Share of the load below which a force has no size to compare with.
+constexpr double kForceFloor = 1e-6;
+
+// Positions tried on the way from the start to the bearing's centre, where the film at the start cannot be found.
+constexpr int kMostStarts = 5;
 
 using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
@@ -32,6 +49,7 @@ ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint
   parameters.segment<2>(kEx) = e;
   parameters.segment<2>(kTx) = point.tilt;
   parameters[kJournalSpeed] = model.R * point.journal_speed;
+  parameters[kRotation] = point.journal_angle;
   parameters[kSupplyAngle] = e.squaredNorm() > 0 ? std::atan2(-e.y(), -e.x()) : 0.0;
   return parameters;
 }
@@ -43,6 +61,7 @@ class Search {
       : model_(model), point_(point), options_(options), reynolds_(model) {
     u_ = Eigen::VectorXd::Zero(model.grid.size());
     film_options_.rtol = options.rtol;
+    film_options_.solver = options.solver;
     for (int k = 0; k <= kTyRate; ++k) directions_.push_back(surface_direction(model, k));
   }
 
@@ -50,8 +69,10 @@ class Search {
   [[nodiscard]] bool film_at(const Eigen::Vector2d& e) {
     e_ = e;
     motion_ = steady_surfaces(model_, point_, e);
+    if (!is_sensible(u_)) u_.setZero();
+    if (!is_sensible(u_)) return false;
     const film::FilmSolveSummary solved = film::solve_film(reynolds_, motion_, history_, film_options_, u_);
-    summary_.iterations += solved.iterations;
+    (options_.solver == film::FilmSolver::newton ? summary_.iterations : summary_.film_iterations) += solved.iterations;
     summary_.message = solved.message;
     if (solved.converged) linearise();
     return solved.converged;
@@ -64,18 +85,15 @@ class Search {
   }
 
   [[nodiscard]] SteadySummary under_load() {
-    const Eigen::Vector2d start = options_.start.value_or(ocvirk_position(model_, point_));
-    if (!film_at(start)) return summary_;
+    if (!film_at_start()) return summary_;
     if (bears_nothing()) {
       summary_.message =
           "the film bears no load: it has no pressure anywhere. Where edges at the cavitation pressure "
           "and no supply let no oil in, there is no other film";
       return summary_;
     }
-    if (!together() && !raise_load(start)) {
-      summary_.message =
-          fmt::format("no equilibrium found: force off by {:.2g} of the load at eccentricity ratio {:.4f}",
-                      summary_.force_error, e_.norm() / model_.c);
+    if (!together() && !from_here() && !raise_load()) {
+      summary_.message = why_not();
       return summary_;
     }
     summary_.converged = true;
@@ -111,6 +129,20 @@ class Search {
   }
 
  private:
+  [[nodiscard]] std::string why_not() const {
+    std::string text = fmt::format(
+        "no equilibrium found in {} linearisations: force off by {:.2g} of the load at eccentricity ratio {:.4f}",
+        summary_.iterations, summary_.force_error, e_.norm() / model_.c);
+    if (gap_at(e_) > kTouching * model_.c) return text;
+    const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
+    if (is_smooth && model_.compliance > 0)
+      return text + "; the surfaces touch at the edges, where no film pressure parts them: give asperities";
+    if (is_smooth) return text + "; the film would be thinner than any surface is smooth: give asperities";
+    return model_.compliance > 0 ? text : text + "; more than the asperities of rigid surfaces bear: give a compliance";
+  }
+
+  [[nodiscard]] bool is_tired() const { return summary_.iterations >= options_.max_linearisations; }
+
   [[nodiscard]] bool bears_nothing() const {
     const film::FilmFields fields = film::film_fields(model_, motion_, u_);
     const double scale = model_.lubricant.mu0 * std::abs(point_.entraining_speed()) * std::pow(model_.R / model_.c, 2);
@@ -136,39 +168,100 @@ class Search {
     for (Eigen::Index k = 0; k < count; ++k) dW.col(k) += reynolds_.wrench_gradient(du.col(k));
   }
 
-  [[nodiscard]] double error_of(const Eigen::Vector2d& target) const {
-    return (force_ - target).norm() / point_.load->norm();
+  // Where the film at the given start cannot be found, it is sought nearer to the centre, where it is thicker.
+  [[nodiscard]] bool film_at_start() {
+    const Eigen::Vector2d start = options_.start.value_or(ocvirk_position(model_, point_));
+    for (int k = 0; k < kMostStarts; ++k) {
+      if (k == 0 && options_.start_film.size() == u_.size()) {
+        u_ = options_.start_film;
+      } else {
+        u_.setZero();
+      }
+      if (film_at(std::exp2(-k) * start)) return true;
+    }
+    return false;
   }
 
-  // The step in position of Newton's method at the present linearisation, short enough for the gap.
-  [[nodiscard]] Eigen::Vector2d position_step(const Eigen::Vector2d& target) {
+  // What is missing from the force to the target, as if the force followed a power of the film thickness: the logarithm
+  // of the ratio along the force and the angle across it, to first order their difference.
+  [[nodiscard]] Eigen::Vector2d missing(const Eigen::Vector2d& target) const {
+    const double F = force_.norm(), W = target.norm();
+    const double turn = std::atan2(force_.x() * target.y() - force_.y() * target.x(), force_.dot(target));
+    if (F < kForceFloor * W || std::abs(turn) > 0.5 * std::numbers::pi) return target - force_;
+    return std::log(W / F) * force_ + turn * Eigen::Vector2d(-force_.y(), force_.x());
+  }
+
+  // The same as one number: 0 at the target.
+  [[nodiscard]] double distance_to(const Eigen::Vector2d& target) const {
+    const double F = std::max(force_.norm(), 1e-300), W = target.norm();
+    const double turn = std::atan2(force_.x() * target.y() - force_.y() * target.x(), force_.dot(target));
+    return std::hypot(std::log(W / F), turn);
+  }
+
+  // A step of position and film.
+  struct Step {
+    Eigen::Vector2d de;
+    Eigen::VectorXd du;
+  };
+
+  // Newton's step at the present linearisation towards `target`, cut to where the linear film may be trusted.
+  [[nodiscard]] Step newton_step(const Eigen::Vector2d& target) {
     Columns dW;
     respond(2, du_de_, dW);
     const Eigen::Matrix2d K = dW.block<2, 2>(3, 0);
-    const Eigen::Vector2d de = K.fullPivLu().solve(target - force_);
-    if (!de.allFinite()) return Eigen::Vector2d::Zero();
-    double share = std::min(1.0, 0.5 * model_.c / std::max(de.norm(), 1e-300));
-    const double h_min = film::film_fields(model_, motion_, u_).h.minCoeff();
-    const double room = model_.compliance > 0 ? std::max(gap_at(e_), h_min) : gap_at(e_);
-    // Rigid surfaces: the gap itself may not close. Elastic ones yield; a step of many film thicknesses is still too
-    // long for a linear film.
-    const auto approach = [&](double s) { return gap_at(e_) - gap_at(e_ + s * de); };
-    while (share > 1e-12 && approach(share) > kLargestApproach * room) share *= 0.5;
-    return share * de;
+    Step step{K.fullPivLu().solve(missing(target)), du0_};
+    if (!step.de.allFinite()) step.de.setZero();
+    step.de *= std::min(1.0, 0.5 * model_.c / std::max(step.de.norm(), 1e-300));
+    if (model_.compliance == 0) step.de *= share_of_gap(step.de);
+    step.du += du_de_ * step.de;
+    double share = 1;
+    while (share > 1e-6 && !keeps_film(step, share)) share *= 0.7;
+    step.de *= share;
+    step.du *= share;
+    return step;
+  }
+
+  // Rigid surfaces: the force follows a power of the gap, so its logarithm is what a step changes in proportion.
+  [[nodiscard]] double share_of_gap(const Eigen::Vector2d& de) const {
+    const double gap = gap_at(e_), tiny = 1e-3;
+    const double x = (gap - gap_at(e_ + tiny * de)) / (tiny * gap);
+    return std::abs(x) < 1e-6 ? 1 : std::min(2.0, -std::expm1(-x) / x);
+  }
+
+  // Whether the film of a linear step is still a film, and not much thinner than it was, at every node.
+  [[nodiscard]] bool keeps_film(const Step& step, double share) const {
+    const film::SurfaceMotion motion = steady_surfaces(model_, point_, e_ + share * step.de);
+    const Eigen::VectorXd u = u_ + share * step.du;
+    if (!has_sensible_pressure(u)) return false;
+    const Eigen::VectorXd before = film::film_fields(model_, motion_, u_).h;
+    const Eigen::VectorXd after = film::film_fields(model_, motion, u).h;
+    if (!(after.array() >= kThinnest * before.array()).all()) return false;
+    return model_.compliance == 0 || (after.array() <= kThickest * before.array()).all();
   }
 
   [[nodiscard]] double gap_at(const Eigen::Vector2d& e) const {
     return smallest_gap(model_, parameters_of(model_, point_, e));
   }
 
+  [[nodiscard]] bool has_sensible_pressure(const Eigen::VectorXd& u) const {
+    return u.allFinite() && u.maxCoeff() < kLargestPressure &&
+           film::log_viscosity_ratio(model_.lubricant, u.maxCoeff()).value <= kLargestExponent;
+  }
+
   [[nodiscard]] bool is_sensible(const Eigen::VectorXd& u) const {
-    const double largest = u.maxCoeff();
-    if (!u.allFinite() || film::log_viscosity_ratio(model_.lubricant, largest).value > kLargestExponent) return false;
-    return gap_at(e_) > 0 || film::film_fields(model_, motion_, u).h.minCoeff() > 0;
+    if (!has_sensible_pressure(u)) return false;
+    return gap_at(e_) > 0 || (model_.compliance > 0 && film::film_fields(model_, motion_, u).h.minCoeff() > 0);
+  }
+
+  // A supply at the widest gap turns with the position: after a large turn the film is another one.
+  [[nodiscard]] bool turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+    if (model_.supply.kind != film::SupplyKind::widest_gap) return false;
+    const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+    return std::abs(turn) > kLargestTurn;
   }
 
   [[nodiscard]] bool settled(const Eigen::Vector2d& target) {
-    summary_.force_error = error_of(target);
+    summary_.force_error = (force_ - target).norm() / target.norm();
     if (summary_.force_error > options_.rtol || reynolds_.relative_residual() > options_.rtol) return false;
     u_ += du0_;
     return true;
@@ -176,13 +269,20 @@ class Search {
 
   // Newton on film and position at once: one linearisation per iteration.
   [[nodiscard]] bool together() {
-    for (int k = 0; k < options_.max_iterations; ++k) {
+    if (options_.solver != film::FilmSolver::newton) return false;
+    double best = std::numeric_limits<double>::infinity();
+    int idle = 0;
+    for (int k = 0; k < options_.max_iterations && idle < kPatience; ++k) {
       if (settled(*point_.load)) return true;
-      const Eigen::Vector2d de = position_step(*point_.load);
-      const Eigen::VectorXd u = u_ + du0_ + du_de_ * de;
-      e_ += de;
+      const double now = distance_to(*point_.load) + reynolds_.relative_residual();
+      idle = now < 0.5 * best ? 0 : idle + 1;
+      best = std::min(best, now);
+      const Step step = newton_step(*point_.load);
+      const Eigen::Vector2d from = e_;
+      e_ += step.de;
       motion_ = steady_surfaces(model_, point_, e_);
-      if (is_sensible(u)) {
+      const Eigen::VectorXd u = u_ + step.du;
+      if (is_sensible(u) && !turns_far(from, e_)) {
         u_ = u;
         linearise();
       } else if (!film_at(e_)) {
@@ -194,36 +294,56 @@ class Search {
 
   // Newton on the position with the film solved at each; a step that does not bring the force nearer is halved.
   [[nodiscard]] bool in_turn(const Eigen::Vector2d& target) {
-    for (int k = 0; k < options_.max_iterations; ++k) {
+    for (int k = 0; k < options_.max_iterations && !is_tired(); ++k) {
       if (settled(target)) return true;
       const Eigen::Vector2d e = e_;
       const Eigen::VectorXd u = u_;
-      const double error = error_of(target);
-      const Eigen::Vector2d de = position_step(target);
-      const Eigen::MatrixXd du_de = du_de_;
+      const double distance = distance_to(target);
+      const Step step = newton_step(target);
       bool nearer = false;
-      for (double share = 1; !nearer && share > 1e-4; share /= 2) {
-        u_ = u + share * (du_de * de);
-        motion_ = steady_surfaces(model_, point_, e + share * de);
+      for (double share = 1; !nearer && share > 1e-4 && !is_tired(); share /= 2) {
+        u_ = u + share * step.du;
+        motion_ = steady_surfaces(model_, point_, e + share * step.de);
         if (!is_sensible(u_)) u_ = u;
-        nearer = film_at(e + share * de) && error_of(target) < error;
+        nearer = film_at(e + share * step.de) && distance_to(target) < distance;
       }
       if (!nearer) return false;
     }
     return false;
   }
 
-  // From the force the film has at `start` to the load, each equilibrium the start of the next (bearing.13).
-  [[nodiscard]] bool raise_load(const Eigen::Vector2d& start) {
-    u_.setZero();
-    if (!film_at(start)) return false;
+  // Where the joint iteration has left off, if its position is nearer to the load than the start, else from there.
+  [[nodiscard]] bool from_here() {
+    const Eigen::Vector2d here = e_;
+    if (!film_at_start()) return false;
+    const Eigen::Vector2d start = e_;
+    const Eigen::VectorXd film = u_;
+    const double distance = distance_to(*point_.load);
+    if (!film_at(here) || distance_to(*point_.load) > distance) {
+      u_ = film;
+      if (!film_at(start)) return false;
+    }
+    return in_turn(*point_.load);
+  }
+
+  // A force on the way from `from` to the load: turning at an even rate and growing by an even factor.
+  [[nodiscard]] Eigen::Vector2d between(const Eigen::Vector2d& from, double share) const {
+    const Eigen::Vector2d& W = *point_.load;
+    const double turn = std::atan2(from.x() * W.y() - from.y() * W.x(), from.dot(W));
+    const double size = std::exp(share * std::log(W.norm() / from.norm()));
+    return size * (Eigen::Rotation2Dd(share * turn) * from);
+  }
+
+  // From the force the film has at the start to the load, each equilibrium the start of the next (bearing.13).
+  [[nodiscard]] bool raise_load() {
+    if (!film_at_start()) return false;
     const Eigen::Vector2d from = force_;
     double reached = 0, step = 0.25;
-    while (reached < 1) {
+    while (reached < 1 && !is_tired()) {
       const Eigen::Vector2d e = e_;
       const Eigen::VectorXd u = u_;
       const double next = std::min(1.0, reached + step);
-      if (in_turn(from + next * (*point_.load - from))) {
+      if (in_turn(next == 1 ? *point_.load : between(from, next))) {
         reached = next;
         step *= 2;
         continue;
@@ -233,7 +353,7 @@ class Search {
       u_ = u;
       if (!film_at(e)) return false;
     }
-    return true;
+    return reached >= 1;
   }
 
   const film::FilmModel& model_;
@@ -274,7 +394,8 @@ Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoi
     (y * y / (pi * x * std::sqrt(pi * pi * y + 16 * x * x)) > wanted ? low : high) = x;
   }
   // A bearing of finite width stands nearer to its centre or, with contact, is held off the wall: keep away from both.
-  const double epsilon = std::clamp(low, 0.01, 0.9);
+  const double contact = model.asperities.model == film::AsperityModel::none ? 0 : 3 * model.asperities.sigma / model.c;
+  const double epsilon = std::clamp(low, 1e-4, std::clamp(1 - contact, 0.5, 0.99));
   const double attitude = std::atan2(pi * std::sqrt(1 - epsilon * epsilon), 4 * epsilon);
   const double angle = std::atan2(point.load->y(), point.load->x()) + std::copysign(attitude, point.entraining_speed());
   // A tilted journal needs room at both edges.
@@ -285,7 +406,8 @@ Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoi
 SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
                            SteadyState& state) {
   HERSEY_REQUIRE(!point.load || point.load->norm() > 0, "a load that is not zero");
-  HERSEY_REQUIRE(point.entraining_speed() != 0, "speeds that drag oil into the gap");
+  HERSEY_REQUIRE(point.entraining_speed() != 0 || model.asperities.model != film::AsperityModel::none,
+                 "speeds that drag oil into the gap, or asperities");
   const double gap = smallest_gap(model, parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e));
   HERSEY_REQUIRE(gap > 0, "a journal inside its bore");
   Search search(model, point, options);

@@ -219,6 +219,66 @@ TEST_CASE("HeavyLoads_AreFoundFromAnywhere") {
   }
 }
 
+TEST_CASE("EverySolver_FindsTheSamePosition") {
+  for (const auto cavitation :
+       {film::Cavitation::guembel, film::Cavitation::reynolds, film::Cavitation::mass_conserving}) {
+    film::FilmModel model = flooded_film(40, 9);
+    model.cavitation = cavitation;
+    const OperatingPoint point = under_load(8000, -pi / 2, 200);
+    const SteadyState newton = solved(model, point);
+    SteadyState sor;
+    const SteadySummary summary = solve_steady(model, point, {.rtol = 1e-9, .solver = film::FilmSolver::sor}, sor);
+    REQUIRE(summary.converged);
+    CHECK(summary.film_iterations > summary.iterations);
+    CHECK((newton.e - sor.e).norm() <= 1e-8 * model.c);
+    CHECK((newton.coefficients.stiffness - sor.coefficients.stiffness).norm() <=
+          1e-6 * newton.coefficients.stiffness.norm());
+  }
+}
+
+TEST_CASE("HoleInTheJournal_MovesTheFilmWithItsAngle") {
+  // Turning journal, hole and load together turns the answer with them.
+  film::FilmModel model = flooded_film(60, 13);
+  model.supply.kind = film::SupplyKind::none;
+  film::SurfaceFeature hole{.name = "hole", .shape = film::FeatureShape::ellipse, .surface = film::Surface::journal};
+  hole.arc = 0.5;
+  hole.length = 0.02;
+  hole.pressure = 3e5;
+  model.features = {hole};
+  OperatingPoint point = under_load(2000, 0, 200);
+  point.journal_angle = 2;
+  const SteadyState here = solved(model, point);
+  const double turn = 2 * pi * 7 / 60;
+  OperatingPoint turned = under_load(2000, turn, 200);
+  turned.journal_angle = 2 + turn;
+  const SteadyState there = solved(model, turned);
+  CHECK((Eigen::Rotation2Dd(turn) * here.e - there.e).norm() <= 1e-7 * model.c);
+  turned.journal_angle = 2;
+  CHECK((Eigen::Rotation2Dd(turn) * here.e - solved(model, turned).e).norm() > 1e-3 * model.c);
+}
+
+TEST_CASE("JournalAtRest_StandsOnItsAsperities") {
+  film::FilmModel model = rough_elastic_film();
+  model.supply = {.kind = film::SupplyKind::widest_gap};
+  const SteadyState state = solved(model, under_load(1000, -pi / 2, 0));
+  const BearingNumbers numbers = bearing_numbers(model, state);
+  CHECK(numbers.asperity_share == doctest::Approx(1).epsilon(1e-9));
+  CHECK(std::abs(numbers.attitude) < 1e-6);
+  // A hair of rotation changes next to nothing: from boundary friction to the film without a switch.
+  const SteadyState turning = solved(model, under_load(1000, -pi / 2, 1e-4));
+  CHECK((turning.e - state.e).norm() <= 1e-3 * model.c);
+}
+
+TEST_CASE("NearlyTouchingJournal_CarriesItsLoad") {
+  const film::FilmModel model = flooded_film(120, 13);
+  OperatingPoint placed{.journal_speed = 100};
+  placed.e = {0, -0.99 * model.c};
+  const SteadyState state = solved(model, placed);
+  OperatingPoint loaded{.journal_speed = 100};
+  loaded.load = state.load;
+  CHECK((solved(model, loaded).e - placed.e).norm() <= 1e-6 * model.c);
+}
+
 TEST_CASE("PositionOfALoad_CarriesThatLoad") {
   const film::FilmModel model = flooded_film(60, 13);
   const OperatingPoint loaded = under_load(3000, 0.7, -200);

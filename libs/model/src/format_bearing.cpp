@@ -125,6 +125,8 @@ TypePtr operating_point_format() {
           optional("eccentricity_ratio", or_word(number("0.6", {.low = 0, .high = 1, .high_open = true}), not_given),
                    "Position of the journal, instead of a load: its load is sought."),
           defaulted("eccentricity_angle", angle, "-90 deg", "Direction of that position, from x towards y."),
+          defaulted("journal_angle", angle, "0 deg",
+                    "By which the journal, with its holes and grooves, stands turned: one moment of its turn."),
           defaulted("tilt_x", tilt, "0 deg", "Slope of the journal's axis towards x."),
           defaulted("tilt_y", tilt, "0 deg", "Slope of the journal's axis towards y."),
       });

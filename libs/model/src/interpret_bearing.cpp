@@ -237,15 +237,35 @@ const Value* given(const Value& parent, const std::string& key) {
   return value != nullptr && (value->broken || value->text != "none") ? value : nullptr;
 }
 
-/// A tilted journal may touch the shell at an edge although its middle is inside the bore.
-void check_room(Context& context, const Value& value, const film::FilmModel& film, const OperatingPoint& point) {
-  const double epsilon = point.eccentricity_ratio.value_or(0);
+/// Of the undeformed surfaces, on the grid and at both edges.
+double smallest_gap(const film::FilmModel& film, const OperatingPoint& point, double epsilon) {
+  const film::Grid& grid = film.grid;
+  const Eigen::VectorXd openings = film::gap_profile(film.profiles, grid, film.L);
   const Eigen::Vector2d e =
       epsilon * film.c * Eigen::Vector2d(std::cos(point.eccentricity_angle), std::sin(point.eccentricity_angle));
-  const Eigen::Vector2d offset = 0.5 * film.L * Eigen::Vector2d(point.tilt_x, point.tilt_y);
-  if (film.c <= 0 || epsilon >= 1 || std::max((e + offset).norm(), (e - offset).norm()) < film.c) return;
-  context.fault_at_key(value, "a journal that touches the shell at an edge", "a tilt that leaves a gap over the width",
-                       "reduce tilt_x, tilt_y or eccentricity_ratio");
+  const Eigen::Vector2d tilt(std::tan(point.tilt_x), std::tan(point.tilt_y));
+  double smallest = film.c;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double phi = 2 * std::numbers::pi * i / grid.n_phi;
+    const Eigen::Vector2d radial(std::cos(phi), std::sin(phi));
+    for (int j = 0; j < grid.n_z; ++j) {
+      const double z = film.L * (static_cast<double>(j) / (grid.n_z - 1) - 0.5);
+      smallest = std::min(smallest, film.c + openings[grid.index(i, j)] - (e + z * tilt).dot(radial));
+    }
+  }
+  return smallest;
+}
+
+/// A tilted journal, or one beside a narrow place of the bore, may touch the shell at an edge although its middle is
+/// inside the bore.
+void check_room(Context& context, const std::string& bearing_path, const Value& value, const film::FilmModel& film,
+                const OperatingPoint& point) {
+  const double epsilon = point.eccentricity_ratio.value_or(0);
+  if (context.has_fault_in(bearing_path) || film.c <= 0 || film.L <= 0 || epsilon >= 1 ||
+      smallest_gap(film, point, epsilon) > 0)
+    return;
+  context.fault_at_key(value, "a journal that touches the shell", "a position and a tilt that leave a gap everywhere",
+                       "reduce tilt_x, tilt_y, eccentricity_ratio or the shape");
 }
 
 std::optional<OperatingPoint> operating_point_of(Context& context, const Value& bearing, const film::FilmModel& film) {
@@ -260,6 +280,7 @@ std::optional<OperatingPoint> operating_point_of(Context& context, const Value& 
   if (ratio != nullptr) point.eccentricity_ratio = ratio->number;
   point.load_angle = number_of(*value, "load_angle");
   point.eccentricity_angle = number_of(*value, "eccentricity_angle");
+  point.journal_angle = number_of(*value, "journal_angle");
   point.tilt_x = number_of(*value, "tilt_x");
   point.tilt_y = number_of(*value, "tilt_y");
   if (load == nullptr && ratio == nullptr) {
@@ -268,11 +289,13 @@ std::optional<OperatingPoint> operating_point_of(Context& context, const Value& 
     context.fault_at_key(*ratio, "keys 'load' and 'eccentricity_ratio' together", "exactly one of them",
                          "with --set, give the other one as 'none'");
   }
-  if (!context.has_fault_in(value->path) && point.journal_speed + point.shell_speed == 0) {
+  const bool is_smooth = film.asperities.model == film::AsperityModel::none;
+  if (!context.has_fault_in(value->path) && is_smooth && point.journal_speed + point.shell_speed == 0) {
     context.fault(*value->find("journal_speed"), "speeds that drag no oil into the gap (their sum is 0)",
-                  "surfaces that carry oil: half the sum of both speeds does");
+                  "surfaces that carry oil: half the sum of both speeds does",
+                  "rough surfaces bear loads at rest: asperities");
   }
-  if (!context.has_fault_in(value->path)) check_room(context, *value, film, point);
+  if (!context.has_fault_in(value->path)) check_room(context, bearing.path, *value, film, point);
   return point;
 }
 

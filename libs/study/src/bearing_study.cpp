@@ -29,7 +29,8 @@ void solve_one(const std::string& path, const BearingStudyOptions& options, Bear
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
   solution.model = bearing.film;
-  solution.summary = bearing::solve_steady(solution.model, point, {}, solution.state);
+  const bearing::SteadyOptions steady{.solver = bearing.solver};
+  solution.summary = bearing::solve_steady(solution.model, point, steady, solution.state);
   if (!solution.summary.converged) {
     solution.error = fmt::format("bearing {}: {}", bearing.name, solution.summary.message);
     return;
@@ -38,7 +39,7 @@ void solve_one(const std::string& path, const BearingStudyOptions& options, Bear
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
   solution.whirl = bearing::whirl_stability(solution.coefficients, solution.model.c, solution.numbers.load, omega);
-  if (options.grid_error) solution.grid_error = bearing::estimate_grid_error(solution.model, solution.state, {});
+  if (options.grid_error) solution.grid_error = bearing::estimate_grid_error(solution.model, solution.state, steady);
   solution.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
@@ -111,8 +112,17 @@ bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
     throw InputError(Fault{bearing.position, "bearings." + bearing.name, "no operating point",
                            "an 'operating_point' in the file, or --speed with --load or --eccentricity-ratio", ""});
   }
+  for (std::size_t f = 0; f < bearing.feature_pressures.size(); ++f) {
+    const model::Function& pressure = bearing.feature_pressures[f];
+    if (pressure.is_constant()) continue;
+    throw InputError(Fault{pressure.position, pressure.path, "a pressure that varies",
+                           "a constant one for a bearing by itself",
+                           "--set bearings." + bearing.name + ".features." + bearing.film.features[f].name +
+                               ".pressure='2 bar' takes its place"});
+  }
   const model::OperatingPoint& given = *bearing.operating_point;
   bearing::OperatingPoint point{.journal_speed = given.journal_speed, .shell_speed = given.shell_speed};
+  point.journal_angle = given.journal_angle;
   point.tilt = {std::tan(given.tilt_x), std::tan(given.tilt_y)};
   if (given.load) {
     point.load = polar(*given.load, given.load_angle);

@@ -44,7 +44,7 @@ struct WhirlStability {
                                 ///< these coefficients [rad/s]
 };
 
-/// @param omega  speed that made the coefficients dimensionless [rad/s].
+/// @param omega  speed that made the coefficients dimensionless [rad/s]; at 0 nothing drives a whirl: stable.
 [[nodiscard]] WhirlStability whirl_stability(const LoadAxesCoefficients& coefficients, double c, double W,
                                              double omega);
 

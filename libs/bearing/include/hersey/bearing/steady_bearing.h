@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_solver.h"
 #include "hersey/film/observables.h"
 
 namespace hersey::bearing {
@@ -16,22 +17,27 @@ struct OperatingPoint {
   std::optional<Eigen::Vector2d> load;             ///< on the journal [N], not zero; without it the position is given
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal, where no load is given [m]
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis [-]
+  double journal_angle = 0;                        ///< by which the journal, with its holes, stands turned [rad]
 
   /// Sum of both speeds, which drags the oil [rad/s].
   [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed; }
 };
 
 struct SteadyOptions {
-  double rtol = 1e-10;                   ///< on the film's relative residual, and on force over load, > 0
-  int max_iterations = 40;               ///< of one Newton iteration on film and position
+  double rtol = 1e-10;                                 ///< on the film's relative residual, and on force over load, > 0
+  int max_iterations = 40;                             ///< of one Newton iteration on film and position
+  int max_linearisations = 1000;                       ///< of the film in all, after which the search ends; > 0
+  film::FilmSolver solver = film::FilmSolver::newton;  ///< of the film; others solve it anew at every position
   std::optional<Eigen::Vector2d> start;  ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
+  Eigen::VectorXd start_film = {};       ///< the film's unknowns there; empty: none known
 };
 
 struct SteadySummary {
   bool converged = false;
-  int iterations = 0;      ///< linearisations of the film on the way
-  double force_error = 0;  ///< |force - load| / |load|; 0 where the position is given
-  std::string message;     ///< why there is no answer; also a remark on the answer, such as a film without oil
+  int iterations = 0;       ///< linearisations of the film on the way
+  int film_iterations = 0;  ///< SOR sweeps or multigrid cycles of film solves on the way
+  double force_error = 0;   ///< |force - load| / |load|; 0 where the position is given
+  std::string message;      ///< why there is no answer; also a remark on the answer, such as a film without oil
 };
 
 /// Force of the film on the shell, Q = (F_x, F_y, M_y, -M_x), against position s = (e_x, e_y, t_x, t_y) of the journal:
