@@ -372,6 +372,12 @@ class Search {
 
 }  // namespace
 
+film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point) {
+  const double omega = std::abs(point.entraining_speed());
+  if (omega > 0) model.fill_speed = omega;
+  return model;
+}
+
 film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
                                     const Eigen::Vector2d& e) {
   film::SurfaceMotion motion;

@@ -88,6 +88,7 @@ void FilmWrench::evaluate(const std::vector<Node>& nodes, const RoughGaps& rough
       add_node(nodes, rough.empty() ? nullptr : &rough[grid.index(i, j)], i, j, want_gradient);
     }
   }
+  if (model_.cavitation == Cavitation::guembel) cut_off(nodes, want_gradient);
   total_ = pressure_ + shear_ + asperity_;
 }
 
@@ -105,6 +106,31 @@ FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap* rough) 
     s.half_gap_h[k] = 0.5 * (rough == nullptr ? 1 : rough->mean_h + rough->drag_h[k]);
   }
   return s;
+}
+
+// In guembel the pressure is cut off at p_cav somewhere between two nodes (film.40). The sum over nodes would count the
+// last one for its whole cell: first order in the derivatives, which jump there. A pressure that falls from u_a > 0 to
+// u_b < 0 over a distance l acts on its positive part, the triangle u_a t l/2 with t = u_a/(u_a - u_b).
+void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
+  const Grid& grid = model_.grid;
+  constexpr double turn = 2 * std::numbers::pi;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const int next = (i + 1) % grid.n_phi;
+    const double length = model_.R * std::fmod(grid.phi(next) - grid.phi(i) + turn, turn);
+    for (int j = 0; j < grid.n_z; ++j) {
+      const bool falls = nodes[grid.index(i, j)].p > 0 && nodes[grid.index(next, j)].p < 0;
+      const bool rises = nodes[grid.index(i, j)].p < 0 && nodes[grid.index(next, j)].p > 0;
+      if (!falls && !rises) continue;
+      const int a = falls ? i : next, b = falls ? next : i;
+      const int full = grid.index(a, j), cut = grid.index(b, j);
+      const double p = nodes[full].p, t = p / (p - nodes[cut].p), area = length * geometry_.weight_z[j];
+      const Vector6 radial = basis(a, j).radial;
+      pressure_ -= 0.5 * area * (1 - t) * p * radial;
+      if (!want_gradient) continue;
+      by_u_.col(full) += area * (t - 0.5 * t * t - 0.5) * radial;
+      by_u_.col(cut) += 0.5 * area * t * t * radial;
+    }
+  }
 }
 
 void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient) {

@@ -51,6 +51,7 @@ class FilmWrench {
   };
   [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap* rough);
   void add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient);
+  void cut_off(const std::vector<Node>& nodes, bool want_gradient);
   void set_speeds(const SurfaceMotion& motion);
 
   FilmModel model_;

@@ -17,7 +17,7 @@ constexpr double shear_fade = 1e-3;
 
 double fill_scale(const FilmModel& model) {
   const double slope = model.R / model.c;
-  return 6 * model.lubricant.mu0 * 1000.0 * slope * slope * (2 * std::numbers::pi / model.grid.n_phi);
+  return 6 * model.lubricant.mu0 * model.fill_speed * slope * slope * (2 * std::numbers::pi / model.grid.n_phi);
 }
 
 bool open_edge(const FilmModel& model, int j) {

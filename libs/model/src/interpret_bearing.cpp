@@ -246,10 +246,10 @@ double smallest_gap(const film::FilmModel& film, const OperatingPoint& point, do
   const Eigen::Vector2d tilt(std::tan(point.tilt_x), std::tan(point.tilt_y));
   double smallest = film.c;
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double phi = 2 * std::numbers::pi * i / grid.n_phi;
+    const double phi = grid.phi(i);
     const Eigen::Vector2d radial(std::cos(phi), std::sin(phi));
     for (int j = 0; j < grid.n_z; ++j) {
-      const double z = film.L * (static_cast<double>(j) / (grid.n_z - 1) - 0.5);
+      const double z = film.L * grid.z_over_L(j);
       smallest = std::min(smallest, film.c + openings[grid.index(i, j)] - (e + z * tilt).dot(radial));
     }
   }

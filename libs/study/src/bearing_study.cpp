@@ -23,18 +23,25 @@ Eigen::Vector2d polar(double length, double angle) {
   return length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
-void solve_one(const std::string& path, const BearingStudyOptions& options, BearingSolution& solution) {
+// From `start` where there is one.
+void solve_one(const std::string& path, const BearingStudyOptions& options, const bearing::SteadyState* start,
+               BearingSolution& solution) {
   const auto began = std::chrono::steady_clock::now();
   const model::Model model = model::read(path, solution.run.overrides);
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
-  solution.model = bearing.film;
-  const bearing::SteadyOptions steady{.solver = bearing.solver};
+  solution.model = bearing::scaled_for(bearing.film, point);
+  bearing::SteadyOptions steady{.solver = bearing.solver};
+  if (start != nullptr) {
+    steady.start = start->e;
+    if (start->u.size() == bearing.film.grid.size()) steady.start_film = start->u;
+  }
   solution.summary = bearing::solve_steady(solution.model, point, steady, solution.state);
   if (!solution.summary.converged) {
     solution.error = fmt::format("bearing {}: {}", bearing.name, solution.summary.message);
     return;
   }
+  steady.start_film = {};
   const double omega = std::abs(point.entraining_speed());
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
@@ -90,6 +97,46 @@ std::vector<std::string> spaced_values(const std::vector<std::string>& parts, co
   return values;
 }
 
+bool are_neighbours(const model::StudyRun& a, const model::StudyRun& b) {
+  int different = 0;
+  for (std::size_t k = 0; k < a.values.size(); ++k) different += a.values[k].text != b.values[k].text ? 1 : 0;
+  return different == 1;
+}
+
+// The nearest solved run of those that differ in one value only; runs are listed in the order of their values.
+const BearingSolution* solved_neighbour(const std::vector<BearingSolution>& solutions, std::size_t i) {
+  for (std::size_t away = 1; away < solutions.size(); ++away) {
+    for (const std::size_t k : {i - away, i + away}) {
+      if (k >= solutions.size() || !solutions[k].solved()) continue;
+      if (are_neighbours(solutions[i].run, solutions[k].run)) return &solutions[k];
+    }
+  }
+  return nullptr;
+}
+
+// Runs without a solution start again from their neighbours' solutions, as long as that finds new ones.
+void follow_neighbours(const std::string& path, const BearingStudyOptions& options,
+                       std::vector<BearingSolution>& solutions) {
+  bool found = true;
+  while (found) {
+    found = false;
+    for (std::size_t i = 0; i < solutions.size(); ++i) {
+      const BearingSolution* neighbour = solutions[i].solved() ? nullptr : solved_neighbour(solutions, i);
+      if (neighbour == nullptr) continue;
+      BearingSolution again{.run = solutions[i].run, .error = {}};
+      try {
+        solve_one(path, options, &neighbour->state, again);
+      } catch (const std::exception& error) {
+        again.error = error.what();
+      }
+      if (!again.solved()) continue;
+      again.from_neighbour = true;
+      solutions[i] = std::move(again);
+      found = true;
+    }
+  }
+}
+
 }  // namespace
 
 const model::Bearing& bearing_called(const model::Model& model, const std::string& name) {
@@ -140,7 +187,7 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
     for (std::size_t i = next++; i < runs.size(); i = next++) {
       solutions[i].run = runs[i];
       try {
-        solve_one(path, options, solutions[i]);
+        solve_one(path, options, nullptr, solutions[i]);
       } catch (const std::exception& error) {
         solutions[i].error = error.what();
       }
@@ -157,6 +204,7 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
   for (std::size_t i = 1; i < std::min(std::max<std::size_t>(wanted, 1), runs.size()); ++i) threads.emplace_back(work);
   work();
   threads.clear();
+  follow_neighbours(path, options, solutions);
   return solutions;
 }
 

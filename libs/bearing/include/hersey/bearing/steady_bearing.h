@@ -58,6 +58,10 @@ struct SteadyState {
   DynamicCoefficients coefficients;
 };
 
+/// The same film with its fill fraction scaled for the speed of the point, which keeps the search short down to the
+/// slowest (film.6).
+[[nodiscard]] film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point);
+
 /// The position at which the film carries the load, or the film at a given position.
 ///
 /// Newton on film and position together with exact derivatives, the film condensed; where that does not settle, the

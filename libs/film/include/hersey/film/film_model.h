@@ -89,12 +89,13 @@ struct FilmModel {
   CavitatedShear cavitated_shear = CavitatedShear::film_share;
   ShearForce shear_force = ShearForce::full;
   EdgeKind edges = EdgeKind::pressure;
+  double fill_speed = 1000;  ///< angular speed in P0 (film.6), > 0; one near the film's own keeps Newton's path short [rad/s]
   std::vector<SurfaceFeature> features;  ///< where several lie over a place, the one that holds more of it counts
   std::vector<Profile> profiles;  ///< shapes of bore and journal; whoever places the surfaces adds them (GapShape)
 };
 
 /// P0, the constant [Pa] that scales the fill fraction's unknown: theta = 1 + min(u, 0)/P0. It equals the pressure
-/// scale 6 mu0 omega (R/c)^2 dphi at 1000 rad/s and has no influence on the solution (film.6).
+/// scale 6 mu0 fill_speed (R/c)^2 dphi and has no influence on the solution (film.6).
 [[nodiscard]] double fill_scale(const FilmModel& model);
 
 /// What the film sees of its two surfaces at one instant, in the frame of the grid. The grid may turn in any way: the

@@ -20,7 +20,8 @@ struct BearingSolution {
   bearing::LoadAxesCoefficients coefficients;
   bearing::WhirlStability whirl;
   bearing::GridError grid_error;
-  double wall_time = 0;  ///< grid error included [s]
+  double wall_time = 0;         ///< grid error included [s]
+  bool from_neighbour = false;  ///< found from a neighbour's solution after a cold start had failed
 
   [[nodiscard]] bool solved() const { return error.empty(); }
 };
@@ -38,8 +39,9 @@ struct BearingStudyOptions {
 /// @throws InputError where the bearing has none.
 [[nodiscard]] bearing::OperatingPoint operating_point_of(const model::Bearing& bearing);
 
-/// Solves the bearing of the model file at `path` at every run of `runs`, several at a time. One that has no solution
-/// does not stop the others.
+/// Solves the bearing of the model file at `path` at every run of `runs`, several at a time. One that fails is
+/// tried again from the solution of a neighbour, a run that differs in one value only; one without any does not stop
+/// the others.
 [[nodiscard]] std::vector<BearingSolution> solve_bearings(const std::string& path,
                                                           const std::vector<model::StudyRun>& runs,
                                                           const BearingStudyOptions& options);
