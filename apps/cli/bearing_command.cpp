@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bearing_page.h"
 #include "bearing_table.h"
 #include "commands.h"
 #include "exit_code.h"
@@ -159,6 +160,10 @@ int bearing_command(const BearingArguments& arguments) {
   }
   if (!arguments.csv.empty()) write_file(arguments.csv, bearing_csv(solutions));
   if (!arguments.fields.empty() && all_solved) write_file(arguments.fields, bearing_fields_csv(solutions.front()));
+  if (!arguments.report.empty()) {
+    report::write_html(bearing_page(arguments, solutions), arguments.report);
+    if (!arguments.json) fmt::print("report: {}\n", arguments.report.string());
+  }
   return all_solved ? kOk : kFailed;
 }
 

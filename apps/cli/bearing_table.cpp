@@ -70,24 +70,25 @@ std::string condition_of(const BearingSolution& solution) {
          roughness_of(film.roughness);
 }
 
-std::string whirl_remark(const BearingSolution& solution) {
-  if (solution.whirl.always_stable) return "  a rigid rotor is stable at every mass\n";
-  if (solution.whirl.never_stable) return "  a rigid rotor is unstable at every mass\n";
-  return "";
-}
-
 const BearingFigure& figure(const std::vector<BearingFigure>& figures, const std::string& key) {
   return *std::find_if(figures.begin(), figures.end(), [&](const BearingFigure& f) { return f.key == key; });
 }
 
 }  // namespace
 
+std::string whirl_remark(const BearingSolution& solution) {
+  if (solution.whirl.always_stable) return "a rigid rotor is stable at every mass";
+  if (solution.whirl.never_stable) return "a rigid rotor is unstable at every mass";
+  return "";
+}
+
 std::string bearing_text(const BearingSolution& solution) {
   std::vector<std::vector<std::string>> lines;
   for (const BearingFigure& f : study::figures_of(solution)) {
     lines.push_back({f.name, value_text(f), f.unit, error_text(f)});
   }
-  return condition_of(solution) + aligned(lines, 2) + whirl_remark(solution);
+  const std::string remark = whirl_remark(solution);
+  return condition_of(solution) + aligned(lines, 2) + (remark.empty() ? "" : "  " + remark + "\n");
 }
 
 std::string bearing_comparison_text(const std::vector<BearingSolution>& solutions) {

@@ -8,6 +8,9 @@
 
 namespace hersey::cli {
 
+/// Whether any rigid rotor is stable on the film, where its mass decides nothing; else empty.
+[[nodiscard]] std::string whirl_remark(const study::BearingSolution& solution);
+
 /// Every figure of one solution, one a line, with the error of the grid.
 [[nodiscard]] std::string bearing_text(const study::BearingSolution& solution);
 

@@ -193,10 +193,21 @@ class CommandLine(unittest.TestCase):
         with open(table, encoding="utf-8") as file:
             self.assertEqual(len(file.read().splitlines()), 120 * 25 + 1)
 
+    def test_bearing_writes_its_report(self):
+        page = os.path.join(self._folder.name, "page.html")
+        run = hersey("bearing", ALONE, "--report", page, "--sweep", "load=1kN,2kN", "--no-grid-error")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertIn("report: ", run.stdout)
+        with open(page, encoding="utf-8") as file:
+            self.assertIn('"label":"load = 2kN"', file.read())
+        nowhere = hersey("bearing", ALONE, "--no-grid-error", "--report", os.path.join(page, "x.html"))
+        self.assertEqual(nowhere.returncode, FAILED)
+        self.assertIn("cannot write", nowhere.stderr)
+
     def test_bearing_faults_are_wrong_input(self):
         for arguments, word in ((["--bearing", "mian"], "'main'"), (["--sweep", "load=1N:2N"], "first:last:count"),
                                 (["--sweep", "lod=1N,2N"], "lod"), (["--load", "3 mm"], "a length"),
-                                (["--speed", "0rpm"], "drag no oil"),
+                                (["--speed", "0rpm", "--set", "bearings.main.asperities=none"], "drag no oil"),
                                 (["--fields", "x", "--sweep", "load=1N,2N"], "single")):
             run = hersey("bearing", ALONE, *arguments)
             self.assertEqual(run.returncode, WRONG_INPUT, arguments)

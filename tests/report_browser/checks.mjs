@@ -194,3 +194,65 @@ export const studyReport = {
     assert.notEqual(await page.locator(".detail .tile").first().innerText(), before, "the detail still shows the first run");
   },
 };
+
+/** Reports of a bearing by itself. */
+export const bearingReport = {
+  "title, conditions and status come first": everyReport["title, assumptions and status come first"],
+
+  "key figures carry the grid's error, tables their units": async (page) => {
+    const tile = await page.locator('[data-tile="h_min"]').innerText();
+    assert.match(tile, /\d.*µm[\s\S]*± [\d.].*\(grid\)/, `the smallest film thickness has no grid error: ${tile}`);
+    assert.match(await page.locator('tr[data-quantity="side_flow"]').innerText(), /mm³\/s/, "the side flow has no unit");
+    for (const key of ["K_xx", "C_yy", "stiffness_xy"])
+      assert.match(await page.locator(`td[data-quantity="${key}"]`).innerText(), /\d/, `${key} is missing`);
+  },
+
+  "every figure is drawn": async (page) => {
+    for (const kind of ["locus", "map", "midplane"]) assert.ok((await page.locator(`[data-figure="${kind}"]`).count()) > 0, `figure ${kind} is missing`);
+    for (const figure of await page.locator("figure:visible").all()) {
+      await figure.scrollIntoViewIfNeeded();
+      await frame(page);
+      for (const count of await colouredPixels(figure)) assert.ok(count > 30, `figure ${await figure.getAttribute("data-figure")} is empty`);
+    }
+  },
+
+  "the map shows every stored field and tells where": async (page) => {
+    await everyReport["the map shows every stored field"](page);
+    const map = page.locator('[data-figure="map"] canvas');
+    await map.hover();
+    assert.match(await page.locator('[data-figure="map"] .tooltip').innerText(), /φ .*°, z .*mm/, "the map's tooltip does not tell where");
+  },
+
+  "the button switches to dark and back": async (page) => {
+    const look = () => picture(page, "map");
+    const before = await look();
+    await page.locator(".theme-button").click();
+    await frame(page);
+    assert.notEqual(await look(), before, "the figures are not redrawn");
+    await page.locator(".theme-button").click();
+    await frame(page);
+    assert.equal(await look(), before, "the button does not bring the scheme back");
+  },
+
+  "a narrow screen needs no sideways scrolling": everyReport["a narrow screen needs no sideways scrolling"],
+};
+
+export const sweepReport = {
+  "the sweep has a curve and a row per operating point": async (page) => {
+    const rows = await page.locator(".comparison tbody tr").count();
+    assert.ok(rows > 2, `${rows} rows`);
+    for (const kind of ["film", "eccentricity", "friction", "stiffness", "damping", "flow"])
+      assert.ok((await page.locator(`.study [data-figure="${kind}"]`).count()) > 0, `no figure of ${kind}`);
+  },
+
+  "an operating point chosen in the table is shown in detail": async (page) => {
+    const buttons = page.locator(".comparison tbody button");
+    await buttons.first().click();
+    await frame(page);
+    const before = await page.locator('[data-tile="h_min"]').innerText();
+    await buttons.nth(1).click();
+    await frame(page);
+    assert.equal(await buttons.nth(1).getAttribute("aria-pressed"), "true", "the table does not mark the chosen point");
+    assert.notEqual(await page.locator('[data-tile="h_min"]').innerText(), before, "the detail still shows the first point");
+  },
+};

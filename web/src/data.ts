@@ -8,7 +8,7 @@ export interface SummaryRow {
   where: string;
 }
 
-interface DatasetText {
+export interface DatasetText {
   unit: string;
   description: string;
   shape: number[];
@@ -19,7 +19,7 @@ interface DatasetText {
 
 type Attribute = string | number | string[];
 
-interface RunText {
+export interface RunText {
   file: string;
   rows: number;
   series_stride: number;
@@ -34,6 +34,50 @@ interface RunText {
 interface ReportText {
   title: string;
   runs: RunText[];
+  bearing?: BearingText;
+}
+
+/** A bearing by itself, as libs/report/src/bearing_page.cpp writes it. */
+export interface BearingText {
+  description: string;
+  file: string;
+  name: string;
+  created: string;
+  version: string;
+  conditions: [string, string][];
+  solutions: SolutionText[];
+}
+
+export interface FigureText {
+  key: string;
+  group: string;
+  name: string;
+  unit: string;
+  /** null where it is infinite. */
+  value: number | null;
+  grid_error?: number;
+}
+
+export interface FeatureText {
+  name: string;
+  round: boolean;
+  phi: number;
+  z: number;
+  arc: number;
+  length: number;
+}
+
+export interface SolutionText {
+  label: string;
+  values: [string, string][];
+  error: string;
+  remark: string;
+  figures: FigureText[];
+  features: FeatureText[];
+  clearance: number;
+  e: [number, number];
+  load: [number, number];
+  datasets: Record<string, DatasetText>;
 }
 
 export type Numbers = Float32Array | Float64Array;
@@ -158,6 +202,13 @@ export class Run {
 export interface Report {
   title: string;
   runs: Run[];
+  /** In a report of a bearing by itself, which has no runs. */
+  bearing?: BearingText;
+}
+
+/** A run that has fields only, of one instant. */
+export function fieldsOnly(datasets: Record<string, DatasetText>): Run {
+  return new Run({ file: "", rows: 1, series_stride: 1, field_stride: 1, attributes: {}, datasets, assumptions: [], summary: [] });
 }
 
 /** Reads the data element of the page. */
@@ -166,5 +217,5 @@ export function readReport(): Report {
   const text = element?.textContent ?? "";
   if (!text) throw new Error("this page is a template without data: write a report with `hersey report RESULTS`");
   const report = JSON.parse(text) as ReportText;
-  return { title: report.title, runs: report.runs.map((run) => new Run(run)) };
+  return { title: report.title, runs: report.runs.map((run) => new Run(run)), ...(report.bearing ? { bearing: report.bearing } : {}) };
 }

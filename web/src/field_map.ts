@@ -14,6 +14,16 @@ export interface Mark {
   symbol: "cross" | "ring";
 }
 
+/** A hole or groove in the film, drawn as its outline; one without extent is a line. */
+export interface Outline {
+  name: string;
+  round: boolean;
+  phi: number;
+  z: number;
+  arc: number;
+  length: number;
+}
+
 const margin = { left: 52, right: 92, top: 10, bottom: 40 };
 
 export class FieldMap extends Drawing {
@@ -25,6 +35,7 @@ export class FieldMap extends Drawing {
     private readonly fields: FilmFields,
     private kind: FieldKind,
     private scale: "run" | "instant" = "run",
+    private readonly outlines: Outline[] = [],
   ) {
     super("Field on the unwrapped bearing");
     this.element.classList.add("field-map");
@@ -58,6 +69,7 @@ export class FieldMap extends Drawing {
     this.paintImage(field, range, Math.round(box.width * ratio), Math.round(box.height * ratio));
     context.drawImage(this.image, box.left, box.top, box.width, box.height);
     this.paintRupture(context);
+    this.paintOutlines(context);
     this.paintMarks(context);
     this.paintFrame(context);
     this.paintColourBar(context, range);
@@ -159,6 +171,35 @@ export class FieldMap extends Drawing {
           });
       }
     context.stroke();
+    context.restore();
+  }
+
+  private paintOutlines(context: CanvasRenderingContext2D): void {
+    const box = this.box();
+    const z = this.fields.z;
+    const [low, high] = [z[0]!, z[z.length - 1]!];
+    const x = (phi: number) => box.left + (phi / (2 * Math.PI)) * box.width;
+    const y = (height: number) => box.top + (1 - (height - low) / (high - low)) * box.height;
+    context.save();
+    context.beginPath();
+    context.rect(box.left, box.top, box.width, box.height);
+    context.clip();
+    for (const o of this.outlines) {
+      const middle = o.phi - 2 * Math.PI * Math.floor(o.phi / (2 * Math.PI));
+      // Once more a turn to the left and right: an outline may cross the seam of the map.
+      for (const phi of [middle - 2 * Math.PI, middle, middle + 2 * Math.PI]) {
+        const [w, hgt] = [(o.arc / (2 * Math.PI)) * box.width, (o.length / (high - low)) * box.height];
+        for (const [colour, width] of [["rgb(0 0 0 / 0.6)", 3.5], ["#ffffff", 1.6]] as const) {
+          context.strokeStyle = colour;
+          context.lineWidth = width;
+          context.setLineDash(o.arc === 0 ? [6, 4] : []);
+          context.beginPath();
+          if (o.round) context.ellipse(x(phi), y(o.z), w / 2, hgt / 2, 0, 0, 2 * Math.PI);
+          else context.rect(x(phi) - w / 2, y(o.z) - hgt / 2, w, hgt);
+          context.stroke();
+        }
+      }
+    }
     context.restore();
   }
 

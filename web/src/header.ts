@@ -59,7 +59,7 @@ export function assumptions(list: [string, string][]): HTMLElement | null {
   return h("section", { class: "assumptions", "aria-label": "Assumptions" }, h("h2", {}, "Assumptions"), h("dl", {}, ...items));
 }
 
-function themeButton(): HTMLElement {
+export function themeButton(): HTMLElement {
   const button = h("button", { type: "button", class: "quiet theme-button", click: () => setTheme(isDark() ? "light" : "dark") });
   const label = () => {
     button.textContent = isDark() ? "Light" : "Dark";
@@ -70,7 +70,7 @@ function themeButton(): HTMLElement {
   return button;
 }
 
-function date(iso: string): string {
+export function date(iso: string): string {
   const parsed = new Date(iso);
   return Number.isNaN(parsed.getTime()) ? iso : `${parsed.toISOString().slice(0, 16).replace("T", " ")} UTC`;
 }

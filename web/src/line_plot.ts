@@ -21,7 +21,7 @@ export interface Curve {
 
 export interface LineFigure {
   name: string;
-  x: { label: string; unit: string; values: ArrayLike<number>; categories?: string[] };
+  x: { label: string; unit: string; values: ArrayLike<number>; categories?: string[]; log?: boolean };
   left: { label: string; unit: string; log?: boolean; fromZero?: boolean; highest?: number };
   right?: { label: string; unit: string; fromZero?: boolean };
   curves: Curve[];
@@ -204,6 +204,7 @@ export class LinePlot {
     const axes: uPlot.Axis[] = [
       axis(x.label, x.unit, {
         size: 26,
+        ...(x.log ? { splits: decades, values: (_p: uPlot, splits: number[]) => splits.map((v) => format(v, 3)), filter: (_p: uPlot, splits: number[]) => splits } : {}),
         ...(x.unit === "°" ? { incrs: angleSteps } : {}),
         ...(x.categories
           ? { splits: () => Array.from(x.values), values: (_p: uPlot, s: number[]) => s.map((v) => x.categories![v] ?? "") }
@@ -219,7 +220,7 @@ export class LinePlot {
       legend: { show: false },
       cursor: { drag: { x: true, y: false }, points: { size: 7 }, y: false },
       scales: {
-        x: { time: false, range: (_p, low, high) => (low === high || x.categories ? [low - 0.5, high + 0.5] : [low, high]) },
+        x: x.log ? { time: false, distr: 3 } : { time: false, range: (_p, low, high) => (low === high || x.categories ? [low - 0.5, high + 0.5] : [low, high]) },
         y: left.log ? { distr: 3 } : { range: padded(left.fromZero === true, left.highest) },
         right: { range: padded(right?.fromZero === true) },
       },

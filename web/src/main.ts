@@ -4,6 +4,7 @@ import "./style.css";
 import { readReport, type Report, type Run } from "./data";
 import { h } from "./dom";
 import { assumptions, header, status } from "./header";
+import { showBearing } from "./bearing_page";
 import { RunView } from "./run_view";
 import { StudyView } from "./study_view";
 import { followSystem } from "./theme";
@@ -49,7 +50,8 @@ function start(): void {
   followSystem();
   try {
     const report = readReport();
-    if (report.runs.length > 1) showStudy(page, report);
+    if (report.bearing) showBearing(page, report.title, report.bearing);
+    else if (report.runs.length > 1) showStudy(page, report);
     else showRun(page, report);
   } catch (error) {
     page.append(h("p", { class: "fault" }, `This report cannot be shown: ${error instanceof Error ? error.message : String(error)}`));

@@ -149,7 +149,7 @@ function tile(label: string, row: SummaryRow): HTMLElement {
 }
 
 /** With true minus signs, and line breaks only after commas. */
-function place(text: string): string {
+export function place(text: string): string {
   return text.replace(/-(?=\d)/g, "−").replace(/(?<!,) /g, "\u00a0");
 }
 

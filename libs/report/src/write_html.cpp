@@ -1,11 +1,9 @@
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "hersey/core/contract.h"
 #include "hersey/report/report.h"
-#include "report_page.h"
+#include "page_file.h"
 #include "run_data.h"
 #include "summary.h"
 
@@ -34,38 +32,13 @@ json page_data(const std::vector<std::filesystem::path>& results, const ReportOp
   return data;
 }
 
-/// Inside a script element only "<" could end it or start a comment; JSON may spell it as an escape.
-std::string script_safe(const std::string& text) {
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
 }  // namespace
 
 void write_html(const std::vector<std::filesystem::path>& results, const std::filesystem::path& out,
                 const ReportOptions& options) {
   HERSEY_REQUIRE(!results.empty(), "a report shows at least one run");
   HERSEY_REQUIRE(options.series_rows > 0, "a report shows at least one row");
-  static constexpr std::string_view slot = R"(<script id="hersey-data" type="application/json"></script>)";
-  const std::string_view page = report_page();
-  const std::size_t at = page.find(slot);
-  HERSEY_REQUIRE(at != std::string_view::npos, "the page has a place for its data");
-  const std::size_t end_of_opening = at + slot.find("</script>");
-
-  // Text in a results file may hold any bytes: what is not UTF-8 is replaced, not refused.
-  const std::string data =
-      script_safe(page_data(results, options).dump(-1, ' ', false, json::error_handler_t::replace));
-  std::ofstream file(out, std::ios::binary);
-  file << page.substr(0, end_of_opening) << data << page.substr(end_of_opening);
-  file.close();
-  if (!file) throw results::WriteError(out, std::string("cannot write the report: ") + std::strerror(errno));
+  write_page(page_data(results, options), out);
 }
 
 }  // namespace hersey::report

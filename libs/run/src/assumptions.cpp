@@ -1,4 +1,4 @@
-#include "assumptions.h"
+#include "hersey/run/assumptions.h"
 
 #include <fmt/format.h>
 
@@ -106,7 +106,10 @@ std::string grid(const film::FilmModel& film) {
                             180 / std::numbers::pi * narrowest, 1e3 * film.L * lowest);
 }
 
-void describe(const model::Bearing& bearing, Rows& rows) {
+}  // namespace
+
+Rows bearing_assumptions(const model::Bearing& bearing) {
+  Rows rows;
   const film::FilmModel& film = bearing.film;
   const auto row = [&](const char* name, std::string text) {
     rows.emplace_back(bearing.name + ": " + name, std::move(text));
@@ -135,16 +138,17 @@ void describe(const model::Bearing& bearing, Rows& rows) {
   row("shear", fmt::format("Couette part over the {} in cavitated nodes; {}",
                            film.cavitated_shear == film::CavitatedShear::full ? "full gap" : "filled share",
                            film.shear_force == film::ShearForce::full ? "force and torque" : "torque only"));
-  row("coupling", bearing.coupling.scheme == model::CouplingScheme::monolithic
-                      ? "monolithic: one Newton system, film condensed"
-                      : "partitioned: wrench exchanged until film and bodies agree");
+  return rows;
 }
-
-}  // namespace
 
 Rows assumptions(const model::Model& model) {
   Rows rows;
-  for (const model::Bearing& bearing : model.bearings) describe(bearing, rows);
+  for (const model::Bearing& bearing : model.bearings) {
+    for (auto& row : bearing_assumptions(bearing)) rows.push_back(std::move(row));
+    rows.emplace_back(bearing.name + ": coupling", bearing.coupling.scheme == model::CouplingScheme::monolithic
+                                                       ? "monolithic: one Newton system, film condensed"
+                                                       : "partitioned: wrench exchanged until film and bodies agree");
+  }
   const model::Simulation& run = model.simulation;
   rows.emplace_back("time integration",
                     fmt::format("generalized-alpha, spectral radius {:.3g}, step {:.4g} us, Newton tolerance {:.1e}",

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <string>
 
-#include "assumptions.h"
 #include "geometry_record.h"
 #include "hersey/core/version.h"
+#include "hersey/run/assumptions.h"
 
 namespace hersey::run {
 namespace {

@@ -13,9 +13,11 @@ constexpr double kRpm = std::numbers::pi / 30, kCubicMillimetrePerSecond = 1e-9;
 class Figures {
  public:
   explicit Figures(bool has_errors) : has_errors_(has_errors) {}
+  /// What is added from here on belongs to `name`.
+  void group(std::string name) { group_ = std::move(name); }
   /// A negative error is none.
   void add(std::string key, std::string name, std::string unit, double value, double scale = 1) {
-    list_.push_back({std::move(key), std::move(name), std::move(unit), value / scale, -1});
+    list_.push_back({std::move(key), std::move(name), std::move(unit), value / scale, -1, group_});
   }
   void add_with_error(std::string key, std::string name, std::string unit, double value, double error,
                       double scale = 1) {
@@ -26,6 +28,7 @@ class Figures {
 
  private:
   bool has_errors_;
+  std::string group_;
   std::vector<BearingFigure> list_;
 };
 
@@ -33,6 +36,7 @@ void add_state(const BearingSolution& s, Figures& figures) {
   const bearing::BearingNumbers& n = s.numbers;
   const bearing::GridError& error = s.grid_error;
   const film::FilmObservables& film = s.state.film;
+  figures.group("operating point");
   figures.add("journal_speed", "journal speed", "rpm", s.state.point.journal_speed, kRpm);
   figures.add("shell_speed", "shell speed", "rpm", s.state.point.shell_speed, kRpm);
   // What is given has no error.
@@ -43,6 +47,7 @@ void add_state(const BearingSolution& s, Figures& figures) {
                          is_load_given ? error.eccentricity_ratio : -1);
   figures.add("eccentricity_angle", "direction of the eccentricity", "deg", n.eccentricity_angle, kDegree);
   figures.add_with_error("attitude", "attitude angle", "deg", n.attitude, error.attitude, kDegree);
+  figures.group("film");
   figures.add_with_error("h_min", "minimum film thickness", "um", film.h_min, error.h_min, kMicro);
   figures.add("h_min_angle", "  at the angle", "deg", film.h_min_phi, kDegree);
   figures.add("h_min_z", "  at z", "mm", film.h_min_z, 1e-3);
@@ -57,9 +62,11 @@ void add_state(const BearingSolution& s, Figures& figures) {
 void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
   const bearing::BearingNumbers& n = s.numbers;
   const film::FilmObservables& film = s.state.film;
+  figures.group("numbers");
   figures.add("sommerfeld_S", "Sommerfeld number S = mu N (R/c)^2 L D/W", "", n.sommerfeld_S);
   figures.add("sommerfeld_So", "Sommerfeld number So = W (c/R)^2/(L D mu omega)", "", n.sommerfeld_So);
   figures.add("hersey", "Hersey number mu N L D/W", "", n.hersey);
+  figures.group("friction");
   figures.add_with_error("friction_journal", "friction coefficient, journal", "", n.friction_journal,
                          s.grid_error.friction_journal);
   figures.add("friction_shell", "friction coefficient, shell", "", n.friction_shell);
@@ -69,11 +76,17 @@ void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
   figures.add("power_asperity", "friction power, asperities", "W", film.power_asperity);
   figures.add("asperity_share", "share of the load on asperities", "", n.asperity_share);
   figures.add("film_ratio", "film ratio h_min/sigma", "", n.film_ratio);
+  figures.group("oil");
   figures.add_with_error("side_flow", "side flow", "mm^3/s", film.flow_left + film.flow_right, s.grid_error.side_flow,
                          kCubicMillimetrePerSecond);
   figures.add("flow_left", "flow over the edge z < 0", "mm^3/s", film.flow_left, kCubicMillimetrePerSecond);
   figures.add("flow_right", "flow over the edge z > 0", "mm^3/s", film.flow_right, kCubicMillimetrePerSecond);
   figures.add("flow_supply", "flow through the supply", "mm^3/s", film.flow_supply, kCubicMillimetrePerSecond);
+  for (Eigen::Index f = 0; f < film.flow_features.size(); ++f) {
+    const std::string& name = s.model.features[static_cast<std::size_t>(f)].name;
+    figures.add("flow_feature_" + name, "  through " + name, "mm^3/s", film.flow_features[f],
+                kCubicMillimetrePerSecond);
+  }
   figures.add("oil_volume", "oil in the bearing", "mm^3", film.oil_volume, 1e-9);
   figures.add("mass_balance_error", "mass balance error", "", film.mass_balance_error);
   figures.add("cavitated_share", "cavitated share of the area", "", film.cavitated_share);
@@ -92,10 +105,12 @@ void add_matrix(const std::string& key, const std::string& name, const std::stri
 
 void add_dynamics(const BearingSolution& s, Figures& figures) {
   const bearing::DynamicCoefficients& all = s.state.coefficients;
+  figures.group("stiffness and damping");
   add_matrix("stiffness", "stiffness, bearing axes,", "N/m", all.stiffness.topLeftCorner<2, 2>(), figures);
   add_matrix("damping", "damping, bearing axes,", "N.s/m", all.damping.topLeftCorner<2, 2>(), figures);
   add_matrix("K", "K = k c/W, x along the load,", "", s.coefficients.K, figures);
   add_matrix("C", "C = b c omega/W, x along the load,", "", s.coefficients.C, figures);
+  figures.group("stability");
   figures.add("critical_mass", "critical mass of a rigid rotor", "kg", s.whirl.critical_mass);
   figures.add("whirl_ratio", "whirl frequency ratio", "", s.whirl.whirl_ratio);
   figures.add("stability_number", "omega sqrt(c/g) at the threshold", "", s.whirl.stability_number);

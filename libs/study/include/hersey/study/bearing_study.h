@@ -57,6 +57,7 @@ struct BearingFigure {
   std::string unit;  ///< "um"; empty for a bare number
   double value = 0;
   double grid_error = -1;  ///< estimated error of the grid; negative: none estimated
+  std::string group;       ///< "film": figures of one kind stand together
 };
 
 /// Every figure of a solution, always the same ones in the same order.

@@ -12,4 +12,7 @@ namespace hersey::run {
 /// rheology, contact, compliance, conventions, integrator. The first lines of every report.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> assumptions(const model::Model& model);
 
+/// The same of one bearing, without how it is coupled to bodies.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> bearing_assumptions(const model::Bearing& bearing);
+
 }  // namespace hersey::run

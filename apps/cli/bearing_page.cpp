@@ -1,0 +1,84 @@
+#include "bearing_page.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+
+#include "bearing_table.h"
+#include "hersey/core/version.h"
+#include "hersey/film/observables.h"
+#include "hersey/model/read.h"
+#include "hersey/run/assumptions.h"
+
+namespace hersey::cli {
+namespace {
+
+using report::PageSolution;
+using study::BearingSolution;
+
+void add_fields(const BearingSolution& solution, PageSolution& page) {
+  const film::FilmModel& model = solution.model;
+  const bearing::SteadyState& state = solution.state;
+  const film::FilmFields fields =
+      film::film_fields(model, bearing::steady_surfaces(model, state.point, state.e), state.u);
+  page.phi.resize(model.grid.n_phi);
+  page.z.resize(model.grid.n_z);
+  for (int i = 0; i < model.grid.n_phi; ++i) page.phi[i] = model.grid.phi(i);
+  for (int j = 0; j < model.grid.n_z; ++j) page.z[j] = model.L * model.grid.z_over_L(j);
+  page.pressure = fields.p;
+  page.thickness = fields.h;
+  page.fill = fields.theta;
+  page.asperity_pressure = fields.p_asperity;
+}
+
+void add_features(const BearingSolution& solution, PageSolution& page) {
+  const film::FilmModel& model = solution.model;
+  for (const film::SurfaceFeature& f : model.features) {
+    const double turned = f.surface == film::Surface::journal ? solution.state.point.journal_angle : 0;
+    page.features.push_back({f.name, f.shape == film::FeatureShape::ellipse, f.phi + turned, f.z, f.arc, f.length});
+  }
+  if (model.supply.kind == film::SupplyKind::none) return;
+  const film::SurfaceMotion motion = bearing::steady_surfaces(model, solution.state.point, solution.state.e);
+  page.features.push_back({"supply line", false, motion.phi_supply, 0, 0, model.L});
+}
+
+PageSolution page_of(const BearingSolution& solution) {
+  PageSolution page;
+  page.label = solution.run.label;
+  page.error = solution.error;
+  for (const model::StudyValue& value : solution.run.values) {
+    page.values.emplace_back(value.name.substr(value.name.find_last_of('.') + 1), value.text);
+  }
+  if (!solution.solved()) return page;
+  page.remark = whirl_remark(solution);
+  page.clearance = solution.model.c;
+  page.e = solution.state.e;
+  page.load = solution.state.load;
+  for (const study::BearingFigure& f : study::figures_of(solution)) {
+    page.figures.push_back({f.key, f.group, f.name, f.unit, f.value, f.grid_error});
+  }
+  add_fields(solution, page);
+  add_features(solution, page);
+  return page;
+}
+
+}  // namespace
+
+report::BearingPage bearing_page(const BearingArguments& arguments, const std::vector<BearingSolution>& solutions) {
+  const model::Model model = model::read(arguments.model, solutions.front().run.overrides);
+  const model::Bearing& bearing = study::bearing_called(model, arguments.bearing);
+  report::BearingPage page;
+  page.title = model.title.empty() ? bearing.name : model.title;
+  page.description = model.description;
+  page.file = arguments.model;
+  page.bearing = bearing.name;
+  page.version = version();
+  page.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  page.conditions = run::bearing_assumptions(bearing);
+  page.solutions.reserve(solutions.size());
+  for (const BearingSolution& solution : solutions) page.solutions.push_back(page_of(solution));
+  return page;
+}
+
+}  // namespace hersey::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hersey::report {
+
+/// One number of a solution in the unit people use.
+struct PageFigure {
+  std::string key, group, name, unit;
+  double value = 0;
+  double grid_error = -1;  ///< negative: none estimated
+};
+
+/// A hole or groove where it lies over the film.
+struct PageFeature {
+  std::string name;
+  bool is_round = false;                       ///< an ellipse, else a rectangle
+  double phi = 0, z = 0, arc = 0, length = 0;  ///< middle and whole extent [rad, m]
+};
+
+/// One operating point of a bearing by itself.
+struct PageSolution {
+  std::string label;                                        ///< what tells it from the others; empty if alone
+  std::vector<std::pair<std::string, std::string>> values;  ///< of the swept parameters, as written
+  std::string error;                                        ///< why there is no solution; then the rest is empty
+  std::string remark;                                       ///< about its stability and the like
+  std::vector<PageFigure> figures;
+  std::vector<PageFeature> features;
+  double clearance = 0;                                          ///< radial [m]
+  Eigen::Vector2d e = Eigen::Vector2d::Zero();                   ///< position of the journal [m]
+  Eigen::Vector2d load = Eigen::Vector2d::Zero();                ///< on the journal [N]
+  Eigen::VectorXd phi, z;                                        ///< places of the nodes [rad, m]
+  Eigen::VectorXd pressure, thickness, fill, asperity_pressure;  ///< at the nodes, index i z.size() + j [Pa, m, -, Pa]
+};
+
+/// What the report of a bearing by itself shows.
+struct BearingPage {
+  std::string title, description, file, bearing, created, version;
+  std::vector<std::pair<std::string, std::string>> conditions;  ///< name and text, such as the cavitation condition
+  std::vector<PageSolution> solutions;                          ///< one, or those of a sweep in its order
+};
+
+/// Writes one HTML file that shows the page: no network, no other file, any browser.
+/// @throws results::WriteError if `out` cannot be written.
+/// @pre there is at least one solution.
+/// @verified_by bearing_page_test.cpp, tests/report_browser
+void write_html(const BearingPage& page, const std::filesystem::path& out);
+
+}  // namespace hersey::report

@@ -1,0 +1,72 @@
+#include "hersey/report/bearing_page.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "hersey/core/contract.h"
+#include "hersey/results/error.h"
+#include "temporary_directory.h"
+
+namespace hersey::report {
+namespace {
+
+using nlohmann::json;
+
+PageSolution small_solution() {
+  PageSolution solution;
+  solution.values = {{"load", "100 N"}};
+  solution.figures = {{"h_min", "film", "minimum film thickness", "um", 5.6, 0.03},
+                      {"critical_mass", "stability", "critical mass", "kg", std::numeric_limits<double>::infinity()}};
+  solution.features = {{"inlet", true, 1.0, 0.002, 0.3, 0.004}};
+  solution.clearance = 30e-6;
+  solution.e = {1e-6, -2e-6};
+  solution.load = {0, -100};
+  solution.phi = Eigen::VectorXd::LinSpaced(4, 0, 3);
+  solution.z = Eigen::VectorXd::LinSpaced(3, -0.01, 0.01);
+  for (auto* field : {&solution.pressure, &solution.thickness, &solution.fill, &solution.asperity_pressure}) {
+    *field = Eigen::VectorXd::Constant(12, 0.5);
+  }
+  return solution;
+}
+
+json data_of(const std::filesystem::path& path) {
+  std::ostringstream stream;
+  stream << std::ifstream(path).rdbuf();
+  const std::string page = stream.str(), opening = R"(<script id="hersey-data" type="application/json">)";
+  const std::size_t from = page.find(opening) + opening.size();
+  return json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+TEST_CASE("BearingPage_HoldsFiguresFeaturesAndFields") {
+  const TemporaryDirectory directory;
+  BearingPage page{.title = "</script> of mine", .bearing = "main", .solutions = {small_solution()}};
+  page.solutions.push_back({.label = "load = 1 MN", .values = {{"load", "1 MN"}}, .error = "no equilibrium"});
+  write_html(page, directory.path() / "page.html");
+  const json data = data_of(directory.path() / "page.html");
+  CHECK(data["title"] == "</script> of mine");
+  const json& solution = data["bearing"]["solutions"][0];
+  CHECK(solution["figures"][0]["grid_error"] == 0.03);
+  CHECK(solution["figures"][1]["value"].is_null());  // infinite
+  CHECK_FALSE(solution["figures"][1].contains("grid_error"));
+  CHECK(solution["features"][0]["name"] == "inlet");
+  CHECK(solution["features"][0]["round"] == true);
+  CHECK(solution["datasets"]["/bearings/main/fields/pressure"]["shape"] == json{1, 4, 3});
+  CHECK(data["bearing"]["solutions"][1]["error"] == "no equilibrium");
+  CHECK(data["bearing"]["solutions"][1]["datasets"].empty());
+}
+
+TEST_CASE("BearingPage_FaultsAreTold") {
+  const TemporaryDirectory directory;
+  BearingPage page{.title = "t", .bearing = "main"};
+  CHECK_THROWS_AS(write_html(page, directory.path() / "page.html"), ContractError);
+  page.solutions = {small_solution()};
+  CHECK_THROWS_AS(write_html(page, directory.path() / "nowhere" / "page.html"), results::WriteError);
+}
+
+}  // namespace
+}  // namespace hersey::report
