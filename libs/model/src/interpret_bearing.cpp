@@ -240,7 +240,6 @@ const Value* given(const Value& parent, const std::string& key) {
 /// Of the undeformed surfaces, on the grid and at both edges.
 double smallest_gap(const film::FilmModel& film, const OperatingPoint& point, double epsilon) {
   const film::Grid& grid = film.grid;
-  const Eigen::VectorXd openings = film::gap_profile(film.profiles, grid, film.L);
   const Eigen::Vector2d e =
       epsilon * film.c * Eigen::Vector2d(std::cos(point.eccentricity_angle), std::sin(point.eccentricity_angle));
   const Eigen::Vector2d tilt(std::tan(point.tilt_x), std::tan(point.tilt_y));
@@ -250,7 +249,12 @@ double smallest_gap(const film::FilmModel& film, const OperatingPoint& point, do
     const Eigen::Vector2d radial(std::cos(phi), std::sin(phi));
     for (int j = 0; j < grid.n_z; ++j) {
       const double z = film.L * grid.z_over_L(j);
-      smallest = std::min(smallest, film.c + openings[grid.index(i, j)] - (e + z * tilt).dot(radial));
+      double gap = film.c - (e + z * tilt).dot(radial);
+      for (const film::Profile& profile : film.profiles) {
+        const double turned = profile.surface == film::Surface::journal ? point.journal_angle : 0;
+        gap += profile.opening(phi - turned, z, film.L).value;
+      }
+      smallest = std::min(smallest, gap);
     }
   }
   return smallest;
