@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "hersey/model/model.h"
+
 namespace hersey::cli {
 
 struct RunArguments {
@@ -51,6 +53,9 @@ struct BearingArguments {
 
 /// `hersey bearing`: equilibrium or load of one bearing by itself, once or over sweeps. @returns an ExitCode.
 [[nodiscard]] int bearing_command(const BearingArguments& arguments);
+
+/// Tells what the model computes but hardly means, one a line on stderr.
+void warn(const model::Model& model);
 
 /// `hersey schema`: the model file's format. @returns an ExitCode.
 [[nodiscard]] int schema_command(bool markdown);

@@ -180,7 +180,9 @@ int run_all(const RunArguments& arguments, const std::filesystem::path& folder,
 
 int run_command(const RunArguments& arguments) {
   const std::filesystem::path folder = output_folder(arguments);
-  if (model::read(arguments.model, arguments.overrides).is_of_bearings_alone()) {
+  const model::Model model = model::read(arguments.model, arguments.overrides);
+  warn(model);
+  if (model.is_of_bearings_alone()) {
     throw InputError(Fault{{arguments.model, 0, 0},
                            "",
                            "bearings alone",

@@ -46,9 +46,30 @@ class FilmReader {
         text_of(value_, "cavitated_shear") == "full" ? film::CavitatedShear::full : film::CavitatedShear::film_share;
     film_.shear_force =
         text_of(value_, "shear_force") == "torque_only" ? film::ShearForce::torque_only : film::ShearForce::full;
+    if (!context_.has_fault_in(value_.path)) warn_of_starvation();
   }
 
  private:
+  /// With mass conserved, oil that nothing presses in above the cavitation pressure does not come back where the film
+  /// has once ruptured: the steady film is p = p_cav everywhere and bears nothing.
+  void warn_of_starvation() {
+    const bool opens = film_.cavitation == film::Cavitation::mass_conserving && film_.edges == film::EdgeKind::pressure;
+    if (!opens || std::max(film_.p_edge_left, film_.p_edge_right) > film_.p_cav) return;
+    if (film_.supply.kind != film::SupplyKind::none) return;
+    for (std::size_t f = 0; f < film_.features.size(); ++f) {
+      const bool varies = !bearing_.feature_pressures[f].is_constant();
+      if (film_.features[f].is_fed && (varies || film_.features[f].pressure >= film_.p_cav)) return;
+    }
+    const Value* edges = value_.find("edge_pressure");
+    context_.model.warnings.push_back(
+        {edges != nullptr && edges->given ? edges->position : value_.key_position, value_.path,
+         "a film that starves: its edges are at the cavitation pressure and nothing feeds it, so that oil lost over "
+         "the "
+         "edges never comes back",
+         "a 'supply', a hole or groove in 'features', or an edge_pressure above cavitation.pressure",
+         "with gauge pressures, cavitation is often near -1 bar"});
+  }
+
   /// Lubrication theory takes the gap to be thin: a clearance of the bearing's own size is a wrong unit.
   void check_clearance() {
     const Value* clearance = value_.find("radial_clearance");
@@ -320,6 +341,33 @@ film::ViscosityLaw viscosity_law_of(Context& context, const Value& lubricant, do
   return film::Roelands{number_of(law, "z")};
 }
 
+/// A value that no oil has is most often one in the wrong unit.
+void warn_outside(Context& context, const Value& parent, const std::string& key, double low, double high,
+                  const char* expected) {
+  const Value* value = parent.find(key);
+  if (value == nullptr || value->broken || !value->given) return;
+  const Value& number = value->members.empty() ? *value : value->members.front().value;
+  const Value* inner = number.find("alpha");
+  const Value& tested = inner != nullptr ? *inner : number;
+  if (tested.broken || tested.type->kind != Type::Kind::quantity || (tested.number >= low && tested.number <= high))
+    return;
+  context.model.warnings.push_back(
+      {tested.position, tested.path, "a value that no lubricant has", expected, "is it in the right unit?"});
+}
+
+void warn_of_unphysical(Context& context, const Value& lubricant) {
+  warn_outside(context, lubricant, "viscosity", 1e-5, 1e3, "about 1 mPa.s to 10 Pa.s for oils, 0.01 mPa.s for gases");
+  warn_outside(context, lubricant, "density", 0.1, 5000, "about 800 to 1000 kg/m^3 for oils");
+  warn_outside(context, lubricant, "pressure_viscosity", 0, 1e-7, "at most about 4e-8 1/Pa (40 1/GPa) for oils");
+  const Value* law = lubricant.find("compressibility");
+  if (law == nullptr || law->broken || law->text != "dowson_higginson") return;
+  const double rise = number_of(*law, "rise"), saturation = number_of(*law, "saturation");
+  if (rise <= 5e-9 && rise <= saturation) return;
+  context.model.warnings.push_back({law->key_position, law->path,
+                                    "an oil that more than doubles its density under pressure",
+                                    "a rise below saturation, such as 0.6 and 1.7 1/GPa", ""});
+}
+
 film::DensityLaw density_law_of(const Value& lubricant) {
   const Value* law = lubricant.find("compressibility");
   if (law == nullptr || law->broken || law->text != "dowson_higginson") return {};
@@ -336,6 +384,7 @@ void interpret_lubricants(Context& context) {
                       .viscosity_law = viscosity_law_of(context, value, mu0),
                       .density = number_of(value, "density"),
                       .density_law = density_law_of(value)};
+    warn_of_unphysical(context, value);
     context.model.lubricants.push_back(std::move(lubricant));
   }
 }

@@ -42,6 +42,43 @@ TEST_CASE("Machine_StillNeedsAllItsParts") {
   CHECK(faults_of("hersey: 1\n").find("missing key 'bodies'") != std::string::npos);
 }
 
+std::string warnings_of(const std::string& text) {
+  std::string all;
+  for (const Fault& warning : read_text(text, "m.yaml").warnings) all += warning.text() + "\n";
+  return all;
+}
+
+TEST_CASE("StarvedFilm_IsWarnedOf") {
+  CHECK(warnings_of(bearing_alone)
+            .starts_with("m.yaml:5:3: bearings.main: a film that starves: its edges are at the cavitation pressure"));
+  for (const char* remedy :
+       {"supply: {line: widest_gap}", "edge_pressure: 1 bar", "cavitation: {model: mass_conserving, pressure: -1 bar}",
+        "cavitation: reynolds", "features: {inlet: {shape: hole, diameter: 6 mm, pressure: 2 bar}}"}) {
+    CAPTURE(remedy);
+    CHECK(warnings_of(edited(bearing_alone, "lubricant: oil", std::string("lubricant: oil\n    ") + remedy)).empty());
+  }
+  // A pocket that nothing feeds brings no oil.
+  CHECK_FALSE(warnings_of(edited(bearing_alone, "lubricant: oil",
+                                 "lubricant: oil\n    features: {pocket: {shape: hole, diameter: 6 mm, depth: 1 mm}}"))
+                  .empty());
+}
+
+TEST_CASE("UnphysicalOil_IsWarnedOf") {
+  const std::string fed = edited(bearing_alone, "lubricant: oil", "lubricant: oil\n    supply: {line: widest_gap}");
+  CHECK(warnings_of(fed).empty());
+  const auto with = [&](const char* oil) { return warnings_of(edited(fed, "viscosity: 15 mPa.s", oil)); };
+  CHECK(with("viscosity: 15 MPa.s") ==
+        "m.yaml:3:20: lubricants.oil.viscosity: a value that no lubricant has; expected about 1 mPa.s to 10 Pa.s for "
+        "oils, 0.01 mPa.s for gases; is it in the right unit?\n");
+  CHECK(with("viscosity: 15 mPa.s, pressure_viscosity: 12 1/MPa").find("pressure_viscosity: a value") !=
+        std::string::npos);
+  CHECK(with("viscosity: 15 mPa.s, pressure_viscosity: {law: barus, alpha: 12 1/MPa}").find("alpha: a value") !=
+        std::string::npos);
+  CHECK(with("viscosity: 15 mPa.s, density: 850 g/cm^3").find("density: a value") != std::string::npos);
+  CHECK(with("viscosity: 15 mPa.s, compressibility: {law: dowson_higginson, rise: 3e-9 1/Pa}")
+            .find("more than doubles its density") != std::string::npos);
+}
+
 TEST_CASE("LoadAndPosition_ExcludeEachOther") {
   CHECK(faults_of(bearing_alone + "      eccentricity_ratio: 0.5\n") ==
         "m.yaml:13:7: bearings.main.operating_point.eccentricity_ratio: keys 'load' and 'eccentricity_ratio' together; "

@@ -239,6 +239,7 @@ struct Model {
   Simulation simulation;
   Output output;
   std::optional<Study> study;
+  std::vector<Fault> warnings;  ///< what can be computed but is hardly meant
   std::string resolved_text;  ///< the file's text, preceded by comments naming the overrides of this run
 
   std::map<std::string, SourcePosition> positions;  ///< of every key in the file, by key path
