@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "hersey/core/input_error.h"
 
@@ -118,6 +119,43 @@ TEST_CASE("SolutionThatFails_LeavesTheOthers") {
   const auto solutions = solve_bearings(example, both, {});
   CHECK(solutions[0].solved());
   CHECK_FALSE(solutions[1].solved());
+}
+
+TEST_CASE("LemonBoreMadeRound_HasTheCoefficientsOfLundAndThomsen") {
+  // Two axial grooves of 20 degrees over the whole width, L/D = 0.5: epsilon, attitude, K and C as tabulated (1978).
+  struct Case {
+    const char* load;
+    double epsilon, attitude;
+    std::vector<double> K, C;
+  };
+  const std::vector<Case> cases{
+      {"1341.9 N", 0.244, 65.85, {1.69, 5.06, -2.20, 1.95}, {9.93, 2.15, 2.15, 4.80}},
+      {"5878.9 N", 0.570, 45.43, {3.33, 3.64, -0.43, 1.68}, {6.76, 1.87, 1.87, 1.89}},
+  };
+  const std::string file = std::string(HERSEY_SOURCE_DIR) + "/examples/lemon_bore/model.yaml";
+  for (const Case& c : cases) {
+    CAPTURE(c.load);
+    const std::vector<std::string> overrides{"offset=0 um",
+                                             "feed=0 bar",
+                                             "speed=3000 rpm",
+                                             std::string("load=") + c.load,
+                                             "bearings.main.features.left.length=50 mm",
+                                             "bearings.main.features.right.length=50 mm",
+                                             "bearings.main.shear_force=torque_only",
+                                             "bearings.main.cavitation=reynolds"};
+    const BearingSolution solution =
+        solve_bearings(file, {{overrides, "", "", {}}}, {.bearing = "", .grid_error = false}).front();
+    REQUIRE(solution.solved());
+    CHECK(std::abs(value_of(solution, "eccentricity_ratio") - c.epsilon) < 1e-3);
+    CHECK(std::abs(value_of(solution, "attitude") - c.attitude) < 0.1);
+    const char* pairs[] = {"xx", "xy", "yx", "yy"};
+    for (std::size_t k = 0; k < 4; ++k) {
+      CAPTURE(pairs[k]);
+      // The table's figures have three digits; relative to the largest of each matrix.
+      CHECK(std::abs(value_of(solution, std::string("K_") + pairs[k]) - c.K[k]) < 0.01 * 5.06);
+      CHECK(std::abs(value_of(solution, std::string("C_") + pairs[k]) - c.C[k]) < 0.01 * 9.93);
+    }
+  }
 }
 
 }  // namespace
