@@ -1,26 +1,43 @@
 #include "hersey/film/reynolds.h"
 
+#include <optional>
+#include <vector>
+
 #include "film_wrench.h"
 #include "flow_balance.h"
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
+#include "multigrid_solver.h"
 
 namespace hersey::film {
+namespace {
+
+// What responses leave of their right-hand sides.
+constexpr double tight = 1e-10;
+
+// Right-hand sides that multigrid has not solved after so many iterations are left to the direct solver.
+constexpr int most_iterations = 80;
+
+}  // namespace
 
 struct Reynolds::Impl {
-  explicit Impl(const FilmModel& model) : balance(model), wrench(model) {
-    lu.analyse(balance.size(), balance.column_start(), balance.row_index());
-  }
+  Impl(const FilmModel& model, LinearSolver chosen) : balance(model), wrench(model), linear(chosen) {}
 
   void factorise();
-  void solve_negative(Eigen::VectorXd& rhs);
+  [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
+  void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
+  void set_up_multigrid();
 
   FlowBalance balance;
   FilmWrench wrench;
+  LinearSolver linear;
+  LinearSolverCounts counts;
   solver::SparseLu lu;
+  std::optional<MultigridSolver> multigrid;
+  std::vector<char> has_pressure;
   std::vector<double> shifted;
-  Eigen::VectorXd column;
-  bool linearised = false, factorised = false;
+  Eigen::VectorXd rhs, answer;
+  bool linearised = false, factorised = false, set_up = false, multigrid_is_sound = false;
 };
 
 // A film nobody supplies leaves its fill level open, one at rest its fill fraction: the Jacobian is singular. A shift
@@ -28,31 +45,62 @@ struct Reynolds::Impl {
 void Reynolds::Impl::factorise() {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
   if (factorised) return;
+  if (lu.size() == 0) lu.analyse(balance.size(), balance.column_start(), balance.row_index());
+  ++counts.factorisations;
   factorised = lu.factorise(balance.values());
   for (double shift = 1e-9 * balance.conductance_scale(); !factorised; shift *= 100) {
     shifted.assign(balance.values().begin(), balance.values().end());
     for (int i = 0; i < balance.size(); ++i) shifted[balance.diagonal_slot(i)] += shift;
+    ++counts.factorisations;
     factorised = lu.factorise(shifted);
     HERSEY_REQUIRE(factorised || shift < balance.conductance_scale(), "the film's Jacobian is not finite");
   }
 }
 
-void Reynolds::Impl::solve_negative(Eigen::VectorXd& rhs) {
-  factorise();
-  rhs = -rhs;
-  lu.solve({rhs.data(), static_cast<std::size_t>(rhs.size())});
+void Reynolds::Impl::set_up_multigrid() {
+  HERSEY_REQUIRE(linearised, "linearise() comes first");
+  if (set_up) return;
+  const Grid& grid = balance.model().grid;
+  if (!multigrid) multigrid.emplace(grid.n_phi, grid.n_z, balance.column_start(), balance.row_index());
+  has_pressure.resize(balance.nodes().size());
+  for (std::size_t i = 0; i < has_pressure.size(); ++i) has_pressure[i] = balance.nodes()[i].p_u != 0;
+  ++counts.setups;
+  multigrid_is_sound =
+      multigrid->setup(balance.values(), has_pressure,
+                       {.ascending_phi = balance.speed_phi() >= 0, .ascending_z = balance.speed_z() >= 0});
+  set_up = true;
 }
 
-Reynolds::Reynolds(const FilmModel& model) : impl_(std::make_unique<Impl>(model)) {}
+bool Reynolds::Impl::solve_by_multigrid(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
+  set_up_multigrid();
+  if (!multigrid_is_sound) return false;
+  const solver::GmresSummary summary = multigrid->solve(b, {.rtol = rtol, .max_iterations = most_iterations}, x);
+  counts.iterations += summary.iterations;
+  return summary.converged;
+}
+
+void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
+  if (linear == LinearSolver::multigrid) {
+    if (solve_by_multigrid(b, rtol, x)) return;
+    ++counts.rescues;
+  }
+  factorise();
+  x = b;
+  lu.solve({x.data(), static_cast<std::size_t>(x.size())});
+}
+
+Reynolds::Reynolds(const FilmModel& model, LinearSolver linear) : impl_(std::make_unique<Impl>(model, linear)) {}
 Reynolds::~Reynolds() = default;
 Reynolds::Reynolds(Reynolds&&) noexcept = default;
 Reynolds& Reynolds::operator=(Reynolds&&) noexcept = default;
 
 const FilmModel& Reynolds::model() const { return impl_->balance.model(); }
 int Reynolds::size() const { return impl_->balance.size(); }
+LinearSolver Reynolds::linear_solver() const { return impl_->linear; }
+const LinearSolverCounts& Reynolds::counts() const { return impl_->counts; }
 
 void Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
-  impl_->linearised = impl_->factorised = false;
+  impl_->linearised = impl_->factorised = impl_->set_up = false;
   impl_->balance.evaluate(motion, history, u);
   impl_->balance.assemble_jacobian();
   impl_->wrench.evaluate(impl_->balance.nodes(), impl_->balance.rough_gaps(), motion, true);
@@ -64,14 +112,15 @@ double Reynolds::relative_residual() const { return impl_->balance.relative_resi
 int Reynolds::worst_node() const { return impl_->balance.worst_node(); }
 const Vector6& Reynolds::wrench_on_shell() const { return impl_->wrench.total(); }
 
-void Reynolds::newton_increment(Eigen::VectorXd& du) {
-  du = impl_->balance.residual();
-  impl_->solve_negative(du);
+void Reynolds::newton_increment(Eigen::VectorXd& du, double rtol) {
+  impl_->rhs = -impl_->balance.residual();
+  impl_->solve(impl_->rhs, rtol, du);
 }
 
 void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial) {
-  impl_->balance.derivative(direction, du);
-  impl_->solve_negative(du);
+  impl_->balance.derivative(direction, impl_->rhs);
+  impl_->rhs = -impl_->rhs;
+  impl_->solve(impl_->rhs, tight, du);
   wrench_partial = impl_->wrench.along(direction);
 }
 
@@ -80,12 +129,18 @@ void Reynolds::responses(std::span<const MotionDirection> directions, Eigen::Mat
   const auto columns = static_cast<Eigen::Index>(directions.size());
   du.resize(size(), columns);
   wrench_partial.resize(6, columns);
-  impl_->factorise();
+  Eigen::VectorXd &rhs = impl_->rhs, &answer = impl_->answer;
   for (Eigen::Index k = 0; k < columns; ++k) {
-    impl_->balance.derivative(directions[k], impl_->column);
-    du.col(k) = -impl_->column;
+    impl_->balance.derivative(directions[k], rhs);
+    du.col(k) = -rhs;
     wrench_partial.col(k) = impl_->wrench.along(directions[k]);
+    if (impl_->linear == LinearSolver::direct) continue;
+    rhs = du.col(k);
+    impl_->solve(rhs, tight, answer);
+    du.col(k) = answer;
   }
+  if (impl_->linear == LinearSolver::multigrid) return;
+  impl_->factorise();
   impl_->lu.solve({du.data(), static_cast<std::size_t>(du.size())}, static_cast<int>(columns));
 }
 

@@ -17,6 +17,18 @@ struct MotionDirection {
   double u_shell = 0, u_journal = 0, w_shell = 0, w_journal = 0, phi_supply = 0, phi_journal = 0;
 };
 
+/// How the linear systems of a film are solved: by a sparse factorisation, or by GMRES with multigrid, whose cost grows
+/// with the number of nodes only. Where the latter does not arrive, the former takes over.
+enum class LinearSolver { direct, multigrid };
+
+/// What the linear solver has done since a film was made.
+struct LinearSolverCounts {
+  int factorisations = 0;  ///< of the Jacobian
+  int setups = 0;          ///< of multigrid
+  int iterations = 0;      ///< of GMRES, over all right-hand sides
+  int rescues = 0;         ///< right-hand sides that multigrid left to the direct solver
+};
+
 /// Reynolds' equation on the grid with its derivatives (theory manual, chapter film): residual and Jacobian at a state,
 /// the film's wrench and the answer of both to any change of the surfaces.
 ///
@@ -29,13 +41,15 @@ struct MotionDirection {
 /// first call.
 class Reynolds {
  public:
-  explicit Reynolds(const FilmModel& model);
+  explicit Reynolds(const FilmModel& model, LinearSolver linear = LinearSolver::direct);
   ~Reynolds();
   Reynolds(Reynolds&&) noexcept;
   Reynolds& operator=(Reynolds&&) noexcept;
 
   [[nodiscard]] const FilmModel& model() const;
   [[nodiscard]] int size() const;
+  [[nodiscard]] LinearSolver linear_solver() const;
+  [[nodiscard]] const LinearSolverCounts& counts() const;
 
   /// Linearises about `u`. After it the members below refer to this state; the first of them that needs the factorised
   /// Jacobian factorises it. Where the Jacobian is singular (nothing fixes the fill level) a shift far below its
@@ -51,8 +65,9 @@ class Reynolds {
   /// negative at the same point: action equals reaction, moment included.
   [[nodiscard]] const Vector6& wrench_on_shell() const;
 
-  /// du = -J^{-1} residual, the Newton increment of the film at fixed surfaces.
-  void newton_increment(Eigen::VectorXd& du);
+  /// du = -J^{-1} residual, the Newton increment of the film at fixed surfaces. `multigrid` leaves `rtol` of the
+  /// residual.
+  void newton_increment(Eigen::VectorXd& du, double rtol = 1e-10);
 
   /// Answer to a change of the surfaces: `du` = -J^{-1} dr/d(parameter), and the wrench's *partial* derivative at
   /// fixed u. The total derivative is  partial + wrench_gradient(du).

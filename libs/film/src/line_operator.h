@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace hersey::film {
+
+/// A vector over the nodes of all lines, line by line, with one node more at either end that is always finite: the
+/// neighbours of the first and the last node are met with zero coefficients.
+class LineVector {
+ public:
+  LineVector() = default;
+  explicit LineVector(int size) : values_(static_cast<std::size_t>(size) + 2, 0.0) {}
+  [[nodiscard]] double* data() { return values_.data() + 1; }
+  [[nodiscard]] const double* data() const { return values_.data() + 1; }
+  [[nodiscard]] double& operator[](int i) { return values_[static_cast<std::size_t>(i) + 1]; }
+  [[nodiscard]] double operator[](int i) const { return values_[static_cast<std::size_t>(i) + 1]; }
+  void fill(double value) { std::fill(values_.begin(), values_.end(), value); }
+
+ private:
+  std::vector<double> values_;
+};
+
+/// A matrix over `lines` lines of n nodes that close to a ring. A node is coupled to the three nearest of its own line
+/// and of the lines before (west) and after it (east).
+class LineOperator {
+ public:
+  /// West, centre and east, each for the nodes j - 1, j and j + 1.
+  using Row = std::array<double, 9>;
+  static constexpr int west = 0, centre = 3, east = 6;
+
+  LineOperator() = default;
+  LineOperator(int lines, int n);
+
+  [[nodiscard]] int lines() const { return lines_; }
+  [[nodiscard]] int nodes_per_line() const { return n_; }
+  [[nodiscard]] int size() const { return lines_ * n_; }
+  [[nodiscard]] int before(int line) const { return line == 0 ? lines_ - 1 : line - 1; }
+  [[nodiscard]] int after(int line) const { return line + 1 == lines_ ? 0 : line + 1; }
+  [[nodiscard]] Row& row(int node) { return rows_[node]; }
+  [[nodiscard]] const Row& row(int node) const { return rows_[node]; }
+  void set_zero();
+
+  /// LU of every line's own tridiagonal block, without pivoting. False where a pivot vanishes.
+  [[nodiscard]] bool factorise_lines();
+
+  /// x of one line from its right-hand side, in place; that of the transposed block likewise.
+  void solve_line(int line, double* x) const;
+  void solve_line_transposed(int line, double* x) const;
+
+  /// Line by line, in ascending order or descending: Gauss-Seidel on A x = b.
+  void relax(const LineVector& b, bool ascending, LineVector& x) const;
+  /// Likewise from x = 0; `residual` becomes b - A x.
+  void relax_from_zero(const LineVector& b, bool ascending, LineVector& x, LineVector& residual) const;
+
+ private:
+  struct Pivot {
+    double below = 0, inverse = 0, above = 0;  ///< multiplier, 1/pivot, entry to the right over the pivot
+  };
+  int lines_ = 0, n_ = 0;
+  std::vector<Row> rows_;
+  std::vector<Pivot> pivots_;
+};
+
+}  // namespace hersey::film
