@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
+#include "coarse_film.h"
 #include "node.h"
 #include "sor.h"
 
@@ -20,6 +23,12 @@ constexpr double largest_exponent = 20;
 
 // Iterations after which a front is taken to be far away.
 constexpr int patience = 12;
+
+// Coarser grids are solved to this residual: what is left is far below their own error.
+constexpr double coarse_rtol = 1e-4;
+
+// Coarser grids with fewer nodes are factorised.
+constexpr int largest_direct = 4000;
 
 /// The share of the step du that keeps viscosity and film thickness within `largest_change` at every node. Only
 /// pressures count: switching a node between full and cavitated bends no law and is never held back.
@@ -43,58 +52,6 @@ double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eig
 bool sensible_pressure(const FilmModel& model, const Eigen::VectorXd& u) {
   const double largest = u.maxCoeff();
   return std::isfinite(largest) && log_viscosity_ratio(model.lubricant, largest).value <= largest_exponent;
-}
-
-/// The film seen on every second node around the bearing.
-struct CoarseFilm {
-  FilmModel model;
-  SurfaceMotion motion;
-  FilmHistory history;
-  Eigen::VectorXd u;
-};
-
-Eigen::VectorXd every_second(const Grid& grid, const Eigen::VectorXd& fine) {
-  const int n_z = grid.n_z;
-  Eigen::VectorXd coarse(fine.size() / 2);
-  for (int i = 0; 2 * i < grid.n_phi; ++i) coarse.segment(i * n_z, n_z) = fine.segment(2 * i * n_z, n_z);
-  return coarse;
-}
-
-CoarseFilm coarsen(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
-                   const Eigen::VectorXd& u) {
-  const Grid& grid = model.grid;
-  CoarseFilm coarse{model, motion, history, every_second(grid, u)};
-  coarse.model.grid = resampled(grid, grid.n_phi / 2, grid.n_z);
-  coarse.motion.g = every_second(grid, motion.g);
-  coarse.motion.g_rate = every_second(grid, motion.g_rate);
-  if (history.dt == 0) return coarse;
-  coarse.history.theta = every_second(grid, history.theta);
-  coarse.history.w = every_second(grid, history.w);
-  if (history.density.size() != 0) coarse.history.density = every_second(grid, history.density);
-  return coarse;
-}
-
-FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
-                                 const FilmSolveOptions& options, Eigen::VectorXd& u);
-
-// A film front that no flow carries moves by one node per Newton step. It is then sought on coarser grids first, where
-// the way is shorter, so that the iterations stay few on every grid.
-void start_on_coarser_grid(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
-                           Eigen::VectorXd& u) {
-  const Grid& grid = model.grid;
-  if (grid.n_phi % 2 != 0 || grid.n_phi < 48) return;
-  CoarseFilm coarse = coarsen(model, motion, history, u);
-  Reynolds reynolds(coarse.model);
-  if (!solve_by_newton(reynolds, coarse.motion, coarse.history, {.rtol = 1e-8}, coarse.u).converged) return;
-  const int n = coarse.model.grid.n_phi, n_z = grid.n_z;
-  const double to_fine = fill_scale(model) / fill_scale(coarse.model);  // keeps fill fractions
-  for (int i = 0; i < n; ++i) {
-    const auto scaled = [&](double value) { return value < 0 ? to_fine * value : value; };
-    const Eigen::VectorXd here = coarse.u.segment(i * n_z, n_z).unaryExpr(scaled);
-    const Eigen::VectorXd next = coarse.u.segment((i + 1) % n * n_z, n_z).unaryExpr(scaled);
-    u.segment(2 * i * n_z, n_z) = here;
-    u.segment((2 * i + 1) * n_z, n_z) = 0.5 * (here + next);
-  }
 }
 
 std::string where(const Grid& grid, int node) {
@@ -141,24 +98,29 @@ void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, Film
   }
 }
 
+// What multigrid leaves of a system's residual: further where the last step came that much nearer, and never beyond
+// what was asked. An answer much rougher would leave nodes about to switch on the wrong side: then Newton does not
+// settle.
+double linear_tolerance(double rtol, double residual, double last_residual) {
+  constexpr double roughest = 1e-5;
+  const double nearer = residual / last_residual;
+  return std::clamp(0.1 * nearer * nearer, std::min(roughest, 0.1 * rtol / residual), roughest);
+}
+
 FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                  const FilmSolveOptions& options, Eigen::VectorXd& u) {
   FilmSolveSummary summary;
   const Eigen::VectorXd start = u;
   Eigen::VectorXd du(u.size());
-  const bool cold = u.isZero(0);
+  double last = std::numeric_limits<double>::infinity();
   for (;; ++summary.iterations) {
-    const bool lost = summary.iterations == patience;
-    if (lost) u = start;
-    if (lost || (summary.iterations == 0 && cold && reynolds.model().cavitation == Cavitation::reynolds)) {
-      start_on_coarser_grid(reynolds.model(), motion, history, u);
-    }
     reynolds.linearise(motion, history, u);
     summary.relative_residual = reynolds.relative_residual();
     summary.worst_node = reynolds.worst_node();
     summary.converged = summary.relative_residual <= options.rtol;
     if (summary.converged || summary.iterations == options.max_iterations) return summary;
-    reynolds.newton_increment(du);
+    reynolds.newton_increment(du, linear_tolerance(options.rtol, summary.relative_residual, last));
+    last = summary.relative_residual;
     u += step_share(reynolds.model(), motion, u, du) * du;
     if (!sensible_pressure(reynolds.model(), u)) {
       u = start;
@@ -167,13 +129,53 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
   }
 }
 
+FilmSolveSummary solve_here(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                            const FilmSolveOptions& options, Eigen::VectorXd& u) {
+  return options.solver == FilmSolver::sor ? solve_by_sor(reynolds, motion, history, options, u)
+                                           : solve_by_newton(reynolds, motion, history, options, u);
+}
+
+// A film front that no flow carries moves by one node per Newton step, and an error that spans the film takes SOR as
+// many sweeps as there are nodes. On coarser grids the way is shorter: each grid starts from the solution on the one
+// with half the nodes, so that the iterations stay few on every grid.
+bool start_on_coarser_grid(const Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                           const FilmSolveOptions& options, int& iterations, Eigen::VectorXd& u) {
+  const FilmModel& model = reynolds.model();
+  if (!can_be_coarsened(model.grid)) return false;
+  CoarseFilm coarse = coarsened(model, motion, history, u);
+  Reynolds coarse_reynolds(coarse.model,
+                           coarse.model.grid.size() < largest_direct ? LinearSolver::direct : reynolds.linear_solver());
+  FilmSolveOptions roughly = options;
+  roughly.rtol = std::max(options.rtol, coarse_rtol);
+  start_on_coarser_grid(coarse_reynolds, coarse.motion, coarse.history, roughly, iterations, coarse.u);
+  const FilmSolveSummary summary = solve_here(coarse_reynolds, coarse.motion, coarse.history, roughly, coarse.u);
+  iterations += summary.iterations;
+  if (!summary.converged) return false;
+  u = refined(coarse, model);
+  return true;
+}
+
 }  // namespace
 
 FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                             const FilmSolveOptions& options, Eigen::VectorXd& u) {
-  FilmSolveSummary summary = options.solver == FilmSolver::newton
-                                 ? solve_by_newton(reynolds, motion, history, options, u)
-                                 : solve_by_sor(reynolds, motion, history, options, u);
+  const Eigen::VectorXd start = u;
+  FilmSolveSummary summary;
+  int coarse_iterations = 0;
+  const bool cold = u.isZero(0);
+  if (!cold) {
+    FilmSolveOptions briefly = options;
+    if (options.solver != FilmSolver::sor) briefly.max_iterations = std::min(options.max_iterations, patience);
+    summary = solve_here(reynolds, motion, history, briefly, u);
+  }
+  if (!summary.converged) {
+    u = start;
+    start_on_coarser_grid(reynolds, motion, history, options, coarse_iterations, u);
+    const int before = summary.iterations;
+    summary = solve_here(reynolds, motion, history, options, u);
+    summary.iterations += before;
+  }
+  summary.coarse_iterations = coarse_iterations;
   explain(reynolds.model(), u, options.rtol, summary);
   return summary;
 }

@@ -34,7 +34,6 @@ struct Reynolds::Impl {
   LinearSolverCounts counts;
   solver::SparseLu lu;
   std::optional<MultigridSolver> multigrid;
-  std::vector<char> has_pressure;
   std::vector<double> shifted;
   Eigen::VectorXd rhs, answer;
   bool linearised = false, factorised = false, set_up = false, multigrid_is_sound = false;
@@ -62,12 +61,8 @@ void Reynolds::Impl::set_up_multigrid() {
   if (set_up) return;
   const Grid& grid = balance.model().grid;
   if (!multigrid) multigrid.emplace(grid.n_phi, grid.n_z, balance.column_start(), balance.row_index());
-  has_pressure.resize(balance.nodes().size());
-  for (std::size_t i = 0; i < has_pressure.size(); ++i) has_pressure[i] = balance.nodes()[i].p_u != 0;
   ++counts.setups;
-  multigrid_is_sound =
-      multigrid->setup(balance.values(), has_pressure,
-                       {.ascending_phi = balance.speed_phi() >= 0, .ascending_z = balance.speed_z() >= 0});
+  multigrid_is_sound = multigrid->setup(balance.values(), balance.speed_phi() >= 0);
   set_up = true;
 }
 

@@ -34,7 +34,7 @@ Increments increments(const FilmModel& model, const SurfaceMotion& motion, const
 TEST_CASE("MultigridIterations_DoNotGrowWithTheGrid") {
   // A residual of 1e-10 after as many iterations on every grid, in either sense of rotation, in films half cavitated.
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
-    for (const Grid grid : {Grid{60, 13}, Grid{121, 26}, Grid{240, 52}, Grid{400, 9}, Grid{30, 80}}) {
+    for (const Grid& grid : {Grid{60, 13}, Grid{121, 26}, Grid{240, 52}, Grid{400, 9}, Grid{30, 80}}) {
       for (const double sense : {1.0, -1.0}) {
         CAPTURE(static_cast<int>(cavitation));
         CAPTURE(grid.n_phi);

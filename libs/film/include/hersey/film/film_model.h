@@ -59,7 +59,7 @@ struct Asperities {
 
 enum class CavitatedShear { full, film_share };
 enum class ShearForce { full, torque_only };
-enum class FilmSolver { newton, sor };
+enum class FilmSolver { newton, sor, multigrid };
 
 /// What the rows at z = -L/2 and +L/2 are: oil at a given pressure, or a wall no oil passes (a bearing of infinite
 /// width).

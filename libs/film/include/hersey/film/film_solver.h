@@ -14,17 +14,24 @@ struct FilmSolveOptions {
   int max_iterations = 50;  ///< Newton iterations, or thousands of SOR sweeps
 };
 
+/// The linear solver a film wants from its Reynolds object.
+[[nodiscard]] constexpr LinearSolver linear_solver_of(FilmSolver solver) {
+  return solver == FilmSolver::multigrid ? LinearSolver::multigrid : LinearSolver::direct;
+}
+
 struct FilmSolveSummary {
   bool converged = false;
-  int iterations = 0;  ///< Newton iterations, or SOR sweeps
+  int iterations = 0;         ///< Newton iterations, or SOR sweeps, on the film's own grid
+  int coarse_iterations = 0;  ///< likewise on coarser grids, where the start was sought
   double relative_residual = 0;
   int worst_node = 0;
   std::string message;  ///< why it ended, where it did not converge; also where it converged to a film without oil
 };
 
-/// Solves the film for u at given surfaces, starting from `u` (all zeros is a cold start). Where Newton does not arrive
-/// soon, it starts over from the solution on a coarser grid. On failure `u` is the last
-/// iterate.
+/// Solves the film for u at given surfaces, starting from `u`. From all zeros (a cold start), and where a start does
+/// not lead to an answer soon, it starts from the solution on a grid of half the nodes, and that from the next. On
+/// failure `u` is the last iterate. `newton` and `multigrid` iterate alike; their linear systems are solved as
+/// `reynolds` was made to (linear_solver_of).
 [[nodiscard]] FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                           const FilmSolveOptions& options, Eigen::VectorXd& u);
 
