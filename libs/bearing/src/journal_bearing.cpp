@@ -33,7 +33,7 @@ int acting_parameters(const film::FilmModel& model) {
 JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, const BearingOptions& options)
     : name_(std::move(name)),
       options_(options),
-      reynolds_(model),
+      reynolds_(model, film::linear_solver_of(options.film.solver)),
       rigid_(model),
       directions_(static_cast<std::size_t>(acting_parameters(model))),
       interface_(options.acceleration, options.relaxation) {

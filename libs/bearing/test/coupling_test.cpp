@@ -94,6 +94,19 @@ TEST_CASE("PartitionedAndMonolithic_Agree") {
   CHECK(fewer < more);
 }
 
+TEST_CASE("MultigridAndDirect_StepAlike") {
+  const double dt = 2e-4;
+  film::FilmModel film = small_film();
+  film.grid = {.n_phi = 48, .n_z = 9};
+  Rig direct(film, 500, {.initial_dt = dt});
+  Rig multigrid(film, 500, {.film = {.solver = film::FilmSolver::multigrid}, .initial_dt = dt});
+  const int iterations = direct.march(dt, 30);
+  CHECK(multigrid.march(dt, 30) == iterations);
+  const Eigen::Vector2d e = direct.observe().e, difference = multigrid.observe().e - e;
+  // Linear systems to 1e-10, steps to 1e-8, 30 of them.
+  CHECK(difference.norm() <= 1e-6 * e.norm());
+}
+
 TEST_CASE("FloatingRod_SettlesWhereTheFilmCarriesTheLoad") {
   const double load = 1000;
   Rig rig(small_film(), load, {.initial_dt = 2e-4});

@@ -240,8 +240,10 @@ TypePtr bearings_format() {
                     "full", "What shear does to the bodies."),
           defaulted("solver",
                     choice({{"newton", "Newton's method with exact derivatives"},
+                            {"multigrid", "the same, its linear systems solved by multigrid: for fine grids"},
                             {"sor", "successive over-relaxation, for comparison"}}),
-                    "newton", "Solver of a film by itself (initial film, partitioned coupling)."),
+                    "newton",
+                    "Solver of the film. Coupled monolithically to the bodies, `sor` finds the initial film only."),
           optional("operating_point", operating_point_format(),
                    "Speeds and load, or position, of the bearing by itself (`hersey bearing`); a simulation has its "
                    "own.",

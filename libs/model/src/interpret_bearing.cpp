@@ -238,6 +238,12 @@ class FilmReader {
   film::FilmModel& film_;
 };
 
+film::FilmSolver solver_of(const Value& bearing) {
+  const std::string name = text_of(bearing, "solver");
+  if (name == "sor") return film::FilmSolver::sor;
+  return name == "multigrid" ? film::FilmSolver::multigrid : film::FilmSolver::newton;
+}
+
 Coupling coupling_of(const Value& bearing) {
   Coupling coupling;
   const Value* value = bearing.find("coupling");
@@ -404,7 +410,7 @@ void interpret_bearings(Context& context) {
     bearing.shell_material = material_of(value, "shell");
     bearing.journal_material = material_of(value, "journal");
     FilmReader(context, value, bearing).read();
-    bearing.solver = text_of(value, "solver") == "sor" ? film::FilmSolver::sor : film::FilmSolver::newton;
+    bearing.solver = solver_of(value);
     bearing.coupling = coupling_of(value);
     bearing.operating_point = operating_point_of(context, value, bearing.film);
     context.model.bearings.push_back(std::move(bearing));

@@ -179,7 +179,7 @@ TEST_CASE("UnknownWord_NamesTheNearest") {
         "m.yaml:15:17: joints.guide.type: 'plannar'; expected fixed, revolute, prismatic, cylindrical, spherical, "
         "planar or free; did you mean 'planar'?");
   CHECK(faults_after("    lubricant: oil\n", "    lubricant: oil\n    solver: newtn\n") ==
-        "m.yaml:30:13: bearings.big_end.solver: 'newtn'; expected newton or sor; did you mean 'newton'?");
+        "m.yaml:30:13: bearings.big_end.solver: 'newtn'; expected newton, multigrid or sor; did you mean 'newton'?");
 }
 
 TEST_CASE("KeyOfAnotherVariant_NamesItsOwner") {

@@ -358,5 +358,16 @@ TEST_CASE("RefinedGrid_IsFineWhereAsked") {
   CHECK(height(0) == near(height(19)));
 }
 
+TEST_CASE("Solver_IsOneOfThree") {
+  const auto solver = [](const std::string& name) {
+    const std::string text =
+        edited(good_model, "    lubricant: oil\n", "    lubricant: oil\n    solver: " + name + "\n");
+    return read_text(text, "m.yaml").bearings[0].solver;
+  };
+  CHECK(solver("newton") == film::FilmSolver::newton);
+  CHECK(solver("multigrid") == film::FilmSolver::multigrid);
+  CHECK(solver("sor") == film::FilmSolver::sor);
+}
+
 }  // namespace
 }  // namespace hersey::model

@@ -25,7 +25,9 @@ struct BearingOptions {
   Coupling coupling = Coupling::monolithic;
   Acceleration acceleration = Acceleration::quasi_newton;  ///< partitioned: how the exchanged wrench is corrected
   double relaxation = 0.1;      ///< partitioned: share of the first correction taken, in (0, 1]
-  film::FilmSolveOptions film;  ///< the film's own solver: initial film, and every film solve of a partitioned coupling
+  /// The film's own solver: initial film, and every film solve of a partitioned coupling. `multigrid` also solves the
+  /// linear systems of a monolithic one.
+  film::FilmSolveOptions film;
   double initial_dt = 1e-4;     ///< the film at the start is that of a full gap after a step of this length [s], > 0
   /// Pressure of each of the film's features over time [Pa]; empty: the pressures of the film model.
   std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
