@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "hersey/core/contract.h"
 
@@ -71,33 +70,39 @@ void FlowBalance::lay_faces() {
 }
 
 void FlowBalance::lay_pattern() {
-  const int n = size(), n_z = model_.grid.n_z;
+  const Grid& grid = model_.grid;
+  const int n = size(), n_z = grid.n_z;
   const auto balanced = [&](int node) { return !edge_row(node % n_z); };
-  std::vector<std::set<int>> rows_of_column(n);
-  for (int i = 0; i < n; ++i) rows_of_column[i].insert(i);
-  for (const Face& face : faces_) {
-    if (balanced(face.a)) rows_of_column[face.b].insert(face.a);
-    if (balanced(face.b)) rows_of_column[face.a].insert(face.b);
-  }
+  column_start_.reserve(static_cast<std::size_t>(n) + 1);
+  row_index_.reserve(5 * static_cast<std::size_t>(n));
   column_start_.assign(1, 0);
-  row_slots_.resize(n);
   for (int column = 0; column < n; ++column) {
-    for (int row : rows_of_column[column]) {
-      row_slots_[row].push_back(static_cast<int>(row_index_.size()));
-      row_index_.push_back(row);
+    const int i = column / n_z, j = column % n_z;
+    std::array<int, 5> rows{grid.index((i + grid.n_phi - 1) % grid.n_phi, j), j > 0 ? column - 1 : column, column,
+                            j + 1 < n_z ? column + 1 : column, grid.index((i + 1) % grid.n_phi, j)};
+    std::sort(rows.begin(), rows.end());
+    const auto end = std::unique(rows.begin(), rows.end());
+    for (auto row = rows.begin(); row != end; ++row) {
+      if (*row == column || balanced(*row)) row_index_.push_back(*row);
     }
     column_start_.push_back(static_cast<int>(row_index_.size()));
   }
   const int nowhere = static_cast<int>(row_index_.size());
-  const auto slot = [&](int row, int column) {
-    if (!balanced(row)) return nowhere;
-    const auto begin = row_index_.begin() + column_start_[column], end = row_index_.begin() + column_start_[column + 1];
-    return static_cast<int>(std::lower_bound(begin, end, row) - row_index_.begin());
+  const auto find = [&](int row, int column) {
+    const auto begin = row_index_.begin() + column_start_[column];
+    return static_cast<int>(std::find(begin, row_index_.end(), row) - row_index_.begin());
   };
+  const auto slot = [&](int row, int column) { return balanced(row) ? find(row, column) : nowhere; };
   for (Face& f : faces_) f.slots = {slot(f.a, f.a), slot(f.a, f.b), slot(f.b, f.a), slot(f.b, f.b)};
-  for (int i = 0; i < n; ++i) {
-    const auto begin = row_index_.begin() + column_start_[i];
-    diagonal_slot_.push_back(static_cast<int>(std::find(begin, row_index_.end(), i) - row_index_.begin()));
+  diagonal_slot_.reserve(static_cast<std::size_t>(n));
+  for (int node = 0; node < n; ++node) diagonal_slot_.push_back(find(node, node));
+  row_slots_.resize(static_cast<std::size_t>(n));
+  for (int row = 0; row < n; ++row) {
+    if (!balanced(row)) continue;
+    const int i = row / n_z, j = row % n_z;
+    row_slots_[row] = {find(row, grid.index((i + grid.n_phi - 1) % grid.n_phi, j)),
+                       j > 0 ? find(row, row - 1) : nowhere, diagonal_slot_[row],
+                       j + 1 < n_z ? find(row, row + 1) : nowhere, find(row, grid.index((i + 1) % grid.n_phi, j))};
   }
   values_.resize(row_index_.size() + 1);
 }

@@ -142,7 +142,7 @@ class FlowBalance {
   std::vector<Face> faces_;
   std::size_t first_axial_face_ = 0;
   std::vector<int> column_start_, row_index_, diagonal_slot_;
-  std::vector<std::vector<int>> row_slots_;  ///< of every row the slots of its entries
+  std::vector<std::array<int, 5>> row_slots_;  ///< of every balanced row the slots of its entries
 
   std::vector<Node> nodes_;
   RoughGaps rough_;

@@ -27,6 +27,7 @@ struct Reynolds::Impl {
   [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void set_up_multigrid();
+  const FilmWrench& summed_wrench();
 
   FlowBalance balance;
   FilmWrench wrench;
@@ -36,7 +37,8 @@ struct Reynolds::Impl {
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
   Eigen::VectorXd rhs, answer;
-  bool linearised = false, factorised = false, set_up = false, multigrid_is_sound = false;
+  SurfaceMotion speeds;  // without fields
+  bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
 };
 
 // A film nobody supplies leaves its fill level open, one at rest its fill fraction: the Jacobian is singular. A shift
@@ -64,6 +66,14 @@ void Reynolds::Impl::set_up_multigrid() {
   ++counts.setups;
   multigrid_is_sound = multigrid->setup(balance.values(), balance.speed_phi() >= 0);
   set_up = true;
+}
+
+// Sums over the surface are not needed on the way to a solution.
+const FilmWrench& Reynolds::Impl::summed_wrench() {
+  HERSEY_REQUIRE(linearised, "linearise() comes first");
+  if (!summed) wrench.evaluate(balance.nodes(), balance.rough_gaps(), speeds, true);
+  summed = true;
+  return wrench;
 }
 
 bool Reynolds::Impl::solve_by_multigrid(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
@@ -95,17 +105,19 @@ LinearSolver Reynolds::linear_solver() const { return impl_->linear; }
 const LinearSolverCounts& Reynolds::counts() const { return impl_->counts; }
 
 void Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
-  impl_->linearised = impl_->factorised = impl_->set_up = false;
+  impl_->linearised = impl_->summed = impl_->factorised = impl_->set_up = false;
   impl_->balance.evaluate(motion, history, u);
   impl_->balance.assemble_jacobian();
-  impl_->wrench.evaluate(impl_->balance.nodes(), impl_->balance.rough_gaps(), motion, true);
+  SurfaceMotion& speeds = impl_->speeds;
+  speeds.u_shell = motion.u_shell, speeds.u_journal = motion.u_journal;
+  speeds.w_shell = motion.w_shell, speeds.w_journal = motion.w_journal;
   impl_->linearised = true;
 }
 
 const Eigen::VectorXd& Reynolds::residual() const { return impl_->balance.residual(); }
 double Reynolds::relative_residual() const { return impl_->balance.relative_residual(); }
 int Reynolds::worst_node() const { return impl_->balance.worst_node(); }
-const Vector6& Reynolds::wrench_on_shell() const { return impl_->wrench.total(); }
+const Vector6& Reynolds::wrench_on_shell() const { return impl_->summed_wrench().total(); }
 
 void Reynolds::newton_increment(Eigen::VectorXd& du, double rtol) {
   impl_->rhs = -impl_->balance.residual();
@@ -116,7 +128,7 @@ void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, V
   impl_->balance.derivative(direction, impl_->rhs);
   impl_->rhs = -impl_->rhs;
   impl_->solve(impl_->rhs, tight, du);
-  wrench_partial = impl_->wrench.along(direction);
+  wrench_partial = impl_->summed_wrench().along(direction);
 }
 
 void Reynolds::responses(std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
@@ -128,7 +140,7 @@ void Reynolds::responses(std::span<const MotionDirection> directions, Eigen::Mat
   for (Eigen::Index k = 0; k < columns; ++k) {
     impl_->balance.derivative(directions[k], rhs);
     du.col(k) = -rhs;
-    wrench_partial.col(k) = impl_->wrench.along(directions[k]);
+    wrench_partial.col(k) = impl_->summed_wrench().along(directions[k]);
     if (impl_->linear == LinearSolver::direct) continue;
     rhs = du.col(k);
     impl_->solve(rhs, tight, answer);
@@ -139,7 +151,7 @@ void Reynolds::responses(std::span<const MotionDirection> directions, Eigen::Mat
   impl_->lu.solve({du.data(), static_cast<std::size_t>(du.size())}, static_cast<int>(columns));
 }
 
-Vector6 Reynolds::wrench_gradient(const Eigen::VectorXd& du) const { return impl_->wrench.along_u(du); }
+Vector6 Reynolds::wrench_gradient(const Eigen::VectorXd& du) const { return impl_->summed_wrench().along_u(du); }
 
 void Reynolds::residual_derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
   impl_->balance.derivative(direction, dr);
