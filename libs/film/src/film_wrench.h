@@ -31,7 +31,7 @@ class FilmWrench {
   [[nodiscard]] double friction_power_per_contact() const { return friction_.dot(slip_); }
 
   /// d total / du at fixed surfaces, times du.
-  [[nodiscard]] Vector6 along_u(const Eigen::VectorXd& du) const { return by_u_ * du; }
+  [[nodiscard]] Vector6 along_u(const Eigen::Ref<const Eigen::VectorXd>& du) const { return by_u_ * du; }
   /// d total / d(direction) at fixed u.
   [[nodiscard]] Vector6 along(const MotionDirection& direction) const;
   [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& gradient_u() const { return by_u_; }

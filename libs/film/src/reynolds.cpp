@@ -151,7 +151,9 @@ void Reynolds::responses(std::span<const MotionDirection> directions, Eigen::Mat
   impl_->lu.solve({du.data(), static_cast<std::size_t>(du.size())}, static_cast<int>(columns));
 }
 
-Vector6 Reynolds::wrench_gradient(const Eigen::VectorXd& du) const { return impl_->summed_wrench().along_u(du); }
+Vector6 Reynolds::wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) const {
+  return impl_->summed_wrench().along_u(du);
+}
 
 void Reynolds::residual_derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
   impl_->balance.derivative(direction, dr);

@@ -78,7 +78,7 @@ class Reynolds {
                  Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial);
 
   /// (d wrench_on_shell / du) du.
-  [[nodiscard]] Vector6 wrench_gradient(const Eigen::VectorXd& du) const;
+  [[nodiscard]] Vector6 wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) const;
 
   /// dr/d(parameter) alone, for tests and un-condensed systems.
   void residual_derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
