@@ -122,6 +122,7 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
     reynolds.newton_increment(du, linear_tolerance(options.rtol, summary.relative_residual, last));
     last = summary.relative_residual;
     u += step_share(reynolds.model(), motion, u, du) * du;
+    reynolds.let_fronts_follow(u);
     if (!sensible_pressure(reynolds.model(), u)) {
       u = start;
       return summary;

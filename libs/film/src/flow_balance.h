@@ -61,6 +61,11 @@ class FlowBalance {
   [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
   /// Outflow plus storage of every control volume, boundary nodes included: there it is the oil fed from outside.
   [[nodiscard]] const Eigen::VectorXd& balance() const { return balance_; }
+  /// The face from node (i, j) to the next around the bearing, and to the next along the axis.
+  [[nodiscard]] std::size_t face_after(int i, int j) const { return static_cast<std::size_t>(model_.grid.index(i, j)); }
+  [[nodiscard]] std::size_t face_above(int i, int j) const {
+    return first_axial_face_ + static_cast<std::size_t>(i * (model_.grid.n_z - 1) + j);
+  }
   [[nodiscard]] double storage(int node) const;             ///< [m^3/s]
   [[nodiscard]] double storage_by_content(int node) const;  ///< its derivative with the oil's content [m^3/s]
   /// The gap that holds oil at a node: the film thickness, between rough surfaces the mean of the local gap [m].

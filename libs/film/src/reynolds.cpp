@@ -5,6 +5,7 @@
 
 #include "film_wrench.h"
 #include "flow_balance.h"
+#include "fronts.h"
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
 #include "multigrid_solver.h"
@@ -123,6 +124,8 @@ void Reynolds::newton_increment(Eigen::VectorXd& du, double rtol) {
   impl_->rhs = -impl_->balance.residual();
   impl_->solve(impl_->rhs, rtol, du);
 }
+
+void Reynolds::let_fronts_follow(Eigen::VectorXd& u) const { film::let_fronts_follow(impl_->balance, u); }
 
 void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial) {
   impl_->balance.derivative(direction, impl_->rhs);

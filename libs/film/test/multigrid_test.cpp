@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <array>
+#include <vector>
+
 #include "film_cases.h"
 
 namespace hersey::film {
@@ -52,6 +55,142 @@ TEST_CASE("MultigridIterations_DoNotGrowWithTheGrid") {
         CHECK((found.multigrid - found.direct).norm() < 1e-6 * found.direct.norm());  // 1e-10 times the condition
       }
     }
+  }
+}
+
+TEST_CASE("AllSolvers_ReachTheSameAnswer") {
+  for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
+    for (const double e : {0.3, 0.95}) {
+      CAPTURE(static_cast<int>(cavitation));
+      CAPTURE(e);
+      FilmModel m = big_end(cavitation, {60, 13});
+      m.compliance = m.R / 57e9;
+      m.lubricant.viscosity_law = Barus{1.28e-8};
+      m.asperities = {AsperityModel::greenwood_tripp_exact, 1e-6, 3e-3, 57e9, 0.1};
+      m.features = {{.name = "groove", .phi = 1, .arc = 0.4, .length = 0.6 * m.L, .pressure = 2e5}};
+      Journal journal = turning(m, e, omega);
+      journal.tilt = {1e-4, 2e-4};
+      const SolvedFilm newton = solve_cold(m, journal);
+      REQUIRE(newton.summary.converged);
+      for (const auto solver : {FilmSolver::multigrid, FilmSolver::sor}) {
+        CAPTURE(static_cast<int>(solver));
+        const SolvedFilm other = solve_cold(m, journal, {.solver = solver, .rtol = 1e-10});
+        REQUIRE(other.summary.converged);
+        // A residual of 1e-10 of the largest throughput; weak spots of the film amplify it by the condition, some 1e3.
+        CHECK((other.wrench - newton.wrench).norm() < 1e-7 * newton.wrench.norm());
+        CHECK((other.fields.p - newton.fields.p).norm() < 1e-7 * newton.fields.p.norm());
+        CHECK((other.fields.theta - newton.fields.theta).cwiseAbs().maxCoeff() < 1e-6);
+      }
+    }
+  }
+}
+
+TEST_CASE("ColdStarts_TakeEightIterationsAtMost") {
+  for (const auto solver : {FilmSolver::newton, FilmSolver::multigrid}) {
+    for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
+      for (const Grid& grid : {Grid{60, 13}, Grid{61, 12}, Grid{240, 52}, graded_grid(120, 25, {{pi, 0.3, 4}}, {})}) {
+        for (const double e : {0.2, 0.6, 0.9, 0.98}) {
+          for (const double L_over_D : {0.25, 1.0, 2.0}) {
+            for (const bool flooded : {false, true}) {
+              CAPTURE(static_cast<int>(solver));
+              CAPTURE(static_cast<int>(cavitation));
+              CAPTURE(grid.n_phi);
+              CAPTURE(e);
+              CAPTURE(L_over_D);
+              CAPTURE(flooded);
+              FilmModel m = big_end(cavitation, grid);
+              m.L = 2 * m.R * L_over_D;
+              if (flooded) m.supply = {}, m.p_edge_left = m.p_edge_right = 1e5;
+              const SolvedFilm film = solve_cold(m, turning(m, e, omega), {.solver = solver});
+              CHECK(film.summary.converged);
+              CHECK(film.summary.relative_residual <= 1e-10);
+              CHECK(film.summary.iterations <= 8);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("ColdStartsWithEveryLaw_TakeFifteenIterationsAtMost") {
+  for (const auto solver : {FilmSolver::newton, FilmSolver::multigrid}) {
+    for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
+      for (const Grid& grid : {Grid{60, 13}, Grid{120, 26}, Grid{180, 21}}) {
+        for (const double alpha : {0.0, 2e-8}) {
+          for (const double e : {0.5, 0.98, 1.01}) {
+            CAPTURE(static_cast<int>(solver));
+            CAPTURE(static_cast<int>(cavitation));
+            CAPTURE(grid.n_phi);
+            CAPTURE(alpha);
+            CAPTURE(e);
+            FilmModel m = big_end(cavitation, grid);
+            m.lubricant.viscosity_law = Barus{alpha};
+            m.compliance = m.R / 57e9;
+            m.asperities = {AsperityModel::greenwood_tripp_exact, 1e-6, 3e-3, 57e9, 0.1};
+            m.supply = {};
+            m.features = {{.name = "one", .phi = 0.5 * pi, .arc = 0.35, .length = 0.6 * m.L, .pressure = 2e5},
+                          {.name = "other", .phi = 1.5 * pi, .arc = 0.35, .length = 0.6 * m.L, .pressure = 2e5}};
+            const SolvedFilm film = solve_cold(m, turning(m, e, omega), {.solver = solver});
+            CHECK(film.summary.converged);
+            CHECK(film.summary.iterations <= 15);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("MultigridInTime_MeetsNewton") {
+  // The journal circles at half speed and is squeezed; the fill of the cavitated oil is carried from step to step.
+  FilmModel m = big_end(Cavitation::mass_conserving, {120, 26});
+  m.compliance = m.R / 57e9;
+  const double dt = pi / 180 / omega;
+  std::array<Reynolds, 2> reynolds{Reynolds(m), Reynolds(m, LinearSolver::multigrid)};
+  std::array<Eigen::VectorXd, 2> u{Eigen::VectorXd::Zero(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
+  FilmHistory start{dt, Eigen::VectorXd::Ones(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
+  std::array<FilmHistory, 2> history{start, start};
+  for (int step = 0; step < 40; ++step) {
+    const double angle = 0.5 * omega * step * dt, e = m.c * (0.6 + 0.3 * std::sin(10 * angle));
+    const double e_rate = 1.5 * omega * m.c * std::cos(10 * angle);
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle)), turned(-direction.y(), direction.x());
+    const Journal journal{
+        .e = -e * direction, .e_rate = -0.5 * omega * e * turned - e_rate * direction, .omega_journal = omega};
+    const SurfaceMotion motion = surfaces(m, journal, angle);
+    for (int k : {0, 1}) {
+      const auto solver = k == 0 ? FilmSolver::newton : FilmSolver::multigrid;
+      const FilmSolveSummary summary = solve_film(reynolds[k], motion, history[k], {.solver = solver}, u[k]);
+      REQUIRE(summary.converged);
+      CHECK(summary.iterations <= 15);
+      const FilmFields fields = film_fields(m, motion, u[k]);
+      history[k].theta = fields.theta;
+      history[k].w = fields.w;
+    }
+    // 1e-10 of the largest throughput in each step, carried on by the fill.
+    CHECK((reynolds[0].wrench_on_shell() - reynolds[1].wrench_on_shell()).norm() <
+          1e-6 * reynolds[0].wrench_on_shell().norm());
+  }
+  CHECK(reynolds[1].counts().rescues == 0);
+}
+
+TEST_CASE("Responses_AreThoseOfTheDirectSolver") {
+  const FilmModel m = big_end(Cavitation::mass_conserving, {120, 26});
+  const SurfaceMotion motion = surfaces(m, turning(m, 0.8, omega), 0.02);
+  std::vector<MotionDirection> directions(3);
+  directions[0].g = Eigen::VectorXd::Ones(m.grid.size());
+  directions[1].g_rate = Eigen::VectorXd::Ones(m.grid.size());
+  directions[2].u_journal = 1;
+  std::array<Eigen::MatrixXd, 2> du;
+  std::array<Eigen::Matrix<double, 6, Eigen::Dynamic>, 2> partial;
+  for (int k : {0, 1}) {
+    Reynolds reynolds(m, k == 0 ? LinearSolver::direct : LinearSolver::multigrid);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+    REQUIRE(solve_film(reynolds, motion, {}, {.rtol = 1e-12}, u).converged);
+    reynolds.responses(directions, du[k], partial[k]);
+    CHECK(reynolds.counts().rescues == 0);
+  }
+  for (int column = 0; column < 3; ++column) {
+    CHECK((du[0].col(column) - du[1].col(column)).norm() < 1e-7 * du[0].col(column).norm());
   }
 }
 

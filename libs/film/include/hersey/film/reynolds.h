@@ -69,6 +69,10 @@ class Reynolds {
   /// residual.
   void newton_increment(Eigen::VectorXd& du, double rtol = 1e-10);
 
+  /// Empties the nodes downstream of those that the step to `u` from the last linearisation has emptied, as far as they
+  /// live on their oil: fronts then follow in one iteration instead of one per node.
+  void let_fronts_follow(Eigen::VectorXd& u) const;
+
   /// Answer to a change of the surfaces: `du` = -J^{-1} dr/d(parameter), and the wrench's *partial* derivative at
   /// fixed u. The total derivative is  partial + wrench_gradient(du).
   void response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial);
