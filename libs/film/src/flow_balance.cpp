@@ -465,7 +465,8 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   const double speed_z = 0.5 * (direction.w_shell + direction.w_journal);
   const double half_slip_phi = 0.5 * (direction.u_shell - direction.u_journal);
   const double half_slip_z = 0.5 * (direction.w_shell - direction.w_journal);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  const bool flows_change = gap || speed_phi != 0 || speed_z != 0 || half_slip_phi != 0 || half_slip_z != 0;
+  for (std::size_t f = 0; flows_change && f < faces_.size(); ++f) {
     const Face& face = faces_[f];
     const Node &a = nodes_[face.a], &b = nodes_[face.b];
     const FaceFlow& flow = flows_[f];
