@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hersey::film {
 namespace {
 
 /// Three entries of a row times the three nearest nodes of a line.
-double times(const double* entries, const double* x, int j) {
+Real times(const Real* entries, const Real* x, int j) {
   return entries[0] * x[j - 1] + entries[1] * x[j] + entries[2] * x[j + 1];
 }
 
@@ -27,10 +28,10 @@ bool LineOperator::factorise_lines() {
   for (int line = 0; line < lines_; ++line) {
     const Row* row = &rows_[static_cast<std::size_t>(line) * n_];
     Pivot* pivot = &pivots_[static_cast<std::size_t>(line) * n_];
-    double above = 0;  // entry to the right in the row before, over its pivot
+    Real above = 0;  // entry to the right in the row before, over its pivot
     for (int j = 0; j < n_; ++j) {
-      const double below = row[j][centre], d = row[j][centre + 1] - below * above;
-      sound = sound && std::abs(d) > 1e-12 * std::abs(row[j][centre + 1]);
+      const Real below = row[j][centre], d = row[j][centre + 1] - below * above;
+      sound = sound && std::abs(d) > 10 * std::numeric_limits<Real>::epsilon() * std::abs(row[j][centre + 1]);
       pivot[j] = {j == 0 ? 0 : below * pivot[j - 1].inverse, 1 / d, 0};
       above = pivot[j].above = j + 1 == n_ ? 0 : row[j][centre + 2] / d;
     }
@@ -38,7 +39,7 @@ bool LineOperator::factorise_lines() {
   return sound;
 }
 
-void LineOperator::solve_line(int line, double* x) const {
+void LineOperator::solve_line(int line, Real* x) const {
   const Pivot* pivot = &pivots_[static_cast<std::size_t>(line) * n_];
   for (int j = 1; j < n_; ++j) x[j] -= pivot[j].below * x[j - 1];
   x[n_ - 1] *= pivot[n_ - 1].inverse;
@@ -46,11 +47,11 @@ void LineOperator::solve_line(int line, double* x) const {
 }
 
 // (L U)^T x = b: the entry to the right of pivot j is above_j / inverse_j.
-void LineOperator::solve_line_transposed(int line, double* x) const {
+void LineOperator::solve_line_transposed(int line, Real* x) const {
   const Pivot* pivot = &pivots_[static_cast<std::size_t>(line) * n_];
   x[0] *= pivot[0].inverse;
   for (int j = 1; j < n_; ++j) {
-    const double entry = pivot[j - 1].above / pivot[j - 1].inverse;
+    const Real entry = pivot[j - 1].above / pivot[j - 1].inverse;
     x[j] = (x[j] - entry * x[j - 1]) * pivot[j].inverse;
   }
   for (int j = n_ - 2; j >= 0; --j) x[j] -= pivot[j + 1].below * x[j + 1];
@@ -60,8 +61,8 @@ void LineOperator::relax(const LineVector& b, bool ascending, LineVector& x) con
   for (int k = 0; k < lines_; ++k) {
     const int line = ascending ? k : lines_ - 1 - k;
     const Row* row = &rows_[static_cast<std::size_t>(line) * n_];
-    const double *xw = x.data() + before(line) * n_, *xe = x.data() + after(line) * n_, *rhs = b.data() + line * n_;
-    double* here = x.data() + line * n_;
+    const Real *xw = x.data() + before(line) * n_, *xe = x.data() + after(line) * n_, *rhs = b.data() + line * n_;
+    Real* here = x.data() + line * n_;
     for (int j = 0; j < n_; ++j) here[j] = rhs[j] - times(&row[j][west], xw, j) - times(&row[j][east], xe, j);
     solve_line(line, here);
   }
@@ -74,15 +75,15 @@ void LineOperator::relax_from_zero(const LineVector& b, bool ascending, LineVect
   for (int k = 0; k < lines_; ++k) {
     const int line = ascending ? k : lines_ - 1 - k;
     const Row* row = &rows_[static_cast<std::size_t>(line) * n_];
-    const double *before = x.data() + from(line) * n_, *rhs = b.data() + line * n_;
-    double* here = x.data() + line * n_;
+    const Real *before = x.data() + from(line) * n_, *rhs = b.data() + line * n_;
+    Real* here = x.data() + line * n_;
     if (k == 0) {
       std::copy(rhs, rhs + n_, here);
     } else {
       for (int j = 0; j < n_; ++j) here[j] = rhs[j] - times(&row[j][upstream], before, j);
     }
     if (k + 1 == lines_) {  // its downstream neighbour is the first line
-      const double* first = x.data() + to(line) * n_;
+      const Real* first = x.data() + to(line) * n_;
       for (int j = 0; j < n_; ++j) here[j] -= times(&row[j][downstream], first, j);
     }
     solve_line(line, here);
@@ -91,15 +92,15 @@ void LineOperator::relax_from_zero(const LineVector& b, bool ascending, LineVect
   for (int k = 0; k < lines_; ++k) {
     const int line = ascending ? k : lines_ - 1 - k;
     const Row* row = &rows_[static_cast<std::size_t>(line) * n_];
-    const double* next = x.data() + to(line) * n_;
-    double* r = residual.data() + line * n_;
+    const Real* next = x.data() + to(line) * n_;
+    Real* r = residual.data() + line * n_;
     if (k + 1 == lines_) {
       std::fill(r, r + n_, 0.0);
     } else {
       for (int j = 0; j < n_; ++j) r[j] = -times(&row[j][downstream], next, j);
     }
     if (k == 0) {
-      const double* last = x.data() + from(line) * n_;
+      const Real* last = x.data() + from(line) * n_;
       for (int j = 0; j < n_; ++j) r[j] -= times(&row[j][upstream], last, j);
     }
   }

@@ -12,8 +12,8 @@ constexpr int fewest_lines_to_coarsen = 8;
 /// A coarse line and how a fine line's nodes hang on it.
 struct Parent {
   int line = 0;
-  const double* p = nullptr;
-  const double* r = nullptr;
+  const Real* p = nullptr;
+  const Real* r = nullptr;
 };
 
 }  // namespace
@@ -73,7 +73,7 @@ void Multigrid::weigh(Level& fine, LineVector& scratch) {
   };
   const auto is_active = [&](int line, int j) { return j >= 0 && j < n && fine.active[line * n + j]; };
   const auto interpolate = [&](int line, int neighbour, int block, LineVector& p) {
-    double* x = scratch.data();
+    Real* x = scratch.data();
     for (int j = 0; j < n; ++j) {
       x[j] = 0;
       for (int d = -1; d <= 1; ++d) {
@@ -84,7 +84,7 @@ void Multigrid::weigh(Level& fine, LineVector& scratch) {
     for (int j = 0; j < n; ++j) p[line * n + j] = is_active(line, j) ? x[j] : 0;
   };
   const auto restrict_to = [&](int line, int neighbour, int block, LineVector& r) {
-    double* x = scratch.data();
+    Real* x = scratch.data();
     for (int j = 0; j < n; ++j) {
       x[j] = 0;
       for (int d = -1; d <= 1; ++d) {
@@ -126,7 +126,7 @@ void Multigrid::coarsen(const Level& fine, Level& coarse) {
         for (int b = 0; b < (neighbour % 2 == 0 ? 1 : 2); ++b) {
           const int I = rows[a].line, K = columns[b].line;
           const int slot = K == I ? LineOperator::centre : K == B.after(I) ? LineOperator::east : LineOperator::west;
-          const double *r = rows[a].r, *p = columns[b].p;
+          const Real *r = rows[a].r, *p = columns[b].p;
           for (int j = 0; j < n; ++j) {
             const LineOperator::Row& from = A.row(line * n + j);
             LineOperator::Row& to = B.row(I * n + j);

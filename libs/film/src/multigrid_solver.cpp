@@ -1,6 +1,7 @@
 #include "multigrid_solver.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hersey/core/contract.h"
 
@@ -36,10 +37,16 @@ MultigridSolver::MultigridSolver(int n_phi, int n_z, std::span<const int> column
 // Rows of nothing but their own unknown are solved by the first relaxation: coarser grids need not know them.
 bool MultigridSolver::setup(std::span<const double> values, bool ascending) {
   for (std::size_t k = 0; k < slot_.size(); ++k) rows_[slot_[k] / 5][slot_[k] % 5] = values[k];
+  // In its own unit the matrix fits the short numbers of multigrid; a preconditioner's factor is of no account.
+  double largest = 0;
+  for (const Row& row : rows_) largest = std::max(largest, std::abs(row[centre]));
+  const auto entry = [largest](double value) { return static_cast<Real>(value / largest); };
   LineOperator& A = multigrid_.finest();
   for (int node = 0; node < A.size(); ++node) {
     const Row& row = rows_[node];
-    A.row(node) = {0, row[west], 0, row[south], row[centre], row[north], 0, row[east], 0};
+    const Real none = 0;
+    A.row(node) = {none, entry(row[west]), none, entry(row[south]), entry(row[centre]), entry(row[north]),
+                   none, entry(row[east]), none};
     active_[node] = row[west] != 0 || row[east] != 0 || row[south] != 0 || row[north] != 0;
   }
   return multigrid_.setup(active_, ascending);
@@ -63,7 +70,7 @@ void MultigridSolver::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) con
 }
 
 void MultigridSolver::precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  std::copy(b.begin(), b.end(), rhs_.data());
+  std::transform(b.begin(), b.end(), rhs_.data(), [](double value) { return static_cast<Real>(value); });
   multigrid_.cycle(rhs_, answer_);
   x.resize(b.size());
   std::copy(answer_.data(), answer_.data() + b.size(), x.begin());

@@ -70,7 +70,7 @@ void NodeLaw::pressure_and_fill(double u, int j, Node& node) const {
 void NodeLaw::rheology(Node& node) const {
   const Lubricant& oil = model_.lubricant;
   const ValueAndSlope viscosity = log_viscosity_ratio(oil, node.p), density = density_ratio(oil, node.p);
-  node.fluidity = std::exp(-viscosity.value) / oil.mu0;
+  node.fluidity = (viscosity.value == 0 ? 1 : std::exp(-viscosity.value)) / oil.mu0;
   node.fluidity_u = -viscosity.slope * node.fluidity * node.p_u;
   node.density = density.value;
   node.density_u = density.slope * node.p_u;
