@@ -46,11 +46,8 @@ double slope(const Stencil& stencil, const std::vector<Node>& nodes) {
 }  // namespace
 
 FilmWrench::FilmWrench(const FilmModel& model) : model_(model), geometry_(model_) {
-  const Grid& grid = model_.grid;
   cosine_ = geometry_.phi.array().cos();
   sine_ = geometry_.phi.array().sin();
-  by_u_.setZero(6, grid.size());
-  by_g_.setZero(6, grid.size());
 }
 
 FilmWrench::Basis FilmWrench::basis(int i, int j) const {
@@ -82,7 +79,7 @@ void FilmWrench::evaluate(const std::vector<Node>& nodes, const RoughGaps& rough
   const Grid& grid = model_.grid;
   set_speeds(motion);
   pressure_.setZero(), shear_.setZero(), asperity_.setZero();
-  if (want_gradient) by_u_.setZero(), by_g_.setZero(), by_slip_.setZero();
+  if (want_gradient) by_u_.setZero(6, grid.size()), by_g_.setZero(6, grid.size()), by_slip_.setZero();
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
       add_node(nodes, rough.empty() ? nullptr : &rough[grid.index(i, j)], i, j, want_gradient);

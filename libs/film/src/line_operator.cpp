@@ -70,40 +70,32 @@ void LineOperator::relax(const LineVector& b, bool ascending, LineVector& x) con
 
 void LineOperator::relax_from_zero(const LineVector& b, bool ascending, LineVector& x, LineVector& residual) const {
   const int upstream = ascending ? west : east, downstream = ascending ? east : west;
-  const auto from = [&](int line) { return ascending ? before(line) : after(line); };
-  const auto to = [&](int line) { return ascending ? after(line) : before(line); };
-  for (int k = 0; k < lines_; ++k) {
-    const int line = ascending ? k : lines_ - 1 - k;
-    const Row* row = &rows_[static_cast<std::size_t>(line) * n_];
-    const Real *before = x.data() + from(line) * n_, *rhs = b.data() + line * n_;
-    Real* here = x.data() + line * n_;
-    if (k == 0) {
-      std::copy(rhs, rhs + n_, here);
-    } else {
-      for (int j = 0; j < n_; ++j) here[j] = rhs[j] - times(&row[j][upstream], before, j);
-    }
-    if (k + 1 == lines_) {  // its downstream neighbour is the first line
-      const Real* first = x.data() + to(line) * n_;
-      for (int j = 0; j < n_; ++j) here[j] -= times(&row[j][downstream], first, j);
-    }
-    solve_line(line, here);
+  const auto line_at = [&](int k) { return ascending ? k : lines_ - 1 - k; };
+  const auto rows_at = [&](int k) { return &rows_[static_cast<std::size_t>(line_at(k)) * n_]; };
+  const auto x_at = [&](int k) { return x.data() + line_at(k) * n_; };
+  const auto residual_at = [&](int k) { return residual.data() + line_at(k) * n_; };
+  const int last = lines_ - 1;
+  for (int k = 0; k <= last; ++k) {
+    const Row* row = rows_at(k);
+    const Real* rhs = b.data() + line_at(k) * n_;
+    Real* here = x_at(k);
+    std::copy(rhs, rhs + n_, here);
+    const auto subtract = [&](int block, const Real* other) {
+      for (int j = 0; j < n_; ++j) here[j] -= times(&row[j][block], other, j);
+    };
+    if (k > 0) subtract(upstream, x_at(k - 1));
+    if (k == last) subtract(downstream, x_at(0));
+    solve_line(line_at(k), here);
+    // What has changed since the line before was solved: its downstream neighbour, this line.
+    if (k == 0) continue;
+    const Row* row_before = rows_at(k - 1);
+    Real* r = residual_at(k - 1);
+    for (int j = 0; j < n_; ++j) r[j] = -times(&row_before[j][downstream], here, j);
   }
-  // What has changed since a line was solved: its downstream neighbour, and for the first line the last one too.
-  for (int k = 0; k < lines_; ++k) {
-    const int line = ascending ? k : lines_ - 1 - k;
-    const Row* row = &rows_[static_cast<std::size_t>(line) * n_];
-    const Real* next = x.data() + to(line) * n_;
-    Real* r = residual.data() + line * n_;
-    if (k + 1 == lines_) {
-      std::fill(r, r + n_, 0.0);
-    } else {
-      for (int j = 0; j < n_; ++j) r[j] = -times(&row[j][downstream], next, j);
-    }
-    if (k == 0) {
-      const Real* last = x.data() + from(line) * n_;
-      for (int j = 0; j < n_; ++j) r[j] -= times(&row[j][upstream], last, j);
-    }
-  }
+  // The last line knew both of its neighbours, the first one not yet the last.
+  std::fill(residual_at(last), residual_at(last) + n_, Real{0});
+  const Row* first = rows_at(0);
+  for (int j = 0; j < n_; ++j) residual_at(0)[j] -= times(&first[j][upstream], x_at(last), j);
 }
 
 }  // namespace hersey::film

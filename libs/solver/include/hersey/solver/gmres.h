@@ -22,7 +22,7 @@ struct GmresSummary {
 /// Flexible GMRES with restarts, preconditioned from the right: A x = b with x = sum of M(v). The residual it reports
 /// is that of A x = b itself; M may change from one application to the next. Vectors are kept from one solve to the
 /// next: no allocation once as many iterations were needed before.
-/// @see Saad (1993), A flexible inner-outer preconditioned GMRES algorithm, SIAM J. Sci. Comput. 14(2).
+/// @see Saad (1993), A flexible inner-outer preconditioned GMRES algorithm, SIAM J. Sci. Comput. 14, 461-469.
 class Gmres {
  public:
   using Operator = std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>;
