@@ -58,7 +58,7 @@ ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint
 class Search {
  public:
   Search(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
-      : model_(model), point_(point), options_(options), reynolds_(model) {
+      : model_(model), point_(point), options_(options), reynolds_(model, film::linear_solver_of(options.solver)) {
     u_ = Eigen::VectorXd::Zero(model.grid.size());
     film_options_.rtol = options.rtol;
     film_options_.solver = options.solver;
@@ -72,7 +72,7 @@ class Search {
     if (!is_sensible(u_)) u_.setZero();
     if (!is_sensible(u_)) return false;
     const film::FilmSolveSummary solved = film::solve_film(reynolds_, motion_, history_, film_options_, u_);
-    (options_.solver == film::FilmSolver::newton ? summary_.iterations : summary_.film_iterations) += solved.iterations;
+    (options_.solver != film::FilmSolver::sor ? summary_.iterations : summary_.film_iterations) += solved.iterations;
     summary_.message = solved.message;
     if (solved.converged) linearise();
     return solved.converged;
@@ -269,7 +269,7 @@ class Search {
 
   // Newton on film and position at once: one linearisation per iteration.
   [[nodiscard]] bool together() {
-    if (options_.solver != film::FilmSolver::newton) return false;
+    if (options_.solver == film::FilmSolver::sor) return false;
     double best = std::numeric_limits<double>::infinity();
     int idle = 0;
     for (int k = 0; k < options_.max_iterations && idle < kPatience; ++k) {

@@ -255,6 +255,11 @@ TEST_CASE("EverySolver_FindsTheSamePosition") {
     CHECK((newton.e - sor.e).norm() <= 1e-8 * model.c);
     CHECK((newton.coefficients.stiffness - sor.coefficients.stiffness).norm() <=
           1e-6 * newton.coefficients.stiffness.norm());
+    SteadyState multigrid;
+    REQUIRE(solve_steady(model, point, {.solver = film::FilmSolver::multigrid}, multigrid).converged);
+    CHECK((newton.e - multigrid.e).norm() <= 1e-8 * model.c);
+    CHECK((newton.coefficients.stiffness - multigrid.coefficients.stiffness).norm() <=
+          1e-6 * newton.coefficients.stiffness.norm());
   }
 }
 
