@@ -76,6 +76,7 @@ nlohmann::json json_of(const run::Summary& summary) {
           {"steps", summary.steps},
           {"rejected_steps", summary.rejected_steps},
           {"newton_iterations", summary.newton_iterations},
+          {"worst_constraint_drift", summary.worst_constraint_drift},
           {"worst_power_balance", summary.worst_power_balance},
           {"wall_time", summary.wall_time}};
 }
@@ -112,7 +113,9 @@ void tell(const std::string& label, const run::Summary& summary) {
     if (summary.steps > 0)
       fmt::print(stderr, "hersey: results up to t = {:.6g} s are in {}\n", summary.t_results, summary.results.string());
   } else {
-    fmt::print(stderr, "{}{} steps in {:.2f} s{}{}\n", name, summary.steps, summary.wall_time,
+    const std::string rejected =
+        summary.rejected_steps > 0 ? fmt::format(" ({} more rejected)", summary.rejected_steps) : "";
+    fmt::print(stderr, "{}{} steps{} in {:.2f} s{}{}\n", name, summary.steps, rejected, summary.wall_time,
                summary.message.empty() ? "" : ", ", summary.message);
   }
 }

@@ -99,6 +99,24 @@ bool TableFunction::covers(double lo, double hi) const {
   return is_periodic() || (lower() - slack <= lo && hi <= upper() + slack);
 }
 
+std::vector<double> TableFunction::kinks(double lo, double hi) const {
+  std::vector<double> found;
+  const std::size_t n = x_.size();
+  if (options_.interpolation == Interpolation::smooth || n < 3) return found;
+  const double slack = 1e-12 * std::max(std::abs(lo), std::abs(hi));
+  const auto secant = [&](std::size_t i) { return (y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i]); };
+  const double first = is_periodic() ? std::floor((lo - lower()) / options_.period) : 0;
+  const double last = is_periodic() ? std::floor((hi - lower()) / options_.period) : 0;
+  for (double turn = first; turn <= last; ++turn) {
+    for (std::size_t i = is_periodic() ? 0 : 1; i + 1 < n; ++i) {
+      const double x = x_[i] + turn * (is_periodic() ? options_.period : 0);
+      const bool bends = secant(i) != secant(i == 0 ? n - 2 : i - 1);
+      if (bends && lo + slack < x && x < hi - slack) found.push_back(x);
+    }
+  }
+  return found;
+}
+
 TableFunction::Piece TableFunction::piece_at(double given) const {
   const double x = into_range(given);
   if (x_.size() == 1) return {0, y_[0], 0, 0, 0};

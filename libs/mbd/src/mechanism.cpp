@@ -227,6 +227,14 @@ void Mechanism::constraint_rates(const State& state, Eigen::VectorXd& velocity, 
   }
 }
 
+Eigen::VectorXd Mechanism::position_scales() const {
+  const Tree& tree = impl_->tree;
+  Eigen::VectorXd scales = Eigen::VectorXd::Ones(nv());
+  for (const Link& link : tree.links)
+    if (link.motion == Motion::prismatic) scales.segment(link.first_v, link.columns).setConstant(tree.length);
+  return scales;
+}
+
 void Mechanism::begin_step(const State& start, double dt) {
   Implementation& m = *impl_;
   if (m.spec.forces.empty()) return;

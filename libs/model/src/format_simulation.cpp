@@ -2,6 +2,25 @@
 
 namespace hersey::model {
 
+namespace {
+
+TypePtr step_format() {
+  const TypePtr fixed = quantity_in({"s", "rad"}, "0.1 ms", Range::positive());
+  const TypePtr controlled = object(
+      "an error control",
+      {
+          required("tolerance", number("1e-4", {.low = 1e-12, .high = 0.1}),
+                   "Largest error of position that a step may add: angles in rad, lengths over the machine's size, "
+                   "positions of journals over their clearance."),
+          defaulted("smallest", quantity("s", "1e-9 s", Range::positive()), "1e-9 s",
+                    "A step that needs to be shorter ends the run."),
+          optional("largest", fixed, "Longest step, or the crank's angle.", "a fiftieth of the run"),
+      });
+  return any_of("a time such as 0.1 ms, an angle of the crank, or {tolerance}", {fixed, controlled});
+}
+
+}  // namespace
+
 TypePtr simulation_format() {
   const TypePtr span = quantity_in({"s", "rad"}, "0.1 s", Range::positive());
   const Range fraction{.low = 0, .high = 1, .low_open = true, .high_open = true};
@@ -16,8 +35,10 @@ TypePtr simulation_format() {
       "simulation settings",
       {
           required("duration", span, "Time to simulate, or the crank's angle."),
-          required("step", quantity_in({"s", "rad"}, "0.1 ms", Range::positive()),
-                   "Time step, or the crank's angle. A step that fails is halved."),
+          required(
+              "step", step_format(),
+              "Time step, or the crank's angle; or `{tolerance}`, and steps are chosen so that the estimated error "
+              "of each stays below it. A step that fails is shortened."),
           optional("crank", reference(Refers::joint, "main"),
                    "Revolute joint driven at a constant speed: turns angles into times, and is the report's abscissa.",
                    "angles cannot be used"),
@@ -38,6 +59,10 @@ TypePtr output_format() {
       "output settings",
       {
           defaulted("every", integer(1, {.low = 1, .high = 1000000000}), "1", "Steps between rows of the time series."),
+          optional("interval", quantity_in({"s", "rad"}, "1 ms", Range::positive()),
+                   "Time or crank angle between rows of the time series, each hit exactly by a step. With an error "
+                   "control only; `every` then does not count.",
+                   "rows by steps"),
           optional("fields_every", quantity_in({"s", "rad"}, "5 deg", Range::positive()),
                    "Time or crank angle between stored pressure and film-thickness fields.", "a hundredth of the run"),
       });

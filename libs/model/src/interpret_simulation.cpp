@@ -58,16 +58,20 @@ std::optional<Crank> crank_of(Context& context, const Value& simulation) {
 }
 
 /// A time, or the time the crank takes for an angle.
-double seconds_of(Context& context, const Value& parent, const std::string& key, const std::optional<Crank>& crank) {
-  const Value* value = parent.find(key);
-  if (value == nullptr || value->broken) return 0;
-  if (value->unit != "rad") return value->number;
-  if (crank) return value->number / std::abs(crank->speed);
+double seconds_of(Context& context, const Value& value, const std::optional<Crank>& crank) {
+  if (value.broken) return 0;
+  if (value.unit != "rad") return value.number;
+  if (crank) return value.number / std::abs(crank->speed);
   const Value* simulation = context.root.find("simulation");
   if (simulation != nullptr && simulation->find("crank") != nullptr) return 0;  // a crank at fault has been reported
-  context.fault(*value, "an angle", "a time, or a crank that turns angles into times",
+  context.fault(value, "an angle", "a time, or a crank that turns angles into times",
                 "add simulation.crank with the name of a driven revolute joint");
   return 0;
+}
+
+double seconds_of(Context& context, const Value& parent, const std::string& key, const std::optional<Crank>& crank) {
+  const Value* value = parent.find(key);
+  return value != nullptr ? seconds_of(context, *value, crank) : 0;
 }
 
 std::string in_users_unit(double x, bool is_angle) {
@@ -111,16 +115,58 @@ void check_table_range(Context& context, const Function& function) {
 
 }  // namespace
 
+namespace {
+
+void interpret_step(Context& context, const Value& parent) {
+  Simulation& simulation = context.model.simulation;
+  const Value* value = parent.find("step");
+  if (value == nullptr || value->broken) return;
+  const Value& content = value->members.front().value;
+  if (value->alternative == 0) {
+    simulation.step = seconds_of(context, content, simulation.crank);
+    return;
+  }
+  ErrorControl control;
+  control.tolerance = number_of(content, "tolerance");
+  control.smallest = number_of(content, "smallest");
+  control.largest = content.find("largest") != nullptr ? seconds_of(context, *content.find("largest"), simulation.crank)
+                                                       : simulation.duration / 50;
+  if (control.largest > 0 && control.smallest > control.largest) {
+    context.fault(*content.find("smallest"), "a smallest step longer than the largest", "at most the largest step");
+  }
+  simulation.step = control.largest / 100;
+  simulation.error_control = control;
+}
+
+void interpret_output(Context& context) {
+  Output& output = context.model.output;
+  const Simulation& simulation = context.model.simulation;
+  const Value* out = context.root.find("output");
+  if (out == nullptr) return;
+  output.position = out->key_position;
+  output.every = integer_of(*out, "every");
+  output.interval = seconds_of(context, *out, "interval", simulation.crank);
+  if (output.interval > 0 && !simulation.error_control && simulation.step > 0) {
+    context.fault(*out->find("interval"), "an interval with a fixed step",
+                  "an error control, such as step: {tolerance: 1e-4}",
+                  "with a fixed step, `every` counts the steps between rows");
+  }
+  output.fields_every = out->find("fields_every") != nullptr
+                            ? seconds_of(context, *out, "fields_every", simulation.crank)
+                            : simulation.duration / 100;
+}
+
+}  // namespace
+
 void interpret_simulation(Context& context) {
   Simulation& simulation = context.model.simulation;
-  Output& output = context.model.output;
   const Value* value = context.root.find("simulation");
   if (value == nullptr) return;
   simulation.position = value->key_position;
   simulation.crank = crank_of(context, *value);
   simulation.start = number_of(*value, "start");
   simulation.duration = seconds_of(context, *value, "duration", simulation.crank);
-  simulation.step = seconds_of(context, *value, "step", simulation.crank);
+  interpret_step(context, *value);
   simulation.spectral_radius = number_of(*value, "spectral_radius");
   simulation.tolerance = number_of(*value, "tolerance");
   simulation.max_iterations = integer_of(*value, "max_iterations");
@@ -128,19 +174,13 @@ void interpret_simulation(Context& context) {
   if (simulation.step > simulation.duration && simulation.duration > 0) {
     context.fault(*value->find("step"), "a step longer than the run", "a step of at most the duration");
   }
-  if (simulation.step > 0 && simulation.smallest_step > simulation.step) {
+  if (!simulation.error_control && simulation.step > 0 && simulation.smallest_step > simulation.step) {
     context.fault(*value->find("smallest_step"), "a smallest step longer than the step", "at most the step");
   }
   if (const Value* settle = value->find("settle"); settle != nullptr && !settle->broken) {
     simulation.settle = Settle{number_of(*settle, "tolerance"), seconds_of(context, *settle, "over", simulation.crank)};
   }
-  const Value* out = context.root.find("output");
-  if (out == nullptr) return;
-  output.position = out->key_position;
-  output.every = integer_of(*out, "every");
-  output.fields_every = out->find("fields_every") != nullptr
-                            ? seconds_of(context, *out, "fields_every", simulation.crank)
-                            : simulation.duration / 100;
+  interpret_output(context);
 }
 
 void interpret_study(Context& context) {

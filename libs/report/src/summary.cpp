@@ -66,6 +66,7 @@ class Summary {
     if (!time_.empty()) add("simulated time", (time_.back() - time_.front()) * 1e3, "ms");
     add("stored instants", static_cast<double>(time_.size()), "");
     mean_of_rows("mean Newton iterations per step", "solver/newton_iterations");
+    step_rows();
     const std::string error = "power/balance_error";
     if (reader_.has(path_ + error)) {
       const std::string unit = reader_.info(path_ + error).unit;
@@ -73,6 +74,19 @@ class Summary {
       relative_power_error();
     }
     if (const auto wall = reader_.number_attribute("/", "wall_time")) add("computing time", *wall, "s");
+  }
+
+  void step_rows() {
+    std::vector<double> dt = values("solver/dt");
+    if (dt.size() > 1) {
+      dt.erase(dt.begin());  // the start
+      const auto [least, most] = std::minmax_element(dt.begin(), dt.end());
+      add("shortest step", 1e6 * *least, "µs");
+      add("longest step", 1e6 * *most, "µs");
+    }
+    const std::vector<double> rejected = values("solver/rejected_steps"), drift = values("solver/constraint_drift");
+    if (!rejected.empty()) add("rejected steps", rejected.back(), "");
+    if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }
 
   void relative_power_error() {

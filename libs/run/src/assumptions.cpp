@@ -150,9 +150,15 @@ Rows assumptions(const model::Model& model) {
                                                        : "partitioned: wrench exchanged until film and bodies agree");
   }
   const model::Simulation& run = model.simulation;
+  const std::string step = run.error_control
+                               ? fmt::format(
+                                     "steps of an error of {:.1e} in angles, lengths over the machine's size and "
+                                     "journals over their clearance (the film's own error is not estimated)",
+                                     run.error_control->tolerance)
+                               : fmt::format("step {:.4g} us", 1e6 * run.step);
   rows.emplace_back("time integration",
-                    fmt::format("generalized-alpha, spectral radius {:.3g}, step {:.4g} us, Newton tolerance {:.1e}",
-                                run.spectral_radius, 1e6 * run.step, run.tolerance));
+                    fmt::format("generalized-alpha, spectral radius {:.3g}, {}, Newton tolerance {:.1e}",
+                                run.spectral_radius, step, run.tolerance));
   return rows;
 }
 

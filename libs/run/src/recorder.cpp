@@ -88,6 +88,12 @@ void Recorder::declare_run(const Options& options) {
   dt_ = writer_.series("/solver/dt", 1, "s", "step length");
   newton_iterations_ = writer_.series("/solver/newton_iterations", 1, "1", "Newton iterations of the step");
   residual_ = writer_.series("/solver/residual", 1, "1", "largest row residual over its tolerance");
+  rejected_ = writer_.series("/solver/rejected_steps", 1, "1", "steps rejected since the start of the run");
+  drift_ = writer_.series("/solver/constraint_drift", 1, "1",
+                          "largest violation of a joint or drive, lengths over the machine's size, angles in rad");
+  if (model_.simulation.error_control) {
+    error_ = writer_.series("/solver/error", 1, "1", "estimated local error of the step over its tolerance");
+  }
 }
 
 void Recorder::declare_machine() {
@@ -213,6 +219,9 @@ void Recorder::write_row(const StepRecord& step) {
   dt_.append(step.dt);
   newton_iterations_.append(step.newton_iterations);
   residual_.append(step.newton_residual);
+  rejected_.append(step.rejected_steps);
+  drift_.append(step.constraint_drift);
+  if (model_.simulation.error_control) error_.append(step.error);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const mbd::FrameMotion& motion = seen.bodies[i + 1];
     const Eigen::Quaterniond R(motion.X_WF.R);

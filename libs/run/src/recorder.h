@@ -16,6 +16,9 @@ struct StepRecord {
   double dt = 0;
   int newton_iterations = 0;
   double newton_residual = 0;
+  double error = 0;             ///< estimated, over the tolerance; 0 with a fixed step
+  int rejected_steps = 0;       ///< since the start of the run
+  double constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares
   mbd::Observation mechanism;
   std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
   std::vector<bearing::BearingObservation> bearings;
@@ -68,7 +71,7 @@ class Recorder {
   const model::Model& model_;
   const model::Machine& machine_;
   results::Writer writer_;
-  results::Series time_, crank_angle_, dt_, newton_iterations_, residual_;
+  results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, rejected_, drift_;
   EnergySeries energy_;
   PowerSeries power_;
   std::vector<BodySeries> bodies_;

@@ -13,8 +13,12 @@
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/solver/generalized_alpha.h"
+#include "hersey/solver/initialise.h"
+#include "hersey/solver/step_control.h"
+#include "instants.h"
 #include "recorder.h"
 #include "start.h"
+#include "step_error.h"
 
 namespace hersey::run {
 namespace {
@@ -83,6 +87,7 @@ class Simulation {
         machine_(model::build(model)),
         state_(starting_state(model, machine_)),
         integrator_(integrator_options(model)),
+        step_error_(model, machine_),
         recorder_(model, machine_, options),
         settling_(model) {
     is_bearing_.resize(machine_.mechanism->spec().forces.size(), false);
@@ -95,8 +100,13 @@ class Simulation {
 
   Summary run() {
     try {
-      take(observe(0, {}));
-      march();
+      const StepRecord start = observe(0, {});
+      take(start);
+      if (model_.simulation.error_control) {
+        march_controlled(*model_.simulation.error_control, start.mechanism);
+      } else {
+        march();
+      }
       finish(summary_.status == Status::completed ? results::Status::completed
              : summary_.status == Status::stopped ? results::Status::stopped
                                                   : results::Status::failed);
@@ -120,16 +130,67 @@ class Simulation {
     const int intervals = std::max(1, static_cast<int>(std::ceil(plan.duration / plan.step - 1e-9)));
     for (int k = 1; k <= intervals; ++k) {
       const double target = k == intervals ? plan.start + plan.duration : plan.start + k * plan.step;
-      if (!advance_to(target)) return;
-      if (options_.stop && options_.stop->load()) {
-        summary_.status = Status::stopped;
-        summary_.message = fmt::format("stopped on request at t = {:.6g} s", state_.t);
-        return;
+      if (!advance_to(target) || ends_early()) return;
+    }
+  }
+
+  // Whether the run ends here, asked to or settled.
+  bool ends_early() {
+    if (options_.stop && options_.stop->load()) {
+      summary_.status = Status::stopped;
+      summary_.message = fmt::format("stopped on request at t = {:.6g} s", state_.t);
+      return true;
+    }
+    if (settled_) summary_.message = fmt::format("settled at t = {:.6g} s", state_.t);
+    return settled_;
+  }
+
+  // Steps of controlled error, from one instant that has to be hit to the next.
+  void march_controlled(const model::ErrorControl& limits, const mbd::Observation& start) {
+    const std::vector<double> bends = kinks(model_, machine_.mechanism->spec(), start);
+    solver::StepControl control({.smallest = limits.smallest, .largest = limits.largest},
+                                first_step(*machine_.mechanism, state_, limits));
+    for (const double target : instants_to_hit(model_, bends)) {
+      while (target - state_.t > 1e-12 * std::max(std::abs(target), limits.largest)) {
+        if (!take_controlled_step(limits, control, target)) return;
+        if (ends_early()) return;
       }
-      if (settled_) {
-        summary_.message = fmt::format("settled at t = {:.6g} s", state_.t);
-        return;
+      if (std::binary_search(bends.begin(), bends.end(), target)) start_afresh();
+    }
+  }
+
+  // Beyond a kink of a drive's speed its acceleration is another one: the method's history would ring on it.
+  void start_afresh() {
+    if (!solver::solve_accelerations(*machine_.mechanism, state_, last_dt_)) return;
+    integrator_.reset();
+  }
+
+  bool take_controlled_step(const model::ErrorControl& limits, solver::StepControl& control, double target) {
+    double error = 0;
+    const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
+      error = step_error_.measure(end, estimate) / limits.tolerance;
+      return error <= 1;
+    };
+    for (;;) {
+      const double dt = control.proposed(target - state_.t);
+      const bool hits = dt == target - state_.t;
+      const solver::StepSummary step = integrator_.step(*machine_.mechanism, state_, dt, judge);
+      if (step.converged()) {
+        if (hits) state_.t = target;  // exactly, not as a sum of steps
+        control.accepted(dt, error);
+        last_dt_ = dt;
+        take(observe(dt, step, error));
+        return true;
       }
+      ++summary_.rejected_steps;
+      const bool inaccurate = step.status == solver::StepStatus::inaccurate;
+      if (inaccurate ? control.rejected(dt, error) : control.failed(dt)) continue;
+      fail(fmt::format("t = {:.6g} s: {} with the smallest step, {:.2g} s: {}", state_.t,
+                       inaccurate ? "the tolerance is exceeded" : "no convergence", dt,
+                       inaccurate
+                           ? fmt::format("the error of {} is {:.2g} times the tolerance", step_error_.worst(), error)
+                           : step.message));
+      return false;
     }
   }
 
@@ -154,8 +215,11 @@ class Simulation {
     return true;
   }
 
-  [[nodiscard]] StepRecord observe(double dt, const solver::StepSummary& step) {
+  [[nodiscard]] StepRecord observe(double dt, const solver::StepSummary& step, double error = 0) {
     StepRecord record;
+    record.error = error;
+    record.rejected_steps = summary_.rejected_steps;
+    record.constraint_drift = constraint_drift();
     record.dt = dt;
     record.newton_iterations = step.iterations;
     record.newton_residual = step.residual;
@@ -168,8 +232,17 @@ class Simulation {
     return record;
   }
 
+  // The largest violation of a constraint, relative to the lengths or angles it compares.
+  [[nodiscard]] double constraint_drift() {
+    if (machine_.mechanism->nlambda() == 0) return 0;
+    Eigen::VectorXd phi, scale;
+    machine_.mechanism->constraints(state_, phi, scale, nullptr);
+    return phi.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
+  }
+
   void take(const StepRecord& step) {
     if (step.dt > 0) ++summary_.steps;
+    summary_.worst_constraint_drift = std::max(summary_.worst_constraint_drift, step.constraint_drift);
     summary_.newton_iterations += step.newton_iterations;
     double moft = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < extremes_.size(); ++i) {
@@ -185,7 +258,7 @@ class Simulation {
 
   void write(const StepRecord& step) {
     const double slack = 1e-9 * model_.simulation.step;
-    if (summary_.steps % model_.output.every == 0) recorder_.write_row(step);
+    if (is_row_due(slack)) recorder_.write_row(step);
     if (state_.t >= next_fields_ - slack || settled_) {
       recorder_.write_fields(step);
       next_fields_ =
@@ -194,6 +267,16 @@ class Simulation {
           model_.output.fields_every;
     }
     recorder_.flush_if_due();
+  }
+
+  // Rows by steps, or at the multiples of an interval and at the end of the run.
+  [[nodiscard]] bool is_row_due(double slack) {
+    const model::Output& output = model_.output;
+    if (output.interval <= 0) return summary_.steps % output.every == 0;
+    const double t = state_.t - model_.simulation.start;
+    const bool is_due = t >= next_row_ * output.interval - slack;
+    if (is_due) next_row_ = std::floor((t + slack) / output.interval) + 1;
+    return is_due || settled_ || t >= model_.simulation.duration - slack;
   }
 
   void report_progress(const StepRecord& step, double moft) const {
@@ -229,11 +312,14 @@ class Simulation {
   model::Machine machine_;
   solver::State state_;
   solver::GeneralizedAlpha integrator_;
+  StepError step_error_;
   Recorder recorder_;
   SettlingTest settling_;
   std::vector<BearingExtremes> extremes_;
   std::vector<bool> is_bearing_;
   double next_fields_ = -std::numeric_limits<double>::infinity();
+  double last_dt_ = 0;
+  double next_row_ = 0;  // in intervals
   double largest_power_ = 0, largest_error_ = 0;
   bool settled_ = false;
   Summary summary_;

@@ -1,9 +1,12 @@
 #include "start.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +41,26 @@ Fault fault_at(const model::Model& model, const std::string& row, std::string fo
   return {std::move(position), path, std::move(found), std::move(expected), std::move(suggestion)};
 }
 
+// "joint right, closing position" -> "joint right is still 12.3 mm apart".
+std::string gap_text(const solver::OpenConstraint& open) {
+  const std::string what = open.name.substr(0, open.name.find(','));
+  if (open.name.ends_with("position")) return fmt::format("{} is {:.4g} mm apart", what, 1e3 * open.size);
+  if (open.name.ends_with("orientation")) {
+    const double degrees = std::asin(std::min(open.size, 1.0)) * 180 / std::numbers::pi;
+    return fmt::format("{} is {:.4g} deg out of line", what, degrees);
+  }
+  return fmt::format("{} is {:.4g} (rad or m) off", what, open.size);
+}
+
+std::vector<Fault> faults_of_open_loop(const model::Model& model, const solver::InitialiseSummary& summary) {
+  std::vector<std::string> gaps;
+  for (const solver::OpenConstraint& open : summary.open) gaps.push_back(gap_text(open));
+  return {fault_at(model, summary.open.front().name,
+                   fmt::format("a mechanism that cannot be assembled: at its closest, {}", fmt::join(gaps, ", ")),
+                   "initial values and lengths with which every loop closes",
+                   "check the frames and `initial` values along the loop, and the drives in it")};
+}
+
 std::vector<Fault> faults_of(const model::Model& model, const solver::InitialiseSummary& summary) {
   using Status = solver::InitialiseStatus;
   std::vector<Fault> faults;
@@ -58,8 +81,7 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
     return {fault_at(model, summary.message, summary.message, "a journal inside its shell at the start",
                      "move the bodies' frames or the joints' `initial` values, or enlarge `radial_clearance`")};
   }
-  return {fault_at(model, summary.message, summary.message, "initial values from which the loops can be closed",
-                   "check frames and `initial` values of the joints")};
+  return faults_of_open_loop(model, summary);
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ struct GeneralizedAlpha::Workspace {
   Index analysed = -1;
   double worst = 0;       ///< largest residual relative to its tolerance at the last assembly
   Index worst_index = 0;  ///< its row; -1: a condensed equation
+  VectorXd error;         ///< estimate of the step's local error of position
   std::string trouble;    ///< why the last assembly was outside the domain, empty if inside
 
   void predict(const State& state, double dt);
@@ -58,6 +59,7 @@ struct GeneralizedAlpha::Workspace {
   bool solve_increment(Index nv);
   bool enter_domain(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
   bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
+  void estimate_error(Index nv, bool factorised);
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
 };
 
@@ -171,6 +173,24 @@ bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
   return false;
 }
 
+/// The step's local error of position, theory manual eq. (integrator.10): what the third derivative contributes beyond
+/// the method's own use of it. Its part across the constraints is taken out (integrator.11): positions meet them
+/// exactly, only the algorithmic accelerations carry a transient there.
+void GeneralizedAlpha::Workspace::estimate_error(Index nv, bool factorised) {
+  const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
+  const double share = 0.5 * gamma - beta - 1.0 / 12;
+  error = (share / beta) * (dq - dq_predicted);
+  const Index n = tangent.rows();
+  if (!factorised || n == nv) return;
+  // With J = [A G^T; G 0] as factorised, J [x; y] = [A e; 0] leaves x = e less what the constraints forbid.
+  rhs.setZero(n);
+  for (Index column = 0; column < nv; ++column)
+    for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
+      if (entry.row() < nv) rhs[entry.row()] += entry.value() / stage.m * error[column];
+  lu.solve({rhs.data(), static_cast<std::size_t>(n)});
+  error = rhs.head(nv);
+}
+
 std::string GeneralizedAlpha::Workspace::worst_name(const Equations& equations) const {
   return worst_index < 0 ? equations.name_of_internal_residual() : equations.name_of_row(worst_index);
 }
@@ -188,6 +208,10 @@ GeneralizedAlpha& GeneralizedAlpha::operator=(GeneralizedAlpha&&) noexcept = def
 void GeneralizedAlpha::reset() { work_->started = false; }
 
 StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt) {
+  return step(equations, state, dt, {});
+}
+
+StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt, const StepJudge& judge) {
   HERSEY_REQUIRE(dt > 0, "time runs forward");
   if (options_.spectral_radius == 1 && equations.nlambda() > 0)
     throw InputError({.position = {},
@@ -225,6 +249,10 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     if (!w.move(equations, state, options_)) return fail(StepStatus::domain_error, w.trouble);
   }
 
+  if (judge) {
+    w.estimate_error(equations.nv(), summary.iterations > 0);
+    if (!judge(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
+  }
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
   w.last_dt = dt;
   state = w.trial;

@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "assemble_positions.h"
 #include "hersey/core/contract.h"
 #include "kkt.h"
 
@@ -25,12 +28,6 @@ VectorXd mobilities(Index nv, const std::vector<Index>& held) {
   return weight;
 }
 
-/// The smallest dx, in the weighted norm, with G dx = -residual (least squares where G is deficient).
-VectorXd smallest_increment(const Equations::SparseMatrix& G, const VectorXd& residual, const VectorXd& weight) {
-  const MatrixXd weighted = MatrixXd(G) * weight.asDiagonal();
-  return -(weight.asDiagonal() * weighted.completeOrthogonalDecomposition().solve(residual));
-}
-
 std::vector<std::string> names_of(const Equations& equations, const std::vector<Index>& rows, Index offset) {
   std::vector<std::string> names;
   for (Index row : rows) {
@@ -40,32 +37,79 @@ std::vector<std::string> names_of(const Equations& equations, const std::vector<
   return names;
 }
 
-/// Newton's method on Phi; leaves the state where it ended.
-void assemble_positions(Equations& equations, State& state, const VectorXd& weight, const InitialiseOptions& options,
-                        InitialiseSummary& summary) {
-  // The largest increment of one coordinate [rad or m]: half a radian keeps a joint on its branch.
-  constexpr double largest_increment = 0.5;
-  VectorXd phi, scale, q;
-  Equations::SparseMatrix G;
-  for (;; ++summary.iterations) {
-    equations.constraints(state, phi, scale, &G);
-    Index worst = 0;
-    summary.residual = phi.size() > 0 ? phi.cwiseQuotient(scale).cwiseAbs().maxCoeff(&worst) : 0;
-    if (summary.residual <= options.rtol) return;
-    if (summary.iterations == options.max_iterations || !phi.allFinite()) {
-      summary.status = InitialiseStatus::cannot_assemble;
-      summary.message = fmt::format(
-          "the mechanism cannot be assembled: after {} iterations {} is still open by {:.3g}; check the geometry, the "
-          "initial values and the drives it belongs to",
-          summary.iterations, equations.name_of_row(equations.nv() + worst), phi[worst]);
-      return;
-    }
-    VectorXd dx = smallest_increment(G, phi, weight);
-    if (const double largest = dx.lpNorm<Eigen::Infinity>(); largest > largest_increment)
-      dx *= largest_increment / largest;
-    equations.retract(state.q, dx, q);
-    state.q = q;
+/// Residuals of equal name together, the widest open first.
+std::vector<OpenConstraint> open_constraints(Equations& equations, const State& state) {
+  VectorXd phi, scale;
+  equations.constraints(state, phi, scale, nullptr);
+  std::vector<OpenConstraint> open;
+  for (Index i = 0; i < phi.size(); ++i) {
+    const std::string name = equations.name_of_row(equations.nv() + i);
+    const auto same = [&](const OpenConstraint& other) { return other.name == name; };
+    auto found = std::find_if(open.begin(), open.end(), same);
+    if (found == open.end()) found = open.insert(open.end(), {name, 0.0});
+    found->size = std::hypot(found->size, phi[i]);
   }
+  std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.size > b.size; });
+  const double least = open.empty() ? 0 : 1e-3 * open.front().size;
+  std::erase_if(open, [&](const OpenConstraint& one) { return one.size < least; });
+  return open;
+}
+
+/// Closes the constraints: first with what is held at rest, then with everything free, each also from a disturbed
+/// guess. Leaves the state where it ended, or at the closest configuration found.
+void assemble_positions(Equations& equations, State& state, const InitialiseOptions& options,
+                        InitialiseSummary& summary) {
+  const State guess = state;
+  State closest = state;
+  double least = std::numeric_limits<double>::infinity();
+  const auto attempt = [&](bool hold, bool disturbed) {
+    VectorXd mobility = VectorXd::Ones(equations.nv());
+    if (hold)
+      for (const Index k : options.held) mobility[k] = 0;
+    state = guess;
+    if (disturbed) disturb(equations, state, mobility);
+    const ClosureResult result = close_constraints(equations, state, mobility, options);
+    summary.iterations += result.iterations;
+    if (result.residual < least) {
+      least = result.residual;
+      closest = state;
+    }
+    return result.closed;
+  };
+  const bool closed = attempt(true, false) || attempt(true, true) || attempt(false, false) || attempt(false, true);
+  if (!closed) state = closest;
+  summary.residual = least;
+  if (closed) return;
+  summary.status = InitialiseStatus::cannot_assemble;
+  summary.open = open_constraints(equations, state);
+  std::vector<std::string> gaps;
+  gaps.reserve(summary.open.size());
+  for (const OpenConstraint& open : summary.open) gaps.push_back(fmt::format("{} by {:.4g}", open.name, open.size));
+  summary.message = fmt::format(
+      "the mechanism cannot be assembled; where it comes closest these are open: {}; check the geometry, the initial "
+      "values and the drives they belong to",
+      fmt::join(gaps, "; "));
+}
+
+/// Says which constraints repeat others, looked at in the assembled state or, where there is none, away from special
+/// positions: at the closest configuration of a loop that cannot be closed rows always depend on each other.
+bool report_redundancy(Equations& equations, const State& state, bool assembled, InitialiseSummary& summary) {
+  VectorXd phi, scale;
+  Equations::SparseMatrix G;
+  State place = state;
+  if (!assembled) disturb(equations, place, VectorXd::Ones(equations.nv()));
+  equations.constraints(place, phi, scale, &G);
+  if (has_full_rank(G)) return false;
+  const RankAnalysis rank = analyse_rank(MatrixXd(G));
+  if (rank.involved.empty()) return false;
+  const Index nlambda = equations.nlambda();
+  summary.status = InitialiseStatus::redundant;
+  summary.redundant = names_of(equations, rank.involved, equations.nv());
+  summary.message = fmt::format(
+      "{} of {} constraints say what others say already; they are among: {}. Free a "
+      "motion in one of these, for example with a spherical or cylindrical joint",
+      nlambda - rank.rank, nlambda, fmt::join(summary.redundant, "; "));
+  return true;
 }
 
 }  // namespace
@@ -80,36 +124,26 @@ InitialiseSummary initialise(Equations& equations, State& state, const Initialis
   trial.lambda.setZero(nlambda);
   const VectorXd weight = mobilities(nv, options.held);
 
-  VectorXd phi, scale, velocity, gamma;
-  Equations::SparseMatrix G;
-  assemble_positions(equations, trial, weight, options, summary);
-  equations.constraints(trial, phi, scale, &G);
-  const MatrixXd dense_G(G);
+  assemble_positions(equations, trial, options, summary);
   // Conflicting constraints are redundant ones, and that is the better message.
-  if (const RankAnalysis rank = analyse_rank(dense_G); !rank.involved.empty()) {
-    summary.status = InitialiseStatus::redundant;
-    summary.redundant = names_of(equations, rank.involved, nv);
-    summary.message = fmt::format(
-        "{} of {} constraints say what others say already; they are among: {}. Free a "
-        "motion in one of these, for example with a spherical or cylindrical joint",
-        nlambda - rank.rank, nlambda, fmt::join(summary.redundant, "; "));
-    return summary;
-  }
-  if (!summary.consistent()) return summary;
+  if (report_redundancy(equations, trial, summary.consistent(), summary) || !summary.consistent()) return summary;
 
+  VectorXd velocity, gamma, phi, scale;
+  Equations::SparseMatrix G;
+  equations.constraints(trial, phi, scale, &G);
   equations.constraint_rates(trial, velocity, gamma);
   if (nlambda > 0) trial.v += smallest_increment(G, velocity, weight);
 
   equations.begin_step(trial, 0);
   VectorXd h;
-  MatrixXd M;
-  if (std::string trouble = assemble_forces(equations, trial, h, M); !trouble.empty()) {
+  Equations::SparseMatrix S;
+  if (std::string trouble = assemble_forces(equations, trial, 0, h, S); !trouble.empty()) {
     summary.status = InitialiseStatus::domain_error;
     summary.message = fmt::format("at the start, t = {:.6g} s: {}", trial.t, trouble);
     return summary;
   }
   equations.constraint_rates(trial, velocity, gamma);
-  AccelerationSolution solution = solve_kkt(M, dense_G, h, gamma);
+  AccelerationSolution solution = solve_kkt(S, nv, h, gamma);
   if (!solution.undetermined.empty()) {
     summary.status = InitialiseStatus::undetermined;
     summary.undetermined = names_of(equations, solution.undetermined, 0);
@@ -124,6 +158,18 @@ InitialiseSummary initialise(Equations& equations, State& state, const Initialis
   state = std::move(trial);
   equations.accept_step(state);
   return summary;
+}
+
+bool solve_accelerations(Equations& equations, State& state, double dt) {
+  VectorXd h, velocity, gamma;
+  Equations::SparseMatrix S;
+  if (!assemble_forces(equations, state, dt, h, S).empty()) return false;
+  equations.constraint_rates(state, velocity, gamma);
+  AccelerationSolution solution = solve_kkt(S, equations.nv(), h, gamma);
+  if (!solution.undetermined.empty()) return false;
+  state.vdot = std::move(solution.vdot);
+  state.lambda = std::move(solution.lambda);
+  return true;
 }
 
 }  // namespace hersey::solver

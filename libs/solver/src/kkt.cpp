@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SparseQR>
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "hersey/solver/sparse_lu.h"
 
 namespace hersey::solver {
 namespace {
@@ -100,6 +103,58 @@ class NullSpaceSolver {
   Eigen::SelfAdjointEigenSolver<MatrixXd> inertia_;
 };
 
+/// Scaled to unit inertia and rows of unit length, factorised once.
+class SparseKkt {
+ public:
+  SparseKkt(const Equations::SparseMatrix& S, Index nv) : S_(S), scale_(S.rows()) {
+    VectorXd diagonal = VectorXd::Zero(nv), norm = VectorXd::Zero(S.rows() - nv);
+    for (Index k = 0; k < nv; ++k) diagonal[k] = S.coeff(k, k);
+    scale_.head(nv) = inertia_scales(diagonal.asDiagonal());
+    for (Index column = 0; column < nv; ++column)
+      for (Equations::SparseMatrix::InnerIterator entry(S, column); entry; ++entry)
+        if (entry.row() >= nv) norm[entry.row() - nv] += std::pow(entry.value() * scale_[column], 2);
+    for (Index i = 0; i < norm.size(); ++i) scale_[nv + i] = norm[i] > 0 ? 1 / std::sqrt(norm[i]) : 1;
+    Equations::SparseMatrix scaled = scale_.asDiagonal() * S * scale_.asDiagonal();
+    scaled.makeCompressed();
+    lu_.analyse(scaled);
+    sound_ = lu_.factorise({scaled.valuePtr(), static_cast<std::size_t>(scaled.nonZeros())}) &&
+             lu_.reciprocal_condition() > 1e-11;
+  }
+
+  /// Solves S x = b, refined; false where that leaves more than round-off.
+  [[nodiscard]] bool solve(const VectorXd& b, VectorXd& x) const {
+    if (!sound_) return false;
+    x = VectorXd::Zero(b.size());
+    VectorXd r = b;
+    for (int pass = 0; pass < 3; ++pass) {
+      VectorXd dx = scale_.cwiseProduct(r);
+      lu_.solve({dx.data(), static_cast<std::size_t>(dx.size())});
+      x += scale_.cwiseProduct(dx);
+      r = b - S_ * x;
+    }
+    return x.allFinite() &&
+           scale_.cwiseProduct(r).norm() <= 1e-10 * (scale_.cwiseProduct(b).norm() + x.cwiseQuotient(scale_).norm());
+  }
+
+ private:
+  const Equations::SparseMatrix& S_;
+  VectorXd scale_;
+  SparseLu lu_;
+  bool sound_ = false;
+};
+
+/// Puts the constraint Jacobian, which a stage with k = 0 leaves out, into the lower left of S.
+void fill_jacobian(Equations& equations, const State& state, Equations::SparseMatrix& S) {
+  const Index nv = equations.nv();
+  if (equations.nlambda() == 0) return;
+  VectorXd phi, scale;
+  Equations::SparseMatrix G;
+  equations.constraints(state, phi, scale, &G);
+  for (Index column = 0; column < nv; ++column)
+    for (Equations::SparseMatrix::InnerIterator entry(G, column); entry; ++entry)
+      S.coeffRef(nv + entry.row(), column) = entry.value();
+}
+
 }  // namespace
 
 RankAnalysis analyse_rank(const MatrixXd& G) {
@@ -125,6 +180,53 @@ RankAnalysis analyse_rank(const MatrixXd& G) {
   return analysis;
 }
 
+bool has_full_rank(const Equations::SparseMatrix& G) {
+  if (G.rows() == 0) return true;
+  if (G.rows() > G.cols()) return false;
+  VectorXd norm = VectorXd::Zero(G.rows());
+  for (Index column = 0; column < G.cols(); ++column)
+    for (Equations::SparseMatrix::InnerIterator entry(G, column); entry; ++entry)
+      norm[entry.row()] += entry.value() * entry.value();
+  if (!(norm.minCoeff() > 0)) return false;
+  const VectorXd scale = norm.cwiseSqrt().cwiseInverse();
+  Equations::SparseMatrix columns = Equations::SparseMatrix(scale.asDiagonal() * G).transpose();
+  columns.makeCompressed();
+  Eigen::SparseQR<Equations::SparseMatrix, Eigen::COLAMDOrdering<int>> qr;
+  qr.setPivotThreshold(kRankThreshold);
+  qr.compute(columns);
+  return qr.info() == Eigen::Success && qr.rank() == G.rows();
+}
+
+VectorXd smallest_increment(const Equations::SparseMatrix& G, const VectorXd& residual, const VectorXd& weight) {
+  if (G.rows() == 0) return VectorXd::Zero(G.cols());
+  // With (G W)^T = Q R P^T the smallest z with G W z = b is Q R^-T P^T b.
+  Equations::SparseMatrix columns = Equations::SparseMatrix(G * weight.asDiagonal()).transpose();
+  columns.makeCompressed();
+  Eigen::SparseQR<Equations::SparseMatrix, Eigen::COLAMDOrdering<int>> qr;
+  qr.setPivotThreshold(0);
+  qr.compute(columns);
+  const Index rows = G.rows();
+  const Equations::SparseMatrix R = qr.matrixR().topLeftCorner(rows, rows);
+  VectorXd z = VectorXd::Zero(G.cols());
+  z.head(rows) = -(qr.colsPermutation().transpose() * residual);
+  z.head(rows) = VectorXd(R.transpose().triangularView<Eigen::Lower>().solve(VectorXd(z.head(rows))));
+  return weight.asDiagonal() * VectorXd(qr.matrixQ() * z);
+}
+
+AccelerationSolution solve_kkt(const Equations::SparseMatrix& S, Index nv, const VectorXd& h, const VectorXd& gamma) {
+  AccelerationSolution solution;
+  VectorXd x, b(S.rows());
+  b << -h, -gamma;
+  if (SparseKkt(S, nv).solve(b, x)) {
+    solution.vdot = x.head(nv);
+    solution.lambda = x.tail(S.rows() - nv);
+    return solution;
+  }
+  const MatrixXd dense(S);
+  return solve_kkt(MatrixXd(dense.topLeftCorner(nv, nv)), MatrixXd(dense.bottomLeftCorner(S.rows() - nv, nv)), h,
+                   gamma);
+}
+
 AccelerationSolution solve_kkt(const MatrixXd& M, const MatrixXd& G, const VectorXd& h, const VectorXd& gamma) {
   const NullSpaceSolver solver(M, G);
   AccelerationSolution solution;
@@ -139,23 +241,23 @@ AccelerationSolution solve_kkt(const MatrixXd& M, const MatrixXd& G, const Vecto
   return solution;
 }
 
-std::string assemble_forces(Equations& equations, const State& state, VectorXd& h, MatrixXd& M) {
+std::string assemble_forces(Equations& equations, const State& state, double dt, VectorXd& h,
+                            Equations::SparseMatrix& S) {
   constexpr int max_iterations = 60;
   constexpr double internal_rtol = 1e-10;
   const Index nv = equations.nv();
   State at_rest = state;
   at_rest.vdot.setZero(nv);
   at_rest.lambda.setZero(equations.nlambda());
-  const Stage stage{.dt = 0, .k = 0, .c = 0, .m = 1, .dq = {}};
+  const Stage stage{.dt = dt, .k = 0, .c = 0, .m = 1, .dq = {}};
   VectorXd residual, scale;
-  Equations::SparseMatrix tangent;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    equations.assemble(at_rest, stage, residual, scale, &tangent);
+    equations.assemble(at_rest, stage, residual, scale, &S);
     if (std::string trouble = equations.domain_error(); !trouble.empty()) return trouble;
     if (!residual.allFinite()) return "the forces are not numbers";
     if (equations.internal_residual() > internal_rtol) continue;
     h = residual.head(nv);
-    M = MatrixXd(tangent).topLeftCorner(nv, nv);
+    fill_jacobian(equations, at_rest, S);
     return {};
   }
   return fmt::format("{} is not solved in {} iterations (relative residual {:.2g})",

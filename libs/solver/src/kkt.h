@@ -24,9 +24,21 @@ struct AccelerationSolution {
 [[nodiscard]] AccelerationSolution solve_kkt(const Eigen::MatrixXd& M, const Eigen::MatrixXd& G,
                                              const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
 
-/// Assembles at dt = 0 and vdot = lambda = 0 until condensed unknowns are solved to 1e-10: forces h and mass matrix M.
-/// Returns what went wrong, or nothing.
-[[nodiscard]] std::string assemble_forces(Equations& equations, const State& state, Eigen::VectorXd& h,
-                                          Eigen::MatrixXd& M);
+/// The same, sparse, for square S = [M G^T; G D], D diagonal with entries only in rows that are switched off. Falls
+/// back to the dense solution where the sparse one is not sound, so that it is exact or names what is undetermined.
+[[nodiscard]] AccelerationSolution solve_kkt(const Equations::SparseMatrix& S, Eigen::Index nv,
+                                             const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
+
+/// Whether the rows of G are independent, by sparse QR: cheap; `analyse_rank` tells which are not.
+[[nodiscard]] bool has_full_rank(const Equations::SparseMatrix& G);
+
+/// The smallest dx, in the weighted norm, with G dx = -residual, for G of full row rank.
+[[nodiscard]] Eigen::VectorXd smallest_increment(const Equations::SparseMatrix& G, const Eigen::VectorXd& residual,
+                                                 const Eigen::VectorXd& weight);
+
+/// Assembles at vdot = lambda = 0, over a step of length dt, until condensed unknowns are solved to 1e-10: forces h and
+/// S = [M G^T; G D] as in solve_kkt. Returns what went wrong, or nothing.
+[[nodiscard]] std::string assemble_forces(Equations& equations, const State& state, double dt, Eigen::VectorXd& h,
+                                          Equations::SparseMatrix& S);
 
 }  // namespace hersey::solver

@@ -48,6 +48,9 @@ class TableFunction final : public ScalarFunction {
   [[nodiscard]] double lower() const { return x_.front(); }
   [[nodiscard]] double upper() const { return x_.back(); }
 
+  /// Points strictly inside (lo, hi) at which the slope jumps, ascending; none of a smooth table.
+  [[nodiscard]] std::vector<double> kinks(double lo, double hi) const;
+
   /// Whether every x in [lo, hi] has a value.
   [[nodiscard]] bool covers(double lo, double hi) const;
 

@@ -62,6 +62,7 @@ class Mechanism final : public solver::Equations {
   void constraints(const solver::State& state, Eigen::VectorXd& phi, Eigen::VectorXd& scale,
                    SparseMatrix* jacobian) override;
   void constraint_rates(const solver::State& state, Eigen::VectorXd& velocity, Eigen::VectorXd& bias) override;
+  [[nodiscard]] Eigen::VectorXd position_scales() const override;
   [[nodiscard]] std::string name_of_row(Index row) const override;
   void begin_step(const solver::State& start, double dt) override;
   void accept_step(const solver::State& end) override;

@@ -184,10 +184,32 @@ struct Settle {
   double over = 0;          ///< time between comparisons [s]
 };
 
+/// Steps chosen by their error.
+struct ErrorControl {
+  double tolerance = 1e-4;  ///< of the local error of a step: angles, lengths over the machine's size, and journals'
+                            ///< positions over their clearance
+  double smallest = 1e-9;   ///< [s]
+  double largest = 0;       ///< [s]
+};
+
+/// What a run computes.
+enum class Analysis {
+  dynamics,     ///< motion under forces, integrated over time
+  kinematics,   ///< motion that drives prescribe completely, and the forces it takes
+  equilibrium,  ///< a state of rest under the loads at the start
+  modes,        ///< frequencies and damping of small motions about a state
+};
+
+/// The state about which modes are sought.
+enum class ModesAbout { start, equilibrium, end };
+
 struct Simulation {
+  Analysis analysis = Analysis::dynamics;
+  ModesAbout modes_about = ModesAbout::start;
   double start = 0;     ///< [s]
   double duration = 0;  ///< [s], > 0
-  double step = 0;      ///< [s], > 0
+  double step = 0;      ///< [s], > 0; under error control a hundredth of its largest
+  std::optional<ErrorControl> error_control;
   std::optional<Crank> crank;
   double spectral_radius = 0.8;  ///< of generalized-alpha, 0..1
   double tolerance = 1e-8;       ///< relative, of Newton
@@ -199,6 +221,7 @@ struct Simulation {
 
 struct Output {
   int every = 1;            ///< steps between rows of the time series, >= 1
+  double interval = 0;      ///< time between rows of the time series, hit exactly; 0: rows by steps [s]
   double fields_every = 0;  ///< time between stored fields [s]; the reader fills in duration/100
   SourcePosition position;
 };

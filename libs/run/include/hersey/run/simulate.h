@@ -45,8 +45,9 @@ struct Summary {
   double t_results = 0;  ///< last time in the results file [s]
   int steps = 0, rejected_steps = 0;
   int newton_iterations = 0;
-  double worst_power_balance = 0;  ///< largest |power in - power out - energy rate| over the largest power [-]
-  double wall_time = 0;            ///< [s]
+  double worst_constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares [-]
+  double worst_power_balance = 0;     ///< largest |power in - power out - energy rate| over the largest power [-]
+  double wall_time = 0;               ///< [s]
   std::vector<BearingSummary> bearings;
   std::filesystem::path results;
 };

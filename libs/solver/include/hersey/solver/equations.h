@@ -59,6 +59,9 @@ class Equations {
   /// Constraint velocity and acceleration terms:  G v + Phi_t  and  the bias gamma with  G vdot + gamma = d2 Phi/dt2.
   virtual void constraint_rates(const State& state, Eigen::VectorXd& velocity, Eigen::VectorXd& bias) = 0;
 
+  /// What a change of each position is compared with, shape (nv): 1 [rad] for an angle, the system's size for a length.
+  [[nodiscard]] virtual Eigen::VectorXd position_scales() const { return Eigen::VectorXd::Ones(nv()); }
+
   /// What row `row` of the residual balances, e.g. "joint main, rotation"; for messages.
   [[nodiscard]] virtual std::string name_of_row(Index row) const = 0;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,7 +18,7 @@ struct GeneralizedAlphaOptions {
 };
 
 /// How a step ended.
-enum class StepStatus { converged, no_convergence, domain_error, singular };
+enum class StepStatus { converged, no_convergence, domain_error, singular, inaccurate };
 
 /// Outcome of one step. Unless `status` is `converged` the state is the one the step started from.
 struct StepSummary {
@@ -29,6 +30,10 @@ struct StepSummary {
 
   [[nodiscard]] bool converged() const { return status == StepStatus::converged; }
 };
+
+/// Says whether a solved step is accurate enough, from the state it ends in and the estimate of its error of position:
+/// an increment of position, shape (nv), from the end of the step to where the exact motion would have ended.
+using StepJudge = std::function<bool(const State& end, const Eigen::VectorXd& error)>;
 
 /// Generalized-alpha for constrained mechanical systems of index 3 on a Lie group (theory manual, chapter integrator).
 ///
@@ -57,6 +62,10 @@ class GeneralizedAlpha {
   /// unstable.
   /// @cost per iteration one assembly, one sparse factorisation, one solve.
   [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt);
+
+  /// The same, kept only if `judge` finds the step's local error (theory manual eq. (integrator.10)) small enough;
+  /// otherwise the step is `inaccurate`, and state, condensed unknowns and history are those before it.
+  [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt, const StepJudge& judge);
 
   [[nodiscard]] const GeneralizedAlphaOptions& options() const { return options_; }
 

@@ -8,13 +8,19 @@
 namespace hersey::solver {
 
 struct InitialiseOptions {
-  double rtol = 1e-12;      ///< constraint residual relative to the lengths it compares
-  int max_iterations = 50;  ///< Newton iterations of the assembly
+  double rtol = 1e-12;       ///< constraint residual relative to the lengths it compares
+  int max_iterations = 100;  ///< iterations of the assembly, from each guess
   /// Velocity components the assembly should leave as they are if the constraints allow it: what the user prescribed.
   std::vector<Equations::Index> held;
 };
 
 enum class InitialiseStatus { consistent, cannot_assemble, redundant, undetermined, domain_error };
+
+/// What is left open of the constraints of one name where the mechanism cannot be assembled.
+struct OpenConstraint {
+  std::string name;  ///< of their rows: "joint right, closing position"
+  double size = 0;   ///< Euclidean norm of the residuals of these rows [m; -; unit of a drive]
+};
 
 /// Outcome of `initialise`. Unless `status` is `consistent` the state is unchanged.
 struct InitialiseSummary {
@@ -23,13 +29,14 @@ struct InitialiseSummary {
   double residual = 0;                    ///< largest constraint residual relative to its scale
   std::vector<std::string> redundant;     ///< rows that constrain a motion constrained already, by name
   std::vector<std::string> undetermined;  ///< velocity components whose acceleration nothing determines, by name
+  std::vector<OpenConstraint> open;       ///< at the closest configuration found, the widest first
   std::string message;                    ///< empty when consistent
 
   [[nodiscard]] bool consistent() const { return status == InitialiseStatus::consistent; }
 };
 
-/// Makes `state` consistent with the constraints at state.t: positions by Newton's method with increments of smallest
-/// norm, velocities by projection, accelerations and multipliers from
+/// Makes `state` consistent with the constraints at state.t: positions by damped Newton's method with small increments,
+/// velocities by projection, accelerations and multipliers from
 ///
 ///     [ M  G^T ] [ vdot   ]   [ -h     ]
 ///     [ G  0   ] [ lambda ] = [ -gamma ],
@@ -37,8 +44,15 @@ struct InitialiseSummary {
 /// theory manual eq. (integrator.9). Ends with begin_step / accept_step of zero length, so that condensed unknowns hold
 /// their instantaneous solution.
 ///
-/// Constraints that say the same thing twice, and coordinates without inertia that nothing holds, are reported by name.
-/// @cost O(n^3) once, n = nv + nlambda.
+/// Held components stay where they are if the others can close the constraints. Constraints that say the same thing
+/// twice, and coordinates without inertia that nothing holds, are reported by name; so is what stays open where the
+/// constraints cannot be met.
+/// @cost sparse factorisations; O(n^3) once, n = nv + nlambda, only where something is wrong and has to be named.
 [[nodiscard]] InitialiseSummary initialise(Equations& equations, State& state, const InitialiseOptions& options = {});
+
+/// Accelerations and multipliers of `state` from its positions and velocities, by the same equations; condensed
+/// unknowns keep what they had at the end of the last step, of length dt. For instants at which a drive's acceleration
+/// jumps. False, and nothing changed, if the equations do not determine them.
+[[nodiscard]] bool solve_accelerations(Equations& equations, State& state, double dt);
 
 }  // namespace hersey::solver

@@ -1,0 +1,188 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "hersey/results/reader.h"
+#include "hersey/run/simulate.h"
+#include "mechanisms_pendulum.h"
+#include "small_rig.h"
+#include "temporary_directory.h"
+
+namespace hersey::run {
+namespace {
+
+const std::string kPendulum = R"(hersey: 1
+
+gravity: 0 -9.81 0 m/s^2
+bodies:
+  bob: {mass: 1 kg, centre_of_mass: 1 0 0 m, inertia: {xx: 1e-12 kg.m^2, yy: 1e-12 kg.m^2, zz: 1e-12 kg.m^2}}
+joints:
+  pivot: {type: revolute, between: [ground, bob], initial: {rotation: 0 rad}}
+simulation: {duration: 5 s, step: {tolerance: 1e-5}, spectral_radius: 0.8}
+)";
+
+struct Outcome {
+  Summary summary;
+  std::vector<double> t, dt, x, v;
+  [[nodiscard]] bool hits(double instant) const {
+    return std::any_of(t.begin(), t.end(), [&](double one) { return std::abs(one - instant) < 1e-14; });
+  }
+};
+
+Outcome outcome(const std::string& text, const std::vector<std::string>& overrides, const std::string& joint) {
+  const TemporaryDirectory scratch;
+  Outcome o;
+  o.summary = simulate(rig(text, overrides), {.results = scratch / "run.h5"});
+  CAPTURE(o.summary.message);
+  REQUIRE(o.summary.status == Status::completed);
+  const results::Reader reader(o.summary.results);
+  o.t = reader.read("/time").values;
+  o.dt = reader.read("/solver/dt").values;
+  o.x = reader.read("/joints/" + joint + "/coordinates").values;
+  o.v = reader.read("/joints/" + joint + "/rates").values;
+  return o;
+}
+
+/// Largest error of the pendulum's angle; its angle counts from level, the closed form's from hanging.
+double pendulum_error(const Outcome& o) {
+  const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81)};
+  double worst = 0;
+  for (std::size_t i = 0; i < o.t.size(); ++i)
+    worst = std::max(worst, std::abs(o.x[i] + 0.5 * std::numbers::pi - exact.angle(o.t[i])));
+  return worst;
+}
+
+TEST_CASE("ErrorOfTheRun_FollowsTheTolerance") {
+  // The error of a step is held: steps go as its third root and the error of the run, of order 2, as tolerance^(2/3).
+  const double coarse = pendulum_error(outcome(kPendulum, {"simulation.step.tolerance=1e-5"}, "pivot"));
+  const double fine = pendulum_error(outcome(kPendulum, {"simulation.step.tolerance=1e-8"}, "pivot"));
+  const double exponent = std::log(coarse / fine) / std::log(1e3);
+  MESSAGE("errors ", coarse, " and ", fine, ", exponent ", exponent);
+  CHECK(exponent > 0.6);
+  CHECK(exponent < 0.73);
+}
+
+TEST_CASE("ChosenSteps_KeepOrderTwo") {
+  // Error against the number of steps, which the controller varies within a swing.
+  const Outcome coarse = outcome(kPendulum, {"simulation.step.tolerance=1e-6"}, "pivot");
+  const Outcome fine = outcome(kPendulum, {"simulation.step.tolerance=1e-8"}, "pivot");
+  const auto [least, most] = std::minmax_element(fine.dt.begin() + 20, fine.dt.end() - 1);
+  CHECK(*most / *least > 1.5);
+  const double order = std::log(pendulum_error(coarse) / pendulum_error(fine)) /
+                       std::log(static_cast<double>(fine.summary.steps) / coarse.summary.steps);
+  CHECK(std::abs(order - 2) < 0.15);
+}
+
+const std::string kPushed = R"(hersey: 1
+bodies:
+  block: {mass: 1 kg, inertia: {xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}}
+joints:
+  rail: {type: prismatic, between: [ground, block], axis: x}
+forces:
+  spring: {type: spring_damper, between: [ground.wall, block], stiffness: 100 N/m, damping: 0.5 N.s/m, free_length: 1 m}
+  push:
+    type: force
+    body: block
+    direction: 1 0 0
+    magnitude: {table: {points: [[0, 0], [1.0001, 0], [1.0033, 5000], [1.0071, 0], [10, 0]], x_unit: s, y_unit: N}}
+simulation: {duration: 4 s, step: {tolerance: 1e-5}, spectral_radius: 0.8}
+)";
+
+std::string pushed() {
+  std::string text = kPushed;
+  return text.replace(text.find("bodies:\n"), 8, "bodies:\n  ground: {frames: {wall: {origin: -1 0 0 m}}}\n");
+}
+
+TEST_CASE("KinksOfATable_AreHitExactly") {
+  const Outcome o = outcome(pushed(), {}, "rail");
+  for (const double kink : {1.0001, 1.0033, 1.0071}) {
+    CAPTURE(kink);
+    CHECK(o.hits(kink));
+  }
+}
+
+TEST_CASE("Impulse_NeedsFewerStepsThanFixedOnesOfTheSameError") {
+  // Reference: steps of 20 us, a divisor of every kink.
+  const Outcome reference = outcome(pushed(), {"simulation.step=0.02 ms", "simulation.tolerance=1e-10"}, "rail");
+  const auto error = [&](const Outcome& o) { return std::abs(o.x.back() - reference.x.back()); };
+  const Outcome chosen = outcome(pushed(), {"simulation.step.tolerance=1e-5"}, "rail");
+  const Outcome fixed = outcome(pushed(), {"simulation.step=2 ms"}, "rail");
+  MESSAGE(chosen.summary.steps, " chosen steps: error ", error(chosen), "; ", fixed.summary.steps,
+          " fixed steps: error ", error(fixed));
+  CHECK(error(chosen) < error(fixed));
+  CHECK(chosen.summary.steps < fixed.summary.steps);
+}
+
+TEST_CASE("Rows_StandAtTheMultiplesOfTheInterval") {
+  const Outcome o = outcome(kPendulum + "output: {interval: 0.3 s}\n", {}, "pivot");
+  REQUIRE(o.t.size() == 18);  // 0, 0.3, ..., 4.8, 5
+  for (std::size_t i = 0; i + 1 < o.t.size(); ++i)
+    CHECK(o.t[i] == doctest::Approx(0.3 * static_cast<double>(i)).epsilon(1e-14));
+  CHECK(o.t.back() == 5);
+  CHECK(o.summary.steps > 100);
+}
+
+const std::string kDriven = R"(hersey: 1
+bodies:
+  wheel: {mass: 1 kg, inertia: {xx: 2 kg.m^2, yy: 2 kg.m^2, zz: 2 kg.m^2}}
+joints:
+  main: {type: revolute, between: [ground, wheel]}
+drives:
+  motor:
+    joint: main
+    coordinate: rotation
+    speed: {table: {points: [[0, 0], [0.37, 37], [2, 37]], x_unit: s, y_unit: rad/s}}
+simulation: {duration: 1 s, step: {tolerance: 1e-4, largest: 10 ms}}
+)";
+
+TEST_CASE("DriveThatEndsItsRamp_ShowsNoRingingOfItsTorque") {
+  // 100 rad/s^2 on 2 kg m^2 up to t = 0.37 s, then nothing. A history kept over the kink would give a first torque of
+  // the wrong sign.
+  const TemporaryDirectory scratch;
+  const Summary summary = simulate(rig(kDriven), {.results = scratch / "run.h5"});
+  REQUIRE(summary.status == Status::completed);
+  const results::Reader reader(summary.results);
+  const std::vector<double> t = reader.read("/time").values,
+                            torque = reader.read("/drives/motor/force_or_torque").values;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    CAPTURE(t[i]);
+    CHECK(std::abs(torque[i] - (t[i] < 0.37 + 1e-9 ? 200 : 0)) < 1e-4);
+  }
+}
+
+TEST_CASE("Bearing_IsControlledOverItsClearance") {
+  const TemporaryDirectory scratch;
+  const Summary summary =
+      simulate(rig(rig_with("step: 2 deg", "step: {tolerance: 1e-3}")), {.results = scratch / "run.h5"});
+  CAPTURE(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  CHECK(summary.t_end == doctest::Approx(4e-3).epsilon(1e-14));
+  CHECK(summary.worst_power_balance < 1e-6);
+  // Against a fixed step six times shorter than the chosen ones' mean.
+  const Summary fine = simulate(rig(rig_with("step: 2 deg", "step: 0.1 deg")), {.results = scratch / "fine.h5"});
+  CHECK(summary.steps < fine.steps / 3);
+  CHECK(summary.bearings[0].eccentricity_ratio == doctest::Approx(fine.bearings[0].eccentricity_ratio).epsilon(0.02));
+}
+
+TEST_CASE("ToleranceOutOfReach_FailsAndNamesTheCoordinate") {
+  const TemporaryDirectory scratch;
+  const Summary summary =
+      simulate(rig(kPendulum, {"simulation.step={tolerance: 1e-8, smallest: 20 ms}"}), {.results = scratch / "run.h5"});
+  CHECK(summary.status == Status::failed);
+  CHECK(summary.message.find("joint pivot") != std::string::npos);
+  CHECK(summary.message.find("times the tolerance") != std::string::npos);
+}
+
+TEST_CASE("ConstraintDrift_StaysBelowTheNewtonTolerance") {
+  const TemporaryDirectory scratch;
+  const Summary summary = simulate(rig(), {.results = scratch / "run.h5"});
+  CHECK(summary.worst_constraint_drift <= 1e-8);
+  const results::Reader reader(summary.results);
+  const std::vector<double> drift = reader.read("/solver/constraint_drift").values;
+  CHECK(drift.size() == reader.rows());
+}
+
+}  // namespace
+}  // namespace hersey::run

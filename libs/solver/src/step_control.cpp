@@ -1,0 +1,56 @@
+#include "hersey/solver/step_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::solver {
+namespace {
+
+constexpr double kAim = 0.5;             // share of the tolerance aimed at
+constexpr double kLargestGrowth = 1.5;   // per step
+constexpr double kSmallestGrowth = 1.1;  // below it the step stays
+constexpr double kLargestCut = 0.2;
+constexpr double kOrder = 3;             // of the local error
+constexpr double kSmallestError = 1e-6;  // a step without error says nothing about the next
+
+}  // namespace
+
+StepControl::StepControl(const StepControlOptions& options, double first)
+    : options_(options), dt_(std::clamp(first, options.smallest, options.largest)) {
+  HERSEY_REQUIRE(0 < options.smallest && options.smallest <= options.largest, "limits of the step in their order");
+}
+
+double StepControl::proposed(double remaining) const {
+  if (remaining <= dt_ * (1 + 1e-9)) return remaining;
+  return remaining < 2 * dt_ ? 0.5 * remaining : dt_;
+}
+
+void StepControl::accepted(double dt, double error) {
+  const double e = std::max(error, kSmallestError);
+  const double wanted = std::pow(kAim / e, 0.7 / kOrder) * std::pow(last_error_ / kAim, 0.4 / kOrder);
+  double growth = std::min(wanted, after_rejection_ ? 1.0 : kLargestGrowth);
+  if (growth > 1 && growth < kSmallestGrowth) growth = 1;
+  // A step cut to hit an instant does not shorten those that follow.
+  dt_ = growth * dt < dt_ && dt < dt_ && growth >= 1 ? dt_ : std::max(growth, kLargestCut) * dt;
+  dt_ = std::clamp(dt_, options_.smallest, options_.largest);
+  last_error_ = e;
+  after_rejection_ = false;
+}
+
+bool StepControl::rejected(double dt, double error) {
+  return shorten(dt, std::clamp(std::pow(kAim / error, 1 / kOrder), kLargestCut, 0.9));
+}
+
+bool StepControl::failed(double dt) { return shorten(dt, 0.5); }
+
+bool StepControl::shorten(double dt, double factor) {
+  after_rejection_ = true;
+  last_error_ = kAim;
+  if (dt <= options_.smallest) return false;
+  dt_ = std::max(factor * dt, options_.smallest);
+  return true;
+}
+
+}  // namespace hersey::solver

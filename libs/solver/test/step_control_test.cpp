@@ -1,0 +1,112 @@
+#include "hersey/solver/step_control.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/solver/generalized_alpha.h"
+#include "one_coordinate.h"
+
+namespace hersey::solver {
+namespace {
+
+TEST_CASE("StepControl_SettlesWhereTheErrorMeetsItsAim") {
+  // A local error of third order, 8e6 dt^3 of the tolerance: half of it at dt = 0.00397.
+  StepControl control({.smallest = 1e-9, .largest = 1}, 1e-6);
+  for (int i = 0; i < 60; ++i) control.accepted(control.dt(), 8e6 * std::pow(control.dt(), 3));
+  const double error = 8e6 * std::pow(control.dt(), 3);
+  CHECK(error < 1);
+  CHECK(error > 0.19);  // a growth below 1.1 is not taken: (0.5/e)^(0.1) = 1.1 at e = 0.193
+}
+
+TEST_CASE("StepControl_HitsInstantsWithoutCrumbs") {
+  const StepControl control({.smallest = 1e-9, .largest = 1}, 0.3);
+  CHECK(control.proposed(10) == 0.3);
+  CHECK(control.proposed(0.3) == 0.3);
+  CHECK(control.proposed(0.31) == doctest::Approx(0.155).epsilon(1e-15));
+}
+
+TEST_CASE("StepControl_KeepsItsStepAfterACutOne") {
+  StepControl control({.smallest = 1e-9, .largest = 1}, 0.3);
+  control.accepted(0.01, 1e-4);
+  CHECK(control.dt() == 0.3);
+}
+
+TEST_CASE("StepControl_ShortensDownToTheSmallest") {
+  StepControl control({.smallest = 0.1, .largest = 1}, 0.3);
+  CHECK(control.rejected(0.3, 8));
+  CHECK(control.dt() == doctest::Approx(0.3 * std::cbrt(0.5 / 8)));
+  CHECK(control.failed(0.12));
+  CHECK(control.dt() == 0.1);
+  CHECK(!control.rejected(0.1, 2));
+}
+
+TEST_CASE("StepControl_DoesNotGrowRightAfterARejection") {
+  StepControl control({.smallest = 1e-9, .largest = 1}, 0.3);
+  REQUIRE(control.rejected(0.3, 8));
+  const double dt = control.dt();
+  control.accepted(dt, 0.01);
+  CHECK(control.dt() == doctest::Approx(dt));
+}
+
+/// Largest ratio of the estimated to the true local error of q'' = -9 q, where each is not close to a zero.
+double estimate_over_truth(double rho, double dt, double& smallest) {
+  test::OneCoordinate e;
+  e.force = [](double q, double, double) { return 9 * q; };
+  e.force_dq = [](double, double, double) { return 9.0; };
+  State s = e.at(0, 3);
+  GeneralizedAlpha integrator({.spectral_radius = rho, .rtol = 1e-12});
+  double largest = 0;
+  smallest = 1e300;
+  for (int i = 0; i < 30; ++i) {
+    const State before = s;
+    Eigen::VectorXd error;
+    const StepJudge judge = [&](const State&, const Eigen::VectorXd& estimate) {
+      error = estimate;
+      return true;
+    };
+    REQUIRE(integrator.step(e, s, dt, judge).converged());
+    // The exact motion through the state before the step.
+    const double exact = before.q[0] * std::cos(3 * dt) + before.v[0] / 3 * std::sin(3 * dt);
+    const double truth = exact - s.q[0];
+    // Not the transient of the start, nor where the third derivative, -9 v, is near its zero.
+    if (i < 10 || std::abs(before.v[0]) < 1) continue;
+    largest = std::max(largest, error[0] / truth);
+    smallest = std::min(smallest, error[0] / truth);
+  }
+  return largest;
+}
+
+TEST_CASE("ErrorEstimate_TendsToTheLocalError") {
+  // Both are of third order, their difference is of fourth: the ratio nears 1 in proportion to dt.
+  for (const double rho : {0.5, 0.8, 1.0}) {
+    CAPTURE(rho);
+    double low = 0, low_fine = 0;
+    const double high = estimate_over_truth(rho, 0.02, low), high_fine = estimate_over_truth(rho, 0.005, low_fine);
+    const double coarse = std::max(high - 1, 1 - low), fine = std::max(high_fine - 1, 1 - low_fine);
+    CHECK(coarse < 0.25);
+    CHECK(fine < 0.4 * coarse);
+  }
+}
+
+TEST_CASE("InaccurateStep_LeavesEverythingAsItWas") {
+  test::OneCoordinate e;
+  e.force = [](double q, double, double) { return 9 * q; };
+  e.force_dq = [](double, double, double) { return 9.0; };
+  test::OneCoordinate fresh = e;
+  GeneralizedAlpha integrator({.spectral_radius = 0.7}), other({.spectral_radius = 0.7});
+  State s = e.at(1, 0), alone = s;
+  REQUIRE(integrator.step(e, s, 0.1).converged());
+  REQUIRE(other.step(fresh, alone, 0.1).converged());
+  const StepSummary refused = integrator.step(e, s, 0.2, [](const State&, const Eigen::VectorXd&) { return false; });
+  CHECK(refused.status == StepStatus::inaccurate);
+  CHECK(e.accepted == 1);
+  REQUIRE(integrator.step(e, s, 0.05).converged());
+  REQUIRE(other.step(fresh, alone, 0.05).converged());
+  CHECK(s.q == alone.q);
+  CHECK(s.v == alone.v);
+}
+
+}  // namespace
+}  // namespace hersey::solver
