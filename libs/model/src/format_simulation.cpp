@@ -31,14 +31,26 @@ TypePtr simulation_format() {
                          required("over", quantity_in({"s", "rad"}, "360 deg", Range::positive()),
                                   "Time or crank angle between the states compared."),
                      });
+  const TypePtr analysis = choice({{"dynamics", "motion under forces, integrated over time"},
+                                   {"kinematics", "motion that drives prescribe completely, and the forces it takes"},
+                                   {"static", "rest under gravity and the loads at `start`, drives held; no bearings"},
+                                   {"modes", "natural frequencies, damping and stability of small motions"}});
+  const TypePtr about =
+      choice({{"start", "the state at the start"},
+              {"equilibrium", "the static equilibrium"},
+              {"end", "the state at the end of a run over `duration`; bearings by their tangent there"}});
   return object(
       "simulation settings",
       {
-          required("duration", span, "Time to simulate, or the crank's angle."),
-          required(
+          defaulted("analysis", analysis, "dynamics", "What is computed."),
+          optional("duration", span, "Time to simulate, or the crank's angle.",
+                   "**required** unless the analysis stays at the start"),
+          optional(
               "step", step_format(),
               "Time step, or the crank's angle; or `{tolerance}`, and steps are chosen so that the estimated error "
-              "of each stays below it. A step that fails is shortened."),
+              "of each stays below it. A step that fails is shortened.",
+              "**required** unless the analysis stays at the start"),
+          defaulted("modes_about", about, "start", "The state about which `modes` looks for small motions."),
           optional("crank", reference(Refers::joint, "main"),
                    "Revolute joint driven at a constant speed: turns angles into times, and is the report's abscissa.",
                    "angles cannot be used"),

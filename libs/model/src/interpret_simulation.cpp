@@ -117,6 +117,45 @@ void check_table_range(Context& context, const Function& function) {
 
 namespace {
 
+/// Whether an analysis goes through time.
+bool needs_duration(const Simulation& simulation) {
+  return simulation.analysis == Analysis::dynamics || simulation.analysis == Analysis::kinematics ||
+         (simulation.analysis == Analysis::modes && simulation.modes_about == ModesAbout::end);
+}
+
+void refuse_bearings(Context& context, const Value& value) {
+  const Simulation& simulation = context.model.simulation;
+  const Value* bearings = context.root.find("bearings");
+  if (bearings == nullptr || bearings->members.empty() || simulation.analysis == Analysis::dynamics) return;
+  if (simulation.analysis == Analysis::kinematics) {
+    context.fault(*value.find("analysis"), "a kinematic analysis of a machine with bearings",
+                  "ideal joints: a film lets its journal move as forces will", "leave out `bearings`, or use dynamics");
+  } else if (simulation.analysis == Analysis::equilibrium || simulation.modes_about != ModesAbout::end) {
+    context.fault(*value.find("analysis"), "rest of a machine with bearings",
+                  "ideal joints: a film at rest carries nothing",
+                  "use dynamics with `settle`, or modes with `modes_about: end`; `hersey bearing` solves one bearing");
+  }
+}
+
+void interpret_analysis(Context& context, const Value& value) {
+  Simulation& simulation = context.model.simulation;
+  const std::string analysis = text_of(value, "analysis"), about = text_of(value, "modes_about");
+  simulation.analysis = analysis == "kinematics" ? Analysis::kinematics
+                        : analysis == "static"   ? Analysis::equilibrium
+                        : analysis == "modes"    ? Analysis::modes
+                                                 : Analysis::dynamics;
+  simulation.modes_about = about == "equilibrium" ? ModesAbout::equilibrium
+                           : about == "end"       ? ModesAbout::end
+                                                  : ModesAbout::start;
+  if (needs_duration(simulation)) {
+    if (value.find("duration") == nullptr)
+      context.fault_at_key(value, "missing key 'duration'", "a time or an angle > 0, such as 0.1 s");
+    if (value.find("step") == nullptr)
+      context.fault_at_key(value, "missing key 'step'", "a time or an angle > 0, such as 0.1 ms, or {tolerance}");
+  }
+  refuse_bearings(context, value);
+}
+
 void interpret_step(Context& context, const Value& parent) {
   Simulation& simulation = context.model.simulation;
   const Value* value = parent.find("step");
@@ -163,10 +202,15 @@ void interpret_simulation(Context& context) {
   const Value* value = context.root.find("simulation");
   if (value == nullptr) return;
   simulation.position = value->key_position;
+  interpret_analysis(context, *value);
   simulation.crank = crank_of(context, *value);
   simulation.start = number_of(*value, "start");
   simulation.duration = seconds_of(context, *value, "duration", simulation.crank);
   interpret_step(context, *value);
+  if (simulation.error_control && simulation.analysis == Analysis::kinematics) {
+    context.fault(*value->find("step"), "an error control of a kinematic analysis, which integrates nothing",
+                  "the time between its instants, such as 0.1 ms");
+  }
   simulation.spectral_radius = number_of(*value, "spectral_radius");
   simulation.tolerance = number_of(*value, "tolerance");
   simulation.max_iterations = integer_of(*value, "max_iterations");

@@ -327,11 +327,18 @@ TEST_CASE("CrankWithoutDrive_IsReported") {
 TEST_CASE("ImpossibleSteps_AreReported") {
   CHECK(faults_after("step: 1 deg", "step: 3 rev") ==
         "m.yaml:33:9: simulation.step: a step longer than the run; expected a step of at most the duration");
+  CHECK(faults_after("step: 1 deg", "analysis: dynamics") ==
+        "m.yaml:30:1: simulation: missing key 'step'; expected a time or an angle > 0, such as 0.1 ms, or {tolerance}");
+  CHECK(faults_after("step: 1 deg", "step: 1 deg\n  analysis: static") ==
+        "m.yaml:34:13: simulation.analysis: rest of a machine with bearings; expected ideal joints: a film at rest "
+        "carries nothing; use dynamics with `settle`, or modes with `modes_about: end`; `hersey bearing` solves one "
+        "bearing");
   CHECK(faults_after("step: 1 deg", "step: {tolerance: 1e-4, smallest: 1 ms, largest: 0.5 ms}") ==
         "m.yaml:33:37: simulation.step.smallest: a smallest step longer than the largest; expected at most the largest "
         "step");
   CHECK(faults_after("step: 1 deg", "step: {tolerance: 2}") ==
-        "m.yaml:33:21: simulation.step.tolerance: '2'; expected a number from 1e-12 to 0.1");
+        "m.yaml:33:21: simulation.step.tolerance: '2'; expected a number without unit >= 1e-12 and <= "
+        "0.1, such as 1e-4");
   CHECK(faults_after("step: 1 deg", "step: 1 deg\noutput: {interval: 1 ms}") ==
         "m.yaml:34:20: output.interval: an interval with a fixed step; expected an error control, such as step: "
         "{tolerance: 1e-4}; with a fixed step, `every` counts the steps between rows");

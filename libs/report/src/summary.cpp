@@ -21,6 +21,7 @@ class Summary {
   }
 
   std::vector<SummaryRow> rows() {
+    mode_rows();
     bearing_rows();
     run_rows();
     return std::move(rows_);
@@ -74,6 +75,20 @@ class Summary {
       relative_power_error();
     }
     if (const auto wall = reader_.number_attribute("/", "wall_time")) add("computing time", *wall, "s");
+  }
+
+  void mode_rows() {
+    constexpr std::size_t most = 24;
+    group_ = "modes";
+    path_ = "/modes/fields/";
+    const std::vector<double> natural = values("frequency"), damping = values("damping_ratio"),
+                              damped = values("damped_frequency");
+    for (std::size_t i = 0; i < std::min(most, natural.size()); ++i) {
+      const std::string name = fmt::format("mode {}: ", i + 1);
+      add(name + "natural frequency", natural[i], "Hz", fmt::format("damped {:.6g} Hz", damped[i]));
+      add(name + "damping ratio", damping[i], "", damping[i] < -1e-9 ? "unstable" : "");
+    }
+    if (natural.size() > most) add("modes in the results file", static_cast<double>(natural.size()), "");
   }
 
   void step_rows() {

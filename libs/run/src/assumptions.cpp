@@ -141,6 +141,37 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   return rows;
 }
 
+namespace {
+
+std::string integration(const model::Simulation& run) {
+  const std::string step = run.error_control
+                               ? fmt::format(
+                                     "steps of an error of {:.1e} in angles, lengths over the machine's size and "
+                                     "journals over their clearance (the film's own error is not estimated)",
+                                     run.error_control->tolerance)
+                               : fmt::format("step {:.4g} us", 1e6 * run.step);
+  return fmt::format("generalized-alpha, spectral radius {:.3g}, {}, Newton tolerance {:.1e}", run.spectral_radius,
+                     step, run.tolerance);
+}
+
+std::pair<std::string, std::string> method(const model::Simulation& run) {
+  using model::Analysis;
+  if (run.analysis == Analysis::kinematics)
+    return {"kinematics", fmt::format("positions, velocities, accelerations and forces from joints and drives every "
+                                      "{:.4g} us; nothing integrated",
+                                      1e6 * run.step)};
+  if (run.analysis == Analysis::equilibrium)
+    return {"static equilibrium", "gravity and the loads at the start, drives held where they are then, no velocities"};
+  if (run.analysis == Analysis::modes && run.modes_about == model::ModesAbout::start)
+    return {"small motions", "linear about the state at the start"};
+  if (run.analysis == Analysis::modes && run.modes_about == model::ModesAbout::equilibrium)
+    return {"small motions", "linear about the static equilibrium"};
+  const std::string then = run.analysis == Analysis::modes ? "; then linear about the end" : "";
+  return {"time integration", integration(run) + then};
+}
+
+}  // namespace
+
 Rows assumptions(const model::Model& model) {
   Rows rows;
   for (const model::Bearing& bearing : model.bearings) {
@@ -149,16 +180,7 @@ Rows assumptions(const model::Model& model) {
                                                        ? "monolithic: one Newton system, film condensed"
                                                        : "partitioned: wrench exchanged until film and bodies agree");
   }
-  const model::Simulation& run = model.simulation;
-  const std::string step = run.error_control
-                               ? fmt::format(
-                                     "steps of an error of {:.1e} in angles, lengths over the machine's size and "
-                                     "journals over their clearance (the film's own error is not estimated)",
-                                     run.error_control->tolerance)
-                               : fmt::format("step {:.4g} us", 1e6 * run.step);
-  rows.emplace_back("time integration",
-                    fmt::format("generalized-alpha, spectral radius {:.3g}, {}, Newton tolerance {:.1e}",
-                                run.spectral_radius, step, run.tolerance));
+  rows.emplace_back(method(model.simulation));
   return rows;
 }
 

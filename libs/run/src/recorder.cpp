@@ -60,6 +60,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
   declare_machine();
   for (const model::Bearing& bearing : model.bearings) bearings_.push_back(declare_bearing(bearing));
   write_geometry(model, machine.mechanism->spec(), writer_);
+  if (model.simulation.analysis == model::Analysis::modes) declare_modes();
   writer_.flush();
 }
 
@@ -264,6 +265,39 @@ void Recorder::write_row(const StepRecord& step) {
   }
   power_.film_friction.append(film_friction);
   power_.asperity_friction.append(asperity_friction);
+}
+
+void Recorder::declare_modes() {
+  // Modes are no instants: a group called fields counts its rows by itself.
+  const std::string path = "/modes/fields/";
+  const auto series = [&](const char* name, const char* unit, const char* description, int columns = 1) {
+    return writer_.series(path + name, columns, unit, description);
+  };
+  const auto nv = static_cast<int>(machine_.mechanism->nv());
+  modes_ = {.frequency = series("frequency", "Hz", "natural frequency |s|/(2 pi), one row per mode"),
+            .damped_frequency = series("damped_frequency", "Hz", "frequency of the damped motion, Im s/(2 pi)"),
+            .damping_ratio = series("damping_ratio", "1", "-Re s/|s|; negative: the motion grows"),
+            .real = series("eigenvalue_real", "1/s", "real part of the eigenvalue s"),
+            .imaginary = series("eigenvalue_imaginary", "1/s", "imaginary part of the eigenvalue s"),
+            .shape_real = series("shape_real", "1", "mode shape, real part: increments of the coordinates", nv),
+            .shape_imaginary = series("shape_imaginary", "1", "mode shape, imaginary part", nv)};
+  std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(nv));
+  for (int k = 0; k < nv; ++k) names.push_back(machine_.mechanism->name_of_row(k));
+  writer_.attribute("/modes", "coordinates", names);
+}
+
+void Recorder::write_modes(const solver::Modes& found) {
+  for (const solver::Mode& mode : found.modes) {
+    modes_.frequency.append(mode.frequency);
+    modes_.damped_frequency.append(mode.damped_frequency);
+    modes_.damping_ratio.append(mode.damping_ratio);
+    modes_.real.append(mode.s.real());
+    modes_.imaginary.append(mode.s.imag());
+    modes_.shape_real.append(Eigen::VectorXd(mode.shape.real()));
+    modes_.shape_imaginary.append(Eigen::VectorXd(mode.shape.imag()));
+  }
+  writer_.attribute("/modes", "stable", found.stable ? 1 : 0);
 }
 
 void Recorder::finish(results::Status status, const std::string& message, double wall_time) {

@@ -7,6 +7,7 @@
 #include "hersey/model/model.h"
 #include "hersey/results/writer.h"
 #include "hersey/run/simulate.h"
+#include "hersey/solver/linearise.h"
 #include "power_balance.h"
 
 namespace hersey::run {
@@ -33,6 +34,8 @@ class Recorder {
 
   void write_row(const StepRecord& step);
   void write_fields(const StepRecord& step);
+  /// Small motions about the last state.
+  void write_modes(const solver::Modes& found);
   void flush_if_due() { writer_.flush_if_due(); }
   void finish(results::Status status, const std::string& message, double wall_time);
 
@@ -62,6 +65,11 @@ class Recorder {
     results::Series field_time, pressure, thickness, fill, asperity_pressure;
   };
 
+  struct ModeSeries {
+    results::Series frequency, damped_frequency, damping_ratio, real, imaginary, shape_real, shape_imaginary;
+  };
+
+  void declare_modes();
   void declare_run(const Options& options);
   void declare_machine();
   [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
@@ -74,6 +82,7 @@ class Recorder {
   results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, rejected_, drift_;
   EnergySeries energy_;
   PowerSeries power_;
+  ModeSeries modes_;
   std::vector<BodySeries> bodies_;
   std::vector<JointSeries> joints_;
   std::vector<DriveSeries> drives_;

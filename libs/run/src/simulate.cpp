@@ -12,8 +12,11 @@
 #include "hersey/model/build.h"
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
+#include "hersey/solver/equilibrium.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/initialise.h"
+#include "hersey/solver/kinematics.h"
+#include "hersey/solver/linearise.h"
 #include "hersey/solver/step_control.h"
 #include "instants.h"
 #include "recorder.h"
@@ -100,13 +103,7 @@ class Simulation {
 
   Summary run() {
     try {
-      const StepRecord start = observe(0, {});
-      take(start);
-      if (model_.simulation.error_control) {
-        march_controlled(*model_.simulation.error_control, start.mechanism);
-      } else {
-        march();
-      }
+      analyse();
       finish(summary_.status == Status::completed ? results::Status::completed
              : summary_.status == Status::stopped ? results::Status::stopped
                                                   : results::Status::failed);
@@ -125,6 +122,79 @@ class Simulation {
   }
 
  private:
+  void analyse() {
+    using model::Analysis;
+    const model::Simulation& plan = model_.simulation;
+    switch (plan.analysis) {
+      case Analysis::dynamics:
+        return integrate();
+      case Analysis::kinematics:
+        return follow_drives();
+      case Analysis::equilibrium:
+        if (come_to_rest()) take(observe(0, {}));
+        return;
+      case Analysis::modes:
+        if (plan.modes_about == model::ModesAbout::end) {
+          integrate();
+          if (summary_.status != Status::completed) return;
+        } else {
+          if (plan.modes_about == model::ModesAbout::equilibrium && !come_to_rest()) return;
+          take(observe(0, {}));
+        }
+        return linearise_here();
+    }
+  }
+
+  void integrate() {
+    const StepRecord start = observe(0, {});
+    take(start);
+    if (model_.simulation.error_control) {
+      march_controlled(*model_.simulation.error_control, start.mechanism);
+    } else {
+      march();
+    }
+  }
+
+  // Instant by instant, nothing integrated.
+  void follow_drives() {
+    const model::Simulation& plan = model_.simulation;
+    take(observe(0, {}));
+    const int intervals = std::max(1, static_cast<int>(std::ceil(plan.duration / plan.step - 1e-9)));
+    for (int k = 1; k <= intervals; ++k) {
+      const double t = k == intervals ? plan.start + plan.duration : plan.start + k * plan.step;
+      const double dt = t - state_.t;
+      const Eigen::VectorXd guess = dt * state_.v + 0.5 * dt * dt * state_.vdot;
+      solver::State next = state_;
+      machine_.mechanism->retract(state_.q, guess, next.q);
+      next.t = t;
+      const solver::KinematicsSummary solved = solver::solve_kinematics(*machine_.mechanism, next);
+      if (!solved.solved()) return fail(solved.message);
+      state_ = next;
+      solver::StepSummary step;
+      step.iterations = solved.iterations;
+      take(observe(dt, step));
+      if (ends_early()) return;
+    }
+  }
+
+  bool come_to_rest() {
+    const solver::EquilibriumSummary rest = solver::find_equilibrium(*machine_.mechanism, state_);
+    summary_.newton_iterations += rest.iterations;
+    summary_.message = rest.message;
+    if (!rest.converged) fail("static: " + rest.message);
+    return rest.converged;
+  }
+
+  void linearise_here() {
+    const solver::Linearisation linear = solver::linearise(*machine_.mechanism, state_, last_dt_);
+    solver::Modes found;
+    if (linear.trouble.empty()) found = solver::find_modes(linear);
+    const std::string& trouble = linear.trouble.empty() ? found.message : linear.trouble;
+    if (!trouble.empty()) return fail("modes: " + trouble);
+    recorder_.write_modes(found);
+    if (!found.stable) summary_.message = "unstable: a small motion grows (negative damping ratio)";
+  }
+
   void march() {
     const model::Simulation& plan = model_.simulation;
     const int intervals = std::max(1, static_cast<int>(std::ceil(plan.duration / plan.step - 1e-9)));
@@ -201,6 +271,7 @@ class Simulation {
       dt = std::min(dt, target - state_.t);
       const solver::StepSummary step = integrator_.step(*machine_.mechanism, state_, dt);
       if (step.converged()) {
+        last_dt_ = dt;
         take(observe(dt, step));
         dt *= 2;
         continue;

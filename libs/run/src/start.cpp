@@ -13,6 +13,7 @@
 
 #include "hersey/core/input_error.h"
 #include "hersey/solver/initialise.h"
+#include "hersey/solver/kinematics.h"
 
 namespace hersey::run {
 namespace {
@@ -86,6 +87,20 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
 
 }  // namespace
 
+namespace {
+
+// A kinematic analysis has nothing that would move what drives do not hold.
+void require_prescribed_motion(const model::Model& model, model::Machine& machine, const solver::State& start) {
+  const std::vector<std::string> loose = solver::free_coordinates(*machine.mechanism, start);
+  if (loose.empty()) return;
+  throw InputError(Fault{
+      model.position_of("simulation.analysis"), "simulation.analysis",
+      fmt::format("kinematics of a mechanism with coordinates that nothing prescribes: {}", fmt::join(loose, ", ")),
+      "drives for as many coordinates as the mechanism has freedoms", "add a drive, or use `analysis: dynamics`"});
+}
+
+}  // namespace
+
 solver::State starting_state(const model::Model& model, model::Machine& machine) {
   solver::State state = machine.mechanism->initial_state();
   state.t = model.simulation.start;
@@ -93,6 +108,7 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   options.held = machine.mechanism->given_coordinates();
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
   if (!summary.consistent()) throw InputError(faults_of(model, summary));
+  if (model.simulation.analysis == model::Analysis::kinematics) require_prescribed_motion(model, machine, state);
   return state;
 }
 

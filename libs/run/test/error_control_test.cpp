@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
+#include "hersey/model/build.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
+#include "hersey/solver/generalized_alpha.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
+#include "start.h"
 #include "temporary_directory.h"
 
 namespace hersey::run {
@@ -73,6 +78,48 @@ TEST_CASE("ChosenSteps_KeepOrderTwo") {
   const double order = std::log(pendulum_error(coarse) / pendulum_error(fine)) /
                        std::log(static_cast<double>(fine.summary.steps) / coarse.summary.steps);
   CHECK(std::abs(order - 2) < 0.15);
+}
+
+/// A free body whose pivot closes a loop: positions, velocities and the pivot's force, which is a multiplier.
+const std::string kClosedPendulum = R"(hersey: 1
+gravity: 0 -9.81 0 m/s^2
+bodies:
+  bob: {mass: 1 kg, inertia: {xx: 0.1 kg.m^2, yy: 0.1 kg.m^2, zz: 0.1 kg.m^2}, frames: {top: {origin: 0 1 0 m}}}
+joints:
+  flight: {type: free, between: [ground, bob], initial: {position: 1 0 0 m, orientation: 0 0 90 deg}}
+  pivot: {type: spherical, between: [ground, bob.top]}
+simulation: {duration: 2 s, step: {tolerance: 1e-5}, spectral_radius: 0.6}
+)";
+
+/// Errors of angle, rate and pivot force at t = 1 s with steps that change by up to a factor of 2 in a fixed pattern.
+Vector3 errors_of_a_pattern(int repetitions) {
+  const model::Model model = rig(kClosedPendulum);
+  model::Machine machine = model::build(model);
+  solver::State state = starting_state(model, machine);
+  solver::GeneralizedAlpha integrator({.spectral_radius = 0.6, .rtol = 1e-9});
+  const auto keep = [](const solver::State&, const Eigen::VectorXd&) { return true; };
+  for (int i = 0; i < repetitions; ++i) {
+    for (const double share : {1.0, 1.25, 1.5, 1.75, 2.0, 1.0, 1.25, 1.5, 1.25})
+      REQUIRE(integrator.step(*machine.mechanism, state, share / (12.5 * repetitions), keep).converged());
+  }
+  const mbd::Observation seen = machine.mechanism->observe(state);
+  const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81 / 1.1)};
+  const double angle = exact.angle(1), rate = exact.rate(1);
+  const double turn = -exact.omega0 * exact.omega0 * std::sin(angle);
+  const Vector3 up(-std::sin(angle), std::cos(angle), 0), along(std::cos(angle), std::sin(angle), 0);
+  const Vector3 force = turn * along + rate * rate * up + Vector3(0, 9.81, 0);
+  return {std::abs(seen.joints[0].position[5] - angle), std::abs(seen.joints[0].rate[5] - rate),
+          (seen.joints[1].force - force).norm()};
+}
+
+TEST_CASE("VaryingSteps_KeepOrderTwoOfMultipliersToo") {
+  // Without (integrator.14) the force is of first order.
+  const Vector3 coarse = errors_of_a_pattern(300), fine = errors_of_a_pattern(600);
+  for (int i = 0; i < 3; ++i) {
+    CAPTURE(i);
+    MESSAGE("order ", std::log2(coarse[i] / fine[i]), ", error ", fine[i]);
+    CHECK(std::abs(std::log2(coarse[i] / fine[i]) - 2) < 0.05);
+  }
 }
 
 const std::string kPushed = R"(hersey: 1

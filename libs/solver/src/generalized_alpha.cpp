@@ -50,6 +50,9 @@ struct GeneralizedAlpha::Workspace {
   double worst = 0;       ///< largest residual relative to its tolerance at the last assembly
   Index worst_index = 0;  ///< its row; -1: a condensed equation
   VectorXd error;         ///< estimate of the step's local error of position
+  VectorXd across;        ///< the part of it across the constraints
+  VectorXd drift;         ///< smoothed `across`/dt^3 of the accepted steps; empty where it was not estimated
+  VectorXd v_start;       ///< velocity the step starts from
   std::string trouble;    ///< why the last assembly was outside the domain, empty if inside
 
   void predict(const State& state, double dt);
@@ -60,6 +63,7 @@ struct GeneralizedAlpha::Workspace {
   bool enter_domain(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
   bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
   void estimate_error(Index nv, bool factorised);
+  void remember_drift(double dt);
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
 };
 
@@ -67,8 +71,11 @@ struct GeneralizedAlpha::Workspace {
 void GeneralizedAlpha::Workspace::predict(const State& state, double dt) {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
   a_n = state.vdot + (dt / last_dt) * (a - state.vdot);
-  dq_predicted = dt * state.v + (0.5 * dt * dt) * a_n;
-  v_predicted = state.v + dt * a_n;
+  v_start = state.v;
+  // Theory manual eq. (integrator.14): velocities across the constraints are offset by an error that goes as dt^2.
+  if (drift.size() > 0 && dt != last_dt) v_start += (dt * dt - last_dt * last_dt) * drift;
+  dq_predicted = dt * v_start + (0.5 * dt * dt) * a_n;
+  v_predicted = v_start + dt * a_n;
   vdot_predicted = (a_n - alpha_f * state.vdot) / (1 - alpha_f);
   stage.dt = dt;
   stage.k = 1;
@@ -174,13 +181,13 @@ bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
 }
 
 /// The step's local error of position, theory manual eq. (integrator.10): what the third derivative contributes beyond
-/// the method's own use of it. Its part across the constraints is taken out (integrator.11): positions meet them
-/// exactly, only the algorithmic accelerations carry a transient there.
+/// the method's own use of it; and the part of it across the constraints (integrator.11).
 void GeneralizedAlpha::Workspace::estimate_error(Index nv, bool factorised) {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
   const double share = 0.5 * gamma - beta - 1.0 / 12;
   error = (share / beta) * (dq - dq_predicted);
   const Index n = tangent.rows();
+  across.setZero(nv);
   if (!factorised || n == nv) return;
   // With J = [A G^T; G 0] as factorised, J [x; y] = [A e; 0] leaves x = e less what the constraints forbid.
   rhs.setZero(n);
@@ -188,7 +195,19 @@ void GeneralizedAlpha::Workspace::estimate_error(Index nv, bool factorised) {
     for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
       if (entry.row() < nv) rhs[entry.row()] += entry.value() / stage.m * error[column];
   lu.solve({rhs.data(), static_cast<std::size_t>(n)});
-  error = rhs.head(nv);
+  across = error - rhs.head(nv);
+}
+
+/// Takes the accepted step's part across the constraints into `drift`, half old, half new: all of it at once would feed
+/// the constraints' own modes back into themselves. dt = 0: it was not estimated.
+void GeneralizedAlpha::Workspace::remember_drift(double dt) {
+  if (dt == 0) {
+    drift.resize(0);
+  } else if (drift.size() == 0) {
+    drift = across / (dt * dt * dt);
+  } else {
+    drift = 0.5 * drift + (0.5 / (dt * dt * dt)) * across;
+  }
 }
 
 std::string GeneralizedAlpha::Workspace::worst_name(const Equations& equations) const {
@@ -225,6 +244,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     // Theory manual eq. (integrator.6). Starting from zero would cost an order.
     w.a = state.vdot;
     w.last_dt = dt;
+    w.drift.resize(0);
     w.started = true;
   }
   equations.begin_step(state, dt);
@@ -255,6 +275,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   }
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
   w.last_dt = dt;
+  w.remember_drift(judge ? dt : 0);
   state = w.trial;
   equations.accept_step(state);
   summary.status = StepStatus::converged;

@@ -9,7 +9,7 @@ namespace hersey::solver {
 namespace {
 
 constexpr double kAim = 0.5;             // share of the tolerance aimed at
-constexpr double kLargestGrowth = 1.5;   // per step
+constexpr double kLargestGrowth = 1.3;   // per step
 constexpr double kSmallestGrowth = 1.1;  // below it the step stays
 constexpr double kLargestCut = 0.2;
 constexpr double kOrder = 3;             // of the local error

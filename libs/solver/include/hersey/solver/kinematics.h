@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/solver/equations.h"
+
+namespace hersey::solver {
+
+enum class KinematicsStatus { solved, undetermined, cannot_close, singular };
+
+/// Outcome of `solve_kinematics`. Unless `status` is `solved` the state is unchanged.
+struct KinematicsSummary {
+  KinematicsStatus status = KinematicsStatus::singular;
+  int iterations = 0;                     ///< of the positions
+  double residual = 0;                    ///< largest constraint residual relative to its scale
+  std::vector<std::string> undetermined;  ///< velocity components that constraints and drives leave free, by name
+  std::string message;                    ///< empty when solved
+
+  [[nodiscard]] bool solved() const { return status == KinematicsStatus::solved; }
+};
+
+/// Velocity components, by name, that the constraints leave free at `state`; empty where they prescribe every motion.
+[[nodiscard]] std::vector<std::string> free_coordinates(Equations& equations, const State& state);
+
+/// The motion that constraints and drives prescribe at state.t, and the forces it takes: positions near state.q from
+/// Phi = 0, velocities from G v = -Phi_t, accelerations from G vdot = -gamma, multipliers from
+/// G^T lambda = -(M vdot + h); theory manual, chapter integrator. Nothing is integrated.
+///
+/// Ends with begin_step / accept_step of zero length.
+/// @pre free_coordinates() is empty where the run starts
+[[nodiscard]] KinematicsSummary solve_kinematics(Equations& equations, State& state);
+
+}  // namespace hersey::solver

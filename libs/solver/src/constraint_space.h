@@ -1,0 +1,13 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "hersey/solver/equations.h"
+
+namespace hersey::solver {
+
+/// Orthonormal basis Z of the motions that the constraints allow at `state`, G Z = 0 with rows and columns of G scaled
+/// by what they compare; shape (nv, number of free motions). @cost O(nv^3)
+[[nodiscard]] Eigen::MatrixXd free_directions(Equations& equations, const State& state);
+
+}  // namespace hersey::solver

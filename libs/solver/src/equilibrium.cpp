@@ -1,0 +1,189 @@
+#include "hersey/solver/equilibrium.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hersey/solver/linearise.h"
+#include "hersey/solver/sparse_lu.h"
+
+namespace hersey::solver {
+namespace {
+
+using Eigen::VectorXd;
+using Index = Equations::Index;
+
+constexpr double kLargestIncrement = 0.2;  // rad, or sizes of the system
+constexpr double kRoundOff = 1e-13;
+
+class EquilibriumSearch {
+ public:
+  EquilibriumSearch(Equations& equations, const State& start, const EquilibriumOptions& options)
+      : equations_(equations), options_(options), here_(start), reach_(equations.position_scales()) {
+    here_.v.setZero();
+    here_.vdot.setZero();
+  }
+
+  EquilibriumSummary run(State& state) {
+    // The first step goes about a tenth of the allowed way: the start's accelerations tell how far a mu would go.
+    const double pull = state.vdot.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
+    mu_ = std::max(pull, 1e-6) / (0.1 * kLargestIncrement);
+    keep_mass();
+    if (!assemble(here_)) return failure(equations_.domain_error());
+    for (; worst_ > 1; ++summary_.iterations) {
+      if (summary_.iterations == options_.max_iterations || mu_ > 1e30) {
+        return failure(fmt::format("no equilibrium in {} iterations; worst equation: {}, {:.3g} times its tolerance",
+                                   summary_.iterations, summary_.worst_row, worst_));
+      }
+      advance();
+    }
+    summary_.converged = true;
+    state = here_;
+    judge(state);
+    return summary_;
+  }
+
+ private:
+  /// One step; a step that overshoots is not taken, and mu rises.
+  void advance() {
+    const Index nv = equations_.nv();
+    if (!solve()) {
+      mu_ = std::max(10 * mu_, 1e-12);
+      return;
+    }
+    const VectorXd dx = increment_.head(nv);
+    const double length =
+        std::min(1.0, kLargestIncrement / std::max(dx.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>(), 1e-300));
+    // dx^T (K + mu M) dx: the work the forces do on the way, less what is left of them at its end.
+    const double curvature = curvature_along(dx), before = worst_;
+    State next = here_;
+    equations_.retract(here_.q, length * dx, next.q);
+    next.lambda = here_.lambda + length * increment_.tail(increment_.size() - nv);
+    const State from = here_;
+    const bool inside = assemble(next);
+    const double remaining = inside ? -residual_.head(nv).dot(dx) : 0;
+    const bool better = worst_ < before;
+    const bool on_the_way = remaining >= -0.5 * curvature;
+    if (inside && curvature > 0 && (better || on_the_way)) {
+      here_ = next;
+      mu_ *= better ? std::clamp(worst_ / before, 0.01, 0.5) : 0.7;
+      return;
+    }
+    here_ = from;
+    mu_ = std::max(10 * mu_, 1e-12);
+    (void)assemble(here_);
+  }
+
+  bool assemble(const State& at) {
+    const Stage stage{.dt = 0, .k = 1, .c = 0, .m = 0, .dq = {}};
+    equations_.assemble(at, stage, residual_, scale_, &stiffness_);
+    if (!equations_.domain_error().empty() || !residual_.allFinite()) {
+      worst_ = std::numeric_limits<double>::infinity();
+      return false;
+    }
+    measure();
+    return true;
+  }
+
+  /// The mass matrix at the start, which measures how far a force moves what; in the pattern of the tangent.
+  void keep_mass() {
+    VectorXd residual, scale;
+    equations_.assemble(here_, {.dt = 0, .k = 0, .c = 0, .m = 1, .dq = {}}, residual, scale, &mass_);
+    const Index nv = equations_.nv();
+    for (Index column = 0; column < mass_.cols(); ++column)
+      for (Equations::SparseMatrix::InnerIterator entry(mass_, column); entry; ++entry)
+        if (entry.row() >= nv || column >= nv) entry.valueRef() = 0;
+  }
+
+  [[nodiscard]] double curvature_along(const VectorXd& dx) const {
+    double sum = 0;
+    for (Index column = 0; column < dx.size(); ++column)
+      for (Equations::SparseMatrix::InnerIterator entry(tangent_, column); entry; ++entry)
+        if (entry.row() < dx.size()) sum += dx[entry.row()] * entry.value() * dx[column];
+    return sum;
+  }
+
+  /// Out-of-balance forces over their tolerances. A row is compared with the terms it adds up and with what its own
+  /// stiffness makes of the largest reach: at rest under no torque at all the terms are round-off themselves.
+  void measure() {
+    const Index nv = equations_.nv();
+    for (Index i = 0; i < nv; ++i) scale_[i] = std::max(scale_[i], std::abs(stiffness_.coeff(i, i)) * reach_[i]);
+    Index row = 0;
+    VectorXd ratio(residual_.size());
+    for (Index i = 0; i < ratio.size(); ++i) {
+      const double tolerance = i < nv ? options_.rtol * scale_[i] : std::max(options_.rtol, kRoundOff) * scale_[i];
+      ratio[i] = residual_[i] == 0 ? 0 : tolerance > 0 ? std::abs(residual_[i]) / tolerance : 1e300;
+    }
+    worst_ = ratio.size() > 0 ? ratio.maxCoeff(&row) : 0;
+    summary_.residual = worst_;
+    summary_.worst_row = ratio.size() > 0 ? equations_.name_of_row(row) : "";
+  }
+
+  bool solve() {
+    tangent_ = stiffness_;
+    Eigen::Map<VectorXd>(tangent_.valuePtr(), tangent_.nonZeros()) +=
+        mu_ * Eigen::Map<const VectorXd>(mass_.valuePtr(), mass_.nonZeros());
+    const auto nonzeros = static_cast<std::size_t>(tangent_.nonZeros());
+    if (lu_.size() != tangent_.rows()) lu_.analyse(tangent_);
+    if (!lu_.factorise({tangent_.valuePtr(), nonzeros})) return false;
+    increment_ = -residual_;
+    lu_.solve({increment_.data(), static_cast<std::size_t>(increment_.size())});
+    return increment_.allFinite();
+  }
+
+  EquilibriumSummary failure(std::string why) {
+    summary_.message = std::move(why);
+    return summary_;
+  }
+
+  /// Stable if every free motion costs energy: the smallest eigenvalue of the stiffness against the mass.
+  void judge(const State& state) {
+    const Linearisation linear = linearise(equations_, state, 0);
+    if (linear.K.rows() == 0) return;
+    const Eigen::MatrixXd K = 0.5 * (linear.K + linear.K.transpose());
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, linear.M);
+    const VectorXd& stiffness = eigen.eigenvalues();
+    const double small = 1e-9 * stiffness.cwiseAbs().maxCoeff();
+    const VectorXd motion = (linear.Z * eigen.eigenvectors().col(0)).cwiseAbs().cwiseQuotient(reach_);
+    Index softest = 0;
+    motion.maxCoeff(&softest);
+    summary_.softest = equations_.name_of_row(softest);
+    if (stiffness[0] < -small) {
+      summary_.kind = EquilibriumKind::unstable;
+      summary_.message =
+          fmt::format("the equilibrium is unstable: the least push along {} leads away from it", summary_.softest);
+    } else if (stiffness[0] <= small) {
+      summary_.kind = EquilibriumKind::neutral;
+      summary_.message = fmt::format("the equilibrium is indifferent: nothing holds {} in place", summary_.softest);
+    }
+  }
+
+  Equations& equations_;
+  EquilibriumOptions options_;
+  State here_;
+  VectorXd reach_, residual_, scale_, increment_;
+  Equations::SparseMatrix stiffness_, mass_, tangent_;
+  SparseLu lu_;
+  double mu_ = 0, worst_ = 0;
+  EquilibriumSummary summary_;
+};
+
+}  // namespace
+
+EquilibriumSummary find_equilibrium(Equations& equations, State& state, const EquilibriumOptions& options) {
+  State found = state;
+  EquilibriumSummary summary = EquilibriumSearch(equations, state, options).run(found);
+  if (!summary.converged) return summary;
+  state = std::move(found);
+  equations.begin_step(state, 0);
+  VectorXd residual, scale;
+  equations.assemble(state, {.dt = 0, .k = 0, .c = 0, .m = 1, .dq = {}}, residual, scale, nullptr);
+  equations.accept_step(state);
+  return summary;
+}
+
+}  // namespace hersey::solver
