@@ -55,6 +55,7 @@ std::string gap_text(const solver::OpenConstraint& open) {
 
 std::vector<Fault> faults_of_open_loop(const model::Model& model, const solver::InitialiseSummary& summary) {
   std::vector<std::string> gaps;
+  gaps.reserve(summary.open.size());
   for (const solver::OpenConstraint& open : summary.open) gaps.push_back(gap_text(open));
   return {fault_at(model, summary.open.front().name,
                    fmt::format("a mechanism that cannot be assembled: at its closest, {}", fmt::join(gaps, ", ")),
