@@ -145,7 +145,7 @@ void print(const BearingArguments& arguments, const std::vector<study::BearingSo
 
 int bearing_command(const BearingArguments& arguments) {
   const std::vector<model::StudyRun> runs = runs_of(arguments, plan_of(arguments));
-  warn(model::read(arguments.model, runs.front().overrides));
+  warn(model::read(arguments.model, runs.front().overrides).warnings);
   if (!arguments.fields.empty() && runs.size() > 1) {
     throw InputError(Fault{{"--fields", 0, 0}, "", fmt::format("{} solutions", runs.size()), "a single one", ""});
   }

@@ -55,7 +55,7 @@ struct BearingArguments {
 [[nodiscard]] int bearing_command(const BearingArguments& arguments);
 
 /// Tells what the model computes but hardly means, one a line on stderr.
-void warn(const model::Model& model);
+void warn(const std::vector<Fault>& warnings);
 
 /// `hersey schema`: the model file's format. @returns an ExitCode.
 [[nodiscard]] int schema_command(bool markdown);

@@ -34,8 +34,8 @@ std::string contents(const model::Model& model, std::size_t runs) {
 
 }  // namespace
 
-void warn(const model::Model& model) {
-  for (const Fault& warning : model.warnings) fmt::print(stderr, "warning: {}\n", warning.text());
+void warn(const std::vector<Fault>& warnings) {
+  for (const Fault& warning : warnings) fmt::print(stderr, "warning: {}\n", warning.text());
 }
 
 int check_command(const CheckArguments& arguments) {
@@ -43,12 +43,14 @@ int check_command(const CheckArguments& arguments) {
       {"model", arguments.model}, {"faults", nlohmann::json::array()}, {"warnings", nlohmann::json::array()}};
   try {
     const model::Model model = model::read(arguments.model, arguments.overrides);
-    run::check(model);
+    const std::vector<Fault> redundancies = run::check(model);
     const std::vector<model::StudyRun> runs = model::expand_study(arguments.model, arguments.overrides);
-    for (const model::StudyRun& run : runs) run::check(model::read(arguments.model, run.overrides));
-    for (const Fault& warning : model.warnings) document["warnings"].push_back(json_of(warning));
+    for (const model::StudyRun& run : runs) (void)run::check(model::read(arguments.model, run.overrides));
+    for (const std::vector<Fault>& warnings : {model.warnings, redundancies})
+      for (const Fault& warning : warnings) document["warnings"].push_back(json_of(warning));
     if (!arguments.json) {
-      warn(model);
+      warn(model.warnings);
+      warn(redundancies);
       fmt::print("{}: good ({})\n", arguments.model, contents(model, std::max<std::size_t>(runs.size(), 1)));
     }
   } catch (const InputError& error) {

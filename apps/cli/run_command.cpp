@@ -129,7 +129,7 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   refuse_existing({options.results}, arguments.force);
   ProgressBar bar;
   options.on_progress = [&](const run::Progress& progress) { bar.show("", progress); };
-  run::check(model);
+  warn(run::check(model));
   make_folder(folder);
   const run::Summary summary = run::simulate(model, options);
   bar.clear();
@@ -184,7 +184,7 @@ int run_all(const RunArguments& arguments, const std::filesystem::path& folder,
 int run_command(const RunArguments& arguments) {
   const std::filesystem::path folder = output_folder(arguments);
   const model::Model model = model::read(arguments.model, arguments.overrides);
-  warn(model);
+  warn(model.warnings);
   if (model.is_of_bearings_alone()) {
     throw InputError(Fault{{arguments.model, 0, 0},
                            "",

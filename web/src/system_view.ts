@@ -36,7 +36,9 @@ export class SystemView {
     const graph = mechanismGraph(run);
     if (graph) this.element.append(section("Mechanism", false, (body) => body.append(graph)));
     if (run.children("/joints").length > 0) this.element.append(section("Joints", false, (body) => this.joints(body)));
-    if (run.children("/drives").length > 0) this.element.append(section("Drives", false, (body) => this.drives(body)));
+    for (const [group, title] of [["/drives", "Drives"], ["/couplings", "Couplings"], ["/joint_forces", "Springs, friction and control in joints"]] as const) {
+      if (run.children(group).length > 0) this.element.append(section(title, false, (body) => this.efforts(body, group)));
+    }
     if (run.children("/bodies").length > 0) this.element.append(section("Bodies", false, (body) => this.bodies(body)));
     if (run.model) this.element.append(h("details", {}, h("summary", {}, "Model as it was run"), h("pre", { class: "model" }, run.model)));
   }
@@ -99,10 +101,11 @@ export class SystemView {
     }
   }
 
-  private drives(body: HTMLElement): void {
-    for (const drive of this.run.children("/drives")) {
+  private efforts(body: HTMLElement, group: string): void {
+    for (const drive of this.run.children(group)) {
       for (const [name, label] of [["force_or_torque", "force or torque"], ["power", "power"]] as const) {
-        const { curves, unit: stored } = this.generic(`/drives/${drive}/${name}`, [label]);
+        if (!this.run.dataset(`${group}/${drive}/${name}`)) continue;
+        const { curves, unit: stored } = this.generic(`${group}/${drive}/${name}`, [label]);
         const unit = stored === "SI" ? "N or N·m" : stored;
         this.add(body, `${drive}-${name}`, `${drive}: ${label}`, { label, unit }, curves.map((c) => ({ ...c, unit })));
       }

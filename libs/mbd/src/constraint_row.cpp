@@ -53,7 +53,10 @@ std::vector<ConstraintRow> constraint_rows(JointType type, const Vector3& axis) 
       return {position(t1), position(t2), position(n)};
     case JointType::planar:
       return {position(n), orientation(t1, n), orientation(t2, n)};
+    case JointType::universal:
+      return {position(t1), position(t2), position(n), orientation(t1, t2)};
     case JointType::free:
+    case JointType::screw:  // becomes a chain, see build_tree
       return {};
   }
   return {};

@@ -1,93 +1,103 @@
 #include "drive_motion.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+
+#include "quadrature.h"
 
 namespace hersey::mbd {
 namespace {
 
-/// Integrals over [a, b] of f and of |f|.
-struct Integral {
-  double value = 0;
-  double size = 0;
+/// base + s(t) (f(t) - base), s a quintic from 0 to 1 whose first two derivatives vanish at both ends.
+class RampedFunction final : public ScalarFunction {
+ public:
+  RampedFunction(std::shared_ptr<const ScalarFunction> f, double base, double start, double duration)
+      : f_(std::move(f)), base_(base), start_(start), duration_(duration) {}
+
+  [[nodiscard]] double value(std::span<const double> t) const override {
+    return base_ + blend(t[0]).s * (f_->value(t) - base_);
+  }
+  void gradient(std::span<const double> t, std::span<double> gradient) const override {
+    const Blend b = blend(t[0]);
+    f_->gradient(t, gradient);
+    gradient[0] = b.ds * (f_->value(t) - base_) + b.s * gradient[0];
+  }
+  [[nodiscard]] double second_derivative(std::span<const double> t) const override {
+    const Blend b = blend(t[0]);
+    double slope = 0;
+    f_->gradient(t, {&slope, 1});
+    return b.dds * (f_->value(t) - base_) + 2 * b.ds * slope + b.s * f_->second_derivative(t);
+  }
+
+ private:
+  struct Blend {
+    double s, ds, dds;
+  };
+  [[nodiscard]] Blend blend(double t) const {
+    const double x = std::clamp((t - start_) / duration_, 0.0, 1.0), T = duration_;
+    return {x * x * x * (10 + x * (6 * x - 15)), 30 * x * x * (1 - x) * (1 - x) / T,
+            60 * x * (1 - x) * (1 - 2 * x) / (T * T)};
+  }
+
+  std::shared_ptr<const ScalarFunction> f_;
+  double base_, start_, duration_;
 };
 
-/// Five-point Gauss-Legendre rule.
-Integral gauss5(const ScalarFunction& f, double a, double b) {
-  // Nodes and weights: Abramowitz and Stegun (1964), table 25.4.
-  static constexpr std::array<double, 3> x{0.0, 0.538469310105683091, 0.906179845938663993};
-  static constexpr std::array<double, 3> w{0.568888888888888889, 0.478628670499366468, 0.236926885056189088};
-  const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
-  Integral sum;
-  const auto add = [&](double t, double weight) {
-    const double value = f.value({&t, 1});
-    sum.value += half * weight * value;
-    sum.size += std::abs(half * weight * value);
-  };
-  add(middle, w[0]);
-  for (std::size_t i = 1; i < x.size(); ++i) {
-    add(middle - half * x[i], w[i]);
-    add(middle + half * x[i], w[i]);
-  }
-  return sum;
-}
-
-/// Bisects until halves and whole agree to `tolerance`. At a kink or jump of a table the halves shrink towards it, and
-/// the depth limit ends where they no longer matter: one path of the bisection, not all of them.
-double refine(const ScalarFunction& f, double a, double b, double whole, double tolerance, int depth) {
-  const double middle = 0.5 * (a + b);
-  const double left = gauss5(f, a, middle).value, right = gauss5(f, middle, b).value;
-  if (depth == 0 || !(std::abs(left + right - whole) > tolerance)) return left + right;  // not a number ends it too
-  return refine(f, a, middle, left, tolerance, depth - 1) + refine(f, middle, b, right, tolerance, depth - 1);
-}
-
-/// Adaptive integral over [a, b], to round-off of the integral of |f|: where f changes sign nothing smaller is
-/// reachable.
-double integrate(const ScalarFunction& f, double a, double b) {
-  constexpr int panels = 8, max_depth = 40;
-  std::array<Integral, panels> panel;
-  const auto edge = [&](int i) { return a + (b - a) * i / panels; };
-  double size = 0;
-  for (int i = 0; i < panels; ++i) {
-    panel[i] = gauss5(f, edge(i), edge(i + 1));
-    size += panel[i].size;
-  }
-  double sum = 0;
-  for (int i = 0; i < panels; ++i) sum += refine(f, edge(i), edge(i + 1), panel[i].value, 1e-14 * size, max_depth);
-  return sum;
+std::shared_ptr<const ScalarFunction> ramped(const DriveSpec& spec, double initial) {
+  if (spec.ramp <= 0) return spec.function;
+  const double base = spec.kind == DriveSpec::Kind::position ? initial : 0.0;
+  return std::make_shared<RampedFunction>(spec.function, base, spec.start, spec.ramp);
 }
 
 }  // namespace
 
-DriveMotion::DriveMotion(const DriveSpec& spec, double initial)
+DriveMotion::DriveMotion(const DriveSpec& spec, double initial, double initial_rate)
     : kind_(spec.kind),
-      function_(spec.function),
-      constant_(dynamic_cast<const ConstantFunction*>(spec.function.get()) != nullptr),
-      anchor_position_(initial) {}
+      function_(ramped(spec, initial)),
+      constant_(spec.kind == DriveSpec::Kind::speed &&
+                dynamic_cast<const ConstantFunction*>(function_.get()) != nullptr),
+      anchor_position_(initial),
+      anchor_rate_(initial_rate) {}
 
 double DriveMotion::position(double t) const {
-  if (kind_ == DriveSpec::Kind::position) return function_->value({&t, 1});
-  if (constant_) return anchor_position_ + function_->value({&t, 1}) * t;
-  return anchor_position_ + integrate(*function_, anchor_time_, t);
+  const double span = t - anchor_time_;
+  switch (kind_) {
+    case DriveSpec::Kind::position:
+      return value(t);
+    case DriveSpec::Kind::speed:
+      if (constant_) return anchor_position_ + value(t) * t;
+      return anchor_position_ + integrate([&](double s) { return value(s); }, anchor_time_, t);
+    case DriveSpec::Kind::acceleration:
+      return anchor_position_ + anchor_rate_ * span +
+             integrate([&](double s) { return (t - s) * value(s); }, anchor_time_, t);
+  }
+  return 0;
 }
 
 double DriveMotion::velocity(double t) const {
-  if (kind_ == DriveSpec::Kind::speed) return function_->value({&t, 1});
-  double rate = 0;
-  function_->gradient({&t, 1}, {&rate, 1});
-  return rate;
+  if (kind_ == DriveSpec::Kind::position) return slope(t);
+  if (kind_ == DriveSpec::Kind::speed) return value(t);
+  return anchor_rate_ + integrate([&](double s) { return value(s); }, anchor_time_, t);
 }
 
 double DriveMotion::acceleration(double t) const {
   if (kind_ == DriveSpec::Kind::position) return function_->second_derivative({&t, 1});
-  double rate = 0;
-  function_->gradient({&t, 1}, {&rate, 1});
-  return rate;
+  return kind_ == DriveSpec::Kind::speed ? slope(t) : value(t);
+}
+
+double DriveMotion::value(double t) const { return function_->value({&t, 1}); }
+
+double DriveMotion::slope(double t) const {
+  double slope = 0;
+  function_->gradient({&t, 1}, {&slope, 1});
+  return slope;
 }
 
 void DriveMotion::anchor(double t) {
   if (kind_ == DriveSpec::Kind::position || constant_ || t == anchor_time_) return;
+  const double rate = kind_ == DriveSpec::Kind::acceleration ? velocity(t) : anchor_rate_;
   anchor_position_ = position(t);
+  anchor_rate_ = rate;
   anchor_time_ = t;
 }
 

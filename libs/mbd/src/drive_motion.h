@@ -10,11 +10,12 @@ namespace hersey::mbd {
 /// A drive's prescribed coordinate as a function of time, with its derivatives.
 class DriveMotion {
  public:
-  /// @param initial  the coordinate at t = 0, where a speed starts counting
-  DriveMotion(const DriveSpec& spec, double initial);
+  /// @param initial       the coordinate at t = 0, where a speed starts counting
+  /// @param initial_rate  its rate there, where an acceleration starts
+  DriveMotion(const DriveSpec& spec, double initial, double initial_rate = 0);
 
-  /// Position at t. A constant speed gives exactly initial + omega t; any other speed is integrated adaptively from the
-  /// last anchor, to 1e-12 relative.
+  /// Position at t. A constant speed gives exactly initial + omega t; any other speed or acceleration is integrated
+  /// adaptively from the last anchor, to 1e-12 relative.
   [[nodiscard]] double position(double t) const;
   [[nodiscard]] double velocity(double t) const;
   [[nodiscard]] double acceleration(double t) const;
@@ -23,11 +24,15 @@ class DriveMotion {
   void anchor(double t);
 
  private:
+  [[nodiscard]] double value(double t) const;
+  [[nodiscard]] double slope(double t) const;
+
   DriveSpec::Kind kind_;
   std::shared_ptr<const ScalarFunction> function_;
   bool constant_ = false;
   double anchor_time_ = 0;
   double anchor_position_ = 0;
+  double anchor_rate_ = 0;
 };
 
 }  // namespace hersey::mbd

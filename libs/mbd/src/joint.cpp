@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "hersey/core/contract.h"
 
@@ -21,8 +22,11 @@ constexpr std::array<Coordinate, 2> kFree{
     {{.name = "position", .size = 3},
      {.name = "orientation", .offset = 3, .size = 3, .rotational = true, .orientation = true}}};
 
-constexpr std::array<std::string_view, 7> kNames{"fixed",     "revolute", "prismatic", "cylindrical",
-                                                 "spherical", "planar",   "free"};
+constexpr std::array<Coordinate, 2> kUniversal{
+    {{.name = "rotation_1", .rotational = true}, {.name = "rotation_2", .offset = 1, .rotational = true}}};
+
+constexpr std::array<std::string_view, 9> kNames{"fixed",  "revolute", "prismatic", "cylindrical", "spherical",
+                                                 "planar", "free",     "universal", "screw"};
 
 Pose rotation(const Vector3& rotation_vector) {
   return {rotation_exp(rotation_vector).toRotationMatrix(), Vector3::Zero()};
@@ -43,6 +47,7 @@ std::span<const Coordinate> coordinates_of(JointType type) {
     case JointType::fixed:
       return {};
     case JointType::revolute:
+    case JointType::screw:
       return kRevolute;
     case JointType::prismatic:
       return kPrismatic;
@@ -54,6 +59,8 @@ std::span<const Coordinate> coordinates_of(JointType type) {
       return kPlanar;
     case JointType::free:
       return kFree;
+    case JointType::universal:
+      return kUniversal;
   }
   HERSEY_REQUIRE(false, "every joint type is listed");
 }
@@ -86,7 +93,7 @@ Matrix3 joint_axes(const Vector3& axis) {
   return axes;
 }
 
-Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> values) {
+Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> values, double lead) {
   HERSEY_REQUIRE(static_cast<int>(values.size()) == degrees_of_freedom(type), "one value per degree of freedom");
   const Matrix3 axes = joint_axes(axis);
   const Vector3 n = axes.col(2);
@@ -106,6 +113,10 @@ Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> val
     case JointType::free:
       return Pose{Matrix3::Identity(), Vector3(values[0], values[1], values[2])} *
              rotation({values[3], values[4], values[5]});
+    case JointType::universal:
+      return rotation(values[0] * axes.col(0)) * rotation(values[1] * axes.col(1));
+    case JointType::screw:
+      return Pose{Matrix3::Identity(), lead / (2 * std::numbers::pi) * values[0] * n} * rotation(values[0] * n);
   }
   HERSEY_REQUIRE(false, "every joint type is listed");
 }

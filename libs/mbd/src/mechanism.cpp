@@ -23,14 +23,24 @@ Mechanism::Implementation::Implementation(MechanismSpec given)
   for (const LoadSpec& load : spec.loads) loads.emplace_back(load, spec.frames[load.frame.index].body, tree);
   for (const DriveSpec& drive : spec.drives) {
     const int column = column_of(tree, drive.coordinate);
-    drives.push_back({column, q_of(column), DriveMotion(drive, initial_value(drive.coordinate))});
+    drives.push_back(
+        {column, q_of(column), DriveMotion(drive, initial_value(drive.coordinate), initial_rate(drive.coordinate))});
   }
+  for (const CouplingSpec& coupling : spec.couplings) couplings.emplace_back(coupling, tree);
   for (const CoordinateSpringSpec& spring : spec.springs) spring_columns.push_back(column_of(tree, spring.coordinate));
+  for (const MechanismSpec::CoordinateForce& force : spec.coordinate_forces)
+    coordinate_force_columns.push_back(column_of(tree, force.coordinate));
+  release_redundant_rows();
   make_patterns();
 }
 
 double Mechanism::Implementation::initial_value(const CoordinateRef& coordinate) const {
   const std::vector<double>& initial = spec.joints[coordinate.joint.index].initial;
+  return initial.empty() ? 0.0 : initial[coordinate.value];
+}
+
+double Mechanism::Implementation::initial_rate(const CoordinateRef& coordinate) const {
+  const std::vector<double>& initial = spec.joints[coordinate.joint.index].initial_rate;
   return initial.empty() ? 0.0 : initial[coordinate.value];
 }
 
@@ -78,8 +88,10 @@ void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd
   m.inertia.add(assembly);
   for (Load& load : m.loads) load.add(assembly, state);
   m.add_coordinate_springs(assembly, state);
+  m.add_coordinate_forces(assembly, state);
   m.add_two_body_forces(assembly, state);
   m.add_closures(assembly, state);
+  m.add_couplings(assembly, state);
   m.add_drives(assembly, state);
   m.floor_scales(scale);
 }
@@ -103,6 +115,16 @@ void Mechanism::Implementation::add_coordinate_springs(Assembly& assembly, const
     assembly.add_residual(k, elastic + viscous, std::abs(elastic) + std::abs(viscous));
     if (assembly.tangent)
       assembly.add_tangent(k, k, assembly.stage.k * spring.stiffness + assembly.stage.c * spring.damping);
+  }
+}
+
+void Mechanism::Implementation::add_coordinate_forces(Assembly& assembly, const State& state) const {
+  for (std::size_t i = 0; i < spec.coordinate_forces.size(); ++i) {
+    const int k = coordinate_force_columns[i];
+    const CoordinateEffort effort = spec.coordinate_forces[i].force->evaluate(state.t, state.q[q_of(k)], state.v[k]);
+    assembly.add_residual(k, -effort.value, std::abs(effort.value));
+    if (assembly.tangent)
+      assembly.add_tangent(k, k, -assembly.stage.k * effort.by_position - assembly.stage.c * effort.by_rate);
   }
 }
 
@@ -136,13 +158,37 @@ void Mechanism::Implementation::add_closures(Assembly& assembly, const State& st
   }
 }
 
+double Mechanism::Implementation::coupling_scale(const Coupling& coupling, const State& state) const {
+  const bool linear = tree.links[tree.columns[coupling.output()].link].motion == Motion::prismatic;
+  return std::max(linear ? tree.length : 1.0, coupling.magnitude(state));
+}
+
+void Mechanism::Implementation::add_couplings(Assembly& assembly, const State& state) const {
+  for (std::size_t i = 0; i < couplings.size(); ++i) {
+    const Coupling& coupling = couplings[i];
+    const Index row = tree.nv + row_of_coupling(i);
+    const double lambda = state.lambda[row_of_coupling(i)];
+    assembly.add_residual(row, coupling.value(state), coupling_scale(coupling, state));
+    coupling.visit_rates(state, [&](int column, double rate) {
+      assembly.add_residual(column, lambda * rate, std::abs(lambda * rate));
+      if (!assembly.tangent) return;
+      assembly.add_tangent(column, row, rate);
+      assembly.add_tangent(row, column, assembly.stage.k * rate);
+    });
+    if (!assembly.tangent) continue;
+    coupling.visit_curvatures(state, [&](int column, double curvature) {
+      assembly.add_tangent(column, column, assembly.stage.k * lambda * curvature);
+    });
+  }
+}
+
 void Mechanism::Implementation::add_drives(Assembly& assembly, const State& state) const {
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const BoundDrive& drive = drives[i];
-    const Index row = tree.nv + tree.nclosure + static_cast<Index>(i);
-    const double lambda = state.lambda[tree.nclosure + static_cast<Index>(i)];
+    const Index row = tree.nv + row_of_drive(i);
+    const double lambda = state.lambda[row_of_drive(i)];
     const double asked = drive.motion.position(state.t);
-    const bool angle = tree.links[tree.columns[drive.column].link].motion == Motion::revolute;
+    const bool angle = tree.links[tree.columns[drive.column].link].motion != Motion::prismatic;
     assembly.add_residual(drive.column, lambda, std::abs(lambda));
     assembly.add_residual(row, state.q[drive.q] - asked, std::max(angle ? 1.0 : tree.length, std::abs(asked)));
     if (!assembly.tangent) continue;
@@ -186,12 +232,19 @@ void Mechanism::constraints(const State& state, Eigen::VectorXd& phi, Eigen::Vec
         jacobian->coeffRef(at, col.column) = col.sign * m.motion.J(col.column).dot(w);
     }
   }
+  for (std::size_t i = 0; i < m.couplings.size(); ++i) {
+    const Index at = m.row_of_coupling(i);
+    phi[at] = m.couplings[i].value(state);
+    scale[at] = m.coupling_scale(m.couplings[i], state);
+    if (jacobian)
+      m.couplings[i].visit_rates(state, [&](int column, double rate) { jacobian->coeffRef(at, column) += rate; });
+  }
   for (std::size_t i = 0; i < m.drives.size(); ++i) {
     const BoundDrive& drive = m.drives[i];
-    const Index at = m.tree.nclosure + static_cast<Index>(i);
+    const Index at = m.row_of_drive(i);
     const double asked = drive.motion.position(state.t);
     phi[at] = state.q[drive.q] - asked;
-    const bool angle = m.tree.links[m.tree.columns[drive.column].link].motion == Motion::revolute;
+    const bool angle = m.tree.links[m.tree.columns[drive.column].link].motion != Motion::prismatic;
     scale[at] = std::max(angle ? 1.0 : m.tree.length, std::abs(asked));
     if (jacobian) jacobian->coeffRef(at, drive.column) = 1.0;
   }
@@ -219,9 +272,14 @@ void Mechanism::constraint_rates(const State& state, Eigen::VectorXd& velocity, 
                  relative.V_AB_A.dot(row.wrench_derivative(relative.X_AB) * relative.V_AB_A);
     }
   }
+  for (std::size_t i = 0; i < m.couplings.size(); ++i) {
+    const Index at = m.row_of_coupling(i);
+    m.couplings[i].visit_rates(state, [&](int column, double rate) { velocity[at] += rate * state.v[column]; });
+    bias[at] = m.couplings[i].bias(state);
+  }
   for (std::size_t i = 0; i < m.drives.size(); ++i) {
     const BoundDrive& drive = m.drives[i];
-    const Index at = m.tree.nclosure + static_cast<Index>(i);
+    const Index at = m.row_of_drive(i);
     velocity[at] = state.v[drive.column] - drive.motion.velocity(state.t);
     bias[at] = -drive.motion.acceleration(state.t);
   }
@@ -250,8 +308,14 @@ void Mechanism::begin_step(const State& start, double dt) {
 void Mechanism::accept_step(const State& end) {
   Implementation& m = *impl_;
   for (BoundDrive& drive : m.drives) drive.motion.anchor(end.t);
-  if (m.spec.forces.empty()) return;
+  for (std::size_t i = 0; i < m.spec.coordinate_forces.size(); ++i) {
+    const int k = m.coordinate_force_columns[i];
+    m.spec.coordinate_forces[i].force->accept_step(end.t, end.q[m.q_of(k)], end.v[k]);
+  }
+  if (m.spec.forces.empty() && m.redundancies.empty()) return;
   m.motion.update_positions(end);
+  m.watch_dropped_rows();
+  if (m.spec.forces.empty()) return;
   m.motion.update_velocities(end);
   m.accepted_wrenches.resize(m.spec.forces.size());
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
@@ -276,45 +340,15 @@ std::string Mechanism::name_of_internal_residual() const {
 }
 
 std::string Mechanism::domain_error() const {
+  if (!impl_->came_apart.empty()) return impl_->came_apart;
   for (const auto& f : impl_->spec.forces)
     if (const std::string text = f.force->domain_error(); !text.empty()) return fmt::format("{}: {}", f.name, text);
   return {};
 }
 
-State Mechanism::initial_state() const {
-  const Implementation& m = *impl_;
-  State state;
-  state.q.setZero(nq());
-  state.v.setZero(nv());
-  state.vdot.setZero(nv());
-  state.lambda.setZero(nlambda());
-  for (const Link& link : m.tree.links) {
-    const JointSpec* joint = link.joint >= 0 ? &m.spec.joints[link.joint] : nullptr;
-    const bool placed = joint && !joint->initial.empty(), moving = joint && !joint->initial_rate.empty();
-    if (link.motion == Motion::ball) {
-      Eigen::Quaterniond R_IO = Eigen::Quaterniond::Identity();
-      if (placed) R_IO = rotation_exp(Vector3::Map(joint->initial.data() + link.value));
-      const Eigen::Quaterniond R = link.reversed ? R_IO.conjugate() : R_IO;
-      state.q.segment<4>(link.first_q) << R.w(), R.x(), R.y(), R.z();
-      if (!moving) continue;
-      // Reversed, the ball's velocity is that of I relative to O, in I's axes.
-      const Vector3 omega = Vector3::Map(joint->initial_rate.data() + link.value);
-      state.v.segment<3>(link.first_v) = link.reversed ? Vector3(-(R_IO * omega)) : omega;
-    } else if (link.columns == 1) {
-      if (placed) state.q[link.first_q] = joint->initial[link.value];
-      if (moving) state.v[link.first_v] = joint->initial_rate[link.value];
-    }
-  }
-  return state;
-}
+State Mechanism::initial_state() const { return impl_->initial_state(); }
 
-std::vector<Mechanism::Index> Mechanism::given_coordinates() const {
-  std::vector<Index> given;
-  for (const Link& link : impl_->tree.links)
-    if (link.joint >= 0 && !impl_->spec.joints[link.joint].initial.empty())
-      for (int c = 0; c < link.columns; ++c) given.push_back(link.first_v + c);
-  return given;
-}
+std::vector<Mechanism::Index> Mechanism::given_coordinates() const { return impl_->given_coordinates(); }
 
 FrameMotion Mechanism::frame_motion(const State& state, FrameId frame) {
   HERSEY_REQUIRE(0 <= frame.index && frame.index < static_cast<int>(impl_->tree.frames.size()), "the frame exists");

@@ -56,6 +56,14 @@ void check_drives(const std::vector<DriveSpec>& drives, std::vector<Fault>& faul
                                "one drive per coordinate"));
 }
 
+void check_couplings(const std::vector<CouplingSpec>& couplings, std::vector<Fault>& faults) {
+  for (const CouplingSpec& coupling : couplings)
+    for (const CouplingSpec::Term& term : coupling.terms)
+      if (same(term.input, coupling.output))
+        faults.push_back(fault("couplings." + coupling.name, "a coordinate that depends on itself",
+                               "an input that is another coordinate than the output"));
+}
+
 }  // namespace
 
 MechanismBuilder::MechanismBuilder() { add_body({.name = "ground"}); }
@@ -105,6 +113,13 @@ LoadId MechanismBuilder::add_load(LoadSpec load) {
   return append<LoadId>(spec_.loads, std::move(load));
 }
 
+CoordinateForceId MechanismBuilder::add_coordinate_force(std::string name, CoordinateRef coordinate,
+                                                         std::shared_ptr<CoordinateForce> force) {
+  HERSEY_REQUIRE(force != nullptr, "there is a force");
+  return append<CoordinateForceId>(spec_.coordinate_forces,
+                                   MechanismSpec::CoordinateForce{std::move(name), coordinate, std::move(force)});
+}
+
 SpringId MechanismBuilder::add_spring(CoordinateSpringSpec spring) {
   return append<SpringId>(spec_.springs, std::move(spring));
 }
@@ -112,6 +127,12 @@ SpringId MechanismBuilder::add_spring(CoordinateSpringSpec spring) {
 DriveId MechanismBuilder::add_drive(DriveSpec drive) {
   HERSEY_REQUIRE(drive.function != nullptr, "a drive has a function of time");
   return append<DriveId>(spec_.drives, std::move(drive));
+}
+
+CouplingId MechanismBuilder::add_coupling(CouplingSpec coupling) {
+  for (const CouplingSpec::Term& term : coupling.terms)
+    HERSEY_REQUIRE(term.function != nullptr, "each term of a coupling has a function");
+  return append<CouplingId>(spec_.couplings, std::move(coupling));
 }
 
 std::unique_ptr<Mechanism> MechanismBuilder::finalise() {
@@ -122,6 +143,7 @@ std::unique_ptr<Mechanism> MechanismBuilder::finalise() {
       faults.push_back(fault("joints." + joint.name, "two frames of one body", "frames of two different bodies"));
   for (const CoordinateSpringSpec& spring : spec_.springs) check_spring(spring, faults);
   check_drives(spec_.drives, faults);
+  check_couplings(spec_.couplings, faults);
   if (!faults.empty()) throw InputError(std::move(faults));
   return std::make_unique<Mechanism>(std::move(spec_));
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "assembly.h"
+#include "coupling.h"
 #include "drive_motion.h"
 #include "hersey/mbd/mechanism.h"
 #include "load.h"
@@ -27,23 +28,41 @@ struct Mechanism::Implementation {
   InertiaTerms inertia;
   std::vector<Direction> directions;
   std::vector<Load> loads;
+  std::vector<Coupling> couplings;
   std::vector<BoundDrive> drives;
   std::vector<int> spring_columns;
+  std::vector<int> coordinate_force_columns;
   SparseMatrix pattern;             ///< of the tangent, zeros
   SparseMatrix constraint_pattern;  ///< of G, zeros
 
   std::vector<ForceResponse> responses;    ///< of the two-body forces at the last assembly
   std::vector<Vector6> accepted_wrenches;  ///< at the last accepted step; empty before the first
 
-  [[nodiscard]] Index nlambda() const { return tree.nclosure + static_cast<Index>(drives.size()); }
+  // Multipliers: closures, then couplings, then drives.
+  [[nodiscard]] Index row_of_coupling(std::size_t i) const { return tree.nclosure + static_cast<Index>(i); }
+  [[nodiscard]] Index row_of_drive(std::size_t i) const { return row_of_coupling(couplings.size() + i); }
+  [[nodiscard]] Index nlambda() const { return row_of_drive(drives.size()); }
   [[nodiscard]] int q_of(int column) const { return tree.links[tree.columns[column].link].first_q; }
   [[nodiscard]] double initial_value(const CoordinateRef& coordinate) const;
+  [[nodiscard]] double initial_rate(const CoordinateRef& coordinate) const;
+  [[nodiscard]] solver::State initial_state() const;
+  [[nodiscard]] std::vector<Index> given_coordinates() const;
+
+  // Redundant constraints
+  std::vector<Redundancy> redundancies;
+  std::string came_apart;  ///< which joint's dropped rows do not hold any more; empty as long as all do
+  void release_redundant_rows();
+  [[nodiscard]] double opening_of(const Closure& closure) const;
+  void watch_dropped_rows();
 
   void make_patterns();
   void add_two_body_forces(Assembly& assembly, const solver::State& state);
   void add_closures(Assembly& assembly, const solver::State& state) const;
   void add_coordinate_springs(Assembly& assembly, const solver::State& state) const;
+  void add_coordinate_forces(Assembly& assembly, const solver::State& state) const;
+  void add_couplings(Assembly& assembly, const solver::State& state) const;
   void add_drives(Assembly& assembly, const solver::State& state) const;
+  [[nodiscard]] double coupling_scale(const Coupling& coupling, const solver::State& state) const;
   void floor_scales(Eigen::VectorXd& scale) const;
   [[nodiscard]] std::string name_of_velocity(Index row) const;
 
@@ -52,6 +71,7 @@ struct Mechanism::Implementation {
   void observe_joint_coordinates(const solver::State& state, Observation& seen) const;
   void observe_efforts(const solver::State& state, Observation& seen);
   void observe_reactions(const solver::State& state, Observation& seen);
+  void observe_drift(const solver::State& state, Observation& seen) const;
   void observe_energies(Observation& seen) const;
 };
 

@@ -32,7 +32,8 @@ std::string Mechanism::name_of_row(Index row) const {
   const Implementation& m = *impl_;
   if (row < nv()) return m.name_of_velocity(row);
   row -= nv();
-  if (row >= m.tree.nclosure) return fmt::format("drive {}", m.spec.drives[row - m.tree.nclosure].name);
+  if (row >= m.row_of_drive(0)) return fmt::format("drive {}", m.spec.drives[row - m.row_of_drive(0)].name);
+  if (row >= m.tree.nclosure) return fmt::format("coupling {}", m.spec.couplings[row - m.tree.nclosure].name);
   for (const Closure& closure : m.tree.closures) {
     const Index i = row - closure.first_row;
     if (i < 0 || i >= static_cast<Index>(closure.rows.size())) continue;
@@ -69,8 +70,12 @@ void Mechanism::Implementation::make_patterns() {
       for (const SignedColumn& column : closure.pair.columns)
         visit_constraint(closure.first_row + static_cast<Index>(i), column.column);
   }
-  for (std::size_t i = 0; i < drives.size(); ++i)
-    visit_constraint(tree.nclosure + static_cast<Index>(i), drives[i].column);
+  for (std::size_t i = 0; i < couplings.size(); ++i)
+    couplings[i].visit_columns([&](int column) {
+      visit_constraint(row_of_coupling(i), column);
+      visit(column, column);
+    });
+  for (std::size_t i = 0; i < drives.size(); ++i) visit_constraint(row_of_drive(i), drives[i].column);
 
   const Index n = tree.nv + nlambda();
   pattern.resize(n, n);

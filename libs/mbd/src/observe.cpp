@@ -1,7 +1,9 @@
 // What a mechanism shows of itself: motion, joint coordinates, reactions, efforts, powers, energies.
+#include <algorithm>
 #include <cmath>
 
 #include "mechanism_impl.h"
+#include "shared_reactions.h"
 
 namespace hersey::mbd {
 namespace {
@@ -48,6 +50,14 @@ void measure_joint(JointType type, const Vector3& axis, const RelativeMotion& re
     case JointType::free:
       for (int i = 0; i < 3; ++i) add(r[i], v[i]);
       add_orientation();
+      break;
+    case JointType::universal: {
+      const Vector3 second = R * t2, first = R.transpose() * t1;
+      add(std::atan2(n.dot(second), t2.dot(second)), t1.dot(omega));
+      add(std::atan2(n.dot(first), t1.dot(first)), second.dot(omega));
+      break;
+    }
+    case JointType::screw:  // never without a chain of its own
       break;
   }
 }
@@ -99,9 +109,10 @@ void Mechanism::Implementation::observe_joint_coordinates(const solver::State& s
 
 void Mechanism::Implementation::observe_efforts(const solver::State& state, Observation& seen) {
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    seen.drive_efforts.push_back(-state.lambda[tree.nclosure + static_cast<Index>(i)]);
+    seen.drive_efforts.push_back(-state.lambda[row_of_drive(i)]);
     seen.drive_powers.push_back(seen.drive_efforts.back() * state.v[drives[i].column]);
   }
+  for (std::size_t i = 0; i < couplings.size(); ++i) seen.coupling_efforts.push_back(-state.lambda[row_of_coupling(i)]);
   for (Load& load : loads) seen.load_powers.push_back(load.wrench(motion, state).dot(motion.V(load.link())));
   for (std::size_t i = 0; i < spec.springs.size(); ++i) {
     const CoordinateSpringSpec& s = spec.springs[i];
@@ -109,6 +120,12 @@ void Mechanism::Implementation::observe_efforts(const solver::State& state, Obse
     const double stretch = state.q[q_of(k)] - s.free_position;
     seen.spring_powers.push_back(-(s.stiffness * stretch + s.damping * state.v[k]) * state.v[k]);
     seen.spring_energy += 0.5 * s.stiffness * stretch * stretch;
+  }
+  for (std::size_t i = 0; i < spec.coordinate_forces.size(); ++i) {
+    const int k = coordinate_force_columns[i];
+    const CoordinateForce& force = *spec.coordinate_forces[i].force;
+    seen.coordinate_force_efforts.push_back(force.evaluate(state.t, state.q[q_of(k)], state.v[k]).value);
+    seen.coordinate_force_powers.push_back(seen.coordinate_force_efforts.back() * state.v[k]);
   }
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
     RelativeMotion relative = motion.relative(tree.forces[i]);
@@ -165,7 +182,7 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
   const auto take_out = [&](int column, int joint, double effort) {
     const Vector6& J = motion.J(column);
     Vector6 W;
-    if (tree.links[tree.columns[column].link].motion == Motion::revolute) {
+    if (tree.links[tree.columns[column].link].motion != Motion::prismatic) {
       W << effort * J.head<3>(), Vector3::Zero();
     } else {
       const Vector3 f = effort * J.tail<3>();
@@ -181,11 +198,33 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
     take_out(k, s.coordinate.joint.index,
              -(s.stiffness * (state.q[q_of(k)] - s.free_position) + s.damping * state.v[k]));
   }
+  for (std::size_t i = 0; i < spec.coordinate_forces.size(); ++i)
+    take_out(coordinate_force_columns[i], spec.coordinate_forces[i].coordinate.joint.index,
+             seen.coordinate_force_efforts[i]);
+  for (std::size_t i = 0; i < couplings.size(); ++i)
+    couplings[i].visit_rates(state, [&](int column, double rate) {
+      take_out(column, tree.links[tree.columns[column].link].joint, seen.coupling_efforts[i] * rate);
+    });
+  for (std::size_t j = 0; j < spec.joints.size(); ++j)
+    if (tree.joints[j].reversed) through[j] = -through[j];  // of the inboard on the outboard body
+  if (!redundancies.empty()) share_reactions(spec, tree, motion, through);
   for (std::size_t j = 0; j < spec.joints.size(); ++j) {
     const Pose X_WI = motion.pose(tree.frames[spec.joints[j].inboard.index]);
-    const Vector6 W = convert_wrench(X_WI, tree.joints[j].reversed ? Vector6(-through[j]) : through[j]);
+    const Vector6 W = convert_wrench(X_WI, through[j]);
     seen.joints[j].torque = W.head<3>();
     seen.joints[j].force = W.tail<3>();
+  }
+}
+
+void Mechanism::Implementation::observe_drift(const solver::State& state, Observation& seen) const {
+  double& drift = seen.constraint_drift;
+  for (const Closure& closure : tree.closures) drift = std::max(drift, opening_of(closure));
+  for (const Coupling& coupling : couplings)
+    drift = std::max(drift, std::abs(coupling.value(state)) / coupling_scale(coupling, state));
+  for (const BoundDrive& drive : drives) {
+    const double asked = drive.motion.position(state.t);
+    const bool linear = tree.links[tree.columns[drive.column].link].motion == Motion::prismatic;
+    drift = std::max(drift, std::abs(state.q[drive.q] - asked) / std::max(linear ? tree.length : 1.0, std::abs(asked)));
   }
 }
 
@@ -209,6 +248,7 @@ Observation Mechanism::observe(const solver::State& state) {
   m.observe_efforts(state, seen);
   m.observe_reactions(state, seen);
   m.observe_energies(seen);
+  m.observe_drift(state, seen);
   return seen;
 }
 

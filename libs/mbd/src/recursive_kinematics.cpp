@@ -1,10 +1,12 @@
 #include "hersey/mbd/recursive_kinematics.h"
 
+#include <numbers>
+
 namespace hersey::mbd {
 
 RecursiveVelocity recursive_velocity(JointType type, const Vector3& axis, const Pose& X_iI, const Pose& X_jO,
-                                     std::span<const double> values) {
-  const Pose X_IO = joint_pose(type, axis, values);
+                                     std::span<const double> values, double lead) {
+  const Pose X_IO = joint_pose(type, axis, values, lead);
   const Pose X_Oj = X_jO.inverse();
   const Pose X_ji = (X_iI * X_IO * X_Oj).inverse();
   RecursiveVelocity relation;
@@ -41,6 +43,13 @@ RecursiveVelocity recursive_velocity(JointType type, const Vector3& axis, const 
     case JointType::free:
       H.block<3, 3>(3, 0) = R_OI;
       H.block<3, 3>(0, 3).setIdentity();
+      break;
+    case JointType::universal:
+      H.col(0).head<3>() = R_OI * axes.col(0);
+      H.col(1).head<3>() = axes.col(1);
+      break;
+    case JointType::screw:
+      H.col(0) << n, lead / (2 * std::numbers::pi) * n;
       break;
   }
   relation.B2 = motion_transform(X_jO) * H;

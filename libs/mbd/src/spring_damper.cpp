@@ -4,8 +4,9 @@
 
 namespace hersey::mbd {
 
-SpringDamper::SpringDamper(double stiffness, double damping, double free_length)
-    : stiffness_(stiffness), damping_(damping), free_length_(free_length) {
+SpringDamper::SpringDamper(double stiffness, double damping, double free_length,
+                           std::shared_ptr<const ScalarFunction> tension)
+    : stiffness_(stiffness), damping_(damping), free_length_(free_length), tension_(std::move(tension)) {
   HERSEY_REQUIRE(stiffness >= 0 && damping >= 0 && free_length >= 0, "a spring-damper stores and takes energy");
 }
 
@@ -15,7 +16,7 @@ void SpringDamper::evaluate(const RelativeMotion& motion, bool want_tangent, For
   const Vector3 rdot = motion.V_AB_A.tail<3>() + omega.cross(r);
   const double length = r.norm();
   response = ForceResponse{};
-  collapsed_ = length == 0 && (free_length_ > 0 || damping_ > 0);
+  collapsed_ = length == 0 && (free_length_ > 0 || damping_ > 0 || tension_);
   if (length == 0) {
     if (want_tangent && !collapsed_) response.dW_dX.bottomRightCorner<3, 3>().diagonal().setConstant(-stiffness_);
     return;
@@ -23,14 +24,20 @@ void SpringDamper::evaluate(const RelativeMotion& motion, bool want_tangent, For
   // f on B = -(tension) u, u = r / l.
   const Vector3 u = r / length;
   const double rate = u.dot(rdot);
-  const double tension = stiffness_ * (length - free_length_) + damping_ * rate;
+  double tension = stiffness_ * (length - free_length_) + damping_ * rate, stiffness = stiffness_;
+  if (tension_) {
+    double slope = 0;
+    tension_->gradient({&length, 1}, {&slope, 1});
+    tension += tension_->value({&length, 1});
+    stiffness += slope;
+  }
   const Vector3 f = -tension * u;
   response.W_B_A << r.cross(f), f;
   if (!want_tangent) return;
 
   // Both r and rdot follow a twist [phi; rho]: dr = rho + phi x r, d(rdot) = omega x dr.
   const Matrix3 across = Matrix3::Identity() - u * u.transpose();
-  const Matrix3 df_dr = -(stiffness_ * u * u.transpose() + tension / length * across +
+  const Matrix3 df_dr = -(stiffness * u * u.transpose() + tension / length * across +
                           damping_ / length * u * (across * rdot).transpose());
   const Matrix3 df_drdot = -damping_ * u * u.transpose();
   const Matrix3 df = df_dr + df_drdot * skew(omega);

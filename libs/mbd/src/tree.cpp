@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <numbers>
 
 #include "hersey/core/contract.h"
 
@@ -13,9 +14,10 @@ struct Element {
   Motion motion;
   Vector3 axis;
   int value;
+  double travel = 0;
 };
 
-std::vector<Element> elements_of(JointType type, const Vector3& axis) {
+std::vector<Element> elements_of(JointType type, const Vector3& axis, double lead = 0) {
   const Matrix3 axes = joint_axes(axis);
   const Vector3 n = axes.col(2);
   switch (type) {
@@ -36,6 +38,10 @@ std::vector<Element> elements_of(JointType type, const Vector3& axis) {
               {Motion::prismatic, Vector3::UnitY(), 1},
               {Motion::prismatic, Vector3::UnitZ(), 2},
               {Motion::ball, n, 3}};
+    case JointType::universal:
+      return {{Motion::revolute, axes.col(0), 0}, {Motion::revolute, axes.col(1), 1}};
+    case JointType::screw:
+      return {{Motion::screw, n, 0, lead / (2 * std::numbers::pi)}};
   }
   return {};
 }
@@ -76,6 +82,11 @@ class TreeBuilder {
   void collect_read_coordinates() {
     for (const DriveSpec& d : spec_.drives) read_[d.coordinate.joint.index] = true;
     for (const CoordinateSpringSpec& s : spec_.springs) read_[s.coordinate.joint.index] = true;
+    for (const MechanismSpec::CoordinateForce& f : spec_.coordinate_forces) read_[f.coordinate.joint.index] = true;
+    for (const CouplingSpec& c : spec_.couplings) {
+      read_[c.output.joint.index] = true;
+      for (const CouplingSpec::Term& term : c.terms) read_[term.input.joint.index] = true;
+    }
     for (const LoadSpec& load : spec_.loads)
       for (const LoadTerm& term : load.terms)
         for (const Variable& x : term.variables)
@@ -128,7 +139,7 @@ class TreeBuilder {
     const FrameSpec& far = spec_.frames[(reversed ? joint.inboard : joint.outboard).index];
     const Attachment& base = tree_.bodies[near.body.index];
     const Attachment end =
-        add_chain(j, -1, elements_of(joint.type, joint.axis), reversed, {base.link, base.X_LF * near.X_BF});
+        add_chain(j, -1, elements_of(joint.type, joint.axis, joint.lead), reversed, {base.link, base.X_LF * near.X_BF});
     tree_.bodies[far.body.index] = {end.link, end.X_LF * far.X_BF.inverse()};
     tree_.joints[j].reversed = reversed;
     tree_.joints[j].outboard_body = far.body.index;
@@ -149,6 +160,7 @@ class TreeBuilder {
       link.motion = e.motion;
       link.X_PF = base.X_LF;
       link.axis = reversed ? Vector3(-e.axis) : e.axis;
+      link.travel = e.travel;
       link.columns = e.motion == Motion::ball ? 3 : 1;
       link.joint = joint;
       link.body = body;
@@ -204,8 +216,9 @@ class TreeBuilder {
     closure.joint = j;
     closure.pair.a = tree_.frames[joint.inboard.index];
     closure.pair.b = tree_.frames[joint.outboard.index];
-    if (read_[j]) {
-      closure.pair.a = add_chain(j, -1, elements_of(joint.type, joint.axis), false, closure.pair.a);
+    // A screw's constraint counts turns, which poses do not show.
+    if (read_[j] || joint.type == JointType::screw) {
+      closure.pair.a = add_chain(j, -1, elements_of(joint.type, joint.axis, joint.lead), false, closure.pair.a);
       closure.rows = constraint_rows(JointType::fixed, joint.axis);
     } else {
       closure.rows = constraint_rows(joint.type, joint.axis);

@@ -8,7 +8,7 @@
 namespace hersey::mbd {
 
 /// The motion an elementary joint allows.
-enum class Motion { none, revolute, prismatic, ball };
+enum class Motion { none, revolute, prismatic, ball, screw };
 
 /// A link of the spanning tree and the elementary joint that carries it on its parent: every joint is a chain of
 /// elementary joints (theory manual, section "Joints"), whose inner links are massless. Link 0 is ground. A link's
@@ -18,7 +18,8 @@ struct Link {
   int parent = -1;
   Motion motion = Motion::none;
   Pose X_PF;
-  Vector3 axis = Vector3::UnitZ();  ///< of a revolute or prismatic motion, in F
+  Vector3 axis = Vector3::UnitZ();  ///< of a revolute, prismatic or screw motion, in F
+  double travel = 0;                ///< of a screw [m/rad]
   int first_q = 0;                  ///< place of its coordinate in q; a ball's quaternion (w, x, y, z)
   int first_v = 0;                  ///< and in v
   int columns = 0;                  ///< 0 (ground), 1, or 3 (ball)
@@ -62,7 +63,8 @@ struct Closure {
   int joint = 0;
   Pair pair;
   std::vector<ConstraintRow> rows;
-  int first_row = 0;  ///< among the multipliers
+  int first_row = 0;                   ///< among the multipliers
+  std::vector<ConstraintRow> dropped;  ///< rows that follow from the others, see redundancy.h
 };
 
 /// Where a user's joint went.

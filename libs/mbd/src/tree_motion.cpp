@@ -33,6 +33,13 @@ void TreeMotion::update_positions(const solver::State& state) {
         J[0] << Vector3::Zero(), axis_W;
         break;
       }
+      case Motion::screw: {
+        const Vector3 axis_W = X_WF.R * link.axis;
+        X_WM.R = X_WF.R * Eigen::AngleAxisd(q[0], link.axis).toRotationMatrix();
+        X_WM.r = X_WF.r + link.travel * q[0] * axis_W;
+        J[0] << axis_W, X_WF.r.cross(axis_W) + link.travel * axis_W;
+        break;
+      }
       case Motion::ball: {
         X_WM.R = X_WF.R * Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
         X_WM.r = X_WF.r;

@@ -99,6 +99,71 @@ TEST_CASE("FortyFourBars_MeetTheBenchmark") {
   CHECK(error < 1e-3);
 }
 
+/// A05: a shaft that turns freely, two arms hinged 1 m up and 0.05 m off it, a slider on it that stiff spring-dampers
+/// hold to the arms' middles. Rods and slider of density 3000 kg/m^3: 0.01 x 0.01 x 1 m and a cube of 0.1 m.
+std::unique_ptr<Mechanism> governor() {
+  MechanismBuilder b;
+  b.set_gravity({0, 0, -9.81});
+  const auto frame = [&](BodyId body, const Matrix3& R, const Vector3& r) {
+    return b.add_frame({.name = "f", .body = body, .X_BF = {R, r}});
+  };
+  const double rod = 0.3, thin = rod * 0.01 * 0.01 / 6, along = rod * (1 + 0.01 * 0.01) / 12;
+  const BodyId shaft = b.add_body(
+      {.name = "shaft", .mass = rod, .com = {0, 0, 0.5}, .inertia = Vector3(along, along, thin).asDiagonal()});
+  b.add_joint({.name = "axle",
+               .type = JointType::revolute,
+               .inboard = b.frame_of(b.ground()),
+               .outboard = b.frame_of(shaft),
+               .initial = {0},
+               .initial_rate = {2 * kPi}});
+  const BodyId slider =
+      b.add_body({.name = "slider", .mass = 3, .inertia = Matrix3(Vector3::Constant(3 * 0.01 / 6).asDiagonal())});
+  b.add_joint({.name = "sleeve",
+               .type = JointType::prismatic,
+               .inboard = b.frame_of(shaft),
+               .outboard = b.frame_of(slider),
+               .initial = {0.5}});
+  // An arm with its tip mass at x = 1 m.
+  const double mass = rod + 5, centre = (0.5 * rod + 5) / mass;
+  const double across = along + rod * (centre - 0.5) * (centre - 0.5) + 5 * (1 - centre) * (1 - centre);
+  for (double side : {1.0, -1.0}) {
+    const BodyId arm = b.add_body({.name = side > 0 ? "right" : "left",
+                                   .mass = mass,
+                                   .com = {centre, 0, 0},
+                                   .inertia = Vector3(thin, across, across).asDiagonal()});
+    const Matrix3 outward = Eigen::AngleAxisd(side > 0 ? 0 : kPi, Vector3::UnitZ()).toRotationMatrix();
+    // Positive angles lower the arm below the horizontal.
+    b.add_joint({.name = side > 0 ? "right" : "left",
+                 .type = JointType::revolute,
+                 .inboard = frame(shaft, outward, {0.05 * side, 0, 1}),
+                 .outboard = b.frame_of(arm),
+                 .axis = {0, 1, 0},
+                 .initial = {kPi / 6}});
+    b.add_force(side > 0 ? "right" : "left", frame(arm, Matrix3::Identity(), {0.5, 0, 0}),
+                frame(slider, Matrix3::Identity(), {0.05 * side, 0, 0}), std::make_shared<SpringDamper>(8e5, 4e4, 0.5));
+  }
+  return b.finalise();
+}
+
+TEST_CASE("StiffGovernor_FollowsTheReference") {
+  const auto m = governor();
+  solver::State state = test::start(*m);
+  const auto reference = read_csv("flyball_governor.csv");
+  double worst = 0, highest = 0;
+  std::size_t next = 1;
+  test::run(*m, state, 10, 10000, 0.8, [&](const solver::State& s) {
+    const double height = s.q[1];
+    highest = std::max(highest, height);
+    if (next >= reference.size() || s.t < reference[next][0] - 1e-9) return;
+    worst = std::max(worst, std::abs(height - reference[next][3]));
+    ++next;
+  });
+  CHECK(next == reference.size());
+  MESSAGE("largest error of s ", worst);
+  CHECK(worst < 1e-4);  // the benchmark's own measure
+  CHECK(std::abs(highest - 0.7435637640) < 1e-4);
+}
+
 /// A03: Andrews' squeezer as in the test set for IVP solvers (Mazzia and Magherini, release 2.4, problem "andrews"):
 /// seven plane bodies, three loops that meet in one point, a motor torque and a spring; no gravity.
 class Squeezer {

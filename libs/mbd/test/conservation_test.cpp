@@ -105,7 +105,8 @@ TEST_CASE("EnergyChangesByThePowersReported") {
       (8 * (mechanical(step) - mechanical(-step)) - (mechanical(2 * step) - mechanical(-2 * step))) / (12 * step);
   const Observation seen = m->observe(state);
   double power = 0, size = 0;
-  for (const auto* powers : {&seen.drive_powers, &seen.load_powers, &seen.spring_powers, &seen.force_powers})
+  for (const auto* powers :
+       {&seen.drive_powers, &seen.load_powers, &seen.spring_powers, &seen.force_powers, &seen.coordinate_force_powers})
     for (double p : *powers) {
       power += p;
       size = std::max(size, std::abs(p));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "hersey/mbd/bushing.h"
 #include "hersey/mbd/recursive_kinematics.h"
 #include "test_mechanisms.h"
 
@@ -157,8 +158,10 @@ TEST_CASE("B1AndB2_MatchFiniteDifferences") {
   Vector6 Y_i;
   Y_i << 0.3, -0.7, 0.4, 1.1, -0.5, 0.2;
   const std::array<double, 6> start{0.3, -0.4, 0.5, 0.6, -0.2, 0.7}, rates{0.7, 0.4, -0.6, 0.2, 0.9, -0.3};
-  for (JointType type : {JointType::fixed, JointType::revolute, JointType::prismatic, JointType::cylindrical,
-                         JointType::spherical, JointType::planar, JointType::free}) {
+  constexpr double lead = 0.7;
+  for (JointType type :
+       {JointType::fixed, JointType::revolute, JointType::prismatic, JointType::cylindrical, JointType::spherical,
+        JointType::planar, JointType::free, JointType::universal, JointType::screw}) {
     CAPTURE(std::string(name_of(type)));
     const int dof = degrees_of_freedom(type);
     const std::span<const double> q(start.data(), dof);
@@ -173,24 +176,24 @@ TEST_CASE("B1AndB2_MatchFiniteDifferences") {
             rotation_log(rotation_exp(Vector3::Map(q.data() + o)) * rotation_exp(s * qdot.segment<3>(o)));
         Vector3::Map(moved.data() + o) = phi;
       }
-      return X_Wi * pose_exp(s * Y_i) * X_iI * joint_pose(type, axis, moved) * X_jO.inverse();
+      return X_Wi * pose_exp(s * Y_i) * X_iI * joint_pose(type, axis, moved, lead) * X_jO.inverse();
     };
     const Pose now = X_Wj(0), after = X_Wj(kStep), before = X_Wj(-kStep);
     Vector6 numeric;
     numeric << now.R.transpose() * rotation_log(Eigen::Quaterniond(after.R * before.R.transpose())) / (2 * kStep),
         now.R.transpose() * (after.r - before.r) / (2 * kStep);
-    const RecursiveVelocity relation = recursive_velocity(type, axis, X_iI, X_jO, q);
+    const RecursiveVelocity relation = recursive_velocity(type, axis, X_iI, X_jO, q, lead);
     CHECK((relation.B1 * Y_i + relation.B2 * qdot - numeric).norm() < kRelative);
   }
 }
 
-TEST_CASE("SpringDamper_DerivativesMatchFiniteDifferences") {
-  SpringDamper spring(300, 20, 0.3);
+/// Both derivatives of a force between two frames, at a large rotation and a brisk motion.
+void check_force_derivatives(TwoBodyForce& force, const Vector3& rotation) {
   RelativeMotion motion;
-  motion.X_AB = test::pose({0.2, -0.4, 0.3}, {0.4, -0.3, 0.2});
+  motion.X_AB = test::pose(rotation, {0.4, -0.3, 0.2});
   motion.V_AB_A << 0.5, -0.8, 0.3, 0.7, 0.2, -0.6;
-  ForceResponse centre, plus, minus;
-  spring.evaluate(motion, true, centre);
+  ForceResponse centre;
+  force.evaluate(motion, true, centre);
   for (int i = 0; i < 6; ++i) {
     const Vector6 xi = Vector6::Unit(i) * kStep;
     const auto at = [&](double sign, bool velocity) {
@@ -201,13 +204,56 @@ TEST_CASE("SpringDamper_DerivativesMatchFiniteDifferences") {
       } else {
         moved.X_AB = pose_exp(sign * xi) * moved.X_AB;
       }
-      spring.evaluate(moved, false, response);
+      force.evaluate(moved, false, response);
       return response.W_B_A;
     };
     const double size = centre.dW_dX.cwiseAbs().maxCoeff();
     CHECK(((at(1, false) - at(-1, false)) / (2 * kStep) - centre.dW_dX.col(i)).norm() < kRelative * size);
     CHECK(((at(1, true) - at(-1, true)) / (2 * kStep) - centre.dW_dV.col(i)).norm() < kRelative * size);
   }
+}
+
+TEST_CASE("SpringDamper_DerivativesMatchFiniteDifferences") {
+  SpringDamper linear(300, 20, 0.3), tabulated(300, 20, 0.3, std::make_shared<test::Quadratic>(5, -40, 700));
+  check_force_derivatives(linear, {0.2, -0.4, 0.3});
+  check_force_derivatives(tabulated, {0.2, -0.4, 0.3});
+}
+
+TEST_CASE("Bushing_DerivativesMatchFiniteDifferences") {
+  Matrix6 root;
+  for (int i = 0; i < 36; ++i) root(i) = std::sin(1.0 + 2.7 * i);
+  Bushing bushing(50 * root * root.transpose(), 4 * root.transpose() * root);
+  for (const Vector3& rotation : {Vector3(0, 0, 0), Vector3(1e-5, 2e-5, 0), Vector3(0.02, -0.03, 0.01),
+                                  Vector3(0.06, 0, 0.01), Vector3(0.2, -0.4, 0.3), Vector3(1.2, -1.4, 1.3)})
+    check_force_derivatives(bushing, rotation);
+}
+
+TEST_CASE("Bushing_IsTheGradientOfItsEnergyAndDissipates") {
+  Matrix6 root;
+  for (int i = 0; i < 36; ++i) root(i) = std::sin(1.0 + 2.7 * i);
+  const Matrix6 K = 50 * root * root.transpose(), D = 4 * root.transpose() * root;
+  Bushing elastic(K, Matrix6::Zero()), viscous(Matrix6::Zero(), D);
+  RelativeMotion motion;
+  motion.X_AB = test::pose({1.1, -0.9, 0.8}, {0.4, -0.3, 0.2});
+  ForceResponse response;
+  elastic.evaluate(motion, false, response);
+  for (int i = 0; i < 6; ++i) {
+    const auto energy = [&](double sign) {
+      RelativeMotion moved = motion;
+      moved.X_AB = pose_exp(sign * kStep * Vector6::Unit(i)) * moved.X_AB;
+      return elastic.stored_energy(moved);
+    };
+    CHECK(std::abs((energy(1) - energy(-1)) / (2 * kStep) + response.W_B_A[i]) < 1e-7 * response.W_B_A.norm());
+    motion.V_AB_A = Vector6::Unit(i);
+    viscous.evaluate(motion, false, response);
+    CHECK(response.W_B_A.dot(motion.V_AB_A) < 0);
+    motion.V_AB_A.setZero();
+    elastic.evaluate(motion, false, response);
+  }
+  // Half a turn has no rotation vector of its own.
+  motion.X_AB = test::pose({0, 0, 3.1}, {0, 0, 0});
+  elastic.evaluate(motion, false, response);
+  CHECK_FALSE(elastic.domain_error().empty());
 }
 
 }  // namespace

@@ -48,17 +48,6 @@ std::unique_ptr<Mechanism> four_bar(JointType middle, JointType closing, double 
   return b.finalise();
 }
 
-TEST_CASE("RedundantJoints_AreNamed") {
-  const auto m = four_bar(JointType::revolute, JointType::revolute);
-  solver::State state = m->initial_state();
-  const Eigen::VectorXd q = state.q;
-  const InitialiseSummary summary = solver::initialise(*m, state);
-  CHECK(summary.status == InitialiseStatus::redundant);
-  CHECK(names(summary.redundant, "joint knee"));
-  CHECK(summary.message.find("3 of 5") != std::string::npos);  // two tilts and one offset of a plane loop
-  CHECK(state.q == q);
-}
-
 TEST_CASE("PlaneLoop_ClosesWithCylindricalAndSphericalJoints") {
   const auto m = four_bar(JointType::cylindrical, JointType::spherical);
   solver::State state = m->initial_state();

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "hersey/core/scalar_function.h"
+#include "hersey/mbd/coordinate_laws.h"
 #include "hersey/mbd/mechanism.h"
 #include "hersey/mbd/spring_damper.h"
 
@@ -57,6 +58,18 @@ std::shared_ptr<const ScalarFunction> time_function(F f, D d, D2 d2) {
 inline std::shared_ptr<const ScalarFunction> constant(double value) {
   return std::make_shared<ConstantFunction>(value);
 }
+
+/// A quadratic function: every derivative known.
+class Quadratic final : public ScalarFunction {
+ public:
+  Quadratic(double constant, double linear, double quadratic) : a_(constant), b_(linear), c_(quadratic) {}
+  [[nodiscard]] double value(std::span<const double> x) const override { return a_ + (b_ + c_ * x[0]) * x[0]; }
+  void gradient(std::span<const double> x, std::span<double> g) const override { g[0] = b_ + 2 * c_ * x[0]; }
+  [[nodiscard]] double second_derivative(std::span<const double>) const override { return 2 * c_; }
+
+ private:
+  double a_, b_, c_;
+};
 
 /// A linear force between two frames in all six directions, neither symmetric nor conservative: the hardest case a film
 /// can present to the assembly.
@@ -127,6 +140,27 @@ inline std::unique_ptr<Mechanism> nasty_mechanism() {
   join("flight", JointType::free, at(flyer, {0.1, 0.2, 0.3}, {0.1, 0, 0}), at(b.ground(), {0, 0, 0.5}, {0.5, 0.1, 0}),
        {0, 0, 1}, {0.3, 0.2, -0.1, 0.4, 0.3, -0.6}, {0.1, -0.2, 0.3, 0.8, -0.5, 0.7});
   join("weld", JointType::fixed, at(flyer, {0.4, 0, 0}, {0, 0, 0.3}), at(welded, {0, 0.1, 0}, {0.1, 0, 0}));
+  // A universal joint and a screw in the tree, both reversed or not, and both again closing loops.
+  const BodyId cross = body("cross", 0.8), nut = body("nut", 0.3), drifter = body("drifter", 0.7);
+  const JointId cardan = join("cardan", JointType::universal, at(cross, {0.1, 0.2, 0}, {0.1, 0, 0.2}),
+                              at(welded, {0, 0.1, 0.2}, {0.2, 0.1, 0}), {0.3, 0, 1}, {0.4, -0.3}, {0.6, 0.5});
+  const JointId spindle = b.add_joint({.name = "spindle",
+                                       .type = JointType::screw,
+                                       .inboard = at(cross, {0, 0.2, 0.1}, {0.1, 0.3, 0}),
+                                       .outboard = at(nut, {0.2, 0, 0}, {0, 0.1, 0.1}),
+                                       .axis = {0, 1, 1},
+                                       .lead = 0.4,
+                                       .initial = {0.7},
+                                       .initial_rate = {-0.8}});
+  join("drift", JointType::free, b.frame_of(b.ground()), at(drifter, {0, 0.1, 0}, {0.1, 0, 0}), {0, 0, 1},
+       {0.2, 0.1, 0.3, -0.2, 0.1, 0.3}, {0.3, 0.1, -0.2, 0.2, 0.4, -0.3});
+  join("cardan_loop", JointType::universal, at(nut, {0.1, 0, 0}, {0, 0.2, 0}), at(drifter, {0, 0.1, 0}, {0.1, 0.1, 0}),
+       {0, 0.5, 1});
+  b.add_joint({.name = "screw_loop",
+               .type = JointType::screw,
+               .inboard = at(top, {0, 0.1, 0.1}, {0.1, 0, 0}),
+               .outboard = at(drifter, {0, 0, 0.3}, {0, 0.2, 0.1}),
+               .lead = -0.3});
   const JointId swing = join("swing", JointType::revolute, b.frame_of(b.ground()), at(bob, {0, 0, 0}, {0, 0.4, 0}),
                              {0, 1, 1}, {0.2}, {0.9});
   // Closing: one plain, one with a coordinate that a spring reads.
@@ -155,6 +189,14 @@ inline std::unique_ptr<Mechanism> nasty_mechanism() {
               .frame = at(welded, {0.1, 0, 0}, {0.2, 0, 0.1}),
               .axes = LoadAxes::body,
               .terms = {{direction, wavy, all}, {2 * direction.reverse(), wavy, {}}}});
+  b.add_coordinate_force("friction", {cardan, 1}, std::make_shared<JointFriction>(3, 0.5, 0.4));
+  b.add_coordinate_force("stop", {spindle, 0},
+                         std::make_shared<FunctionSpring>(std::make_shared<Quadratic>(1, 20, 30), 0.2));
+  b.add_coordinate_force("governor", {swing, 0}, std::make_shared<SpeedController>(wavy, 2.0, 5.0, 1e3));
+  b.add_coupling({.name = "gears",
+                  .output = {cardan, 0},
+                  .terms = {{{swing, 0}, std::make_shared<Quadratic>(0.1, -1.5, 0.4)},
+                            {{rail, 0}, std::make_shared<Quadratic>(0, 2.5, 0)}}});
   b.add_drive({.name = "motor", .coordinate = {pivot, 0}, .kind = DriveSpec::Kind::speed, .function = wavy});
   return b.finalise();
 }

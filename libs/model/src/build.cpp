@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "hersey/core/contract.h"
+#include "hersey/mbd/bushing.h"
+#include "hersey/mbd/coordinate_laws.h"
 #include "hersey/mbd/spring_damper.h"
 
 namespace hersey::model {
@@ -26,6 +28,10 @@ mbd::JointType joint_type(JointType type) {
       return mbd::JointType::planar;
     case JointType::free:
       return mbd::JointType::free;
+    case JointType::universal:
+      return mbd::JointType::universal;
+    case JointType::screw:
+      return mbd::JointType::screw;
   }
   HERSEY_REQUIRE(false, "every joint type is listed");
   return {};
@@ -68,6 +74,30 @@ class OverTime final : public ScalarFunction {
   Simulation simulation_;
 };
 
+// offset + slope x
+class Line final : public ScalarFunction {
+ public:
+  Line(double offset, double slope) : offset_(offset), slope_(slope) {}
+  [[nodiscard]] double value(std::span<const double> x) const override { return offset_ + slope_ * x[0]; }
+  void gradient(std::span<const double>, std::span<double> gradient) const override { gradient[0] = slope_; }
+  [[nodiscard]] double second_derivative(std::span<const double>) const override { return 0; }
+
+ private:
+  double offset_, slope_;
+};
+
+mbd::DriveSpec::Kind drive_kind(Drive::Prescribes prescribes) {
+  switch (prescribes) {
+    case Drive::Prescribes::position:
+      return mbd::DriveSpec::Kind::position;
+    case Drive::Prescribes::speed:
+      return mbd::DriveSpec::Kind::speed;
+    case Drive::Prescribes::acceleration:
+      return mbd::DriveSpec::Kind::acceleration;
+  }
+  HERSEY_REQUIRE(false, "every kind of drive is listed");
+}
+
 // Walks the model once, in the order in which parts refer to each other.
 class Builder {
  public:
@@ -81,6 +111,7 @@ class Builder {
     }
     for (const Joint& joint : model_.joints) add_joint(joint);
     for (const Drive& drive : model_.drives) add_drive(drive);
+    for (const CoordinateCoupling& coupling : model_.couplings) add_coupling(coupling);
     for (const Force& force : model_.forces) add_force(force);
     for (const Bearing& bearing : model_.bearings) add_bearing(bearing);
     machine_.mechanism = mechanism_.finalise();
@@ -124,6 +155,7 @@ class Builder {
                                                   .inboard = frame(joint.inboard),
                                                   .outboard = frame(joint.outboard),
                                                   .axis = joint.axis,
+                                                  .lead = joint.lead,
                                                   .initial = initial_values(joint, false),
                                                   .initial_rate = initial_values(joint, true)});
     joints_[joint.name] = {id, joint_type(joint.type)};
@@ -136,12 +168,17 @@ class Builder {
     return {id, found->offset};
   }
 
+  [[nodiscard]] mbd::CoordinateRef coordinate(const CoordinateName& name) const {
+    return coordinate(name.joint, name.coordinate);
+  }
+
   void add_drive(const Drive& drive) {
     mechanism_.add_drive({.name = drive.name,
                           .coordinate = coordinate(drive.joint, drive.coordinate),
-                          .kind = drive.prescribes == Drive::Prescribes::speed ? mbd::DriveSpec::Kind::speed
-                                                                               : mbd::DriveSpec::Kind::position,
-                          .function = drive.motion.value});
+                          .kind = drive_kind(drive.prescribes),
+                          .function = drive.motion.value,
+                          .ramp = drive.ramp,
+                          .start = model_.simulation.start});
   }
 
   [[nodiscard]] mbd::LoadTerm term(const Function& function, const Vector6& direction) const {
@@ -183,19 +220,74 @@ class Builder {
       case ForceType::spring_damper: {
         const SpringDamper& spring = force.spring_damper;
         mechanism_.add_force(force.name, frame(spring.from), frame(spring.to),
-                             std::make_shared<mbd::SpringDamper>(spring.stiffness, spring.damping, spring.free_length));
+                             std::make_shared<mbd::SpringDamper>(spring.stiffness, spring.damping, spring.free_length,
+                                                                 spring.tension ? spring.tension->value : nullptr));
         break;
       }
-      case ForceType::torsion_spring: {
-        const TorsionSpring& spring = force.torsion_spring;
-        mechanism_.add_spring({.name = force.name,
-                               .coordinate = coordinate(spring.joint, spring.coordinate),
-                               .stiffness = spring.stiffness,
-                               .damping = spring.damping,
-                               .free_position = spring.free_angle});
+      case ForceType::coordinate_spring:
+        add_coordinate_spring(force);
+        break;
+      case ForceType::bushing: {
+        const Bushing& bushing = force.bushing;
+        mechanism_.add_force(force.name, frame(bushing.from), frame(bushing.to),
+                             std::make_shared<mbd::Bushing>(bushing.stiffness, bushing.damping));
+        break;
+      }
+      case ForceType::joint_friction: {
+        const JointFriction& friction = force.joint_friction;
+        mechanism_.add_coordinate_force(
+            force.name, coordinate(friction.on),
+            std::make_shared<mbd::JointFriction>(friction.coulomb, friction.viscous, friction.transition_speed));
+        break;
+      }
+      case ForceType::speed_control: {
+        const SpeedControl& control = force.speed_control;
+        mechanism_.add_coordinate_force(
+            force.name, coordinate(control.on),
+            std::make_shared<mbd::SpeedController>(control.speed.value, control.proportional, control.integral,
+                                                   control.limit));
         break;
       }
     }
+  }
+
+  void add_coordinate_spring(const Force& force) {
+    const CoordinateSpring& spring = force.coordinate_spring;
+    mechanism_.add_spring({.name = force.name,
+                           .coordinate = coordinate(spring.on),
+                           .stiffness = spring.stiffness,
+                           .damping = spring.damping,
+                           .free_position = spring.free_position});
+    if (spring.restoring)
+      mechanism_.add_coordinate_force(
+          force.name, coordinate(spring.on),
+          std::make_shared<mbd::FunctionSpring>(spring.restoring->value, spring.free_position));
+  }
+
+  // Where a scalar coordinate starts.
+  [[nodiscard]] double initial_value(const CoordinateName& name) const {
+    for (const Joint& joint : model_.joints) {
+      if (joint.name != name.joint) continue;
+      for (const InitialValue& given : joint.initial)
+        if (given.coordinate == name.coordinate) return given.value.front();
+    }
+    return 0;
+  }
+
+  void add_coupling(const CoordinateCoupling& coupling) {
+    mbd::CouplingSpec spec{.name = coupling.name, .output = coordinate(coupling.output), .terms = {}};
+    // Gears mesh where the joints start; a relation says where.
+    double offset = initial_value(coupling.output);
+    for (const CoordinateCoupling::Term& term : coupling.terms) offset -= term.factor * initial_value(term.input);
+    for (const CoordinateCoupling::Term& term : coupling.terms) {
+      if (term.function) {
+        spec.terms.push_back({coordinate(term.input), term.function->value});
+      } else {
+        spec.terms.push_back({coordinate(term.input), std::make_shared<Line>(offset, term.factor)});
+        offset = 0;
+      }
+    }
+    mechanism_.add_coupling(std::move(spec));
   }
 
   void add_bearing(const Bearing& bearing) {

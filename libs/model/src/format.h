@@ -13,6 +13,7 @@ namespace hersey::model {
 [[nodiscard]] TypePtr joints_format();
 [[nodiscard]] TypePtr drives_format();
 [[nodiscard]] TypePtr forces_format();
+[[nodiscard]] TypePtr couplings_format();
 [[nodiscard]] TypePtr lubricants_format();
 [[nodiscard]] TypePtr bearings_format();
 [[nodiscard]] TypePtr features_format();
@@ -24,5 +25,12 @@ namespace hersey::model {
 
 /// A constant, an expression or a table whose value is in one of `si_units`.
 [[nodiscard]] TypePtr function_format(const std::vector<std::string>& si_units, const std::string& example);
+
+/// A function of one thing called `argument`: a constant, an expression in it or a table over it.
+[[nodiscard]] TypePtr law_format(const std::string& si_unit, const std::string& argument,
+                                 const std::string& argument_unit, const std::string& example);
+
+/// A coordinate as a function of another, called `input`.
+[[nodiscard]] TypePtr relation_format();
 
 }  // namespace hersey::model

@@ -102,6 +102,8 @@ TypePtr joints_format() {
   const auto along = axis_key("Axis of sliding in the inboard frame.");
   const auto both = axis_key("Axis of sliding and rotation in the inboard frame.");
   const auto normal = axis_key("Normal of the plane in the inboard frame.");
+  const auto shaft = axis_key("Axis of the shafts in the inboard frame.");
+  const auto thread = axis_key("Axis of the thread in the inboard frame.");
   return named(
       "a mapping from names to joints",
       variant("a joint", "type", {between_format()},
@@ -123,6 +125,16 @@ TypePtr joints_format() {
                   {"planar",
                    "motion in a plane; coordinates `x`, `y`, `rotation`",
                    {normal, initial_format(planar_keys())}},
+                  {"universal",
+                   "a cross (Cardan) joint between shafts along `axis`: the cross turns about the first of the two "
+                   "axes normal to it in the inboard frame (x for z, y for x, z for y) and about the second in the "
+                   "outboard frame; coordinates `rotation_1`, `rotation_2`",
+                   {shaft, initial_format({angle_key("rotation_1"), angle_key("rotation_2"),
+                                           angle_rate_key("rotation_1_rate"), angle_rate_key("rotation_2_rate")})}},
+                  {"screw",
+                   "rotation about an axis with travel along it; coordinate `rotation`",
+                   {thread, required("lead", quantity("m", "5 mm"), "Travel per turn, right-handed where positive."),
+                    initial_format({angle_key("rotation"), angle_rate_key("rotation_rate")})}},
                   {"free", "all six motions; coordinates `position`, `orientation`", {initial_format(free_keys())}},
               }));
 }
@@ -136,48 +148,13 @@ TypePtr drives_format() {
           optional("position", function_format({"rad", "m"}, "0 deg"), "Function of time the coordinate follows."),
           optional("speed", function_format({"rad/s", "m/s"}, "3570 rpm"),
                    "Function of time its rate follows, from the joint's initial position."),
+          optional("acceleration", function_format({"rad/s^2", "m/s^2"}, "10 rad/s^2"),
+                   "Function of time its second derivative follows, from the joint's initial position and rate."),
+          defaulted("ramp", quantity("s", "50 ms", Range::not_negative()), "0 s",
+                    "The motion is blended in over this time from the start of the run, twice differentiable: a speed "
+                    "or acceleration from 0, a position from the joint's initial one."),
       });
-  return named("a mapping from names to drives", with_exactly_one(drive, {"position", "speed"}));
-}
-
-TypePtr forces_format() {
-  const auto load_keys = [](const std::string& unit, const std::string& example) {
-    const TypePtr function = function_format({unit}, example);
-    return std::vector<Key>{
-        required("body", reference(Refers::frame, "rod.small_end"), "Where it acts: `body` or `body.frame`."),
-        optional("components", list("three functions", function, 3), "Along x, y and z."),
-        optional("direction", vector("1", "0 -1 0"), "Direction of `magnitude`; its length does not matter."),
-        optional("magnitude", function, "Along `direction`."),
-        defaulted("axes", choice({{"ground", "axes fixed in space"}, {"body", "axes of the frame it acts at"}}),
-                  "ground", "Axes of `components` or `direction`."),
-    };
-  };
-  const Range not_negative = Range::not_negative();
-  const TypePtr force = variant(
-      "a force", "type", {},
-      {
-          {"force", "a force at a point of a body", load_keys("N", "500 N")},
-          {"torque", "a torque on a body", load_keys("N.m", "5 N.m")},
-          {"spring_damper",
-           "along the line between two points",
-           {
-               required("between", list("two frames", reference(Refers::frame, "rod.small_end"), 2), "Its two ends."),
-               defaulted("stiffness", quantity("N/m", "1e5 N/m", not_negative), "0", "Stiffness."),
-               defaulted("damping", quantity("N.s/m", "10 N.s/m", not_negative), "0", "Damping."),
-               defaulted("free_length", quantity("m", "50 mm", not_negative), "0", "Length without force."),
-           }},
-          {"torsion_spring",
-           "on a rotational joint coordinate",
-           {
-               required("joint", reference(Refers::joint, "main"), "The joint it acts in."),
-               defaulted("coordinate", reference(Refers::coordinate, "rotation"), "rotation", "Its coordinate."),
-               defaulted("stiffness", quantity("N.m/rad", "100 N.m/rad", not_negative), "0", "Stiffness."),
-               defaulted("damping", quantity("N.m.s/rad", "0.1 N.m.s/rad", not_negative), "0", "Damping."),
-               defaulted("free_angle", quantity("rad", "0 deg"), "0", "Angle without torque."),
-           }},
-      });
-  return named("a mapping from names to forces",
-               with_together(with_exactly_one(force, {"components", "magnitude"}), {"direction", "magnitude"}));
+  return named("a mapping from names to drives", with_exactly_one(drive, {"position", "speed", "acceleration"}));
 }
 
 }  // namespace hersey::model

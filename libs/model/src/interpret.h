@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "check.h"
@@ -64,8 +65,21 @@ void read_surfaces(Context& context, const Value& value, Bearing& bearing);
 /// The surface in the table that `file` names, for a bearing of width L [m]; reports what is wrong with it.
 [[nodiscard]] std::optional<film::MeasuredShape> measured_shape_of(Context& context, const Value& file, double L);
 
+/// What a function depends on in a place where it is neither time nor joints: "length", in m.
+struct Argument {
+  std::string name, unit;
+};
+
 /// A function whose value is wanted in `si_unit`; reports every fault of its expression, table, units and file.
-[[nodiscard]] Function function_of(Context& context, const Value& value, const std::string& si_unit);
+/// @param argument  what alone it depends on; without a name: time and joint coordinates
+[[nodiscard]] Function function_of(Context& context, const Value& value, const std::string& si_unit,
+                                   const Argument& argument = {});
+
+/// Reports a function that depends on anything but time; `what` is what does, "a drive".
+void require_function_of_time(Context& context, const Function& function, const std::string& what);
+
+/// A pair of frames on two different bodies, given by the key `between`.
+[[nodiscard]] std::pair<FrameName, FrameName> pair_of(Context& context, const Value& parent);
 
 /// The shapes of a body, or of ground.
 [[nodiscard]] std::vector<mbd::Shape> shapes_of(Context& context, const Value& body);
@@ -74,6 +88,7 @@ void read_surfaces(Context& context, const Value& value, Bearing& bearing);
 void interpret_bodies(Context& context);
 void interpret_joints(Context& context);
 void interpret_drives(Context& context);
+void interpret_couplings(Context& context);
 void interpret_forces(Context& context);
 void interpret_lubricants(Context& context);
 void interpret_bearings(Context& context);

@@ -19,7 +19,8 @@ struct Points {
 
 class FunctionReader {
  public:
-  FunctionReader(Context& context, const std::string& si_unit) : context_(context), si_unit_(si_unit) {}
+  FunctionReader(Context& context, const std::string& si_unit, const Argument& argument)
+      : context_(context), si_unit_(si_unit), argument_(argument) {}
 
   Function read(const Value& value) {
     function_.position = value.position;
@@ -117,6 +118,7 @@ class FunctionReader {
   // --- variables -------------------------------------------------------------------------------------------------
 
   std::vector<std::string> variable_names() {
+    if (!argument_.name.empty()) return {argument_.name};
     std::vector<std::string> names = {"t"};
     for (const std::string& joint : names_in(context_.root, "joints")) {
       const auto coordinates = coordinates_of_joint(context_.root, joint);
@@ -130,6 +132,10 @@ class FunctionReader {
   }
 
   std::optional<Variable> variable_called(const std::string& name) {
+    if (!argument_.name.empty()) {
+      if (name != argument_.name) return std::nullopt;
+      return Variable{Variable::Kind::argument, "", name};
+    }
     if (name == "t") return Variable{};
     const auto dot = name.find('.');
     if (dot == std::string::npos) return std::nullopt;
@@ -144,6 +150,7 @@ class FunctionReader {
   }
 
   std::string unit_of(const Variable& variable) {
+    if (variable.kind == Variable::Kind::argument) return argument_.unit;
     if (variable.kind == Variable::Kind::time) return "s";
     const auto coordinates = coordinates_of_joint(context_.root, variable.joint);
     bool rotational = false;
@@ -157,13 +164,7 @@ class FunctionReader {
   // --- tables ----------------------------------------------------------------------------------------------------
 
   void read_table(const Value& content) {
-    const Value& over = *content.find("over");
-    const std::optional<Variable> variable = over.text == "time" ? Variable{} : variable_called(over.text);
-    if (!variable && !over.broken) {
-      std::vector<std::string> names = variable_names();
-      names.front() = "time";
-      context_.fault(over, "'" + over.text + "'", one_of(names), did_you_mean(over.text, names));
-    }
+    const std::optional<Variable> variable = variable_of_table(content);
     const Value& table = *content.find("table");
     if (table.broken || table.members.empty()) return;
     const Value& source = table.members.front().value;
@@ -181,6 +182,18 @@ class FunctionReader {
         TableFunction::Options{.interpolation = smooth ? Interpolation::smooth : Interpolation::linear,
                                .period = *period});
     function_.variables = {*variable};
+  }
+
+  std::optional<Variable> variable_of_table(const Value& content) {
+    if (!argument_.name.empty()) return variable_called(argument_.name);
+    const Value& over = *content.find("over");
+    const std::optional<Variable> variable = over.text == "time" ? Variable{} : variable_called(over.text);
+    if (!variable && !over.broken) {
+      std::vector<std::string> names = variable_names();
+      names.front() = "time";
+      context_.fault(over, "'" + over.text + "'", one_of(names), did_you_mean(over.text, names));
+    }
+    return variable;
   }
 
   std::optional<Points> points_in_place(const Value& source) {
@@ -286,13 +299,14 @@ class FunctionReader {
 
   Context& context_;
   const std::string& si_unit_;
+  const Argument& argument_;
   Function function_;
 };
 
 }  // namespace
 
-Function function_of(Context& context, const Value& value, const std::string& si_unit) {
-  return FunctionReader(context, si_unit).read(value);
+Function function_of(Context& context, const Value& value, const std::string& si_unit, const Argument& argument) {
+  return FunctionReader(context, si_unit, argument).read(value);
 }
 
 }  // namespace hersey::model

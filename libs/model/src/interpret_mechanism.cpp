@@ -41,7 +41,19 @@ Matrix3 inertia_of(Context& context, const Value& body) {
   return inertia;
 }
 
-/// A pair of frames on two different bodies.
+const std::map<std::string, JointType>& joint_types() {
+  static const std::map<std::string, JointType> types = {
+      {"fixed", JointType::fixed},         {"revolute", JointType::revolute},
+      {"prismatic", JointType::prismatic}, {"cylindrical", JointType::cylindrical},
+      {"spherical", JointType::spherical}, {"planar", JointType::planar},
+      {"free", JointType::free},           {"universal", JointType::universal},
+      {"screw", JointType::screw},
+  };
+  return types;
+}
+
+}  // namespace
+
 std::pair<FrameName, FrameName> pair_of(Context& context, const Value& parent) {
   const Value* between = parent.find("between");
   if (between == nullptr || between->members.size() != 2) return {};
@@ -53,77 +65,15 @@ std::pair<FrameName, FrameName> pair_of(Context& context, const Value& parent) {
   return {std::move(first), std::move(second)};
 }
 
-const std::map<std::string, JointType>& joint_types() {
-  static const std::map<std::string, JointType> types = {
-      {"fixed", JointType::fixed},         {"revolute", JointType::revolute},
-      {"prismatic", JointType::prismatic}, {"cylindrical", JointType::cylindrical},
-      {"spherical", JointType::spherical}, {"planar", JointType::planar},
-      {"free", JointType::free},
-  };
-  return types;
-}
-
-BodyLoad load_of(Context& context, const Value& value, bool is_torque) {
-  BodyLoad load;
-  load.is_torque = is_torque;
-  const std::string unit = is_torque ? "N.m" : "N";
-  if (const Value* body = value.find("body")) load.at = frame_of(context, *body);
-  load.axes = text_of(value, "axes") == "body" ? Axes::body : Axes::ground;
-  if (const Value* components = value.find("components")) {
-    for (const auto& [index, component] : components->members) {
-      load.functions.push_back(function_of(context, component, unit));
-    }
-  }
-  if (value.find("direction") != nullptr) load.direction = direction_of(context, value, "direction");
-  if (const Value* magnitude = value.find("magnitude")) {
-    load.functions.push_back(function_of(context, *magnitude, unit));
-  }
-  return load;
-}
-
-TorsionSpring torsion_spring_of(Context& context, const Value& value) {
-  TorsionSpring spring;
-  spring.joint = text_of(value, "joint");
-  spring.coordinate = text_of(value, "coordinate");
-  spring.stiffness = number_of(value, "stiffness");
-  spring.damping = number_of(value, "damping");
-  spring.free_angle = number_of(value, "free_angle");
-  const auto coordinate = coordinate_of(context, value);
-  if (coordinate && !coordinate->rotational) {
-    context.fault(*value.find("coordinate"), "coordinate '" + coordinate->name + "', a displacement",
-                  "a rotational coordinate");
-  }
-  return spring;
-}
-
-Force force_of(Context& context, const std::string& name, const Value& value) {
-  Force force{name, ForceType::load, {}, {}, {}, value.key_position};
-  if (value.text == "force" || value.text == "torque") {
-    force.load = load_of(context, value, value.text == "torque");
-  } else if (value.text == "spring_damper") {
-    force.type = ForceType::spring_damper;
-    auto [from, to] = pair_of(context, value);
-    force.spring_damper = {std::move(from), std::move(to), number_of(value, "stiffness"), number_of(value, "damping"),
-                           number_of(value, "free_length")};
-  } else if (value.text == "torsion_spring") {
-    force.type = ForceType::torsion_spring;
-    force.torsion_spring = torsion_spring_of(context, value);
-  }
-  return force;
-}
-
-/// A drive knows its motion beforehand: it depends on time alone.
-void require_function_of_time(Context& context, const Function& function) {
+void require_function_of_time(Context& context, const Function& function, const std::string& what) {
   for (const Variable& variable : function.variables) {
     if (variable.kind == Variable::Kind::time) continue;
     const std::string name = variable.joint + "." + variable.coordinate;
     context.faults.push_back(
-        {function.position, function.path, "a drive that depends on " + name, "a function of time alone", ""});
+        {function.position, function.path, what + " that depends on " + name, "a function of time alone", ""});
     return;
   }
 }
-
-}  // namespace
 
 void interpret_bodies(Context& context) {
   context.model.ground.name = "ground";
@@ -154,6 +104,12 @@ void interpret_joints(Context& context) {
     std::tie(joint.inboard, joint.outboard) = pair_of(context, value);
     if (const auto type = joint_types().find(value.text); type != joint_types().end()) joint.type = type->second;
     if (value.find("axis") != nullptr) joint.axis = direction_of(context, value, "axis");
+    if (joint.type == JointType::screw) {
+      joint.lead = number_of(value, "lead");
+      if (const Value* lead = value.find("lead"); lead != nullptr && !lead->broken && joint.lead == 0) {
+        context.fault(*lead, "a lead of 0", "a travel per turn", "a revolute joint has none");
+      }
+    }
     for (const auto& [coordinate, initial] : section(value, "initial")) {
       std::vector<double> numbers = initial.numbers;
       if (numbers.empty()) numbers = {initial.number};
@@ -173,15 +129,19 @@ void interpret_drives(Context& context) {
     drive.coordinate = text_of(value, "coordinate");
     const auto coordinate = coordinate_of(context, value);
     const Value* motion = value.find("position");
-    if (motion == nullptr) {
-      motion = value.find("speed");
+    std::string per;
+    if (motion == nullptr && (motion = value.find("speed")) != nullptr) {
       drive.prescribes = Drive::Prescribes::speed;
+      per = "/s";
+    } else if (motion == nullptr) {
+      motion = value.find("acceleration");
+      drive.prescribes = Drive::Prescribes::acceleration;
+      per = "/s^2";
     }
+    drive.ramp = number_of(value, "ramp");
     if (coordinate && motion != nullptr) {
-      const std::string unit = coordinate->rotational ? "rad" : "m";
-      const bool is_speed = drive.prescribes == Drive::Prescribes::speed;
-      drive.motion = function_of(context, *motion, is_speed ? unit + "/s" : unit);
-      require_function_of_time(context, drive.motion);
+      drive.motion = function_of(context, *motion, (coordinate->rotational ? "rad" : "m") + per);
+      require_function_of_time(context, drive.motion, "a drive");
       const auto [first, is_new] = driven.try_emplace(drive.joint + "." + drive.coordinate, name);
       if (!is_new) {
         context.fault_at_key(value, "a second drive of " + first->first, "one drive per coordinate",
@@ -189,12 +149,6 @@ void interpret_drives(Context& context) {
       }
     }
     context.model.drives.push_back(std::move(drive));
-  }
-}
-
-void interpret_forces(Context& context) {
-  for (const auto& [name, value] : section(context.root, "forces")) {
-    context.model.forces.push_back(force_of(context, name, value));
   }
 }
 

@@ -28,8 +28,8 @@ double initial_value(const Joint& joint, const std::string& coordinate) {
 const Drive* constant_drive(const Model& model, const std::string& joint, const std::string& coordinate) {
   for (const Drive& drive : model.drives) {
     const bool drives_it = drive.joint == joint && drive.coordinate == coordinate;
-    const bool is_constant =
-        drive.prescribes == Drive::Prescribes::speed && drive.motion.value != nullptr && drive.motion.is_constant();
+    const bool is_constant = drive.prescribes == Drive::Prescribes::speed && drive.ramp == 0 &&
+                             drive.motion.value != nullptr && drive.motion.is_constant();
     if (drives_it && is_constant) return &drive;
   }
   return nullptr;

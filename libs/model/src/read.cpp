@@ -79,6 +79,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_bodies(context);
   interpret_joints(context);
   interpret_drives(context);
+  interpret_couplings(context);
   interpret_forces(context);
   interpret_lubricants(context);
   interpret_bearings(context);

@@ -177,7 +177,7 @@ TEST_CASE("Names_AreIdentifiers") {
 TEST_CASE("UnknownWord_NamesTheNearest") {
   CHECK(faults_after("type: planar", "type: plannar") ==
         "m.yaml:15:17: joints.guide.type: 'plannar'; expected fixed, revolute, prismatic, cylindrical, spherical, "
-        "planar or free; did you mean 'planar'?");
+        "planar, universal, screw or free; did you mean 'planar'?");
   CHECK(faults_after("    lubricant: oil\n", "    lubricant: oil\n    solver: newtn\n") ==
         "m.yaml:30:13: bearings.big_end.solver: 'newtn'; expected newton, multigrid or sor; did you mean 'newton'?");
 }
@@ -191,7 +191,7 @@ TEST_CASE("KeyOfAnotherVariant_NamesItsOwner") {
 TEST_CASE("MissingTag_ListsTheVariants") {
   CHECK(faults_after("type: revolute, ", "") ==
         "m.yaml:14:3: joints.main: missing key 'type'; expected fixed, revolute, prismatic, cylindrical, spherical, "
-        "planar or free");
+        "planar, universal, screw or free");
 }
 
 TEST_CASE("ExactlyOneOfTwoKeys_IsDemanded") {

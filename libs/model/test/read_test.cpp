@@ -234,11 +234,11 @@ lubricants:)");
   CHECK(model.forces[2].spring_damper.to.body == "rod");
   CHECK(model.forces[2].spring_damper.stiffness == near(1e4));
   CHECK(model.forces[2].spring_damper.free_length == near(0.05));
-  CHECK(model.forces[3].type == ForceType::torsion_spring);
-  CHECK(model.forces[3].torsion_spring.joint == "guide");
-  CHECK(model.forces[3].torsion_spring.coordinate == "rotation");
-  CHECK(model.forces[3].torsion_spring.stiffness == near(20));
-  CHECK(model.forces[3].torsion_spring.free_angle == near(pi));
+  CHECK(model.forces[3].type == ForceType::coordinate_spring);
+  CHECK(model.forces[3].coordinate_spring.on.joint == "guide");
+  CHECK(model.forces[3].coordinate_spring.on.coordinate == "rotation");
+  CHECK(model.forces[3].coordinate_spring.stiffness == near(20));
+  CHECK(model.forces[3].coordinate_spring.free_position == near(pi));
 }
 
 TEST_CASE("Positions_PointAtTheKeys") {

@@ -22,6 +22,9 @@ PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observatio
   balance.drives = sum(seen.drive_powers);
   balance.loads = sum(seen.load_powers);
   balance.springs = sum(seen.spring_powers);
+  for (std::size_t i = 0; i < seen.coordinate_force_powers.size(); ++i)
+    (spec.coordinate_forces[i].force->is_source() ? balance.drives : balance.springs) +=
+        seen.coordinate_force_powers[i];
   for (std::size_t i = 0; i < seen.force_powers.size(); ++i) {
     (is_bearing[i] ? balance.bearings : balance.springs) += seen.force_powers[i];
   }

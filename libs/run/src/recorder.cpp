@@ -9,6 +9,7 @@
 #include "geometry_record.h"
 #include "hersey/core/version.h"
 #include "hersey/run/assumptions.h"
+#include "redundancies.h"
 
 namespace hersey::run {
 namespace {
@@ -80,7 +81,9 @@ void Recorder::declare_run(const Options& options) {
   }
   if (!study_parameters.empty()) writer_.attribute("/", "study_parameters", study_parameters);
   writer_.text("/model", model_.resolved_text, "model file of this run, overrides noted");
-  writer_.text_table("/assumptions", assumptions(model_), "what decides the results: name, text");
+  std::vector<std::pair<std::string, std::string>> texts = assumptions(model_);
+  for (auto& text : redundancies(*machine_.mechanism)) texts.push_back(std::move(text));
+  writer_.text_table("/assumptions", texts, "what decides the results: name, text");
 
   time_ = writer_.series("/time", 1, "s", "time");
   if (model_.simulation.crank) {
@@ -129,6 +132,19 @@ void Recorder::declare_machine() {
     const char* unit = is_rotational(joint, drive.coordinate.value) ? "N.m" : "N";
     drives_.push_back({writer_.series(path + "force_or_torque", 1, unit, "effort on the driven coordinate"),
                        writer_.series(path + "power", 1, "W", "power put into the machine")});
+  }
+  const auto unit_on = [&](const mbd::CoordinateRef& on) {
+    return is_rotational(spec.joints[static_cast<std::size_t>(on.joint.index)], on.value) ? "N.m" : "N";
+  };
+  for (const mbd::CouplingSpec& coupling : spec.couplings) {
+    couplings_.push_back(writer_.series("/couplings/" + coupling.name + "/force_or_torque", 1, unit_on(coupling.output),
+                                        "effort on the output coordinate"));
+  }
+  for (const auto& force : spec.coordinate_forces) {
+    const std::string path = "/joint_forces/" + force.name + "/";
+    coordinate_forces_.push_back(
+        {writer_.series(path + "force_or_torque", 1, unit_on(force.coordinate), "effort on the joint coordinate"),
+         writer_.series(path + "power", 1, "W", "power put into the machine")});
   }
   energy_ = {writer_.series("/energy/kinetic", 1, "J", "kinetic energy"),
              writer_.series("/energy/potential", 1, "J", "potential energy of gravity"),
@@ -244,6 +260,11 @@ void Recorder::write_row(const StepRecord& step) {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     drives_[i].effort.append(seen.drive_efforts[i]);
     drives_[i].power.append(seen.drive_powers[i]);
+  }
+  for (std::size_t i = 0; i < couplings_.size(); ++i) couplings_[i].append(seen.coupling_efforts[i]);
+  for (std::size_t i = 0; i < coordinate_forces_.size(); ++i) {
+    coordinate_forces_[i].effort.append(seen.coordinate_force_efforts[i]);
+    coordinate_forces_[i].power.append(seen.coordinate_force_powers[i]);
   }
   energy_.kinetic.append(seen.kinetic_energy);
   energy_.potential.append(seen.potential_energy);

@@ -86,6 +86,8 @@ class Recorder {
   std::vector<BodySeries> bodies_;
   std::vector<JointSeries> joints_;
   std::vector<DriveSeries> drives_;
+  std::vector<results::Series> couplings_;  ///< their efforts
+  std::vector<DriveSeries> coordinate_forces_;
   std::vector<BearingSeries> bearings_;
 };
 

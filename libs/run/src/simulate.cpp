@@ -20,6 +20,7 @@
 #include "hersey/solver/step_control.h"
 #include "instants.h"
 #include "recorder.h"
+#include "redundancies.h"
 #include "start.h"
 #include "step_error.h"
 
@@ -398,10 +399,11 @@ class Simulation {
 
 }  // namespace
 
-void check(const model::Model& model) {
-  if (model.is_of_bearings_alone()) return;
+std::vector<Fault> check(const model::Model& model) {
+  if (model.is_of_bearings_alone()) return {};
   model::Machine machine = model::build(model);
   (void)starting_state(model, machine);
+  return redundancy_warnings(model, *machine.mechanism);
 }
 
 Summary simulate(const model::Model& model, const Options& options) {

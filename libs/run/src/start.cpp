@@ -21,8 +21,11 @@ namespace {
 // The key path of what a message names first: "joint main, rotation" -> joints.main; "t = 0 s: bearing big_end: ..." ->
 // bearings.big_end.
 std::string path_of(const std::string& message) {
-  const std::array<std::pair<const char*, const char*>, 4> sections{
-      {{"joint ", "joints."}, {"drive ", "drives."}, {"bearing ", "bearings."}, {"body ", "bodies."}}};
+  const std::array<std::pair<const char*, const char*>, 5> sections{{{"joint ", "joints."},
+                                                                     {"drive ", "drives."},
+                                                                     {"coupling ", "couplings."},
+                                                                     {"bearing ", "bearings."},
+                                                                     {"body ", "bodies."}}};
   std::size_t first = std::string::npos;
   std::string path;
   for (const auto& [word, section] : sections) {
@@ -67,11 +70,13 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
   using Status = solver::InitialiseStatus;
   std::vector<Fault> faults;
   for (const std::string& row : summary.redundant) {
-    faults.push_back(fault_at(
-        model, row, "singular mechanism: " + row + " constrains a motion that other joints or drives already constrain",
-        "constraints that are independent",
-        "replace this joint by one that leaves more free (a revolute in a plane loop by a spherical or cylindrical "
-        "joint)"));
+    faults.push_back(
+        fault_at(model, row,
+                 "singular mechanism: " + row +
+                     " constrains a motion that other drives or joints prescribe already, or the loops start in a "
+                     "singular position",
+                 "constraints that are independent",
+                 "remove one of the drives, or start the loops away from positions where their rods align"));
   }
   for (const std::string& row : summary.undetermined) {
     faults.push_back(fault_at(model, row, "singular mechanism: nothing determines the motion of " + row,

@@ -10,7 +10,7 @@
 namespace hersey::mbd {
 
 /// What a joint leaves free between its inboard frame I and its outboard frame O. X_IO is the identity at zero.
-enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, planar, free };
+enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, planar, free, universal, screw };
 
 [[nodiscard]] std::string_view name_of(JointType type);
 [[nodiscard]] std::optional<JointType> joint_type_of(std::string_view name);
@@ -27,7 +27,9 @@ struct Coordinate {
 };
 
 /// The coordinates of a joint type in their order: revolute: rotation; prismatic: translation; cylindrical:
-/// translation, rotation; planar: x, y, rotation; spherical: orientation; free: position, orientation; fixed: none.
+/// translation, rotation; planar: x, y, rotation; spherical: orientation; free: position, orientation; fixed: none;
+/// universal: rotation_1 about t1 of the inboard frame (see joint_axes), rotation_2 about t2 of the outboard frame;
+/// screw: rotation.
 [[nodiscard]] std::span<const Coordinate> coordinates_of(JointType type);
 
 /// Number of values (and of degrees of freedom) of a joint type, 0..6.
@@ -41,6 +43,7 @@ struct Coordinate {
 [[nodiscard]] Matrix3 joint_axes(const Vector3& axis);
 
 /// The joint's motion: X_IO at the given values, shape (degrees_of_freedom).
-[[nodiscard]] Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> values);
+/// @param lead  travel of a screw per turn [m], right-handed where positive; no other type has one
+[[nodiscard]] Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> values, double lead = 0);
 
 }  // namespace hersey::mbd

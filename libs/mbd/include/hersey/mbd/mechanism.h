@@ -26,20 +26,33 @@ struct JointObservation {
   Vector3 torque = Vector3::Zero();  ///< the same about the inboard frame's origin [N m]; drives and springs excluded
 };
 
+/// Constraints of a joint that closes a loop which follow from the rest of the mechanism wherever it can go. They are
+/// left out of the equations; reactions that they leave undetermined are the ones of smallest norm.
+struct Redundancy {
+  JointId joint;              ///< the closing joint
+  std::vector<JointId> loop;  ///< the joints of its loop, itself last
+  int positions = 0;          ///< how many of its constraints on positions were left out
+  int orientations = 0;       ///< and on orientations
+};
+
 /// Everything known about a mechanism at one state. Indices are those of the ids.
 struct Observation {
   double t = 0;
   std::vector<FrameMotion> bodies;  ///< of each body's own frame
   std::vector<JointObservation> joints;
-  std::vector<double> drive_efforts;    ///< force or torque each drive exerts on its coordinate [N; N m]
-  std::vector<double> drive_powers;     ///< [W], > 0 puts energy in
-  std::vector<double> load_powers;      ///< [W]
-  std::vector<double> spring_powers;    ///< [W], stored and dissipated together
-  std::vector<Vector6> force_wrenches;  ///< of each two-body force on b, at a's origin, a's axes [N m; N]
-  std::vector<double> force_powers;     ///< wrench . relative velocity [W]
-  double kinetic_energy = 0;            ///< [J]
-  double potential_energy = 0;          ///< of gravity, zero at ground's origin [J]
-  double spring_energy = 0;             ///< stored in springs on coordinates and in two-body forces [J]
+  std::vector<double> drive_efforts;             ///< force or torque each drive exerts on its coordinate [N; N m]
+  std::vector<double> drive_powers;              ///< [W], > 0 puts energy in
+  std::vector<double> coupling_efforts;          ///< force or torque each coupling exerts on its output [N; N m]
+  std::vector<double> load_powers;               ///< [W]
+  std::vector<double> coordinate_force_efforts;  ///< [N; N m]
+  std::vector<double> coordinate_force_powers;   ///< [W]
+  std::vector<double> spring_powers;             ///< [W], stored and dissipated together
+  std::vector<Vector6> force_wrenches;           ///< of each two-body force on b, at a's origin, a's axes [N m; N]
+  std::vector<double> force_powers;              ///< wrench . relative velocity [W]
+  double kinetic_energy = 0;                     ///< [J]
+  double potential_energy = 0;                   ///< of gravity, zero at ground's origin [J]
+  double spring_energy = 0;                      ///< stored in springs on coordinates and in two-body forces [J]
+  double constraint_drift = 0;  ///< largest violation, redundant rows included, relative to size or radian
 };
 
 /// Rigid bodies in joint coordinates: recursive kinematics along a spanning tree, loops closed by Lagrange multipliers
@@ -86,6 +99,9 @@ class Mechanism final : public solver::Equations {
   [[nodiscard]] RelativeMotion relative_motion(const solver::State& state, ForceId force);
 
   [[nodiscard]] const MechanismSpec& spec() const;
+
+  /// Closing joints some of whose constraints are redundant, in order of declaration.
+  [[nodiscard]] const std::vector<Redundancy>& redundancies() const;
 
   /// Joints that close a loop, in order of declaration.
   [[nodiscard]] std::vector<JointId> closing_joints() const;

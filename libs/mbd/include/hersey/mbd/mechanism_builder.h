@@ -6,6 +6,7 @@
 
 #include "hersey/core/scalar_function.h"
 #include "hersey/core/spatial.h"
+#include "hersey/mbd/coordinate_force.h"
 #include "hersey/mbd/joint.h"
 #include "hersey/mbd/two_body_force.h"
 
@@ -24,6 +25,8 @@ using ForceId = Id<struct ForceTag>;    ///< forces between two bodies
 using SpringId = Id<struct SpringTag>;  ///< springs on a joint coordinate
 using LoadId = Id<struct LoadTag>;
 using DriveId = Id<struct DriveTag>;
+using CoordinateForceId = Id<struct CoordinateForceTag>;
+using CouplingId = Id<struct CouplingTag>;
 
 /// A rigid body.
 struct BodySpec {
@@ -46,6 +49,7 @@ struct JointSpec {
   FrameId inboard;
   FrameId outboard;
   Vector3 axis = Vector3::UnitZ();  ///< in the inboard frame; normalised here, length > 0
+  double lead = 0;                  ///< of a screw: travel per turn [m], right-handed where positive
   std::vector<double>
       initial;  ///< values in the order of coordinates_of(type); empty: zero, and free to move in assembly
   std::vector<double> initial_rate;  ///< the same for their rates
@@ -92,11 +96,25 @@ struct CoordinateSpringSpec {
 
 /// Prescribed motion of a scalar joint coordinate.
 struct DriveSpec {
-  enum class Kind { position, speed };
+  enum class Kind { position, speed, acceleration };
   std::string name;
   CoordinateRef coordinate;
   Kind kind = Kind::position;
   std::shared_ptr<const ScalarFunction> function;  ///< of time alone
+  double ramp = 0;   ///< time over which the motion is blended in from rest, twice differentiable [s]
+  double start = 0;  ///< when the ramp begins [s]
+};
+
+/// A relation between scalar joint coordinates that always holds: output = sum of f_i(input_i). Gear, rack, cam,
+/// differential. It acts between the two bodies of each joint and does no work in all.
+struct CouplingSpec {
+  struct Term {
+    CoordinateRef input;
+    std::shared_ptr<const ScalarFunction> function;  ///< of the input alone, twice differentiable
+  };
+  std::string name;
+  CoordinateRef output;
+  std::vector<Term> terms;
 };
 
 /// Everything a mechanism is made of, as added.
@@ -109,6 +127,14 @@ struct MechanismSpec {
   std::vector<LoadSpec> loads;
   std::vector<CoordinateSpringSpec> springs;
   std::vector<DriveSpec> drives;
+  std::vector<CouplingSpec> couplings;
+
+  struct CoordinateForce {
+    std::string name;
+    CoordinateRef coordinate;
+    std::shared_ptr<mbd::CoordinateForce> force;
+  };
+  std::vector<CoordinateForce> coordinate_forces;
 
   struct Force {
     std::string name;
@@ -144,8 +170,12 @@ class MechanismBuilder {
   /// The force acts on b's body, its negative on a's; it sees frame b relative to frame a.
   ForceId add_force(std::string name, FrameId a, FrameId b, std::shared_ptr<TwoBodyForce> force);
   LoadId add_load(LoadSpec load);
+  /// A force or torque on a scalar joint coordinate, between the two bodies of the joint.
+  CoordinateForceId add_coordinate_force(std::string name, CoordinateRef coordinate,
+                                         std::shared_ptr<CoordinateForce> force);
   SpringId add_spring(CoordinateSpringSpec spring);
   DriveId add_drive(DriveSpec drive);
+  CouplingId add_coupling(CouplingSpec coupling);
 
   /// @throws InputError if a body, spring or joint makes no physical sense (all faults together), or two drives act on
   ///         one coordinate; ContractError if an id or a count is not the builder's own.

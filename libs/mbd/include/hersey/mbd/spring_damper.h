@@ -1,11 +1,14 @@
 #pragma once
 
+#include <memory>
+
+#include "hersey/core/scalar_function.h"
 #include "hersey/mbd/two_body_force.h"
 
 namespace hersey::mbd {
 
 /// Linear spring and damper along the line between two frame origins (theory manual eq. (mechanisms.20)):
-/// pulls B towards A with  f = stiffness (l - free_length) + damping dl/dt.
+/// pulls B towards A with  f = stiffness (l - free_length) + damping dl/dt + tension(l).
 ///
 /// At zero distance the direction is undefined: a spring of free length 0 passes smoothly through it without its
 /// damper; any other reports a domain error.
@@ -14,7 +17,9 @@ class SpringDamper final : public TwoBodyForce {
   /// @param stiffness    [N/m], >= 0
   /// @param damping      [N s/m], >= 0
   /// @param free_length  [m], >= 0
-  SpringDamper(double stiffness, double damping, double free_length);
+  /// @param tension      further pull as a function of the length alone [N]; null for none. Its energy is not counted.
+  SpringDamper(double stiffness, double damping, double free_length,
+               std::shared_ptr<const ScalarFunction> tension = nullptr);
 
   void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) override;
   [[nodiscard]] double stored_energy(const RelativeMotion& motion) const override;
@@ -22,6 +27,7 @@ class SpringDamper final : public TwoBodyForce {
 
  private:
   double stiffness_, damping_, free_length_;
+  std::shared_ptr<const ScalarFunction> tension_;
   bool collapsed_ = false;
 };
 

@@ -30,7 +30,7 @@ struct FrameName {
 
 /// What a function of the model file depends on.
 struct Variable {
-  enum class Kind { time, coordinate, rate };
+  enum class Kind { time, coordinate, rate, argument };  ///< argument: what the function's place says, a length, ...
   Kind kind = Kind::time;
   std::string joint;       ///< empty for time
   std::string coordinate;  ///< "rotation", "translation", "x", "y"; empty for time
@@ -63,7 +63,7 @@ struct Body {
   SourcePosition position;
 };
 
-enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, planar, free };
+enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, planar, free, universal, screw };
 
 /// Value of a coordinate or of its rate at the start.
 struct InitialValue {
@@ -77,18 +77,20 @@ struct Joint {
   JointType type = JointType::revolute;
   FrameName inboard, outboard;
   Vector3 axis = Vector3::UnitZ();    ///< unit vector in the inboard frame; planar: normal of the plane
+  double lead = 0;                    ///< of a screw: travel per turn [m], not 0
   std::vector<InitialValue> initial;  ///< only those given; the others start from 0
   SourcePosition position;
 };
 
 /// Prescribed motion of one scalar joint coordinate.
 struct Drive {
-  enum class Prescribes { position, speed };
+  enum class Prescribes { position, speed, acceleration };
   std::string name;
   std::string joint;
   std::string coordinate;
   Prescribes prescribes = Prescribes::position;
-  Function motion;  ///< of time [rad or m; rad/s or m/s]
+  Function motion;  ///< of time [rad or m; rad/s or m/s; rad/s^2 or m/s^2]
+  double ramp = 0;  ///< time over which it is blended in [s]
   SourcePosition position;
 };
 
@@ -105,21 +107,61 @@ struct BodyLoad {
 
 struct SpringDamper {
   FrameName from, to;
-  double stiffness = 0;    ///< [N/m], >= 0
-  double damping = 0;      ///< [N s/m], >= 0
-  double free_length = 0;  ///< [m], >= 0
+  double stiffness = 0;             ///< [N/m], >= 0
+  double damping = 0;               ///< [N s/m], >= 0
+  double free_length = 0;           ///< [m], >= 0
+  std::optional<Function> tension;  ///< further pull [N] over the length [m]
 };
 
-/// Spring and damper on one rotational joint coordinate.
-struct TorsionSpring {
-  std::string joint;
-  std::string coordinate;
-  double stiffness = 0;   ///< [N m/rad], >= 0
-  double damping = 0;     ///< [N m s/rad], >= 0
-  double free_angle = 0;  ///< [rad]
+/// A scalar joint coordinate.
+struct CoordinateName {
+  std::string joint, coordinate;
 };
 
-enum class ForceType { load, spring_damper, torsion_spring };
+/// Spring and damper on one joint coordinate.
+struct CoordinateSpring {
+  CoordinateName on;
+  double stiffness = 0;               ///< [N m/rad] or [N/m], >= 0
+  double damping = 0;                 ///< [N m s/rad] or [N s/m], >= 0
+  double free_position = 0;           ///< [rad] or [m]
+  std::optional<Function> restoring;  ///< further torque or force that pulls back, over the stretch [rad] or [m]
+};
+
+/// An elastic connection in all six directions, rotations first in the matrices.
+struct Bushing {
+  FrameName from, to;
+  Matrix6 stiffness = Matrix6::Zero(), damping = Matrix6::Zero();  ///< symmetric, positive semidefinite
+};
+
+struct JointFriction {
+  CoordinateName on;
+  double coulomb = 0;           ///< [N m] or [N], >= 0
+  double viscous = 0;           ///< [N m s/rad] or [N s/m], >= 0
+  double transition_speed = 0;  ///< [rad/s] or [m/s], > 0
+};
+
+struct SpeedControl {
+  CoordinateName on;
+  Function speed;           ///< of time [rad/s] or [m/s]
+  double proportional = 0;  ///< [N m s/rad] or [N s/m], >= 0
+  double integral = 0;      ///< [N m/rad] or [N/m], >= 0
+  double limit = 0;         ///< [N m] or [N], > 0; infinity for none
+};
+
+enum class ForceType { load, spring_damper, coordinate_spring, bushing, joint_friction, speed_control };
+
+/// output = sum of f_i(input_i): a gear, a rack, a cam.
+struct CoordinateCoupling {
+  struct Term {
+    CoordinateName input;
+    double factor = 0;                 ///< where there is no function; counted from where the joints start
+    std::optional<Function> function;  ///< of the input
+  };
+  std::string name;
+  CoordinateName output;
+  std::vector<Term> terms;
+  SourcePosition position;
+};
 
 /// One entry of `forces`; the member named by `type` holds the data.
 struct Force {
@@ -127,7 +169,10 @@ struct Force {
   ForceType type = ForceType::load;
   BodyLoad load;
   SpringDamper spring_damper;
-  TorsionSpring torsion_spring;
+  CoordinateSpring coordinate_spring;
+  Bushing bushing;
+  JointFriction joint_friction;
+  SpeedControl speed_control;
   SourcePosition position;
 };
 
@@ -256,6 +301,7 @@ struct Model {
   std::vector<Body> bodies;           ///< in the order of the file
   std::vector<Joint> joints;
   std::vector<Drive> drives;
+  std::vector<CoordinateCoupling> couplings;
   std::vector<Force> forces;
   std::vector<Lubricant> lubricants;
   std::vector<Bearing> bearings;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/input_error.h"
 #include "hersey/model/model.h"
 
 namespace hersey::run {
@@ -74,7 +75,8 @@ struct Options {
 [[nodiscard]] Summary simulate(const model::Model& model, const Options& options);
 
 /// Builds `model` and finds its starting state, as `simulate` does first, and writes nothing.
+/// @returns what the user should know though the model runs: redundant constraints and how they are treated.
 /// @throws InputError as `simulate`.
-void check(const model::Model& model);
+std::vector<Fault> check(const model::Model& model);
 
 }  // namespace hersey::run
