@@ -175,9 +175,21 @@ TEST_CASE("ClosedGapAtTheStart_PointsAtTheBearing") {
   CHECK(fault.found.find("the journal touches the shell") != std::string::npos);
 }
 
-TEST_CASE("RedundantConstraints_NameTheJoints") {
+TEST_CASE("RedundantConstraints_AreWarnedOf") {
   // A second revolute joint on the same axis says everything twice but turning.
-  const std::string text = rig_with("drives:", "  again: {type: revolute, between: [ground, pin]}\ndrives:");
+  const std::vector<std::string> warnings =
+      check(rig(rig_with("drives:", "  again: {type: revolute, between: [ground, pin]}\ndrives:")));
+  REQUIRE(warnings.size() == 1);
+  CHECK(
+      warnings[0].starts_with("redundant constraints: joint again: 5 of the constraints that close the loop of main "
+                              "and again follow from the others (3 on positions, 2 on orientations)"));
+  CHECK(check(rig()).empty());
+}
+
+TEST_CASE("ContradictingDrives_AreNamed") {
+  // Both joints turn the same pin.
+  std::string text = rig_with("drives:", "  again: {type: revolute, between: [ground, pin]}\ndrives:");
+  text.replace(text.find("  hold:"), 0, "  second: {joint: again, coordinate: rotation, speed: 100 rpm}\n");
   std::string found;
   try {
     check(rig(text));
@@ -185,8 +197,8 @@ TEST_CASE("RedundantConstraints_NameTheJoints") {
     for (const Fault& fault : error.faults()) found += fault.text() + "\n";
   }
   CHECK(found.find("singular mechanism") != std::string::npos);
-  CHECK(found.find("again") != std::string::npos);
-  CHECK(found.find("rig.yaml:" + std::to_string(line_of(text, "  again:"))) != std::string::npos);
+  CHECK(found.find("drive second") != std::string::npos);
+  CHECK(found.find("rig.yaml:" + std::to_string(line_of(text, "  second:"))) != std::string::npos);
 }
 
 TEST_CASE("MasslessBody_IsNamed") {

@@ -43,6 +43,7 @@ struct GeneralizedAlpha::Workspace {
   // One step
   State trial;
   Stage stage;
+  VectorXd dq_before, lambda_before;  ///< where an increment starts from
   VectorXd a_n, dq, dq_predicted, v_predicted, vdot_predicted, increment, residual, scale, tolerance, rhs;
   Equations::SparseMatrix tangent;
   SparseLu lu;
@@ -169,11 +170,12 @@ bool GeneralizedAlpha::Workspace::enter_domain(Equations& equations, const State
 bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
                                        const GeneralizedAlphaOptions& options) {
   const Index nv = equations.nv();
-  const VectorXd dq_start = dq, lambda_start = trial.lambda;
+  dq_before = dq;
+  lambda_before = trial.lambda;
   double length = 1;
   for (int halvings = 0; halvings <= options.max_halvings; ++halvings, length *= 0.5) {
-    dq = dq_start + length * increment.head(nv);
-    trial.lambda = lambda_start + length * increment.tail(increment.size() - nv);
+    dq = dq_before + length * increment.head(nv);
+    trial.lambda = lambda_before + length * increment.tail(increment.size() - nv);
     place(equations, state, dq);
     if (assemble(equations, options)) return true;
   }
@@ -280,7 +282,6 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   equations.accept_step(state);
   summary.status = StepStatus::converged;
   summary.residual = w.worst;
-  summary.worst_row = w.worst_name(equations);
   return summary;
 }
 

@@ -25,7 +25,7 @@ struct StepSummary {
   StepStatus status = StepStatus::no_convergence;
   int iterations = 0;     ///< Newton iterations spent
   double residual = 0;    ///< largest row residual relative to its tolerance at the end, <= 1 when converged
-  std::string worst_row;  ///< the row behind `residual`, by name
+  std::string worst_row;  ///< the row behind `residual`, by name; empty when converged
   std::string message;    ///< empty when converged, otherwise one sentence: what failed and where
 
   [[nodiscard]] bool converged() const { return status == StepStatus::converged; }

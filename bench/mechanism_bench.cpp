@@ -1,0 +1,158 @@
+// Rigid mechanisms of the IFToMM library: cost and error at two steps each, and how the time per step grows with the
+// number of loops.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <numbers>
+#include <string>
+
+#include "benchmark_mechanisms.h"
+#include "hersey/solver/generalized_alpha.h"
+#include "hersey/solver/initialise.h"
+#include "mechanisms_pendulum.h"
+
+namespace {
+
+using namespace hersey;
+using namespace hersey::mbd;
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+struct Cost {
+  int steps = 0, iterations = 0;
+  double seconds = 0;  ///< of the steps alone
+  bool completed = false;
+};
+
+/// Steps to `end` in equal steps; `watch` sees every state.
+template <class Watch>
+Cost run(Mechanism& mechanism, solver::State& state, double end, int steps, double spectral_radius, Watch watch) {
+  Cost cost;
+  const solver::InitialiseSummary start = solver::initialise(mechanism, state, {.held = mechanism.given_coordinates()});
+  if (!start.consistent()) {
+    fmt::print("{}\n", start.message);
+    return cost;
+  }
+  solver::GeneralizedAlpha integrator({.spectral_radius = spectral_radius});
+  const double began = cpu_seconds();
+  for (int i = 1; i <= steps; ++i) {
+    const solver::StepSummary summary = integrator.step(mechanism, state, end * i / steps - state.t);
+    if (!summary.converged()) {
+      fmt::print("{}\n", summary.message);
+      return cost;
+    }
+    ++cost.steps;
+    cost.iterations += summary.iterations;
+    watch(state);
+  }
+  cost.seconds = cpu_seconds() - began;
+  cost.completed = true;
+  return cost;
+}
+
+/// One line of the table; returns whether a target (0: none) was met.
+bool print(const std::string& name, double end, const Cost& cost, double error, double target) {
+  const bool met = cost.completed && (target == 0 || error <= target);
+  fmt::print("{:30} {:9.3g} {:8} {:8.2f} {:9.2f} {:9.3f} {:10.2e}   {}\n", name, 1e3 * end / std::max(cost.steps, 1),
+             cost.steps, static_cast<double>(cost.iterations) / std::max(cost.steps, 1),
+             1e6 * cost.seconds / std::max(cost.steps, 1), cost.seconds, error,
+             target == 0 ? "" : fmt::format("{} (error below {:g})", met ? "met" : "MISSED", target));
+  return met;
+}
+
+Vector3 first_crank_tip(Mechanism& mechanism, const solver::State& state) {
+  return mechanism.frame_motion(state, mechanism.spec().body_frames[1]).X_WF * Vector3(1, 0, 0);
+}
+
+/// A01 over 2000 s: the largest distance from the exact place at 4000 outputs.
+bool pendulum(int steps, double target) {
+  constexpr double end = 2000;
+  const auto mechanism = mbd::test::simple_pendulum();
+  solver::State state = mechanism->initial_state();
+  const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81)};
+  double worst = 0;
+  int step = 0;
+  const Cost cost = run(*mechanism, state, end, steps, 1.0, [&](const solver::State& s) {
+    if (++step % (steps / 4000) != 0) return;
+    worst = std::max(worst, 2 * std::abs(std::sin(0.5 * (s.q[0] - exact.angle(s.t)))));
+  });
+  return print("A01 pendulum, 2000 s", end, cost, worst, target);
+}
+
+bool four_bars(int N, int steps, double x, double y, double target) {
+  const auto mechanism = mbd::test::four_bars(N);
+  solver::State state = mechanism->initial_state();
+  const Cost cost = run(*mechanism, state, 10, steps, 0.9, [](const solver::State&) {});
+  const Vector3 B0 = first_crank_tip(*mechanism, state);
+  return print(fmt::format("A02 four-bars, N = {}, 10 s", N), 10, cost, std::hypot(B0.x() - x, B0.y() - y), target);
+}
+
+bool squeezer(int steps, double target) {
+  // At 0.03 s: IVP test set, problem "andrews".
+  const std::array<std::pair<const char*, double>, 7> reference{{{"beta", 15.81077119629904},
+                                                                 {"Theta", -15.75637105984298},
+                                                                 {"gamma", 0.04082224013073101},
+                                                                 {"Phi", -0.5347301163226948},
+                                                                 {"delta", 0.5244099658805304},
+                                                                 {"Omega", 0.5347301163226948},
+                                                                 {"epsilon", 1.048080741042263}}};
+  mbd::test::Squeezer squeezer;
+  solver::State state = squeezer.mechanism->initial_state();
+  const Cost cost = run(*squeezer.mechanism, state, 0.03, steps, 0.9, [](const solver::State&) {});
+  const Observation seen = squeezer.mechanism->observe(state);
+  double error = 0;
+  for (const auto& [name, value] : reference) error = std::max(error, std::abs(squeezer.angle(seen, name) / value - 1));
+  return print("A03 squeezer, 0.03 s", 0.03, cost, error, target);
+}
+
+bool governor(int steps, double target) {
+  const auto mechanism = mbd::test::governor();
+  solver::State state = mechanism->initial_state();
+  const Cost cost = run(*mechanism, state, 10, steps, 0.8, [](const solver::State&) {});
+  return print("A05 governor, 10 s", 10, cost, std::abs(state.q[1] - 0.6196229171), target);
+}
+
+/// Time per step of N four-bars from N = 10 to 320, and the exponent of its growth.
+bool scaling() {
+  fmt::print("\n{:>8} {:>12} {:>16} {:>16}\n", "N", "coordinates", "us per step", "us per step / N");
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  int points = 0;
+  for (int N = 10; N <= 320; N *= 2) {
+    const auto mechanism = mbd::test::four_bars(N);
+    solver::State state = mechanism->initial_state();
+    const Cost cost = run(*mechanism, state, 1, 200, 0.9, [](const solver::State&) {});
+    if (!cost.completed) return false;
+    const double per_step = cost.seconds / cost.steps, x = std::log(N), y = std::log(per_step);
+    fmt::print("{:8} {:12} {:16.1f} {:16.2f}\n", N, mechanism->nv(), 1e6 * per_step, 1e6 * per_step / N);
+    std::fflush(stdout);
+    ++points, sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const double exponent = (points * sxy - sx * sy) / (points * sxx - sx * sx);
+  const bool met = exponent <= 1.1;
+  fmt::print("exponent of the time per step: {:.3f}   {} (at most 1.1)\n", exponent, met ? "met" : "MISSED");
+  return met;
+}
+
+}  // namespace
+
+int main() {
+  fmt::print("{:30} {:>9} {:>8} {:>8} {:>9} {:>9} {:>10}\n", "", "step [ms]", "steps", "Newton", "us/step", "CPU [s]",
+             "error");
+  bool met = true;
+  met &= four_bars(2, 2500, 0.3284581115, 0.9445185382, 0);
+  met &= four_bars(2, 10000, 0.3284581115, 0.9445185382, 1e-3);
+  met &= four_bars(40, 500, 0.1805122267, 0.9835727406, 1e-3);
+  met &= four_bars(40, 2000, 0.1805122267, 0.9835727406, 1e-4);
+  met &= squeezer(2000, 0);
+  met &= squeezer(6000, 1e-5);
+  met &= governor(2500, 0);
+  met &= governor(10000, 1e-4);
+  met &= pendulum(1000000, 0);
+  met &= pendulum(5000000, 1e-3);
+  met &= scaling();
+  return met ? 0 : 1;
+}
