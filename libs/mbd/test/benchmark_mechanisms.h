@@ -31,7 +31,8 @@ inline std::unique_ptr<Mechanism> simple_pendulum() {
 
 /// A02: N four-bar loops of uniform rods of 1 m and 1 kg, cranks upright, the first coupler point at 1 m/s. Cylindrical
 /// and spherical coupler joints close each loop in space without redundancy.
-inline std::unique_ptr<Mechanism> four_bars(int N) {
+/// With `hinges` all joints are revolute, and three constraints of each loop redundant.
+inline std::unique_ptr<Mechanism> four_bars(int N, bool hinges = false) {
   MechanismBuilder b;
   b.set_gravity({0, -9.81, 0});
   const auto rod = [&](const std::string& name) {
@@ -54,13 +55,13 @@ inline std::unique_ptr<Mechanism> four_bars(int N) {
   for (int i = 0; i < N; ++i) {
     const BodyId coupler = rod("coupler" + std::to_string(i));
     b.add_joint({.name = "left" + std::to_string(i),
-                 .type = JointType::cylindrical,
+                 .type = hinges ? JointType::revolute : JointType::cylindrical,
                  .inboard = tops[i],
                  .outboard = b.frame_of(coupler),
-                 .initial = {0, -0.5 * kPi},
-                 .initial_rate = {0, 1}});
+                 .initial = hinges ? std::vector<double>{-0.5 * kPi} : std::vector<double>{0, -0.5 * kPi},
+                 .initial_rate = hinges ? std::vector<double>{1} : std::vector<double>{0, 1}});
     b.add_joint({.name = "right" + std::to_string(i),
-                 .type = JointType::spherical,
+                 .type = hinges ? JointType::revolute : JointType::spherical,
                  .inboard = b.add_frame({.name = "end", .body = coupler, .X_BF = {Matrix3::Identity(), {1, 0, 0}}}),
                  .outboard = tops[i + 1]});
   }

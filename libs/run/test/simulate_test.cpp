@@ -177,12 +177,14 @@ TEST_CASE("ClosedGapAtTheStart_PointsAtTheBearing") {
 
 TEST_CASE("RedundantConstraints_AreWarnedOf") {
   // A second revolute joint on the same axis says everything twice but turning.
-  const std::vector<std::string> warnings =
-      check(rig(rig_with("drives:", "  again: {type: revolute, between: [ground, pin]}\ndrives:")));
+  const std::string text = rig_with("drives:", "  again: {type: revolute, between: [ground, pin]}\ndrives:");
+  const std::vector<Fault> warnings = check(rig(text));
   REQUIRE(warnings.size() == 1);
   CHECK(
-      warnings[0].starts_with("redundant constraints: joint again: 5 of the constraints that close the loop of main "
-                              "and again follow from the others (3 on positions, 2 on orientations)"));
+      warnings[0].found.starts_with("redundant: 5 of the constraints that close the loop of main and again follow "
+                                    "from the others (3 on positions, 2 on orientations)"));
+  CHECK(warnings[0].path == "joints.again");
+  CHECK(warnings[0].position.line == line_of(text, "  again:"));
   CHECK(check(rig()).empty());
 }
 
