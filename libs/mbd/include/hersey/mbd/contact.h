@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hersey/mbd/shape.h"
+#include "hersey/mbd/two_body_force.h"
+
+namespace hersey::mbd {
+
+/// What two surfaces do to each other where they overlap by delta > 0 (theory manual eqs. (contact.4) to (contact.6)):
+///
+///     N = stiffness delta^exponent (1 + damping ddelta/dt), never below 0,
+///     friction = -friction N v_t / sqrt(v_t^2 + slip_speed^2).
+struct ContactLaw {
+  double stiffness = 0;   ///< [N/m^exponent]; of a mesh's corners on a solid [Pa/m^exponent]; > 0
+  double exponent = 1.5;  ///< >= 1
+  double damping = 0;     ///< of Hunt and Crossley [s/m], >= 0
+  double friction = 0;    ///< coefficient of Coulomb friction, >= 0
+  double slip_speed = 0;  ///< speed below which friction gives way [m/s]; > 0 where there is friction
+};
+
+/// What a contact shows of itself, in frame A.
+struct ContactObservation {
+  double gap = 0;                      ///< smallest distance of both surfaces, negative where they overlap [m]
+  double normal_force = 0;             ///< sum over all spots [N]
+  Vector3 friction = Vector3::Zero();  ///< on B [N]
+  Vector3 force = Vector3::Zero();     ///< on B, normal and friction force [N]
+  Vector3 position = Vector3::Zero();  ///< centre of the normal forces; not a number without contact [m]
+  double damping_power = 0;            ///< taken by the damping [W], >= 0
+  double friction_power = 0;           ///< taken by friction [W], >= 0
+  int spots = 0;                       ///< number of spots that touch
+};
+
+/// Contact between two shapes, each fixed on one body: a force between two frames.
+///
+/// Continuous in position and velocity, its derivatives exact and piecewise continuous; no state of its own. Where the
+/// shapes overlap by more than `deepest_share` of the smaller one, the law says nothing sensible and `domain_error`
+/// tells so. Only what `make_spot_finder` (src) knows of a pair is geometry: the law sees points, normals and material
+/// velocities, whatever carries them.
+class Contact final : public TwoBodyForce {
+ public:
+  /// Largest penetration, as a share of the smaller shape's size (radius, or half its smallest extent).
+  static constexpr double deepest_share = 0.2;
+
+  /// @throws ContractError if the pair is not supported, the law has impossible numbers.
+  Contact(ShapeGeometry a, ShapeGeometry b, const ContactLaw& law);
+  ~Contact() override;
+
+  void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) override;
+  [[nodiscard]] double stored_energy(const RelativeMotion& motion) const override;
+  [[nodiscard]] std::string domain_error() const override;
+
+  [[nodiscard]] ContactObservation observe(const RelativeMotion& motion);
+
+ private:
+  struct Workspace;
+  ContactLaw law_;
+  double deepest_ = 0;   ///< largest penetration allowed [m]
+  double too_deep_ = 0;  ///< penetration beyond that at the last evaluation; 0: none
+  std::unique_ptr<Workspace> work_;
+};
+
+/// Whether contact between the two is supported: a sphere and anything; a half-space and anything but itself; two
+/// capsules; a mesh and any of the others but a mesh.
+[[nodiscard]] bool can_touch(const ShapeGeometry& a, const ShapeGeometry& b);
+
+/// Whether the law of this pair gives a pressure, its stiffness being [Pa/m^exponent]: a mesh on anything but a sphere.
+[[nodiscard]] bool touches_with_pressure(const ShapeGeometry& a, const ShapeGeometry& b);
+
+/// "sphere", "cylinder", ...
+[[nodiscard]] std::string name_of(const ShapeGeometry& shape);
+
+}  // namespace hersey::mbd
