@@ -36,6 +36,7 @@ export class SystemView {
     const graph = mechanismGraph(run);
     if (graph) this.element.append(section("Mechanism", false, (body) => body.append(graph)));
     if (run.children("/joints").length > 0) this.element.append(section("Joints", false, (body) => this.joints(body)));
+    if (run.children("/contacts").length > 0) this.element.append(section("Contacts", run.children("/bearings").length === 0, (body) => this.contacts(body)));
     for (const [group, title] of [["/drives", "Drives"], ["/couplings", "Couplings"], ["/joint_forces", "Springs, friction and control in joints"]] as const) {
       if (run.children(group).length > 0) this.element.append(section(title, false, (body) => this.efforts(body, group)));
     }
@@ -98,6 +99,20 @@ export class SystemView {
         this.mixed(body, path(kind), `${joint}-${kind}`, `${joint}: ${kind}`, label, given);
       this.vector(body, path("reaction_force"), `${joint}-force`, `${joint}: reaction force`, "reaction force");
       this.vector(body, path("reaction_torque"), `${joint}-torque`, `${joint}: reaction torque`, "reaction torque");
+    }
+  }
+
+  private contacts(body: HTMLElement): void {
+    const { run } = this;
+    const newton = { factor: 1, unit: "N" }, watt = { factor: 1, unit: "W" };
+    for (const contact of run.children("/contacts")) {
+      const path = (name: string) => `/contacts/${contact}/${name}`, name = contact.replaceAll("_", " ");
+      this.add(body, `${contact}-force`, `${name}: normal and friction force`, { label: "force", unit: "N", fromZero: true },
+        [...curve(run, path("normal_force"), "normal", newton), ...curve(run, path("friction_force"), "friction", newton)]);
+      this.add(body, `${contact}-gap`, `${name}: distance of the shapes, negative where they overlap`, { label: "distance", unit: "mm" },
+        curve(run, path("gap"), "distance", millimetre));
+      this.add(body, `${contact}-power`, `${name}: power lost`, { label: "power", unit: "W", fromZero: true },
+        [...curve(run, path("damping_power"), "damping", watt), ...curve(run, path("friction_power"), "friction", watt)]);
     }
   }
 

@@ -223,6 +223,7 @@ const std::vector<Dimension>& dimensions() {
       {"N.m/rad", "a torsional stiffness", "100 N.m/rad", {"N.m/rad", "N.m/deg"}},
       {"N.m.s/rad", "a torsional damping", "0.1 N.m.s/rad", {"N.m.s/rad"}},
       {"m^3/s", "a flow", "0.5 l/min", {"m^3/s", "l/min", "mm^3/s"}},
+      {"s/m", "an inverse velocity", "0.5 s/m", {"s/m", "s/mm"}},
       {"Hz", "a frequency", "50 Hz", {"Hz", "kHz", "1/s"}},
       {"K", "a temperature", "60 degC", {"degC", "K"}},
       {"W", "a power", "2 kW", {"W", "kW"}},

@@ -113,6 +113,7 @@ class Builder {
     for (const Drive& drive : model_.drives) add_drive(drive);
     for (const CoordinateCoupling& coupling : model_.couplings) add_coupling(coupling);
     for (const Force& force : model_.forces) add_force(force);
+    for (const Contact& contact : model_.contacts) add_contact(contact);
     for (const Bearing& bearing : model_.bearings) add_bearing(bearing);
     machine_.mechanism = mechanism_.finalise();
     return std::move(machine_);
@@ -121,6 +122,7 @@ class Builder {
  private:
   void add_frames(const Body& body, mbd::BodyId id) {
     const std::string name = id == mbd::MechanismBuilder::ground() ? "ground" : body.name;
+    bodies_[name] = id;
     frames_[{name, ""}] = mechanism_.frame_of(id);
     poses_[{name, ""}] = Pose{};
     for (const Frame& frame : body.frames) {
@@ -290,6 +292,15 @@ class Builder {
     mechanism_.add_coupling(std::move(spec));
   }
 
+  void add_contact(const Contact& contact) {
+    const mbd::ShapeGeometry *first = model_.find_shape(contact.first), *second = model_.find_shape(contact.second);
+    HERSEY_REQUIRE(first != nullptr && second != nullptr, "the reader checks shapes");
+    auto force = std::make_shared<mbd::Contact>(*first, *second, contact.law);
+    const mbd::FrameId a = frames_.at({contact.first.body, ""}), b = frames_.at({contact.second.body, ""});
+    const mbd::ForceId id = mechanism_.add_force("contact " + contact.name, a, b, force);
+    machine_.contacts.push_back({std::move(force), id, bodies_.at(contact.first.body)});
+  }
+
   void add_bearing(const Bearing& bearing) {
     bearing::BearingOptions options;
     options.coupling = bearing.coupling.scheme == CouplingScheme::partitioned ? bearing::Coupling::partitioned
@@ -310,6 +321,7 @@ class Builder {
   const Model& model_;
   mbd::MechanismBuilder mechanism_;
   Machine machine_;
+  std::map<std::string, mbd::BodyId> bodies_;
   std::map<std::pair<std::string, std::string>, mbd::FrameId> frames_;
   std::map<std::pair<std::string, std::string>, Pose> poses_;
   std::map<std::string, std::pair<mbd::JointId, mbd::JointType>> joints_;

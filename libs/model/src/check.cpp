@@ -113,9 +113,12 @@ class Checker {
 
   void check_reference(const Node& node, Value& value) {
     const auto dot = node.text.find('.');
-    const bool is_frame = value.type->refers == Refers::frame && dot != std::string::npos;
-    const bool well_formed =
-        is_frame ? is_name(node.text.substr(0, dot)) && is_name(node.text.substr(dot + 1)) : is_name(node.text);
+    const bool may_have_dot = value.type->refers == Refers::frame || value.type->refers == Refers::shape;
+    const bool needs_dot = value.type->refers == Refers::shape;
+    const bool well_formed = needs_dot && dot == std::string::npos ? false
+                             : may_have_dot && dot != std::string::npos
+                                 ? is_name(node.text.substr(0, dot)) && is_name(node.text.substr(dot + 1))
+                                 : is_name(node.text);
     if (!well_formed) fault(value, description_of(node), value.type->expectation());
   }
 

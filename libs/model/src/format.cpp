@@ -25,6 +25,7 @@ TypePtr root() {
           optional("drives", drives_format(), "Prescribed motions of joint coordinates."),
           optional("couplings", couplings_format(), "Relations between joint coordinates: gears, racks, cams."),
           optional("forces", forces_format(), "Loads and springs."),
+          optional("contacts", contacts_format(), "Pairs of shapes that may touch."),
           optional("lubricants", lubricants_format(), "Oils that bearings refer to."),
           optional("bearings", bearings_format(), "Journal bearings: oil films between a shell and a journal."),
           optional("simulation", simulation_format(), "Time span, step and solver settings.",

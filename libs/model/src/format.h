@@ -14,6 +14,7 @@ namespace hersey::model {
 [[nodiscard]] TypePtr drives_format();
 [[nodiscard]] TypePtr forces_format();
 [[nodiscard]] TypePtr couplings_format();
+[[nodiscard]] TypePtr contacts_format();
 [[nodiscard]] TypePtr lubricants_format();
 [[nodiscard]] TypePtr bearings_format();
 [[nodiscard]] TypePtr features_format();

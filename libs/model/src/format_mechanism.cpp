@@ -89,10 +89,12 @@ TypePtr bodies_format() {
                  defaulted("inertia", inertia, "{}", "Inertia matrix about the centre of mass, body axes."),
                  defaulted("centre_of_mass", vector("m", "0 48 0 mm"), "0 0 0 m", "From the body's origin, body axes."),
                  optional("frames", frames, "Frames fixed on the body; `body` alone names the body's own frame."),
-                 optional("shapes", shapes_format(), "What the report draws of it.", "lines between its joints"),
+                 optional("shapes", shapes_format(), "What the report draws of it, and what `contacts` name.",
+                          "lines between its joints"),
              });
-  const TypePtr ground = object("ground", {optional("frames", frames, "Frames fixed in space."),
-                                           optional("shapes", shapes_format(), "What the report draws of it.")});
+  const TypePtr ground =
+      object("ground", {optional("frames", frames, "Frames fixed in space."),
+                        optional("shapes", shapes_format(), "What the report draws of it, and what `contacts` name.")});
   return named("a mapping from names to bodies", body,
                {optional("ground", ground, "The resting body; it exists always and may carry frames.")});
 }

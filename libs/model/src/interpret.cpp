@@ -95,8 +95,8 @@ void require_name(Context& context, const Value& reference, const std::string& k
 
 void check_completeness(Context& context) {
   const auto has = [&](const char* key) { return context.root.find(key) != nullptr; };
-  const bool has_machine =
-      has("bodies") || has("simulation") || has("joints") || has("drives") || has("forces") || !has("bearings");
+  const bool has_machine = has("bodies") || has("simulation") || has("joints") || has("drives") || has("forces") ||
+                           has("contacts") || !has("bearings");
   if (!has_machine || context.root.broken) return;
   const auto require = [&](const Value& parent, const std::string& key) {
     if (parent.broken || parent.find(key) != nullptr) return;

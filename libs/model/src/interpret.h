@@ -90,6 +90,7 @@ void interpret_joints(Context& context);
 void interpret_drives(Context& context);
 void interpret_couplings(Context& context);
 void interpret_forces(Context& context);
+void interpret_contacts(Context& context);
 void interpret_lubricants(Context& context);
 void interpret_bearings(Context& context);
 void interpret_simulation(Context& context);

@@ -81,6 +81,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_drives(context);
   interpret_couplings(context);
   interpret_forces(context);
+  interpret_contacts(context);
   interpret_lubricants(context);
   interpret_bearings(context);
   interpret_simulation(context);

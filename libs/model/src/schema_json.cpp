@@ -135,8 +135,10 @@ class SchemaWriter {
   }
 
   static Json reference_schema(const Type& type) {
-    const std::string pattern =
-        type.refers == Refers::frame ? "^[A-Za-z][A-Za-z0-9_]*(\\.[A-Za-z][A-Za-z0-9_]*)?$" : name_pattern;
+    const std::string second = "(\\.[A-Za-z][A-Za-z0-9_]*)";
+    const std::string pattern = type.refers == Refers::frame   ? "^[A-Za-z][A-Za-z0-9_]*" + second + "?$"
+                                : type.refers == Refers::shape ? "^[A-Za-z][A-Za-z0-9_]*" + second + "$"
+                                                               : name_pattern;
     return or_parameter({{{"type", "string"}, {"pattern", pattern}, {"description", type.expectation()}}});
   }
 

@@ -23,6 +23,8 @@ std::string name_of(Refers refers) {
       return "a body";
     case Refers::frame:
       return "a body or body.frame";
+    case Refers::shape:
+      return "a shape, body.shape";
     case Refers::joint:
       return "a joint";
     case Refers::coordinate:

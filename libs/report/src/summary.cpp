@@ -23,6 +23,7 @@ class Summary {
   std::vector<SummaryRow> rows() {
     mode_rows();
     bearing_rows();
+    contact_rows();
     run_rows();
     return std::move(rows_);
   }
@@ -49,6 +50,18 @@ class Summary {
       last("minimum film thickness at the end", "h_min", 1e6, "µm");
       last("peak film pressure at the end", "p_max", 1e-6, "MPa");
       extreme("worst mass-balance error of the film", "mass_balance_error", largest_size, 1, "", false);
+    }
+  }
+
+  void contact_rows() {
+    for (const std::string& contact : reader_.children("/contacts")) {
+      group_ = "contact " + contact;
+      path_ = "/contacts/" + contact + "/";
+      extreme("largest normal force", "normal_force", largest, 1, "N", false);
+      extreme("largest friction force", "friction_force", largest, 1, "N", false);
+      extreme("smallest distance", "gap", smallest, 1e6, "µm", false);
+      total("energy lost in damping", "damping_power", 1e3, "mJ");
+      total("energy lost in friction", "friction_power", 1e3, "mJ");
     }
   }
 
@@ -169,15 +182,24 @@ class Summary {
     if (most >= 0) add("largest load", most, "N", instant(at));
   }
 
-  /// Mean over time by the trapezoidal rule: steps may differ in length.
+  /// Integral over time by the trapezoidal rule: steps may differ in length.
+  double integral(const std::vector<double>& all) const {
+    double sum = 0;
+    for (std::size_t k = 1; k < std::min(all.size(), time_.size()); ++k)
+      sum += 0.5 * (all[k] + all[k - 1]) * (time_[k] - time_[k - 1]);
+    return sum;
+  }
+
+  void total(const std::string& name, const std::string& series, double factor, const std::string& unit) {
+    if (const std::vector<double> all = values(series); !all.empty()) add(name, factor * integral(all), unit);
+  }
+
   void mean(const std::string& name, const std::string& series, double factor, const std::string& unit) {
     const std::vector<double> all = values(series);
     const std::size_t n = std::min(all.size(), time_.size());
     if (n == 0) return;
-    double integral = 0;
-    for (std::size_t k = 1; k < n; ++k) integral += 0.5 * (all[k] + all[k - 1]) * (time_[k] - time_[k - 1]);
     const double duration = time_[n - 1] - time_[0];
-    add(name, factor * (duration > 0 ? integral / duration : all[n - 1]), unit);
+    add(name, factor * (duration > 0 ? integral(all) / duration : all[n - 1]), unit);
   }
 
   void mean_of_rows(const std::string& name, const std::string& series) {

@@ -99,10 +99,10 @@ void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, r
     writer.constant(group + "/axis", {axis.data(), 3}, "1", "in the axes of the inboard body");
   }
   for (const mbd::MechanismSpec::Force& force : spec.forces) {
-    // Films are named as they are in messages, "bearing big_end".
-    const std::string film = "bearing ";
-    const bool is_bearing = force.name.starts_with(film);
-    const std::string group = is_bearing ? "/bearings/" + force.name.substr(film.size()) : "/forces/" + force.name;
+    // Films and contacts are named as they are in messages, "bearing big_end".
+    std::string group = "/forces/" + force.name;
+    for (const std::string kind : {"bearing", "contact"})
+      if (force.name.starts_with(kind + " ")) group = "/" + kind + "s/" + force.name.substr(kind.size() + 1);
     write_link(spec, group, force.a, force.b, writer);
     const Vector3 axis = frame(spec, force.a).X_BF.R.col(2);
     writer.constant(group + "/axis", {axis.data(), 3}, "1", "z-axis of the inboard frame, in its body's axes");

@@ -12,12 +12,12 @@ double sum(const std::vector<double>& powers) { return std::accumulate(powers.be
 }  // namespace
 
 double PowerBalance::largest() const {
-  return std::max({std::abs(drives), std::abs(loads), std::abs(gravity), std::abs(springs), std::abs(bearings),
-                   std::abs(kinetic_rate)});
+  return std::max({std::abs(drives), std::abs(loads), std::abs(gravity), std::abs(springs), std::abs(contacts),
+                   std::abs(bearings), std::abs(kinetic_rate)});
 }
 
 PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observation& seen,
-                           const std::vector<bool>& is_bearing) {
+                           const std::vector<ForceKind>& kinds) {
   PowerBalance balance;
   balance.drives = sum(seen.drive_powers);
   balance.loads = sum(seen.load_powers);
@@ -26,7 +26,10 @@ PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observatio
     (spec.coordinate_forces[i].force->is_source() ? balance.drives : balance.springs) +=
         seen.coordinate_force_powers[i];
   for (std::size_t i = 0; i < seen.force_powers.size(); ++i) {
-    (is_bearing[i] ? balance.bearings : balance.springs) += seen.force_powers[i];
+    double& group = kinds[i] == ForceKind::bearing   ? balance.bearings
+                    : kinds[i] == ForceKind::contact ? balance.contacts
+                                                     : balance.springs;
+    group += seen.force_powers[i];
   }
   for (std::size_t i = 1; i < spec.bodies.size(); ++i) {
     const mbd::BodySpec& body = spec.bodies[i];

@@ -13,17 +13,21 @@ struct PowerBalance {
   double loads = 0;         ///< put in by applied forces and torques
   double gravity = 0;       ///< put in by gravity
   double springs = 0;       ///< given to the bodies by springs and dampers
+  double contacts = 0;      ///< given to the bodies by contacts
   double bearings = 0;      ///< given to the bodies by the films; negative: the films take it
   double kinetic_rate = 0;  ///< d(kinetic energy)/dt
-  /// drives + loads + gravity + springs + bearings - kinetic_rate: zero but for the tolerance of the time step and the
-  /// drift of the velocity constraints.
-  [[nodiscard]] double error() const { return drives + loads + gravity + springs + bearings - kinetic_rate; }
+  /// drives + loads + gravity + springs + contacts + bearings - kinetic_rate: zero but for the tolerance of the time
+  /// step and the drift of the velocity constraints.
+  [[nodiscard]] double error() const { return drives + loads + gravity + springs + contacts + bearings - kinetic_rate; }
   /// The largest of the powers: what `error` is compared with.
   [[nodiscard]] double largest() const;
 };
 
-/// @param is_bearing  for each two-body force of the mechanism: a film, not a spring.
+/// What a two-body force of the mechanism is.
+enum class ForceKind { spring, contact, bearing };
+
+/// @param kinds  of each two-body force of the mechanism
 [[nodiscard]] PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observation& seen,
-                                         const std::vector<bool>& is_bearing);
+                                         const std::vector<ForceKind>& kinds);
 
 }  // namespace hersey::run

@@ -59,6 +59,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
     : model_(model), machine_(machine), writer_(options.results, {.overwrite = options.overwrite}) {
   declare_run(options);
   declare_machine();
+  declare_contacts();
   for (const model::Bearing& bearing : model.bearings) bearings_.push_back(declare_bearing(bearing));
   write_geometry(model, machine.mechanism->spec(), writer_);
   if (model.simulation.analysis == model::Analysis::modes) declare_modes();
@@ -148,11 +149,12 @@ void Recorder::declare_machine() {
   }
   energy_ = {writer_.series("/energy/kinetic", 1, "J", "kinetic energy"),
              writer_.series("/energy/potential", 1, "J", "potential energy of gravity"),
-             writer_.series("/energy/springs", 1, "J", "energy stored in springs")};
+             writer_.series("/energy/springs", 1, "J", "energy stored in springs and contacts")};
   power_ = {writer_.series("/power/drives", 1, "W", "put in by drives"),
             writer_.series("/power/loads", 1, "W", "put in by applied forces and torques"),
             writer_.series("/power/gravity", 1, "W", "put in by gravity"),
             writer_.series("/power/springs", 1, "W", "given to the bodies by springs and dampers"),
+            writer_.series("/power/contacts", 1, "W", "given to the bodies by contacts"),
             writer_.series("/power/bearings", 1, "W", "given to the bodies by the films (negative: taken)"),
             writer_.series("/power/kinetic_rate", 1, "W", "rate of change of the kinetic energy"),
             writer_.series("/power/balance_error", 1, "W", "sum of all powers less the kinetic rate"),
@@ -266,6 +268,7 @@ void Recorder::write_row(const StepRecord& step) {
     coordinate_forces_[i].effort.append(seen.coordinate_force_efforts[i]);
     coordinate_forces_[i].power.append(seen.coordinate_force_powers[i]);
   }
+  write_contacts(step.contacts);
   energy_.kinetic.append(seen.kinetic_energy);
   energy_.potential.append(seen.potential_energy);
   energy_.springs.append(seen.spring_energy);
@@ -275,6 +278,7 @@ void Recorder::write_row(const StepRecord& step) {
   power_.loads.append(power.loads);
   power_.gravity.append(power.gravity);
   power_.springs.append(power.springs);
+  power_.contacts.append(power.contacts);
   power_.bearings.append(power.bearings);
   power_.kinetic_rate.append(power.kinetic_rate);
   power_.balance_error.append(power.error());

@@ -23,6 +23,7 @@ struct StepRecord {
   mbd::Observation mechanism;
   std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
   std::vector<bearing::BearingObservation> bearings;
+  std::vector<mbd::ContactObservation> contacts;  ///< in ground's axes
   PowerBalance power;
 };
 
@@ -49,11 +50,14 @@ class Recorder {
   struct DriveSeries {
     results::Series effort, power;
   };
+  struct ContactSeries {
+    results::Series gap, normal_force, friction_force, force, position, damping_power, friction_power, spots;
+  };
   struct EnergySeries {
     results::Series kinetic, potential, springs;
   };
   struct PowerSeries {
-    results::Series drives, loads, gravity, springs, bearings, kinetic_rate, balance_error, film_friction,
+    results::Series drives, loads, gravity, springs, contacts, bearings, kinetic_rate, balance_error, film_friction,
         asperity_friction;
   };
   struct BearingSeries {
@@ -72,6 +76,8 @@ class Recorder {
   void declare_modes();
   void declare_run(const Options& options);
   void declare_machine();
+  void declare_contacts();
+  void write_contacts(const std::vector<mbd::ContactObservation>& seen) const;
   [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
   void declare_fields(const model::Bearing& bearing, BearingSeries& series);
   void write_bearing(const BearingSeries& series, const bearing::BearingObservation& seen, double clearance) const;
@@ -88,6 +94,7 @@ class Recorder {
   std::vector<DriveSeries> drives_;
   std::vector<results::Series> couplings_;  ///< their efforts
   std::vector<DriveSeries> coordinate_forces_;
+  std::vector<ContactSeries> contacts_;
   std::vector<BearingSeries> bearings_;
 };
 

@@ -42,6 +42,14 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
   return options;
 }
 
+// Seen from ground instead of the first body.
+mbd::ContactObservation in_ground(mbd::ContactObservation seen, const Pose& X_WA) {
+  seen.force = X_WA.R * seen.force;
+  seen.friction = X_WA.R * seen.friction;
+  seen.position = X_WA * seen.position;
+  return seen;
+}
+
 // Read back: after a write error the file holds less than was handed to it.
 double last_time(const std::filesystem::path& file) {
   const results::Reader reader(file);
@@ -94,9 +102,12 @@ class Simulation {
         step_error_(model, machine_),
         recorder_(model, machine_, options),
         settling_(model) {
-    is_bearing_.resize(machine_.mechanism->spec().forces.size(), false);
+    kinds_.resize(machine_.mechanism->spec().forces.size(), ForceKind::spring);
+    for (const model::BuiltContact& contact : machine_.contacts) {
+      kinds_[static_cast<std::size_t>(contact.force.index)] = ForceKind::contact;
+    }
     for (const model::BuiltBearing& bearing : machine_.bearings) {
-      is_bearing_[static_cast<std::size_t>(bearing.force.index)] = true;
+      kinds_[static_cast<std::size_t>(bearing.force.index)] = ForceKind::bearing;
       extremes_.emplace_back(bearing.bearing->name());
     }
     summary_.results = options.results;
@@ -300,7 +311,12 @@ class Simulation {
       record.journal_motions.push_back(machine_.mechanism->relative_motion(state_, bearing.force));
       record.bearings.push_back(bearing.bearing->observe(record.journal_motions.back()));
     }
-    record.power = power_balance(machine_.mechanism->spec(), record.mechanism, is_bearing_);
+    for (const model::BuiltContact& contact : machine_.contacts) {
+      const mbd::RelativeMotion motion = machine_.mechanism->relative_motion(state_, contact.force);
+      const Pose& X_WA = record.mechanism.bodies[static_cast<std::size_t>(contact.first.index)].X_WF;
+      record.contacts.push_back(in_ground(contact.contact->observe(motion), X_WA));
+    }
+    record.power = power_balance(machine_.mechanism->spec(), record.mechanism, kinds_);
     return record;
   }
 
@@ -388,7 +404,7 @@ class Simulation {
   Recorder recorder_;
   SettlingTest settling_;
   std::vector<BearingExtremes> extremes_;
-  std::vector<bool> is_bearing_;
+  std::vector<ForceKind> kinds_;
   double next_fields_ = -std::numeric_limits<double>::infinity();
   double last_dt_ = 0;
   double next_row_ = 0;  // in intervals

@@ -21,9 +21,10 @@ namespace {
 // The key path of what a message names first: "joint main, rotation" -> joints.main; "t = 0 s: bearing big_end: ..." ->
 // bearings.big_end.
 std::string path_of(const std::string& message) {
-  const std::array<std::pair<const char*, const char*>, 5> sections{{{"joint ", "joints."},
+  const std::array<std::pair<const char*, const char*>, 6> sections{{{"joint ", "joints."},
                                                                      {"drive ", "drives."},
                                                                      {"coupling ", "couplings."},
+                                                                     {"contact ", "contacts."},
                                                                      {"bearing ", "bearings."},
                                                                      {"body ", "bodies."}}};
   std::size_t first = std::string::npos;
@@ -84,6 +85,11 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
                               "give the bodies behind it mass and inertia, or hold it with a drive"));
   }
   if (!faults.empty()) return faults;
+  if (summary.status == Status::domain_error && path_of(summary.message).starts_with("contacts.")) {
+    return {fault_at(model, summary.message, summary.message, "shapes apart or just touching at the start",
+                     "move the joints' `initial` values or the shapes; of a half-space or mesh, see that its normals "
+                     "point out of the solid")};
+  }
   if (summary.status == Status::domain_error) {
     return {fault_at(model, summary.message, summary.message, "a journal inside its shell at the start",
                      "move the bodies' frames or the joints' `initial` values, or enlarge `radial_clearance`")};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hersey/bearing/journal_bearing.h"
+#include "hersey/mbd/contact.h"
 #include "hersey/mbd/mechanism.h"
 #include "hersey/model/model.h"
 
@@ -15,10 +16,18 @@ struct BuiltBearing {
   mbd::ForceId force;
 };
 
-/// A model turned into equations. Bodies, joints, drives and bearings keep the order of the model; body 0 of the
-/// mechanism is ground.
+/// A contact of a machine, the two-body force it is, and the body of its first shape.
+struct BuiltContact {
+  std::shared_ptr<mbd::Contact> contact;
+  mbd::ForceId force;
+  mbd::BodyId first;
+};
+
+/// A model turned into equations. Bodies, joints, drives, contacts and bearings keep the order of the model; body 0 of
+/// the mechanism is ground.
 struct Machine {
   std::unique_ptr<mbd::Mechanism> mechanism;
+  std::vector<BuiltContact> contacts;
   std::vector<BuiltBearing> bearings;
 };
 

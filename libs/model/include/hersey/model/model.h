@@ -13,6 +13,7 @@
 #include "hersey/core/spatial.h"
 #include "hersey/fem/elastic_material.h"
 #include "hersey/film/film_model.h"
+#include "hersey/mbd/contact.h"
 #include "hersey/mbd/shape.h"
 
 /// The model file as checked, plain data: SI units, names resolved, nothing built yet.
@@ -176,6 +177,21 @@ struct Force {
   SourcePosition position;
 };
 
+/// A shape of a body.
+struct ShapeName {
+  std::string body;  ///< a body's name, or "ground"
+  std::string shape;
+  SourcePosition position;
+};
+
+struct Contact {
+  std::string name;
+  ShapeName first, second;
+  mbd::ContactLaw law;    ///< as given, or worked out from materials and restitution
+  bool is_hertz = false;  ///< the stiffness is Hertz's
+  SourcePosition position;
+};
+
 struct Lubricant {
   std::string name;
   film::Lubricant data;
@@ -303,6 +319,7 @@ struct Model {
   std::vector<Drive> drives;
   std::vector<CoordinateCoupling> couplings;
   std::vector<Force> forces;
+  std::vector<Contact> contacts;
   std::vector<Lubricant> lubricants;
   std::vector<Bearing> bearings;
   Simulation simulation;
@@ -315,6 +332,9 @@ struct Model {
 
   /// Whether the file holds bearings without a machine around them: something to solve, nothing to simulate.
   [[nodiscard]] bool is_of_bearings_alone() const { return bodies.empty() && simulation.duration == 0; }
+
+  /// A shape that a contact names; null if there is none.
+  [[nodiscard]] const mbd::ShapeGeometry* find_shape(const ShapeName& name) const;
 
   /// Where `path` ("bearings.big_end.radial_clearance") is given; of its nearest given parent if it was left out.
   [[nodiscard]] SourcePosition position_of(const std::string& path) const;
