@@ -54,7 +54,8 @@ TEST_CASE("RelativeRadii_FollowTheShapes") {
   CHECK(*relative_radii(Cylinder{Vector3::Zero(), {0, 0, 1}, 2}, ball) == Radii{2, 1});
   CHECK(*relative_radii(HalfSpace{}, Capsule{Vector3::Zero(), {0, 0, 1}, 3}) == Radii{3, 3});
   CHECK_FALSE(relative_radii(HalfSpace{}, Cylinder{Vector3::Zero(), {0, 0, 1}, 3}).has_value());
-  CHECK_FALSE(relative_radii(Capsule{Vector3::Zero(), {0, 0, 1}, 3}, Capsule{Vector3::Zero(), {0, 0, 1}, 3}).has_value());
+  CHECK_FALSE(
+      relative_radii(Capsule{Vector3::Zero(), {0, 0, 1}, 3}, Capsule{Vector3::Zero(), {0, 0, 1}, 3}).has_value());
   CHECK_THROWS_AS((void)hertz_stiffness(0, {1, 1}), ContractError);
 }
 
