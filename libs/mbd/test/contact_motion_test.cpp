@@ -95,12 +95,12 @@ TEST_CASE("BallDrop_MeetsHertzForceAndDuration") {
     CAPTURE(i);
     CAPTURE(force_error[i]);
     CAPTURE(duration_error[i]);
-    CHECK(force_error[i] < 0.02 / std::pow(4, i));
-    CHECK(duration_error[i] < 0.02 / std::pow(4, i));
+    CHECK(force_error[i] < 0.005 / std::pow(4, i));
+    CHECK(duration_error[i] < 0.005 / std::pow(4, i));
     // Without damping the ball leaves as fast as it came.
-    CHECK(std::abs(seen.speed_after - 1) < 0.01 / std::pow(4, i));
+    CHECK(std::abs(seen.speed_after - 1) < 1e-4 / std::pow(4, i));
   }
-  CHECK(force_error[2] > force_error[0] / 100);  // and not by chance: order two from both sides
+  CHECK(force_error[2] > force_error[0] / 32);  // and not by chance: order two from both sides
 }
 
 TEST_CASE("Restitution_IsThatOfHuntAndCrossley") {
