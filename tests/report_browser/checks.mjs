@@ -59,6 +59,8 @@ export const everyReport = {
 
   "the mechanism is drawn as a graph: every body once, ground above all": async (page) => {
     await page.locator("summary", { hasText: /^Mechanism$/ }).click();
+    // A section draws when it is opened, a moment after the click.
+    await page.locator('[data-figure="graph"] .graph-name').first().waitFor();
     const names = await page.locator('[data-figure="graph"] .graph-name').allTextContents();
     assert.equal(names[0], "ground");
     assert.equal(new Set(names).size, names.length, `bodies twice: ${names.join(", ")}`);

@@ -81,7 +81,7 @@ struct Contact::Workspace {
   }
 };
 
-Contact::Contact(ShapeGeometry a, ShapeGeometry b, const ContactLaw& law)
+Contact::Contact(const ShapeGeometry& a, const ShapeGeometry& b, const ContactLaw& law)
     : law_(law), deepest_(deepest_share * std::min(size_of(a), size_of(b))), work_(std::make_unique<Workspace>()) {
   HERSEY_REQUIRE(law.stiffness > 0 && law.exponent >= 1 && law.damping >= 0, "surfaces resist penetration");
   HERSEY_REQUIRE(law.friction >= 0 && (law.friction == 0 || law.slip_speed > 0), "friction is regularised");

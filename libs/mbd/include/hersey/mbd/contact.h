@@ -45,7 +45,7 @@ class Contact final : public TwoBodyForce {
   static constexpr double deepest_share = 0.2;
 
   /// @throws ContractError if the pair is not supported, the law has impossible numbers.
-  Contact(ShapeGeometry a, ShapeGeometry b, const ContactLaw& law);
+  Contact(const ShapeGeometry& a, const ShapeGeometry& b, const ContactLaw& law);
   ~Contact() override;
 
   void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) override;

@@ -11,8 +11,8 @@ struct StepControlOptions {
 /// Chooses step lengths from the errors of the steps before (theory manual eq. (integrator.12)).
 ///
 /// A proportional-integral controller for a local error of third order: it aims below the tolerance, grows by at most
-/// a third of a step at a time, since the constraints' own modes bear no fast growth, and keeps the step where the gain would
-/// be small.
+/// a third of a step at a time, since the constraints' own modes bear no fast growth, and keeps the step where the gain
+/// would be small.
 /// @see Gustafsson (1991), ACM Trans. Math. Softw. 17, 533-554.
 /// @verified_by step_control_test.cpp
 class StepControl {
