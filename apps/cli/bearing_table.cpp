@@ -18,15 +18,18 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
 }
 
-// As many decimals as two digits of the error make sense of: 5.618 +- 0.031.
+// Decimals that two digits of the error make sense of: 5.618 +- 0.031.
+int decimals_of(double error) { return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12); }
+
 std::string value_text(const BearingFigure& figure) {
   if (figure.grid_error <= 0 || figure.grid_error > std::abs(figure.value)) return fmt::format("{:.5g}", figure.value);
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(figure.grid_error))), 0, 12);
-  return fmt::format("{:.{}f}", figure.value, decimals);
+  return fmt::format("{:.{}f}", figure.value, decimals_of(figure.grid_error));
 }
 
 std::string error_text(const BearingFigure& figure) {
-  return figure.grid_error < 0 ? "" : fmt::format("+- {:.2g} (grid)", figure.grid_error);
+  if (figure.grid_error < 0) return "";
+  if (figure.grid_error < 1e-3) return fmt::format("+- {:.2g} (grid)", figure.grid_error);
+  return fmt::format("+- {:.{}f} (grid)", figure.grid_error, decimals_of(figure.grid_error));
 }
 
 std::string pressures_of(const film::FilmModel& film) {

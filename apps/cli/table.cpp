@@ -48,10 +48,10 @@ std::string summary_text(const std::vector<SummaryRow>& rows) {
     lines.clear();
   };
   for (const SummaryRow& row : rows) {
-      const std::string name = row.group == "run"                  ? row.run
-                               : row.group == "modes"              ? "small motions"
-                               : row.group.starts_with("contact ") ? row.group
-                                                                   : "bearing " + row.group;
+    const std::string name = row.group == "run"                  ? row.run
+                             : row.group == "modes"              ? "small motions"
+                             : row.group.starts_with("contact ") ? row.group
+                                                                 : "bearing " + row.group;
     if (name != group) close_block();
     group = name;
     lines.push_back({row.name, number(row.value), row.unit, row.where});

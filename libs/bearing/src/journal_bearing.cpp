@@ -38,8 +38,7 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
       directions_(static_cast<std::size_t>(acting_parameters(model))),
       interface_(options.acceleration, options.relaxation) {
   const int n = model.grid.size();
-  u_ = u_start_ = du0_ = Eigen::VectorXd::Zero(n);
-  du_ds_ = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(directions_.size()));
+  u_ = u_start_ = du_ = Eigen::VectorXd::Zero(n);
   history_.theta = Eigen::VectorXd::Ones(n);
   history_.w = Eigen::VectorXd::Zero(n);
   history_start_ = observed_history_ = history_;
@@ -108,21 +107,26 @@ void JournalBearing::begin_step(const mbd::RelativeMotion& start, double dt) {
   interface_.begin_step();
 }
 
-// u += du0 + (du/ds)(s - s_last): the film's share of the Newton increment the bodies have just taken.
+// u += du0 + U (s - s_last): the film's share of the Newton increment the bodies have just taken.
 void JournalBearing::follow_surfaces() {
   if (!linearised_) return;
-  u_ = u_linearised_;
   ParameterVector ds = kinematics_.value - s_linearised_;
   for (const int angle : {kSupplyAngle, kRotation}) ds[angle] = std::remainder(ds[angle], 2 * std::numbers::pi);
-  u_ += du0_;
-  u_.noalias() += du_ds_ * ds.head(du_ds_.cols());
+  reynolds_.follow(ds.head(static_cast<Eigen::Index>(directions_.size())), du_);
+  u_ = u_linearised_ + du_;
   if (!is_sensible()) u_ = u_linearised_;
 }
 
-void JournalBearing::linearise_parameters() {
+Vector6 JournalBearing::condense_film() {
   for (std::size_t k = 0; k < directions_.size(); ++k) directions_[k] = rigid_.direction(static_cast<int>(k));
-  reynolds_.responses(directions_, du_ds_, wrench_ds_);
-  for (Eigen::Index k = 0; k < du_ds_.cols(); ++k) wrench_ds_.col(k) += reynolds_.wrench_gradient(du_ds_.col(k));
+  Vector6 wrench;
+  reynolds_.condense(directions_, wrench, wrench_ds_);
+  return wrench;
+}
+
+Vector6 JournalBearing::incremented_wrench() {
+  reynolds_.newton_increment(du_);
+  return reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du_);
 }
 
 void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
@@ -149,17 +153,15 @@ void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& 
   follow_surfaces();
   if (!is_sensible()) return report_contact();
   reynolds_.linearise(surfaces_, history_, u_);
-  reynolds_.newton_increment(du0_);
   internal_residual_ = reynolds_.relative_residual();
   s_linearised_ = kinematics_.value;
   u_linearised_ = u_;
   ++iterations_;
 
   // The journal takes the negative of what the shell takes.
-  response.W_B_A = -(reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du0_));
+  response.W_B_A = -(want_tangent ? condense_film() : incremented_wrench());
   linearised_ = want_tangent;
   if (!want_tangent) return;
-  linearise_parameters();
   response.dW_dX.noalias() = -wrench_ds_ * kinematics_.d_dX.topRows(wrench_ds_.cols());
   response.dW_dV.noalias() = -wrench_ds_ * kinematics_.d_dV.topRows(wrench_ds_.cols());
 }
@@ -176,9 +178,8 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
     }
     // One more Newton increment: the exchange would otherwise see the film's tolerance as a change of the wrench.
     reynolds_.linearise(surfaces_, history_, u_);
-    reynolds_.newton_increment(du0_);
-    const Vector6 wrench = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du0_);
-    u_ += du0_;
+    const Vector6 wrench = incremented_wrench();
+    u_ += du_;
     // Moments over the radius, so that all six entries are forces of comparable size.
     const Vector6 size = (Vector6() << Vector3::Constant(model().R), Vector3::Ones()).finished();
     const Vector6 x = given_.cwiseQuotient(size), image = -wrench.cwiseQuotient(size);

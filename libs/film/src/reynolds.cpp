@@ -27,6 +27,8 @@ struct Reynolds::Impl {
   void factorise();
   [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
+  void condense_by_adjoint(Vector6& W, Eigen::Matrix<double, 6, Eigen::Dynamic>& dW);
+  void condense_by_columns(Vector6& W, Eigen::Matrix<double, 6, Eigen::Dynamic>& dW);
   void set_up_multigrid();
   const FilmWrench& summed_wrench();
 
@@ -38,6 +40,10 @@ struct Reynolds::Impl {
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
   Eigen::VectorXd rhs, answer;
+  // Of the last condensation, n rows each: residual's derivative with the directions; then either the answer of each
+  // wrench entry to the residual, or the increment and the answers to the directions.
+  Eigen::MatrixXd residual_ds, adjoint, answers;
+  Eigen::VectorXd increment;
   SurfaceMotion speeds;  // without fields
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
 };
@@ -93,6 +99,28 @@ void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorX
   factorise();
   x = b;
   lu.solve({x.data(), static_cast<std::size_t>(x.size())});
+}
+
+// With J^T Lambda = W_u^T:  W_u du0 = -Lambda^T r  and  W_u U = -Lambda^T r_s.
+void Reynolds::Impl::condense_by_adjoint(Vector6& W, Eigen::Matrix<double, 6, Eigen::Dynamic>& dW) {
+  factorise();
+  adjoint = wrench.gradient_u().transpose();
+  lu.solve_transposed({adjoint.data(), static_cast<std::size_t>(adjoint.size())}, static_cast<int>(adjoint.cols()));
+  W.noalias() -= adjoint.transpose() * balance.residual();
+  dW.noalias() -= adjoint.transpose() * residual_ds;
+}
+
+void Reynolds::Impl::condense_by_columns(Vector6& W, Eigen::Matrix<double, 6, Eigen::Dynamic>& dW) {
+  rhs = -balance.residual();
+  solve(rhs, tight, increment);
+  W += wrench.along_u(increment);
+  answers.resize(residual_ds.rows(), residual_ds.cols());
+  for (Eigen::Index k = 0; k < answers.cols(); ++k) {
+    rhs = -residual_ds.col(k);
+    solve(rhs, tight, answer);
+    answers.col(k) = answer;
+    dW.col(k) += wrench.along_u(answer);
+  }
 }
 
 Reynolds::Reynolds(const FilmModel& model, LinearSolver linear) : impl_(std::make_unique<Impl>(model, linear)) {}
@@ -152,6 +180,39 @@ void Reynolds::responses(std::span<const MotionDirection> directions, Eigen::Mat
   if (impl_->linear == LinearSolver::multigrid) return;
   impl_->factorise();
   impl_->lu.solve({du.data(), static_cast<std::size_t>(du.size())}, static_cast<int>(columns));
+}
+
+void Reynolds::condense(std::span<const MotionDirection> directions, Vector6& wrench,
+                        Eigen::Matrix<double, 6, Eigen::Dynamic>& dwrench) {
+  Impl& m = *impl_;
+  const FilmWrench& film = m.summed_wrench();
+  m.residual_ds.resize(size(), static_cast<Eigen::Index>(directions.size()));
+  dwrench.resize(6, m.residual_ds.cols());
+  for (Eigen::Index k = 0; k < dwrench.cols(); ++k) {
+    const MotionDirection& direction = directions[static_cast<std::size_t>(k)];
+    m.balance.derivative(direction, m.rhs);
+    m.residual_ds.col(k) = m.rhs;
+    dwrench.col(k) = film.along(direction);
+  }
+  wrench = film.total();
+  if (m.linear == LinearSolver::direct) {
+    m.condense_by_adjoint(wrench, dwrench);
+  } else {
+    m.condense_by_columns(wrench, dwrench);
+  }
+}
+
+void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du) {
+  Impl& m = *impl_;
+  HERSEY_REQUIRE(m.linearised && ds.size() == m.residual_ds.cols(), "condense() comes first");
+  if (m.linear == LinearSolver::direct) {
+    du = -m.balance.residual();
+    du.noalias() -= m.residual_ds * ds;
+    m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
+  } else {
+    du = m.increment;
+    du.noalias() += m.answers * ds;
+  }
 }
 
 Vector6 Reynolds::wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) const {

@@ -64,12 +64,15 @@ TEST_CASE("WarmLinearisation_DoesNotAllocate") {
     Reynolds reynolds(m, linear);
     Eigen::VectorXd du;
     Eigen::MatrixXd answers;
-    Eigen::Matrix<double, 6, Eigen::Dynamic> wrench;
+    Eigen::Matrix<double, 6, Eigen::Dynamic> wrench, condensed;
+    const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()));
     Vector6 sum = Vector6::Zero();
     const auto iterate = [&] {
       reynolds.linearise(step.motion, step.history, step.u);
       reynolds.newton_increment(du);
       reynolds.responses(directions, answers, wrench);
+      reynolds.condense(directions, sum, condensed);
+      reynolds.follow(still, du);
       sum = reynolds.wrench_on_shell() + reynolds.wrench_gradient(du);
     };
     step.motion.phi_journal = 0;

@@ -266,6 +266,32 @@ TEST_CASE("ResponsesTogether_AreTheResponsesOneByOne") {
   }
 }
 
+TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
+  const State s = rough_state(Cavitation::mass_conserving, true, true);
+  std::vector<MotionDirection> all;
+  for (const auto& [what, direction] : directions(s)) all.push_back(direction);
+  Eigen::VectorXd du0, du;
+  Eigen::MatrixXd answers;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> partial, condensed;
+  Vector6 wrench;
+  const Eigen::VectorXd ds = 1e-7 * Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(all.size()), 1, 2);
+  for (const auto linear : {LinearSolver::direct, LinearSolver::multigrid}) {
+    CAPTURE(static_cast<int>(linear));
+    Reynolds reynolds(s.model, linear);
+    reynolds.linearise(s.motion, s.history, s.u);
+    reynolds.newton_increment(du0);
+    reynolds.responses(all, answers, partial);
+    reynolds.condense(all, wrench, condensed);
+    CHECK((wrench - reynolds.wrench_on_shell() - reynolds.wrench_gradient(du0)).norm() < 1e-8 * wrench.norm());
+    for (Eigen::Index k = 0; k < answers.cols(); ++k) {
+      const Vector6 total = partial.col(k) + reynolds.wrench_gradient(answers.col(k));
+      CHECK((condensed.col(k) - total).norm() <= 1e-8 * total.norm());
+    }
+    reynolds.follow(ds, du);
+    CHECK((du - du0 - answers * ds).norm() < 1e-8 * du.norm());
+  }
+}
+
 TEST_CASE("NewtonIncrement_SolvesTheLinearisedFilm") {
   const State s = rough_state(Cavitation::mass_conserving, true, true);
   Reynolds reynolds(s.model);

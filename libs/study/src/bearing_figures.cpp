@@ -32,6 +32,9 @@ class Figures {
   std::vector<BearingFigure> list_;
 };
 
+// What is zero by symmetry comes out as the round-off of its parts, which tells nothing.
+double without_round_off(double value, double parts) { return std::abs(value) < 1e-12 * parts ? 0.0 : value; }
+
 void add_state(const BearingSolution& s, Figures& figures) {
   const bearing::BearingNumbers& n = s.numbers;
   const bearing::GridError& error = s.grid_error;
@@ -50,13 +53,14 @@ void add_state(const BearingSolution& s, Figures& figures) {
   figures.group("film");
   figures.add_with_error("h_min", "minimum film thickness", "um", film.h_min, error.h_min, kMicro);
   figures.add("h_min_angle", "  at the angle", "deg", film.h_min_phi, kDegree);
-  figures.add("h_min_z", "  at z", "mm", film.h_min_z, 1e-3);
+  figures.add("h_min_z", "  at z", "mm", without_round_off(film.h_min_z, s.model.L), 1e-3);
   figures.add("h_min_centre", "minimum film thickness at mid-width", "um", film.h_min_centre, kMicro);
   figures.add_with_error("p_max", "peak film pressure", "MPa", film.p_max, error.p_max, kMega);
   figures.add("p_max_angle", "  at the angle", "deg", film.p_max_phi, kDegree);
-  figures.add("p_max_z", "  at z", "mm", film.p_max_z, 1e-3);
-  figures.add("moment_x", "moment on the shell, x", "N.m", film.wrench_on_shell[0]);
-  figures.add("moment_y", "moment on the shell, y", "N.m", film.wrench_on_shell[1]);
+  figures.add("p_max_z", "  at z", "mm", without_round_off(film.p_max_z, s.model.L), 1e-3);
+  const double moment = n.load * s.model.L;
+  figures.add("moment_x", "moment on the shell, x", "N.m", without_round_off(film.wrench_on_shell[0], moment));
+  figures.add("moment_y", "moment on the shell, y", "N.m", without_round_off(film.wrench_on_shell[1], moment));
 }
 
 void add_oil_and_friction(const BearingSolution& s, Figures& figures) {

@@ -24,11 +24,11 @@ enum class Coupling {
 struct BearingOptions {
   Coupling coupling = Coupling::monolithic;
   Acceleration acceleration = Acceleration::quasi_newton;  ///< partitioned: how the exchanged wrench is corrected
-  double relaxation = 0.1;      ///< partitioned: share of the first correction taken, in (0, 1]
+  double relaxation = 0.1;  ///< partitioned: share of the first correction taken, in (0, 1]
   /// The film's own solver: initial film, and every film solve of a partitioned coupling. `multigrid` also solves the
   /// linear systems of a monolithic one.
   film::FilmSolveOptions film;
-  double initial_dt = 1e-4;     ///< the film at the start is that of a full gap after a step of this length [s], > 0
+  double initial_dt = 1e-4;  ///< the film at the start is that of a full gap after a step of this length [s], > 0
   /// Pressure of each of the film's features over time [Pa]; empty: the pressures of the film model.
   std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
 };
@@ -83,7 +83,8 @@ class JournalBearing final : public mbd::TwoBodyForce {
   void follow_surfaces();
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
   void evaluate_partitioned(mbd::ForceResponse& response);
-  void linearise_parameters();
+  [[nodiscard]] Vector6 condense_film();       // wrench on the shell, and wrench_ds_
+  [[nodiscard]] Vector6 incremented_wrench();  // wrench on the shell after the film's increment at fixed surfaces
 
   std::string name_;
   BearingOptions options_;
@@ -94,10 +95,8 @@ class JournalBearing final : public mbd::TwoBodyForce {
   JournalKinematics kinematics_;
   std::vector<film::MotionDirection> directions_;  // one per parameter that acts
 
-  // The film in the current step: unknowns, their Newton increment, their answer to each parameter, and where
-  // (in parameters) they were last linearised.
-  Eigen::VectorXd u_, u_linearised_, du0_;
-  Eigen::MatrixXd du_ds_;
+  // The film in the current step: unknowns, their increment, and where (in parameters) they were last linearised.
+  Eigen::VectorXd u_, u_linearised_, du_;
   ParameterVector s_linearised_ = ParameterVector::Zero();
   Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds_;
   bool linearised_ = false;

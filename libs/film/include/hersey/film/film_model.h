@@ -89,7 +89,8 @@ struct FilmModel {
   CavitatedShear cavitated_shear = CavitatedShear::film_share;
   ShearForce shear_force = ShearForce::full;
   EdgeKind edges = EdgeKind::pressure;
-  double fill_speed = 1000;  ///< angular speed in P0 (film.6), > 0; one near the film's own keeps Newton's path short [rad/s]
+  double fill_speed =
+      1000;  ///< angular speed in P0 (film.6), > 0; one near the film's own keeps Newton's path short [rad/s]
   std::vector<SurfaceFeature> features;  ///< where several lie over a place, the one that holds more of it counts
   std::vector<Profile> profiles;  ///< shapes of bore and journal; whoever places the surfaces adds them (GapShape)
 };

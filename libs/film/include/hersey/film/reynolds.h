@@ -81,6 +81,16 @@ class Reynolds {
   void responses(std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
                  Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial);
 
+  /// Static condensation of the film: the wrench after its Newton increment at fixed surfaces, and the wrench's total
+  /// derivative with each direction (theory manual, bearing.9). `direct` solves the transposed system, once per entry
+  /// of the wrench; `multigrid` once per direction.
+  void condense(std::span<const MotionDirection> directions, Vector6& wrench,
+                Eigen::Matrix<double, 6, Eigen::Dynamic>& dwrench);
+
+  /// The film's share `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
+  /// (theory manual, bearing.8). Comes after `condense` and before the next `linearise`.
+  void follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du);
+
   /// (d wrench_on_shell / du) du.
   [[nodiscard]] Vector6 wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) const;
 

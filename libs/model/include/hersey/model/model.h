@@ -209,13 +209,14 @@ struct Coupling {
 
 /// What acts on a bearing that is looked at by itself. Either the load or the position is given.
 struct OperatingPoint {
-  double journal_speed = 0, shell_speed = 0;  ///< about the bearing's axis [rad/s]; their sum is not 0 of smooth surfaces
-  std::optional<double> load;                 ///< on the journal [N], > 0
-  double load_angle = 0;                      ///< its direction, from x towards y [rad]
-  std::optional<double> eccentricity_ratio;   ///< [0, 1)
-  double eccentricity_angle = 0;              ///< direction of the journal's position, from x towards y [rad]
-  double tilt_x = 0, tilt_y = 0;              ///< slope of the journal's axis towards x and y
-  double journal_angle = 0;                   ///< by which the journal stands turned [rad]
+  double journal_speed = 0,
+         shell_speed = 0;      ///< about the bearing's axis [rad/s]; their sum is not 0 of smooth surfaces
+  std::optional<double> load;  ///< on the journal [N], > 0
+  double load_angle = 0;       ///< its direction, from x towards y [rad]
+  std::optional<double> eccentricity_ratio;  ///< [0, 1)
+  double eccentricity_angle = 0;             ///< direction of the journal's position, from x towards y [rad]
+  double tilt_x = 0, tilt_y = 0;             ///< slope of the journal's axis towards x and y
+  double journal_angle = 0;                  ///< by which the journal stands turned [rad]
   SourcePosition position;
 };
 
@@ -326,7 +327,7 @@ struct Model {
   Output output;
   std::optional<Study> study;
   std::vector<Fault> warnings;  ///< what can be computed but is hardly meant
-  std::string resolved_text;  ///< the file's text, preceded by comments naming the overrides of this run
+  std::string resolved_text;    ///< the file's text, preceded by comments naming the overrides of this run
 
   std::map<std::string, SourcePosition> positions;  ///< of every key in the file, by key path
 
