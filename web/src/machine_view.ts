@@ -193,7 +193,11 @@ export class MachineView {
     this.camera.clear();
     this.camera.add(light);
     this.scene.add(this.camera);
-    const colourOf = (i: number) => colours.series[i % colours.series.length]!;
+    // The second round of colours is paler than the first.
+    const colourOf = (i: number) => {
+      const colour = new Color(colours.series[i % colours.series.length]!);
+      return i < colours.series.length ? `#${colour.getHexString()}` : `#${colour.lerp(new Color(colours.faint), 0.6).getHexString()}`;
+    };
     this.legend.replaceChildren();
     this.geometry.bodies.forEach((body, i) => {
       this.addBody(body.name, colourOf(i));

@@ -30,17 +30,24 @@ export class SystemView {
     abscissa: Abscissa,
   ) {
     this.axis = new Axis(run, abscissa);
-    if (run.dataset("/solver/dt") || run.children("/bearings").length > 0)
-      this.element.append(section("Solution: step size, iterations, balances", true, (body) => this.solver(body)));
-    if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", false, (body) => this.power(body)));
+    // With bearings their figures come first and the solution matters next; a mechanism is looked at for its motion.
+    const alone = run.children("/bearings").length === 0;
+    const solution = () => {
+      if (run.dataset("/solver/dt") || !alone)
+        this.element.append(section("Solution: step size, iterations, balances", !alone, (body) => this.solver(body)));
+    };
+    if (!alone) solution();
+    if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", alone, (body) => this.power(body)));
     const graph = mechanismGraph(run);
     if (graph) this.element.append(section("Mechanism", false, (body) => body.append(graph)));
-    if (run.children("/joints").length > 0) this.element.append(section("Joints", false, (body) => this.joints(body)));
-    if (run.children("/contacts").length > 0) this.element.append(section("Contacts", run.children("/bearings").length === 0, (body) => this.contacts(body)));
+    const joints = run.children("/joints").length;
+    if (joints > 0) this.element.append(section("Joints", alone && joints <= 4, (body) => this.joints(body)));
+    if (run.children("/contacts").length > 0) this.element.append(section("Contacts", alone, (body) => this.contacts(body)));
     for (const [group, title] of [["/drives", "Drives"], ["/couplings", "Couplings"], ["/joint_forces", "Springs, friction and control in joints"]] as const) {
       if (run.children(group).length > 0) this.element.append(section(title, false, (body) => this.efforts(body, group)));
     }
     if (run.children("/bodies").length > 0) this.element.append(section("Bodies", false, (body) => this.bodies(body)));
+    if (alone) solution();
     if (run.model) this.element.append(h("details", {}, h("summary", {}, "Model as it was run"), h("pre", { class: "model" }, run.model)));
   }
 

@@ -31,7 +31,7 @@ Key axis_key(const std::string& meaning) { return defaulted("axis", axis_format(
 
 Key initial_format(std::vector<Key> coordinates) {
   return defaulted("initial", object("initial values of coordinates", std::move(coordinates)), "{}",
-                   "Where the joint starts; what is left out starts from 0 and is adjusted where loops demand it.");
+                   "Where the joint starts. A guess will do where loops decide: they are closed with the least change, of values left out (0) first.");
 }
 
 Key angle_key(const std::string& name) { return optional(name, quantity("rad", "30 deg"), "Angle at the start.", "0"); }

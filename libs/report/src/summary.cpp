@@ -109,11 +109,15 @@ class Summary {
     if (dt.size() > 1) {
       dt.erase(dt.begin());  // the start
       const auto [least, most] = std::minmax_element(dt.begin(), dt.end());
-      add("shortest step", 1e6 * *least, "µs");
-      add("longest step", 1e6 * *most, "µs");
+      if (*most - *least < 1e-9 * *most) {
+        add("step", 1e6 * *most, "µs");
+      } else {
+        add("shortest step", 1e6 * *least, "µs");
+        add("longest step", 1e6 * *most, "µs");
+      }
     }
     const std::vector<double> rejected = values("solver/rejected_steps"), drift = values("solver/constraint_drift");
-    if (!rejected.empty()) add("rejected steps", rejected.back(), "");
+    if (!rejected.empty() && rejected.back() > 0) add("rejected steps", rejected.back(), "");
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }
 

@@ -111,9 +111,19 @@ void require_prescribed_motion(const model::Model& model, model::Machine& machin
       "drives for as many coordinates as the mechanism has freedoms", "add a drive, or use `analysis: dynamics`"});
 }
 
+// At spectral radius 1 generalized-alpha damps nothing, and multipliers oscillate with growing amplitude.
+void require_damped_multipliers(const model::Model& model, const mbd::Mechanism& mechanism) {
+  if (model.simulation.analysis != model::Analysis::dynamics || mechanism.nlambda() == 0) return;
+  if (model.simulation.spectral_radius < 1) return;
+  throw InputError(Fault{model.position_of("simulation.spectral_radius"), "simulation.spectral_radius",
+                         "1 in a mechanism with drives, couplings or closed loops", "a value below 1",
+                         "0.95 dissipates little; at 1 the multipliers grow without bound"});
+}
+
 }  // namespace
 
 solver::State starting_state(const model::Model& model, model::Machine& machine) {
+  require_damped_multipliers(model, *machine.mechanism);
   solver::State state = machine.mechanism->initial_state();
   state.t = model.simulation.start;
   solver::InitialiseOptions options;

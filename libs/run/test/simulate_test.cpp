@@ -188,6 +188,12 @@ TEST_CASE("RedundantConstraints_AreWarnedOf") {
   CHECK(check(rig()).empty());
 }
 
+TEST_CASE("UndampedMultipliers_ArePointedAtBeforeTheRun") {
+  const Fault fault = fault_of(kSmallRig, {"simulation.spectral_radius=1"});
+  CHECK(fault.path == "simulation.spectral_radius");
+  CHECK(fault.position.line > 0);
+}
+
 TEST_CASE("ContradictingDrives_AreNamed") {
   // Both joints turn the same pin.
   std::string text = rig_with("drives:", "  again: {type: revolute, between: [ground, pin]}\ndrives:");
