@@ -37,6 +37,10 @@ TypePtr root() {
 
 }  // namespace
 
+TypePtr axis_format() {
+  return or_word(vector("1", "0 0 1"), {{"x", "the frame's x-axis"}, {"y", "its y-axis"}, {"z", "its z-axis"}});
+}
+
 const Type& model_format() {
   static const TypePtr format = root();
   return *format;

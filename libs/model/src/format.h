@@ -24,6 +24,9 @@ namespace hersey::model {
 [[nodiscard]] TypePtr output_format();
 [[nodiscard]] TypePtr study_format();
 
+/// A direction: a frame's x, y or z, or three numbers.
+[[nodiscard]] TypePtr axis_format();
+
 /// A constant, an expression or a table whose value is in one of `si_units`.
 [[nodiscard]] TypePtr function_format(const std::vector<std::string>& si_units, const std::string& example);
 

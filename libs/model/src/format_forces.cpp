@@ -10,7 +10,8 @@ std::vector<Key> load_keys(const std::string& unit, const std::string& example) 
   return {
       required("body", reference(Refers::frame, "rod.small_end"), "Where it acts: `body` or `body.frame`."),
       optional("components", list("three functions", function, 3), "Along x, y and z."),
-      optional("direction", vector("1", "0 -1 0"), "Direction of `magnitude`; its length does not matter."),
+      optional("direction", axis_format(),
+               "Direction of `magnitude`: x, y, z or three numbers, whose length does not matter."),
       optional("magnitude", function, "Along `direction`."),
       defaulted("axes", choice({{"ground", "axes fixed in space"}, {"body", "axes of the frame it acts at"}}), "ground",
                 "Axes of `components` or `direction`."),

@@ -4,21 +4,18 @@ namespace hersey::model {
 namespace {
 
 TypePtr frames_format() {
-  const TypePtr rotation = object("an axis and an angle",
-                                  {
-                                      required("axis", vector("1", "0 0 1"), "Direction; its length does not matter."),
-                                      required("angle", quantity("rad", "90 deg"), "Right-handed about the axis."),
-                                  });
+  const TypePtr rotation =
+      object("an axis and an angle",
+             {
+                 required("axis", axis_format(), "Direction: x, y, z or three numbers, whose length does not matter."),
+                 required("angle", quantity("rad", "90 deg"), "Right-handed about the axis."),
+             });
   return named(
       "a mapping from names to frames",
       object("a frame", {
                             defaulted("origin", vector("m", "0 50 0 mm"), "0 0 0 m", "From the body's origin."),
                             optional("rotation", rotation, "Turns the frame's axes from the body's.", "none"),
                         }));
-}
-
-TypePtr axis_format() {
-  return or_word(vector("1", "0 0 1"), {{"x", "the frame's x-axis"}, {"y", "its y-axis"}, {"z", "its z-axis"}});
 }
 
 Key between_format() {
@@ -31,7 +28,8 @@ Key axis_key(const std::string& meaning) { return defaulted("axis", axis_format(
 
 Key initial_format(std::vector<Key> coordinates) {
   return defaulted("initial", object("initial values of coordinates", std::move(coordinates)), "{}",
-                   "Where the joint starts. A guess will do where loops decide: they are closed with the least change, of values left out (0) first.");
+                   "Where the joint starts. A guess will do where loops decide: they are closed with the least change, "
+                   "of values left out (0) first.");
 }
 
 Key angle_key(const std::string& name) { return optional(name, quantity("rad", "30 deg"), "Angle at the start.", "0"); }

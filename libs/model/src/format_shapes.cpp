@@ -9,11 +9,12 @@ TypePtr shapes_format() {
   const std::vector<Key> line = {defaulted("from", place, "0 0 0 m", "Centre of one end, body axes."),
                                  required("to", place, "Centre of the other end."),
                                  required("diameter", size, "Its diameter.")};
-  const TypePtr rotation = object("an axis and an angle",
-                                  {
-                                      required("axis", vector("1", "0 0 1"), "Direction; its length does not matter."),
-                                      required("angle", quantity("rad", "90 deg"), "Right-handed about the axis."),
-                                  });
+  const TypePtr rotation =
+      object("an axis and an angle",
+             {
+                 required("axis", axis_format(), "Direction: x, y, z or three numbers, whose length does not matter."),
+                 required("angle", quantity("rad", "90 deg"), "Right-handed about the axis."),
+             });
   return named(
       "a mapping from names to shapes",
       variant("a shape", "shape", {},
@@ -32,7 +33,8 @@ TypePtr shapes_format() {
                   {"half_space",
                    "everything behind a plane",
                    {defaulted("point", place, "0 0 0 m", "A point of the plane."),
-                    required("normal", vector("1", "0 0 1"), "Points out of it; its length does not matter.")}},
+                    required("normal", axis_format(),
+                             "Points out of it: x, y, z or three numbers, whose length does not matter.")}},
                   {"mesh",
                    "a triangulated surface",
                    {required("file", text("a file", "rod.stl"), "STL file beside the model file, text or binary."),

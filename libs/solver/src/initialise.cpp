@@ -100,7 +100,12 @@ bool report_redundancy(Equations& equations, const State& state, bool assembled,
   if (!assembled) disturb(equations, place, VectorXd::Ones(equations.nv()));
   equations.constraints(place, phi, scale, &G);
   if (has_full_rank(G)) return false;
-  const RankAnalysis rank = analyse_rank(MatrixXd(G));
+  RankAnalysis rank = analyse_rank(MatrixXd(G));
+  // Rows that repeat others but hold all the same are not what keeps a loop open.
+  if (!assembled) {
+    const double least = 1e-9 * phi.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
+    std::erase_if(rank.involved, [&](Index row) { return std::abs(phi[row]) <= least * scale[row]; });
+  }
   if (rank.involved.empty()) return false;
   const Index nlambda = equations.nlambda();
   summary.status = InitialiseStatus::redundant;
