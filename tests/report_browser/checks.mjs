@@ -175,6 +175,28 @@ export const everyReport = {
   },
 };
 
+/** Of small motions about one state. */
+export const modesReport = {
+  "modes are listed with their frequencies, in the table too": async (page) => {
+    const options = await page.locator(".mode-player option").allTextContents();
+    assert.ok(options.length > 0 && options.every((text) => /^Mode \d+: .*\d Hz/.test(text)), options.join(" | "));
+    assert.ok((await page.locator('tr[data-quantity^="mode 1"]').count()) > 0, "the table has no modes");
+  },
+
+  "a mode is played on the machine, and stopped": async (page) => {
+    const button = page.getByRole("button", { name: "Play mode" });
+    await frame(page);
+    const still = await picture(page, "machine");
+    await button.click();
+    await page.waitForTimeout(300);
+    const moving = await picture(page, "machine");
+    assert.notEqual(moving, still, "nothing moves");
+    await button.click();
+    await frame(page);
+    assert.equal(await picture(page, "machine"), still, "the machine does not come back");
+  },
+};
+
 export const studyReport = {
   "the study compares all runs and shows the paper's figures": async (page) => {
     const rows = await page.locator(".comparison tbody tr").count();

@@ -23,6 +23,12 @@ import { MachineGeometry, type BodyMotion, type Link } from "./machine_geometry"
 import { ball, bar, material, rod, shapeMesh } from "./shape_mesh";
 import { onThemeChange, palette } from "./theme";
 
+/** A small motion of a body, in ground's axes. */
+export interface Increment {
+  rotation: Vector3;
+  displacement: Vector3;
+}
+
 const views = new Set<MachineView>();
 onThemeChange(() => views.forEach((view) => view.repaint()));
 
@@ -45,6 +51,7 @@ export class MachineView {
   private readonly observer: ResizeObserver;
   private readonly bounds: Sphere;
   private time = 0;
+  private increments: Map<string, Increment> | null = null;
 
   static of(run: Run): MachineView | null {
     const geometry = MachineGeometry.of(run);
@@ -76,6 +83,23 @@ export class MachineView {
   show(time: number): void {
     this.time = time;
     if (this.renderer) this.place();
+  }
+
+  /** Bodies displaced a little from where the results have them; nothing: as they are. */
+  displace(increments: Map<string, Increment> | null): void {
+    this.increments = increments;
+    if (this.renderer) this.place();
+  }
+
+  /** Radius of the space the machine takes [m]. */
+  get size(): number {
+    return this.bounds.radius;
+  }
+
+  /** The farthest that joints, shapes and the centre of mass of a body lie from its origin [m]. */
+  reach(body: string): number {
+    const places = [...this.geometry.attachments(body), this.geometry.centreOfMass(body), ...this.corners(body)];
+    return Math.max(0, ...places.map((place) => place.length()));
   }
 
   /** After a change of theme. */
@@ -275,7 +299,10 @@ export class MachineView {
   private place(): void {
     for (const body of this.geometry.bodies) {
       const group = this.groups.get(body.name);
-      if (group) this.geometry.pose(body, this.time, group.matrix);
+      if (!group) continue;
+      this.geometry.pose(body, this.time, group.matrix);
+      const increment = this.increments?.get(body.name);
+      if (increment) displaceMatrix(group.matrix, increment);
     }
     const end = (body: string, place: Vector3) => {
       const group = this.groups.get(body);
@@ -289,6 +316,14 @@ export class MachineView {
   private render(): void {
     this.renderer?.render(this.scene, this.camera);
   }
+}
+
+/** Turns about the body's origin, then shifts it. */
+function displaceMatrix(pose: Matrix4, { rotation, displacement }: Increment): void {
+  const origin = new Vector3().setFromMatrixPosition(pose);
+  const angle = rotation.length();
+  if (angle > 0) pose.setPosition(0, 0, 0).premultiply(new Matrix4().makeRotationAxis(rotation.clone().divideScalar(angle), angle));
+  pose.setPosition(origin.add(displacement));
 }
 
 function distinct(places: Vector3[], apart: number): Vector3[] {

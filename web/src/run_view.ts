@@ -7,6 +7,7 @@ import { h, segmented } from "./dom";
 import { nearest } from "./film_fields";
 import { sweepPlots } from "./line_plot";
 import { MachineView, sweepMachineViews } from "./machine_view";
+import { ModePlayer } from "./mode_player";
 import type { Abscissa } from "./series";
 import { SystemView } from "./system_view";
 import { Timeline } from "./timeline";
@@ -39,6 +40,7 @@ export class RunView {
     const { run, bearing, abscissa } = this;
     const view = bearing ? new BearingView(run, bearing, abscissa, (time) => this.timeline?.show(nearest(instants, time))) : null;
     const machine = MachineView.of(run);
+    const modes = machine ? ModePlayer.of(run, machine) : null;
     const system = new SystemView(run, abscissa);
     const instants = view?.fields?.time ?? run.column("/time") ?? new Float64Array();
     const timeline = new Timeline(instants, this.anglesAt(instants), (index) => {
@@ -50,13 +52,13 @@ export class RunView {
     });
     this.timeline = timeline;
     this.element.replaceChildren(
-      ...[this.controls(), this.headline(), this.table(), view?.element ?? null, machine ? h("div", { class: "figures" }, machine.element) : null, this.notes(), system.element, timeline.element].filter((e) => e !== null),
+      ...[this.controls(), this.headline(), this.table(), view?.element ?? null, modes?.element ?? null, machine ? h("div", { class: "figures" }, machine.element) : null, this.notes(), system.element, timeline.element].filter((e) => e !== null),
     );
     sweepPlots();
     sweepDrawings();
     sweepMachineViews();
     if (instants.length > 0) timeline.show(nearest(instants, this.time ?? this.firstShown(instants)));
-    else timeline.element.remove();
+    if (instants.length < 2) timeline.element.remove();
   }
 
   /** The last time within the last cycle at which the pressure is at its peak: of a settled run, the end. */
@@ -115,10 +117,10 @@ export class RunView {
   }
 
   private table(): HTMLElement {
-    const groups = [this.bearing, "run"];
+    const groups = [this.bearing, "modes", "run"];
     const tables = groups.flatMap((group) => {
       const rows = this.run.summary.filter((row) => row.group === group);
-      const title = group === "run" ? "Whole run" : `Bearing ${group.replaceAll("_", " ")}`;
+      const title = group === "run" ? "Whole run" : group === "modes" ? "Small motions" : `Bearing ${group.replaceAll("_", " ")}`;
       const half = rows.length > 10 ? Math.ceil(rows.length / 2) : rows.length;
       return [rows.slice(0, half), rows.slice(half)]
         .filter((part) => part.length > 0)

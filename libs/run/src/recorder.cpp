@@ -305,14 +305,35 @@ void Recorder::declare_modes() {
             .real = series("eigenvalue_real", "1/s", "real part of the eigenvalue s"),
             .imaginary = series("eigenvalue_imaginary", "1/s", "imaginary part of the eigenvalue s"),
             .shape_real = series("shape_real", "1", "mode shape, real part: increments of the coordinates", nv),
-            .shape_imaginary = series("shape_imaginary", "1", "mode shape, imaginary part", nv)};
+            .shape_imaginary = series("shape_imaginary", "1", "mode shape, imaginary part", nv),
+            .body_real = series("body_real", "1", "mode shape, real part: small rotation and displacement of each body",
+                                6 * static_cast<int>(bodies_.size())),
+            .body_imaginary =
+                series("body_imaginary", "1", "the same, imaginary part", 6 * static_cast<int>(bodies_.size()))};
   std::vector<std::string> names;
   names.reserve(static_cast<std::size_t>(nv));
   for (int k = 0; k < nv; ++k) names.push_back(machine_.mechanism->name_of_row(k));
   writer_.attribute("/modes", "coordinates", names);
+  std::vector<std::string> bodies;
+  bodies.reserve(model_.bodies.size());
+  for (const model::Body& body : model_.bodies) bodies.push_back(body.name);
+  writer_.attribute("/modes", "bodies", bodies);
 }
 
-void Recorder::write_modes(const solver::Modes& found) {
+// Rotation and displacement of every body for small increments of the coordinates: what a velocity would give.
+Eigen::VectorXd Recorder::body_increments(const solver::State& state, const Eigen::VectorXd& shape) const {
+  solver::State moving = state;
+  moving.v = shape;
+  const std::vector<mbd::FrameId>& frames = machine_.mechanism->spec().body_frames;
+  Eigen::VectorXd all(6 * static_cast<Eigen::Index>(bodies_.size()));
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const mbd::FrameMotion motion = machine_.mechanism->frame_motion(moving, frames[i + 1]);
+    all.segment<6>(6 * static_cast<Eigen::Index>(i)) << motion.omega, motion.v;
+  }
+  return all;
+}
+
+void Recorder::write_modes(const solver::State& state, const solver::Modes& found) {
   for (const solver::Mode& mode : found.modes) {
     modes_.frequency.append(mode.frequency);
     modes_.damped_frequency.append(mode.damped_frequency);
@@ -321,6 +342,8 @@ void Recorder::write_modes(const solver::Modes& found) {
     modes_.imaginary.append(mode.s.imag());
     modes_.shape_real.append(Eigen::VectorXd(mode.shape.real()));
     modes_.shape_imaginary.append(Eigen::VectorXd(mode.shape.imag()));
+    modes_.body_real.append(body_increments(state, mode.shape.real()));
+    modes_.body_imaginary.append(body_increments(state, mode.shape.imag()));
   }
   writer_.attribute("/modes", "stable", found.stable ? 1 : 0);
 }

@@ -35,8 +35,8 @@ class Recorder {
 
   void write_row(const StepRecord& step);
   void write_fields(const StepRecord& step);
-  /// Small motions about the last state.
-  void write_modes(const solver::Modes& found);
+  /// Small motions about `state`.
+  void write_modes(const solver::State& state, const solver::Modes& found);
   void flush_if_due() { writer_.flush_if_due(); }
   void finish(results::Status status, const std::string& message, double wall_time);
 
@@ -70,10 +70,12 @@ class Recorder {
   };
 
   struct ModeSeries {
-    results::Series frequency, damped_frequency, damping_ratio, real, imaginary, shape_real, shape_imaginary;
+    results::Series frequency, damped_frequency, damping_ratio, real, imaginary, shape_real, shape_imaginary, body_real,
+        body_imaginary;
   };
 
   void declare_modes();
+  [[nodiscard]] Eigen::VectorXd body_increments(const solver::State& state, const Eigen::VectorXd& shape) const;
   void declare_run(const Options& options);
   void declare_machine();
   void declare_contacts();

@@ -203,7 +203,7 @@ class Simulation {
     if (linear.trouble.empty()) found = solver::find_modes(linear);
     const std::string& trouble = linear.trouble.empty() ? found.message : linear.trouble;
     if (!trouble.empty()) return fail("modes: " + trouble);
-    recorder_.write_modes(found);
+    recorder_.write_modes(state_, found);
     if (!found.stable) summary_.message = "unstable: a small motion grows (negative damping ratio)";
   }
 

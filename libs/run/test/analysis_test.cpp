@@ -73,6 +73,12 @@ TEST_CASE("DoublePendulum_HasItsTwoFrequencies") {
   // Relative angle of the lower joint over the upper's: absolute ratio sqrt 2 less 1.
   CHECK(shape[1] / shape[0] == doctest::Approx(std::sqrt(2) - 1).epsilon(1e-6));
   CHECK(shape[3] / shape[2] == doctest::Approx(-std::sqrt(2) - 1).epsilon(1e-6));
+  // What each body does: the upper turns by its joint, the lower by both; its origin is the upper's tip, 1 m below.
+  const std::vector<double> bodies = a.mode("body_real");
+  REQUIRE(bodies.size() == 24);
+  CHECK(bodies[2] == doctest::Approx(shape[0]).epsilon(1e-12));
+  CHECK(bodies[8] == doctest::Approx(shape[0] + shape[1]).epsilon(1e-12));
+  CHECK(bodies[9] == doctest::Approx(shape[0]).epsilon(1e-12));
 }
 
 TEST_CASE("ChainOfMassesAndSprings_HasItsFrequencies") {
