@@ -132,14 +132,13 @@ class SurfaceReader {
       if (feature == film_.features.end() || context_.has_fault_in(value.path) || film_.L <= 0) continue;
       const Cells cells = cells_across(film_, *feature);
       if (cells.around >= 2 - 1e-6 && cells.along >= 2 - 1e-6) continue;
-      const auto enough = [](int n, double has) {
-        return has >= 2 ? n : static_cast<int>(std::ceil(2 * n / has - 1e-6));
-      };
-      context_.fault_at_key(value,
-                            fmt::format("fewer than 3 nodes of the {} x {} grid across it", grid.n_phi, grid.n_z),
-                            fmt::format("a finer grid or a larger one of it"),
-                            fmt::format("grid: {{circumferential: {}, axial: {}}} would do",
-                                        enough(grid.n_phi, cells.around), enough(grid.n_z - 1, cells.along) + 1));
+      const auto enough = [](int n, double has) { return has >= 2 ? n : std::ceil(2 * n / has - 1e-6); };
+      const double around = enough(grid.n_phi, cells.around), along = enough(grid.n_z - 1, cells.along) + 1;
+      const bool is_possible = std::max(around, along) <= 2000;
+      context_.fault_at_key(
+          value, fmt::format("fewer than 3 nodes of the {} x {} grid across it", grid.n_phi, grid.n_z),
+          is_possible ? "a finer grid or a larger one of it" : "a larger one of it",
+          is_possible ? fmt::format("grid: {{circumferential: {}, axial: {}}} would do", around, along) : "");
     }
   }
 

@@ -246,7 +246,8 @@ TEST_CASE("ImpossibleInertia_IsReported") {
 
 TEST_CASE("DirectionWithoutLength_IsReported") {
   CHECK(faults_after("axis: 0 0 2", "axis: 0 0 0") ==
-        "m.yaml:11:49: bodies.shaft.frames.pin.rotation.axis: a direction of length 0; expected 3 numbers, such as "
+        "m.yaml:11:49: bodies.shaft.frames.pin.rotation.axis: a direction of length 0; expected x, y, z or 3 numbers, "
+        "such as "
         "0 0 1");
 }
 
@@ -260,6 +261,9 @@ TEST_CASE("FeaturesThatCannotBe_AreReported") {
   CHECK(faults("      a: {shape: hole, diameter: 2 mm, pressure: 0 Pa}\n") ==
         "m.yaml:31:7: bearings.big_end.features.a: fewer than 3 nodes of the 60 x 13 grid across it; expected a finer "
         "grid or a larger one of it; grid: {circumferential: 142, axial: 17} would do");
+  CHECK(faults("      a: {shape: hole, diameter: 1e-12 mm, pressure: 0 Pa}\n") ==
+        "m.yaml:31:7: bearings.big_end.features.a: fewer than 3 nodes of the 60 x 13 grid across it; expected a larger "
+        "one of it");
   CHECK(
       faults("      a: {shape: hole, diameter: 5 mm, pressure: 1 bar}\n"
              "      b: {shape: axial_groove, angle: 10 deg, arc: 20 deg, pressure: 2 bar}\n") ==
