@@ -1,0 +1,45 @@
+#pragma once
+
+#include "hersey/fem/quadrature.h"
+#include "hersey/fem/shape_functions.h"
+#include "hersey/fem/solid_material.h"
+
+namespace hersey::fem {
+
+using NodeColumns = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_nodes>;  ///< (3, nodes)
+using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 * most_nodes, 3 * most_nodes>;
+using StrainMatrix = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 3 * most_nodes>;
+
+/// Where an isoparametric element has a point: gradients of its shape functions in space.
+struct ElementPoint {
+  NodeGradients gradients;  ///< dN/dx [1/m]
+  double jacobian = 0;      ///< det dx/dxi: > 0 unless the element is folded there
+};
+
+/// At natural coordinates with shape functions `shape`, for nodes at `x`. Gradients are those of a sound element only.
+[[nodiscard]] ElementPoint element_point(const ShapeFunctions& shape, const NodeColumns& x);
+
+/// B with strain = B u, u node by node, (elastic.2).
+[[nodiscard]] StrainMatrix strain_matrix(const NodeGradients& gradients);
+
+/// Smallest det dx/dxi at the points of integration of stiffness and mass; not positive: the element is folded or its
+/// nodes are numbered inside out. A corner may be folded a little without harm: one of the patch test's bricks is.
+[[nodiscard]] double smallest_jacobian(ElementType type, const NodeColumns& x);
+
+/// Stiffness (3 nodes, 3 nodes) [N/m] of an element with nodes at `x`, (elastic.5). hex8 carries nine incompatible
+/// modes that are condensed out, (elastic.6): without them it locks in bending.
+/// @pre smallest_jacobian(type, x) > 0 @see Taylor, Beresford, Wilson (1976), IJNME 10, 1211 @verified_by
+/// solid_element_test.cpp
+[[nodiscard]] ElementMatrix element_stiffness(ElementType type, const NodeColumns& x, const SolidMaterial& material,
+                                              Integration rule = Integration::full);
+
+/// Consistent mass per density (nodes, nodes) [m^3], (elastic.7): the same for all three directions.
+[[nodiscard]] ElementMatrix element_mass(ElementType type, const NodeColumns& x);
+
+/// Strain (6, points) at `points`, for displacements `u` of the nodes; that of hex8 with its incompatible modes.
+[[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> element_strain(ElementType type, const NodeColumns& x,
+                                                                      const SolidMaterial& material,
+                                                                      const NodeColumns& u,
+                                                                      const std::vector<Vector3>& points);
+
+}  // namespace hersey::fem
