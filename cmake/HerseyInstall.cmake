@@ -6,5 +6,6 @@ configure_package_config_file(${CMAKE_CURRENT_SOURCE_DIR}/cmake/herseyConfig.cma
                               ${CMAKE_CURRENT_BINARY_DIR}/herseyConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/herseyConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/herseyConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/herseyConfigVersion.cmake
-              cmake/FindHDF5C.cmake cmake/FindKLU.cmake cmake/FindUdunits2.cmake
+              cmake/FindHDF5C.cmake cmake/FindKLU.cmake cmake/FindMUMPS.cmake
+              cmake/FindUdunits2.cmake
         DESTINATION ${package_dir})
