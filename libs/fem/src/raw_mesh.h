@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hersey/core/input_error.h"
+#include "hersey/fem/mesh.h"
+
+namespace hersey::fem {
+
+/// Where in the mesh file, or a file it includes, something stands.
+struct Place {
+  int file = 0;  ///< place in RawMesh::files
+  int line = 0;
+};
+
+/// The labels first, first + step, ... up to last.
+struct LabelRange {
+  long first = 0;
+  long last = 0;
+  long step = 1;
+};
+
+/// Members of a named set: labels, and other sets whole.
+struct RawSet {
+  Place place;
+  std::vector<LabelRange> labels;
+  std::vector<std::string> sets;
+  bool is_of_either_kind =
+      false;  ///< its labels may be of nodes or of elements: those that do not exist are no mistake
+};
+
+struct RawElement {
+  ElementType type = ElementType::tet4;
+  long label = 0;
+  Place place;
+  std::size_t first = 0;           ///< place of its first node's label in RawMesh::connectivity
+  int material = -1;               ///< place in RawMesh::materials
+  bool continues_another = false;  ///< a further piece of the element before it, with the same label
+};
+
+/// An element of surface, line or point shape: it marks the nodes, and of a surface the faces, that its sets name.
+struct RawMark {
+  long label = 0;
+  std::array<long, 9> nodes{};  ///< corners first
+  int node_count = 0;
+  int corner_count = 0;
+};
+
+/// Part of a surface given by elements: of one element or one element set a face, or all faces that lie outside.
+struct RawSurfacePart {
+  Place place;
+  long element = 0;         ///< 0 with a set's name
+  std::string element_set;  ///< empty with an element's label
+  int face = -1;            ///< -1: those that lie outside
+};
+
+/// What a reader finds in a file, by the file's labels and in the file's units; `finished` makes a Mesh of it.
+struct RawMesh {
+  std::vector<std::string> files;
+  std::vector<Vector3> nodes;
+  std::vector<long> node_labels;
+  std::vector<Place> node_places;
+  std::vector<RawElement> elements;
+  std::vector<long> connectivity;
+  std::vector<RawMark> marks;  ///< their labels are those of no element; element sets may hold them
+  std::vector<MeshMaterial> materials;
+  std::map<std::string, RawSet> node_sets, element_sets;
+  std::map<std::string, std::vector<RawSurfacePart>> surfaces;
+  std::map<std::string, std::string> section_materials;  ///< material's name by element set
+  std::vector<Fault> warnings;
+
+  void add_node(long label, const Vector3& r, Place place);
+  /// @param nodes labels in Abaqus' order
+  void add_element(ElementType type, long label, std::span<const long> nodes, Place place);
+  /// @param nodes labels, corners first
+  void add_mark(long label, std::span<const long> nodes, int corner_count);
+  void warn(Place place, std::string found, std::string expected, std::string suggestion = {});
+  /// Throws InputError for this place.
+  [[noreturn]] void fail(Place place, std::string found, std::string expected, std::string suggestion = {}) const;
+};
+
+/// Resolves labels, drops nodes that no element uses, matches surfaces with faces, scales to metres and SI.
+/// @throws InputError for nodes that are missing or given twice, elements given twice, a file without elements.
+[[nodiscard]] Mesh finished(RawMesh& raw, double length_unit);
+
+}  // namespace hersey::fem
