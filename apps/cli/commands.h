@@ -54,6 +54,17 @@ struct BearingArguments {
 /// `hersey bearing`: equilibrium or load of one bearing by itself, once or over sweeps. @returns an ExitCode.
 [[nodiscard]] int bearing_command(const BearingArguments& arguments);
 
+struct MeshArguments {
+  std::string file;
+  std::string length_unit = "m";
+  std::string density;  ///< for the mass; empty: the file's
+  bool json = false;
+};
+
+/// `hersey mesh`: what a mesh file holds and how good its elements are. @returns an ExitCode; kWrongInput for a mesh
+/// that is unfit for computing. @throws InputError.
+[[nodiscard]] int mesh_command(const MeshArguments& arguments);
+
 /// Tells what the model computes but hardly means, one a line on stderr.
 void warn(const std::vector<Fault>& warnings);
 

@@ -24,6 +24,7 @@ constexpr const char* kFooter =
     "  hersey run model.yaml --set bearings.big_end.grid.circumferential=120\n"
     "  hersey bearing model.yaml --sweep load=100N:2500N:10          one bearing by itself\n"
     "  hersey check model.yaml                                       every fault, nothing simulated\n"
+    "  hersey mesh conrod.msh --length-unit mm                       a mesh: sets, mass, quality\n"
     "  hersey schema > hersey.schema.json                            completion and checking in an editor\n"
     "\n"
     "Exit codes:\n"
@@ -74,6 +75,15 @@ CLI::App* add_bearing_command(CLI::App& app, BearingArguments& bearing) {
   return command;
 }
 
+CLI::App* add_mesh_command(CLI::App& app, MeshArguments& mesh) {
+  CLI::App* command = app.add_subcommand("mesh", "Tell what a mesh file holds and how good its elements are");
+  command->add_option("FILE", mesh.file, "Gmsh .msh, Abaqus or CalculiX .inp, Nastran .bdf")->required();
+  command->add_option("--length-unit", mesh.length_unit, "What one unit of the file is (default: m)")->type_name("mm");
+  command->add_option("--density", mesh.density, "For the mass, where the file has none")->type_name("7850kg/m^3");
+  command->add_flag("--json", mesh.json, "Print it as JSON");
+  return command;
+}
+
 // Declares the command line and calls the command named in it.
 int dispatch(int argc, char** argv) {
   CLI::App app{kAbout, "hersey"};
@@ -110,6 +120,9 @@ int dispatch(int argc, char** argv) {
   BearingArguments bearing;
   const CLI::App* bearing_app = add_bearing_command(app, bearing);
 
+  MeshArguments mesh;
+  const CLI::App* mesh_app = add_mesh_command(app, mesh);
+
   bool markdown = false;
   CLI::App* schema_app = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
   schema_app->add_flag("--markdown", markdown, "Print it as the reference page of the documentation instead");
@@ -123,6 +136,7 @@ int dispatch(int argc, char** argv) {
   if (*check_app) return check_command(check);
   if (*report_app) return report_command(report);
   if (*bearing_app) return bearing_command(bearing);
+  if (*mesh_app) return mesh_command(mesh);
   return schema_command(markdown);
 }
 

@@ -61,7 +61,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, OK, run.stderr)
         for word in ("run", "check", "report", "schema", "130"):
             self.assertIn(word, run.stdout)
-        for command in ("run", "check", "report", "schema", "bearing"):
+        for command in ("run", "check", "report", "schema", "bearing", "mesh"):
             help_of_command = hersey(command, "--help")
             self.assertEqual(help_of_command.returncode, OK, help_of_command.stderr)
             self.assertGreater(len(help_of_command.stdout.splitlines()), 4)
@@ -80,6 +80,37 @@ class CommandLine(unittest.TestCase):
     def test_check_accepts_a_good_model(self):
         run = hersey("check", MODEL)
         self.assertEqual(run.returncode, OK, run.stderr)
+
+    def test_mesh_tells_sets_mass_and_quality(self):
+        block = os.path.join(HERE, "../../libs/fem/test/data/block_22.msh")
+        run = hersey("mesh", block, "--length-unit", "mm", "--density", "7850 kg/m^3", "--json")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        mesh = json.loads(run.stdout)
+        self.assertEqual(mesh["nodes"], 72)
+        self.assertEqual({kind: entry["count"] for kind, entry in mesh["elements"].items()},
+                         {"tet10": 6, "wedge15": 4, "hex20": 2})
+        self.assertEqual(mesh["sets"]["surfaces"], {"floor": 3, "roof": 2})
+        # A trapezium 10 x (8 + 9)/2 x 7 and a box 10 x 9 x 12 mm; Gmsh places nodes to 1e-11.
+        self.assertAlmostEqual(mesh["mass"] / (7850 * (595 + 1080) * 1e-9), 1, delta=1e-9)
+        text = hersey("mesh", block, "--length-unit", "mm").stdout
+        self.assertRegex(text, r"roof +9 +- +2")
+
+    def test_mesh_in_millimetres_read_as_metres_is_warned_of(self):
+        run = hersey("mesh", os.path.join(HERE, "../../libs/fem/test/data/block_22.msh"))
+        self.assertEqual(run.returncode, OK)
+        self.assertIn("is the mesh in millimetres?", run.stderr)
+
+    def test_mesh_that_is_unfit_is_refused_with_labels(self):
+        folded = os.path.join(self._folder.name, "folded.inp")
+        with open(folded, "w", encoding="utf-8") as file:
+            file.write("*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4\n17,1,3,2,4\n")
+        for arguments in ((), ("--json",)):
+            run = hersey("mesh", folded, *arguments)
+            self.assertEqual(run.returncode, WRONG_INPUT)
+            self.assertIn("Jacobian that is not positive: 17", run.stdout + run.stderr)
+        run = hersey("mesh", folded, "--length-unit", "kg")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("--length-unit", run.stderr)
 
     def test_fault_names_file_line_column_and_the_nearest_key(self):
         path = self.model_with("radial_clearance", "radial_clearence")

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "mesh_readers.h"
 #include "mesh_text.h"

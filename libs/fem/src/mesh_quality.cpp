@@ -1,0 +1,265 @@
+#include "hersey/fem/mesh_quality.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "hersey/fem/quadrature.h"
+#include "hersey/fem/shape_functions.h"
+#include "hersey/fem/solid_element.h"
+
+namespace hersey::fem {
+namespace {
+
+constexpr double kTouching = 1e-6;       // of the box's diagonal
+constexpr double kFlat = 0.02;           // shape below which a solver loses figures
+constexpr double kLargeBody = 10;        // [m]
+constexpr double kSmallBody = 1e-4;      // [m]
+constexpr double kHeavyBody = 1000;      // [kg]
+constexpr std::size_t kMostLabels = 10;  // told in one message
+
+/// Corners of a shape, and of each corner its three neighbours in right-handed order.
+using Corners = std::vector<std::array<int, 4>>;
+
+const Corners& corners_of(ElementType type) {
+  static const Corners tet = {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 0, 2, 1}};
+  static const Corners wedge = {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}};
+  static const Corners hex = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},
+                              {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}};
+  static const Corners none;
+  switch (type) {
+    case ElementType::tet4:
+    case ElementType::tet10:
+      return tet;
+    case ElementType::wedge6:
+    case ElementType::wedge15:
+      return wedge;
+    case ElementType::hex8:
+    case ElementType::hex20:
+      return hex;
+    case ElementType::beam2:
+      break;
+  }
+  return none;
+}
+
+/// Edges of the ideal corner as columns.
+Matrix3 ideal_edges(ElementType type) {
+  const double half = 0.5, root = std::sqrt(0.75);
+  Matrix3 edges = Matrix3::Identity();
+  if (type == ElementType::hex8 || type == ElementType::hex20) return edges;
+  edges.col(1) = Vector3(half, root, 0);
+  const bool is_tetrahedron = type == ElementType::tet4 || type == ElementType::tet10;
+  if (is_tetrahedron) edges.col(2) = Vector3(half, root / 3, std::sqrt(2.0 / 3));
+  return edges;
+}
+
+NodeColumns positions_of(const Mesh& mesh, const Element& element) {
+  const int count = node_count(element.type);
+  NodeColumns x(3, count);
+  for (int k = 0; k < count; ++k) x.col(k) = mesh.nodes[static_cast<std::size_t>(mesh.nodes_of(element)[k])];
+  return x;
+}
+
+double volume_of(ElementType type, const NodeColumns& x) {
+  double volume = 0;
+  for (const QuadraturePoint& point : mass_points(type))
+    volume += point.weight * element_point(shape_functions(type, point.xi), x).jacobian;
+  return volume;
+}
+
+void add_shape(const Element& element, const NodeColumns& x, ElementQuality& quality) {
+  double worst = 1, longest = 0, shortest = 1e300;
+  for (const std::array<int, 4>& corner : corners_of(element.type)) {
+    Matrix3 edges;
+    for (int k = 0; k < 3; ++k) {
+      edges.col(k) = x.col(corner[static_cast<std::size_t>(k) + 1]) - x.col(corner[0]);
+      longest = std::max(longest, edges.col(k).norm());
+      shortest = std::min(shortest, edges.col(k).norm());
+    }
+    worst = std::min(worst, corner_shape(element.type, edges));
+  }
+  if (worst < quality.smallest_shape || quality.count == 0) {
+    quality.smallest_shape = worst;
+    quality.label_of_smallest = element.label;
+  }
+  if (longest > 0) quality.largest_aspect = std::max(quality.largest_aspect, longest / shortest);
+  quality.mean_shape += (worst - quality.mean_shape) / (quality.count + 1);
+}
+
+void add_elements(const Mesh& mesh, MeshQuality& quality) {
+  double mass = 0;
+  bool has_mass = true;
+  for (const Element& element : mesh.elements) {
+    ElementQuality& of_type = quality.types[element.type];
+    if (element.type != ElementType::beam2) {
+      const NodeColumns x = positions_of(mesh, element);
+      if (!(smallest_jacobian(element.type, x) > 0)) quality.folded.push_back(element.label);
+      add_shape(element, x, of_type);
+      const double volume = volume_of(element.type, x);
+      quality.volume += volume;
+      const MeshMaterial* const material =
+          element.material < 0 ? nullptr : &mesh.materials[static_cast<std::size_t>(element.material)];
+      has_mass = has_mass && material != nullptr && material->density.has_value();
+      if (has_mass) mass += volume * *material->density;
+    }
+    ++of_type.count;
+  }
+  if (has_mass && quality.volume > 0) quality.mass = mass;
+}
+
+void find_repeated(const Mesh& mesh, MeshQuality& quality) {
+  std::vector<std::pair<std::array<int, 8>, long>> corners;
+  corners.reserve(mesh.elements.size());
+  for (const Element& element : mesh.elements) {
+    const std::size_t count = element.type == ElementType::beam2 ? 2 : corners_of(element.type).size();
+    std::array<int, 8> key{};
+    key.fill(-1);
+    std::copy_n(mesh.nodes_of(element), count, key.begin());
+    std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(count));
+    corners.emplace_back(key, element.label);
+  }
+  std::sort(corners.begin(), corners.end());
+  for (std::size_t k = 1; k < corners.size(); ++k)
+    if (corners[k].first == corners[k - 1].first)
+      quality.repeated.emplace_back(corners[k - 1].second, corners[k].second);
+}
+
+// Nodes in the same cell of a fine grid; two that a cell's boundary parts are missed, which only costs a warning.
+void find_touching(const Mesh& mesh, MeshQuality& quality) {
+  const double cell = kTouching * quality.size();
+  if (!(cell > 0)) return;
+  using Cell = std::array<long long, 3>;
+  std::vector<std::pair<Cell, long>> cells;
+  cells.reserve(mesh.nodes.size());
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    Cell place{};
+    for (std::size_t i = 0; i < 3; ++i)
+      place[i] = std::llround((mesh.nodes[n] - quality.lower)[static_cast<Eigen::Index>(i)] / cell);
+    cells.emplace_back(place, mesh.node_labels[n]);
+  }
+  std::sort(cells.begin(), cells.end());
+  for (std::size_t k = 1; k < cells.size(); ++k)
+    if (cells[k].first == cells[k - 1].first) quality.touching.emplace_back(cells[k - 1].second, cells[k].second);
+}
+
+int root_of(std::vector<int>& parents, int node) {
+  while (parents[static_cast<std::size_t>(node)] != node) {
+    int& parent = parents[static_cast<std::size_t>(node)];
+    parent = parents[static_cast<std::size_t>(parent)];
+    node = parent;
+  }
+  return node;
+}
+
+void find_parts(const Mesh& mesh, MeshQuality& quality) {
+  std::vector<int> parents(mesh.nodes.size());
+  std::iota(parents.begin(), parents.end(), 0);
+  for (const Element& element : mesh.elements) {
+    const int first = root_of(parents, *mesh.nodes_of(element));
+    for (int k = 1; k < node_count(element.type); ++k)
+      parents[static_cast<std::size_t>(root_of(parents, mesh.nodes_of(element)[k]))] = first;
+  }
+  std::map<int, std::pair<long, int>> parts;
+  for (const Element& element : mesh.elements) {
+    std::pair<long, int>& part = parts[root_of(parents, *mesh.nodes_of(element))];
+    if (part.second++ == 0) part.first = element.label;
+  }
+  for (const auto& [root, part] : parts) quality.parts.push_back(part);
+}
+
+std::string listed(const std::vector<long>& labels) {
+  const std::size_t told = std::min(labels.size(), kMostLabels);
+  return fmt::format("{}{}", fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(told), ", "),
+                     told < labels.size() ? fmt::format(", ... ({} in all)", labels.size()) : "");
+}
+
+std::string listed(const std::vector<std::pair<long, long>>& pairs) {
+  std::vector<std::string> texts;
+  for (std::size_t k = 0; k < std::min(pairs.size(), kMostLabels); ++k)
+    texts.push_back(fmt::format("{} and {}", pairs[k].first, pairs[k].second));
+  return fmt::format("{}{}", fmt::join(texts, ", "),
+                     texts.size() < pairs.size() ? fmt::format(", ... ({} in all)", pairs.size()) : "");
+}
+
+Fault fault(const std::string& file, std::string found, std::string expected, std::string suggestion) {
+  return {{file, 0, 0}, "", std::move(found), std::move(expected), std::move(suggestion)};
+}
+
+}  // namespace
+
+double corner_shape(ElementType type, const Matrix3& edges) {
+  const Matrix3 A = edges * ideal_edges(type).inverse();
+  const double det = A.determinant();
+  return det > 0 ? 3 * std::cbrt(det * det) / A.squaredNorm() : 0;
+}
+
+MeshQuality quality_of(const Mesh& mesh) {
+  MeshQuality quality;
+  if (mesh.nodes.empty()) return quality;
+  quality.lower = quality.upper = mesh.nodes.front();
+  for (const Vector3& r : mesh.nodes) {
+    quality.lower = quality.lower.cwiseMin(r);
+    quality.upper = quality.upper.cwiseMax(r);
+  }
+  add_elements(mesh, quality);
+  find_repeated(mesh, quality);
+  find_touching(mesh, quality);
+  find_parts(mesh, quality);
+  return quality;
+}
+
+std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file) {
+  std::vector<Fault> faults;
+  if (!quality.folded.empty())
+    faults.push_back(fault(file,
+                           fmt::format("{} with a Jacobian that is not positive: {}",
+                                       quality.folded.size() == 1 ? "an element" : "elements", listed(quality.folded)),
+                           "elements that are not folded, their nodes numbered as their format has it",
+                           "mesh anew there, or straighten the midside nodes"));
+  if (!quality.repeated.empty())
+    faults.push_back(fault(file, fmt::format("elements on the same corners: {}", listed(quality.repeated)),
+                           "each element once", "delete the repeated ones: they count twice in stiffness and mass"));
+  if (quality.parts.size() > 1) {
+    std::vector<std::string> parts;
+    for (std::size_t k = 0; k < std::min(quality.parts.size(), kMostLabels); ++k)
+      parts.push_back(fmt::format("{} {} (one is {})", quality.parts[k].second,
+                                  quality.parts[k].second == 1 ? "element" : "elements", quality.parts[k].first));
+    faults.push_back(fault(file,
+                           fmt::format("{} parts that share no node: {}", quality.parts.size(), fmt::join(parts, ", ")),
+                           "one connected body",
+                           quality.touching.empty() ? "one file for each body"
+                                                    : "merge the nodes that lie on each other, or one file for each"));
+  }
+  return faults;
+}
+
+std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& file) {
+  std::vector<Fault> warnings;
+  const Vector3 box = quality.upper - quality.lower;
+  const double largest = box.maxCoeff();
+  const std::string sizes = fmt::format("{:.4g} x {:.4g} x {:.4g} m", box.x(), box.y(), box.z());
+  if (largest > kLargeBody || quality.mass.value_or(0) > kHeavyBody)
+    warnings.push_back(fault(file,
+                             fmt::format("a body of {}, {:.4g} m^3{}", sizes, quality.volume,
+                                         quality.mass ? fmt::format(", {:.4g} kg", *quality.mass) : ""),
+                             "a machine's part", "is the mesh in millimetres? then give its length unit, mm"));
+  if (largest < kSmallBody)
+    warnings.push_back(fault(file, fmt::format("a body of {}", sizes), "a machine's part",
+                             "is the mesh in metres? then give its length unit, m"));
+  if (!quality.touching.empty())
+    warnings.push_back(fault(file, fmt::format("nodes on each other: {}", listed(quality.touching)),
+                             "one node where elements are to hang together", "merge them unless the gap is meant"));
+  for (const auto& [type, of_type] : quality.types)
+    if (of_type.smallest_shape < kFlat && type != ElementType::beam2)
+      warnings.push_back(fault(
+          file,
+          fmt::format("a {} of shape {:.2g}: {}", name_of(type), of_type.smallest_shape, of_type.label_of_smallest),
+          fmt::format("a shape above {}", kFlat), "mesh anew there for a better accuracy"));
+  return warnings;
+}
+
+}  // namespace hersey::fem
