@@ -57,7 +57,8 @@ struct BearingArguments {
 struct MeshArguments {
   std::string file;
   std::string length_unit = "m";
-  std::string density;  ///< for the mass; empty: the file's
+  std::string density;        ///< for the mass; empty: the file's
+  std::filesystem::path vtu;  ///< file to write for ParaView; empty: none
   bool json = false;
 };
 

@@ -80,6 +80,7 @@ CLI::App* add_mesh_command(CLI::App& app, MeshArguments& mesh) {
   command->add_option("FILE", mesh.file, "Gmsh .msh, Abaqus or CalculiX .inp, Nastran .bdf")->required();
   command->add_option("--length-unit", mesh.length_unit, "What one unit of the file is (default: m)")->type_name("mm");
   command->add_option("--density", mesh.density, "For the mass, where the file has none")->type_name("7850kg/m^3");
+  command->add_option("--vtu", mesh.vtu, "Write the mesh with its elements' shapes for ParaView")->type_name("FILE");
   command->add_flag("--json", mesh.json, "Print it as JSON");
   return command;
 }

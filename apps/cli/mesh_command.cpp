@@ -10,6 +10,7 @@
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/skin.h"
+#include "hersey/fem/vtu_file.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -144,6 +145,15 @@ void print(const Mesh& mesh, const MeshQuality& quality) {
   fmt::print("\n{}\n{}", quality_text(quality), sets_text(mesh));
 }
 
+void write_picture(const Mesh& mesh, const std::filesystem::path& path) {
+  fem::VtuField shape{"shape", Eigen::MatrixXd(1, static_cast<Eigen::Index>(mesh.elements.size()))};
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    shape.values(0, static_cast<Eigen::Index>(e)) = fem::element_shape(mesh, mesh.elements[e]);
+  fem::VtuFrame frame;
+  frame.element_fields.push_back(std::move(shape));
+  fem::write_vtu(path, mesh, frame);
+}
+
 }  // namespace
 
 int mesh_command(const MeshArguments& arguments) {
@@ -153,6 +163,7 @@ int mesh_command(const MeshArguments& arguments) {
   if (!arguments.density.empty()) quality.mass = in_si("--density", arguments.density, "kg/m^3") * quality.volume;
   for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
   const std::vector<Fault> faults = fem::faults_of(quality, arguments.file);
+  if (!arguments.vtu.empty()) write_picture(mesh, arguments.vtu);
   if (arguments.json) {
     nlohmann::json document = document_of(mesh, quality);
     document["file"] = arguments.file;

@@ -92,7 +92,10 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(mesh["sets"]["surfaces"], {"floor": 3, "roof": 2})
         # A trapezium 10 x (8 + 9)/2 x 7 and a box 10 x 9 x 12 mm; Gmsh places nodes to 1e-11.
         self.assertAlmostEqual(mesh["mass"] / (7850 * (595 + 1080) * 1e-9), 1, delta=1e-9)
-        text = hersey("mesh", block, "--length-unit", "mm").stdout
+        vtu = os.path.join(self._folder.name, "block.vtu")
+        text = hersey("mesh", block, "--length-unit", "mm", "--vtu", vtu).stdout
+        with open(vtu, "rb") as file:
+            self.assertIn(b'Name="shape"', file.read())
         self.assertRegex(text, r"roof +9 +- +2")
 
     def test_mesh_in_millimetres_read_as_metres_is_warned_of(self):

@@ -197,6 +197,12 @@ double corner_shape(ElementType type, const Matrix3& edges) {
   return det > 0 ? 3 * std::cbrt(det * det) / A.squaredNorm() : 0;
 }
 
+double element_shape(const Mesh& mesh, const Element& element) {
+  ElementQuality quality;
+  if (element.type != ElementType::beam2) add_shape(element, positions_of(mesh, element), quality);
+  return quality.smallest_shape;
+}
+
 MeshQuality quality_of(const Mesh& mesh) {
   MeshQuality quality;
   if (mesh.nodes.empty()) return quality;

@@ -38,6 +38,9 @@ struct MeshQuality {
 /// @see Knupp (2001), SIAM J. Sci. Comput. 23, 193.
 [[nodiscard]] double corner_shape(ElementType type, const Matrix3& edges);
 
+/// Smallest `corner_shape` of an element; 1 for a beam.
+[[nodiscard]] double element_shape(const Mesh& mesh, const Element& element);
+
 /// Cost: linear in the mesh but for sorting.
 [[nodiscard]] MeshQuality quality_of(const Mesh& mesh);
 

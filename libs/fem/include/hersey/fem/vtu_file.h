@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hersey/fem/mesh.h"
+
+namespace hersey::fem {
+
+/// Values at every node or element: one column each, one row per component (1 scalar, 3 vector, 6 symmetric tensor in
+/// the order xx, yy, zz, xy, yz, xz, as ParaView names them).
+struct VtuField {
+  std::string name;
+  Eigen::MatrixXd values;
+};
+
+/// What one .vtu file shows.
+struct VtuFrame {
+  Eigen::Matrix3Xd positions;         ///< of the nodes [m]; empty: those of the mesh
+  std::vector<VtuField> node_fields;  ///< such as displacement, stress averaged at nodes
+  std::vector<VtuField> element_fields;
+};
+
+/// Writes an unstructured grid of VTK's XML format, binary (raw, appended), with nodes' and elements' labels as the
+/// integer fields `node` and `element`.
+/// @throws std::runtime_error naming the file if it cannot be written. @pre columns as many as nodes or elements.
+/// @see VTK File Formats (vtk.org), "XML File Formats". @verified_by vtu_file_test.cpp
+void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const VtuFrame& frame);
+
+/// A series of .vtu files over time that ParaView opens as one: a .pvd file and a folder of its name beside it.
+class VtuSeries {
+ public:
+  /// Makes the folder; the .pvd file is complete after every `add`.
+  explicit VtuSeries(std::filesystem::path pvd);
+  void add(double time, const Mesh& mesh, const VtuFrame& frame);
+
+ private:
+  void write_index() const;
+
+  std::filesystem::path pvd_;
+  std::vector<std::pair<double, std::string>> files_;
+};
+
+}  // namespace hersey::fem
