@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hersey/fem/elastic_body.h"
+#include "hersey/solver/symmetric_factor.h"
+
+namespace hersey::fem {
+
+/// Degrees of freedom of `nodes` along the axes asked for.
+[[nodiscard]] std::vector<int> dofs_of(const std::vector<int>& nodes,
+                                       const std::array<bool, 3>& axes = {true, true, true});
+
+/// M = m (x) I3 written out, (3 n, 3 n).
+[[nodiscard]] Eigen::SparseMatrix<double> mass_matrix(const Eigen::SparseMatrix<double>& m);
+
+/// K - shift M of a body whose `held` degrees of freedom do not move, factorised.
+class HeldStiffness {
+ public:
+  /// @param held places of degrees of freedom, any order, repetitions allowed
+  HeldStiffness(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& m,
+                const std::vector<int>& held);
+
+  /// Analyses where this is the first time. `singular` means that the body, or a part of it, is not held.
+  [[nodiscard]] solver::FactorSummary factorise(double shift = 0);
+
+  /// u (3 n, columns) with (K - shift M) u = f where the body is free, and u = 0 where it is held.
+  /// @pre the last factorise() was ok()
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const;
+
+  [[nodiscard]] Eigen::Index size() const { return K_.rows(); }
+  [[nodiscard]] const std::vector<int>& free_dofs() const { return free_; }
+  [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return m_; }
+  [[nodiscard]] const Eigen::SparseMatrix<double>& stiffness() const { return K_; }
+
+  /// Memory that factorise() takes [bytes].
+  [[nodiscard]] double memory_estimate();
+
+ private:
+  void analyse();
+
+  const Eigen::SparseMatrix<double>& K_;
+  const Eigen::SparseMatrix<double>& m_;
+  std::vector<int> free_;
+  Eigen::SparseMatrix<double> K_free_, M_free_;  ///< lower triangles on the free degrees of freedom, one pattern
+  solver::SymmetricFactor factor_;
+  bool analysed_ = false;
+};
+
+/// What became of a static solution.
+struct StaticSolution {
+  bool ok = false;
+  std::string message;       ///< why not
+  Eigen::MatrixXd u;         ///< displacements (3 n, loads) [m]
+  Eigen::MatrixXd reaction;  ///< forces of the supports (3 n, loads) [N], zero where the body is free
+};
+
+/// Displacement prescribed along one degree of freedom.
+struct Support {
+  int dof = 0;
+  double displacement = 0;  ///< [m]
+};
+
+/// K u = f + reaction, for each column of `f` (3 n, loads); a body that is not held is told so, (elastic.9).
+[[nodiscard]] StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>& supports,
+                                          const Eigen::MatrixXd& f);
+
+}  // namespace hersey::fem

@@ -1,0 +1,129 @@
+#include "hersey/fem/held_stiffness.h"
+
+#include <fmt/format.h>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::fem {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Lower triangle of A on the unknowns with place[i] >= 0.
+SparseMatrix lower_part(const SparseMatrix& A, const std::vector<int>& place, Eigen::Index size) {
+  SparseMatrix part(size, size);
+  part.reserve(A.nonZeros() / 2 + A.cols());
+  for (Eigen::Index j = 0; j < A.outerSize(); ++j) {
+    const int column = place[static_cast<std::size_t>(j)];
+    if (column < 0) continue;
+    part.startVec(column);
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
+      const int row = place[static_cast<std::size_t>(entry.row())];
+      if (row >= column) part.insertBack(row, column) = entry.value();
+    }
+  }
+  part.finalize();
+  part.makeCompressed();
+  return part;
+}
+
+}  // namespace
+
+std::vector<int> dofs_of(const std::vector<int>& nodes, const std::array<bool, 3>& axes) {
+  std::vector<int> dofs;
+  dofs.reserve(3 * nodes.size());
+  for (const int node : nodes)
+    for (int i = 0; i < 3; ++i)
+      if (axes[static_cast<std::size_t>(i)]) dofs.push_back(3 * node + i);
+  return dofs;
+}
+
+SparseMatrix mass_matrix(const SparseMatrix& m) {
+  SparseMatrix M(3 * m.rows(), 3 * m.cols());
+  M.reserve(3 * m.nonZeros());
+  for (Eigen::Index b = 0; b < m.outerSize(); ++b)
+    for (int i = 0; i < 3; ++i) {
+      M.startVec(3 * b + i);
+      for (SparseMatrix::InnerIterator entry(m, b); entry; ++entry)
+        M.insertBack(3 * entry.row() + i, 3 * b + i) = entry.value();
+    }
+  M.finalize();
+  return M;
+}
+
+HeldStiffness::HeldStiffness(const SparseMatrix& K, const SparseMatrix& m, const std::vector<int>& held)
+    : K_(K), m_(m) {
+  HERSEY_REQUIRE(K.rows() == 3 * m.rows(), "three degrees of freedom per node");
+  std::vector<int> place(static_cast<std::size_t>(K.rows()), 0);
+  for (const int dof : held) {
+    HERSEY_REQUIRE(0 <= dof && dof < K.rows(), "supports are among the degrees of freedom");
+    place[static_cast<std::size_t>(dof)] = -1;
+  }
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (place[i] == 0) {
+      place[i] = static_cast<int>(free_.size());
+      free_.push_back(static_cast<int>(i));
+    }
+  const auto size = static_cast<Eigen::Index>(free_.size());
+  K_free_ = lower_part(K, place, size);
+  M_free_ = lower_part(mass_matrix(m), place, size);
+}
+
+void HeldStiffness::analyse() {
+  if (analysed_) return;
+  // One pattern for every shift, also where M has entries that K lacks.
+  const SparseMatrix both = K_free_ + 0 * M_free_;
+  K_free_ = both;
+  factor_.analyse(K_free_);
+  analysed_ = true;
+}
+
+double HeldStiffness::memory_estimate() {
+  if (free_.empty()) return 0;
+  analyse();
+  return factor_.memory_estimate();
+}
+
+solver::FactorSummary HeldStiffness::factorise(double shift) {
+  if (free_.empty()) return {.status = solver::FactorStatus::factorised};
+  analyse();
+  const SparseMatrix A = K_free_ - shift * M_free_;
+  return factor_.factorise(A);
+}
+
+Eigen::MatrixXd HeldStiffness::solve(const Eigen::MatrixXd& f) const {
+  HERSEY_REQUIRE(f.rows() == size(), "one row per degree of freedom");
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(size(), f.cols());
+  if (free_.empty()) return u;
+  Eigen::MatrixXd x = f(free_, Eigen::all);
+  factor_.solve(x);
+  u(free_, Eigen::all) = x;
+  return u;
+}
+
+StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>& supports, const Eigen::MatrixXd& f) {
+  HERSEY_REQUIRE(f.rows() == body.size(), "one force per degree of freedom");
+  std::vector<int> held;
+  Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(body.size());
+  held.reserve(supports.size());
+  for (const Support& support : supports) {
+    held.push_back(support.dof);
+    prescribed[support.dof] = support.displacement;
+  }
+  HeldStiffness stiffness(body.K, body.m, held);
+  const solver::FactorSummary summary = stiffness.factorise();
+  if (summary.status == solver::FactorStatus::singular)
+    return {.message = fmt::format(
+                "the body is not held: {} of its motions, rigid ones or those of a loose part, meet no resistance",
+                summary.null_unknowns.size())};
+  if (!summary.ok()) return {.message = summary.message};
+  StaticSolution solution{.ok = true};
+  const Eigen::VectorXd forces_of_supports = body.K * prescribed;
+  solution.u = stiffness.solve(f.colwise() - forces_of_supports).colwise() + prescribed;
+  const Eigen::MatrixXd unbalanced = body.K * solution.u - f;
+  solution.reaction = Eigen::MatrixXd::Zero(f.rows(), f.cols());
+  for (const int dof : held) solution.reaction.row(dof) = unbalanced.row(dof);
+  return solution;
+}
+
+}  // namespace hersey::fem
