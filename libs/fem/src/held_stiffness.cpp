@@ -9,7 +9,7 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Lower triangle of A on the unknowns with place[i] >= 0.
+/// Lower triangle of A on the unknowns with place[i] >= 0, `size` of them and of the multipliers, which come last.
 SparseMatrix lower_part(const SparseMatrix& A, const std::vector<int>& place, Eigen::Index size) {
   SparseMatrix part(size, size);
   part.reserve(A.nonZeros() / 2 + A.cols());
@@ -25,6 +25,19 @@ SparseMatrix lower_part(const SparseMatrix& A, const std::vector<int>& place, Ei
   part.finalize();
   part.makeCompressed();
   return part;
+}
+
+/// C on the free degrees of freedom, in the rows of the multipliers.
+SparseMatrix constraint_rows(const SparseMatrix& C, const std::vector<int>& place, Eigen::Index size) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(C.nonZeros()));
+  for (Eigen::Index j = 0; j < C.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator entry(C, j); entry; ++entry)
+      if (const int column = place[static_cast<std::size_t>(j)]; column >= 0)
+        entries.emplace_back(static_cast<int>(size - C.rows() + entry.row()), column, entry.value());
+  SparseMatrix rows(size, size);
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
 }
 
 }  // namespace
@@ -51,9 +64,11 @@ SparseMatrix mass_matrix(const SparseMatrix& m) {
   return M;
 }
 
-HeldStiffness::HeldStiffness(const SparseMatrix& K, const SparseMatrix& m, const std::vector<int>& held)
-    : K_(K), m_(m) {
+HeldStiffness::HeldStiffness(const SparseMatrix& K, const SparseMatrix& m, const std::vector<int>& held,
+                             const SparseMatrix& C)
+    : K_(K), constraints_(C.rows()) {
   HERSEY_REQUIRE(K.rows() == 3 * m.rows(), "three degrees of freedom per node");
+  HERSEY_REQUIRE(C.rows() == 0 || C.cols() == K.cols(), "constraints are on the degrees of freedom");
   std::vector<int> place(static_cast<std::size_t>(K.rows()), 0);
   for (const int dof : held) {
     HERSEY_REQUIRE(0 <= dof && dof < K.rows(), "supports are among the degrees of freedom");
@@ -64,9 +79,9 @@ HeldStiffness::HeldStiffness(const SparseMatrix& K, const SparseMatrix& m, const
       place[i] = static_cast<int>(free_.size());
       free_.push_back(static_cast<int>(i));
     }
-  const auto size = static_cast<Eigen::Index>(free_.size());
-  K_free_ = lower_part(K, place, size);
-  M_free_ = lower_part(mass_matrix(m), place, size);
+  const auto total = static_cast<Eigen::Index>(free_.size()) + constraints_;
+  M_free_ = lower_part(mass_matrix(m), place, total);
+  K_free_ = lower_part(K, place, total) + constraint_rows(C, place, total);
 }
 
 void HeldStiffness::analyse() {
@@ -92,12 +107,20 @@ solver::FactorSummary HeldStiffness::factorise(double shift) {
 }
 
 Eigen::MatrixXd HeldStiffness::solve(const Eigen::MatrixXd& f) const {
+  return solve(f, Eigen::MatrixXd::Zero(constraints_, f.cols()));
+}
+
+Eigen::MatrixXd HeldStiffness::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& d) const {
   HERSEY_REQUIRE(f.rows() == size(), "one row per degree of freedom");
+  HERSEY_REQUIRE(d.rows() == constraints_ && d.cols() == f.cols(), "one row per constraint");
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(size(), f.cols());
   if (free_.empty()) return u;
-  Eigen::MatrixXd x = f(free_, Eigen::all);
+  const auto free = static_cast<Eigen::Index>(free_.size());
+  Eigen::MatrixXd x(free + constraints_, f.cols());
+  x.topRows(free) = f(free_, Eigen::all);
+  x.bottomRows(constraints_) = d;
   factor_.solve(x);
-  u(free_, Eigen::all) = x;
+  u(free_, Eigen::all) = x.topRows(free);
   return u;
 }
 

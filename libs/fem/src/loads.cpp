@@ -1,5 +1,7 @@
 #include "hersey/fem/loads.h"
 
+#include "interface_motion.h"
+
 namespace hersey::fem {
 namespace {
 
@@ -55,6 +57,26 @@ Eigen::VectorXd traction_load(const Mesh& mesh, const std::vector<ElementFace>& 
 Eigen::VectorXd pressure_load(const Mesh& mesh, const std::vector<ElementFace>& faces, double pressure) {
   return traction_load(mesh, faces,
                        [&](const Vector3&, const Vector3& normal) -> Vector3 { return -pressure * normal; });
+}
+
+std::vector<double> nodal_areas(const Mesh& mesh, const std::vector<ElementFace>& faces, const std::vector<int>& place,
+                                std::size_t count) {
+  std::vector<double> areas(count, 0);
+  for (const ElementFace& face : faces) {
+    NodeValues squares;
+    std::vector<int> of_face;
+    double area = 0;
+    visit_face(mesh, face, [&](const std::vector<int>& nodes, const FacePoint& point) {
+      if (of_face.empty()) squares.setZero(point.N.size());
+      of_face = nodes;
+      squares += point.area * point.N.cwiseAbs2();
+      area += point.area;
+    });
+    for (std::size_t a = 0; a < of_face.size(); ++a)
+      areas[static_cast<std::size_t>(place[static_cast<std::size_t>(of_face[a])])] +=
+          area * squares[static_cast<Eigen::Index>(a)] / squares.sum();
+  }
+  return areas;
 }
 
 double area_of(const Mesh& mesh, const std::vector<ElementFace>& faces) {

@@ -47,20 +47,21 @@ void point_upward(Eigen::MatrixXd& shapes) {
 
 }  // namespace
 
-Vibration natural_modes(const ElasticBody& body, const std::vector<int>& held, const VibrationOptions& options) {
+Vibration natural_modes(const ElasticBody& body, const std::vector<int>& held, const VibrationOptions& options,
+                        const Eigen::SparseMatrix<double>& C) {
   HERSEY_REQUIRE(options.count > 0 && options.rtol > 0, "some modes are wanted");
   if (!(body.mass > 0)) return {.message = "the body has no mass: give its material a density"};
-  HeldStiffness stiffness(body.K, body.m, held);
+  HeldStiffness stiffness(body.K, body.m, held, C);
   const double estimate = lowest_estimate(body);
   const double shift = -shift_share * estimate;
   const solver::FactorSummary summary = stiffness.factorise(shift);
   if (!summary.ok()) return {.message = summary.message};
 
   const LanczosProblem problem{.size = body.size(),
-                               .rank = static_cast<Eigen::Index>(stiffness.free_dofs().size()),
+                               .rank = stiffness.freedom(),
                                .A = [&](const Eigen::MatrixXd& x) { return stiffness.solve(mass_times(body.m, x)); },
                                .B = [&](const Eigen::MatrixXd& x) { return mass_times(body.m, x); }};
-  if (problem.rank == 0) return {.message = "no degree of freedom is free"};
+  if (problem.rank <= 0) return {.message = "no degree of freedom is free"};
   const double smallest = 1 / (options.highest * options.highest - shift);
   const LanczosResult lanczos = block_lanczos(problem, options.count, smallest, options.rtol);
   if (!lanczos.converged) return {.message = "the iteration for modes found no further direction"};

@@ -16,24 +16,33 @@ namespace hersey::fem {
 /// M = m (x) I3 written out, (3 n, 3 n).
 [[nodiscard]] Eigen::SparseMatrix<double> mass_matrix(const Eigen::SparseMatrix<double>& m);
 
-/// K - shift M of a body whose `held` degrees of freedom do not move, factorised.
+/// K - shift M of a body whose `held` degrees of freedom do not move and whose others obey linear constraints C u = d,
+/// factorised:
+///     [K - shift M   C^T] [u     ]   [f]
+///     [C             0  ] [lambda] = [d].                                                         (elastic.11)
 class HeldStiffness {
  public:
+  /// @param K, m have to outlive this object
   /// @param held places of degrees of freedom, any order, repetitions allowed
+  /// @param C (constraints, 3 n), independent of each other on the free degrees of freedom; no rows: none
   HeldStiffness(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& m,
-                const std::vector<int>& held);
+                const std::vector<int>& held, const Eigen::SparseMatrix<double>& C = {});
 
   /// Analyses where this is the first time. `singular` means that the body, or a part of it, is not held.
   [[nodiscard]] solver::FactorSummary factorise(double shift = 0);
 
-  /// u (3 n, columns) with (K - shift M) u = f where the body is free, and u = 0 where it is held.
+  /// u (3 n, columns) with (K - shift M) u = f where the body is free, u = 0 where it is held and C u = 0.
   /// @pre the last factorise() was ok()
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const;
 
+  /// The same with C u = d, d (constraints, columns).
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& d) const;
+
   [[nodiscard]] Eigen::Index size() const { return K_.rows(); }
   [[nodiscard]] const std::vector<int>& free_dofs() const { return free_; }
-  [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return m_; }
-  [[nodiscard]] const Eigen::SparseMatrix<double>& stiffness() const { return K_; }
+
+  /// Dimension of the displacements that supports and constraints leave.
+  [[nodiscard]] Eigen::Index freedom() const { return static_cast<Eigen::Index>(free_.size()) - constraints_; }
 
   /// Memory that factorise() takes [bytes].
   [[nodiscard]] double memory_estimate();
@@ -42,9 +51,10 @@ class HeldStiffness {
   void analyse();
 
   const Eigen::SparseMatrix<double>& K_;
-  const Eigen::SparseMatrix<double>& m_;
   std::vector<int> free_;
-  Eigen::SparseMatrix<double> K_free_, M_free_;  ///< lower triangles on the free degrees of freedom, one pattern
+  Eigen::Index constraints_ = 0;
+  /// Lower triangles on the free degrees of freedom and the multipliers; the first holds C too.
+  Eigen::SparseMatrix<double> K_free_, M_free_;
   solver::SymmetricFactor factor_;
   bool analysed_ = false;
 };

@@ -29,6 +29,6 @@ struct Vibration {
 ///
 /// @see Grimes, Lewis, Simon (1994), SIAM J. Matrix Anal. Appl. 15, 228. @verified_by vibration_test.cpp
 [[nodiscard]] Vibration natural_modes(const ElasticBody& body, const std::vector<int>& held,
-                                      const VibrationOptions& options = {});
+                                      const VibrationOptions& options = {}, const Eigen::SparseMatrix<double>& C = {});
 
 }  // namespace hersey::fem

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hersey/fem/elastic_body.h"
+
+namespace hersey::fem {
+
+/// How a frame is tied to its nodes.
+enum class Connection {
+  rigid,   ///< the nodes follow the frame: nothing strains among them
+  average  ///< the frame follows the nodes' mean displacement and rotation, its wrench is spread over them
+};
+
+/// A frame that joints and forces attach to, axes parallel to the mesh's.
+struct InterfaceFrame {
+  std::string name;
+  Vector3 origin = Vector3::Zero();  ///< in the mesh's axes [m]
+  std::vector<int> nodes;            ///< places in the mesh
+  Connection connection = Connection::rigid;
+  std::vector<double> weights;  ///< of the nodes, for `average`; empty: all the same. See `face_weights`.
+};
+
+/// The share of each of `nodes` in the area of the faces whose nodes are all among them; empty if there is no such
+/// face.
+[[nodiscard]] std::vector<double> face_weights(const Mesh& mesh, const std::vector<int>& nodes);
+
+/// (6, 3 n): small rotation and displacement of `frame`, [theta; d], that the displacements of its nodes mean,
+/// (elastic.12); its transpose spreads a wrench [tau; f] over the nodes.
+[[nodiscard]] Eigen::SparseMatrix<double> frame_motion(const Mesh& mesh, const InterfaceFrame& frame);
+
+struct ReductionOptions {
+  int modes = 20;                                            ///< fixed-interface modes at most
+  double highest = std::numeric_limits<double>::infinity();  ///< up to this angular frequency [rad/s]
+  /// Nodal forces (3 n, loads) whose static displacement the reduced body shall have exactly: one mode more for each.
+  Eigen::MatrixXd loads;
+};
+
+/// An elastic body in few coordinates: u = Phi q, (elastic.13).
+///
+/// q holds six coordinates [theta; d] for each frame, in turn, then the internal ones. Coordinates of frames are
+/// displacements from the undeformed body, in the mesh's axes; a rigid motion of all frames is one of the whole body,
+/// exactly.
+struct ReducedBody {
+  std::vector<InterfaceFrame> frames;
+  std::vector<Vector3> nodes;      ///< of the mesh, undeformed [m]
+  Eigen::SparseMatrix<double> m;   ///< consistent mass of the mesh, M = m (x) I3 [kg]
+  Eigen::MatrixXd Phi;             ///< (3 n, r)
+  Eigen::MatrixXd K;               ///< (r, r); between frames and internal coordinates zero
+  Eigen::MatrixXd M;               ///< (r, r); internal coordinates have the unit matrix
+  Eigen::VectorXd internal_omega;  ///< of the internal coordinates alone, all frames at rest, ascending [rad/s]
+  /// For each load of the options: the share of its static strain energy, all frames at rest, that the fixed-interface
+  /// modes alone would miss. Near 1: that many modes say nothing about this load.
+  Eigen::VectorXd energy_missed;
+
+  [[nodiscard]] Eigen::Index size() const { return Phi.cols(); }
+  [[nodiscard]] Eigen::Index internal_first() const { return 6 * static_cast<Eigen::Index>(frames.size()); }
+};
+
+struct Reduction {
+  bool ok = false;
+  std::string message;  ///< why not, naming the frame where one is to blame
+  ReducedBody body;
+};
+
+/// Craig-Bampton reduction: static displacements for unit motions of each frame, fixed-interface modes, and static
+/// displacements for loads, the last two orthonormalised together. Costs two factorisations, and one solution per
+/// column of Phi.
+/// @see Craig, Bampton (1968), AIAA J. 6, 1313; Cardona (2000) for `average`. @verified_by reduction_test.cpp
+[[nodiscard]] Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& frames,
+                               const ReductionOptions& options = {});
+
+/// Pressures of 1 Pa on a bore, as nodal forces: P_l(z/h) cos(k phi) and P_l(z/h) sin(k phi), k = 0..harmonics, l =
+/// 0..axial; phi about the z-axis of `X`, z/h from -1 to 1 over the faces. (3 n, (2 harmonics + 1)(axial + 1)), axial
+/// <= 2
+[[nodiscard]] Eigen::MatrixXd bore_pressures(const Mesh& mesh, const std::vector<ElementFace>& faces, const Pose& X,
+                                             int harmonics, int axial = 1);
+
+/// Integrals over the body's mass from which everything follows that a reduced body in a moving frame needs,
+/// (elastic.14). Field 0 is the undeformed position, field j > 0 column j - 1 of Phi; with q_0 = 1 a point of the body
+/// is at sum_j q_j field_j.
+struct MassMoments {
+  double mass = 0;
+  Eigen::Matrix3Xd first;       ///< (3, r + 1): int rho field_j
+  std::vector<Matrix3> second;  ///< (r + 1)^2: int rho field_j field_k^T at j (r + 1) + k
+
+  [[nodiscard]] const Matrix3& of(Eigen::Index j, Eigen::Index k) const {
+    return second[static_cast<std::size_t>(j * first.cols() + k)];
+  }
+};
+[[nodiscard]] MassMoments mass_moments(const ReducedBody& body);
+
+/// Inertia about the origin of the body deformed by `q`.
+[[nodiscard]] Matrix3 inertia(const MassMoments& moments, const Eigen::VectorXd& q);
+
+}  // namespace hersey::fem

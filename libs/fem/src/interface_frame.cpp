@@ -1,0 +1,76 @@
+#include <cmath>
+
+#include "hersey/core/contract.h"
+#include "hersey/fem/loads.h"
+#include "hersey/fem/reduction.h"
+#include "interface_motion.h"
+
+namespace hersey::fem {
+
+Eigen::Matrix<double, 3, 6> frame_to_node(const InterfaceFrame& frame, const Vector3& node) {
+  Eigen::Matrix<double, 3, 6> T;
+  T << -skew(node - frame.origin), Matrix3::Identity();
+  return T;
+}
+
+double weight_of(const InterfaceFrame& frame, std::size_t i) { return frame.weights.empty() ? 1 : frame.weights[i]; }
+
+bool nodes_span_rotations(const Mesh& mesh, const InterfaceFrame& frame) {
+  double sum = 0;
+  Vector3 middle = Vector3::Zero();
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    sum += weight_of(frame, i);
+    middle += weight_of(frame, i) * mesh.nodes[static_cast<std::size_t>(frame.nodes[i])];
+  }
+  if (!(sum > 0)) return false;
+  middle /= sum;
+  Matrix3 S = Matrix3::Zero();
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    const Vector3 r = mesh.nodes[static_cast<std::size_t>(frame.nodes[i])] - middle;
+    S += weight_of(frame, i) * r * r.transpose();
+  }
+  // Points on a line have one moment only: turning about the line moves none of them.
+  const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(S, Eigen::EigenvaluesOnly).eigenvalues();
+  return moments[1] > 1e-10 * moments[2];
+}
+
+std::vector<double> face_weights(const Mesh& mesh, const std::vector<int>& nodes) {
+  std::vector<int> place(mesh.nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
+  std::vector<ElementFace> faces;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const Element& element = mesh.elements[e];
+    for (int face = 0; face < face_count(element.type); ++face) {
+      bool inside = true;
+      for (const int a : face_nodes(element.type, face))
+        inside = inside && place[static_cast<std::size_t>(mesh.nodes_of(element)[a])] >= 0;
+      if (inside) faces.push_back({static_cast<int>(e), face});
+    }
+  }
+  if (faces.empty()) return {};
+  return nodal_areas(mesh, faces, place, nodes.size());
+}
+
+Eigen::SparseMatrix<double> frame_motion(const Mesh& mesh, const InterfaceFrame& frame) {
+  HERSEY_REQUIRE(nodes_span_rotations(mesh, frame), "the nodes do not lie on one line");
+  HERSEY_REQUIRE(frame.weights.empty() || frame.weights.size() == frame.nodes.size(), "one weight per node");
+  Matrix6 TWT = Matrix6::Zero();
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    const auto T = frame_to_node(frame, mesh.nodes[static_cast<std::size_t>(frame.nodes[i])]);
+    TWT += weight_of(frame, i) * T.transpose() * T;
+  }
+  const Eigen::LDLT<Matrix6> solver(TWT);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(18 * frame.nodes.size());
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    const auto T = frame_to_node(frame, mesh.nodes[static_cast<std::size_t>(frame.nodes[i])]);
+    const Eigen::Matrix<double, 6, 3> C = weight_of(frame, i) * solver.solve(T.transpose());
+    for (int row = 0; row < 6; ++row)
+      for (int k = 0; k < 3; ++k) entries.emplace_back(row, 3 * frame.nodes[i] + k, C(row, k));
+  }
+  Eigen::SparseMatrix<double> C(6, 3 * static_cast<Eigen::Index>(mesh.nodes.size()));
+  C.setFromTriplets(entries.begin(), entries.end());
+  return C;
+}
+
+}  // namespace hersey::fem

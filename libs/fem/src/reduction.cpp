@@ -1,0 +1,163 @@
+#include "hersey/fem/reduction.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "hersey/core/contract.h"
+#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/vibration.h"
+#include "interface_motion.h"
+
+namespace hersey::fem {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double dependent = 1e-10;  // share of a vector's energy that is new; below, it lies in the others
+
+/// What the frames do to the mesh: nodes that follow a rigid frame, constraints that tie average ones.
+struct Interface {
+  std::vector<int> held;          ///< degrees of freedom of rigid frames' nodes
+  MatrixXd prescribed;            ///< (3 n, 6 frames): their displacement for unit motions of the frames
+  Eigen::SparseMatrix<double> C;  ///< (6 average frames, 3 n)
+  MatrixXd motion;                ///< (6 average frames, 6 frames): C u for unit motions of the frames
+};
+
+/// Empty if the frames can be used; otherwise what is wrong with which.
+std::string fault_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames) {
+  std::vector<const InterfaceFrame*> owner(mesh.nodes.size(), nullptr);
+  for (const InterfaceFrame& frame : frames) {
+    if (frame.nodes.empty()) return fmt::format("frame '{}' sits on no node", frame.name);
+    if (!nodes_span_rotations(mesh, frame))
+      return fmt::format(
+          "the nodes of frame '{}' lie on one line, about which nothing would hold it; take a face or an edge that "
+          "bends",
+          frame.name);
+    if (frame.connection == Connection::average) continue;
+    for (const int node : frame.nodes) {
+      const InterfaceFrame*& taken = owner[static_cast<std::size_t>(node)];
+      if (taken && taken != &frame)
+        return fmt::format("frames '{}' and '{}' are both rigid and share node {}", taken->name, frame.name,
+                           mesh.node_labels.empty() ? node + 1 : mesh.node_labels[static_cast<std::size_t>(node)]);
+      taken = &frame;
+    }
+  }
+  return {};
+}
+
+Interface interface_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames) {
+  Interface interface;
+  const auto dofs = 3 * static_cast<Index>(mesh.nodes.size()), coordinates = 6 * static_cast<Index>(frames.size());
+  interface.prescribed = MatrixXd::Zero(dofs, coordinates);
+  interface.motion = MatrixXd::Zero(coordinates, coordinates);
+  std::vector<Eigen::Triplet<double>> entries;
+  Index rows = 0;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const InterfaceFrame& frame = frames[f];
+    const auto first = 6 * static_cast<Index>(f);
+    if (frame.connection == Connection::rigid) {
+      for (const int node : frame.nodes)
+        interface.prescribed.block<3, 6>(3 * node, first) =
+            frame_to_node(frame, mesh.nodes[static_cast<std::size_t>(node)]);
+      const std::vector<int> held = dofs_of(frame.nodes);
+      interface.held.insert(interface.held.end(), held.begin(), held.end());
+      continue;
+    }
+    const Eigen::SparseMatrix<double> C = frame_motion(mesh, frame);
+    for (Index j = 0; j < C.outerSize(); ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(C, j); entry; ++entry)
+        entries.emplace_back(static_cast<int>(rows + entry.row()), static_cast<int>(j), entry.value());
+    interface.motion.block<6, 6>(rows, first).setIdentity();
+    rows += 6;
+  }
+  interface.C.resize(rows, dofs);
+  interface.C.setFromTriplets(entries.begin(), entries.end());
+  interface.motion.conservativeResize(rows, coordinates);
+  return interface;
+}
+
+/// Displacements for unit motions of the frames, (3 n, 6 frames).
+MatrixXd constraint_modes(const ElasticBody& body, const Interface& interface, const HeldStiffness& stiffness) {
+  const MatrixXd d = interface.motion - interface.C * interface.prescribed;
+  return interface.prescribed + stiffness.solve(-(body.K * interface.prescribed), d);
+}
+
+/// Turns `V` (fixed-interface displacements) into a basis with M = I and diagonal K; dependent directions are dropped.
+VectorXd orthonormalise(const ElasticBody& body, MatrixXd& V) {
+  if (V.cols() == 0) return {};
+  const MatrixXd K = V.transpose() * (body.K * V), M = V.transpose() * mass_times(body.m, V);
+  const VectorXd scale = M.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(MatrixXd(scale.asDiagonal() * M * scale.asDiagonal()));
+  const VectorXd& d = mass.eigenvalues();
+  const Index kept = (d.array() > dependent * d[d.size() - 1]).count();
+  const MatrixXd T =
+      scale.asDiagonal() * mass.eigenvectors().rightCols(kept) * d.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> stiffness(MatrixXd(T.transpose() * K * T));
+  V = V * (T * stiffness.eigenvectors());
+  return stiffness.eigenvalues().cwiseMax(0).cwiseSqrt();
+}
+
+/// Share of each load's strain energy that `modes` (M-orthonormal, with frequencies omega) miss; `exact` are its
+/// displacements.
+VectorXd energy_missed(const MatrixXd& loads, const MatrixXd& exact, const Vibration& modes) {
+  VectorXd missed(loads.cols());
+  for (Index k = 0; k < loads.cols(); ++k) {
+    const double whole = loads.col(k).dot(exact.col(k));
+    const VectorXd amplitude = (modes.shapes.transpose() * loads.col(k)).cwiseQuotient(modes.omega);
+    missed[k] = whole > 0 ? std::max(0.0, 1 - amplitude.squaredNorm() / whole) : 0;
+  }
+  return missed;
+}
+
+void project(const ElasticBody& body, ReducedBody& reduced) {
+  const MatrixXd K = reduced.Phi.transpose() * (body.K * reduced.Phi);
+  const MatrixXd M = reduced.Phi.transpose() * mass_times(body.m, reduced.Phi);
+  reduced.K = (K + K.transpose()) / 2;
+  reduced.M = (M + M.transpose()) / 2;
+  // What is exact is written exactly.
+  const Index b = reduced.internal_first(), i = reduced.size() - b;
+  reduced.K.topRightCorner(b, i).setZero();
+  reduced.K.bottomLeftCorner(i, b).setZero();
+  reduced.K.bottomRightCorner(i, i) = reduced.internal_omega.cwiseAbs2().asDiagonal();
+  reduced.M.bottomRightCorner(i, i).setIdentity();
+}
+
+}  // namespace
+
+Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& frames, const ReductionOptions& options) {
+  HERSEY_REQUIRE(options.loads.size() == 0 || options.loads.rows() == body.size(), "one force per degree of freedom");
+  if (frames.empty()) return {.message = "a reduced body needs a frame that something attaches to"};
+  if (std::string fault = fault_of(body.mesh, frames); !fault.empty()) return {.message = std::move(fault)};
+  const Interface interface = interface_of(body.mesh, frames);
+  HeldStiffness stiffness(body.K, body.m, interface.held, interface.C);
+  if (const solver::FactorSummary summary = stiffness.factorise(); !summary.ok())
+    return {.message = summary.status == solver::FactorStatus::singular
+                           ? "a part of the body is not connected to the frames"
+                           : summary.message};
+  MatrixXd internal(body.size(), 0);
+  Vibration modes{.ok = true, .omega = VectorXd(0), .shapes = MatrixXd(body.size(), 0)};
+  if (options.modes > 0 && stiffness.freedom() > 0)
+    modes = natural_modes(body, interface.held, {.count = options.modes, .highest = options.highest}, interface.C);
+  if (!modes.ok) return {.message = modes.message};
+  const MatrixXd exact = options.loads.size() ? stiffness.solve(options.loads) : MatrixXd(body.size(), 0);
+  internal.resize(body.size(), modes.shapes.cols() + exact.cols());
+  internal << modes.shapes, exact;
+
+  Reduction reduction{.ok = true};
+  ReducedBody& reduced = reduction.body;
+  reduced.frames = frames;
+  reduced.nodes = body.mesh.nodes;
+  reduced.m = body.m;
+  reduced.energy_missed = energy_missed(options.loads, exact, modes);
+  reduced.internal_omega = orthonormalise(body, internal);
+  const MatrixXd boundary = constraint_modes(body, interface, stiffness);
+  reduced.Phi.resize(body.size(), boundary.cols() + internal.cols());
+  reduced.Phi << boundary, internal;
+  project(body, reduced);
+  return reduction;
+}
+
+}  // namespace hersey::fem
