@@ -27,14 +27,12 @@ struct Basis {
   [[nodiscard]] auto vectors() const { return Q.leftCols(used); }
   [[nodiscard]] auto products() const { return BQ.leftCols(used); }
 
-  /// Takes from W what lies in the basis, twice because once leaves round-off. Returns the components taken.
+  /// Takes from W what lies in the basis and returns its components. Once leaves round-off, twice does not.
   MatrixXd remove_from(MatrixXd& W) const {
     if (used == 0) return {};
     MatrixXd taken = products().transpose() * W;
-    W -= vectors() * taken;
-    const MatrixXd again = products().transpose() * W;
-    W -= vectors() * again;
-    return taken + again;
+    W.noalias() -= vectors() * taken;
+    return taken;
   }
 
   void append(const MatrixXd& W, const MatrixXd& BW) {
@@ -101,7 +99,8 @@ bool is_converged(const Ritz& ritz, Index needed, double rtol) {
 /// Projects A on the basis' last block `W`; returns what A W has outside the basis.
 MatrixXd extend_projection(const LanczosProblem& problem, const MatrixXd& W, Basis& basis) {
   MatrixXd AW = problem.A(W);
-  const MatrixXd h = basis.remove_from(AW);
+  MatrixXd h = basis.remove_from(AW);
+  h += basis.remove_from(AW);
   basis.H.conservativeResize(basis.used, basis.used);
   basis.H.rightCols(W.cols()) = h;
   basis.H.bottomRows(W.cols()) = h.transpose();
@@ -111,10 +110,10 @@ MatrixXd extend_projection(const LanczosProblem& problem, const MatrixXd& W, Bas
 }
 
 /// Block of at most as many columns as the space has dimensions left, orthonormal to the basis and to itself to
-/// round-off: each round takes away what the one before has magnified.
+/// round-off; what the first round has magnified the second takes away.
 MatrixXd new_block(const LanczosProblem& problem, const Basis& basis, const MatrixXd& from, MatrixXd& BW) {
   MatrixXd W = from.leftCols(std::min(from.cols(), problem.rank - basis.used));
-  for (int round = 0; round < 3 && W.cols() > 0; ++round) {
+  for (int round = 0; round < 2 && W.cols() > 0; ++round) {
     basis.remove_from(W);
     W = orthonormalise(problem, W, BW);
   }

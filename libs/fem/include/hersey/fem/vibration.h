@@ -10,7 +10,7 @@ namespace hersey::fem {
 struct VibrationOptions {
   int count = 20;                                            ///< modes wanted, rigid ones included
   double highest = std::numeric_limits<double>::infinity();  ///< or all up to this angular frequency [rad/s], if fewer
-  double rtol = 1e-8;  ///< residual of a mode; the squared frequency is then good to about rtol^2
+  double rtol = 1e-7;  ///< residual of a mode; the squared frequency is then good to about rtol^2
 };
 
 /// Natural modes in ascending order of frequency.
