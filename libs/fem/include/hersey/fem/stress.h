@@ -1,0 +1,23 @@
+#pragma once
+
+#include "hersey/fem/elastic_body.h"
+
+namespace hersey::fem {
+
+/// Stresses of a displaced body [Pa], components xx, yy, zz, xy, yz, xz in the mesh's axes.
+struct Stress {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> nodal;    ///< (6, nodes): mean over the elements around a node
+  Eigen::VectorXd nodal_von_mises;                   ///< (nodes): of `nodal`
+  Eigen::Matrix<double, 6, Eigen::Dynamic> element;  ///< (6, elements): mean over the element's volume
+  Eigen::VectorXd element_von_mises;                 ///< (elements): of `element`
+  Eigen::VectorXd element_energy;                    ///< strain energy of each element [J]
+  double energy = 0;                                 ///< their sum, u^T K u / 2 [J]
+};
+
+/// Stress sigma = D epsilon at the points of integration, where it is most accurate, continued to the nodes by the
+/// polynomial that fits it best, (elastic.15). Across a face between two materials stresses jump; their mean over it
+/// says nothing there.
+/// @param u displacements (3 n) [m] @verified_by stress_test.cpp
+[[nodiscard]] Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u);
+
+}  // namespace hersey::fem

@@ -1,0 +1,102 @@
+#include "hersey/fem/stress.h"
+
+#include <map>
+#include <utility>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::fem {
+namespace {
+
+using Continuation = Eigen::MatrixXd;  // (nodes, points)
+
+/// Terms of the polynomial that continues a stress: constant, linear or trilinear, as many as the points determine.
+Eigen::VectorXd terms(ElementType type, const Vector3& xi) {
+  const double x = xi[0], y = xi[1], z = xi[2];
+  switch (type) {
+    case ElementType::tet4:
+      return Eigen::VectorXd::Ones(1);
+    case ElementType::tet10:
+      return Eigen::Vector4d(1, x, y, z);
+    case ElementType::wedge6:
+    case ElementType::wedge15:
+      return (Vector6() << 1, x, y, z, x * z, y * z).finished();
+    default:
+      return (Eigen::Matrix<double, 8, 1>() << 1, x, y, z, x * y, y * z, x * z, x * y * z).finished();
+  }
+}
+
+Eigen::MatrixXd terms_at(ElementType type, const Eigen::Matrix3Xd& xi) {
+  Eigen::MatrixXd rows(xi.cols(), terms(type, Vector3::Zero()).size());
+  for (Eigen::Index p = 0; p < xi.cols(); ++p) rows.row(p) = terms(type, xi.col(p)).transpose();
+  return rows;
+}
+
+/// Values at the nodes of the polynomial fitted to values at the points of integration.
+Continuation continuation(ElementType type, Integration rule) {
+  const std::vector<QuadraturePoint>& points = stiffness_points(type, rule);
+  Eigen::Matrix3Xd xi(3, points.size());
+  for (std::size_t p = 0; p < points.size(); ++p) xi.col(static_cast<Eigen::Index>(p)) = points[p].xi;
+  const Eigen::MatrixXd fit = terms_at(type, xi);
+  return terms_at(type, natural_nodes(type)) * fit.completeOrthogonalDecomposition().pseudoInverse();
+}
+
+/// Stresses of one element at its points of integration, and the volume each stands for.
+struct PointStress {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> strain, stress;
+  Eigen::VectorXd volume;
+};
+
+PointStress stress_at_points(const ElasticBody& body, const Element& element, const Eigen::VectorXd& u) {
+  const NodeColumns x = body.positions_of(element);
+  NodeColumns displacement(3, x.cols());
+  for (Eigen::Index a = 0; a < x.cols(); ++a) displacement.col(a) = u.segment<3>(3 * body.mesh.nodes_of(element)[a]);
+  const std::vector<QuadraturePoint>& points = stiffness_points(element.type, body.integration);
+  std::vector<Vector3> xi;
+  xi.reserve(points.size());
+  Eigen::VectorXd volume(points.size());
+  for (const QuadraturePoint& point : points) {
+    volume[static_cast<Eigen::Index>(xi.size())] =
+        point.weight * element_point(shape_functions(element.type, point.xi), x).jacobian;
+    xi.push_back(point.xi);
+  }
+  const SolidMaterial& material = body.material_of(element);
+  const auto strain = element_strain(element.type, x, material, displacement, xi);
+  return {strain, material.D * strain, volume};
+}
+
+}  // namespace
+
+Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u) {
+  HERSEY_REQUIRE(u.size() == body.size(), "one displacement per degree of freedom");
+  const auto elements = static_cast<Eigen::Index>(body.mesh.elements.size());
+  Stress s;
+  s.nodal.setZero(6, body.node_count());
+  s.element.resize(6, elements);
+  s.element_energy.resize(elements);
+  s.nodal_von_mises.resize(body.node_count());
+  s.element_von_mises.resize(elements);
+  Eigen::VectorXd around = Eigen::VectorXd::Zero(body.node_count());
+  std::map<ElementType, Continuation> continued;
+  for (Eigen::Index e = 0; e < elements; ++e) {
+    const Element& element = body.mesh.elements[static_cast<std::size_t>(e)];
+    const auto [to_nodes, is_new] = continued.try_emplace(element.type);
+    if (is_new) to_nodes->second = continuation(element.type, body.integration);
+    const PointStress at = stress_at_points(body, element, u);
+    s.element.col(e) = at.stress * at.volume / at.volume.sum();
+    s.element_energy[e] = 0.5 * (at.stress.cwiseProduct(at.strain).colwise().sum() * at.volume).value();
+    s.element_von_mises[e] = von_mises(s.element.col(e));
+    const Eigen::MatrixXd nodal = at.stress * to_nodes->second.transpose();
+    for (Eigen::Index a = 0; a < nodal.cols(); ++a) {
+      const int node = body.mesh.nodes_of(element)[a];
+      s.nodal.col(node) += nodal.col(a);
+      ++around[node];
+    }
+  }
+  s.nodal = s.nodal * around.cwiseInverse().asDiagonal();
+  for (Eigen::Index a = 0; a < s.nodal.cols(); ++a) s.nodal_von_mises[a] = von_mises(s.nodal.col(a));
+  s.energy = s.element_energy.sum();
+  return s;
+}
+
+}  // namespace hersey::fem
