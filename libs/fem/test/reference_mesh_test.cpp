@@ -1,0 +1,124 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+
+#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/loads.h"
+#include "hersey/fem/mesh_file.h"
+#include "hersey/fem/reduction.h"
+#include "hersey/fem/vibration.h"
+#include "small_bodies.h"
+
+// Values of CalculiX 2.20 on the same meshes with the same elements, to the digits it was read with.
+namespace hersey::fem {
+namespace {
+
+const std::string folder = std::string(HERSEY_SOURCE_DIR) + "/verification/data/meshes/";
+
+struct Cantilever {
+  const char* file;
+  std::array<double, 6> clamped;  // Hz
+  std::array<double, 3> free;     // Hz, after six zeros
+  double tip;                     // m, u_z of a tip corner under gravity -z
+};
+
+const Cantilever cantilevers[] = {
+    {"cant_tet10.inp", {50.252, 83.228, 309.852, 499.221, 664.174, 846.585}, {315.063, 513.808, 849.747}, -1.517696e-4},
+    {"cant_hex20.inp", {50.311, 83.320, 310.186, 499.775, 658.878, 847.402}, {315.050, 513.803, 849.641}, -1.514111e-4},
+};
+
+ElasticBody cantilever(const Cantilever& c) {
+  const Mesh mesh = read_mesh(folder + c.file, 1);
+  REQUIRE(mesh.materials.size() == 1);
+  CHECK(mesh.materials[0].youngs_modulus == 2.1e11);
+  return assemble(mesh, {steel});
+}
+
+TEST_CASE("Cantilever_HasTheFrequenciesOfCalculiX") {
+  constexpr double hz = 1 / (2 * std::numbers::pi), five_digits = 5e-6;
+  for (const Cantilever& c : cantilevers) {
+    CAPTURE(c.file);
+    const ElasticBody body = cantilever(c);
+    CHECK(body.mass == doctest::Approx(47.1).epsilon(1e-9));
+    const Vibration clamped = natural_modes(body, dofs_of(body.mesh.node_sets.at("FIX")), {.count = 6});
+    REQUIRE(clamped.ok);
+    for (int k = 0; k < 6; ++k)
+      CHECK(hz * clamped.omega[k] == doctest::Approx(c.clamped[k]).epsilon(five_digits + 5e-4 / c.clamped[k]));
+    const Vibration free = natural_modes(body, {}, {.count = 9});
+    REQUIRE(free.ok);
+    CHECK(free.rigid == 6);
+    for (int k = 0; k < 3; ++k)
+      CHECK(hz * free.omega[6 + k] == doctest::Approx(c.free[k]).epsilon(five_digits + 5e-4 / c.free[k]));
+  }
+}
+
+TEST_CASE("Cantilever_BendsUnderItsWeightAsInCalculiX") {
+  for (const Cantilever& c : cantilevers) {
+    CAPTURE(c.file);
+    const ElasticBody body = cantilever(c);
+    std::vector<Support> supports;
+    for (const int dof : dofs_of(body.mesh.node_sets.at("FIX"))) supports.push_back({dof, 0});
+    const StaticSolution solution = solve_static(body, supports, gravity_load(body, {0, 0, -9.81}));
+    REQUIRE(solution.ok);
+    int corner = -1;
+    for (const int node : body.mesh.node_sets.at("TIP"))
+      if ((body.mesh.nodes[node] - Vector3(1, 0.05, 0.03)).norm() < 1e-9) corner = node;
+    REQUIRE(corner >= 0);
+    CHECK(solution.u(3 * corner + 2, 0) == doctest::Approx(c.tip).epsilon(5e-7));
+  }
+}
+
+TEST_CASE("ReducedCantilever_HasTheFrequenciesOfCalculiX") {
+  const ElasticBody body = cantilever(cantilevers[0]);
+  const auto frame = [&](const char* set, double x, Connection connection) {
+    const std::vector<int>& nodes = body.mesh.node_sets.at(set);
+    return InterfaceFrame{set, {x, 0, 0}, nodes, connection, face_weights(body.mesh, nodes)};
+  };
+  const Reduction reduction =
+      reduce(body, {frame("FIX", 0, Connection::rigid), frame("TIP", 1, Connection::average)}, {.modes = 20});
+  REQUIRE(reduction.ok);
+  const Eigen::Index free = reduction.body.size() - 6;
+  const Eigen::VectorXd lambda =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(reduction.body.K.bottomRightCorner(free, free),
+                                                                reduction.body.M.bottomRightCorner(free, free))
+          .eigenvalues();
+  for (int k = 0; k < 6; ++k)
+    CHECK(std::sqrt(lambda[k]) / (2 * std::numbers::pi) == doctest::Approx(cantilevers[0].clamped[k]).epsilon(1e-3));
+}
+
+TEST_CASE("RingUnderBorePressure_WidensAsInCalculiXAndLame") {
+  const Mesh mesh = read_mesh(folder + "ring_hex20_fine.msh", 1);
+  const ElasticBody body = assemble(mesh, {steel});
+  const auto radius = [&](int node) { return mesh.nodes[node].head<2>().norm(); };
+  std::vector<ElementFace> bore;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    for (int f = 0; f < 6; ++f) {
+      const std::vector<int>& local = face_nodes(mesh.elements[e].type, f);
+      const int* nodes = mesh.nodes_of(mesh.elements[e]);
+      if (std::all_of(local.begin(), local.end(), [&](int a) { return std::abs(radius(nodes[a]) - 0.03) < 1e-6; }))
+        bore.push_back({static_cast<int>(e), f});
+    }
+  const Eigen::VectorXd f = pressure_load(mesh, bore, 20e6);
+  for (const bool plane_strain : {false, true}) {
+    std::vector<Support> supports;
+    double widening = 0;
+    int at_bore = 0;
+    for (int a = 0; a < body.node_count(); ++a)
+      for (int k = 0; k < 3; ++k)
+        if (std::abs(mesh.nodes[a][k]) < 1e-9 || (plane_strain && k == 2 && std::abs(mesh.nodes[a].z() - 0.02) < 1e-9))
+          supports.push_back({3 * a + k, 0});
+    const StaticSolution solution = solve_static(body, supports, f);
+    REQUIRE(solution.ok);
+    for (int a = 0; a < body.node_count(); ++a)
+      if (std::abs(radius(a) - 0.03) < 1e-6) {
+        widening += solution.u.col(0).segment<2>(3 * a).dot(mesh.nodes[a].head<2>()) / radius(a);
+        ++at_bore;
+      }
+    CHECK(widening / at_bore == doctest::Approx(plane_strain ? 7.874308e-6 : 8.285733e-6).epsilon(2e-7));  // CalculiX
+    CHECK(widening / at_bore == doctest::Approx(plane_strain ? 7.874286e-6 : 8.285714e-6).epsilon(1e-5));  // Lame
+  }
+}
+
+}  // namespace
+}  // namespace hersey::fem
