@@ -35,10 +35,10 @@ validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
 
-fuzz:  ## feeds the model reader with mutated models for TIME=60, address and undefined-behaviour checks on
+fuzz:  ## feeds the readers of models and meshes with mutated files for TIME=60, address and undefined-behaviour checks on
 	@scripts/setup build fuzz
 	@$(MAKE) --no-print-directory PRESET=fuzz build/fuzz/build.ninja
-	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target model_read_fuzz -j $(JOBS)
+	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target model_read_fuzz fem_mesh_gmsh_fuzz fem_mesh_abaqus_fuzz fem_mesh_nastran_fuzz -j $(JOBS)
 	@scripts/fuzz build/fuzz $(TIME)
 
 web:  ## rebuilds the report's front end (needs Node; the C++ build does not)

@@ -1,0 +1,7 @@
+// libFuzzer target of the reader of the format its name tells.
+#include "fuzz_mesh.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  hersey::fem::fuzz_mesh(data, size, hersey::fem::MeshFormat::abaqus);
+  return 0;
+}
