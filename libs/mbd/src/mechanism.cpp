@@ -30,8 +30,19 @@ Mechanism::Implementation::Implementation(MechanismSpec given)
   for (const CoordinateSpringSpec& spring : spec.springs) spring_columns.push_back(column_of(tree, spring.coordinate));
   for (const MechanismSpec::CoordinateForce& force : spec.coordinate_forces)
     coordinate_force_columns.push_back(column_of(tree, force.coordinate));
+  place_elastic_bodies();
   release_redundant_rows();
   make_patterns();
+}
+
+void Mechanism::Implementation::place_elastic_bodies() {
+  nq = tree.nq;
+  nv = tree.nv;
+  for (const MechanismSpec::Elastic& elastic : spec.elastics) {
+    elastics.emplace_back(elastic, tree, nq, nv);
+    nq += elastics.back().own_count();
+    nv += elastics.back().own_count();
+  }
 }
 
 double Mechanism::Implementation::initial_value(const CoordinateRef& coordinate) const {
@@ -47,8 +58,8 @@ double Mechanism::Implementation::initial_rate(const CoordinateRef& coordinate) 
 Mechanism::Mechanism(MechanismSpec spec) : impl_(std::make_unique<Implementation>(std::move(spec))) {}
 Mechanism::~Mechanism() = default;
 
-Mechanism::Index Mechanism::nq() const { return impl_->tree.nq; }
-Mechanism::Index Mechanism::nv() const { return impl_->tree.nv; }
+Mechanism::Index Mechanism::nq() const { return impl_->nq; }
+Mechanism::Index Mechanism::nv() const { return impl_->nv; }
 Mechanism::Index Mechanism::nlambda() const { return impl_->nlambda(); }
 const MechanismSpec& Mechanism::spec() const { return impl_->spec; }
 
@@ -70,6 +81,8 @@ void Mechanism::retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Ei
       q[link.first_q] = q0[link.first_q] + dq[link.first_v];
     }
   }
+  const Index own = impl_->nv - impl_->tree.nv;
+  q.tail(own) = q0.tail(own) + dq.segment(impl_->tree.nv, own);
 }
 
 void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd& residual, Eigen::VectorXd& scale,
@@ -86,6 +99,7 @@ void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd
   compute_directions(m.tree, m.motion, stage, m.directions);
   Assembly assembly{m.tree, m.motion, stage, m.directions, residual, scale, tangent};
   m.inertia.add(assembly);
+  for (ElasticAssembly& elastic : m.elastics) elastic.add(assembly, state, m.spec.gravity);
   for (Load& load : m.loads) load.add(assembly, state);
   m.add_coordinate_springs(assembly, state);
   m.add_coordinate_forces(assembly, state);
@@ -145,7 +159,7 @@ void Mechanism::Implementation::add_closures(Assembly& assembly, const State& st
     add_pair_force(assembly, closure.pair, closure_response(closure, X_AB, state.lambda));
     for (std::size_t i = 0; i < closure.rows.size(); ++i) {
       const ConstraintRow& row = closure.rows[i];
-      const int at = tree.nv + closure.first_row + static_cast<int>(i);
+      const int at = nv + closure.first_row + static_cast<int>(i);
       const bool positional = row.kind == ConstraintRow::Kind::position;
       assembly.add_residual(at, row.value(X_AB), positional ? tree.length : 1.0);
       if (!assembly.tangent) continue;
@@ -166,7 +180,7 @@ double Mechanism::Implementation::coupling_scale(const Coupling& coupling, const
 void Mechanism::Implementation::add_couplings(Assembly& assembly, const State& state) const {
   for (std::size_t i = 0; i < couplings.size(); ++i) {
     const Coupling& coupling = couplings[i];
-    const Index row = tree.nv + row_of_coupling(i);
+    const Index row = nv + row_of_coupling(i);
     const double lambda = state.lambda[row_of_coupling(i)];
     assembly.add_residual(row, coupling.value(state), coupling_scale(coupling, state));
     coupling.visit_rates(state, [&](int column, double rate) {
@@ -185,7 +199,7 @@ void Mechanism::Implementation::add_couplings(Assembly& assembly, const State& s
 void Mechanism::Implementation::add_drives(Assembly& assembly, const State& state) const {
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const BoundDrive& drive = drives[i];
-    const Index row = tree.nv + row_of_drive(i);
+    const Index row = nv + row_of_drive(i);
     const double lambda = state.lambda[row_of_drive(i)];
     const double asked = drive.motion.position(state.t);
     const bool angle = tree.links[tree.columns[drive.column].link].motion != Motion::prismatic;
@@ -206,10 +220,12 @@ void Mechanism::Implementation::floor_scales(Eigen::VectorXd& scale) const {
     double& largest = tree.links[tree.columns[k].link].motion == Motion::prismatic ? force : torque;
     largest = std::max(largest, scale[k]);
   }
+  for (int k = tree.nv; k < nv; ++k) force = std::max(force, scale[k]);
   for (int k = 0; k < tree.nv; ++k) {
     const bool linear = tree.links[tree.columns[k].link].motion == Motion::prismatic;
     scale[k] = std::max(scale[k], fraction * (linear ? force : torque));
   }
+  for (int k = tree.nv; k < nv; ++k) scale[k] = std::max(scale[k], fraction * force);
 }
 
 void Mechanism::constraints(const State& state, Eigen::VectorXd& phi, Eigen::VectorXd& scale, SparseMatrix* jacobian) {
@@ -290,14 +306,15 @@ Eigen::VectorXd Mechanism::position_scales() const {
   Eigen::VectorXd scales = Eigen::VectorXd::Ones(nv());
   for (const Link& link : tree.links)
     if (link.motion == Motion::prismatic) scales.segment(link.first_v, link.columns).setConstant(tree.length);
+  scales.tail(nv() - tree.nv).setConstant(tree.length);
   return scales;
 }
 
 void Mechanism::begin_step(const State& start, double dt) {
   Implementation& m = *impl_;
-  if (m.spec.forces.empty()) return;
-  m.motion.update_positions(start);
-  m.motion.update_velocities(start);
+  if (m.spec.forces.empty() && m.elastics.empty()) return;
+  m.motion.update(start);
+  for (ElasticAssembly& elastic : m.elastics) elastic.body().begin_step(elastic.read(m.motion, start, {}, true), dt);
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
     RelativeMotion relative = m.motion.relative(m.tree.forces[i]);
     relative.t = start.t;
@@ -312,11 +329,13 @@ void Mechanism::accept_step(const State& end) {
     const int k = m.coordinate_force_columns[i];
     m.spec.coordinate_forces[i].force->accept_step(end.t, end.q[m.q_of(k)], end.v[k]);
   }
-  if (m.spec.forces.empty() && m.redundancies.empty()) return;
+  if (m.spec.forces.empty() && m.elastics.empty() && m.redundancies.empty()) return;
   m.motion.update_positions(end);
   m.watch_dropped_rows();
-  if (m.spec.forces.empty()) return;
+  if (m.spec.forces.empty() && m.elastics.empty()) return;
   m.motion.update_velocities(end);
+  m.motion.update_accelerations(end);
+  for (ElasticAssembly& elastic : m.elastics) elastic.body().accept_step(elastic.read(m.motion, end, {}, true));
   m.accepted_wrenches.resize(m.spec.forces.size());
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
     RelativeMotion relative = m.motion.relative(m.tree.forces[i]);
@@ -329,26 +348,40 @@ void Mechanism::accept_step(const State& end) {
 double Mechanism::internal_residual() const {
   double worst = 0;
   for (const auto& f : impl_->spec.forces) worst = std::max(worst, f.force->internal_residual());
+  for (const ElasticAssembly& e : impl_->elastics) worst = std::max(worst, e.body().internal_residual());
   return worst;
 }
 
 std::string Mechanism::name_of_internal_residual() const {
-  const MechanismSpec::Force* worst = nullptr;
-  for (const auto& f : impl_->spec.forces)
-    if (!worst || f.force->internal_residual() > worst->force->internal_residual()) worst = &f;
-  return worst ? fmt::format("{}, {}", worst->name, worst->force->name_of_internal_residual()) : std::string();
+  std::string name;
+  double worst = -1;
+  const auto compare = [&](const std::string& owner, const auto& thing) {
+    if (thing.internal_residual() <= worst) return;
+    worst = thing.internal_residual();
+    name = fmt::format("{}, {}", owner, thing.name_of_internal_residual());
+  };
+  for (const auto& f : impl_->spec.forces) compare(f.name, *f.force);
+  for (const ElasticAssembly& e : impl_->elastics) compare("body " + e.name(), e.body());
+  return name;
 }
 
 std::string Mechanism::domain_error() const {
   if (!impl_->came_apart.empty()) return impl_->came_apart;
   for (const auto& f : impl_->spec.forces)
     if (const std::string text = f.force->domain_error(); !text.empty()) return fmt::format("{}: {}", f.name, text);
+  for (const ElasticAssembly& e : impl_->elastics)
+    if (const std::string text = e.body().domain_error(); !text.empty())
+      return fmt::format("body {}: {}", e.name(), text);
   return {};
 }
 
 State Mechanism::initial_state() const { return impl_->initial_state(); }
 
-std::vector<Mechanism::Index> Mechanism::given_coordinates() const { return impl_->given_coordinates(); }
+std::vector<Mechanism::Index> Mechanism::given_coordinates() const {
+  std::vector<Index> given = impl_->given_coordinates();
+  for (Index k = impl_->tree.nv; k < impl_->nv; ++k) given.push_back(k);
+  return given;
+}
 
 FrameMotion Mechanism::frame_motion(const State& state, FrameId frame) {
   HERSEY_REQUIRE(0 <= frame.index && frame.index < static_cast<int>(impl_->tree.frames.size()), "the frame exists");

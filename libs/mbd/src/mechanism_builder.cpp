@@ -135,6 +135,32 @@ CouplingId MechanismBuilder::add_coupling(CouplingSpec coupling) {
   return append<CouplingId>(spec_.couplings, std::move(coupling));
 }
 
+FlexibleBodyIds MechanismBuilder::add_flexible_body(const std::string& name,
+                                                    const std::vector<std::string>& frame_names,
+                                                    std::shared_ptr<ElasticBody> body) {
+  HERSEY_REQUIRE(body != nullptr, "there is a body");
+  HERSEY_REQUIRE(static_cast<int>(frame_names.size()) + 1 == body->frame_count(),
+                 "a name for each frame but the first");
+  FlexibleBodyIds ids;
+  ids.bodies.push_back(add_body({.name = name}));
+  ids.frames.push_back(frame_of(ids.bodies[0]));
+  for (std::size_t i = 0; i < frame_names.size(); ++i) {
+    const std::string full = name + "." + frame_names[i];
+    const FrameId rest =
+        add_frame({.name = full + " at rest", .body = ids.bodies[0], .X_BF = body->rest_pose(static_cast<int>(i) + 1)});
+    ids.bodies.push_back(add_body({.name = full}));
+    ids.frames.push_back(frame_of(ids.bodies.back()));
+    // Given values, so that the assembly at the start leaves the body undeformed where it can.
+    add_joint({.name = full,
+               .type = JointType::free,
+               .inboard = rest,
+               .outboard = ids.frames.back(),
+               .initial = std::vector<double>(6, 0.0)});
+  }
+  ids.elastic = append<ElasticId>(spec_.elastics, MechanismSpec::Elastic{name, ids.frames, std::move(body)});
+  return ids;
+}
+
 std::unique_ptr<Mechanism> MechanismBuilder::finalise() {
   std::vector<Fault> faults;
   for (const BodySpec& body : spec_.bodies) check_body(body, faults);

@@ -5,6 +5,7 @@
 #include "assembly.h"
 #include "coupling.h"
 #include "drive_motion.h"
+#include "elastic_assembly.h"
 #include "hersey/mbd/mechanism.h"
 #include "load.h"
 #include "tree.h"
@@ -30,6 +31,8 @@ struct Mechanism::Implementation {
   std::vector<Load> loads;
   std::vector<Coupling> couplings;
   std::vector<BoundDrive> drives;
+  std::vector<ElasticAssembly> elastics;
+  int nq = 0, nv = 0;  ///< of the tree, then own coordinates of elastic bodies
   std::vector<int> spring_columns;
   std::vector<int> coordinate_force_columns;
   SparseMatrix pattern;             ///< of the tangent, zeros
@@ -55,6 +58,7 @@ struct Mechanism::Implementation {
   [[nodiscard]] double opening_of(const Closure& closure) const;
   void watch_dropped_rows();
 
+  void place_elastic_bodies();
   void make_patterns();
   void add_two_body_forces(Assembly& assembly, const solver::State& state);
   void add_closures(Assembly& assembly, const solver::State& state) const;
@@ -73,6 +77,7 @@ struct Mechanism::Implementation {
   void observe_reactions(const solver::State& state, Observation& seen);
   void observe_drift(const solver::State& state, Observation& seen) const;
   void observe_energies(Observation& seen) const;
+  void observe_elastic_bodies(const solver::State& state, Observation& seen);
 };
 
 /// The wrench of a closure's multipliers, with its geometric stiffness, in the form of a two-body force.

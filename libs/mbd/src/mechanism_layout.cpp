@@ -19,6 +19,9 @@ std::string name_of_value(JointType type, int value) {
 }  // namespace
 
 std::string Mechanism::Implementation::name_of_velocity(Index row) const {
+  for (const ElasticAssembly& elastic : elastics)
+    if (const Index own = row - elastic.own_v(); row >= tree.nv && own < elastic.own_count())
+      return fmt::format("body {}, mode {}", elastic.name(), own + 1);
   const Column& column = tree.columns[row];
   const Link& link = tree.links[column.link];
   const int value = link.value + column.component;
@@ -49,8 +52,8 @@ void Mechanism::Implementation::make_patterns() {
   const auto visit = [&](Index row, Index column) { entries.emplace_back(row, column, 0.0); };
   const auto visit_constraint = [&](Index row, Index column) {
     constraint_entries.emplace_back(row, column, 0.0);
-    visit(tree.nv + row, column);
-    visit(column, tree.nv + row);
+    visit(nv + row, column);
+    visit(column, nv + row);
   };
   const auto visit_pair = [&](const Pair& pair) {
     for (const SignedColumn& row : pair.columns)
@@ -63,6 +66,7 @@ void Mechanism::Implementation::make_patterns() {
     }
   }
   for (const Pair& pair : tree.forces) visit_pair(pair);
+  for (const ElasticAssembly& elastic : elastics) elastic.visit_pattern(visit);
   for (const Load& load : loads) load.visit_pattern(tree, visit);
   for (const Closure& closure : tree.closures) {
     visit_pair(closure.pair);
@@ -77,10 +81,10 @@ void Mechanism::Implementation::make_patterns() {
     });
   for (std::size_t i = 0; i < drives.size(); ++i) visit_constraint(row_of_drive(i), drives[i].column);
 
-  const Index n = tree.nv + nlambda();
+  const Index n = nv + nlambda();
   pattern.resize(n, n);
   pattern.setFromTriplets(entries.begin(), entries.end());
-  constraint_pattern.resize(nlambda(), tree.nv);
+  constraint_pattern.resize(nlambda(), nv);
   constraint_pattern.setFromTriplets(constraint_entries.begin(), constraint_entries.end());
 }
 

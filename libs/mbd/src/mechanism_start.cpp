@@ -11,9 +11,9 @@ namespace hersey::mbd {
 
 solver::State Mechanism::Implementation::initial_state() const {
   solver::State state;
-  state.q.setZero(tree.nq);
-  state.v.setZero(tree.nv);
-  state.vdot.setZero(tree.nv);
+  state.q.setZero(nq);
+  state.v.setZero(nv);
+  state.vdot.setZero(nv);
   state.lambda.setZero(nlambda());
   for (const Link& link : tree.links) {
     const JointSpec* joint = link.joint >= 0 ? &spec.joints[link.joint] : nullptr;

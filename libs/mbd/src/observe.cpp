@@ -162,6 +162,10 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
     need[body_of(spec.forces[i].b)] -= W;
     need[body_of(spec.forces[i].a)] += W;
   }
+  for (std::size_t i = 0; i < elastics.size(); ++i)
+    for (std::size_t f = 0; f < spec.elastics[i].frames.size(); ++f)
+      need[body_of(spec.elastics[i].frames[f])] +=
+          force_transform(motion.pose(elastics[i].frame(f))) * seen.elastics[i].wrenches[f];
   std::vector<Vector6> through(spec.joints.size(), Vector6::Zero());  // on the tree's outer side
   for (const Closure& closure : tree.closures) {
     const Pose X_WA = motion.pose(closure.pair.a);
@@ -237,6 +241,19 @@ void Mechanism::Implementation::observe_energies(Observation& seen) const {
   }
 }
 
+void Mechanism::Implementation::observe_elastic_bodies(const solver::State& state, Observation& seen) {
+  for (ElasticAssembly& elastic : elastics) {
+    ElasticObservation o;
+    o.motion = elastic.read(motion, state, {}, true);
+    elastic.body().evaluate(o.motion, false, elastic.response());
+    for (std::size_t f = 0; f < o.motion.frames.size(); ++f) o.wrenches.push_back(elastic.wrench(f));
+    o.energy = elastic.body().energy(o.motion, spec.gravity);
+    seen.kinetic_energy += o.energy.kinetic;
+    seen.potential_energy += o.energy.potential;
+    seen.elastics.push_back(std::move(o));
+  }
+}
+
 Observation Mechanism::observe(const solver::State& state) {
   Implementation& m = *impl_;
   m.motion.update(state);
@@ -246,6 +263,7 @@ Observation Mechanism::observe(const solver::State& state) {
   seen.joints.resize(m.spec.joints.size());
   m.observe_joint_coordinates(state, seen);
   m.observe_efforts(state, seen);
+  m.observe_elastic_bodies(state, seen);
   m.observe_reactions(state, seen);
   m.observe_energies(seen);
   m.observe_drift(state, seen);

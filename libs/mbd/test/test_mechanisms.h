@@ -9,6 +9,7 @@
 #include "hersey/core/scalar_function.h"
 #include "hersey/mbd/coordinate_laws.h"
 #include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/modal_body.h"
 #include "hersey/mbd/spring_damper.h"
 
 /// Mechanisms and functions that several tests use.
@@ -101,6 +102,30 @@ class FullBushing final : public TwoBodyForce {
 
 inline Pose pose(const Vector3& rotation, const Vector3& r) { return {rotation_exp(rotation).toRotationMatrix(), r}; }
 
+/// A modal body of random points, shapes and stiffness: nothing about it is symmetric, so no term hides. Three frames
+/// and two shapes beyond them.
+inline ModalBodyData random_modal_data() {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto fill = [&](auto& matrix) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) matrix.data()[i] = uniform(random);
+  };
+  constexpr Eigen::Index nodes = 9, shapes = 14;
+  Eigen::Matrix3Xd x(3, nodes);
+  fill(x);
+  Eigen::MatrixXd Phi(3 * nodes, shapes), root(nodes, nodes), K(shapes, shapes);
+  fill(Phi);
+  fill(root);
+  fill(K);
+  const Eigen::MatrixXd mass = 0.2 * (root * root.transpose() + Eigen::MatrixXd::Identity(nodes, nodes));
+  ModalBodyData data;
+  data.rest = {Pose{}, pose({0.3, -0.2, 0.5}, {0.7, 0.2, -0.1}), pose({-1.1, 0.4, 0.2}, {-0.3, 0.5, 0.4})};
+  set_moments(data, mass.sparseView(), x, 0.3 * Phi);
+  data.stiffness = 40 * K * K.transpose();
+  data.damping = 0.02 * data.stiffness + 0.1 * Eigen::MatrixXd::Identity(shapes, shapes);
+  return data;
+}
+
 /// Every joint type, in the tree and closing, both ways round; balls; loads of joint angles; springs; drives; a force.
 inline std::unique_ptr<Mechanism> nasty_mechanism() {
   MechanismBuilder b;
@@ -163,6 +188,13 @@ inline std::unique_ptr<Mechanism> nasty_mechanism() {
                .lead = -0.3});
   const JointId swing = join("swing", JointType::revolute, b.frame_of(b.ground()), at(bob, {0, 0, 0}, {0, 0.4, 0}),
                              {0, 1, 1}, {0.2}, {0.9});
+  // A flexible body entered through its second frame, in a loop through its third; its first hangs on them.
+  const FlexibleBodyIds bow =
+      b.add_flexible_body("bow", {"grip", "tip"}, std::make_shared<ModalBody>(random_modal_data()));
+  join("grip_hinge", JointType::revolute, at(slider, {0.2, 0, 0.3}, {0.1, 0.2, 0}),
+       at(bow.bodies[1], {0, 0.2, 0}, {0, 0.1, 0.1}), {0, 1, 0.5}, {0.3}, {-0.4});
+  join("tip_ball", JointType::spherical, at(bow.bodies[2], {0.1, 0, 0.1}, {0.1, 0, 0}),
+       at(nut, {0, 0.1, 0.2}, {0.2, 0, 0.1}));
   // Closing: one plain, one with a coordinate that a spring reads.
   join("loop", JointType::cylindrical, at(hand, {0, 0, 0.1}, {0.1, 0.1, 0.2}), at(bob, {0.2, 0.1, 0}, {0, -0.3, 0.1}),
        {1, 0, 1});

@@ -35,6 +35,13 @@ struct Redundancy {
   int orientations = 0;       ///< and on orientations
 };
 
+/// What an elastic body shows.
+struct ElasticObservation {
+  ElasticEnergy energy;
+  std::vector<Vector6> wrenches;  ///< that the mechanism puts on each frame, at the frame, in its axes [N m; N]
+  ElasticMotion motion;
+};
+
 /// Everything known about a mechanism at one state. Indices are those of the ids.
 struct Observation {
   double t = 0;
@@ -49,9 +56,10 @@ struct Observation {
   std::vector<double> spring_powers;             ///< [W], stored and dissipated together
   std::vector<Vector6> force_wrenches;           ///< of each two-body force on b, at a's origin, a's axes [N m; N]
   std::vector<double> force_powers;              ///< wrench . relative velocity [W]
-  double kinetic_energy = 0;                     ///< [J]
-  double potential_energy = 0;                   ///< of gravity, zero at ground's origin [J]
-  double spring_energy = 0;                      ///< stored in springs on coordinates and in two-body forces [J]
+  std::vector<ElasticObservation> elastics;
+  double kinetic_energy = 0;    ///< [J], of elastic bodies too
+  double potential_energy = 0;  ///< of gravity, zero at ground's origin [J]
+  double spring_energy = 0;     ///< stored in springs on coordinates and in two-body forces [J]
   double constraint_drift = 0;  ///< largest violation, redundant rows included, relative to size or radian
 };
 

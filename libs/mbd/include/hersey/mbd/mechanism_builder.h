@@ -7,6 +7,7 @@
 #include "hersey/core/scalar_function.h"
 #include "hersey/core/spatial.h"
 #include "hersey/mbd/coordinate_force.h"
+#include "hersey/mbd/elastic_body.h"
 #include "hersey/mbd/joint.h"
 #include "hersey/mbd/two_body_force.h"
 
@@ -27,6 +28,7 @@ using LoadId = Id<struct LoadTag>;
 using DriveId = Id<struct DriveTag>;
 using CoordinateForceId = Id<struct CoordinateForceTag>;
 using CouplingId = Id<struct CouplingTag>;
+using ElasticId = Id<struct ElasticTag>;
 
 /// A rigid body.
 struct BodySpec {
@@ -142,6 +144,20 @@ struct MechanismSpec {
     std::shared_ptr<TwoBodyForce> force;
   };
   std::vector<Force> forces;
+
+  struct Elastic {
+    std::string name;
+    std::vector<FrameId> frames;  ///< as the elastic body counts them, each on a body of its own
+    std::shared_ptr<ElasticBody> body;
+  };
+  std::vector<Elastic> elastics;
+};
+
+/// Where a flexible body went in a mechanism.
+struct FlexibleBodyIds {
+  ElasticId elastic;
+  std::vector<BodyId> bodies;   ///< of each frame; the first has the flexible body's name and axes
+  std::vector<FrameId> frames;  ///< their own frames
 };
 
 class Mechanism;
@@ -176,6 +192,12 @@ class MechanismBuilder {
   SpringId add_spring(CoordinateSpringSpec spring);
   DriveId add_drive(DriveSpec drive);
   CouplingId add_coupling(CouplingSpec coupling);
+
+  /// A flexible body: its frames become massless bodies `name`, `name.frame_names[0]`, ..., at rest_pose of the first,
+  /// free to move against it, and `body` couples them. Joints and forces attach to them as to rigid bodies.
+  /// @param frame_names  of all frames but the first
+  FlexibleBodyIds add_flexible_body(const std::string& name, const std::vector<std::string>& frame_names,
+                                    std::shared_ptr<ElasticBody> body);
 
   /// @throws InputError if a body, spring or joint makes no physical sense (all faults together), or two drives act on
   ///         one coordinate; ContractError if an id or a count is not the builder's own.

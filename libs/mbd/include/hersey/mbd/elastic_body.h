@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "hersey/core/spatial.h"
+
+namespace hersey::mbd {
+
+/// One frame of an elastic body as the mechanism moves it. Velocity and acceleration are in the frame's own axes at its
+/// own origin.
+struct ElasticFrame {
+  Pose X_WF;
+  Vector6 V = Vector6::Zero();  ///< [omega; v], v the velocity of the frame's origin
+  Vector6 A = Vector6::Zero();  ///< d[omega; v]/dt of these components, gravity taken off as if ground fell with -g
+};
+
+/// What an elastic body sees: its frames, and its own coordinates where it has any.
+struct ElasticMotion {
+  double t = 0;                ///< time [s]
+  double dt = 0;               ///< length of the step being solved [s]; 0: steady or instantaneous
+  double k = 1, c = 0, m = 0;  ///< how an increment moves position, velocity, acceleration (solver::Stage)
+  std::vector<ElasticFrame> frames;
+  Eigen::VectorXd eta, eta_rate, eta_acceleration;  ///< own coordinates, shape (coordinate_count)
+};
+
+/// Generalised forces [one wrench per frame; own coordinates] that the motion needs (inertia and gravity, elasticity,
+/// damping), and their derivatives. A wrench is [tau; f] at the frame's origin in the frame's axes. Positions are moved
+/// by a twist xi of each frame in its own axes, X -> X exp(xi^), at fixed V and A.
+struct ElasticResponse {
+  Eigen::VectorXd force;      ///< shape (6 frames + coordinates)
+  Eigen::VectorXd magnitude;  ///< of the terms that add up to each entry
+  Eigen::MatrixXd K, C, M;    ///< d force / d (position, velocity, acceleration), square
+};
+
+/// Energies and powers of an elastic body at one state; the powers add up: what the frames put in equals
+/// kinetic_rate + strain_rate + dissipation - gravity.
+struct ElasticEnergy {
+  double kinetic = 0;                          ///< [J]
+  double strain = 0;                           ///< [J]
+  double potential = 0;                        ///< of gravity, zero at ground's origin [J]
+  double kinetic_rate = 0;                     ///< [W]
+  double strain_rate = 0;                      ///< [W]
+  double dissipation = 0;                      ///< [W], >= 0
+  double gravity = 0;                          ///< power of gravity [W]
+  Vector3 momentum = Vector3::Zero();          ///< ground axes [kg m/s]
+  Vector3 angular_momentum = Vector3::Zero();  ///< about ground's origin, ground axes [kg m^2/s]
+};
+
+/// A body that deforms and touches the rest of a mechanism through frames. Each frame is a massless rigid body of the
+/// mechanism, to which joints and forces attach as to any other; this couples them (theory manual, chapter
+/// flexible-bodies). Frame 0 carries the body's own axes; the others stand at `rest_pose` while it is not deformed.
+class ElasticBody {
+ public:
+  virtual ~ElasticBody() = default;
+
+  [[nodiscard]] virtual int frame_count() const = 0;
+  /// Coordinates the mechanism integrates for the body, beside those of its frames; each a length [m].
+  [[nodiscard]] virtual int coordinate_count() const = 0;
+  /// Pose of frame `i` in frame 0 while the body is not deformed.
+  [[nodiscard]] virtual Pose rest_pose(int i) const = 0;
+  /// Mass [kg].
+  [[nodiscard]] virtual double mass() const = 0;
+
+  virtual void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) = 0;
+
+  /// @param gravity  [m/s^2], ground axes
+  [[nodiscard]] virtual ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) = 0;
+
+  // Condensed unknowns; see solver::Equations for when each is called.
+  virtual void begin_step(const ElasticMotion& start, double dt) { (void)start, (void)dt; }
+  virtual void accept_step(const ElasticMotion& end) { (void)end; }
+  [[nodiscard]] virtual double internal_residual() const { return 0; }
+  [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
+  [[nodiscard]] virtual std::string domain_error() const { return {}; }
+};
+
+}  // namespace hersey::mbd

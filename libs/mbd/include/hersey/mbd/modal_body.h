@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "hersey/mbd/elastic_body.h"
+
+namespace hersey::mbd {
+
+/// A body reduced to shapes: a material point at x moves to x + sum over a of q_a Phi_a(x) in the body's own axes,
+/// which are those of frame 0. The first 6 (frames - 1) shapes are the static answers to a unit [rotation;
+/// displacement] of frames 1, 2, ... with the others held; further ones are motions with all frames held. None moves
+/// frame 0.
+struct ModalBodyData {
+  double mass = 0;                ///< [kg]
+  std::vector<Pose> rest;         ///< of each frame in the body's axes; rest[0] is the identity
+  Eigen::Matrix3Xd first_moment;  ///< integral of rho Y_a, Y_0 = x and Y_a = Phi_a, shape (3, 1 + shapes)
+  /// Integrals of rho Y_a,p Y_b,r, component by component: second_moment[3 p + r](a, b), shape (1 + shapes)^2.
+  std::array<Eigen::MatrixXd, 9> second_moment;
+  Eigen::MatrixXd stiffness;  ///< shape (shapes, shapes)
+  Eigen::MatrixXd damping;    ///< the same
+  [[nodiscard]] Eigen::Index shapes() const { return stiffness.rows(); }
+};
+
+/// First and second moments of mass of positions and shapes at nodes.
+/// @param nodal_mass  symmetric, shape (nodes, nodes), the same in every direction: M = nodal_mass (x) I3
+/// @param x           nodes, shape (3, nodes)
+/// @param shapes      displacements, shape (3 nodes, shapes), node after node
+/// @cost O(nodes shapes^2)
+void set_moments(ModalBodyData& data, const Eigen::SparseMatrix<double>& nodal_mass, const Eigen::Matrix3Xd& x,
+                 const Eigen::MatrixXd& shapes);
+
+/// The flexible body of small strain and large motion in the floating frame of its first frame, with every term of
+/// inertia that the shapes have (theory manual eq. (flexible-bodies.1) to (flexible-bodies.7)).
+/// @see Shabana (2013), Dynamics of Multibody Systems, ch. 5; Craig and Bampton (1968), AIAA J. 6, 1313.
+class ModalBody final : public ElasticBody {
+ public:
+  /// @pre the matrices have the shapes ModalBodyData says, and shapes >= 6 (frames - 1).
+  explicit ModalBody(ModalBodyData data);
+  ~ModalBody() override;
+
+  [[nodiscard]] int frame_count() const override { return static_cast<int>(data_.rest.size()); }
+  [[nodiscard]] int coordinate_count() const override {
+    return static_cast<int>(data_.shapes()) - 6 * (frame_count() - 1);
+  }
+  [[nodiscard]] Pose rest_pose(int i) const override { return data_.rest[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] double mass() const override { return data_.mass; }
+  void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) override;
+  [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
+
+  /// Amplitudes of all shapes, shape (shapes).
+  [[nodiscard]] Eigen::VectorXd amplitudes(const ElasticMotion& motion);
+  [[nodiscard]] const ModalBodyData& data() const { return data_; }
+
+ private:
+  struct Workspace;
+  void gather(const ElasticMotion& motion, bool want_tangent);
+  void add_inertia(const ElasticFrame& base);
+  void differentiate_inertia(const ElasticFrame& base);
+  void add_momentum_share(const ElasticFrame& base, double dt);
+  void add_elasticity(bool want_tangent);
+  void reduce_to_frames(bool want_tangent, ElasticResponse& response);
+
+  ModalBodyData data_;
+  Eigen::MatrixXd modal_mass_;
+  std::unique_ptr<Workspace> work_;
+};
+
+}  // namespace hersey::mbd

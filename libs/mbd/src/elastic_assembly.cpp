@@ -1,0 +1,123 @@
+#include "elastic_assembly.h"
+
+#include <algorithm>
+
+namespace hersey::mbd {
+
+using Eigen::Index;
+
+ElasticAssembly::ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree& tree, int own_q, int own_v)
+    : name_(spec.name), body_(spec.body), own_q_(own_q), own_v_(own_v) {
+  std::vector<char> moves_any(tree.columns.size(), 0);
+  for (const FrameId id : spec.frames) {
+    frames_.push_back(tree.frames[static_cast<std::size_t>(id.index)]);
+    for (int k : tree.path[static_cast<std::size_t>(frames_.back().link)]) moves_any[static_cast<std::size_t>(k)] = 1;
+  }
+  for (std::size_t k = 0; k < moves_any.size(); ++k)
+    if (moves_any[k] != 0) columns_.push_back(static_cast<int>(k));
+  tree_columns_ = static_cast<int>(columns_.size());
+  for (const Attachment& frame : frames_) {
+    moves_.emplace_back();
+    for (int k : columns_) moves_.back().push_back(tree.moves(k, frame.link) ? 1 : 0);
+  }
+  const int own = own_count();
+  for (int i = 0; i < own; ++i) columns_.push_back(own_v + i);
+  const Index rows = 6 * static_cast<Index>(frames_.size()) + own, columns = static_cast<Index>(columns_.size());
+  J_ = X_ = V_ = A_ = Eigen::MatrixXd::Zero(rows, columns);
+  J_.bottomRightCorner(own, own).setIdentity();
+  product_.resize(rows, columns);
+  block_.resize(columns, columns);
+  to_frame_.resize(frames_.size());
+  motion_.frames.resize(frames_.size());
+  response_.K = response_.C = response_.M = Eigen::MatrixXd::Zero(rows, rows);
+  response_.force = response_.magnitude = Eigen::VectorXd::Zero(rows);
+}
+
+const ElasticMotion& ElasticAssembly::read(const TreeMotion& motion, const solver::State& state,
+                                           const solver::Stage& stage, bool accelerate) {
+  motion_.t = state.t;
+  motion_.dt = stage.dt;
+  motion_.k = stage.k;
+  motion_.c = stage.c;
+  motion_.m = stage.m;
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    ElasticFrame& frame = motion_.frames[f];
+    frame.X_WF = motion.pose(frames_[f]);
+    to_frame_[f] = motion_transform(frame.X_WF.inverse());
+    frame.V = to_frame_[f] * motion.V(frames_[f].link);
+    if (accelerate) frame.A = to_frame_[f] * motion.A(frames_[f].link);
+  }
+  motion_.eta = state.q.segment(own_q_, own_count());
+  motion_.eta_rate = state.v.segment(own_v_, own_count());
+  motion_.eta_acceleration = state.vdot.segment(own_v_, own_count());
+  return motion_;
+}
+
+/// Columns in the frames' axes: dX = Ad^-1 J', dV = Ad^-1 H, dA = Ad^-1 (E + H x V).
+void ElasticAssembly::fill_directions(const Assembly& assembly) {
+  const solver::Stage& stage = assembly.stage;
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    const Index row = 6 * static_cast<Index>(f);
+    const Vector6& V = assembly.motion.V(frames_[f].link);
+    for (int c = 0; c < tree_columns_; ++c) {
+      if (moves_[f][static_cast<std::size_t>(c)] == 0) continue;
+      const Direction& d = assembly.directions[static_cast<std::size_t>(columns_[static_cast<std::size_t>(c)])];
+      X_.block<6, 1>(row, c) = to_frame_[f] * d.J;
+      V_.block<6, 1>(row, c) = to_frame_[f] * d.H;
+      A_.block<6, 1>(row, c) = to_frame_[f] * (d.E + cross_motion(d.H, V));
+    }
+  }
+  const Index own = own_count();
+  X_.bottomRightCorner(own, own).diagonal().setConstant(stage.k);
+  V_.bottomRightCorner(own, own).diagonal().setConstant(stage.c);
+  A_.bottomRightCorner(own, own).diagonal().setConstant(stage.m);
+}
+
+void ElasticAssembly::add(Assembly& assembly, const solver::State& state, const Vector3& gravity) {
+  body_->evaluate(read(assembly.motion, state, assembly.stage, true), assembly.tangent != nullptr, response_);
+  // In free fall inertia and weight cancel, so the weight counts by itself.
+  response_.magnitude.segment<3>(3).array() += body_->mass() * gravity.norm();
+  for (std::size_t f = 0; f < frames_.size(); ++f)
+    for (int c = 0; c < tree_columns_; ++c)
+      if (moves_[f][static_cast<std::size_t>(c)] != 0)
+        J_.block<6, 1>(6 * static_cast<Index>(f), c) =
+            to_frame_[f] * assembly.motion.J(columns_[static_cast<std::size_t>(c)]);
+  for (Index c = 0; c < J_.cols(); ++c)
+    assembly.add_residual(columns_[static_cast<std::size_t>(c)], J_.col(c).dot(response_.force),
+                          J_.col(c).cwiseAbs().dot(response_.magnitude));
+  if (assembly.tangent == nullptr) return;
+  fill_directions(assembly);
+  add_tangent(assembly);
+  add_turning(assembly);
+}
+
+void ElasticAssembly::add_tangent(Assembly& assembly) {
+  product_.noalias() = response_.K * X_;
+  product_.noalias() += response_.C * V_;
+  product_.noalias() += response_.M * A_;
+  block_.noalias() = J_.transpose() * product_;
+  for (Index c = 0; c < block_.cols(); ++c)
+    for (Index r = 0; r < block_.rows(); ++r)
+      assembly.add_tangent(columns_[static_cast<std::size_t>(r)], columns_[static_cast<std::size_t>(c)], block_(r, c));
+}
+
+/// The wrench turns with its frame, and the columns beyond the joint that moves turn along: what remains are the
+/// columns inboard of it.
+void ElasticAssembly::add_turning(Assembly& assembly) {
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    const Vector6 W = to_frame_[f].transpose() * wrench(f);
+    for (int c = 0; c < tree_columns_; ++c) {
+      if (moves_[f][static_cast<std::size_t>(c)] == 0) continue;
+      const int column = columns_[static_cast<std::size_t>(c)];
+      const Vector6 dW = cross_force(assembly.directions[static_cast<std::size_t>(column)].J, W);
+      for (int r = 0; r < tree_columns_; ++r) {
+        const int row = columns_[static_cast<std::size_t>(r)];
+        const int link = assembly.tree.columns[static_cast<std::size_t>(row)].link;
+        if (moves_[f][static_cast<std::size_t>(r)] == 0 || assembly.tree.moves(column, link)) continue;
+        assembly.add_tangent(row, column, assembly.motion.J(row).dot(dW));
+      }
+    }
+  }
+}
+
+}  // namespace hersey::mbd

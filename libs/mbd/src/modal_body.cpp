@@ -1,0 +1,304 @@
+#include "hersey/mbd/modal_body.h"
+
+#include <Eigen/SparseCore>
+#include <utility>
+
+#include "hersey/core/contract.h"
+#include "relative_deformation.h"
+
+namespace hersey::mbd {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// As in inertia.cpp: the share of the force that would stop a body within the step.
+constexpr double kMomentumShare = 1e-4;
+
+/// Sum over material points of rho y x z for the matrix N = sum of rho y z^T.
+Vector3 cross_moment(const Matrix3& N) { return {N(1, 2) - N(2, 1), N(2, 0) - N(0, 2), N(0, 1) - N(1, 0)}; }
+
+}  // namespace
+
+void set_moments(ModalBodyData& data, const Eigen::SparseMatrix<double>& nodal_mass, const Eigen::Matrix3Xd& x,
+                 const MatrixXd& shapes) {
+  const Index nodes = x.cols(), n = 1 + shapes.cols();
+  HERSEY_REQUIRE(nodal_mass.rows() == nodes && shapes.rows() == 3 * nodes, "mass, nodes and shapes belong together");
+  std::array<MatrixXd, 3> Y, MY;  // per component: points and shapes, shape (nodes, 1 + shapes)
+  for (int p = 0; p < 3; ++p) {
+    MatrixXd& component = Y[static_cast<std::size_t>(p)];
+    component.resize(nodes, n);
+    component.col(0) = x.row(p).transpose();
+    for (Index a = 0; a < shapes.cols(); ++a)
+      component.col(1 + a) = Eigen::Map<const VectorXd, 0, Eigen::InnerStride<3>>(shapes.col(a).data() + p, nodes);
+    MY[static_cast<std::size_t>(p)] = nodal_mass * component;
+  }
+  data.mass = nodal_mass.sum();
+  data.first_moment.resize(3, n);
+  for (std::size_t p = 0; p < 3; ++p) {
+    data.first_moment.row(static_cast<Index>(p)) = MY[p].colwise().sum();
+    for (std::size_t r = 0; r < 3; ++r) data.second_moment[3 * p + r] = Y[p].transpose() * MY[r];
+  }
+}
+
+/// Everything at one motion. The unknowns of the body in its own axes are [frame 0 (6); amplitudes].
+struct ModalBody::Workspace {
+  VectorXd q, rate, acceleration;            // amplitudes, with q_0 = 1 for the points themselves
+  std::array<VectorXd, 9> h, h_rate, h_acc;  // sums over b of G_ab q_b, component by component
+  std::vector<Matrix3> H, H_rate, H_acc;     // the same per shape: sums of rho Y_a y^T
+  std::vector<RelativeDeformation> interfaces;
+  VectorXd force, magnitude, elastic, viscous;
+  MatrixXd K, C, M;
+  MatrixXd Z, Z_rate_X, Z_acc_X, Z_acc_V, product;
+
+  Vector3 a_true, S, S_rate, S_acc;      // acceleration of frame 0's origin; first moment and its rates
+  Matrix3 Omega;                         // alpha~ + omega~ omega~
+  Matrix3 Gamma, Gamma_rate, Gamma_acc;  // sums of rho y y^T, y y_rate^T, y y_acc^T
+};
+
+ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::make_unique<Workspace>()) {
+  const Index n = data_.shapes();
+  HERSEY_REQUIRE(!data_.rest.empty() && n >= 6 * static_cast<Index>(data_.rest.size() - 1), "six shapes per frame");
+  HERSEY_REQUIRE(data_.stiffness.cols() == n && data_.damping.rows() == n && data_.damping.cols() == n, "square");
+  HERSEY_REQUIRE(data_.first_moment.cols() == n + 1, "first moments of positions and of every shape");
+  for (const MatrixXd& G : data_.second_moment)
+    HERSEY_REQUIRE(G.rows() == n + 1 && G.cols() == n + 1, "second moments of positions and of every shape");
+  modal_mass_ = (data_.second_moment[0] + data_.second_moment[4] + data_.second_moment[8]).bottomRightCorner(n, n);
+  Workspace& w = *work_;
+  w.q = w.rate = w.acceleration = VectorXd::Zero(n + 1);
+  w.interfaces.resize(data_.rest.size() - 1);
+  w.H.resize(static_cast<std::size_t>(n) + 1);
+  w.H_rate = w.H_acc = w.H;
+  w.K = w.C = w.M = MatrixXd::Zero(6 + n, 6 + n);
+  const Index outer = 6 * frame_count() + coordinate_count();
+  w.Z = w.Z_rate_X = w.Z_acc_X = w.Z_acc_V = MatrixXd::Zero(6 + n, outer);
+  w.Z.topLeftCorner<6, 6>().setIdentity();
+  w.Z.bottomRightCorner(coordinate_count(), coordinate_count()).setIdentity();
+}
+
+ModalBody::~ModalBody() = default;
+
+/// Amplitudes and sums over shapes at a motion.
+void ModalBody::gather(const ElasticMotion& motion, bool want_tangent) {
+  Workspace& w = *work_;
+  const Index own = coordinate_count();
+  w.q[0] = 1;
+  for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
+    RelativeDeformation& interface = w.interfaces[i];
+    interface.update(motion.frames[0], motion.frames[i + 1], data_.rest[i + 1], want_tangent);
+    const Index at = 1 + 6 * static_cast<Index>(i);
+    w.q.segment<6>(at) = interface.q;
+    w.rate.segment<6>(at) = interface.rate;
+    w.acceleration.segment<6>(at) = interface.acceleration;
+  }
+  w.q.tail(own) = motion.eta;
+  w.rate.tail(own) = motion.eta_rate;
+  w.acceleration.tail(own) = motion.eta_acceleration;
+
+  w.S = data_.first_moment * w.q;
+  w.S_rate = data_.first_moment * w.rate;
+  w.S_acc = data_.first_moment * w.acceleration;
+  for (std::size_t i = 0; i < 9; ++i) {
+    w.h[i].noalias() = data_.second_moment[i] * w.q;
+    w.h_rate[i].noalias() = data_.second_moment[i] * w.rate;
+    w.h_acc[i].noalias() = data_.second_moment[i] * w.acceleration;
+    const auto row = static_cast<Index>(i / 3), column = static_cast<Index>(i % 3);
+    for (std::size_t a = 0; a < w.H.size(); ++a) {
+      const auto at = static_cast<Index>(a);
+      w.H[a](row, column) = w.h[i][at];
+      w.H_rate[a](row, column) = w.h_rate[i][at];
+      w.H_acc[a](row, column) = w.h_acc[i][at];
+    }
+    w.Gamma(row, column) = w.q.dot(w.h[i]);
+    w.Gamma_rate(row, column) = w.q.dot(w.h_rate[i]);
+    w.Gamma_acc(row, column) = w.q.dot(w.h_acc[i]);
+  }
+}
+
+/// Theory manual eq. (flexible-bodies.4) to (flexible-bodies.6).
+void ModalBody::add_inertia(const ElasticFrame& base) {
+  Workspace& w = *work_;
+  const Vector3 omega = base.V.head<3>(), alpha = base.A.head<3>();
+  const Matrix3 omega_x = skew(omega);
+  w.a_true = base.A.tail<3>() + omega.cross(base.V.tail<3>());
+  w.Omega = skew(alpha) + omega_x * omega_x;
+  const auto amplitudes = data_.shapes();
+  w.force.setZero(6 + amplitudes);
+  w.magnitude.setZero(6 + amplitudes);
+  const Matrix3 turning = w.Gamma * w.Omega.transpose(), coriolis = 2 * w.Gamma_rate * omega_x.transpose();
+  const Vector3 moment = cross_moment(turning + coriolis + w.Gamma_acc);
+  w.force.head<3>() = w.S.cross(w.a_true) + moment;
+  w.force.segment<3>(3) = data_.mass * w.a_true + w.Omega * w.S + 2 * omega.cross(w.S_rate) + w.S_acc;
+  w.magnitude.head<3>() = Vector3::Constant(w.S.norm() * w.a_true.norm()) + cross_moment(turning).cwiseAbs() +
+                          cross_moment(coriolis).cwiseAbs() + cross_moment(w.Gamma_acc).cwiseAbs();
+  w.magnitude.segment<3>(3) = data_.mass * w.a_true.cwiseAbs() + (w.Omega * w.S).cwiseAbs() + w.S_acc.cwiseAbs();
+  auto force = w.force.tail(amplitudes);
+  force.noalias() = data_.first_moment.rightCols(amplitudes).transpose() * w.a_true;
+  w.magnitude.tail(amplitudes) = force.cwiseAbs();
+  for (std::size_t i = 0; i < 9; ++i) {
+    const auto row = static_cast<Index>(i / 3), column = static_cast<Index>(i % 3);
+    force += w.Omega(row, column) * w.h[i].tail(amplitudes) + 2 * omega_x(row, column) * w.h_rate[i].tail(amplitudes);
+    if (row == column) force += w.h_acc[i].tail(amplitudes);
+  }
+  w.magnitude.tail(amplitudes) += force.cwiseAbs();
+}
+
+/// Derivatives of the same: mass matrix, gyroscopic terms, and the change of both with the shape.
+void ModalBody::differentiate_inertia(const ElasticFrame& base) {
+  Workspace& w = *work_;
+  const Vector3 omega = base.V.head<3>(), s = base.V.tail<3>();
+  const Matrix3 omega_x = skew(omega), S_x = skew(w.S);
+  const double m = data_.mass;
+  const Index n = data_.shapes();
+  w.K.setZero();
+  w.C.setZero();
+  w.M.setZero();
+  w.M.block<3, 3>(0, 0) = w.Gamma.trace() * Matrix3::Identity() - w.Gamma;
+  w.M.block<3, 3>(0, 3) = S_x;
+  w.M.block<3, 3>(3, 0) = -S_x;
+  w.M.block<3, 3>(3, 3) = m * Matrix3::Identity();
+  w.M.bottomRightCorner(n, n) = modal_mass_;
+  w.C.block<3, 3>(0, 3) = S_x * omega_x;
+  w.C.block<3, 3>(3, 3) = m * omega_x;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 unit = Vector3::Unit(k), da = unit.cross(s);
+    const Matrix3 unit_x = skew(unit), dOmega = unit_x * omega_x + omega_x * unit_x;
+    w.C.block<3, 1>(0, k) =
+        w.S.cross(da) + cross_moment(w.Gamma * dOmega.transpose() + 2 * w.Gamma_rate * unit_x.transpose());
+    w.C.block<3, 1>(3, k) = m * da + dOmega * w.S + 2 * unit.cross(w.S_rate);
+    auto column = w.C.col(k).tail(n);
+    column.noalias() = data_.first_moment.rightCols(n).transpose() * da;
+    for (std::size_t i = 0; i < 9; ++i)
+      column += dOmega(static_cast<Index>(i / 3), static_cast<Index>(i % 3)) * w.h[i].tail(n) +
+                2 * unit_x(static_cast<Index>(i / 3), static_cast<Index>(i % 3)) * w.h_rate[i].tail(n);
+  }
+  w.C.bottomRows(n).middleCols<3>(3) = data_.first_moment.rightCols(n).transpose() * omega_x;
+  for (Index a = 1; a <= n; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    const Vector3 S_a = data_.first_moment.col(a);
+    const Matrix3 &H = w.H[i], Ht = H.transpose();
+    const Vector3 lever = cross_moment(Ht);
+    w.M.block<3, 1>(0, 5 + a) = lever;
+    w.M.block<1, 3>(5 + a, 0) = lever.transpose();
+    w.M.block<3, 1>(3, 5 + a) = S_a;
+    w.M.block<1, 3>(5 + a, 3) = S_a.transpose();
+    w.C.block<3, 1>(0, 5 + a) = 2 * cross_moment(Ht * omega_x.transpose());
+    w.C.block<3, 1>(3, 5 + a) = 2 * omega.cross(S_a);
+    w.K.block<3, 1>(0, 5 + a) = S_a.cross(w.a_true) + cross_moment((H + Ht) * w.Omega.transpose() +
+                                                                   2 * w.H_rate[i] * omega_x.transpose() + w.H_acc[i]);
+    w.K.block<3, 1>(3, 5 + a) = w.Omega * S_a;
+  }
+  for (std::size_t i = 0; i < 9; ++i) {
+    const auto row = static_cast<Index>(i / 3), column = static_cast<Index>(i % 3);
+    const auto G = data_.second_moment[i].bottomRightCorner(n, n);
+    w.K.bottomRightCorner(n, n) += w.Omega(row, column) * G;
+    if (row != column) w.C.bottomRightCorner(n, n) += 2 * omega_x(row, column) * G;
+  }
+}
+
+void ModalBody::add_elasticity(bool want_tangent) {
+  Workspace& w = *work_;
+  const Index n = data_.shapes();
+  w.elastic.noalias() = data_.stiffness * w.q.tail(n);
+  w.viscous.noalias() = data_.damping * w.rate.tail(n);
+  w.force.tail(n) += w.elastic + w.viscous;
+  w.magnitude.tail(n) += w.elastic.cwiseAbs() + w.viscous.cwiseAbs();
+  if (!want_tangent) return;
+  w.K.bottomRightCorner(n, n) += data_.stiffness;
+  w.C.bottomRightCorner(n, n) += data_.damping;
+}
+
+/// From [frame 0; amplitudes] to [all frames; own coordinates], theory manual eq. (flexible-bodies.12).
+void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
+  Workspace& w = *work_;
+  for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
+    const RelativeDeformation& interface = w.interfaces[i];
+    const auto put = [&](MatrixXd& to, const Matrix6x12& block) {
+      const Index row = 6 + 6 * static_cast<Index>(i);
+      to.block<6, 6>(row, 0) = block.leftCols<6>();
+      to.block<6, 6>(row, row) = block.rightCols<6>();
+    };
+    put(w.Z, interface.B);
+    if (!want_tangent) continue;
+    put(w.Z_rate_X, interface.rate_dX);
+    put(w.Z_acc_X, interface.accel_dX);
+    put(w.Z_acc_V, interface.accel_dV);
+  }
+  response.force.noalias() = w.Z.transpose() * w.force;
+  response.magnitude.noalias() = w.Z.cwiseAbs().transpose() * w.magnitude;
+  if (!want_tangent) return;
+  w.product.noalias() = w.K * w.Z;
+  w.product.noalias() += w.C * w.Z_rate_X;
+  w.product.noalias() += w.M * w.Z_acc_X;
+  response.K.noalias() = w.Z.transpose() * w.product;
+  w.product.noalias() = w.C * w.Z;
+  w.product.noalias() += w.M * w.Z_acc_V;
+  response.C.noalias() = w.Z.transpose() * w.product;
+  w.product.noalias() = w.M * w.Z;
+  response.M.noalias() = w.Z.transpose() * w.product;
+  for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
+    const Index at = 6 + 6 * static_cast<Index>(i);
+    const Matrix12 G = w.interfaces[i].geometric(w.force.segment<6>(at));
+    response.K.block<6, 6>(0, 0) += G.topLeftCorner<6, 6>();
+    response.K.block<6, 6>(0, at) += G.topRightCorner<6, 6>();
+    response.K.block<6, 6>(at, 0) += G.bottomLeftCorner<6, 6>();
+    response.K.block<6, 6>(at, at) += G.bottomRightCorner<6, 6>();
+  }
+}
+
+/// What a step's round-off in velocity means in forces counts as a magnitude too; see inertia.cpp.
+void ModalBody::add_momentum_share(const ElasticFrame& base, double dt) {
+  if (dt == 0) return;
+  Workspace& w = *work_;
+  const Vector3 omega = base.V.head<3>(), s = base.V.tail<3>();
+  const double share = kMomentumShare / dt;
+  w.magnitude.head<3>() += share * (w.S.cross(s) + w.Gamma.trace() * omega - w.Gamma * omega).cwiseAbs();
+  w.magnitude.segment<3>(3) += share * (data_.mass * s + omega.cross(w.S)).cwiseAbs();
+  w.viscous.noalias() = modal_mass_ * w.rate.tail(data_.shapes());
+  w.magnitude.tail(data_.shapes()) += share * w.viscous.cwiseAbs();
+}
+
+void ModalBody::evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) {
+  gather(motion, want_tangent);
+  add_inertia(motion.frames[0]);
+  add_momentum_share(motion.frames[0], motion.dt);
+  if (want_tangent) differentiate_inertia(motion.frames[0]);
+  add_elasticity(want_tangent);
+  reduce_to_frames(want_tangent, response);
+}
+
+VectorXd ModalBody::amplitudes(const ElasticMotion& motion) {
+  gather(motion, false);
+  return work_->q.tail(data_.shapes());
+}
+
+ElasticEnergy ModalBody::energy(const ElasticMotion& motion, const Vector3& gravity) {
+  gather(motion, false);
+  Workspace& w = *work_;
+  ElasticEnergy e;
+  const ElasticFrame& base = motion.frames[0];
+  const Pose& X = base.X_WF;
+  const Vector3 omega = base.V.head<3>(), s = base.V.tail<3>();
+  const Index n = data_.shapes();
+  const auto q = w.q.tail(n), rate = w.rate.tail(n);
+  const Matrix3 inertia = w.Gamma.trace() * Matrix3::Identity() - w.Gamma;
+  const Vector3 spin = inertia * omega + cross_moment(w.Gamma_rate);  // about frame 0's origin, it being at rest
+  const Vector3 p = data_.mass * s + omega.cross(w.S) + w.S_rate, H = spin + w.S.cross(s);
+  e.kinetic = 0.5 * (p.dot(s) + H.dot(omega) + w.S_rate.dot(s) + omega.dot(cross_moment(w.Gamma_rate)) +
+                     rate.dot(modal_mass_ * rate));
+  e.strain = 0.5 * q.dot(data_.stiffness * q);
+  e.strain_rate = rate.dot(data_.stiffness * q);
+  e.dissipation = rate.dot(data_.damping * rate);
+  const Vector3 g = X.R.transpose() * gravity;
+  e.potential = -gravity.dot(data_.mass * X.r + X.R * w.S);
+  e.gravity = g.dot(p);
+  e.momentum = X.R * p;
+  e.angular_momentum = X.R * H + X.r.cross(e.momentum);
+  // The power of all inertia forces, gravity among them, is the rate of the kinetic energy less that of gravity.
+  add_inertia(base);
+  e.kinetic_rate = w.force.head<6>().dot(base.V) + w.force.tail(n).dot(rate) + e.gravity;
+  return e;
+}
+
+}  // namespace hersey::mbd
