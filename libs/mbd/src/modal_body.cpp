@@ -173,7 +173,7 @@ void ModalBody::differentiate_inertia(const ElasticFrame& base) {
       column += dOmega(static_cast<Index>(i / 3), static_cast<Index>(i % 3)) * w.h[i].tail(n) +
                 2 * unit_x(static_cast<Index>(i / 3), static_cast<Index>(i % 3)) * w.h_rate[i].tail(n);
   }
-  w.C.bottomRows(n).middleCols<3>(3) = data_.first_moment.rightCols(n).transpose() * omega_x;
+  w.C.bottomRows(n).middleCols<3>(3).noalias() = data_.first_moment.rightCols(n).transpose() * omega_x;
   for (Index a = 1; a <= n; ++a) {
     const auto i = static_cast<std::size_t>(a);
     const Vector3 S_a = data_.first_moment.col(a);
@@ -225,8 +225,9 @@ void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
     put(w.Z_acc_X, interface.accel_dX);
     put(w.Z_acc_V, interface.accel_dV);
   }
+  response.magnitude.resize(w.Z.cols());
   response.force.noalias() = w.Z.transpose() * w.force;
-  response.magnitude.noalias() = w.Z.cwiseAbs().transpose() * w.magnitude;
+  for (Index c = 0; c < w.Z.cols(); ++c) response.magnitude[c] = w.Z.col(c).cwiseAbs().dot(w.magnitude);
   if (!want_tangent) return;
   w.product.noalias() = w.K * w.Z;
   w.product.noalias() += w.C * w.Z_rate_X;
