@@ -13,6 +13,8 @@ ElasticAssembly::ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree&
     frames_.push_back(tree.frames[static_cast<std::size_t>(id.index)]);
     for (int k : tree.path[static_cast<std::size_t>(frames_.back().link)]) moves_any[static_cast<std::size_t>(k)] = 1;
   }
+  for (std::size_t i = 0; i < spec.freedoms.size(); ++i)
+    freedoms_.push_back(freedom_of(spec.freedoms[i], body_->rest_pose(static_cast<int>(i) + 1), tree));
   for (std::size_t k = 0; k < moves_any.size(); ++k)
     if (moves_any[k] != 0) columns_.push_back(static_cast<int>(k));
   tree_columns_ = static_cast<int>(columns_.size());
@@ -33,6 +35,26 @@ ElasticAssembly::ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree&
   response_.force = response_.magnitude = Eigen::VectorXd::Zero(rows);
 }
 
+ElasticAssembly::Freedom ElasticAssembly::freedom_of(JointId joint, const Pose& rest, const Tree& tree) {
+  const JointPlace& place = tree.joints[static_cast<std::size_t>(joint.index)];
+  if (place.closure >= 0) return {};
+  const auto q_of = [&](std::size_t value) {
+    return tree.links[static_cast<std::size_t>(place.value_link[value])].first_q;
+  };
+  // Reversed, the chain runs ball, z, y, x.
+  return {std::min(q_of(0), q_of(2)), q_of(3), place.reversed, rest.R};
+}
+
+/// Small as it is, a coordinate carries all its digits; a difference of poses has lost those of the body's size.
+std::optional<Vector6> ElasticAssembly::deformation(const Freedom& freedom, const Eigen::VectorXd& q) {
+  if (freedom.q < 0) return std::nullopt;
+  const Vector3 xyz = q.segment<3>(freedom.q), axis = q.segment<3>(freedom.ball + 1);
+  const double sine = 2 * q[freedom.ball] * (freedom.reversed ? -1 : 1);
+  Vector6 moved;
+  moved << freedom.R_rest * (sine * axis), freedom.R_rest * (freedom.reversed ? Vector3(xyz.reverse()) : xyz);
+  return moved;
+}
+
 const ElasticMotion& ElasticAssembly::read(const TreeMotion& motion, const solver::State& state,
                                            const solver::Stage& stage, bool accelerate) {
   motion_.t = state.t;
@@ -45,6 +67,7 @@ const ElasticMotion& ElasticAssembly::read(const TreeMotion& motion, const solve
     frame.X_WF = motion.pose(frames_[f]);
     to_frame_[f] = motion_transform(frame.X_WF.inverse());
     frame.V = to_frame_[f] * motion.V(frames_[f].link);
+    if (f > 0) frame.deformation = deformation(freedoms_[f - 1], state.q);
     if (accelerate) frame.A = to_frame_[f] * motion.A(frames_[f].link);
   }
   motion_.eta = state.q.segment(own_q_, own_count());

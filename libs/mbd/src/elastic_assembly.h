@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "assembly.h"
@@ -39,6 +41,15 @@ class ElasticAssembly {
   [[nodiscard]] ElasticResponse& response() { return response_; }
 
  private:
+  /// Coordinates of the free joint from frame 0 at rest to another frame.
+  struct Freedom {
+    int q = -1;    ///< of its first translation; -1: the joint is not in the tree
+    int ball = 0;  ///< of its quaternion
+    bool reversed = false;
+    Matrix3 R_rest;
+  };
+  static Freedom freedom_of(JointId joint, const Pose& rest, const Tree& tree);
+  [[nodiscard]] static std::optional<Vector6> deformation(const Freedom& freedom, const Eigen::VectorXd& q);
   void fill_directions(const Assembly& assembly);
   void add_tangent(Assembly& assembly);
   void add_turning(Assembly& assembly);
@@ -46,6 +57,7 @@ class ElasticAssembly {
   std::string name_;
   std::shared_ptr<ElasticBody> body_;
   std::vector<Attachment> frames_;
+  std::vector<Freedom> freedoms_;         ///< of all frames but the first
   std::vector<int> columns_;              ///< tree columns that move any frame, then own coordinates
   int tree_columns_ = 0;                  ///< how many of them are the tree's
   std::vector<std::vector<char>> moves_;  ///< [frame][place in columns_]

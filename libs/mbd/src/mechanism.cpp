@@ -377,11 +377,9 @@ std::string Mechanism::domain_error() const {
 
 State Mechanism::initial_state() const { return impl_->initial_state(); }
 
-std::vector<Mechanism::Index> Mechanism::given_coordinates() const {
-  std::vector<Index> given = impl_->given_coordinates();
-  for (Index k = impl_->tree.nv; k < impl_->nv; ++k) given.push_back(k);
-  return given;
-}
+std::vector<Mechanism::Index> Mechanism::given_coordinates() const { return impl_->given_coordinates(); }
+
+std::vector<Mechanism::Index> Mechanism::elastic_coordinates() const { return impl_->elastic_coordinates(); }
 
 FrameMotion Mechanism::frame_motion(const State& state, FrameId frame) {
   HERSEY_REQUIRE(0 <= frame.index && frame.index < static_cast<int>(impl_->tree.frames.size()), "the frame exists");

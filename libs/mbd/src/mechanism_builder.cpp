@@ -144,6 +144,7 @@ FlexibleBodyIds MechanismBuilder::add_flexible_body(const std::string& name,
   FlexibleBodyIds ids;
   ids.bodies.push_back(add_body({.name = name}));
   ids.frames.push_back(frame_of(ids.bodies[0]));
+  std::vector<JointId> freedoms;
   for (std::size_t i = 0; i < frame_names.size(); ++i) {
     const std::string full = name + "." + frame_names[i];
     const FrameId rest =
@@ -151,13 +152,13 @@ FlexibleBodyIds MechanismBuilder::add_flexible_body(const std::string& name,
     ids.bodies.push_back(add_body({.name = full}));
     ids.frames.push_back(frame_of(ids.bodies.back()));
     // Given values, so that the assembly at the start leaves the body undeformed where it can.
-    add_joint({.name = full,
-               .type = JointType::free,
-               .inboard = rest,
-               .outboard = ids.frames.back(),
-               .initial = std::vector<double>(6, 0.0)});
+    freedoms.push_back(add_joint({.name = full,
+                                  .type = JointType::free,
+                                  .inboard = rest,
+                                  .outboard = ids.frames.back(),
+                                  .initial = std::vector<double>(6, 0.0)}));
   }
-  ids.elastic = append<ElasticId>(spec_.elastics, MechanismSpec::Elastic{name, ids.frames, std::move(body)});
+  ids.elastic = append<ElasticId>(spec_.elastics, MechanismSpec::Elastic{name, ids.frames, freedoms, std::move(body)});
   return ids;
 }
 

@@ -50,6 +50,8 @@ struct Mechanism::Implementation {
   [[nodiscard]] double initial_rate(const CoordinateRef& coordinate) const;
   [[nodiscard]] solver::State initial_state() const;
   [[nodiscard]] std::vector<Index> given_coordinates() const;
+  [[nodiscard]] std::vector<Index> elastic_coordinates() const;
+  [[nodiscard]] bool is_deformation(int joint) const;
 
   // Redundant constraints
   std::vector<Redundancy> redundancies;

@@ -38,9 +38,24 @@ solver::State Mechanism::Implementation::initial_state() const {
 std::vector<Mechanism::Index> Mechanism::Implementation::given_coordinates() const {
   std::vector<Index> given;
   for (const Link& link : tree.links)
-    if (link.joint >= 0 && !spec.joints[link.joint].initial.empty())
+    if (link.joint >= 0 && !spec.joints[link.joint].initial.empty() && !is_deformation(link.joint))
       for (int c = 0; c < link.columns; ++c) given.push_back(link.first_v + c);
   return given;
+}
+
+bool Mechanism::Implementation::is_deformation(int joint) const {
+  return std::any_of(spec.elastics.begin(), spec.elastics.end(), [&](const MechanismSpec::Elastic& elastic) {
+    return std::find(elastic.freedoms.begin(), elastic.freedoms.end(), JointId{joint}) != elastic.freedoms.end();
+  });
+}
+
+std::vector<Mechanism::Index> Mechanism::Implementation::elastic_coordinates() const {
+  std::vector<Index> stiff;
+  for (const Link& link : tree.links)
+    if (link.joint >= 0 && is_deformation(link.joint))
+      for (int c = 0; c < link.columns; ++c) stiff.push_back(link.first_v + c);
+  for (Index k = tree.nv; k < nv; ++k) stiff.push_back(k);
+  return stiff;
 }
 
 void Mechanism::Implementation::release_redundant_rows() {

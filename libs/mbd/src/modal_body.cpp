@@ -1,6 +1,8 @@
 #include "hersey/mbd/modal_body.h"
 
 #include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "hersey/core/contract.h"
@@ -15,6 +17,10 @@ using Eigen::VectorXd;
 
 // As in inertia.cpp: the share of the force that would stop a body within the step.
 constexpr double kMomentumShare = 1e-4;
+
+// The share of the force of a deformation as large as the body, counted as a magnitude too: loops that the body closes
+// give its deformation as a difference of poses, with their round-off of 1e-15.
+constexpr double kStiffnessShare = 1e-6;
 
 /// Sum over material points of rho y x z for the matrix N = sum of rho y z^T.
 Vector3 cross_moment(const Matrix3& N) { return {N(1, 2) - N(2, 1), N(2, 0) - N(0, 2), N(0, 1) - N(1, 0)}; }
@@ -65,6 +71,7 @@ ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::ma
   for (const MatrixXd& G : data_.second_moment)
     HERSEY_REQUIRE(G.rows() == n + 1 && G.cols() == n + 1, "second moments of positions and of every shape");
   modal_mass_ = (data_.second_moment[0] + data_.second_moment[4] + data_.second_moment[8]).bottomRightCorner(n, n);
+  round_off_ = kStiffnessShare * stiffness_at_size();
   Workspace& w = *work_;
   w.q = w.rate = w.acceleration = VectorXd::Zero(n + 1);
   w.interfaces.resize(data_.rest.size() - 1);
@@ -78,6 +85,18 @@ ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::ma
 }
 
 ModalBody::~ModalBody() = default;
+
+/// Forces of a turn of 1 rad or a shift by twice the radius of gyration of every frame, all taken as positive.
+VectorXd ModalBody::stiffness_at_size() const {
+  const Index interfaces = 6 * (frame_count() - 1);
+  double square = 0;
+  for (std::size_t p = 0; p < 3; ++p) square += data_.second_moment[4 * p](0, 0);
+  const double size =
+      2 * std::sqrt(std::max(square / data_.mass - (data_.first_moment.col(0) / data_.mass).squaredNorm(), 0.0));
+  VectorXd reach = VectorXd::Zero(data_.shapes());
+  for (Index i = 0; i < interfaces; ++i) reach[i] = i % 6 < 3 ? 1 : size;
+  return data_.stiffness.cwiseAbs() * reach;
+}
 
 /// Amplitudes and sums over shapes at a motion.
 void ModalBody::gather(const ElasticMotion& motion, bool want_tangent) {
@@ -203,7 +222,7 @@ void ModalBody::add_elasticity(bool want_tangent) {
   w.elastic.noalias() = data_.stiffness * w.q.tail(n);
   w.viscous.noalias() = data_.damping * w.rate.tail(n);
   w.force.tail(n) += w.elastic + w.viscous;
-  w.magnitude.tail(n) += w.elastic.cwiseAbs() + w.viscous.cwiseAbs();
+  w.magnitude.tail(n) += w.elastic.cwiseAbs() + w.viscous.cwiseAbs() + round_off_;
   if (!want_tangent) return;
   w.K.bottomRightCorner(n, n) += data_.stiffness;
   w.C.bottomRightCorner(n, n) += data_.damping;

@@ -20,6 +20,7 @@ void RelativeDeformation::update(const ElasticFrame& base, const ElasticFrame& f
   theta << relative_(2, 1) - relative_(1, 2), relative_(0, 2) - relative_(2, 0), relative_(1, 0) - relative_(0, 1);
   theta *= 0.5;
   q << theta, r_ - rest.r;
+  if (frame.deformation) q = *frame.deformation;
   rate << B_theta_ * w_, u_rate;
   // dB_theta/dt w = -(theta . w) w + (R w) x w / 2.
   acceleration << B_theta_ * w_rate_ - theta.dot(w_) * w_ + 0.5 * (relative_ * w_).cross(w_),

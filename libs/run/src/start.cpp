@@ -128,6 +128,7 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   state.t = model.simulation.start;
   solver::InitialiseOptions options;
   options.held = machine.mechanism->given_coordinates();
+  options.stiff = machine.mechanism->elastic_coordinates();
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
   if (!summary.consistent()) throw InputError(faults_of(model, summary));
   if (model.simulation.analysis == model::Analysis::kinematics) require_prescribed_motion(model, machine, state);

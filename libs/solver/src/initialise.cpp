@@ -19,12 +19,16 @@ using Eigen::VectorXd;
 using Index = Equations::Index;
 
 /// Weights of a minimum-norm increment: held components move only if nothing else can.
-VectorXd mobilities(Index nv, const std::vector<Index>& held) {
+VectorXd mobilities(Index nv, const InitialiseOptions& options) {
   VectorXd weight = VectorXd::Ones(nv);
-  for (Index k : held) {
-    HERSEY_REQUIRE(0 <= k && k < nv, "a held component exists");
-    weight[k] = 1e-7;
-  }
+  const auto weigh = [&](const std::vector<Index>& components, double mobility) {
+    for (Index k : components) {
+      HERSEY_REQUIRE(0 <= k && k < nv, "a held component exists");
+      weight[k] = mobility;
+    }
+  };
+  weigh(options.held, 1e-7);
+  weigh(options.stiff, 1e-10);
   return weight;
 }
 
@@ -55,17 +59,20 @@ std::vector<OpenConstraint> open_constraints(Equations& equations, const State& 
   return open;
 }
 
-/// Closes the constraints: first with what is held at rest, then with everything free, each also from a disturbed
-/// guess. Leaves the state where it ended, or at the closest configuration found.
+/// Closes the constraints: first with what is held at rest, then with everything free but what is stiff, each also from
+/// a disturbed guess; at last with that free too. Leaves the state where it ended, or at the closest configuration
+/// found.
 void assemble_positions(Equations& equations, State& state, const InitialiseOptions& options,
                         InitialiseSummary& summary) {
   const State guess = state;
   State closest = state;
   double least = std::numeric_limits<double>::infinity();
-  const auto attempt = [&](bool hold, bool disturbed) {
+  const auto attempt = [&](bool hold, bool stiff, bool disturbed) {
     VectorXd mobility = VectorXd::Ones(equations.nv());
     if (hold)
       for (const Index k : options.held) mobility[k] = 0;
+    if (stiff)
+      for (const Index k : options.stiff) mobility[k] = 0;
     state = guess;
     if (disturbed) disturb(equations, state, mobility);
     const ClosureResult result = close_constraints(equations, state, mobility, options);
@@ -76,7 +83,9 @@ void assemble_positions(Equations& equations, State& state, const InitialiseOpti
     }
     return result.closed;
   };
-  const bool closed = attempt(true, false) || attempt(true, true) || attempt(false, false) || attempt(false, true);
+  bool closed = attempt(true, true, false) || attempt(true, true, true) || attempt(false, true, false) ||
+                attempt(false, true, true);
+  if (!closed && !options.stiff.empty()) closed = attempt(false, false, false);
   if (!closed) state = closest;
   summary.residual = least;
   if (closed) return;
@@ -127,7 +136,7 @@ InitialiseSummary initialise(Equations& equations, State& state, const Initialis
   State trial = state;
   trial.vdot.setZero(nv);
   trial.lambda.setZero(nlambda);
-  const VectorXd weight = mobilities(nv, options.held);
+  const VectorXd weight = mobilities(nv, options);
 
   assemble_positions(equations, trial, options, summary);
   // Conflicting constraints are redundant ones, and that is the better message.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct ElasticFrame {
   Pose X_WF;
   Vector6 V = Vector6::Zero();  ///< [omega; v], v the velocity of the frame's origin
   Vector6 A = Vector6::Zero();  ///< d[omega; v]/dt of these components, gravity taken off as if ground fell with -g
+  /// [axial vector of the relative rotation; displacement] against the rest pose in frame 0, in frame 0's axes, where
+  /// it is known more precisely than as a difference of poses.
+  std::optional<Vector6> deformation = std::nullopt;
 };
 
 /// What an elastic body sees: its frames, and its own coordinates where it has any.

@@ -97,6 +97,9 @@ class Mechanism final : public solver::Equations {
   /// Velocity components whose initial position the user gave: InitialiseOptions::held.
   [[nodiscard]] std::vector<Index> given_coordinates() const;
 
+  /// Velocity components that deform elastic bodies: InitialiseOptions::stiff.
+  [[nodiscard]] std::vector<Index> elastic_coordinates() const;
+
   /// Everything about `state`. Two-body forces are those of the last accepted step, which must have ended in `state`.
   [[nodiscard]] Observation observe(const solver::State& state);
 

@@ -147,7 +147,8 @@ struct MechanismSpec {
 
   struct Elastic {
     std::string name;
-    std::vector<FrameId> frames;  ///< as the elastic body counts them, each on a body of its own
+    std::vector<FrameId> frames;    ///< as the elastic body counts them, each on a body of its own
+    std::vector<JointId> freedoms;  ///< free joints from the first frame at rest_pose to each other frame
     std::shared_ptr<ElasticBody> body;
   };
   std::vector<Elastic> elastics;

@@ -57,6 +57,7 @@ class ModalBody final : public ElasticBody {
 
  private:
   struct Workspace;
+  [[nodiscard]] Eigen::VectorXd stiffness_at_size() const;
   void gather(const ElasticMotion& motion, bool want_tangent);
   void add_inertia(const ElasticFrame& base);
   void differentiate_inertia(const ElasticFrame& base);
@@ -66,6 +67,7 @@ class ModalBody final : public ElasticBody {
 
   ModalBodyData data_;
   Eigen::MatrixXd modal_mass_;
+  Eigen::VectorXd round_off_;
   std::unique_ptr<Workspace> work_;
 };
 

@@ -12,6 +12,8 @@ struct InitialiseOptions {
   int max_iterations = 100;  ///< iterations of the assembly, from each guess
   /// Velocity components the assembly should leave as they are if the constraints allow it: what the user prescribed.
   std::vector<Equations::Index> held;
+  /// Those that should move only if even freeing the held ones does not close the constraints: deformations.
+  std::vector<Equations::Index> stiff;
 };
 
 enum class InitialiseStatus { consistent, cannot_assemble, redundant, undetermined, domain_error };
