@@ -48,6 +48,31 @@ void set_moments(ModalBodyData& data, const Eigen::SparseMatrix<double>& nodal_m
   }
 }
 
+ModalBodyData modal_data(const fem::ReducedBody& reduced, const RayleighDamping& damping, MatrixXd* shapes) {
+  const Index n = reduced.size() - 6;
+  const Index internal_first = reduced.internal_first() - 6;
+  MatrixXd Phi = reduced.Phi.rightCols(n);
+  VectorXd scale = VectorXd::Ones(n);
+  for (Index a = internal_first; a < n; ++a) {
+    const Eigen::Map<const Eigen::Matrix3Xd> moved(Phi.col(a).data(), 3, Phi.rows() / 3);
+    scale[a] = 1 / moved.colwise().norm().maxCoeff();
+  }
+  Phi = Phi * scale.asDiagonal();
+  const auto scaled = [&](const MatrixXd& A) {
+    return MatrixXd(scale.asDiagonal() * A.bottomRightCorner(n, n) * scale.asDiagonal());
+  };
+  Eigen::Matrix3Xd x(3, static_cast<Index>(reduced.nodes.size()));
+  for (Index i = 0; i < x.cols(); ++i) x.col(i) = reduced.nodes[static_cast<std::size_t>(i)];
+  ModalBodyData data;
+  set_moments(data, reduced.m, x, Phi);
+  data.stiffness = scaled(reduced.K);
+  data.damping = damping.mass * scaled(reduced.M) + damping.stiffness * data.stiffness;
+  for (const fem::InterfaceFrame& frame : reduced.frames) data.rest.push_back({Matrix3::Identity(), frame.origin});
+  data.rest[0] = Pose{};
+  if (shapes != nullptr) *shapes = std::move(Phi);
+  return data;
+}
+
 /// Everything at one motion. The unknowns of the body in its own axes are [frame 0 (6); amplitudes].
 struct ModalBody::Workspace {
   VectorXd q, rate, acceleration;            // amplitudes, with q_0 = 1 for the points themselves

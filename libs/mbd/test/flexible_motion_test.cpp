@@ -33,7 +33,7 @@ std::vector<double> frequencies_of(Mechanism& m, const solver::State& state) {
 TEST_CASE("FlexibleBeam_HasTheFrequenciesOfSlenderBeams") {
   // Euler and Bernoulli's beam, of slenderness 100 over the thinner side: shear and rotary inertia take 1e-3 and less.
   test::Beam beam{.size = {1, 0.01, 0.02}, .cells = {24, 1, 1}, .tip = true};
-  beam.options.modes = 6;
+  beam.modes = 6;
   beam.material.poisson_ratio = 0;
   const double speed = std::sqrt(beam.material.youngs_modulus / beam.material.density) * 0.01 / std::sqrt(12.0);
   const auto exact = [&](double root) { return root * root * speed / (2 * kPi); };
@@ -69,7 +69,7 @@ TEST_CASE("FlexibleBeam_HasTheFrequenciesOfItsMesh") {
   // The reference cantilever's mesh of hexahedra with 20 nodes is verified elsewhere; here modes against more modes.
   test::Beam beam{.cells = {10, 2, 2}, .tip = true};
   const auto lowest = [&](int modes) {
-    beam.options.modes = modes;
+    beam.modes = modes;
     MechanismBuilder b;
     clamp(b, beam.add_to(b));
     const auto m = b.finalise();
@@ -120,7 +120,7 @@ struct SpinErrors {
 SpinErrors spin(double turns, int steps_per_turn, const Vector3& omega, double spectral_radius) {
   test::Beam beam{.size = {1, 0.05, 0.03}, .cells = {8, 1, 1}, .tip = true};
   beam.material.youngs_modulus = 2e9;  // soft enough to bend
-  beam.options.modes = 4;
+  beam.modes = 4;
   MechanismBuilder b;
   const FlexibleBodyIds ids = beam.add_to(b);
   // Joined at the centre of mass, whose path the integrator meets exactly.
@@ -170,7 +170,7 @@ TEST_CASE("SpinningRod_StretchesByTheClosedForm") {
   // u(L) = rho omega^2 L^3/(3 E), nu = 0; the softening by the rod's own stretch is omega^2 L^2 rho/E of it.
   test::Beam rod{.size = {1, 0.02, 0.02}, .cells = {20, 1, 1}, .tip = true};
   rod.material.poisson_ratio = 0;
-  rod.options.modes = 0;
+  rod.modes = 0;
   const double omega = 100;
   MechanismBuilder b;
   const FlexibleBodyIds ids = rod.add_to(b);
@@ -223,7 +223,7 @@ TEST_CASE("HangingBeam_ComesToRestAtItsStaticShape") {
 double slide(bool flexible, double stiffening) {
   test::Beam rod{.size = {0.3, 0.02, 0.02}, .cells = {8, 1, 1}, .tip = true};
   rod.material.youngs_modulus *= stiffening;
-  rod.options.modes = 4;
+  rod.modes = 4;
   MechanismBuilder b;
   const BodyId crank = b.add_body({.name = "crank", .mass = 1, .inertia = Vector3(1e-3, 1e-3, 1e-3).asDiagonal()});
   const BodyId slider = b.add_body({.name = "slider", .mass = 0.5});

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "hersey/fem/reduction.h"
 #include "hersey/mbd/elastic_body.h"
 
 namespace hersey::mbd {
@@ -32,6 +33,19 @@ struct ModalBodyData {
 /// @cost O(nodes shapes^2)
 void set_moments(ModalBodyData& data, const Eigen::SparseMatrix<double>& nodal_mass, const Eigen::Matrix3Xd& x,
                  const Eigen::MatrixXd& shapes);
+
+/// Rayleigh damping: mass times M, of the shapes against the body's own axes, plus stiffness times K.
+struct RayleighDamping {
+  double mass = 0;       ///< [1/s]
+  double stiffness = 0;  ///< [s]
+};
+
+/// A reduced mesh whose axes ride on its first frame: the shapes that move that frame are left out, being rigid motions
+/// and those of the others. Internal shapes are scaled to a largest displacement of 1, so that their coordinates are
+/// lengths (theory manual eq. (flexible-bodies.14)).
+/// @param shapes  receives the displacements of all nodes in each shape, shape (3 nodes, shapes); may be null
+[[nodiscard]] ModalBodyData modal_data(const fem::ReducedBody& reduced, const RayleighDamping& damping,
+                                       Eigen::MatrixXd* shapes = nullptr);
 
 /// The flexible body of small strain and large motion in the floating frame of its first frame, with every term of
 /// inertia that the shapes have (theory manual eq. (flexible-bodies.1) to (flexible-bodies.7)).
