@@ -66,30 +66,39 @@ SparseMatrix mass_matrix(const SparseMatrix& m) {
 
 HeldStiffness::HeldStiffness(const SparseMatrix& K, const SparseMatrix& m, const std::vector<int>& held,
                              const SparseMatrix& C)
-    : K_(K), constraints_(C.rows()) {
+    : place_(static_cast<std::size_t>(K.rows()), 0), constraints_(C.rows()) {
   HERSEY_REQUIRE(K.rows() == 3 * m.rows(), "three degrees of freedom per node");
   HERSEY_REQUIRE(C.rows() == 0 || C.cols() == K.cols(), "constraints are on the degrees of freedom");
-  std::vector<int> place(static_cast<std::size_t>(K.rows()), 0);
   for (const int dof : held) {
     HERSEY_REQUIRE(0 <= dof && dof < K.rows(), "supports are among the degrees of freedom");
-    place[static_cast<std::size_t>(dof)] = -1;
+    place_[static_cast<std::size_t>(dof)] = -1;
   }
-  for (std::size_t i = 0; i < place.size(); ++i)
-    if (place[i] == 0) {
-      place[i] = static_cast<int>(free_.size());
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (place_[i] == 0) {
+      place_[i] = static_cast<int>(free_.size());
       free_.push_back(static_cast<int>(i));
     }
   const auto total = static_cast<Eigen::Index>(free_.size()) + constraints_;
-  M_free_ = lower_part(mass_matrix(m), place, total);
-  K_free_ = lower_part(K, place, total) + constraint_rows(C, place, total);
+  M_free_ = lower_part(mass_matrix(m), place_, total);
+  C_free_ = constraint_rows(C, place_, total);
+  replace(K);
+}
+
+void HeldStiffness::replace(const SparseMatrix& K) {
+  HERSEY_REQUIRE(K.rows() == size(), "one row per degree of freedom");
+  K_free_ = lower_part(K, place_, M_free_.rows());
+}
+
+SparseMatrix HeldStiffness::shifted(double shift) const {
+  // Zeros are stored: one pattern for every shift.
+  SparseMatrix A = K_free_ - shift * M_free_;
+  if (constraints_ > 0) A = (A + C_free_).eval();
+  return A;
 }
 
 void HeldStiffness::analyse() {
   if (analysed_) return;
-  // One pattern for every shift, also where M has entries that K lacks.
-  const SparseMatrix both = K_free_ + 0 * M_free_;
-  K_free_ = both;
-  factor_.analyse(K_free_);
+  factor_.analyse(shifted(0));
   analysed_ = true;
 }
 
@@ -102,8 +111,7 @@ double HeldStiffness::memory_estimate() {
 solver::FactorSummary HeldStiffness::factorise(double shift) {
   if (free_.empty()) return {.status = solver::FactorStatus::factorised};
   analyse();
-  const SparseMatrix A = K_free_ - shift * M_free_;
-  return factor_.factorise(A);
+  return factor_.factorise(shifted(shift));
 }
 
 Eigen::MatrixXd HeldStiffness::solve(const Eigen::MatrixXd& f) const {

@@ -22,11 +22,13 @@ namespace hersey::fem {
 ///     [C             0  ] [lambda] = [d].                                                         (elastic.11)
 class HeldStiffness {
  public:
-  /// @param K, m have to outlive this object
   /// @param held places of degrees of freedom, any order, repetitions allowed
   /// @param C (constraints, 3 n), independent of each other on the free degrees of freedom; no rows: none
   HeldStiffness(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& m,
                 const std::vector<int>& held, const Eigen::SparseMatrix<double>& C = {});
+
+  /// Takes another K of the same pattern.
+  void replace(const Eigen::SparseMatrix<double>& K);
 
   /// Analyses where this is the first time. `singular` means that the body, or a part of it, is not held.
   [[nodiscard]] solver::FactorSummary factorise(double shift = 0);
@@ -38,7 +40,7 @@ class HeldStiffness {
   /// The same with C u = d, d (constraints, columns).
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& d) const;
 
-  [[nodiscard]] Eigen::Index size() const { return K_.rows(); }
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(place_.size()); }
   [[nodiscard]] const std::vector<int>& free_dofs() const { return free_; }
 
   /// Dimension of the displacements that supports and constraints leave.
@@ -49,12 +51,13 @@ class HeldStiffness {
 
  private:
   void analyse();
+  [[nodiscard]] Eigen::SparseMatrix<double> shifted(double shift) const;
 
-  const Eigen::SparseMatrix<double>& K_;
+  std::vector<int> place_;  ///< of each degree of freedom among the free ones; -1: held
   std::vector<int> free_;
   Eigen::Index constraints_ = 0;
-  /// Lower triangles on the free degrees of freedom and the multipliers; the first holds C too.
-  Eigen::SparseMatrix<double> K_free_, M_free_;
+  /// Lower triangles on the free degrees of freedom and the multipliers.
+  Eigen::SparseMatrix<double> K_free_, M_free_, C_free_;
   solver::SymmetricFactor factor_;
   bool analysed_ = false;
 };
