@@ -61,7 +61,15 @@ void require_sound(const Mesh& mesh) {
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-void add_inertia(ElasticBody& body) {
+}  // namespace
+
+const SolidMaterial& ElasticBody::material_of(const Element& element) const {
+  return materials[static_cast<std::size_t>(std::max(element.material, 0))];
+}
+
+NodeColumns ElasticBody::positions_of(const Element& element) const { return positions(mesh, element); }
+
+void find_inertia(ElasticBody& body) {
   const Eigen::Map<const Eigen::Matrix3Xd> x(body.mesh.nodes.data()->data(), 3,
                                              static_cast<Eigen::Index>(body.mesh.nodes.size()));
   const Eigen::VectorXd nodal = body.m * Eigen::VectorXd::Ones(x.cols());
@@ -71,14 +79,6 @@ void add_inertia(ElasticBody& body) {
   const Matrix3 S = r * (r * body.m).transpose();  // int rho r r^T
   body.inertia = S.trace() * Matrix3::Identity() - (S + S.transpose()) / 2;
 }
-
-}  // namespace
-
-const SolidMaterial& ElasticBody::material_of(const Element& element) const {
-  return materials[static_cast<std::size_t>(std::max(element.material, 0))];
-}
-
-NodeColumns ElasticBody::positions_of(const Element& element) const { return positions(mesh, element); }
 
 ElasticBody assemble(Mesh mesh, std::vector<SolidMaterial> materials, Integration integration) {
   HERSEY_REQUIRE(!materials.empty(), "a body is of something");
@@ -94,7 +94,7 @@ ElasticBody assemble(Mesh mesh, std::vector<SolidMaterial> materials, Integratio
     pattern.add_vector(body.mesh, e, element_stiffness(e.type, x, material, integration), body.K);
     pattern.add_scalar(body.mesh, e, material.density * element_mass(e.type, x), body.m);
   }
-  add_inertia(body);
+  find_inertia(body);
   return body;
 }
 

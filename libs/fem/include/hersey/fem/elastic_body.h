@@ -37,6 +37,9 @@ struct ElasticBody {
 [[nodiscard]] ElasticBody assemble(Mesh mesh, std::vector<SolidMaterial> materials,
                                    Integration integration = Integration::full);
 
+/// Mass, centre and inertia of `body` from its nodes and m.
+void find_inertia(ElasticBody& body);
+
 /// M u for u with any number of columns, (3 n, columns).
 [[nodiscard]] Eigen::MatrixXd mass_times(const Eigen::SparseMatrix<double>& m, const Eigen::MatrixXd& u);
 

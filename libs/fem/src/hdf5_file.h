@@ -1,0 +1,45 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <Eigen/Dense>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hersey::fem {
+
+/// An open HDF5 file with the few kinds of data a body has. Data sets are named by their path, "frames/0/origin";
+/// groups on the way are made. Nothing is printed: what fails throws std::runtime_error with the data set's name.
+class Hdf5File {
+ public:
+  static Hdf5File create(const std::filesystem::path& path);
+  static Hdf5File open(const std::filesystem::path& path);
+  Hdf5File(Hdf5File&& other) noexcept;
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+  Hdf5File& operator=(Hdf5File&&) = delete;
+  ~Hdf5File();
+
+  /// A matrix as (rows, columns), first index slowest.
+  void write(const std::string& name, const Eigen::MatrixXd& values);
+  void write(const std::string& name, const std::vector<double>& values);
+  void write(const std::string& name, const std::vector<long long>& values);
+  void write_text(const std::string& name, const std::string& text);
+
+  [[nodiscard]] bool has(const std::string& name) const;
+  [[nodiscard]] Eigen::MatrixXd read_matrix(const std::string& name) const;
+  [[nodiscard]] std::vector<double> read_numbers(const std::string& name) const;
+  [[nodiscard]] std::vector<long long> read_integers(const std::string& name) const;
+  [[nodiscard]] std::string read_text(const std::string& name) const;
+
+ private:
+  explicit Hdf5File(hid_t file) : file_(file) {}
+  void write(const std::string& name, hid_t stored, hid_t type, const std::vector<hsize_t>& shape, const void* values);
+  [[nodiscard]] std::vector<hsize_t> shape_of(const std::string& name) const;
+  void read(const std::string& name, hid_t type, void* values) const;
+
+  hid_t file_;
+};
+
+}  // namespace hersey::fem
