@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "build_flexible.h"
 #include "hersey/core/contract.h"
 #include "hersey/mbd/bushing.h"
 #include "hersey/mbd/coordinate_laws.h"
@@ -107,6 +108,10 @@ class Builder {
     mechanism_.set_gravity(model_.gravity);
     add_frames(model_.ground, mbd::MechanismBuilder::ground());
     for (const Body& body : model_.bodies) {
+      if (body.flexible) {
+        add_flexible(body);
+        continue;
+      }
       add_frames(body, mechanism_.add_body({body.name, body.mass, body.centre_of_mass, body.inertia}));
     }
     for (const Joint& joint : model_.joints) add_joint(joint);
@@ -129,6 +134,25 @@ class Builder {
       frames_[{name, frame.name}] = mechanism_.add_frame({frame.name, id, frame.X_BF});
       poses_[{name, frame.name}] = frame.X_BF;
     }
+  }
+
+  void add_flexible(const Body& body) {
+    BuiltFlexible built = build_flexible(body);
+    std::vector<std::string> names;
+    for (std::size_t i = 1; i < body.frames.size(); ++i) names.push_back(body.frames[i].name);
+    const mbd::FlexibleBodyIds ids = mechanism_.add_flexible_body(body.name, names, built.body);
+    bodies_[body.name] = ids.bodies[0];
+    frames_[{body.name, ""}] = ids.frames[0];
+    poses_[{body.name, ""}] = Pose{};
+    for (std::size_t i = 0; i < body.frames.size(); ++i) {
+      // The first frame rides on the body's axes, the others on their own with the mesh's axes.
+      Pose X = body.frames[i].X_BF;
+      if (i > 0) X.r.setZero();
+      frames_[{body.name, body.frames[i].name}] = mechanism_.add_frame({body.frames[i].name, ids.bodies[i], X});
+      poses_[{body.name, body.frames[i].name}] = X;
+    }
+    built.elastic = ids.elastic;
+    machine_.flexibles.push_back(std::move(built));
   }
 
   [[nodiscard]] mbd::FrameId frame(const FrameName& name) const { return frames_.at({name.body, name.frame}); }

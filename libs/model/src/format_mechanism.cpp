@@ -10,12 +10,20 @@ TypePtr frames_format() {
                  required("axis", axis_format(), "Direction: x, y, z or three numbers, whose length does not matter."),
                  required("angle", quantity("rad", "90 deg"), "Right-handed about the axis."),
              });
-  return named(
-      "a mapping from names to frames",
-      object("a frame", {
-                            defaulted("origin", vector("m", "0 50 0 mm"), "0 0 0 m", "From the body's origin."),
-                            optional("rotation", rotation, "Turns the frame's axes from the body's.", "none"),
-                        }));
+  return named("a mapping from names to frames",
+               object("a frame", {
+                                     optional("origin", vector("m", "0 50 0 mm"), "From the body's origin.",
+                                              "0 0 0 m; with `nodes`, their centre"),
+                                     optional("rotation", rotation, "Turns the frame's axes from the body's.", "none"),
+                                     optional("nodes", text("a set of nodes", "big_end"),
+                                              "Set of the mesh's nodes that the frame of a flexible body stands on."),
+                                     optional("connection",
+                                              choice({{"rigid", "the nodes follow the frame as one rigid piece"},
+                                                      {"average",
+                                                       "the frame follows the nodes' mean motion, and what acts on it "
+                                                       "spreads over them"}}),
+                                              "How frame and nodes hold each other.", "rigid"),
+                                 }));
 }
 
 Key between_format() {
@@ -83,17 +91,19 @@ TypePtr bodies_format() {
   const TypePtr body =
       object("a body",
              {
-                 required("mass", quantity("kg", "5 kg", Range::not_negative()), "Mass."),
+                 optional("mass", quantity("kg", "5 kg", Range::not_negative()), "Mass."),
+                 optional("flexible", flexible_format(),
+                          "The body deforms: its mesh takes the place of mass, centre and inertia."),
                  defaulted("inertia", inertia, "{}", "Inertia matrix about the centre of mass, body axes."),
                  defaulted("centre_of_mass", vector("m", "0 48 0 mm"), "0 0 0 m", "From the body's origin, body axes."),
                  optional("frames", frames, "Frames fixed on the body; `body` alone names the body's own frame."),
                  optional("shapes", shapes_format(), "What the report draws of it, and what `contacts` name.",
-                          "lines between its joints"),
+                          "lines between its joints; of a flexible body, its mesh"),
              });
   const TypePtr ground =
       object("ground", {optional("frames", frames, "Frames fixed in space."),
                         optional("shapes", shapes_format(), "What the report draws of it, and what `contacts` name.")});
-  return named("a mapping from names to bodies", body,
+  return named("a mapping from names to bodies", with_exactly_one(body, {"mass", "flexible"}),
                {optional("ground", ground, "The resting body; it exists always and may carry frames.")});
 }
 

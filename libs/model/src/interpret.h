@@ -84,6 +84,13 @@ void require_function_of_time(Context& context, const Function& function, const 
 /// The shapes of a body, or of ground.
 [[nodiscard]] std::vector<mbd::Shape> shapes_of(Context& context, const Value& body);
 
+/// The flexible body described by `flexible` of `body`, none where there is no such key; sets nodes and origins of
+/// `frames` too. Reports what is wrong with its mesh, materials and frames.
+[[nodiscard]] std::optional<Flexible> flexible_of(Context& context, const Value& body, std::vector<Frame>& frames);
+
+/// Its outer surface, for the report.
+[[nodiscard]] mbd::Shape skin_of(const fem::Mesh& mesh);
+
 // The sections of the file.
 void interpret_bodies(Context& context);
 void interpret_joints(Context& context);

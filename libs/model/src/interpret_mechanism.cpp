@@ -10,7 +10,9 @@ namespace {
 std::vector<Frame> frames_of(Context& context, const Value& body) {
   std::vector<Frame> frames;
   for (const auto& [name, value] : section(body, "frames")) {
-    Frame frame{name, {}, value.key_position};
+    Frame frame;
+    frame.name = name;
+    frame.position = value.key_position;
     frame.X_BF.r = vector_of(value, "origin");
     if (const Value* rotation = value.find("rotation"); rotation != nullptr && !rotation->broken) {
       const Vector3 axis = direction_of(context, *rotation, "axis");
@@ -80,6 +82,7 @@ void interpret_bodies(Context& context) {
   for (const auto& [name, value] : section(context.root, "bodies")) {
     if (name == "ground") {
       context.model.ground.frames = frames_of(context, value);
+      (void)flexible_of(context, value, context.model.ground.frames);
       context.model.ground.shapes = shapes_of(context, value);
       context.model.ground.position = value.key_position;
       continue;
@@ -92,6 +95,9 @@ void interpret_bodies(Context& context) {
     body.inertia = inertia_of(context, value);
     body.frames = frames_of(context, value);
     body.shapes = shapes_of(context, value);
+    body.flexible = flexible_of(context, value, body.frames);
+    if (body.flexible && body.flexible->mesh && body.shapes.empty())
+      body.shapes.push_back(skin_of(*body.flexible->mesh));
     context.model.bodies.push_back(std::move(body));
   }
 }

@@ -87,8 +87,15 @@ void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, r
   write_shapes(model.ground, "/ground", writer);
   for (const model::Body& body : model.bodies) {
     const std::string group = "/bodies/" + body.name;
-    writer.attribute(group, "mass", body.mass);
-    writer.constant(group + "/centre_of_mass", {body.centre_of_mass.data(), 3}, "m", "in the body");
+    double mass = body.mass;
+    Vector3 centre = body.centre_of_mass;
+    for (const mbd::MechanismSpec::Elastic& elastic : spec.elastics) {
+      if (elastic.name != body.name) continue;
+      mass = elastic.body->mass();
+      centre = elastic.body->centre();
+    }
+    writer.attribute(group, "mass", mass);
+    writer.constant(group + "/centre_of_mass", {centre.data(), 3}, "m", "in the body");
     write_shapes(body, group, writer);
   }
   for (const mbd::JointSpec& joint : spec.joints) {

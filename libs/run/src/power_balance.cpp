@@ -13,7 +13,7 @@ double sum(const std::vector<double>& powers) { return std::accumulate(powers.be
 
 double PowerBalance::largest() const {
   return std::max({std::abs(drives), std::abs(loads), std::abs(gravity), std::abs(springs), std::abs(contacts),
-                   std::abs(bearings), std::abs(kinetic_rate)});
+                   std::abs(bearings), std::abs(elastic), std::abs(kinetic_rate)});
 }
 
 PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observation& seen,
@@ -41,6 +41,11 @@ PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observatio
     balance.gravity += body.mass * spec.gravity.dot(v);
     // The gyroscopic torque omega x (I omega) does no work.
     balance.kinetic_rate += body.mass * v.dot(a) + motion.omega.dot(inertia * motion.alpha);
+  }
+  for (const mbd::ElasticObservation& body : seen.elastics) {
+    balance.gravity += body.energy.gravity;
+    balance.elastic -= body.energy.strain_rate + body.energy.dissipation;
+    balance.kinetic_rate += body.energy.kinetic_rate;
   }
   return balance;
 }

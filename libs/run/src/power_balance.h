@@ -15,10 +15,13 @@ struct PowerBalance {
   double springs = 0;       ///< given to the bodies by springs and dampers
   double contacts = 0;      ///< given to the bodies by contacts
   double bearings = 0;      ///< given to the bodies by the films; negative: the films take it
+  double elastic = 0;       ///< given back by flexible bodies: minus the rate of their strain energy, minus damping
   double kinetic_rate = 0;  ///< d(kinetic energy)/dt
-  /// drives + loads + gravity + springs + contacts + bearings - kinetic_rate: zero but for the tolerance of the time
-  /// step and the drift of the velocity constraints.
-  [[nodiscard]] double error() const { return drives + loads + gravity + springs + contacts + bearings - kinetic_rate; }
+  /// drives + loads + gravity + springs + contacts + bearings + elastic - kinetic_rate: zero but for the tolerance of
+  /// the time step and the drift of the velocity constraints.
+  [[nodiscard]] double error() const {
+    return drives + loads + gravity + springs + contacts + bearings + elastic - kinetic_rate;
+  }
   /// The largest of the powers: what `error` is compared with.
   [[nodiscard]] double largest() const;
 };

@@ -59,6 +59,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
     : model_(model), machine_(machine), writer_(options.results, {.overwrite = options.overwrite}) {
   declare_run(options);
   declare_machine();
+  declare_flexible_bodies();
   declare_contacts();
   for (const model::Bearing& bearing : model.bearings) bearings_.push_back(declare_bearing(bearing));
   write_geometry(model, machine.mechanism->spec(), writer_);
@@ -149,13 +150,15 @@ void Recorder::declare_machine() {
   }
   energy_ = {writer_.series("/energy/kinetic", 1, "J", "kinetic energy"),
              writer_.series("/energy/potential", 1, "J", "potential energy of gravity"),
-             writer_.series("/energy/springs", 1, "J", "energy stored in springs and contacts")};
+             writer_.series("/energy/springs", 1, "J", "energy stored in springs and contacts"),
+             writer_.series("/energy/strain", 1, "J", "strain energy of flexible bodies")};
   power_ = {writer_.series("/power/drives", 1, "W", "put in by drives"),
             writer_.series("/power/loads", 1, "W", "put in by applied forces and torques"),
             writer_.series("/power/gravity", 1, "W", "put in by gravity"),
             writer_.series("/power/springs", 1, "W", "given to the bodies by springs and dampers"),
             writer_.series("/power/contacts", 1, "W", "given to the bodies by contacts"),
             writer_.series("/power/bearings", 1, "W", "given to the bodies by the films (negative: taken)"),
+            writer_.series("/power/elastic", 1, "W", "given back by flexible bodies (negative: stored or dissipated)"),
             writer_.series("/power/kinetic_rate", 1, "W", "rate of change of the kinetic energy"),
             writer_.series("/power/balance_error", 1, "W", "sum of all powers less the kinetic rate"),
             writer_.series("/power/film_friction", 1, "W", "viscous dissipation in all films"),
@@ -272,6 +275,7 @@ void Recorder::write_row(const StepRecord& step) {
   energy_.kinetic.append(seen.kinetic_energy);
   energy_.potential.append(seen.potential_energy);
   energy_.springs.append(seen.spring_energy);
+  write_flexible_bodies(seen);
 
   const PowerBalance& power = step.power;
   power_.drives.append(power.drives);
@@ -280,6 +284,7 @@ void Recorder::write_row(const StepRecord& step) {
   power_.springs.append(power.springs);
   power_.contacts.append(power.contacts);
   power_.bearings.append(power.bearings);
+  power_.elastic.append(power.elastic);
   power_.kinetic_rate.append(power.kinetic_rate);
   power_.balance_error.append(power.error());
   double film_friction = 0, asperity_friction = 0;

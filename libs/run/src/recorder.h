@@ -47,6 +47,9 @@ class Recorder {
   struct JointSeries {
     results::Series coordinates, rates, force, torque;
   };
+  struct FlexibleSeries {
+    results::Series strain, dissipation, amplitudes;
+  };
   struct DriveSeries {
     results::Series effort, power;
   };
@@ -54,11 +57,11 @@ class Recorder {
     results::Series gap, normal_force, friction_force, force, position, damping_power, friction_power, spots;
   };
   struct EnergySeries {
-    results::Series kinetic, potential, springs;
+    results::Series kinetic, potential, springs, strain;
   };
   struct PowerSeries {
-    results::Series drives, loads, gravity, springs, contacts, bearings, kinetic_rate, balance_error, film_friction,
-        asperity_friction;
+    results::Series drives, loads, gravity, springs, contacts, bearings, elastic, kinetic_rate, balance_error,
+        film_friction, asperity_friction;
   };
   struct BearingSeries {
     results::Series eccentricity, ratio, attitude, tilt, h_min, h_min_phi, h_min_z, h_min_centre, p_max, p_max_phi,
@@ -78,6 +81,8 @@ class Recorder {
   [[nodiscard]] Eigen::VectorXd body_increments(const solver::State& state, const Eigen::VectorXd& shape) const;
   void declare_run(const Options& options);
   void declare_machine();
+  void declare_flexible_bodies();
+  void write_flexible_bodies(const mbd::Observation& seen);
   void declare_contacts();
   void write_contacts(const std::vector<mbd::ContactObservation>& seen) const;
   [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
@@ -88,6 +93,7 @@ class Recorder {
   const model::Machine& machine_;
   results::Writer writer_;
   results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, rejected_, drift_;
+  std::vector<FlexibleSeries> flexibles_;
   EnergySeries energy_;
   PowerSeries power_;
   ModeSeries modes_;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "extremes.h"
+#include "flexible_record.h"
 #include "hersey/core/input_error.h"
 #include "hersey/model/build.h"
 #include "hersey/results/reader.h"
@@ -101,6 +102,7 @@ class Simulation {
         integrator_(integrator_options(model)),
         step_error_(model, machine_),
         recorder_(model, machine_, options),
+        deformed_(model, machine_, options.results),
         settling_(model) {
     kinds_.resize(machine_.mechanism->spec().forces.size(), ForceKind::spring);
     for (const model::BuiltContact& contact : machine_.contacts) {
@@ -347,6 +349,7 @@ class Simulation {
 
   void write(const StepRecord& step) {
     const double slack = 1e-9 * model_.simulation.step;
+    deformed_.write(state_.t, state_.t - model_.simulation.start, slack, step.mechanism);
     if (is_row_due(slack)) recorder_.write_row(step);
     if (state_.t >= next_fields_ - slack || settled_) {
       recorder_.write_fields(step);
@@ -403,6 +406,7 @@ class Simulation {
   solver::GeneralizedAlpha integrator_;
   StepError step_error_;
   Recorder recorder_;
+  DeformedMeshes deformed_;
   SettlingTest settling_;
   std::vector<BearingExtremes> extremes_;
   std::vector<ForceKind> kinds_;

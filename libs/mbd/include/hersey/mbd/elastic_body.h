@@ -66,6 +66,8 @@ class ElasticBody {
   [[nodiscard]] virtual Pose rest_pose(int i) const = 0;
   /// Mass [kg].
   [[nodiscard]] virtual double mass() const = 0;
+  /// Centre of mass of the undeformed body in frame 0 [m].
+  [[nodiscard]] virtual Vector3 centre() const = 0;
 
   virtual void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) = 0;
 

@@ -62,6 +62,7 @@ class ModalBody final : public ElasticBody {
   }
   [[nodiscard]] Pose rest_pose(int i) const override { return data_.rest[static_cast<std::size_t>(i)]; }
   [[nodiscard]] double mass() const override { return data_.mass; }
+  [[nodiscard]] Vector3 centre() const override { return data_.first_moment.col(0) / data_.mass; }
   void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) override;
   [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
 

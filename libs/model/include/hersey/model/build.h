@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "hersey/bearing/journal_bearing.h"
@@ -23,12 +24,23 @@ struct BuiltContact {
   mbd::BodyId first;
 };
 
+/// A flexible body of a machine.
+struct BuiltFlexible {
+  std::string name;
+  std::shared_ptr<mbd::ModalBody> body;
+  std::shared_ptr<const fem::Mesh> mesh;
+  Eigen::MatrixXd shapes;           ///< displacements of the nodes per amplitude, shape (3 nodes, shapes)
+  std::vector<double> frequencies;  ///< with all frames held [Hz]
+  mbd::ElasticId elastic;
+};
+
 /// A model turned into equations. Bodies, joints, drives, contacts and bearings keep the order of the model; body 0 of
-/// the mechanism is ground.
+/// the mechanism is ground, and a flexible body is followed by bodies and free joints of its further frames.
 struct Machine {
   std::unique_ptr<mbd::Mechanism> mechanism;
   std::vector<BuiltContact> contacts;
   std::vector<BuiltBearing> bearings;
+  std::vector<BuiltFlexible> flexibles;
 };
 
 /// @throws InputError where the parts make no mechanism: impossible inertia, a joint between a body and itself, two

@@ -12,8 +12,10 @@
 #include "hersey/core/scalar_function.h"
 #include "hersey/core/spatial.h"
 #include "hersey/fem/elastic_material.h"
+#include "hersey/fem/reduction.h"
 #include "hersey/film/film_model.h"
 #include "hersey/mbd/contact.h"
+#include "hersey/mbd/modal_body.h"
 #include "hersey/mbd/shape.h"
 
 /// The model file as checked, plain data: SI units, names resolved, nothing built yet.
@@ -52,6 +54,20 @@ struct Frame {
   std::string name;
   Pose X_BF;  ///< pose of the frame in its body
   SourcePosition position;
+  // On a flexible body
+  std::vector<int> nodes;  ///< of its mesh that the frame stands on
+  fem::Connection connection = fem::Connection::rigid;
+};
+
+/// How a body deforms.
+struct Flexible {
+  std::shared_ptr<const fem::Mesh> mesh;        ///< in metres; null where the file is broken
+  std::vector<fem::ElasticMaterial> materials;  ///< of the mesh's elements
+  int modes = 10;                               ///< with all frames held
+  double highest = 0;                           ///< leave out modes above this frequency [Hz]; 0: none
+  mbd::RayleighDamping damping;
+  double vtu_every = 0;  ///< interval of the deformed meshes written beside the results [s]; 0: none
+  SourcePosition position;
 };
 
 struct Body {
@@ -61,6 +77,7 @@ struct Body {
   Matrix3 inertia = Matrix3::Zero();  ///< about the centre of mass, body axes [kg m^2]; symmetric, physically possible
   std::vector<Frame> frames;
   std::vector<mbd::Shape> shapes;
+  std::optional<Flexible> flexible;  ///< then mass, centre and inertia are those of its mesh, and each frame has nodes
   SourcePosition position;
 };
 

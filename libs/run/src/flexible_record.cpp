@@ -1,0 +1,78 @@
+// Flexible bodies in the results file, and their deformed meshes beside it.
+#include "flexible_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "recorder.h"
+
+namespace hersey::run {
+
+void Recorder::declare_flexible_bodies() {
+  for (const model::BuiltFlexible& flexible : machine_.flexibles) {
+    const std::string group = "/bodies/" + flexible.name, path = group + "/";
+    const auto shapes = static_cast<int>(flexible.body->data().shapes());
+    flexibles_.push_back({writer_.series(path + "strain_energy", 1, "J", "strain energy"),
+                          writer_.series(path + "dissipation", 1, "W", "power lost to the material's damping"),
+                          shapes > 0 ? writer_.series(path + "amplitudes", shapes, "SI",
+                                                      "of the shapes: [rotation; displacement] of each frame but the "
+                                                      "first against it, then vibrations with all frames held [m]")
+                                     : results::Series{}});
+    writer_.attribute(group, "flexible_nodes", static_cast<int>(flexible.mesh->nodes.size()));
+    writer_.attribute(group, "flexible_shapes", shapes);
+    if (!flexible.frequencies.empty())
+      writer_.constant(path + "held_frequencies", flexible.frequencies, "Hz", "of the vibrations with all frames held");
+  }
+}
+
+void Recorder::write_flexible_bodies(const mbd::Observation& seen) {
+  double strain = 0;
+  for (std::size_t i = 0; i < flexibles_.size(); ++i) {
+    const mbd::ElasticObservation& body = seen.elastics[i];
+    strain += body.energy.strain;
+    flexibles_[i].strain.append(body.energy.strain);
+    flexibles_[i].dissipation.append(body.energy.dissipation);
+    const Eigen::VectorXd amplitudes = machine_.flexibles[i].body->amplitudes(body.motion);
+    if (amplitudes.size() > 0) flexibles_[i].amplitudes.append(amplitudes);
+  }
+  energy_.strain.append(strain);
+}
+
+DeformedMeshes::DeformedMeshes(const model::Model& model, const model::Machine& machine,
+                               const std::filesystem::path& results)
+    : machine_(machine) {
+  for (std::size_t i = 0; i < machine.flexibles.size(); ++i) {
+    const std::string& name = machine.flexibles[i].name;
+    const auto body = std::find_if(model.bodies.begin(), model.bodies.end(),
+                                   [&](const model::Body& candidate) { return candidate.name == name; });
+    if (!(body->flexible->vtu_every > 0)) continue;
+    std::filesystem::path pvd = results;
+    pvd.replace_extension();
+    pvd += "_" + name + ".pvd";
+    series_.push_back({i, body->flexible->vtu_every, fem::VtuSeries(std::move(pvd)), 0});
+  }
+}
+
+void DeformedMeshes::write(double t, double since_start, double slack, const mbd::Observation& seen) {
+  for (Series& series : series_) {
+    if (since_start < series.next * series.every - slack) continue;
+    series.next = std::floor((since_start + slack) / series.every) + 1;
+    const model::BuiltFlexible& flexible = machine_.flexibles[series.flexible];
+    const mbd::ElasticMotion& motion = seen.elastics[series.flexible].motion;
+    const Pose& X_WB = motion.frames[0].X_WF;
+    const Eigen::VectorXd u = flexible.shapes * flexible.body->amplitudes(motion);
+    const auto nodes = static_cast<Eigen::Index>(flexible.mesh->nodes.size());
+    fem::VtuFrame frame;
+    frame.positions.resize(3, nodes);
+    Eigen::MatrixXd displacement(3, nodes);
+    for (Eigen::Index n = 0; n < nodes; ++n) {
+      displacement.col(n) = X_WB.R * u.segment<3>(3 * n);
+      frame.positions.col(n) = X_WB * flexible.mesh->nodes[static_cast<std::size_t>(n)] + displacement.col(n);
+    }
+    frame.node_fields.push_back({"displacement", std::move(displacement)});
+    series.files.add(t, *flexible.mesh, frame);
+  }
+}
+
+}  // namespace hersey::run
