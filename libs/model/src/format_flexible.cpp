@@ -14,7 +14,7 @@ TypePtr flexible_format() {
              });
   const TypePtr damping = object(
       "Rayleigh damping", {
-                              defaulted("mass", quantity("s^-1", "2 s^-1", Range::not_negative()), "0 s^-1",
+                              defaulted("mass", quantity("Hz", "2 1/s", Range::not_negative()), "0 1/s",
                                         "Times the mass matrix, of the deformation alone; damps slow vibrations."),
                               defaulted("stiffness", quantity("s", "2 us", Range::not_negative()), "0 s",
                                         "Times the stiffness matrix; damps fast vibrations."),

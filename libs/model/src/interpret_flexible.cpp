@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "hersey/core/spelling.h"
@@ -119,11 +120,25 @@ class FlexibleReader {
         continue;
       }
       frame.nodes = set->second;
+      claim(mesh, frame, *nodes);
       if (text_of(value, "connection") == "average") frame.connection = fem::Connection::average;
       if (value.find("origin") != nullptr) continue;
       Vector3 sum = Vector3::Zero();
       for (int n : frame.nodes) sum += mesh.nodes[static_cast<std::size_t>(n)];
       frame.X_BF.r = sum / static_cast<double>(frame.nodes.size());
+    }
+  }
+
+  /// Reports nodes that another frame stands on already.
+  void claim(const fem::Mesh& mesh, const Frame& frame, const Value& at) {
+    for (int n : frame.nodes) {
+      const auto [owner, is_new] = owners_.try_emplace(n, frame.name);
+      if (is_new) continue;
+      context_.fault(at,
+                     "node " + std::to_string(mesh.node_labels[static_cast<std::size_t>(n)]) + ", on which frame '" +
+                         owner->second + "' stands too",
+                     "sets of nodes that do not overlap");
+      return;
     }
   }
 
@@ -136,6 +151,7 @@ class FlexibleReader {
 
   Context& context_;
   const Value& body_;
+  std::map<int, std::string> owners_;  ///< frames by the nodes they stand on
 };
 
 /// Nodes stand for a mesh that a rigid body does not have.

@@ -1,0 +1,113 @@
+#include <filesystem>
+#include <fstream>
+
+#include "hersey/model/build.h"
+#include "model_text.h"
+
+// Flexible bodies in the model file: what is read, and what is told about wrong ones.
+namespace hersey::model {
+namespace {
+
+// A cube of one hexahedron, 10 mm wide, with a set on either end.
+const std::string kMesh = R"(*NODE
+1, 0, 0, 0
+2, 10, 0, 0
+3, 10, 10, 0
+4, 0, 10, 0
+5, 0, 0, 10
+6, 10, 0, 10
+7, 10, 10, 10
+8, 0, 10, 10
+*ELEMENT, TYPE=C3D8, ELSET=all
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*NSET, NSET=left
+1, 4, 5, 8
+*NSET, NSET=right
+2, 3, 6, 7
+*NSET, NSET=edge
+1, 2
+)";
+
+const std::string kMachine = R"(hersey: 1
+title: Flexible
+bodies:
+  bar:
+    flexible:
+      mesh: flexible_test_bar.inp
+      length_unit: 1 mm
+      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
+      modes: 0
+    frames:
+      root: {nodes: left}
+      tip: {nodes: right, connection: average}
+joints:
+  clamp: {type: revolute, between: [ground, bar.root]}
+simulation: {duration: 1 ms, step: 0.1 ms}
+)";
+
+/// The mesh stands where the model file would: in the working directory.
+struct MeshFile {
+  MeshFile() { std::ofstream("flexible_test_bar.inp") << kMesh; }
+  ~MeshFile() { std::filesystem::remove("flexible_test_bar.inp"); }
+  MeshFile(const MeshFile&) = delete;
+  MeshFile& operator=(const MeshFile&) = delete;
+};
+
+std::string faults_with(const std::string& from, const std::string& to) {
+  const MeshFile file;
+  return faults_of(edited(kMachine, from, to));
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_CASE("FlexibleBody_IsReadAndBuilt") {
+  const MeshFile file;
+  const Model model = read_text(kMachine, "m.yaml");
+  const Body& bar = model.bodies[0];
+  REQUIRE(bar.flexible);
+  CHECK(bar.flexible->modes == 0);
+  REQUIRE(bar.frames.size() == 2);
+  CHECK((bar.frames[1].X_BF.r - Vector3(0.01, 0.005, 0.005)).norm() < 1e-15);
+  CHECK(bar.frames[1].connection == fem::Connection::average);
+  CHECK(bar.shapes.size() == 1);  // its skin
+  const Machine machine = build(model);
+  REQUIRE(machine.flexibles.size() == 1);
+  CHECK(machine.flexibles[0].body->mass() == doctest::Approx(7850e-6).epsilon(1e-12));
+  CHECK(machine.flexibles[0].body->data().shapes() == 6);
+  CHECK(machine.mechanism->nv() == 7);  // the hinge, and the tip against the root
+}
+
+TEST_CASE("FlexibleBody_FaultsNameWhatIsThere") {
+  const std::string material = "      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}\n";
+  CHECK(contains(faults_with("nodes: left", "nodes: lft"), "bodies.bar.frames.root.nodes: unknown node set 'lft'"));
+  CHECK(contains(faults_with("nodes: left", "nodes: lft"), "left"));
+  CHECK(contains(faults_with("{nodes: left}", "{origin: 0 0 0 mm}"), "a frame of a flexible body without `nodes`"));
+  CHECK(contains(faults_with(material, ""), "a mesh without materials"));
+  CHECK(contains(faults_with("bar.inp", "rod.inp"), "bodies.bar.flexible.mesh"));
+  CHECK(contains(faults_with("      length_unit: 1 mm\n", ""), "length_unit"));
+  CHECK(contains(faults_with("0.3, density", "0.5, density"), "poisson_ratio"));
+  CHECK(contains(faults_with("    flexible:", "    mass: 1 kg\n    flexible:"), "bodies.bar"));
+  CHECK(contains(faults_with("    frames:", "    centre_of_mass: 1 0 0 mm\n    frames:"),
+                 "`centre_of_mass` of a flexible body"));
+  CHECK(contains(faults_of(edited(good_model, "{origin: 0 50 0 mm,", "{nodes: left, origin: 0 50 0 mm,")),
+                 "`nodes` of a frame on a rigid body"));
+}
+
+TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {
+  CHECK(contains(faults_with("nodes: right", "nodes: left"), "on which frame 'root' stands too"));
+  const MeshFile file;
+  const Model model = read_text(edited(kMachine, "    frames:\n      root: {nodes: left}\n      tip: {nodes: right",
+                                       "    frames:\n      root: {nodes: edge"),
+                                "m.yaml");
+  try {
+    (void)build(model);
+    FAIL_CHECK("not refused");
+  } catch (const InputError& error) {
+    CAPTURE(std::string(error.what()));
+    CHECK(contains(error.what(), "m.yaml:5:5: bodies.bar.flexible: "));
+    CHECK(contains(error.what(), "root"));
+  }
+}
+
+}  // namespace
+}  // namespace hersey::model

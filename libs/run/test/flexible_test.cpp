@@ -1,0 +1,88 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "hersey/model/read.h"
+#include "hersey/results/reader.h"
+#include "hersey/run/simulate.h"
+#include "temporary_directory.h"
+
+// Flexible bodies in a run: energies, power balance, deformed meshes.
+namespace hersey::run {
+namespace {
+
+/// A bar of `cells` hexahedra, 20 mm long each and 10 mm wide, with sets on its ends.
+void write_bar(const std::filesystem::path& path, int cells) {
+  std::ofstream file(path);
+  file << "*NODE\n";
+  for (int i = 0; i <= cells; ++i)
+    for (int corner = 0; corner < 4; ++corner)
+      file << 4 * i + corner + 1 << ", " << 20 * i << ", " << (corner % 3 == 0 ? 0 : 10) << ", "
+           << (corner < 2 ? 0 : 10) << "\n";
+  file << "*ELEMENT, TYPE=C3D8I, ELSET=all\n";
+  for (int i = 0; i < cells; ++i) {
+    file << i + 1;
+    for (int corner = 0; corner < 4; ++corner) file << ", " << 4 * i + corner + 1;
+    for (int corner = 0; corner < 4; ++corner) file << ", " << 4 * i + corner + 5;
+    file << "\n";
+  }
+  file << "*NSET, NSET=left\n1, 2, 3, 4\n*NSET, NSET=right\n";
+  for (int corner = 0; corner < 4; ++corner) file << 4 * cells + corner + 1 << (corner < 3 ? ", " : "\n");
+}
+
+const char* const kPendulum = R"(hersey: 1
+title: A pendulum that bends
+gravity: 0 -9.81 0 m/s^2
+bodies:
+  bar:
+    flexible:
+      mesh: bar.inp
+      length_unit: 1 mm
+      material: {youngs_modulus: 1 GPa, poisson_ratio: 0.3, density: 1200 kg/m^3}
+      modes: 4
+      damping: {stiffness: 50 us}
+      vtu_every: 10 ms
+    frames:
+      root: {nodes: left}
+      tip: {nodes: right}
+joints:
+  hinge: {type: revolute, between: [ground, bar.root]}
+simulation: {duration: 50 ms, step: 0.1 ms}
+)";
+
+TEST_CASE("FlexiblePendulum_IsRecordedAndBalanced") {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::ofstream(folder / "model.yaml") << kPendulum;
+  const model::Model model = model::read(folder / "model.yaml");
+  const Summary summary = simulate(model, {.results = folder / "r.h5"});
+  INFO(summary.message);
+  CHECK(summary.status == Status::completed);
+  // Nothing closes a loop: what is left is Newton's tolerance.
+  CHECK(summary.worst_power_balance < 1e-7);
+  const results::Reader reader(folder / "r.h5");
+  const auto series = [&](const std::string& name) { return reader.read(name).values; };
+  const auto time = series("/time"), kinetic = series("/energy/kinetic"), potential = series("/energy/potential"),
+             strain = series("/energy/strain"), dissipation = series("/bodies/bar/dissipation");
+  CHECK(series("/bodies/bar/amplitudes").size() == 10 * time.size());
+  CHECK(strain == series("/bodies/bar/strain_energy"));
+  double lost = 0, most_strain = 0;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    lost += 0.5 * (dissipation[i] + dissipation[i - 1]) * (time[i] - time[i - 1]);
+    most_strain = std::max(most_strain, strain[i]);
+  }
+  CHECK(most_strain > 1e-4 * kinetic.back());
+  CHECK(lost > 0);
+  const double change = kinetic.back() + potential.back() + strain.back() + lost - potential.front();
+  CHECK(std::abs(change) < 1e-3 * kinetic.back());  // of the trapezoidal sum, and of the step
+  CHECK(std::filesystem::exists(folder / "r_bar.pvd"));
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "r_bar"))
+    files += entry.path().extension() == ".vtu" ? 1 : 0;
+  CHECK(files == 6);
+}
+
+}  // namespace
+}  // namespace hersey::run
