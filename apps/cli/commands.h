@@ -66,6 +66,22 @@ struct MeshArguments {
 /// that is unfit for computing. @throws InputError.
 [[nodiscard]] int mesh_command(const MeshArguments& arguments);
 
+struct ReduceArguments {
+  std::string file;
+  std::string length_unit = "m";
+  std::vector<std::string> frames;                     ///< "name=set:connection"
+  std::string youngs_modulus, poisson_ratio, density;  ///< empty: the mesh file's
+  std::filesystem::path stiffness, mass;               ///< matrices of another program; empty: ours
+  int modes = 20;
+  std::string highest;  ///< frequency; empty: none
+  std::filesystem::path output;
+  bool force = false;
+};
+
+/// `hersey reduce`: an elastic body in few coordinates, from a mesh, as a file. @returns an ExitCode.
+/// @throws InputError; std::runtime_error where the body cannot be reduced or the file not be written.
+[[nodiscard]] int reduce_command(const ReduceArguments& arguments);
+
 /// Tells what the model computes but hardly means, one a line on stderr.
 void warn(const std::vector<Fault>& warnings);
 

@@ -85,6 +85,33 @@ CLI::App* add_mesh_command(CLI::App& app, MeshArguments& mesh) {
   return command;
 }
 
+CLI::App* add_reduce_command(CLI::App& app, ReduceArguments& reduce) {
+  CLI::App* command = app.add_subcommand(
+      "reduce", "Make an elastic body of few coordinates from a mesh: frames, Craig-Bampton modes, one HDF5 file");
+  command->add_option("FILE", reduce.file, "Mesh: .msh, .inp or .bdf")->required();
+  command->add_option("--length-unit", reduce.length_unit, "What one unit of the file is (default: m)")
+      ->type_name("mm");
+  command
+      ->add_option("--frame", reduce.frames,
+                   "Frame for joints and forces on a set's nodes: pin=big_end:average (or rigid)")
+      ->type_name("NAME=SET:CONNECTION")
+      ->required()
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--youngs-modulus", reduce.youngs_modulus, "Default: the file's")->type_name("210GPa");
+  command->add_option("--poisson-ratio", reduce.poisson_ratio, "Default: the file's")->type_name("0.3");
+  command->add_option("--density", reduce.density, "Default: the file's")->type_name("7850kg/m^3");
+  command->add_option("--stiffness", reduce.stiffness, "Stiffness matrix of another program instead (.mtx, SI)")
+      ->type_name("FILE");
+  command->add_option("--mass", reduce.mass, "Mass matrix of another program (.mtx, SI)")->type_name("FILE");
+  command->add_option("--modes", reduce.modes, "Modes with all frames held, at most (default: 20)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--highest", reduce.highest, "Modes up to this frequency only")->type_name("5000Hz");
+  command->add_option("--output", reduce.output, "File to write")->type_name("FILE.h5")->required();
+  command->add_flag("--force", reduce.force, "Replace the file if it exists");
+  return command;
+}
+
 // Declares the command line and calls the command named in it.
 int dispatch(int argc, char** argv) {
   CLI::App app{kAbout, "hersey"};
@@ -124,6 +151,9 @@ int dispatch(int argc, char** argv) {
   MeshArguments mesh;
   const CLI::App* mesh_app = add_mesh_command(app, mesh);
 
+  ReduceArguments reduce;
+  const CLI::App* reduce_app = add_reduce_command(app, reduce);
+
   bool markdown = false;
   CLI::App* schema_app = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
   schema_app->add_flag("--markdown", markdown, "Print it as the reference page of the documentation instead");
@@ -138,6 +168,7 @@ int dispatch(int argc, char** argv) {
   if (*report_app) return report_command(report);
   if (*bearing_app) return bearing_command(bearing);
   if (*mesh_app) return mesh_command(mesh);
+  if (*reduce_app) return reduce_command(reduce);
   return schema_command(markdown);
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "arguments.h"
 #include "commands.h"
 #include "exit_code.h"
 #include "hersey/core/input_error.h"
-#include "hersey/core/units.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/skin.h"
@@ -18,22 +18,6 @@ namespace {
 
 using fem::Mesh;
 using fem::MeshQuality;
-
-double in_si(const char* option, const std::string& text, const char* unit) {
-  try {
-    return parse_quantity(text, unit);
-  } catch (const QuantityError& error) {
-    throw InputError(Fault{{"", 0, 0}, option, error.found, error.expected, error.suggestion});
-  }
-}
-
-// "mm" is one millimetre, "25.4 mm" an inch.
-double length_unit(const std::string& text) {
-  const bool has_number = text.find_first_of("0123456789") == 0;
-  const double metres = in_si("--length-unit", has_number ? text : "1 " + text, "m");
-  if (!(metres > 0)) throw InputError(Fault{{"", 0, 0}, "--length-unit", text, "a length > 0, such as mm", ""});
-  return metres;
-}
 
 nlohmann::json json_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -160,7 +144,7 @@ int mesh_command(const MeshArguments& arguments) {
   std::vector<Fault> warnings;
   const Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings);
   MeshQuality quality = fem::quality_of(mesh);
-  if (!arguments.density.empty()) quality.mass = in_si("--density", arguments.density, "kg/m^3") * quality.volume;
+  if (!arguments.density.empty()) quality.mass = quantity("--density", arguments.density, "kg/m^3") * quality.volume;
   for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
   const std::vector<Fault> faults = fem::faults_of(quality, arguments.file);
   if (!arguments.vtu.empty()) write_picture(mesh, arguments.vtu);

@@ -61,7 +61,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, OK, run.stderr)
         for word in ("run", "check", "report", "schema", "130"):
             self.assertIn(word, run.stdout)
-        for command in ("run", "check", "report", "schema", "bearing", "mesh"):
+        for command in ("run", "check", "report", "schema", "bearing", "mesh", "reduce"):
             help_of_command = hersey(command, "--help")
             self.assertEqual(help_of_command.returncode, OK, help_of_command.stderr)
             self.assertGreater(len(help_of_command.stdout.splitlines()), 4)
@@ -102,6 +102,47 @@ class CommandLine(unittest.TestCase):
         run = hersey("mesh", os.path.join(HERE, "../../libs/fem/test/data/block_22.msh"))
         self.assertEqual(run.returncode, OK)
         self.assertIn("is the mesh in millimetres?", run.stderr)
+
+    def test_reduce_writes_the_documented_file(self):
+        rod = os.path.join(HERE, "../../examples/meshes/conrod.msh")
+        file = os.path.join(self._folder.name, "rod.h5")
+        arguments = ("reduce", rod, "--length-unit", "mm", "--youngs-modulus", "210 GPa", "--poisson-ratio", "0.3",
+                     "--frame", "big_end:average", "--frame", "pin=small_end", "--modes", "3", "--output", file)
+        run = hersey(*arguments)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("--density", run.stderr)
+        run = hersey(*arguments, "--density", "7850 kg/m^3")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        with h5py.File(file) as body:
+            self.assertEqual(bytes(body["format"][:]).decode(), "hersey reduced body 1")
+            self.assertEqual(bytes(body["frames/1/name"][:]).decode(), "pin")
+            self.assertEqual(body["Phi"].shape, (3 * body["nodes"].shape[0], 15))
+            # A pull of both frames along y moves the whole body: its mass is that of the mesh, 0.462 kg.
+            along_y = [4, 10]
+            moved = sum(body["M"][i, j] for i in along_y for j in along_y)
+            self.assertAlmostEqual(moved / sum(body["mass/values"][:]), 1, delta=1e-9)
+            self.assertAlmostEqual(moved, 0.4621, delta=1e-4)
+        run = hersey(*arguments, "--density", "7850 kg/m^3")
+        self.assertIn("--force", run.stderr, "a file that exists is kept")
+        run = hersey(*arguments[:-1], file + "2", "--density", "7850 kg/m^3", "--frame", "smal_end")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("'small_end'", run.stderr)
+
+    def test_reduce_refuses_matrices_of_a_body_that_is_held(self):
+        tetrahedron = os.path.join(self._folder.name, "t.inp")
+        with open(tetrahedron, "w", encoding="utf-8") as file:
+            file.write("*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=all\n17,1,2,3,4\n")
+        matrix = os.path.join(self._folder.name, "one.mtx")
+        with open(matrix, "w", encoding="utf-8") as file:
+            file.write("%%MatrixMarket matrix coordinate real symmetric\n12 12 12\n")
+            file.writelines(f"{k} {k} 1.0\n" for k in range(1, 13))
+        arguments = ("reduce", tetrahedron, "--frame", "all", "--output", os.path.join(self._folder.name, "t.h5"))
+        run = hersey(*arguments, "--stiffness", matrix, "--mass", matrix)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("one.mtx: a stiffness that resists", run.stderr)
+        run = hersey(*arguments, "--stiffness", matrix)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("both matrices", run.stderr)
 
     def test_mesh_that_is_unfit_is_refused_with_labels(self):
         folded = os.path.join(self._folder.name, "folded.inp")

@@ -70,14 +70,14 @@ void require_free(const ElasticBody& body, const std::string& name) {
 
 }  // namespace
 
-ElasticBody import_body(Mesh mesh, Sparse K, const Sparse& M, const std::string& name) {
+ElasticBody import_body(Mesh mesh, const Sparse& K, const Sparse& M, const std::string& name) {
   const auto nodes = static_cast<Eigen::Index>(mesh.nodes.size());
   require_symmetric(K, 3 * nodes, "stiffness", name);
   const bool is_scalar = M.rows() == nodes;
   require_symmetric(M, is_scalar ? nodes : 3 * nodes, "mass", name);
   ElasticBody body;
   body.mesh = std::move(mesh);
-  body.K = std::move(K);
+  body.K = K;
   body.m = is_scalar ? M : scalar_mass(M, nodes, name);
   if (!(body.m.sum() > 0)) fail(name, "a mass that adds up to nothing", "a mass > 0", "give the material a density");
   find_inertia(body);

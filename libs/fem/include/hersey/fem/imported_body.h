@@ -12,7 +12,7 @@ namespace hersey::fem {
 /// @param name of the matrices' source, for messages.
 /// @throws InputError unless both are symmetric and of the mesh's size, M is the same in all three directions with a
 ///   positive sum, and no rigid motion strains the body (supports left in K do).
-[[nodiscard]] ElasticBody import_body(Mesh mesh, Eigen::SparseMatrix<double> K, const Eigen::SparseMatrix<double>& M,
-                                      const std::string& name);
+[[nodiscard]] ElasticBody import_body(Mesh mesh, const Eigen::SparseMatrix<double>& K,
+                                      const Eigen::SparseMatrix<double>& M, const std::string& name);
 
 }  // namespace hersey::fem
