@@ -81,6 +81,24 @@ struct ReduceArguments {
 /// `hersey reduce`: an elastic body in few coordinates, from a mesh, as a file. @returns an ExitCode.
 /// @throws InputError; std::runtime_error where the body cannot be reduced or the file not be written.
 [[nodiscard]] int reduce_command(const ReduceArguments& arguments);
+/// A body of one mesh by itself; what the mesh file says of its material may be left empty.
+struct SolidArguments {
+  std::string file;
+  std::string length_unit = "m";
+  std::string young, poisson, density;
+  std::vector<std::string> hold;      ///< sets that do not move: SET, or SET:xz for some directions only
+  std::vector<std::string> pressure;  ///< SURFACE=20MPa
+  std::string gravity;                ///< "0,0,-9.81", in m/s^2; empty: none
+  int count = 10;                     ///< natural modes
+  std::filesystem::path vtu;          ///< file to write for ParaView; empty: none
+  bool json = false;
+};
+
+/// `hersey modes`: natural frequencies and shapes, free or held. @returns an ExitCode. @throws InputError.
+[[nodiscard]] int modes_command(const SolidArguments& arguments);
+
+/// `hersey stress`: displacements and stresses under pressures and gravity. @returns an ExitCode. @throws InputError.
+[[nodiscard]] int stress_command(const SolidArguments& arguments);
 
 /// Tells what the model computes but hardly means, one a line on stderr.
 void warn(const std::vector<Fault>& warnings);

@@ -25,6 +25,7 @@ constexpr const char* kFooter =
     "  hersey bearing model.yaml --sweep load=100N:2500N:10          one bearing by itself\n"
     "  hersey check model.yaml                                       every fault, nothing simulated\n"
     "  hersey mesh conrod.msh --length-unit mm                       a mesh: sets, mass, quality\n"
+    "  hersey modes conrod.msh --length-unit mm --hold big_end       its natural frequencies\n"
     "  hersey schema > hersey.schema.json                            completion and checking in an editor\n"
     "\n"
     "Exit codes:\n"
@@ -112,6 +113,44 @@ CLI::App* add_reduce_command(CLI::App& app, ReduceArguments& reduce) {
   return command;
 }
 
+CLI::App* add_solid_command(CLI::App& app, const char* name, const char* description, SolidArguments& solid) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_option("FILE", solid.file, "Mesh of solid elements: Gmsh, Abaqus, CalculiX, Nastran")->required();
+  const auto value = [&](const char* option, std::string& text, const char* what, const char* type) {
+    command->add_option(option, text, what)->type_name(type);
+  };
+  value("--length-unit", solid.length_unit, "What one unit of the file is (default: m)", "mm");
+  value("--youngs-modulus", solid.young, "Young's modulus, instead of the file's", "210GPa");
+  value("--poisson-ratio", solid.poisson, "Poisson's ratio, instead of the file's", "0.3");
+  value("--density", solid.density, "Density, instead of the file's", "7850kg/m^3");
+  command->add_option("--hold", solid.hold, "Set of nodes that does not move, or SET:xz along some axes only")
+      ->type_name("SET")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--vtu", solid.vtu, "Write the result on the mesh for ParaView")->type_name("FILE");
+  command->add_flag("--json", solid.json, "Print it as JSON");
+  return command;
+}
+
+CLI::App* add_modes_command(CLI::App& app, SolidArguments& solid) {
+  CLI::App* command =
+      add_solid_command(app, "modes", "Natural frequencies and shapes of an elastic body, free or held", solid);
+  command->add_option("--count", solid.count, "How many modes, rigid ones included (default: 10)")
+      ->check(CLI::Range(1, 1000));
+  return command;
+}
+
+CLI::App* add_stress_command(CLI::App& app, SolidArguments& solid) {
+  CLI::App* command =
+      add_solid_command(app, "stress", "Displacements and stresses of an elastic body under constant loads", solid);
+  command->add_option("--pressure", solid.pressure, "Pressure on a surface of the mesh")
+      ->type_name("SURFACE=20MPa")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--gravity", solid.gravity, "Acceleration of gravity in m/s^2")->type_name("0,0,-9.81");
+  return command;
+}
+
 // Declares the command line and calls the command named in it.
 int dispatch(int argc, char** argv) {
   CLI::App app{kAbout, "hersey"};
@@ -153,6 +192,9 @@ int dispatch(int argc, char** argv) {
 
   ReduceArguments reduce;
   const CLI::App* reduce_app = add_reduce_command(app, reduce);
+  SolidArguments modes, stress;
+  const CLI::App* modes_app = add_modes_command(app, modes);
+  const CLI::App* stress_app = add_stress_command(app, stress);
 
   bool markdown = false;
   CLI::App* schema_app = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
@@ -169,6 +211,8 @@ int dispatch(int argc, char** argv) {
   if (*bearing_app) return bearing_command(bearing);
   if (*mesh_app) return mesh_command(mesh);
   if (*reduce_app) return reduce_command(reduce);
+  if (*modes_app) return modes_command(modes);
+  if (*stress_app) return stress_command(stress);
   return schema_command(markdown);
 }
 

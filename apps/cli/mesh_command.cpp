@@ -11,6 +11,7 @@
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/skin.h"
 #include "hersey/fem/vtu_file.h"
+#include "option_value.h"
 #include "table.h"
 
 namespace hersey::cli {

@@ -61,7 +61,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, OK, run.stderr)
         for word in ("run", "check", "report", "schema", "130"):
             self.assertIn(word, run.stdout)
-        for command in ("run", "check", "report", "schema", "bearing", "mesh", "reduce"):
+        for command in ("run", "check", "report", "schema", "bearing", "mesh", "reduce", "modes", "stress"):
             help_of_command = hersey(command, "--help")
             self.assertEqual(help_of_command.returncode, OK, help_of_command.stderr)
             self.assertGreater(len(help_of_command.stdout.splitlines()), 4)
@@ -143,6 +143,53 @@ class CommandLine(unittest.TestCase):
         run = hersey(*arguments, "--stiffness", matrix)
         self.assertEqual(run.returncode, WRONG_INPUT)
         self.assertIn("both matrices", run.stderr)
+
+    def test_modes_of_a_held_body_are_those_of_calculix(self):
+        mesh = os.path.join(HERE, "../../verification/data/meshes/cant_tet10.inp")
+        vtu = os.path.join(self._folder.name, "modes.vtu")
+        run = hersey("modes", mesh, "--hold", "FIX", "--count", "6", "--vtu", vtu, "--json")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        told = json.loads(run.stdout)
+        for frequency, reference in zip(told["frequencies"], (50.252, 83.228, 309.852, 499.221, 664.174, 846.585)):
+            self.assertAlmostEqual(frequency / reference, 1, delta=2e-5)
+        with open(vtu, "rb") as file:
+            self.assertIn(b'Name="mode_6"', file.read())
+        free = hersey("modes", mesh, "--count", "7").stdout
+        self.assertRegex(free, r"1 +0 +rigid")
+        self.assertIn("315.06", free)
+
+    def test_stress_of_a_held_body(self):
+        mesh = os.path.join(HERE, "../../verification/data/meshes/cant_tet10.inp")
+        vtu = os.path.join(self._folder.name, "stress.vtu")
+        run = hersey("stress", mesh, "--hold", "FIX", "--gravity", "0,0,-9.81", "--vtu", vtu, "--json")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        told = json.loads(run.stdout)
+        self.assertAlmostEqual(told["largest_displacement"]["value"] / 1.5177e-4, 1, delta=2e-3)
+        self.assertAlmostEqual(told["reaction"][2] / (47.1 * 9.81), 1, delta=1e-6)
+        with open(vtu, "rb") as file:
+            content = file.read()
+        for field in (b'Name="displacement"', b'Name="stress"', b'Name="von_mises"'):
+            self.assertIn(field, content)
+
+    def test_what_a_solid_lacks_is_told(self):
+        mesh = os.path.join(HERE, "../../verification/data/meshes/cant_tet10.inp")
+        block = os.path.join(HERE, "../../libs/fem/test/data/block_22.msh")
+        steel = ("--youngs-modulus", "210GPa", "--poisson-ratio", "0.3")
+        for arguments, words in (
+                (("stress", mesh, "--gravity", "0,0,-9.81"), ("not held", "--hold")),
+                (("stress", mesh, "--hold", "FIX"), ("--pressure", "--gravity")),
+                (("stress", mesh, "--hold", "FXI", "--gravity", "0,0,-1"), ("--hold", "FXI", "did you mean 'FIX'")),
+                (("stress", mesh, "--hold", "FIX:xw", "--gravity", "0,0,-1"), ("--hold", "x, y and z")),
+                (("stress", mesh, "--hold", "FIX", "--gravity", "down"), ("--gravity", "three numbers")),
+                (("stress", block, *steel, "--hold", "floor", "--pressure", "rof=1bar"), ("--pressure", "'roof'")),
+                (("stress", block, *steel, "--hold", "floor", "--pressure", "roof"), ("--pressure", "SURFACE=20MPa")),
+                (("modes", block, "--hold", "floor"), ("--youngs-modulus", "--poisson-ratio", "--density")),
+                (("modes", block, *steel, "--density", "-1kg/m^3"), ("--density",)),
+                (("modes", mesh, "--poisson-ratio", "0.5"), ("--poisson-ratio", "0.5"))):
+            run = hersey(*arguments)
+            self.assertEqual(run.returncode, WRONG_INPUT, (arguments, run.stdout))
+            for word in words:
+                self.assertIn(word, run.stderr, arguments)
 
     def test_mesh_that_is_unfit_is_refused_with_labels(self):
         folded = os.path.join(self._folder.name, "folded.inp")

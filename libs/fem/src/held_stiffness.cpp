@@ -144,7 +144,8 @@ StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>&
   HeldStiffness stiffness(body.K, body.m, held);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular)
-    return {.message = fmt::format(
+    return {.held = false,
+            .message = fmt::format(
                 "the body is not held: {} of its motions, rigid ones or those of a loose part, meet no resistance",
                 summary.null_unknowns.size())};
   if (!summary.ok()) return {.message = summary.message};

@@ -148,30 +148,6 @@ TEST_CASE("LoadShapes_AreHeldExactly_AndToldWhereModesMissThem") {
   CHECK((Phi * q - full.u).norm() < 1e-7 * full.u.norm());
 }
 
-TEST_CASE("MassMoments_GiveMassMatrixAndInertiaOfTheDeformedBody") {
-  const ElasticBody body = bar(ElementType::tet10, {4, 1, 1});
-  const ReducedBody reduced =
-      must_reduce(body, {frame_on(body.mesh, "x0", Connection::rigid), frame_on(body.mesh, "x1", Connection::average)},
-                  {.modes = 4})
-          .body;
-  const MassMoments moments = mass_moments(reduced);
-  CHECK(moments.mass == doctest::Approx(body.mass).epsilon(1000 * eps));
-  CHECK((moments.first.col(0) / moments.mass - body.centre).norm() < 1000 * eps);
-  for (Eigen::Index j = 0; j < reduced.size(); ++j)
-    for (Eigen::Index k = 0; k < reduced.size(); ++k)
-      CHECK(moments.of(j + 1, k + 1).trace() ==
-            doctest::Approx(reduced.M(j, k)).epsilon(1e-9).scale(std::sqrt(reduced.M(j, j) * reduced.M(k, k))));
-  Eigen::VectorXd q = Eigen::VectorXd::Zero(reduced.size());
-  for (Eigen::Index j = 0; j < q.size(); ++j) q[j] = 0.01 * std::sin(3.0 * j + 1);
-  const Eigen::VectorXd u = reduced.Phi * q;
-  Mesh deformed = body.mesh;
-  for (std::size_t a = 0; a < deformed.nodes.size(); ++a) deformed.nodes[a] += u.segment<3>(3 * a);
-  const Eigen::MatrixXd turning = rigid_motions(deformed, Vector3::Zero()).leftCols<3>();
-  const Matrix3 expected = turning.transpose() * mass_times(body.m, turning);
-  CHECK((inertia(moments, q) - expected).norm() < 1e-12 * expected.norm());
-  CHECK((inertia(moments, q) - inertia(moments, 0 * q)).norm() > 1e-3 * expected.norm());
-}
-
 TEST_CASE("BorePressures_HaveTheResultantsOfTheirHarmonics") {
   // A block with a square hole would do; the outer sides of a box, z its axis, are simpler and as closed.
   const Mesh mesh = box_mesh(ElementType::hex20, {2, 2, 3}, {2, 2, 2});

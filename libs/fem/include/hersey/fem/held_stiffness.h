@@ -65,6 +65,7 @@ class HeldStiffness {
 /// What became of a static solution.
 struct StaticSolution {
   bool ok = false;
+  bool held = true;          ///< false: some motion meets no resistance
   std::string message;       ///< why not
   Eigen::MatrixXd u;         ///< displacements (3 n, loads) [m]
   Eigen::MatrixXd reaction;  ///< forces of the supports (3 n, loads) [N], zero where the body is free

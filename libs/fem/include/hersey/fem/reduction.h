@@ -78,21 +78,4 @@ struct Reduction {
 [[nodiscard]] Eigen::MatrixXd bore_pressures(const Mesh& mesh, const std::vector<ElementFace>& faces, const Pose& X,
                                              int harmonics, int axial = 1);
 
-/// Integrals over the body's mass from which everything follows that a reduced body in a moving frame needs,
-/// (elastic.14). Field 0 is the undeformed position, field j > 0 column j - 1 of Phi; with q_0 = 1 a point of the body
-/// is at sum_j q_j field_j.
-struct MassMoments {
-  double mass = 0;
-  Eigen::Matrix3Xd first;       ///< (3, r + 1): int rho field_j
-  std::vector<Matrix3> second;  ///< (r + 1)^2: int rho field_j field_k^T at j (r + 1) + k
-
-  [[nodiscard]] const Matrix3& of(Eigen::Index j, Eigen::Index k) const {
-    return second[static_cast<std::size_t>(j * first.cols() + k)];
-  }
-};
-[[nodiscard]] MassMoments mass_moments(const ReducedBody& body);
-
-/// Inertia about the origin of the body deformed by `q`.
-[[nodiscard]] Matrix3 inertia(const MassMoments& moments, const Eigen::VectorXd& q);
-
 }  // namespace hersey::fem

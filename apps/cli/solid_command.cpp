@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "commands.h"
+#include "exit_code.h"
+#include "hersey/core/input_error.h"
+#include "hersey/fem/stress.h"
+#include "hersey/fem/vibration.h"
+#include "hersey/fem/vtu_file.h"
+#include "solid_setup.h"
+#include "table.h"
+
+namespace hersey::cli {
+namespace {
+
+constexpr double megapascal = 1e6, millimetre = 1e-3;
+
+/// What went wrong in the numbers, on stderr.
+int fail(const std::string& message) {
+  fmt::print(stderr, "hersey: {}\n", message);
+  return kFailed;
+}
+
+Eigen::Map<const Eigen::Matrix3Xd> by_node(const Eigen::MatrixXd& u, Eigen::Index column) {
+  return {u.col(column).data(), 3, u.rows() / 3};
+}
+
+/// The largest of a value per node, and where.
+struct Peak {
+  double value = 0;
+  long node = 0;  ///< its label
+};
+
+Peak peak_of(const fem::Mesh& mesh, const Eigen::VectorXd& values) {
+  Eigen::Index at = 0;
+  const double value = values.maxCoeff(&at);
+  return {value, mesh.node_labels[static_cast<std::size_t>(at)]};
+}
+
+nlohmann::json json_of(const Peak& peak) { return {{"value", peak.value}, {"node", peak.node}}; }
+
+void write_modes(const SolidArguments& arguments, const fem::ElasticBody& body, const fem::Vibration& modes) {
+  fem::VtuFrame frame;
+  for (Eigen::Index k = 0; k < modes.omega.size(); ++k)
+    frame.node_fields.push_back({fmt::format("mode_{}", k + 1), by_node(modes.shapes, k)});
+  fem::write_vtu(arguments.vtu, body.mesh, frame);
+}
+
+void print_modes(const fem::ElasticBody& body, const fem::Vibration& modes) {
+  fmt::print("body      {} degrees of freedom, {:.6g} kg\n\n", body.size(), body.mass);
+  std::vector<std::vector<std::string>> lines = {{"mode", "frequency/Hz", ""}};
+  for (Eigen::Index k = 0; k < modes.omega.size(); ++k)
+    lines.push_back({fmt::format("{}", k + 1), fmt::format("{:.5g}", modes.omega[k] / (2 * std::numbers::pi)),
+                     k < modes.rigid ? "rigid" : ""});
+  fmt::print("{}", aligned(lines, 2));
+}
+
+/// What `stress` tells.
+struct StressResult {
+  fem::StaticSolution solution;
+  fem::Stress stress;
+  Peak displacement, von_mises;
+  Vector3 reaction = Vector3::Zero();
+};
+
+void write_stress(const SolidArguments& arguments, const fem::ElasticBody& body, const StressResult& result) {
+  fem::VtuFrame frame;
+  frame.node_fields.push_back({"displacement", by_node(result.solution.u, 0)});
+  frame.node_fields.push_back({"stress", result.stress.nodal});
+  frame.node_fields.push_back({"von_mises", result.stress.nodal_von_mises.transpose()});
+  frame.element_fields.push_back({"von_mises_of_element", result.stress.element_von_mises.transpose()});
+  fem::write_vtu(arguments.vtu, body.mesh, frame);
+}
+
+void print_stress(const fem::ElasticBody& body, const StressResult& r) {
+  fmt::print("body                  {} degrees of freedom\n", body.size());
+  fmt::print("largest displacement  {:.6g} mm at node {}\n", r.displacement.value / millimetre, r.displacement.node);
+  fmt::print("largest von Mises     {:.5g} MPa at node {} (mean of its elements)\n", r.von_mises.value / megapascal,
+             r.von_mises.node);
+  fmt::print("force of supports     ({:.6g}, {:.6g}, {:.6g}) N\n", r.reaction.x(), r.reaction.y(), r.reaction.z());
+  fmt::print("strain energy         {:.6g} J\n", r.stress.energy);
+}
+
+}  // namespace
+
+int modes_command(const SolidArguments& arguments) {
+  const fem::ElasticBody body = solid_of(arguments, true);
+  const fem::Vibration modes = fem::natural_modes(body, held_of(arguments, body.mesh), {.count = arguments.count});
+  if (!modes.ok) return fail(modes.message);
+  if (!arguments.vtu.empty()) write_modes(arguments, body, modes);
+  if (!arguments.json) {
+    print_modes(body, modes);
+    return kOk;
+  }
+  nlohmann::json document = {{"file", arguments.file},
+                             {"degrees_of_freedom", body.size()},
+                             {"mass", body.mass},
+                             {"rigid", modes.rigid},
+                             {"frequencies", nlohmann::json::array()}};
+  for (const double omega : modes.omega) document["frequencies"].push_back(omega / (2 * std::numbers::pi));
+  fmt::print("{}\n", document.dump(2));
+  return kOk;
+}
+
+int stress_command(const SolidArguments& arguments) {
+  const fem::ElasticBody body = solid_of(arguments, !arguments.gravity.empty());
+  const Eigen::VectorXd f = loads_of(arguments, body);
+  std::vector<fem::Support> supports;
+  for (const int dof : held_of(arguments, body.mesh)) supports.push_back({dof, 0});
+  StressResult result{.solution = fem::solve_static(body, supports, f)};
+  if (!result.solution.held)
+    throw InputError(Fault{{"", 0, 0}, "--hold", result.solution.message, "sets that leave no motion free", ""});
+  if (!result.solution.ok) return fail(result.solution.message);
+  result.stress = fem::recover_stress(body, result.solution.u.col(0));
+  result.displacement = peak_of(body.mesh, by_node(result.solution.u, 0).colwise().norm().transpose());
+  result.von_mises = peak_of(body.mesh, result.stress.nodal_von_mises);
+  result.reaction = by_node(result.solution.reaction, 0).rowwise().sum();
+  if (!arguments.vtu.empty()) write_stress(arguments, body, result);
+  if (!arguments.json) {
+    print_stress(body, result);
+    return kOk;
+  }
+  const nlohmann::json document = {{"file", arguments.file},
+                                   {"degrees_of_freedom", body.size()},
+                                   {"largest_displacement", json_of(result.displacement)},
+                                   {"largest_von_mises", json_of(result.von_mises)},
+                                   {"reaction", {result.reaction.x(), result.reaction.y(), result.reaction.z()}},
+                                   {"strain_energy", result.stress.energy}};
+  fmt::print("{}\n", document.dump(2));
+  return kOk;
+}
+
+}  // namespace hersey::cli

@@ -1,0 +1,138 @@
+#include "solid_setup.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+#include "hersey/core/input_error.h"
+#include "hersey/core/spelling.h"
+#include "hersey/fem/loads.h"
+#include "hersey/fem/mesh_file.h"
+#include "hersey/fem/mesh_quality.h"
+#include "option_value.h"
+
+namespace hersey::cli {
+namespace {
+
+[[noreturn]] void refuse(const char* option, std::string found, std::string expected, std::string suggestion = "") {
+  throw InputError(Fault{{"", 0, 0}, option, std::move(found), std::move(expected), std::move(suggestion)});
+}
+
+template <class Sets>
+const typename Sets::mapped_type& named(const Sets& sets, const std::string& name, const char* option,
+                                        const char* kind) {
+  if (const auto found = sets.find(name); found != sets.end()) return found->second;
+  std::vector<std::string> names;
+  names.reserve(sets.size());
+  for (const auto& [known, set] : sets) names.push_back(known);
+  refuse(option, fmt::format("the mesh has no {} '{}'", kind, name),
+         names.empty() ? fmt::format("a mesh with a {}", kind) : one_of(names), did_you_mean(name, names));
+}
+
+/// The option's value, else the file's, else a fault.
+double constant(const char* option, const std::string& given, const char* unit, const std::optional<double>& of_file) {
+  if (!given.empty()) return in_si(option, given, unit);
+  if (of_file) return *of_file;
+  refuse(option, "the mesh file does not say it for every material", fmt::format("a value in {}", *unit ? unit : "1"));
+}
+
+fem::SolidMaterial material_of(const SolidArguments& a, const fem::MeshMaterial& of_file, bool needs_mass) {
+  fem::ElasticMaterial material;
+  material.youngs_modulus = constant("--youngs-modulus", a.young, "Pa", of_file.youngs_modulus);
+  material.poisson_ratio = constant("--poisson-ratio", a.poisson, "1", of_file.poisson_ratio);
+  const std::optional<double> density = needs_mass || of_file.density ? of_file.density : std::optional<double>(0);
+  material.density = constant("--density", a.density, "kg/m^3", density);
+  if (!(material.youngs_modulus > 0))
+    refuse("--youngs-modulus", fmt::format("{} Pa", material.youngs_modulus), "a modulus > 0, such as 210 GPa");
+  if (!(-1 < material.poisson_ratio && material.poisson_ratio < 0.5))
+    refuse("--poisson-ratio", fmt::format("{}", material.poisson_ratio), "a ratio between -1 and 0.5, ends excluded");
+  if (!(material.density >= 0) || (needs_mass && material.density == 0))
+    refuse("--density", fmt::format("{} kg/m^3", material.density), "a density > 0, such as 7850 kg/m^3");
+  return fem::isotropic(material);
+}
+
+/// All that is missing at once, so that it is asked for once.
+void require_constants(const SolidArguments& a, const std::vector<fem::MeshMaterial>& materials, bool needs_mass) {
+  std::vector<Fault> faults;
+  const auto need = [&](const char* option, const std::string& given, const char* expected, auto member) {
+    bool in_file = true;
+    for (const fem::MeshMaterial& material : materials) in_file = in_file && (material.*member).has_value();
+    if (given.empty() && !in_file)
+      faults.push_back({{"", 0, 0}, option, "the mesh file does not say it", expected, "give it on the command line"});
+  };
+  need("--youngs-modulus", a.young, "Young's modulus, such as 210GPa", &fem::MeshMaterial::youngs_modulus);
+  need("--poisson-ratio", a.poisson, "Poisson's ratio, such as 0.3", &fem::MeshMaterial::poisson_ratio);
+  if (needs_mass) need("--density", a.density, "a density, such as 7850kg/m^3", &fem::MeshMaterial::density);
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+Vector3 vector_of(const char* option, const std::string& text) {
+  Vector3 v;
+  const char *at = text.data(), *end = text.data() + text.size();
+  for (int k = 0; k < 3; ++k) {
+    const auto [next, error] = std::from_chars(at, end, v[k]);
+    const bool last = k == 2;
+    if (error != std::errc() || (last ? next != end : next == end || *next != ','))
+      refuse(option, "'" + text + "'", "three numbers in m/s^2, such as 0,0,-9.81");
+    at = next + 1;
+  }
+  return v;
+}
+
+}  // namespace
+
+fem::ElasticBody solid_of(const SolidArguments& arguments, bool needs_mass) {
+  std::vector<Fault> warnings;
+  fem::Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings);
+  const fem::MeshQuality quality = fem::quality_of(mesh);
+  if (std::vector<Fault> faults = fem::faults_of(quality, arguments.file); !faults.empty())
+    throw InputError(std::move(faults));
+  for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
+  warn(warnings);
+  std::vector<fem::MeshMaterial> of_file = mesh.materials;
+  if (of_file.empty()) of_file.emplace_back();
+  require_constants(arguments, of_file, needs_mass);
+  std::vector<fem::SolidMaterial> materials;
+  materials.reserve(of_file.size());
+  for (const fem::MeshMaterial& material : of_file) materials.push_back(material_of(arguments, material, needs_mass));
+  return fem::assemble(std::move(mesh), std::move(materials));
+}
+
+std::vector<int> held_of(const SolidArguments& arguments, const fem::Mesh& mesh) {
+  std::vector<int> held;
+  for (const std::string& text : arguments.hold) {
+    const std::size_t colon = mesh.node_sets.count(text) ? std::string::npos : text.rfind(':');
+    std::array<bool, 3> axes = {true, true, true};
+    if (colon != std::string::npos) {
+      axes.fill(false);
+      for (const char axis : text.substr(colon + 1)) {
+        if (axis < 'x' || axis > 'z') refuse("--hold", "'" + text + "'", "letters x, y and z behind the colon");
+        axes[static_cast<std::size_t>(axis - 'x')] = true;
+      }
+    }
+    const std::vector<int>& nodes = named(mesh.node_sets, text.substr(0, colon), "--hold", "set of nodes");
+    const std::vector<int> dofs = fem::dofs_of(nodes, axes);
+    held.insert(held.end(), dofs.begin(), dofs.end());
+  }
+  return held;
+}
+
+Eigen::VectorXd loads_of(const SolidArguments& arguments, const fem::ElasticBody& body) {
+  if (arguments.pressure.empty() && arguments.gravity.empty())
+    refuse("--pressure", "nothing loads the body", "--pressure SURFACE=20MPa, --gravity 0,0,-9.81, or both");
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(body.size());
+  for (const std::string& text : arguments.pressure) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) refuse("--pressure", "'" + text + "'", "a surface and a value, SURFACE=20MPa");
+    const double pressure = in_si("--pressure", text.substr(equals + 1), "Pa");
+    f += fem::pressure_load(body.mesh, named(body.mesh.surfaces, text.substr(0, equals), "--pressure", "surface"),
+                            pressure);
+  }
+  if (!arguments.gravity.empty()) f += fem::gravity_load(body, vector_of("--gravity", arguments.gravity));
+  return f;
+}
+
+}  // namespace hersey::cli
