@@ -40,6 +40,18 @@ SparseMatrix constraint_rows(const SparseMatrix& C, const std::vector<int>& plac
   return rows;
 }
 
+/// Which motions a singular stiffness leaves: rigid ones that the supports do not see, or else those of a part.
+std::string what_is_loose(const ElasticBody& body, const std::vector<int>& held) {
+  Eigen::MatrixXd seen = rigid_motions(body.mesh, body.centre);
+  seen = (seen * seen.colwise().norm().cwiseInverse().asDiagonal()).eval();
+  seen = Eigen::MatrixXd(seen(held, Eigen::all));
+  Eigen::FullPivLU<Eigen::MatrixXd> lu(Eigen::MatrixXd(seen.transpose() * seen));
+  lu.setThreshold(1e-9);
+  const Eigen::Index blocked = held.empty() ? 0 : lu.rank();
+  if (blocked == 6) return "a part of the body is not connected to what is held";
+  return fmt::format("the body is not held: {} of its 6 rigid motions meet no resistance", 6 - blocked);
+}
+
 }  // namespace
 
 std::vector<int> dofs_of(const std::vector<int>& nodes, const std::array<bool, 3>& axes) {
@@ -143,11 +155,7 @@ StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>&
   }
   HeldStiffness stiffness(body.K, body.m, held);
   const solver::FactorSummary summary = stiffness.factorise();
-  if (summary.status == solver::FactorStatus::singular)
-    return {.held = false,
-            .message = fmt::format(
-                "the body is not held: {} of its motions, rigid ones or those of a loose part, meet no resistance",
-                summary.null_unknowns.size())};
+  if (summary.status == solver::FactorStatus::singular) return {.held = false, .message = what_is_loose(body, held)};
   if (!summary.ok()) return {.message = summary.message};
   StaticSolution solution{.ok = true};
   const Eigen::VectorXd forces_of_supports = body.K * prescribed;

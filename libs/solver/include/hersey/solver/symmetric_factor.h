@@ -16,9 +16,10 @@ enum class FactorStatus {
 
 struct FactorSummary {
   FactorStatus status = FactorStatus::failed;
-  int negative_pivots = 0;         ///< as many as A has negative eigenvalues (Sylvester's law of inertia)
-  std::vector<int> null_unknowns;  ///< where pivots vanished, ascending; as many as A's null space has dimensions
-  std::string message;             ///< why it failed, with figures; empty if it did not
+  int negative_pivots = 0;  ///< as many as A has negative eigenvalues (Sylvester's law of inertia)
+  std::vector<int>
+      null_unknowns;    ///< where pivots vanished, ascending: some, not always all, of the null space's dimensions
+  std::string message;  ///< why it failed, with figures; empty if it did not
   [[nodiscard]] bool ok() const { return status == FactorStatus::factorised; }
 };
 
