@@ -37,7 +37,9 @@ TypePtr shapes_format() {
                              "Points out of it: x, y, z or three numbers, whose length does not matter.")}},
                   {"mesh",
                    "a triangulated surface",
-                   {required("file", text("a file", "rod.stl"), "STL file beside the model file, text or binary."),
+                   {required("file", text("a file", "rod.stl"),
+                             "Beside the model file: STL, text or binary, or a mesh of solids (.msh, .inp, .bdf), "
+                             "whose outer surface is taken."),
                     defaulted("unit", quantity("m", "1 mm", Range::positive()), "1 mm", "What a length of 1 means."),
                     defaulted("origin", place, "0 0 0 m", "Where the file's origin lies in the body.")}},
               }));

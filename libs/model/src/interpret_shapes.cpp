@@ -2,6 +2,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "hersey/fem/mesh_file.h"
+#include "hersey/fem/skin.h"
 #include "interpret.h"
 #include "stl_file.h"
 
@@ -46,21 +48,49 @@ class ShapeReader {
     const Value* file = value.find("file");
     if (file == nullptr || file->broken) return std::nullopt;
     const std::filesystem::path path = std::filesystem::path(context_.model.file).parent_path() / file->text;
+    const double unit = number_of(value, "unit");
+    std::optional<mbd::TriangleMesh> mesh =
+        fem::mesh_format_of(path) ? skin_of(*file, path, unit) : stl_of(*file, path, unit);
+    if (!mesh) return std::nullopt;
+    const Vector3 origin = vector_of(value, "origin");
+    for (Vector3& corner : mesh->corners) corner += origin;
+    return std::make_shared<const mbd::TriangleMesh>(std::move(*mesh));
+  }
+
+  std::optional<mbd::TriangleMesh> stl_of(const Value& file, const std::filesystem::path& path, double unit) {
     std::ifstream stream(path, std::ios::binary);
     std::error_code ignored;
     if (!stream || !std::filesystem::is_regular_file(path, ignored)) {
-      context_.fault(*file, "no readable file " + path.string(), "an STL file beside the model file");
+      context_.fault(file, "no readable file " + path.string(), "an STL file or a mesh beside the model file");
       return std::nullopt;
     }
     StlResult stl = parse_stl({std::istreambuf_iterator<char>(stream), {}});
     if (!stl.fault.empty()) {
-      context_.fault(*file, path.string() + ": " + stl.fault, "a surface as STL, text or binary");
+      context_.fault(file, path.string() + ": " + stl.fault, "a surface as STL, text or binary");
       return std::nullopt;
     }
-    const double unit = number_of(value, "unit");
-    const Vector3 origin = vector_of(value, "origin");
-    for (Vector3& corner : stl.mesh.corners) corner = origin + unit * corner;
-    return std::make_shared<const mbd::TriangleMesh>(std::move(stl.mesh));
+    for (Vector3& corner : stl.mesh.corners) corner *= unit;
+    return std::move(stl.mesh);
+  }
+
+  // The outer surface of a mesh of solids.
+  std::optional<mbd::TriangleMesh> skin_of(const Value& file, const std::filesystem::path& path, double unit) {
+    try {
+      const fem::Mesh mesh = fem::read_mesh(path, unit);
+      const fem::Skin skin = fem::skin(mesh);
+      if (skin.triangles.empty()) {
+        context_.fault(file, path.string() + ": a mesh of beams", "a mesh of solids");
+        return std::nullopt;
+      }
+      mbd::TriangleMesh surface;
+      surface.triangles = skin.triangles;
+      surface.corners.reserve(skin.nodes.size());
+      for (const int node : skin.nodes) surface.corners.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+      return surface;
+    } catch (const InputError& error) {
+      context_.fault(file, error.faults().front().text(), "a mesh of solids that can be read");
+      return std::nullopt;
+    }
   }
 
   Context& context_;

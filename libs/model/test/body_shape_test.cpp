@@ -113,6 +113,18 @@ TEST_CASE("Mesh_IsScaledAndShifted") {
   CHECK(highest == doctest::Approx(0.015));
 }
 
+TEST_CASE("MeshOfSolids_GivesItsOuterSurface") {
+  const TemporaryDirectory folder;
+  std::ofstream(folder / "t.inp") << "*NODE\n1,0,0,0\n2,10,0,0\n3,0,10,0\n4,0,0,10\n5,0,0,-10\n"
+                                     "*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n2,1,3,2,5\n";
+  std::ofstream(folder / "m.yaml") << with_shapes("      t: {shape: mesh, file: t.inp, origin: 0 0 5 mm}\n");
+  const Model model = read((folder / "m.yaml").string());
+  const auto& mesh = *std::get<std::shared_ptr<const mbd::TriangleMesh>>(shape(model, 0).geometry);
+  CHECK(mesh.corners.size() == 5);
+  CHECK(mesh.triangles.size() == 6);  // of eight faces two touch
+  CHECK((mesh.corners[3] - Vector3(0, 0, 0.015)).norm() < 1e-17);
+}
+
 TEST_CASE("ShapesThatCannotBe_AreReported") {
   const auto faults = [](const std::string& shape) {
     return faults_after("  rod: {mass: 2 kg}\n", "  rod:\n    mass: 2 kg\n    shapes:\n      a: " + shape + "\n");
@@ -125,6 +137,7 @@ TEST_CASE("ShapesThatCannotBe_AreReported") {
   CHECK(faults("{shape: half_space, normal: 0 0 0}").find("a direction of length 0") != std::string::npos);
   CHECK(faults("{shape: mesh, file: none.stl}")
             .starts_with("m.yaml:15:30: bodies.rod.shapes.a.file: no readable file none.stl"));
+  CHECK(faults("{shape: mesh, file: none.msh}").find("none.msh: no file that can be read") != std::string::npos);
 }
 
 }  // namespace
