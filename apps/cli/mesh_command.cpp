@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "arguments.h"
 #include "commands.h"
 #include "exit_code.h"
 #include "hersey/core/input_error.h"
@@ -145,7 +144,7 @@ int mesh_command(const MeshArguments& arguments) {
   std::vector<Fault> warnings;
   const Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings);
   MeshQuality quality = fem::quality_of(mesh);
-  if (!arguments.density.empty()) quality.mass = quantity("--density", arguments.density, "kg/m^3") * quality.volume;
+  if (!arguments.density.empty()) quality.mass = in_si("--density", arguments.density, "kg/m^3") * quality.volume;
   for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
   const std::vector<Fault> faults = fem::faults_of(quality, arguments.file);
   if (!arguments.vtu.empty()) write_picture(mesh, arguments.vtu);

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "arguments.h"
 #include "commands.h"
 #include "exit_code.h"
 #include "hersey/core/input_error.h"
@@ -15,6 +14,7 @@
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduced_body_file.h"
+#include "option_value.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -61,7 +61,7 @@ fem::InterfaceFrame frame_of(const Mesh& mesh, const std::string& text) {
 
 double constant(const char* option, const std::string& given, const std::optional<double>& in_file, const char* unit,
                 const std::string& material) {
-  if (!given.empty()) return quantity(option, given, unit);
+  if (!given.empty()) return in_si(option, given, unit);
   if (!in_file)
     fail(option,
          material.empty() ? "none, and the mesh has no material"
@@ -130,8 +130,7 @@ int reduce_command(const ReduceArguments& arguments) {
   const fem::ElasticBody body = body_of(std::move(mesh), arguments);
   fem::ReductionOptions options;
   options.modes = arguments.modes;
-  if (!arguments.highest.empty())
-    options.highest = 2 * std::numbers::pi * quantity("--highest", arguments.highest, "Hz");
+  if (!arguments.highest.empty()) options.highest = 2 * std::numbers::pi * in_si("--highest", arguments.highest, "Hz");
   const fem::Reduction reduction = fem::reduce(body, frames, options);
   if (!reduction.ok) throw std::runtime_error(reduction.message);
   fem::write_reduced_body(arguments.output, reduction.body);
