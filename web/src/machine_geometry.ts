@@ -2,6 +2,7 @@
 
 import { Matrix4, Quaternion, Vector3 } from "three";
 import type { Numbers, Run } from "./data";
+import { Deformation } from "./deformed_mesh";
 
 export interface BodyMotion {
   name: string;
@@ -50,7 +51,8 @@ export class MachineGeometry {
   /** Nothing where the results hold no motion of bodies or were written without their geometry. */
   static of(run: Run): MachineGeometry | null {
     const geometry = new MachineGeometry(run);
-    return geometry.bodies.length > 0 && geometry.joints.length + geometry.forces.length > 0 && geometry.time.length > 0 ? geometry : null;
+    const parts = geometry.joints.length + geometry.forces.length + run.namesAfter("/bodies/").filter((name) => name.endsWith("/amplitudes")).length;
+    return geometry.bodies.length > 0 && parts > 0 && geometry.time.length > 0 ? geometry : null;
   }
 
   /** Up is against gravity; y without gravity. */
@@ -89,8 +91,13 @@ export class MachineGeometry {
     ]);
   }
 
-  /** Pose of a body at a time, between the stored instants. */
-  pose(body: BodyMotion, time: number, into: Matrix4): Matrix4 {
+  /** How the skin of a flexible body moves; nothing of a rigid one. */
+  deformation(body: string, skin: ShapeData): Deformation | null {
+    return Deformation.of(this.run, body, skin);
+  }
+
+  /** The stored instants around a time, and how far it is from the first to the second. */
+  around(time: number): { low: number; high: number; share: number } {
     const last = this.time.length - 1;
     let low = 0;
     let high = last;
@@ -100,7 +107,12 @@ export class MachineGeometry {
       else high = middle;
     }
     const span = this.time[high]! - this.time[low]!;
-    const share = span > 0 ? Math.min(1, Math.max(0, (time - this.time[low]!) / span)) : 0;
+    return { low, high, share: span > 0 ? Math.min(1, Math.max(0, (time - this.time[low]!) / span)) : 0 };
+  }
+
+  /** Pose of a body at a time, between the stored instants. */
+  pose(body: BodyMotion, time: number, into: Matrix4): Matrix4 {
+    const { low, high, share } = this.around(time);
     const at = (k: number) => new Vector3().fromArray(body.position, 3 * k);
     // Stored w first, three.js has it last.
     const turned = (k: number) => {

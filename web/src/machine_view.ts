@@ -18,16 +18,23 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Run } from "./data";
+import { DeformedMesh, roundEnlargement } from "./deformed_mesh";
 import { figure, h } from "./dom";
 import { MachineGeometry, type BodyMotion, type Link } from "./machine_geometry";
 import { ball, bar, material, rod, shapeMesh } from "./shape_mesh";
 import { onThemeChange, palette } from "./theme";
+import { format } from "./units";
 
 /** A small motion of a body, in ground's axes. */
 export interface Increment {
   rotation: Vector3;
   displacement: Vector3;
+  /** Of a flexible body's shapes. */
+  amplitudes?: Float64Array;
 }
+
+/** Modes are shown so large. */
+export const shareOfSize = 0.15;
 
 const views = new Set<MachineView>();
 onThemeChange(() => views.forEach((view) => view.repaint()));
@@ -45,6 +52,9 @@ export class MachineView {
   private readonly camera = new PerspectiveCamera(30, 1, 0.01, 100);
   private readonly groups = new Map<string, Group>();
   private readonly paths = new Group();
+  private readonly skins = new Map<string, DeformedMesh>();
+  private enlargement = 1;
+  private readonly deformationNote = h("span", { class: "chip" });
   private readonly forceLines: { link: Link; line: Line }[] = [];
   private renderer: WebGLRenderer | null = null;
   private controls: OrbitControls | null = null;
@@ -94,6 +104,11 @@ export class MachineView {
   /** Radius of the space the machine takes [m]. */
   get size(): number {
     return this.bounds.radius;
+  }
+
+  /** Largest displacement of a flexible body's skin by its shapes [m]; 0 of a rigid body. */
+  deformationBy(body: string, amplitudes: ArrayLike<number>): number {
+    return this.skins.get(body)?.reach(amplitudes) ?? 0;
   }
 
   /** The farthest that joints, shapes and the centre of mass of a body lie from its origin [m]. */
@@ -210,6 +225,7 @@ export class MachineView {
     this.paths.clear();
     this.groups.clear();
     this.forceLines.length = 0;
+    this.skins.clear();
     this.scene.add(new AmbientLight(0xffffff, 1.1));
     // Lights hang on the camera: what is seen is lit.
     const light = new DirectionalLight(0xffffff, 2.4);
@@ -223,12 +239,16 @@ export class MachineView {
       return i < colours.series.length ? `#${colour.getHexString()}` : `#${colour.lerp(new Color(colours.faint), 0.6).getHexString()}`;
     };
     this.legend.replaceChildren();
-    this.geometry.bodies.forEach((body, i) => {
+    // The further frames of a flexible body move like bodies, but there is nothing of them to draw.
+    for (const frame of this.geometry.bodies.filter((body) => body.name.includes("."))) this.addFrame(frame.name);
+    this.geometry.bodies.filter((body) => !body.name.includes(".")).forEach((body, i) => {
       this.addBody(body.name, colourOf(i));
       this.addPath(body, colourOf(i));
       this.legend.append(h("span", { class: "chip" }, h("i", { style: `background:${colourOf(i)}` }), body.name.replaceAll("_", " ")));
     });
     this.addBody("ground", colours.faint);
+    this.chooseEnlargement();
+    if (this.skins.size > 0) this.legend.append(this.deformationNote);
     const size = 0.018 * this.bounds.radius;
     for (const joint of this.geometry.joints) this.addJoint(joint, size, colours.ink);
     for (const bearing of this.geometry.bearings) this.addBearing(bearing, colours.accent);
@@ -241,11 +261,25 @@ export class MachineView {
     this.paths.visible = false;
   }
 
+  private addFrame(name: string): void {
+    const group = new Group();
+    group.matrixAutoUpdate = false;
+    this.groups.set(name, group);
+    this.scene.add(group);
+  }
+
   private addBody(name: string, colour: string): void {
     const group = new Group();
     group.matrixAutoUpdate = false;
     const shapes = this.geometry.shapes(name);
     for (const shape of shapes) {
+      const deformation = this.geometry.deformation(name, shape);
+      if (deformation) {
+        const skin = new DeformedMesh(shape, deformation);
+        this.skins.set(name, skin);
+        group.add(skin.mesh);
+        continue;
+      }
       const paint = material(colour, shape.kind === "half_space" ? 0.25 : 1);
       const mesh = shapeMesh(shape, paint, this.bounds.radius);
       if (mesh) group.add(mesh);
@@ -303,6 +337,7 @@ export class MachineView {
       this.geometry.pose(body, this.time, group.matrix);
       const increment = this.increments?.get(body.name);
       if (increment) displaceMatrix(group.matrix, increment);
+      this.deform(body.name, increment);
     }
     const end = (body: string, place: Vector3) => {
       const group = this.groups.get(body);
@@ -311,6 +346,26 @@ export class MachineView {
     for (const { link, line } of this.forceLines)
       line.geometry.setFromPoints([end(link.inboard, link.inboardPlace), end(link.outboard, link.outboardPlace)]);
     this.render();
+  }
+
+  private deform(body: string, increment: Increment | undefined): void {
+    const skin = this.skins.get(body);
+    if (!skin) return;
+    const { low, high, share } = this.geometry.around(this.time);
+    const amplitudes = increment?.amplitudes ?? skin.deformation.at(low, high, share);
+    // A mode is enlarged already.
+    skin.show(amplitudes, increment?.amplitudes ? 1 : this.enlargement, increment?.amplitudes ? shareOfSize * this.bounds.radius : this.largestDeformation());
+  }
+
+  private largestDeformation(): number {
+    return Math.max(0, ...[...this.skins.values()].map((skin) => skin.deformation.largest));
+  }
+
+  /** Deformations are shown so much larger that they are seen. */
+  private chooseEnlargement(): void {
+    const largest = this.largestDeformation();
+    this.enlargement = largest > 0 ? Math.max(1, roundEnlargement((0.08 * this.bounds.radius) / largest)) : 1;
+    if (largest > 0) this.deformationNote.textContent = `deformations x ${this.enlargement}; brightest: ${format(1e6 * largest)} µm`;
   }
 
   private render(): void {

@@ -22,6 +22,7 @@ export class ModePlayer {
   private readonly play = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, "Play mode");
   private shapes: BodyShape[] = [];
   private enlargement = 0;
+  private mode = 0;
   private phase = 0;
   private last: number | null = null;
   private playing = false;
@@ -48,20 +49,31 @@ export class ModePlayer {
   }
 
   private choose(mode: number): void {
-    const part = (dataset: string, k: number): Increment => {
-      const values = this.run.dataset(`/modes/fields/${dataset}`)!.values;
+    this.mode = mode;
+    const part = (dataset: "real" | "imaginary", k: number): Increment => {
+      const values = this.run.dataset(`/modes/fields/body_${dataset}`)!.values;
       const at = 6 * (mode * this.bodies.length + k);
-      return { rotation: new Vector3().fromArray(values, at), displacement: new Vector3().fromArray(values, at + 3) };
+      const amplitudes = this.run.dataset(`/modes/fields/${this.bodies[k]}_amplitudes_${dataset}`);
+      return {
+        rotation: new Vector3().fromArray(values, at),
+        displacement: new Vector3().fromArray(values, at + 3),
+        ...(amplitudes ? { amplitudes: Float64Array.from(amplitudes.values.slice(mode * amplitudes.width, (mode + 1) * amplitudes.width)) } : {}),
+      };
     };
-    this.shapes = this.bodies.map((body, k) => ({ body, real: part("body_real", k), imaginary: part("body_imaginary", k) }));
-    const largest = Math.max(...this.shapes.flatMap(({ body, real, imaginary }) => [real, imaginary].map((s) => s.displacement.length() + s.rotation.length() * this.machine.reach(body))));
+    this.shapes = this.bodies.map((body, k) => ({ body, real: part("real", k), imaginary: part("imaginary", k) }));
+    const largest = Math.max(...this.shapes.flatMap(({ body, real, imaginary }) => [real, imaginary].map((s) => this.farthest(body, s))));
     this.enlargement = largest > 0 ? (shareOfSize * this.machine.size) / largest : 0;
     this.phase = 0;
     this.draw();
   }
 
+  private farthest(body: string, { displacement, rotation, amplitudes }: Increment): number {
+    return displacement.length() + rotation.length() * this.machine.reach(body) + (amplitudes ? this.machine.deformationBy(body, amplitudes) : 0);
+  }
+
   private toggle(): void {
     this.playing = !this.playing;
+    this.choose(this.mode);
     this.play.setAttribute("aria-pressed", String(this.playing));
     this.last = null;
     if (this.playing) requestAnimationFrame((now) => this.advance(now));
@@ -81,7 +93,13 @@ export class ModePlayer {
     const [c, s] = [this.enlargement * Math.cos(this.phase), -this.enlargement * Math.sin(this.phase)];
     const mix = (a: Vector3, b: Vector3) => a.clone().multiplyScalar(c).addScaledVector(b, s);
     this.machine.displace(
-      new Map(this.shapes.map(({ body, real, imaginary }) => [body, { rotation: mix(real.rotation, imaginary.rotation), displacement: mix(real.displacement, imaginary.displacement) }])),
+      new Map(
+        this.shapes.map(({ body, real, imaginary }) => {
+          const increment = { rotation: mix(real.rotation, imaginary.rotation), displacement: mix(real.displacement, imaginary.displacement) };
+          const amplitudes = real.amplitudes?.map((a, k) => c * a + s * imaginary.amplitudes![k]!);
+          return [body, amplitudes ? { ...increment, amplitudes } : increment];
+        }),
+      ),
     );
   }
 }

@@ -98,8 +98,9 @@ class Summary {
                               damped = values("damped_frequency");
     for (std::size_t i = 0; i < std::min(most, natural.size()); ++i) {
       const std::string name = fmt::format("mode {}: ", i + 1);
-      add(name + "natural frequency", natural[i], "Hz", fmt::format("damped {:.6g} Hz", damped[i]));
-      add(name + "damping ratio", damping[i], "", damping[i] < -1e-9 ? "unstable" : "");
+      const bool is_damped = std::abs(damping[i]) > 1e-9;
+      add(name + "natural frequency", natural[i], "Hz", is_damped ? fmt::format("damped {:.6g} Hz", damped[i]) : "");
+      if (is_damped) add(name + "damping ratio", damping[i], "", damping[i] < 0 ? "unstable" : "");
     }
     if (natural.size() > most) add("modes in the results file", static_cast<double>(natural.size()), "");
   }

@@ -5,9 +5,25 @@
 #include <cmath>
 #include <utility>
 
+#include "hersey/fem/skin.h"
 #include "recorder.h"
 
 namespace hersey::run {
+
+namespace {
+
+// What a unit amplitude of each shape does to the corners of the body's skin, shape after shape.
+std::vector<double> deformation_of_skin(const model::BuiltFlexible& flexible) {
+  const fem::Skin skin = fem::skin(*flexible.mesh);
+  std::vector<double> values;
+  values.reserve(3 * skin.nodes.size() * static_cast<std::size_t>(flexible.shapes.cols()));
+  for (Eigen::Index shape = 0; shape < flexible.shapes.cols(); ++shape)
+    for (const int node : skin.nodes)
+      for (int axis = 0; axis < 3; ++axis) values.push_back(flexible.shapes(3 * node + axis, shape));
+  return values;
+}
+
+}  // namespace
 
 void Recorder::declare_flexible_bodies() {
   for (const model::BuiltFlexible& flexible : machine_.flexibles) {
@@ -19,6 +35,10 @@ void Recorder::declare_flexible_bodies() {
                                                       "of the shapes: [rotation; displacement] of each frame but the "
                                                       "first against it, then vibrations with all frames held [m]")
                                      : results::Series{}});
+    if (shapes > 0) {
+      writer_.constant(path + "shapes/mesh/deformation", deformation_of_skin(flexible), "SI",
+                       "displacement of each corner (x, y, z) by a unit amplitude, shape after shape, body axes");
+    }
     writer_.attribute(group, "flexible_nodes", static_cast<int>(flexible.mesh->nodes.size()));
     writer_.attribute(group, "flexible_shapes", shapes);
     if (!flexible.frequencies.empty())
@@ -37,6 +57,34 @@ void Recorder::write_flexible_bodies(const mbd::Observation& seen) {
     if (amplitudes.size() > 0) flexibles_[i].amplitudes.append(amplitudes);
   }
   energy_.strain.append(strain);
+}
+
+void Recorder::declare_flexible_modes() {
+  for (const model::BuiltFlexible& flexible : machine_.flexibles) {
+    const auto shapes = static_cast<int>(flexible.body->data().shapes());
+    const std::string path = "/modes/fields/" + flexible.name + "_amplitudes_";
+    modes_.amplitudes_real.push_back(
+        writer_.series(path + "real", shapes, "SI", "mode shape in the body's amplitudes"));
+    modes_.amplitudes_imaginary.push_back(writer_.series(path + "imaginary", shapes, "SI", "the same, imaginary part"));
+  }
+}
+
+void Recorder::write_flexible_mode(const solver::State& state, const Eigen::VectorXcd& shape) {
+  constexpr double step = 1e-6;  // amplitudes are smooth, and of a mode linear: their difference loses six digits
+  mbd::Mechanism& mechanism = *machine_.mechanism;
+  const auto amplitudes = [&](std::size_t i, const Eigen::VectorXd& increment) {
+    solver::State moved = state;
+    mechanism.retract(state.q, increment, moved.q);
+    return machine_.flexibles[i].body->amplitudes(mechanism.observe(moved).elastics[i].motion);
+  };
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(shape.size());
+  for (std::size_t i = 0; i < machine_.flexibles.size(); ++i) {
+    const Eigen::VectorXd here = amplitudes(i, none);
+    const Eigen::VectorXd real = (amplitudes(i, step * shape.real()) - here) / step;
+    const Eigen::VectorXd imaginary = (amplitudes(i, step * shape.imag()) - here) / step;
+    modes_.amplitudes_real[i].append(real);
+    modes_.amplitudes_imaginary[i].append(imaginary);
+  }
 }
 
 DeformedMeshes::DeformedMeshes(const model::Model& model, const model::Machine& machine,

@@ -319,10 +319,12 @@ void Recorder::declare_modes() {
   names.reserve(static_cast<std::size_t>(nv));
   for (int k = 0; k < nv; ++k) names.push_back(machine_.mechanism->name_of_row(k));
   writer_.attribute("/modes", "coordinates", names);
+  const std::vector<mbd::BodySpec>& all = machine_.mechanism->spec().bodies;
   std::vector<std::string> bodies;
-  bodies.reserve(model_.bodies.size());
-  for (const model::Body& body : model_.bodies) bodies.push_back(body.name);
+  bodies.reserve(all.size());
+  for (std::size_t i = 1; i < all.size(); ++i) bodies.push_back(all[i].name);
   writer_.attribute("/modes", "bodies", bodies);
+  declare_flexible_modes();
 }
 
 // Rotation and displacement of every body for small increments of the coordinates: what a velocity would give.
@@ -349,6 +351,7 @@ void Recorder::write_modes(const solver::State& state, const solver::Modes& foun
     modes_.shape_imaginary.append(Eigen::VectorXd(mode.shape.imag()));
     modes_.body_real.append(body_increments(state, mode.shape.real()));
     modes_.body_imaginary.append(body_increments(state, mode.shape.imag()));
+    write_flexible_mode(state, mode.shape);
   }
   writer_.attribute("/modes", "stable", found.stable ? 1 : 0);
 }

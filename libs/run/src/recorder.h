@@ -75,9 +75,12 @@ class Recorder {
   struct ModeSeries {
     results::Series frequency, damped_frequency, damping_ratio, real, imaginary, shape_real, shape_imaginary, body_real,
         body_imaginary;
+    std::vector<results::Series> amplitudes_real, amplitudes_imaginary;  // of flexible bodies
   };
 
   void declare_modes();
+  void declare_flexible_modes();
+  void write_flexible_mode(const solver::State& state, const Eigen::VectorXcd& shape);
   [[nodiscard]] Eigen::VectorXd body_increments(const solver::State& state, const Eigen::VectorXd& shape) const;
   void declare_run(const Options& options);
   void declare_machine();

@@ -84,5 +84,38 @@ TEST_CASE("FlexiblePendulum_IsRecordedAndBalanced") {
   CHECK(files == 6);
 }
 
+TEST_CASE("ModesOfABar_BendItsSkin") {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::string text = kPendulum;
+  text.replace(text.find("type: revolute"), 14, "type: fixed").replace(text.find("duration"), 29, "analysis: modes");
+  std::ofstream(folder / "model.yaml") << text;
+  const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
+  INFO(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  const results::Reader reader(folder / "r.h5");
+  const auto series = [&](const std::string& name) { return reader.read(name).values; };
+  // Clamped bar of 200 x 10 x 10 mm: 1.8751^2/(2 pi L^2) sqrt(E I/(rho A)), twice, within what shear takes.
+  const double f = 3.5160 / (2 * 3.14159265 * 0.04) * std::sqrt(1e9 * 1e-4 / 12 / 1200);
+  const std::vector<double> frequencies = series("/modes/fields/frequency");
+  REQUIRE(frequencies.size() >= 2);
+  CHECK(frequencies[0] == doctest::Approx(f).epsilon(0.02));
+  CHECK(frequencies[1] == doctest::Approx(f).epsilon(0.02));
+  // The skin's displacement by the mode is what the tip's frame does, seen from the root: bodies bar and bar.tip.
+  const auto amplitudes = series("/modes/fields/bar_amplitudes_real"), bodies = series("/modes/fields/body_real"),
+             deformation = series("/bodies/bar/shapes/mesh/deformation");
+  const std::size_t shapes = amplitudes.size() / frequencies.size(), corners = deformation.size() / shapes / 3;
+  double tip = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis) {
+    double u = 0;  // mean of the four corners of the end
+    for (std::size_t k = 0; k < shapes; ++k)
+      for (std::size_t corner = corners - 4; corner < corners; ++corner)
+        u += 0.25 * amplitudes[k] * deformation[3 * (k * corners + corner) + axis];
+    CHECK(u == doctest::Approx(bodies[6 + 3 + axis]).epsilon(1e-5));
+    tip = std::max(tip, std::abs(u));
+  }
+  CHECK(tip > 0.01);
+}
+
 }  // namespace
 }  // namespace hersey::run

@@ -1,0 +1,112 @@
+// The surface of a flexible body: its corners moved by the body's shapes, coloured by how far.
+
+import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardMaterial } from "three";
+import { colour } from "./colormap";
+import type { Numbers, Run } from "./data";
+import type { ShapeData } from "./machine_geometry";
+
+/** Amplitudes of a body's shapes over the stored instants, and what a unit of each does to the corners of its skin. */
+export class Deformation {
+  /** Largest displacement of any corner over the run [m]. */
+  readonly largest: number;
+
+  static of(run: Run, body: string, skin: ShapeData): Deformation | null {
+    const amplitudes = run.dataset(`/bodies/${body}/amplitudes`);
+    const shapes = skin.list("deformation");
+    return amplitudes && shapes.length > 0 ? new Deformation(shapes, amplitudes.values, amplitudes.width) : null;
+  }
+
+  private constructor(
+    private readonly shapes: Numbers,
+    private readonly amplitudes: Numbers,
+    readonly count: number,
+  ) {
+    const rows = amplitudes.length / count;
+    const step = Math.max(1, Math.floor(rows / 60));
+    const u = new Float32Array(shapes.length / count);
+    let largest = 0;
+    for (let row = 0; row < rows; row += step) {
+      this.displacements(this.at(row, row, 0), u);
+      largest = Math.max(largest, largestOf(u));
+    }
+    this.largest = largest;
+  }
+
+  /** Amplitudes between two stored instants. */
+  at(low: number, high: number, share: number): Float64Array {
+    const { amplitudes, count } = this;
+    return Float64Array.from({ length: count }, (_, k) => (1 - share) * amplitudes[low * count + k]! + share * amplitudes[high * count + k]!);
+  }
+
+  /** u, three numbers per corner, for the given amplitudes. */
+  displacements(amplitudes: ArrayLike<number>, u: Float32Array): void {
+    u.fill(0);
+    for (let k = 0; k < this.count; k++) {
+      const a = amplitudes[k]!;
+      if (a === 0) continue;
+      const from = k * u.length;
+      for (let i = 0; i < u.length; i++) u[i]! += a * this.shapes[from + i]!;
+    }
+  }
+}
+
+export class DeformedMesh {
+  readonly mesh: Mesh;
+  private readonly rest: Float32Array;
+  private readonly u: Float32Array;
+  private readonly position: BufferAttribute;
+  private readonly colours: BufferAttribute;
+
+  constructor(
+    skin: ShapeData,
+    readonly deformation: Deformation,
+  ) {
+    this.rest = Float32Array.from(skin.list("corners"));
+    this.u = new Float32Array(this.rest.length);
+    this.position = new BufferAttribute(this.rest.slice(), 3);
+    this.colours = new BufferAttribute(new Float32Array(this.rest.length), 3);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", this.position);
+    geometry.setAttribute("color", this.colours);
+    geometry.setIndex(Array.from(skin.list("triangles")));
+    this.mesh = new Mesh(geometry, new MeshStandardMaterial({ vertexColors: true, flatShading: true, roughness: 0.6, side: DoubleSide }));
+    this.mesh.frustumCulled = false;
+  }
+
+  /** @param colourAt  displacement that the brightest colour stands for [m]. */
+  show(amplitudes: ArrayLike<number>, enlargement: number, colourAt: number): void {
+    this.deformation.displacements(amplitudes, this.u);
+    const { u, rest } = this;
+    for (let i = 0; i < u.length; i += 3) {
+      const size = Math.hypot(u[i]!, u[i + 1]!, u[i + 2]!);
+      const [r, g, b] = colour(colourAt > 0 ? size / colourAt : 0);
+      this.position.setXYZ(i / 3, rest[i]! + enlargement * u[i]!, rest[i + 1]! + enlargement * u[i + 1]!, rest[i + 2]! + enlargement * u[i + 2]!);
+      this.colours.setXYZ(i / 3, linear(r), linear(g), linear(b));
+    }
+    this.position.needsUpdate = true;
+    this.colours.needsUpdate = true;
+  }
+
+  /** Largest displacement for given amplitudes [m]. */
+  reach(amplitudes: ArrayLike<number>): number {
+    this.deformation.displacements(amplitudes, this.u);
+    return largestOf(this.u);
+  }
+}
+
+/** Vertex colours are linear light, the table is sRGB. */
+function linear(byte: number): number {
+  return (byte / 255) ** 2.2;
+}
+
+function largestOf(u: Float32Array): number {
+  let largest = 0;
+  for (let i = 0; i < u.length; i += 3) largest = Math.max(largest, Math.hypot(u[i]!, u[i + 1]!, u[i + 2]!));
+  return largest;
+}
+
+/** 1, 2 or 5 times a power of ten, not above `value`. */
+export function roundEnlargement(value: number): number {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return (value / power >= 5 ? 5 : value / power >= 2 ? 2 : 1) * power;
+}
