@@ -256,6 +256,9 @@ class TreeBuilder {
     double length = 0;
     for (const Link& link : tree_.links) length = std::max(length, link.X_PF.r.norm());
     for (const Attachment& f : tree_.frames) length = std::max(length, f.X_LF.r.norm());
+    // Frames of a flexible body may stand where its axes do, and say nothing of its size.
+    for (const MechanismSpec::Elastic& elastic : spec_.elastics)
+      length = std::max(length, elastic.body->centre().norm());
     if (length > 0) tree_.length = length;
   }
 

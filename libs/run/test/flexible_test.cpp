@@ -84,6 +84,23 @@ TEST_CASE("FlexiblePendulum_IsRecordedAndBalanced") {
   CHECK(files == 6);
 }
 
+TEST_CASE("HeldBar_SagsUnderItsWeight") {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::string text = kPendulum;
+  text.replace(text.find("type: revolute"), 14, "type: fixed").replace(text.find("duration"), 29, "analysis: static");
+  text.erase(text.find("      tip:"), 26);  // held at one end alone: its only frame stands in its axes
+  std::ofstream(folder / "model.yaml") << text;
+  const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
+  INFO(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  const results::Reader reader(folder / "r.h5");
+  // Strain energy of a clamped bar under q = rho A g: q^2 L^5/(40 E I); four vibrations carry nearly all of it.
+  const double q = 1200 * 1e-4 * 9.81, I = 1e-8 / 12;
+  CHECK(reader.read("/energy/strain").values.back() ==
+        doctest::Approx(q * q * std::pow(0.2, 5) / (40 * 1e9 * I)).epsilon(0.03));
+}
+
 TEST_CASE("ModesOfABar_BendItsSkin") {
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);
