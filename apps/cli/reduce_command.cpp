@@ -37,7 +37,7 @@ const std::vector<int>& nodes_of(const Mesh& mesh, const std::string& set) {
   return found->second;
 }
 
-// "big_end", "pin=big_end" or "pin=big_end:average"; the origin is the centre of the set's bounding box.
+// "big_end", "pin=big_end" or "pin=big_end:average"; the origin is the centre of the set's faces.
 fem::InterfaceFrame frame_of(const Mesh& mesh, const std::string& text) {
   fem::InterfaceFrame frame;
   const std::size_t colon = text.rfind(':'), equals = text.find('=');
@@ -49,12 +49,7 @@ fem::InterfaceFrame frame_of(const Mesh& mesh, const std::string& text) {
   frame.name = equals == std::string::npos ? set : names.substr(0, equals);
   frame.connection = connection == "rigid" ? fem::Connection::rigid : fem::Connection::average;
   frame.nodes = nodes_of(mesh, set);
-  Vector3 lower = mesh.nodes[static_cast<std::size_t>(frame.nodes.front())], upper = lower;
-  for (const int node : frame.nodes) {
-    lower = lower.cwiseMin(mesh.nodes[static_cast<std::size_t>(node)]);
-    upper = upper.cwiseMax(mesh.nodes[static_cast<std::size_t>(node)]);
-  }
-  frame.origin = (lower + upper) / 2;
+  frame.origin = fem::face_centre(mesh, frame.nodes);
   if (frame.connection == fem::Connection::average) frame.weights = fem::face_weights(mesh, frame.nodes);
   return frame;
 }

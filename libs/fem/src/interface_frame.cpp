@@ -51,6 +51,19 @@ std::vector<double> face_weights(const Mesh& mesh, const std::vector<int>& nodes
   return nodal_areas(mesh, faces, place, nodes.size());
 }
 
+Vector3 face_centre(const Mesh& mesh, const std::vector<int>& nodes) {
+  HERSEY_REQUIRE(!nodes.empty(), "a set of nodes has a centre");
+  std::vector<double> weights = face_weights(mesh, nodes);
+  if (weights.empty()) weights.assign(nodes.size(), 1.0);
+  Vector3 sum = Vector3::Zero();
+  double total = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    sum += weights[i] * mesh.nodes[static_cast<std::size_t>(nodes[i])];
+    total += weights[i];
+  }
+  return sum / total;
+}
+
 Eigen::SparseMatrix<double> frame_motion(const Mesh& mesh, const InterfaceFrame& frame) {
   HERSEY_REQUIRE(nodes_span_rotations(mesh, frame), "the nodes do not lie on one line");
   HERSEY_REQUIRE(frame.weights.empty() || frame.weights.size() == frame.nodes.size(), "one weight per node");

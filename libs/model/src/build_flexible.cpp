@@ -32,8 +32,12 @@ BuiltFlexible build_flexible(const Body& body) {
   HERSEY_REQUIRE(body.flexible && body.flexible->mesh, "the reader checks meshes");
   const Flexible& flexible = *body.flexible;
   std::vector<fem::InterfaceFrame> frames;
-  for (const Frame& frame : body.frames)
-    frames.push_back({frame.name, frame.X_BF.r, frame.nodes, frame.connection, {}});
+  frames.reserve(body.frames.size());
+  for (const Frame& frame : body.frames) {
+    const bool is_average = frame.connection == fem::Connection::average;
+    frames.push_back({frame.name, frame.X_BF.r, frame.nodes, frame.connection,
+                      is_average ? fem::face_weights(*flexible.mesh, frame.nodes) : std::vector<double>()});
+  }
   fem::ReductionOptions options;
   options.modes = flexible.modes;
   if (flexible.highest > 0) options.highest = 2 * std::numbers::pi * flexible.highest;

@@ -13,7 +13,7 @@ TypePtr frames_format() {
   return named("a mapping from names to frames",
                object("a frame", {
                                      optional("origin", vector("m", "0 50 0 mm"), "From the body's origin.",
-                                              "0 0 0 m; with `nodes`, their centre"),
+                                              "0 0 0 m; with `nodes`, the centre of their faces"),
                                      optional("rotation", rotation, "Turns the frame's axes from the body's.", "none"),
                                      optional("nodes", text("a set of nodes", "big_end"),
                                               "Set of the mesh's nodes that the frame of a flexible body stands on."),

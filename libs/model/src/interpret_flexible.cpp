@@ -5,6 +5,7 @@
 
 #include "hersey/core/spelling.h"
 #include "hersey/fem/mesh_file.h"
+#include "hersey/fem/reduction.h"
 #include "hersey/fem/skin.h"
 #include "interpret.h"
 
@@ -122,10 +123,7 @@ class FlexibleReader {
       frame.nodes = set->second;
       claim(mesh, frame, *nodes);
       if (text_of(value, "connection") == "average") frame.connection = fem::Connection::average;
-      if (value.find("origin") != nullptr) continue;
-      Vector3 sum = Vector3::Zero();
-      for (int n : frame.nodes) sum += mesh.nodes[static_cast<std::size_t>(n)];
-      frame.X_BF.r = sum / static_cast<double>(frame.nodes.size());
+      if (value.find("origin") == nullptr) frame.X_BF.r = fem::face_centre(mesh, frame.nodes);
     }
   }
 

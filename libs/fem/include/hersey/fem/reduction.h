@@ -27,6 +27,10 @@ struct InterfaceFrame {
 /// face.
 [[nodiscard]] std::vector<double> face_weights(const Mesh& mesh, const std::vector<int>& nodes);
 
+/// The centre of the faces whose nodes are all among `nodes`: of a bore a point on its axis, however it is meshed. The
+/// mean of the nodes if there is no such face.
+[[nodiscard]] Vector3 face_centre(const Mesh& mesh, const std::vector<int>& nodes);
+
 /// (6, 3 n): small rotation and displacement of `frame`, [theta; d], that the displacements of its nodes mean,
 /// (elastic.12); its transpose spreads a wrench [tau; f] over the nodes.
 [[nodiscard]] Eigen::SparseMatrix<double> frame_motion(const Mesh& mesh, const InterfaceFrame& frame);
