@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "hersey/core/contract.h"
 #include "hersey/fem/held_stiffness.h"
@@ -126,6 +127,11 @@ void project(const ElasticBody& body, ReducedBody& reduced) {
 }
 
 }  // namespace
+
+FrameSupports frame_supports(const Mesh& mesh, const std::vector<InterfaceFrame>& frames) {
+  Interface interface = interface_of(mesh, frames);
+  return {std::move(interface.held), std::move(interface.C)};
+}
 
 Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& frames, const ReductionOptions& options) {
   HERSEY_REQUIRE(options.loads.size() == 0 || options.loads.rows() == body.size(), "one force per degree of freedom");

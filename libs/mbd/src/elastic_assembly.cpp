@@ -58,10 +58,12 @@ std::optional<Vector6> ElasticAssembly::deformation(const Freedom& freedom, cons
 const ElasticMotion& ElasticAssembly::read(const TreeMotion& motion, const solver::State& state,
                                            const solver::Stage& stage, bool accelerate) {
   motion_.t = state.t;
-  motion_.dt = stage.dt;
-  motion_.k = stage.k;
-  motion_.c = stage.c;
-  motion_.m = stage.m;
+  motion_.stage = {.dt = stage.dt,
+                   .k = stage.k,
+                   .c = stage.c,
+                   .m = stage.m,
+                   .parameters = stage.parameters,
+                   .fresh = stage.fresh};
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     ElasticFrame& frame = motion_.frames[f];
     frame.X_WF = motion.pose(frames_[f]);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "hersey/core/contract.h"
-#include "relative_deformation.h"
+#include "modal_workspace.h"
 
 namespace hersey::mbd {
 namespace {
@@ -21,9 +21,6 @@ constexpr double kMomentumShare = 1e-4;
 // The share of the force of a deformation as large as the body, counted as a magnitude too: loops that the body closes
 // give its deformation as a difference of poses, with their round-off of 1e-15.
 constexpr double kStiffnessShare = 1e-6;
-
-/// Sum over material points of rho y x z for the matrix N = sum of rho y z^T.
-Vector3 cross_moment(const Matrix3& N) { return {N(1, 2) - N(2, 1), N(2, 0) - N(0, 2), N(0, 1) - N(1, 0)}; }
 
 }  // namespace
 
@@ -72,21 +69,6 @@ ModalBodyData modal_data(const fem::ReducedBody& reduced, const RayleighDamping&
   if (shapes != nullptr) *shapes = std::move(Phi);
   return data;
 }
-
-/// Everything at one motion. The unknowns of the body in its own axes are [frame 0 (6); amplitudes].
-struct ModalBody::Workspace {
-  VectorXd q, rate, acceleration;            // amplitudes, with q_0 = 1 for the points themselves
-  std::array<VectorXd, 9> h, h_rate, h_acc;  // sums over b of G_ab q_b, component by component
-  std::vector<Matrix3> H, H_rate, H_acc;     // the same per shape: sums of rho Y_a y^T
-  std::vector<RelativeDeformation> interfaces;
-  VectorXd force, magnitude, elastic, viscous;
-  MatrixXd K, C, M;
-  MatrixXd Z, Z_rate_X, Z_acc_X, Z_acc_V, product;
-
-  Vector3 a_true, S, S_rate, S_acc;      // acceleration of frame 0's origin; first moment and its rates
-  Matrix3 Omega;                         // alpha~ + omega~ omega~
-  Matrix3 Gamma, Gamma_rate, Gamma_acc;  // sums of rho y y^T, y y_rate^T, y y_acc^T
-};
 
 ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::make_unique<Workspace>()) {
   const Index n = data_.shapes();
@@ -307,10 +289,15 @@ void ModalBody::add_momentum_share(const ElasticFrame& base, double dt) {
 void ModalBody::evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) {
   gather(motion, want_tangent);
   add_inertia(motion.frames[0]);
-  add_momentum_share(motion.frames[0], motion.dt);
+  add_momentum_share(motion.frames[0], motion.stage.dt);
   if (want_tangent) differentiate_inertia(motion.frames[0]);
   add_elasticity(want_tangent);
+  add_nodes(motion, want_tangent);
   reduce_to_frames(want_tangent, response);
+}
+
+VectorXd ModalBody::displacements(const ElasticMotion& motion, const MatrixXd& shapes) {
+  return shapes * amplitudes(motion);
 }
 
 VectorXd ModalBody::amplitudes(const ElasticMotion& motion) {

@@ -9,6 +9,7 @@
 #include "hersey/fem/reduction.h"
 #include "hersey/mbd/mechanism.h"
 #include "hersey/mbd/modal_body.h"
+#include "hersey/mbd/nodal_body.h"
 
 namespace hersey::mbd::test {
 
@@ -21,12 +22,14 @@ struct Beam {
   fem::Connection connection = fem::Connection::rigid;
   int modes = 8;
   fem::ElementType type = fem::ElementType::hex8;
+  RayleighDamping damping = {};
+  bool nodal = false;
 
   [[nodiscard]] Pose frame_at(double x) const { return {Matrix3::Identity(), {x, size.y() / 2, size.z() / 2}}; }
   [[nodiscard]] fem::ElasticBody elastic() const {
     return fem::assemble(fem::box_mesh(type, size, cells), {fem::isotropic(material)});
   }
-  [[nodiscard]] ModalBodyData reduced() const {
+  [[nodiscard]] fem::ReducedBody reduced_mesh() const {
     const fem::ElasticBody body = elastic();
     std::vector<fem::InterfaceFrame> frames{{"root", frame_at(0).r, body.mesh.node_sets.at("x0"), connection, {}}};
     if (tip) frames.push_back({"tip", frame_at(size.x()).r, body.mesh.node_sets.at("x1"), connection, {}});
@@ -34,12 +37,17 @@ struct Beam {
     options.modes = modes;
     const fem::Reduction reduction = fem::reduce(body, frames, options);
     REQUIRE_MESSAGE(reduction.ok, reduction.message);
-    return modal_data(reduction.body, {});
+    return reduction.body;
+  }
+  [[nodiscard]] ModalBodyData reduced() const { return modal_data(reduced_mesh(), damping); }
+  [[nodiscard]] std::shared_ptr<NodalBody> all_nodes() const {
+    return std::make_shared<NodalBody>(elastic(), reduced_mesh(), damping);
   }
   /// Adds it to `builder` as `name`; its axes have their origin at the corner.
   [[nodiscard]] FlexibleBodyIds add_to(MechanismBuilder& builder, const std::string& name = "beam") const {
     std::vector<std::string> names;
     if (tip) names.emplace_back("tip");
+    if (nodal) return builder.add_flexible_body(name, names, all_nodes());
     return builder.add_flexible_body(name, names, std::make_shared<ModalBody>(reduced()));
   }
   [[nodiscard]] double mass() const { return material.density * size.prod(); }

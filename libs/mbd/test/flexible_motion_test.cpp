@@ -117,8 +117,8 @@ struct SpinErrors {
   double drift = 0;  ///< of the energy: its mean over the last tenth less that over the first
 };
 
-SpinErrors spin(double turns, int steps_per_turn, const Vector3& omega, double spectral_radius) {
-  test::Beam beam{.size = {1, 0.05, 0.03}, .cells = {8, 1, 1}, .tip = true};
+SpinErrors spin(double turns, int steps_per_turn, const Vector3& omega, double spectral_radius, bool nodal) {
+  test::Beam beam{.size = {1, 0.05, 0.03}, .cells = {8, 1, 1}, .tip = true, .nodal = nodal};
   beam.material.youngs_modulus = 2e9;  // soft enough to bend
   beam.modes = 4;
   MechanismBuilder b;
@@ -156,14 +156,24 @@ SpinErrors spin(double turns, int steps_per_turn, const Vector3& omega, double s
 
 TEST_CASE("FreeSpinningBeam_KeepsMomentumAndEnergyOver100Turns") {
   // The errors of the steps themselves swing with their square; what counts is that they do not grow.
-  const SpinErrors e = spin(100, 400, {0, 0, 20}, 1.0);
+  const SpinErrors e = spin(100, 400, {0, 0, 20}, 1.0, false);
   MESSAGE("strain energy up to ", e.strain, ", energy swings by ", e.energy, " and drifts by ", e.drift,
           ", angular momentum off by ", e.momentum);
   CHECK(e.strain > 1e-4);
   CHECK(std::abs(e.drift) < 1e-6);
   CHECK(e.momentum < 2e-5);
   // With dissipation energy is lost and never gained.
-  CHECK(spin(20, 200, {0, 0, 20}, 0.9).drift < 0);
+  CHECK(spin(20, 200, {0, 0, 20}, 0.9, false).drift < 0);
+}
+
+TEST_CASE("FreeSpinningBeamOfNodes_KeepsMomentumAndEnergy") {
+  const SpinErrors e = spin(5, 200, {0, 0, 20}, 1.0, true);
+  MESSAGE("strain energy up to ", e.strain, ", energy swings by ", e.energy, " and drifts by ", e.drift,
+          ", angular momentum off by ", e.momentum);
+  CHECK(e.strain > 1e-4);
+  CHECK(std::abs(e.drift) < 1e-6);
+  CHECK(e.momentum < 1e-5);
+  CHECK(spin(2, 200, {0, 0, 20}, 0.9, true).drift < 0);
 }
 
 TEST_CASE("SpinningRod_StretchesByTheClosedForm") {

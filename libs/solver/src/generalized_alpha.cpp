@@ -16,16 +16,6 @@ namespace {
 using Eigen::VectorXd;
 using Index = Equations::Index;
 
-/// Parameters of the method for a spectral radius (Chung and Hulbert 1993).
-struct Parameters {
-  explicit Parameters(double rho)
-      : alpha_m((2 * rho - 1) / (rho + 1)),
-        alpha_f(rho / (rho + 1)),
-        gamma(0.5 + alpha_f - alpha_m),
-        beta(0.25 * (gamma + 0.5) * (gamma + 0.5)) {}
-  double alpha_m, alpha_f, gamma, beta;
-};
-
 /// Round-off of a constraint: positions are sums of a few lengths of the mechanism's size.
 constexpr double kConstraintRoundOff = 1e-13;
 
@@ -35,7 +25,7 @@ constexpr double kConstraintRoundOff = 1e-13;
 struct GeneralizedAlpha::Workspace {
   explicit Workspace(double spectral_radius) : parameters(spectral_radius) {}
 
-  Parameters parameters;
+  AlphaParameters parameters;
   bool started = false;
   double last_dt = 0;
   VectorXd a;  ///< algorithmic acceleration at the last accepted state
@@ -79,6 +69,7 @@ void GeneralizedAlpha::Workspace::predict(const State& state, double dt) {
   v_predicted = v_start + dt * a_n;
   vdot_predicted = (a_n - alpha_f * state.vdot) / (1 - alpha_f);
   stage.dt = dt;
+  stage.parameters = parameters;
   stage.k = 1;
   stage.c = gamma / (beta * dt);
   stage.m = (1 - alpha_m) / ((1 - alpha_f) * beta * dt * dt);
@@ -248,6 +239,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     w.last_dt = dt;
     w.drift.resize(0);
     w.started = true;
+    w.stage.fresh = true;
   }
   equations.begin_step(state, dt);
   w.predict(state, dt);
@@ -277,6 +269,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   }
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
   w.last_dt = dt;
+  w.stage.fresh = false;
   w.remember_drift(judge ? dt : 0);
   state = w.trial;
   equations.accept_step(state);

@@ -35,6 +35,14 @@ struct InterfaceFrame {
 /// (elastic.12); its transpose spreads a wrench [tau; f] over the nodes.
 [[nodiscard]] Eigen::SparseMatrix<double> frame_motion(const Mesh& mesh, const InterfaceFrame& frame);
 
+/// What keeps a mesh still while no frame moves: degrees of freedom that rigid frames hold, and constraints C u = 0 of
+/// the averages, (6 average frames, 3 n).
+struct FrameSupports {
+  std::vector<int> held;
+  Eigen::SparseMatrix<double> C;
+};
+[[nodiscard]] FrameSupports frame_supports(const Mesh& mesh, const std::vector<InterfaceFrame>& frames);
+
 struct ReductionOptions {
   int modes = 20;                                            ///< fixed-interface modes at most
   double highest = std::numeric_limits<double>::infinity();  ///< up to this angular frequency [rad/s]

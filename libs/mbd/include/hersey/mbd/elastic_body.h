@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hersey/core/spatial.h"
+#include "hersey/solver/equations.h"
 
 namespace hersey::mbd {
 
@@ -22,9 +23,8 @@ struct ElasticFrame {
 
 /// What an elastic body sees: its frames, and its own coordinates where it has any.
 struct ElasticMotion {
-  double t = 0;                ///< time [s]
-  double dt = 0;               ///< length of the step being solved [s]; 0: steady or instantaneous
-  double k = 1, c = 0, m = 0;  ///< how an increment moves position, velocity, acceleration (solver::Stage)
+  double t = 0;         ///< time [s]
+  solver::Stage stage;  ///< of the step being solved; its dq is left empty
   std::vector<ElasticFrame> frames;
   Eigen::VectorXd eta, eta_rate, eta_acceleration;  ///< own coordinates, shape (coordinate_count)
 };

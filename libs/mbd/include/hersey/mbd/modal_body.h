@@ -50,7 +50,7 @@ struct RayleighDamping {
 /// The flexible body of small strain and large motion in the floating frame of its first frame, with every term of
 /// inertia that the shapes have (theory manual eq. (flexible-bodies.1) to (flexible-bodies.7)).
 /// @see Shabana (2013), Dynamics of Multibody Systems, ch. 5; Craig and Bampton (1968), AIAA J. 6, 1313.
-class ModalBody final : public ElasticBody {
+class ModalBody : public ElasticBody {
  public:
   /// @pre the matrices have the shapes ModalBodyData says, and shapes >= 6 (frames - 1).
   explicit ModalBody(ModalBodyData data);
@@ -67,13 +67,21 @@ class ModalBody final : public ElasticBody {
   [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
 
   /// Amplitudes of all shapes, shape (shapes).
-  [[nodiscard]] Eigen::VectorXd amplitudes(const ElasticMotion& motion);
+  [[nodiscard]] virtual Eigen::VectorXd amplitudes(const ElasticMotion& motion);
+  /// Displacements of all nodes in the body's axes, shape (3 nodes), from `shapes` as modal_data gave them.
+  [[nodiscard]] virtual Eigen::VectorXd displacements(const ElasticMotion& motion, const Eigen::MatrixXd& shapes);
   [[nodiscard]] const ModalBodyData& data() const { return data_; }
 
- private:
+ protected:
   struct Workspace;
+  [[nodiscard]] Workspace& work() { return *work_; }
+  /// Amplitudes and sums over shapes at a motion.
+  virtual void gather(const ElasticMotion& motion, bool want_tangent);
+  /// What a body has beside its shapes, added to forces and derivatives of [frame 0; amplitudes].
+  virtual void add_nodes(const ElasticMotion& motion, bool want_tangent) { (void)motion, (void)want_tangent; }
+
+ private:
   [[nodiscard]] Eigen::VectorXd stiffness_at_size() const;
-  void gather(const ElasticMotion& motion, bool want_tangent);
   void add_inertia(const ElasticFrame& base);
   void differentiate_inertia(const ElasticFrame& base);
   void add_momentum_share(const ElasticFrame& base, double dt);

@@ -4,6 +4,8 @@
 #include <Eigen/SparseCore>
 #include <string>
 
+#include "hersey/solver/alpha_parameters.h"
+
 namespace hersey::solver {
 
 /// A mechanical system at one instant.
@@ -18,11 +20,13 @@ struct State {
 /// How one Newton increment dx of positions moves the state: position by k dx, velocity by c dx, acceleration by m dx.
 /// The tangent asked for is  J = k K T + c C + m M,  bordered by the constraint Jacobian.
 struct Stage {
-  double dt = 0;       ///< length of the step being solved [s]; 0 asks for a steady or instantaneous evaluation
-  double k = 1;        ///< d position / dx
-  double c = 0;        ///< d velocity / dx
-  double m = 0;        ///< d acceleration / dx
-  Eigen::VectorXd dq;  ///< increment of position since the step's start, shape (nv) or empty: K acts on T(dq) dx
+  double dt = 0;            ///< length of the step being solved [s]; 0 asks for a steady or instantaneous evaluation
+  double k = 1;             ///< d position / dx
+  double c = 0;             ///< d velocity / dx
+  double m = 0;             ///< d acceleration / dx
+  Eigen::VectorXd dq = {};  ///< increment of position since the step's start, shape (nv) or empty: K acts on T(dq) dx
+  AlphaParameters parameters{};  ///< of the step being solved
+  bool fresh = false;            ///< no step was accepted since the motion started afresh
 };
 
 /// Equations of motion with constraints,

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hersey/fem/elastic_body.h"
+#include "hersey/fem/reduction.h"
+#include "hersey/mbd/modal_body.h"
+#include "hersey/solver/second_order_history.h"
+
+namespace hersey::mbd {
+
+class NodalFactors;
+struct NodalFactor;
+
+/// The flexible body of small strain and large motion with a displacement of every node: over the static shapes of its
+/// frames, as of a modal body, each node moves by w,
+///
+///     y(x) = x + sum q_a Psi_a(x) + w(x),    no frame moved by w.
+///
+/// The mechanism sees the frames alone: w is condensed, with the matrix m M + c D + k K factorised once per step size,
+/// in the body's axes. What spin adds to that matrix, 2 c omega~ M and less, is left to iteration (theory manual eq.
+/// (flexible-bodies.15) to (flexible-bodies.20)).
+///
+/// At the start w is the static answer to the forces of inertia and weight of the start, at rest against the axes: as
+/// if the motion had gone on like this before.
+class NodalBody final : public ModalBody {
+ public:
+  /// @param body     the whole mesh
+  /// @param reduced  of that mesh with the same frames; its vibrations serve to draw the body, not to move it
+  /// @throws InputError  telling the memory needed where the factor does not fit
+  NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping);
+  ~NodalBody() override;
+
+  void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) override;
+  [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
+  void begin_step(const ElasticMotion& start, double dt) override;
+  void accept_step(const ElasticMotion& end) override;
+  [[nodiscard]] double internal_residual() const override { return internal_residual_; }
+  [[nodiscard]] std::string name_of_internal_residual() const override { return "equations of the nodes"; }
+  [[nodiscard]] std::string domain_error() const override { return trouble_; }
+
+  /// Amplitudes of the frames' shapes, then of the vibrations as far as they describe w.
+  [[nodiscard]] Eigen::VectorXd amplitudes(const ElasticMotion& motion) override;
+  [[nodiscard]] Eigen::VectorXd displacements(const ElasticMotion& motion, const Eigen::MatrixXd& shapes) override;
+
+  /// Solutions with the factored matrix so far.
+  [[nodiscard]] long solves() const;
+  [[nodiscard]] const fem::ElasticBody& mesh_body() const { return body_; }
+
+ protected:
+  void gather(const ElasticMotion& motion, bool want_tangent) override;
+  void add_nodes(const ElasticMotion& motion, bool want_tangent) override;
+
+ private:
+  struct Fields;
+  void settle(const ElasticMotion& motion);
+  void update_fields();
+  void update_accelerations(const ElasticFrame& base);
+  [[nodiscard]] double unbalance(const ElasticMotion& motion);
+  /// Integrals of rho X_r f_p of answers X and a field f: [r](column of X, p).
+  using Moments = std::array<Eigen::MatrixX3d, 3>;
+  void condense(const ElasticMotion& motion);
+  [[nodiscard]] Eigen::MatrixXd forces_of_answers(const NodalFactor& factor, const solver::Stage& stage,
+                                                  const ElasticFrame& base, const Moments& by_y, const Moments& by_rate,
+                                                  const Moments& by_acc);
+  void add_forces_on_nodes(const NodalFactor& factor, const ElasticFrame& base, const Moments& by_y,
+                           const Moments& by_rate, const Eigen::MatrixXd& answer);
+
+  fem::ElasticBody body_;
+  RayleighDamping damping_;
+  Eigen::Matrix3Xd x_;             ///< undeformed nodes
+  Eigen::RowVectorXd nodal_mass_;  ///< sums of the rows of m
+  Eigen::MatrixXd Psi_;            ///< static shapes of the frames, (3 nodes, shapes)
+  Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
+  Eigen::VectorXd vibration_mass_;
+  Eigen::MatrixXd inertia_;  ///< columns of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi
+  solver::SecondOrderHistory w_;
+  std::unique_ptr<NodalFactors> factors_;
+  std::unique_ptr<Fields> fields_;
+  Eigen::VectorXd r_, sizes_;  ///< forces on the nodes that nothing balances, and sizes of the terms in them
+  bool at_rest_ = true;
+  double internal_residual_ = 0;
+  std::string trouble_;
+};
+
+}  // namespace hersey::mbd

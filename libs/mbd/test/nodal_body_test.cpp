@@ -1,0 +1,160 @@
+// Bodies with a displacement of every node: against modal bodies with every mode, statics, derivatives, convergence.
+#include "hersey/mbd/nodal_body.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "flexible_beam.h"
+#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/loads.h"
+#include "hersey/solver/equilibrium.h"
+#include "simulate.h"
+#include "test_mechanisms.h"
+
+namespace hersey::mbd {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A beam hinged at its root and pushed at its tip, in ground's axes; where the tip is at the end.
+Vector3 pushed(const test::Beam& beam) {
+  MechanismBuilder b;
+  const FlexibleBodyIds ids = beam.add_to(b);
+  b.add_joint({.name = "hinge",
+               .type = JointType::revolute,
+               .inboard = b.frame_of(b.ground()),
+               .outboard = b.add_frame({.name = "root", .body = ids.bodies[0], .X_BF = beam.frame_at(0)}),
+               .initial = {0.3}});
+  LoadTerm term;
+  term.direction << 0, 0, 0, 300, 2000, 500;
+  term.magnitude = std::make_shared<test::Quadratic>(0, 1, 0);
+  term.variables = {{.kind = Variable::Kind::time, .coordinate = {}}};
+  b.add_load({.name = "push", .frame = ids.frames[1], .axes = LoadAxes::ground, .terms = {term}});
+  const auto m = b.finalise();
+  solver::State state = test::start(*m);
+  test::run(*m, state, 0.2, 400);
+  return m->frame_motion(state, ids.frames[1]).X_WF.r;
+}
+
+TEST_CASE("NodalBody_MovesAsTheModalBodyWithEveryVibration") {
+  // 12 free nodes have 36 vibrations; averages leave 48 of 60. Both integrate alike, so only Newton's tolerance is
+  // between them.
+  for (const fem::Connection connection : {fem::Connection::rigid, fem::Connection::average}) {
+    test::Beam beam{.cells = {4, 1, 1}, .tip = true, .connection = connection};
+    beam.modes = 100;
+    beam.damping = {.mass = 3, .stiffness = 1e-5};
+    beam.material.youngs_modulus = 2e9;
+    const Vector3 modal = pushed(beam);
+    beam.nodal = true;
+    const Vector3 nodal = pushed(beam);
+    beam.modes = 0;
+    beam.nodal = false;
+    CHECK((pushed(beam) - modal).norm() > 1e-6);  // what the vibrations do is seen
+    CHECK((nodal - modal).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("NodalBody_SagsLikeItsMesh") {
+  test::Beam beam{.cells = {6, 2, 2}, .tip = true, .connection = fem::Connection::average};
+  beam.nodal = true;
+  const Vector3 g{0, -9.81, 4};
+  MechanismBuilder b;
+  b.set_gravity(g);
+  const FlexibleBodyIds ids = beam.add_to(b);
+  b.add_joint(
+      {.name = "clamp", .type = JointType::fixed, .inboard = b.frame_of(b.ground()), .outboard = ids.frames[0]});
+  const auto m = b.finalise();
+  solver::State state = test::start(*m);
+  const solver::EquilibriumSummary summary = solver::find_equilibrium(*m, state);
+  REQUIRE_MESSAGE(summary.converged, summary.message);
+
+  const fem::ElasticBody body = beam.elastic();
+  const fem::FrameSupports supports = fem::frame_supports(
+      body.mesh, {{"root", beam.frame_at(0).r, body.mesh.node_sets.at("x0"), fem::Connection::average, {}}});
+  fem::HeldStiffness held(body.K, body.m, supports.held, supports.C);
+  REQUIRE(held.factorise().ok());
+  const VectorXd u = held.solve(fem::gravity_load(body, g));
+  Vector6 tip = fem::frame_motion(body.mesh, {"tip", beam.frame_at(1).r, body.mesh.node_sets.at("x1"), {}, {}}) * u;
+  const Vector3 found = m->frame_motion(state, ids.frames[1]).X_WF.r - beam.frame_at(1).r;
+  CHECK((found - tip.tail<3>()).norm() < 1e-5 * tip.tail<3>().norm());
+}
+
+/// Frames that turn, move and deform the body as machines do: 20 rad/s, 10 m/s, strains of 1e-4.
+ElasticMotion brisk_motion(const NodalBody& body) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto vector = [&](double turn, double shift) {
+    Vector6 v;
+    for (Index i = 0; i < 6; ++i) v[i] = (i < 3 ? turn : shift) * uniform(random);
+    return v;
+  };
+  ElasticMotion motion;
+  const Pose base = test::pose({0.7, -1.2, 0.4}, {0.5, 2, -1});
+  for (int i = 0; i < body.frame_count(); ++i) {
+    ElasticFrame frame;
+    frame.X_WF = base * body.rest_pose(i) * pose_exp(i == 0 ? Vector6::Zero() : vector(1e-4, 1e-4));
+    frame.V = vector(20, 10);
+    frame.A = vector(1000, 500);
+    motion.frames.push_back(frame);
+  }
+  return motion;
+}
+
+/// Derivative of the settled forces by finite differences of places, velocities or accelerations.
+enum class Moved { place, velocity, acceleration };
+MatrixXd differences(NodalBody& body, const ElasticMotion& motion, Moved what, double unit) {
+  const Index n = 6 * body.frame_count();
+  MatrixXd derivative(n, n);
+  for (Index i = 0; i < n; ++i) {
+    const auto at = [&](double step) {
+      ElasticMotion moved = motion;
+      ElasticFrame& frame = moved.frames[static_cast<std::size_t>(i / 6)];
+      if (what == Moved::place) frame.X_WF = frame.X_WF * pose_exp(step * Vector6::Unit(i % 6));
+      if (what == Moved::velocity) frame.V[i % 6] += step;
+      if (what == Moved::acceleration) frame.A[i % 6] += step;
+      ElasticResponse response;
+      for (int repeat = 0; repeat < 3; ++repeat) body.evaluate(moved, false, response);
+      return response.force;
+    };
+    derivative.col(i) = (at(unit) - at(-unit)) / (2 * unit);
+  }
+  return derivative;
+}
+
+TEST_CASE("NodalBody_DerivativesOfItsCondensedForcesMatchFiniteDifferences") {
+  // Their answer is sought among few columns, which are nearly all of it.
+  test::Beam beam{.size = {0.3, 0.05, 0.03}, .cells = {4, 1, 1}, .tip = true};
+  const std::shared_ptr<NodalBody> body = beam.all_nodes();
+  ElasticMotion motion = brisk_motion(*body);
+  const double dt = 2e-4;
+  body->begin_step(motion, dt);
+  motion.stage = {.dt = dt, .k = 1, .c = 2 / dt, .m = 4 / (dt * dt)};
+  ElasticResponse response;
+  for (int repeat = 0; repeat < 3; ++repeat) body->evaluate(motion, true, response);
+  CHECK(body->internal_residual() < 1e-9);
+  const auto whole = [&](const MatrixXd& K, const MatrixXd& C, const MatrixXd& M) {
+    return MatrixXd(K + motion.stage.c * C + motion.stage.m * M);
+  };
+  const MatrixXd exact =
+      whole(differences(*body, motion, Moved::place, 1e-9), differences(*body, motion, Moved::velocity, 1e-4),
+            differences(*body, motion, Moved::acceleration, 1e-1));
+  const MatrixXd J = whole(response.K, response.C, response.M);
+  // How much of a Newton increment is wrong, with and without the nodes' answer.
+  const auto wrong = [&](const MatrixXd& tangent) {
+    return (tangent.partialPivLu().solve(exact) - MatrixXd::Identity(12, 12)).eigenvalues().cwiseAbs().maxCoeff();
+  };
+  const double with_nodes = wrong(J);
+  motion.stage.k = 0;  // the nodes are looked at, not moved
+  body->evaluate(motion, true, response);
+  const double without = wrong(whole(response.K, response.C, response.M));
+  MESSAGE("wrong share of an increment ", with_nodes, ", without the nodes' answer ", without);
+  CHECK(with_nodes < 1e-6);
+  CHECK(without > 0.1);
+}
+
+}  // namespace
+}  // namespace hersey::mbd
