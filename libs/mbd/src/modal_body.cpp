@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "hersey/core/contract.h"
-#include "relative_deformation.h"
+#include "modal_workspace.h"
 
 namespace hersey::mbd {
 namespace {
@@ -21,9 +21,6 @@ constexpr double kMomentumShare = 1e-4;
 // The share of the force of a deformation as large as the body, counted as a magnitude too: loops that the body closes
 // give its deformation as a difference of poses, with their round-off of 1e-15.
 constexpr double kStiffnessShare = 1e-6;
-
-/// Sum over material points of rho y x z for the matrix N = sum of rho y z^T.
-Vector3 cross_moment(const Matrix3& N) { return {N(1, 2) - N(2, 1), N(2, 0) - N(0, 2), N(0, 1) - N(1, 0)}; }
 
 }  // namespace
 
@@ -41,6 +38,8 @@ void set_moments(ModalBodyData& data, const Eigen::SparseMatrix<double>& nodal_m
     MY[static_cast<std::size_t>(p)] = nodal_mass * component;
   }
   data.mass = nodal_mass.sum();
+  data.nodes = x;
+  data.displacements = shapes;
   data.first_moment.resize(3, n);
   for (std::size_t p = 0; p < 3; ++p) {
     data.first_moment.row(static_cast<Index>(p)) = MY[p].colwise().sum();
@@ -73,21 +72,6 @@ ModalBodyData modal_data(const fem::ReducedBody& reduced, const RayleighDamping&
   return data;
 }
 
-/// Everything at one motion. The unknowns of the body in its own axes are [frame 0 (6); amplitudes].
-struct ModalBody::Workspace {
-  VectorXd q, rate, acceleration;            // amplitudes, with q_0 = 1 for the points themselves
-  std::array<VectorXd, 9> h, h_rate, h_acc;  // sums over b of G_ab q_b, component by component
-  std::vector<Matrix3> H, H_rate, H_acc;     // the same per shape: sums of rho Y_a y^T
-  std::vector<RelativeDeformation> interfaces;
-  VectorXd force, magnitude, elastic, viscous;
-  MatrixXd K, C, M;
-  MatrixXd Z, Z_rate_X, Z_acc_X, Z_acc_V, product;
-
-  Vector3 a_true, S, S_rate, S_acc;      // acceleration of frame 0's origin; first moment and its rates
-  Matrix3 Omega;                         // alpha~ + omega~ omega~
-  Matrix3 Gamma, Gamma_rate, Gamma_acc;  // sums of rho y y^T, y y_rate^T, y y_acc^T
-};
-
 ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::make_unique<Workspace>()) {
   const Index n = data_.shapes();
   HERSEY_REQUIRE(!data_.rest.empty() && n >= 6 * static_cast<Index>(data_.rest.size() - 1), "six shapes per frame");
@@ -102,6 +86,7 @@ ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::ma
   w.interfaces.resize(data_.rest.size() - 1);
   w.H.resize(static_cast<std::size_t>(n) + 1);
   w.H_rate = w.H_acc = w.H;
+  w.load = VectorXd::Zero(6 + n);
   w.K = w.C = w.M = MatrixXd::Zero(6 + n, 6 + n);
   const Index outer = 6 * frame_count() + coordinate_count();
   w.Z = w.Z_rate_X = w.Z_acc_X = w.Z_acc_V = MatrixXd::Zero(6 + n, outer);
@@ -310,6 +295,7 @@ void ModalBody::evaluate(const ElasticMotion& motion, bool want_tangent, Elastic
   add_momentum_share(motion.frames[0], motion.dt);
   if (want_tangent) differentiate_inertia(motion.frames[0]);
   add_elasticity(want_tangent);
+  add_loads(motion, want_tangent);
   reduce_to_frames(want_tangent, response);
 }
 
@@ -340,6 +326,7 @@ ElasticEnergy ModalBody::energy(const ElasticMotion& motion, const Vector3& grav
   e.gravity = g.dot(p);
   e.momentum = X.R * p;
   e.angular_momentum = X.R * H + X.r.cross(e.momentum);
+  add_load_energies(motion, e);
   // The power of all inertia forces, gravity among them, is the rate of the kinetic energy less that of gravity.
   add_inertia(base);
   e.kinetic_rate = w.force.head<6>().dot(base.V) + w.force.tail(n).dot(rate) + e.gravity;
