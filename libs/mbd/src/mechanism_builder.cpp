@@ -172,6 +172,10 @@ void MechanismBuilder::add_nodal_load(ElasticId elastic, const NodalLoad& load,
   body.loads.push_back(std::move(value));
 }
 
+std::size_t MechanismBuilder::nodal_loads(ElasticId elastic) const {
+  return spec_.elastics.at(static_cast<std::size_t>(elastic.index)).loads.size();
+}
+
 std::unique_ptr<Mechanism> MechanismBuilder::finalise() {
   std::vector<Fault> faults;
   for (const BodySpec& body : spec_.bodies) check_body(body, faults);

@@ -1,4 +1,4 @@
-// Forces on the nodes of a modal body, theory manual eq. (flexible-bodies.15) and (flexible-bodies.16).
+// Forces on the nodes of a modal body, theory manual eq. (flexible-bodies.21) and (flexible-bodies.22).
 #include <cmath>
 
 #include "hersey/core/contract.h"

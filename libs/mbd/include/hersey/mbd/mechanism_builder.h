@@ -204,6 +204,9 @@ class MechanismBuilder {
   /// Forces on the nodes of a flexible body; `value` is a function of time.
   void add_nodal_load(ElasticId elastic, const NodalLoad& load, std::shared_ptr<const ScalarFunction> value);
 
+  /// How many nodal loads a flexible body carries so far.
+  [[nodiscard]] std::size_t nodal_loads(ElasticId elastic) const;
+
   /// @throws InputError if a body, spring or joint makes no physical sense (all faults together), or two drives act on
   ///         one coordinate; ContractError if an id or a count is not the builder's own.
   [[nodiscard]] std::unique_ptr<Mechanism> finalise();

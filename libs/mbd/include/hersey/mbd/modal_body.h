@@ -75,7 +75,7 @@ class ModalBody final : public ElasticBody {
 
  private:
   struct Workspace;
-  /// A nodal load on the shapes, theory manual eq. (flexible-bodies.15).
+  /// A nodal load on the shapes, theory manual eq. (flexible-bodies.21).
   struct ProjectedLoad {
     LoadAxes axes = LoadAxes::body;
     Vector3 force = Vector3::Zero();  ///< sum over nodes of f
