@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
-#include "hersey/fem/loads.h"
 #include "hersey/fem/reduction.h"
+#include "hersey/fem/surface_loads.h"
 #include "interface_motion.h"
 
 namespace hersey::fem {
@@ -37,16 +37,7 @@ bool nodes_span_rotations(const Mesh& mesh, const InterfaceFrame& frame) {
 std::vector<double> face_weights(const Mesh& mesh, const std::vector<int>& nodes) {
   std::vector<int> place(mesh.nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
-  std::vector<ElementFace> faces;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const Element& element = mesh.elements[e];
-    for (int face = 0; face < face_count(element.type); ++face) {
-      bool inside = true;
-      for (const int a : face_nodes(element.type, face))
-        inside = inside && place[static_cast<std::size_t>(mesh.nodes_of(element)[a])] >= 0;
-      if (inside) faces.push_back({static_cast<int>(e), face});
-    }
-  }
+  const std::vector<ElementFace> faces = outer_faces(mesh, nodes);
   if (faces.empty()) return {};
   return nodal_areas(mesh, faces, place, nodes.size());
 }

@@ -7,7 +7,7 @@ namespace hersey::mbd {
 using Eigen::Index;
 
 ElasticAssembly::ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree& tree, int own_q, int own_v)
-    : name_(spec.name), body_(spec.body), own_q_(own_q), own_v_(own_v) {
+    : name_(spec.name), body_(spec.body), loads_(spec.loads), own_q_(own_q), own_v_(own_v) {
   std::vector<char> moves_any(tree.columns.size(), 0);
   for (const FrameId id : spec.frames) {
     frames_.push_back(tree.frames[static_cast<std::size_t>(id.index)]);
@@ -31,6 +31,7 @@ ElasticAssembly::ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree&
   block_.resize(columns, columns);
   to_frame_.resize(frames_.size());
   motion_.frames.resize(frames_.size());
+  motion_.loads = Eigen::VectorXd::Zero(static_cast<Index>(loads_.size()));
   response_.K = response_.C = response_.M = Eigen::MatrixXd::Zero(rows, rows);
   response_.force = response_.magnitude = Eigen::VectorXd::Zero(rows);
 }
@@ -72,6 +73,8 @@ const ElasticMotion& ElasticAssembly::read(const TreeMotion& motion, const solve
     if (f > 0) frame.deformation = deformation(freedoms_[f - 1], state.q);
     if (accelerate) frame.A = to_frame_[f] * motion.A(frames_[f].link);
   }
+  for (std::size_t i = 0; i < loads_.size(); ++i)
+    motion_.loads[static_cast<Index>(i)] = loads_[i]->value({&state.t, 1});
   motion_.eta = state.q.segment(own_q_, own_count());
   motion_.eta_rate = state.v.segment(own_v_, own_count());
   motion_.eta_acceleration = state.vdot.segment(own_v_, own_count());

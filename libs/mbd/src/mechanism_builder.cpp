@@ -158,8 +158,22 @@ FlexibleBodyIds MechanismBuilder::add_flexible_body(const std::string& name,
                                   .outboard = ids.frames.back(),
                                   .initial = std::vector<double>(6, 0.0)}));
   }
-  ids.elastic = append<ElasticId>(spec_.elastics, MechanismSpec::Elastic{name, ids.frames, freedoms, std::move(body)});
+  ids.elastic =
+      append<ElasticId>(spec_.elastics, MechanismSpec::Elastic{name, ids.frames, freedoms, std::move(body), {}, {}});
   return ids;
+}
+
+void MechanismBuilder::add_nodal_load(ElasticId elastic, const NodalLoad& load,
+                                      std::shared_ptr<const ScalarFunction> value) {
+  HERSEY_REQUIRE(value != nullptr, "a load has a function of time");
+  MechanismSpec::Elastic& body = spec_.elastics.at(static_cast<std::size_t>(elastic.index));
+  body.body->add_load(load);
+  body.load_names.push_back(load.name);
+  body.loads.push_back(std::move(value));
+}
+
+std::size_t MechanismBuilder::nodal_loads(ElasticId elastic) const {
+  return spec_.elastics.at(static_cast<std::size_t>(elastic.index)).loads.size();
 }
 
 std::unique_ptr<Mechanism> MechanismBuilder::finalise() {

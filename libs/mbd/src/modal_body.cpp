@@ -38,6 +38,8 @@ void set_moments(ModalBodyData& data, const Eigen::SparseMatrix<double>& nodal_m
     MY[static_cast<std::size_t>(p)] = nodal_mass * component;
   }
   data.mass = nodal_mass.sum();
+  data.nodes = x;
+  data.displacements = shapes;
   data.first_moment.resize(3, n);
   for (std::size_t p = 0; p < 3; ++p) {
     data.first_moment.row(static_cast<Index>(p)) = MY[p].colwise().sum();
@@ -84,6 +86,7 @@ ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::ma
   w.interfaces.resize(data_.rest.size() - 1);
   w.H.resize(static_cast<std::size_t>(n) + 1);
   w.H_rate = w.H_acc = w.H;
+  w.load = VectorXd::Zero(6 + n);
   w.K = w.C = w.M = MatrixXd::Zero(6 + n, 6 + n);
   const Index outer = 6 * frame_count() + coordinate_count();
   w.Z = w.Z_rate_X = w.Z_acc_X = w.Z_acc_V = MatrixXd::Zero(6 + n, outer);
@@ -293,6 +296,7 @@ void ModalBody::evaluate(const ElasticMotion& motion, bool want_tangent, Elastic
   if (want_tangent) differentiate_inertia(motion.frames[0]);
   add_elasticity(want_tangent);
   add_nodes(motion, want_tangent);
+  add_loads(motion, want_tangent);
   reduce_to_frames(want_tangent, response);
 }
 
@@ -327,6 +331,7 @@ ElasticEnergy ModalBody::energy(const ElasticMotion& motion, const Vector3& grav
   e.gravity = g.dot(p);
   e.momentum = X.R * p;
   e.angular_momentum = X.R * H + X.r.cross(e.momentum);
+  add_load_energies(motion, e);
   // The power of all inertia forces, gravity among them, is the rate of the kinetic energy less that of gravity.
   add_inertia(base);
   e.kinetic_rate = w.force.head<6>().dot(base.V) + w.force.tail(n).dot(rate) + e.gravity;

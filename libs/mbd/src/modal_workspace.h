@@ -9,7 +9,7 @@
 
 namespace hersey::mbd {
 
-/// Sum over material points of rho y x z for the matrix N = sum of rho y z^T.
+/// Sum over material points of y x z for the matrix N = sum of y z^T.
 inline Vector3 cross_moment(const Matrix3& N) { return {N(1, 2) - N(2, 1), N(2, 0) - N(0, 2), N(0, 1) - N(1, 0)}; }
 
 /// Everything at one motion. The unknowns of the body in its own axes are [frame 0 (6); amplitudes].
@@ -19,6 +19,8 @@ struct ModalBody::Workspace {
   std::vector<Matrix3> H, H_rate, H_acc;            // the same per shape: sums of rho Y_a y^T
   std::vector<RelativeDeformation> interfaces;
   Eigen::VectorXd force, magnitude, elastic, viscous;
+  Eigen::VectorXd load;  // one nodal load of value 1 on the unknowns
+  Matrix3 load_moment;   // sum over nodes of y f^T
   Eigen::MatrixXd K, C, M;
   Eigen::MatrixXd Z, Z_rate_X, Z_acc_X, Z_acc_V, product;
 

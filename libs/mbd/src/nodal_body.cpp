@@ -87,6 +87,24 @@ NodalBody::~NodalBody() = default;
 
 long NodalBody::solves() const { return factors_->solves(); }
 
+void NodalBody::add_load(const NodalLoad& load) {
+  ModalBody::add_load(load);
+  loads_.push_back(load);
+}
+
+/// All loads at their present values, in the body's axes.
+Matrix3Xd NodalBody::loads_on_nodes(const ElasticMotion& motion) const {
+  Matrix3Xd sum = Matrix3Xd::Zero(3, x_.cols());
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    const double value = motion.loads[static_cast<Index>(i)];
+    if (loads_[i].axes == LoadAxes::body)
+      sum += value * loads_[i].forces;
+    else
+      sum += motion.frames[0].X_WF.R.transpose() * (value * loads_[i].forces);
+  }
+  return sum;
+}
+
 void NodalBody::update_fields() {
   const Workspace& w = work();
   const Index n = data().shapes();
@@ -140,8 +158,14 @@ double NodalBody::unbalance(const ElasticMotion& motion) {
   const VectorXd elastic = body_.K * (w_.position() + damping_.stiffness * w_.rate());
   r_ = inertia + elastic;
   sizes_ = inertia.cwiseAbs() + elastic.cwiseAbs();
-  factors_->leave_to_frames(r_);
   double size = inertia.norm() + elastic.norm();
+  if (!loads_.empty()) {
+    const VectorXd loads = flat(loads_on_nodes(motion));
+    r_ -= loads;
+    sizes_ += loads.cwiseAbs();
+    size += loads.norm();
+  }
+  factors_->leave_to_frames(r_);
   if (motion.stage.dt > 0) {
     const Matrix3Xd velocity =
         (skew(Vector3(base.V.head<3>())) * fields_->y + fields_->y_rate).colwise() + Vector3(base.V.tail<3>());
@@ -176,6 +200,7 @@ void NodalBody::add_nodes(const ElasticMotion& motion, bool want_tangent) {
   Workspace& w = work();
   const Index n = data().shapes();
   w.force.tail(n) += damping_.mass * (inertia_.rightCols(n).transpose() * w_.rate());
+  if (!loads_.empty()) w.force.head<3>() -= cross_moment(nodes_of(w_.position()) * loads_on_nodes(motion).transpose());
   const VectorXd size = (sizes_.array() * kNodalShare).matrix();
   const Eigen::RowVectorXd each = nodes_of(size).colwise().norm();
   w.magnitude.head<3>().array() += each.dot(fields_->y.colwise().norm());
@@ -327,6 +352,16 @@ ElasticEnergy NodalBody::energy(const ElasticMotion& motion, const Vector3& grav
   for (Index i = 0; i < momentum.cols(); ++i) spin += fields_->y.col(i).cross(momentum.col(i));
   e.angular_momentum = X.R * spin + X.r.cross(e.momentum);
   e.kinetic_rate = fields_->acceleration.cwiseProduct(momentum).sum() + e.gravity;
+  add_load_energies(motion, e);
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    ElasticMotion alone = motion;
+    alone.loads.setZero();
+    alone.loads[static_cast<Index>(i)] = motion.loads[static_cast<Index>(i)];
+    const Matrix3Xd f = loads_on_nodes(alone);
+    const Vector3 further = cross_moment(nodes_of(w_.position()) * f.transpose());  // the nodes have moved
+    e.loads[i].power += flat(f).dot(w_.rate()) + further.dot(omega);
+    e.loads[i].wrench.head<3>() += X.R * further;
+  }
   return e;
 }
 

@@ -18,6 +18,21 @@ using Eigen::VectorXd;
 constexpr double kStep = 1e-5;
 constexpr double kRelative = 1e-8;
 
+/// Forces on every node, the same for the same seed.
+Eigen::Matrix3Xd random_forces(unsigned seed, Index nodes) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::Matrix3Xd f(3, nodes);
+  for (Index i = 0; i < f.size(); ++i) f.data()[i] = uniform(random);
+  return f;
+}
+
+/// Puts a load in the body's axes and one in ground's on a body.
+void load(ModalBody& body) {
+  body.add_load({"turning", LoadAxes::body, random_forces(1, body.data().nodes.cols())});
+  body.add_load({"steady", LoadAxes::ground, random_forces(2, body.data().nodes.cols())});
+}
+
 /// A motion in which everything turns, moves and deforms a lot.
 ElasticMotion wild_motion(const ModalBody& body) {
   std::mt19937 random(3);
@@ -44,6 +59,7 @@ ElasticMotion wild_motion(const ModalBody& body) {
   motion.eta = own(0.3);
   motion.eta_rate = own(1);
   motion.eta_acceleration = own(2);
+  motion.loads = Eigen::Vector2d(3, -5);
   return motion;
 }
 
@@ -68,6 +84,7 @@ ElasticMotion moved(const ElasticMotion& from, Moved what, Index i, double step)
 
 void check_derivative(Moved what) {
   ModalBody body(test::random_modal_data());
+  load(body);
   const ElasticMotion motion = wild_motion(body);
   ElasticResponse response, plus, minus;
   body.evaluate(motion, true, response);
@@ -125,6 +142,52 @@ TEST_CASE("ModalBody_PowerOfItsForcesIsTheRateOfItsEnergy") {
   CHECK(std::abs(rate(plus.kinetic, minus.kinetic) - now.kinetic_rate) < kRelative * size);
   CHECK(std::abs(rate(plus.strain, minus.strain) - now.strain_rate) < kRelative * size);
   CHECK(std::abs(power - now.kinetic_rate - now.strain_rate - now.dissipation) < 1e-13 * size);
+}
+
+TEST_CASE("ModalBody_LoadsDoTheWorkOfTheirForcesAtTheirNodes") {
+  ModalBody body(test::random_modal_data());
+  load(body);
+  const ElasticMotion motion = wild_motion(body);
+  ElasticMotion free = motion;
+  free.loads.setZero();
+  ElasticResponse with, without;
+  body.evaluate(motion, false, with);
+  body.evaluate(free, false, without);
+  const VectorXd difference = without.force - with.force;
+  double power = difference.tail(body.coordinate_count()).dot(motion.eta_rate);
+  Vector6 wrench = Vector6::Zero();
+  for (std::size_t f = 0; f < motion.frames.size(); ++f) {
+    const Vector6 W = difference.segment<6>(6 * static_cast<Index>(f));
+    power += W.dot(motion.frames[f].V);
+    wrench += force_transform(motion.frames[0].X_WF.inverse() * motion.frames[f].X_WF) * W;
+  }
+  const Matrix3 R = motion.frames[0].X_WF.R;
+  const auto places = [&](const ElasticMotion& at) {
+    const VectorXd u = body.data().displacements * body.amplitudes(at);
+    Eigen::Matrix3Xd y = body.data().nodes + Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
+    return Eigen::Matrix3Xd((at.frames[0].X_WF.R * y).colwise() + at.frames[0].X_WF.r);
+  };
+  // The same from the nodes themselves, their velocities by differences.
+  const Eigen::Matrix3Xd y = places(motion),
+                         v = (places(later(motion, kStep)) - places(later(motion, -kStep))) / (2 * kStep);
+  const ElasticEnergy energy = body.energy(motion, Vector3::Zero());
+  double sum = 0;
+  Vector6 total = Vector6::Zero();
+  for (int i = 0; i < 2; ++i) {
+    Eigen::Matrix3Xd f = motion.loads[i] * random_forces(i == 0 ? 1 : 2, y.cols());
+    if (i == 0) f = R * f;
+    const ElasticLoad& seen = energy.loads[static_cast<std::size_t>(i)];
+    CHECK(seen.power == doctest::Approx((f.array() * v.array()).sum()).epsilon(1e-7));
+    CHECK((seen.wrench.tail<3>() - f.rowwise().sum()).norm() < 1e-12 * seen.wrench.norm());
+    Vector3 torque = Vector3::Zero();
+    for (Index a = 0; a < y.cols(); ++a) torque += (y.col(a) - motion.frames[0].X_WF.r).cross(Vector3(f.col(a)));
+    CHECK((seen.wrench.head<3>() - torque).norm() < 1e-12 * seen.wrench.norm());
+    sum += seen.power;
+    total.head<3>() += R.transpose() * seen.wrench.head<3>();
+    total.tail<3>() += R.transpose() * seen.wrench.tail<3>();
+  }
+  CHECK(power == doctest::Approx(sum).epsilon(1e-12));
+  CHECK((wrench - total).norm() < 1e-12 * total.norm());
 }
 
 TEST_CASE("ModalBody_ForcesOnItsFramesAreTheRatesOfItsMomenta") {

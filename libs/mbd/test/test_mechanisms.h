@@ -191,6 +191,9 @@ inline std::unique_ptr<Mechanism> nasty_mechanism() {
   // A flexible body entered through its second frame, in a loop through its third; its first hangs on them.
   const FlexibleBodyIds bow =
       b.add_flexible_body("bow", {"grip", "tip"}, std::make_shared<ModalBody>(random_modal_data()));
+  for (const LoadAxes axes : {LoadAxes::body, LoadAxes::ground})
+    b.add_nodal_load(bow.elastic, {"gust", axes, Eigen::Matrix3Xd::Constant(3, 9, 0.7)},
+                     std::make_shared<WavyFunction>(1.0));
   join("grip_hinge", JointType::revolute, at(slider, {0.2, 0, 0.3}, {0.1, 0.2, 0}),
        at(bow.bodies[1], {0, 0.2, 0}, {0, 0.1, 0.1}), {0, 1, 0.5}, {0.3}, {-0.4});
   join("tip_ball", JointType::spherical, at(bow.bodies[2], {0.1, 0, 0.1}, {0.1, 0, 0}),

@@ -1,11 +1,13 @@
 #include "hersey/model/build.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "build_flexible.h"
 #include "hersey/core/contract.h"
+#include "hersey/fem/surface_loads.h"
 #include "hersey/mbd/bushing.h"
 #include "hersey/mbd/coordinate_laws.h"
 #include "hersey/mbd/spring_damper.h"
@@ -238,8 +240,37 @@ class Builder {
     mechanism_.add_load(std::move(spec));
   }
 
+  void add_surface_load(const Force& force) {
+    const SurfaceLoad& load = force.surface_load;
+    const auto at = std::find_if(machine_.flexibles.begin(), machine_.flexibles.end(),
+                                 [&](const BuiltFlexible& flexible) { return flexible.name == load.body; });
+    HERSEY_REQUIRE(at != machine_.flexibles.end(), "the reader checks bodies");
+    const std::size_t first = mechanism_.nodal_loads(at->elastic);
+    for (std::size_t i = 0; i < load.functions.size(); ++i)
+      mechanism_.add_nodal_load(at->elastic, nodal_load(force, *at->mesh, i),
+                                std::make_shared<OverTime>(load.functions[i], model_.simulation));
+    machine_.surface_loads.push_back(
+        {force.name, static_cast<std::size_t>(at - machine_.flexibles.begin()), first, load.functions.size()});
+  }
+
+  // What the value `i` of a surface load is multiplied with.
+  static mbd::NodalLoad nodal_load(const Force& force, const fem::Mesh& mesh, std::size_t i) {
+    const SurfaceLoad& load = force.surface_load;
+    Eigen::VectorXd f;
+    if (load.is_pressure)
+      f = load.direction ? fem::cosine_pressure_load(mesh, load.faces, *load.direction)
+                         : fem::pressure_load(mesh, load.faces, 1);
+    else
+      f = fem::spread_force(mesh, load.faces, load.direction.value_or(Vector3::Unit(static_cast<Eigen::Index>(i))));
+    return {force.name, load.axes == Axes::ground ? mbd::LoadAxes::ground : mbd::LoadAxes::body,
+            Eigen::Map<const Eigen::Matrix3Xd>(f.data(), 3, f.size() / 3)};
+  }
+
   void add_force(const Force& force) {
     switch (force.type) {
+      case ForceType::surface_load:
+        add_surface_load(force);
+        break;
       case ForceType::load:
         add_load(force);
         break;

@@ -18,6 +18,42 @@ std::vector<Key> load_keys(const std::string& unit, const std::string& example) 
   };
 }
 
+Key mesh_body_key() { return required("body", reference(Refers::body, "rod"), "The flexible body."); }
+
+Key faces_key() {
+  return required(
+      "faces", text("a surface or a set of nodes", "big_end"),
+      "Where on its mesh: a surface, or a set of nodes, which means the faces all of whose nodes are in it.");
+}
+
+std::vector<Key> pressure_keys() {
+  return {
+      mesh_body_key(),
+      faces_key(),
+      required("pressure", function_format({"Pa"}, "20 MPa"),
+               "Pushes against the outward normals of the undeformed body; a function of time or of the crank's "
+               "rotation."),
+      optional("towards", axis_format(),
+               "Where a pin in a bore pushes, body axes: the pressure there, falling as the cosine of the angle to "
+               "nothing at 90 deg and beyond.",
+               "the same pressure on all faces"),
+  };
+}
+
+std::vector<Key> surface_force_keys() {
+  const TypePtr function = function_format({"N"}, "500 N");
+  return {
+      mesh_body_key(),
+      faces_key(),
+      optional("components", list("three functions", function, 3),
+               "The whole force along x, y and z; functions of time or of the crank's rotation."),
+      optional("direction", axis_format(), "Direction of `magnitude`: x, y, z or three numbers."),
+      optional("magnitude", function, "The whole force along `direction`."),
+      defaulted("axes", choice({{"ground", "axes fixed in space"}, {"body", "axes of the body"}}), "ground",
+                "Axes of `components` or `direction`."),
+  };
+}
+
 Key joint_key() { return required("joint", reference(Refers::joint, "main"), "The joint it acts in."); }
 
 Key coordinate_key() {
@@ -102,6 +138,8 @@ TypePtr forces_format() {
               {
                   {"force", "a force at a point of a body", load_keys("N", "500 N")},
                   {"torque", "a torque on a body", load_keys("N.m", "5 N.m")},
+                  {"pressure", "a pressure on faces of a flexible body's mesh, with which it turns", pressure_keys()},
+                  {"surface_force", "a force spread evenly over faces of a flexible body's mesh", surface_force_keys()},
                   {"spring_damper",
                    "along the line between two points",
                    {

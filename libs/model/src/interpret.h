@@ -88,6 +88,9 @@ void require_function_of_time(Context& context, const Function& function, const 
 /// `frames` too. Reports what is wrong with its mesh, materials and frames.
 [[nodiscard]] std::optional<Flexible> flexible_of(Context& context, const Value& body, std::vector<Frame>& frames);
 
+/// A pressure or force on the mesh of a flexible body.
+[[nodiscard]] SurfaceLoad surface_load_of(Context& context, const Value& value);
+
 /// Its outer surface, for the report.
 [[nodiscard]] mbd::Shape skin_of(const fem::Mesh& mesh);
 
@@ -101,8 +104,8 @@ void interpret_contacts(Context& context);
 void interpret_lubricants(Context& context);
 void interpret_bearings(Context& context);
 void interpret_simulation(Context& context);
-/// Reports supply pressures that follow a joint other than the crank.
-void check_feature_pressures(Context& context);
+/// Reports supply pressures, and loads on meshes, that follow a joint other than the crank.
+void check_functions_of_crank(Context& context);
 void interpret_study(Context& context);
 
 /// A file has all that a simulation needs, or it holds bearings alone; reports what is missing.

@@ -417,18 +417,4 @@ void interpret_bearings(Context& context) {
   }
 }
 
-void check_feature_pressures(Context& context) {
-  const std::optional<Crank>& crank = context.model.simulation.crank;
-  for (const Bearing& bearing : context.model.bearings) {
-    for (const Function& pressure : bearing.feature_pressures) {
-      for (const Variable& variable : pressure.variables) {
-        if (variable.kind == Variable::Kind::time || (crank && variable.joint == crank->joint)) continue;
-        context.faults.push_back({pressure.position, pressure.path,
-                                  "a pressure that follows '" + variable.joint + "." + variable.coordinate + "'",
-                                  "a function of time or of the rotation of simulation.crank", ""});
-      }
-    }
-  }
-}
-
 }  // namespace hersey::model

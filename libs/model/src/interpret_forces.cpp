@@ -158,6 +158,9 @@ Force force_of(Context& context, const std::string& name, const Value& value) {
   force.position = value.key_position;
   if (value.text == "force" || value.text == "torque") {
     force.load = load_of(context, value, value.text == "torque");
+  } else if (value.text == "pressure" || value.text == "surface_force") {
+    force.type = ForceType::surface_load;
+    force.surface_load = surface_load_of(context, value);
   } else if (value.text == "spring_damper") {
     force.type = ForceType::spring_damper;
     force.spring_damper = spring_damper_of(context, value);

@@ -251,11 +251,35 @@ void interpret_study(Context& context) {
   context.model.study = std::move(study);
 }
 
+namespace {
+
+void require_function_of_crank(Context& context, const Function& function, const std::string& what) {
+  const std::optional<Crank>& crank = context.model.simulation.crank;
+  for (const Variable& variable : function.variables) {
+    if (variable.kind == Variable::Kind::time || (crank && variable.joint == crank->joint)) continue;
+    context.faults.push_back({function.position, function.path,
+                              what + " that follows '" + variable.joint + "." + variable.coordinate + "'",
+                              "a function of time or of the rotation of simulation.crank", ""});
+  }
+}
+
+}  // namespace
+
+void check_functions_of_crank(Context& context) {
+  for (const Bearing& bearing : context.model.bearings)
+    for (const Function& pressure : bearing.feature_pressures)
+      require_function_of_crank(context, pressure, "a pressure");
+  for (const Force& force : context.model.forces)
+    for (const Function& function : force.surface_load.functions)
+      require_function_of_crank(context, function, "a load on a mesh");
+}
+
 void check_table_ranges(Context& context) {
   if (context.model.simulation.duration <= 0) return;
   for (const Drive& drive : context.model.drives) check_table_range(context, drive.motion);
   for (const Force& force : context.model.forces) {
     for (const Function& function : force.load.functions) check_table_range(context, function);
+    for (const Function& function : force.surface_load.functions) check_table_range(context, function);
   }
 }
 

@@ -85,7 +85,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_lubricants(context);
   interpret_bearings(context);
   interpret_simulation(context);
-  check_feature_pressures(context);
+  check_functions_of_crank(context);
   interpret_study(context);
   check_table_ranges(context);
   return model;

@@ -109,5 +109,48 @@ TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {
   }
 }
 
+const std::string kPressure = "forces:\n  gas: {type: pressure, body: bar, faces: right, pressure: 2 MPa}\n";
+
+TEST_CASE("SurfaceLoad_IsReadWithItsFaces") {
+  const MeshFile file;
+  const Model model =
+      read_text(kMachine + kPressure +
+                    "  push: {type: surface_force, body: bar, faces: left, direction: 0 3 4, magnitude: {expression: "
+                    "\"5*t\", unit: N}}\n"
+                    "  pin: {type: pressure, body: bar, faces: left, pressure: 1 bar, towards: -1 0 0}\n",
+                "m.yaml");
+  REQUIRE(model.forces.size() == 3);
+  const SurfaceLoad &gas = model.forces[0].surface_load, &push = model.forces[1].surface_load,
+                    &pin = model.forces[2].surface_load;
+  CHECK(gas.is_pressure);
+  CHECK(gas.axes == Axes::body);
+  CHECK(gas.faces.size() == 1);
+  CHECK_FALSE(gas.direction);
+  CHECK(push.axes == Axes::ground);
+  CHECK((*push.direction - Vector3(0, 0.6, 0.8)).norm() < 1e-15);
+  CHECK((*pin.direction + Vector3::UnitX()).norm() < 1e-15);
+  const Machine machine = build(model);
+  REQUIRE(machine.surface_loads.size() == 3);
+  CHECK(machine.surface_loads[2].first == 2);
+}
+
+TEST_CASE("SurfaceLoad_FaultsNameWhatIsThere") {
+  const MeshFile file;
+  const auto told = [&](const std::string& from, const std::string& to) {
+    return faults_of(kMachine + edited(kPressure, from, to));
+  };
+  CHECK(contains(told("faces: right", "faces: rihgt"), "forces.gas.faces: unknown surface or set 'rihgt'"));
+  CHECK(contains(told("faces: right", "faces: rihgt"), "did you mean 'right'"));
+  CHECK(contains(told("faces: right", "faces: edge"), "whose nodes make up no face"));
+  CHECK(contains(told("body: bar", "body: brr"), "forces.gas.body: unknown body 'brr'"));
+  CHECK(contains(told("pressure: 2 MPa", "pressure: 2 N"), "forces.gas.pressure"));
+  CHECK(contains(told("2 MPa", "{expression: \"clamp.rotation\", unit: MPa}"),
+                 "a load on a mesh that follows 'clamp.rotation'"));
+  CHECK(contains(faults_of(edited(good_model, "forces:\n",
+                                  "forces:\n  gas2: {type: pressure, body: rod, faces: a, "
+                                  "pressure: 1 bar}\n")),
+                 "rigid body 'rod'"));
+}
+
 }  // namespace
 }  // namespace hersey::model

@@ -44,6 +44,7 @@ PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observatio
   }
   for (const mbd::ElasticObservation& body : seen.elastics) {
     balance.gravity += body.energy.gravity;
+    for (const mbd::ElasticLoad& load : body.energy.loads) balance.loads += load.power;
     balance.elastic -= body.energy.strain_rate + body.energy.dissipation;
     balance.kinetic_rate += body.energy.kinetic_rate;
   }

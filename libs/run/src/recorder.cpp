@@ -60,6 +60,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
   declare_run(options);
   declare_machine();
   declare_flexible_bodies();
+  declare_surface_loads();
   declare_contacts();
   for (const model::Bearing& bearing : model.bearings) bearings_.push_back(declare_bearing(bearing));
   write_geometry(model, machine.mechanism->spec(), writer_);
@@ -276,6 +277,7 @@ void Recorder::write_row(const StepRecord& step) {
   energy_.potential.append(seen.potential_energy);
   energy_.springs.append(seen.spring_energy);
   write_flexible_bodies(seen);
+  write_surface_loads(seen);
 
   const PowerBalance& power = step.power;
   power_.drives.append(power.drives);

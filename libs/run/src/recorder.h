@@ -50,6 +50,9 @@ class Recorder {
   struct FlexibleSeries {
     results::Series strain, dissipation, amplitudes;
   };
+  struct SurfaceLoadSeries {
+    results::Series force, moment, power;
+  };
   struct DriveSeries {
     results::Series effort, power;
   };
@@ -86,6 +89,8 @@ class Recorder {
   void declare_machine();
   void declare_flexible_bodies();
   void write_flexible_bodies(const mbd::Observation& seen);
+  void declare_surface_loads();
+  void write_surface_loads(const mbd::Observation& seen);
   void declare_contacts();
   void write_contacts(const std::vector<mbd::ContactObservation>& seen) const;
   [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
@@ -97,6 +102,7 @@ class Recorder {
   results::Writer writer_;
   results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, rejected_, drift_;
   std::vector<FlexibleSeries> flexibles_;
+  std::vector<SurfaceLoadSeries> surface_loads_;
   EnergySeries energy_;
   PowerSeries power_;
   ModeSeries modes_;

@@ -101,6 +101,59 @@ TEST_CASE("HeldBar_SagsUnderItsWeight") {
         doctest::Approx(q * q * std::pow(0.2, 5) / (40 * 1e9 * I)).epsilon(0.03));
 }
 
+TEST_CASE("BarUnderPressureAndForce_ShortensAndTellsTheirResultants") {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::string text = kPendulum;
+  text.replace(text.find("type: revolute"), 14, "type: fixed").replace(text.find("duration"), 29, "analysis: static");
+  text.replace(text.find("gravity: 0 -9.81 0"), 18, "gravity: 0 0 0");
+  text.replace(text.find("poisson_ratio: 0.3"), 18, "poisson_ratio: 0");
+  text +=
+      "forces:\n"
+      "  press: {type: pressure, body: bar, faces: right, pressure: 2 MPa}\n"
+      "  pull: {type: surface_force, body: bar, faces: right, components: [50 N, 0 N, 0 N], axes: body}\n";
+  std::ofstream(folder / "model.yaml") << text;
+  const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
+  INFO(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  const results::Reader reader(folder / "r.h5");
+  const auto series = [&](const std::string& name) { return reader.read(name).values; };
+  // 200 N of pressure less 50 N on 100 mm^2 of 1 GPa, 200 mm long.
+  const double u = -150 * 0.2 / (1e9 * 1e-4);
+  CHECK(series("/joints/bar.tip/coordinates")[0] == doctest::Approx(u).epsilon(1e-7));
+  CHECK(series("/energy/strain").back() == doctest::Approx(0.5 * 150 * -u).epsilon(1e-7));
+  CHECK(series("/surface_loads/press/force")[0] == doctest::Approx(-200).epsilon(1e-9));
+  CHECK(series("/surface_loads/pull/force")[0] == doctest::Approx(50).epsilon(1e-9));
+  CHECK(series("/surface_loads/press/moment")[2] == doctest::Approx(200 * 0.005).epsilon(1e-9));
+  CHECK(series("/joints/hinge/reaction_force")[0] == doctest::Approx(150).epsilon(1e-7));
+}
+
+TEST_CASE("PendulumBlownAtItsEnd_BalancesPowers") {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::ofstream(folder / "model.yaml")
+      << kPendulum
+      << "forces:\n"
+         "  blow: {type: pressure, body: bar, faces: right, pressure: {expression: \"3e4*sin(200*t)\", unit: Pa}}\n"
+         "  wind: {type: surface_force, body: bar, faces: right, direction: y, magnitude: {expression: \"2*t/0.05\", "
+         "unit: N}}\n";
+  const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
+  INFO(summary.message);
+  CHECK(summary.status == Status::completed);
+  CHECK(summary.worst_power_balance < 1e-7);
+  const results::Reader reader(folder / "r.h5");
+  const auto series = [&](const std::string& name) { return reader.read(name).values; };
+  const auto blow = series("/surface_loads/blow/power"), wind = series("/surface_loads/wind/power"),
+             loads = series("/power/loads"), force = series("/surface_loads/wind/force");
+  double largest = 0;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    CHECK(loads[i] == doctest::Approx(blow[i] + wind[i]).epsilon(1e-12));
+    largest = std::max(largest, std::abs(loads[i]));
+  }
+  CHECK(largest > 1e-3);
+  CHECK(force[force.size() - 2] == doctest::Approx(2));  // ground's y, however the bar has turned
+}
+
 TEST_CASE("ModesOfABar_BendItsSkin") {
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);

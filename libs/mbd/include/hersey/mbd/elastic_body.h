@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/contract.h"
 #include "hersey/core/spatial.h"
+#include "hersey/mbd/load_axes.h"
 #include "hersey/solver/equations.h"
 
 namespace hersey::mbd {
@@ -27,6 +29,14 @@ struct ElasticMotion {
   solver::Stage stage;  ///< of the step being solved; its dq is left empty
   std::vector<ElasticFrame> frames;
   Eigen::VectorXd eta, eta_rate, eta_acceleration;  ///< own coordinates, shape (coordinate_count)
+  Eigen::VectorXd loads;                            ///< value of each load now, in the order they were added
+};
+
+/// Forces on the nodes of a body's mesh that grow and shrink together: a pressure, a force spread over a surface.
+struct NodalLoad {
+  std::string name;
+  LoadAxes axes = LoadAxes::body;  ///< of `forces`: ground's, or the body's, with which they turn
+  Eigen::Matrix3Xd forces;         ///< for a value of 1 (3, nodes)
 };
 
 /// Generalised forces [one wrench per frame; own coordinates] that the motion needs (inertia and gravity, elasticity,
@@ -38,8 +48,14 @@ struct ElasticResponse {
   Eigen::MatrixXd K, C, M;    ///< d force / d (position, velocity, acceleration), square
 };
 
+/// What a nodal load does at one state.
+struct ElasticLoad {
+  double power = 0;                  ///< [W], > 0 puts energy in
+  Vector6 wrench = Vector6::Zero();  ///< [tau; f] about the origin of frame 0, ground axes [N m; N]
+};
+
 /// Energies and powers of an elastic body at one state; the powers add up: what the frames put in equals
-/// kinetic_rate + strain_rate + dissipation - gravity.
+/// kinetic_rate + strain_rate + dissipation - gravity - those of its loads.
 struct ElasticEnergy {
   double kinetic = 0;                          ///< [J]
   double strain = 0;                           ///< [J]
@@ -50,6 +66,7 @@ struct ElasticEnergy {
   double gravity = 0;                          ///< power of gravity [W]
   Vector3 momentum = Vector3::Zero();          ///< ground axes [kg m/s]
   Vector3 angular_momentum = Vector3::Zero();  ///< about ground's origin, ground axes [kg m^2/s]
+  std::vector<ElasticLoad> loads;              ///< in the order they were added
 };
 
 /// A body that deforms and touches the rest of a mechanism through frames. Each frame is a massless rigid body of the
@@ -68,6 +85,13 @@ class ElasticBody {
   [[nodiscard]] virtual double mass() const = 0;
   /// Centre of mass of the undeformed body in frame 0 [m].
   [[nodiscard]] virtual Vector3 centre() const = 0;
+
+  /// Adds a load; its value comes with ElasticMotion::loads. @pre the body has a mesh, and `load` a force for each of
+  /// its nodes
+  virtual void add_load(const NodalLoad& load) {
+    (void)load;
+    HERSEY_REQUIRE(false, "bodies without a mesh take no nodal loads");
+  }
 
   virtual void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) = 0;
 

@@ -9,6 +9,7 @@
 #include "hersey/mbd/coordinate_force.h"
 #include "hersey/mbd/elastic_body.h"
 #include "hersey/mbd/joint.h"
+#include "hersey/mbd/load_axes.h"
 #include "hersey/mbd/two_body_force.h"
 
 namespace hersey::mbd {
@@ -76,8 +77,6 @@ struct LoadTerm {
   std::shared_ptr<const ScalarFunction> magnitude;
   std::vector<Variable> variables;  ///< the arguments of `magnitude`, in order
 };
-
-enum class LoadAxes { ground, body };
 
 /// A force and torque on a body, at the origin of a frame; the reaction goes to ground.
 struct LoadSpec {
@@ -150,6 +149,8 @@ struct MechanismSpec {
     std::vector<FrameId> frames;    ///< as the elastic body counts them, each on a body of its own
     std::vector<JointId> freedoms;  ///< free joints from the first frame at rest_pose to each other frame
     std::shared_ptr<ElasticBody> body;
+    std::vector<std::string> load_names;                       ///< of its loads, in the order they were added
+    std::vector<std::shared_ptr<const ScalarFunction>> loads;  ///< their values, functions of time
   };
   std::vector<Elastic> elastics;
 };
@@ -199,6 +200,12 @@ class MechanismBuilder {
   /// @param frame_names  of all frames but the first
   FlexibleBodyIds add_flexible_body(const std::string& name, const std::vector<std::string>& frame_names,
                                     std::shared_ptr<ElasticBody> body);
+
+  /// Forces on the nodes of a flexible body; `value` is a function of time.
+  void add_nodal_load(ElasticId elastic, const NodalLoad& load, std::shared_ptr<const ScalarFunction> value);
+
+  /// How many nodal loads a flexible body carries so far.
+  [[nodiscard]] std::size_t nodal_loads(ElasticId elastic) const;
 
   /// @throws InputError if a body, spring or joint makes no physical sense (all faults together), or two drives act on
   ///         one coordinate; ContractError if an id or a count is not the builder's own.

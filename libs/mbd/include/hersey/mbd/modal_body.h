@@ -21,12 +21,14 @@ struct ModalBodyData {
   Eigen::Matrix3Xd first_moment;  ///< integral of rho Y_a, Y_0 = x and Y_a = Phi_a, shape (3, 1 + shapes)
   /// Integrals of rho Y_a,p Y_b,r, component by component: second_moment[3 p + r](a, b), shape (1 + shapes)^2.
   std::array<Eigen::MatrixXd, 9> second_moment;
-  Eigen::MatrixXd stiffness;  ///< shape (shapes, shapes)
-  Eigen::MatrixXd damping;    ///< the same
+  Eigen::MatrixXd stiffness;      ///< shape (shapes, shapes)
+  Eigen::MatrixXd damping;        ///< the same
+  Eigen::Matrix3Xd nodes;         ///< undeformed [m], shape (3, nodes)
+  Eigen::MatrixXd displacements;  ///< of the nodes for unit amplitudes, shape (3 nodes, shapes)
   [[nodiscard]] Eigen::Index shapes() const { return stiffness.rows(); }
 };
 
-/// First and second moments of mass of positions and shapes at nodes.
+/// Nodes and shapes, and the first and second moments of their mass.
 /// @param nodal_mass  symmetric, shape (nodes, nodes), the same in every direction: M = nodal_mass (x) I3
 /// @param x           nodes, shape (3, nodes)
 /// @param shapes      displacements, shape (3 nodes, shapes), node after node
@@ -63,6 +65,7 @@ class ModalBody : public ElasticBody {
   [[nodiscard]] Pose rest_pose(int i) const override { return data_.rest[static_cast<std::size_t>(i)]; }
   [[nodiscard]] double mass() const override { return data_.mass; }
   [[nodiscard]] Vector3 centre() const override { return data_.first_moment.col(0) / data_.mass; }
+  void add_load(const NodalLoad& load) override;
   void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) override;
   [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
 
@@ -79,18 +82,29 @@ class ModalBody : public ElasticBody {
   virtual void gather(const ElasticMotion& motion, bool want_tangent);
   /// What a body has beside its shapes, added to forces and derivatives of [frame 0; amplitudes].
   virtual void add_nodes(const ElasticMotion& motion, bool want_tangent) { (void)motion, (void)want_tangent; }
+  void add_load_energies(const ElasticMotion& motion, ElasticEnergy& energy);
 
  private:
+  /// A nodal load on the shapes, theory manual eq. (flexible-bodies.21).
+  struct ProjectedLoad {
+    LoadAxes axes = LoadAxes::body;
+    Vector3 force = Vector3::Zero();  ///< sum over nodes of f
+    std::vector<Matrix3> moments;     ///< sums over nodes of Y_a f^T, Y_0 = x
+  };
   [[nodiscard]] Eigen::VectorXd stiffness_at_size() const;
   void add_inertia(const ElasticFrame& base);
   void differentiate_inertia(const ElasticFrame& base);
   void add_momentum_share(const ElasticFrame& base, double dt);
   void add_elasticity(bool want_tangent);
+  void add_loads(const ElasticMotion& motion, bool want_tangent);
+  void project_load(const ProjectedLoad& load, const Pose& X_WB);
+  void turn_load(const ProjectedLoad& load, double value, const Matrix3& Q);
   void reduce_to_frames(bool want_tangent, ElasticResponse& response);
 
   ModalBodyData data_;
   Eigen::MatrixXd modal_mass_;
   Eigen::VectorXd round_off_;
+  std::vector<ProjectedLoad> loads_;
   std::unique_ptr<Workspace> work_;
 };
 

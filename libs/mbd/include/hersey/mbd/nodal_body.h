@@ -35,6 +35,7 @@ class NodalBody final : public ModalBody {
   NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping);
   ~NodalBody() override;
 
+  void add_load(const NodalLoad& load) override;
   void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) override;
   [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
   void begin_step(const ElasticMotion& start, double dt) override;
@@ -57,6 +58,7 @@ class NodalBody final : public ModalBody {
 
  private:
   struct Fields;
+  [[nodiscard]] Eigen::Matrix3Xd loads_on_nodes(const ElasticMotion& motion) const;
   void settle(const ElasticMotion& motion);
   void update_fields();
   void update_accelerations(const ElasticFrame& base);
@@ -78,6 +80,7 @@ class NodalBody final : public ModalBody {
   Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
   Eigen::VectorXd vibration_mass_;
   Eigen::MatrixXd inertia_;  ///< columns of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi
+  std::vector<NodalLoad> loads_;
   solver::SecondOrderHistory w_;
   std::unique_ptr<NodalFactors> factors_;
   std::unique_ptr<Fields> fields_;

@@ -34,6 +34,13 @@ struct BuiltFlexible {
   mbd::ElasticId elastic;
 };
 
+/// A pressure or force on the mesh of a flexible body: `count` nodal loads from `first` on.
+struct BuiltSurfaceLoad {
+  std::string name;
+  std::size_t flexible = 0;  ///< place in Machine::flexibles
+  std::size_t first = 0, count = 0;
+};
+
 /// A model turned into equations. Bodies, joints, drives, contacts and bearings keep the order of the model; body 0 of
 /// the mechanism is ground, and a flexible body is followed by bodies and free joints of its further frames.
 struct Machine {
@@ -41,6 +48,7 @@ struct Machine {
   std::vector<BuiltContact> contacts;
   std::vector<BuiltBearing> bearings;
   std::vector<BuiltFlexible> flexibles;
+  std::vector<BuiltSurfaceLoad> surface_loads;
 };
 
 /// @throws InputError where the parts make no mechanism: impossible inertia, a joint between a body and itself, two

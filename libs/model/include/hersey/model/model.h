@@ -166,7 +166,18 @@ struct SpeedControl {
   double limit = 0;         ///< [N m] or [N], > 0; infinity for none
 };
 
-enum class ForceType { load, spring_damper, coordinate_spring, bushing, joint_friction, speed_control };
+/// A pressure [Pa] on faces of a flexible body's mesh, against their outward normals; or a force [N] spread evenly over
+/// their area.
+struct SurfaceLoad {
+  bool is_pressure = false;
+  std::string body;
+  std::vector<fem::ElementFace> faces;
+  Axes axes = Axes::body;            ///< of a force
+  std::optional<Vector3> direction;  ///< of a force's magnitude; of a pressure: it falls as the cosine from there
+  std::vector<Function> functions;   ///< of time or the crank's rotation: one value, or three components of a force
+};
+
+enum class ForceType { load, surface_load, spring_damper, coordinate_spring, bushing, joint_friction, speed_control };
 
 /// output = sum of f_i(input_i): a gear, a rack, a cam.
 struct CoordinateCoupling {
@@ -186,6 +197,7 @@ struct Force {
   std::string name;
   ForceType type = ForceType::load;
   BodyLoad load;
+  SurfaceLoad surface_load;
   SpringDamper spring_damper;
   CoordinateSpring coordinate_spring;
   Bushing bushing;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/fem/loads.h"
+
+/// Where a load acts on a mesh, and the distributions that are not plain.
+namespace hersey::fem {
+
+/// Outer faces all of whose nodes are among `nodes`.
+[[nodiscard]] std::vector<ElementFace> outer_faces(const Mesh& mesh, const std::vector<int>& nodes);
+
+/// Faces of the surface called `name`, or else the outer faces of the node set of that name; none if there is neither.
+[[nodiscard]] std::vector<ElementFace> faces_called(const Mesh& mesh, const std::string& name);
+
+/// What a pin pressed into a bore does: a pressure max(0, -n . towards) on faces of outward normal n, for a largest
+/// pressure of 1 Pa, (elastic.22). @pre |towards| = 1
+[[nodiscard]] Eigen::VectorXd cosine_pressure_load(const Mesh& mesh, const std::vector<ElementFace>& faces,
+                                                   const Vector3& towards);
+
+/// A force of 1 N along the unit vector `direction`, spread evenly over the area of faces.
+[[nodiscard]] Eigen::VectorXd spread_force(const Mesh& mesh, const std::vector<ElementFace>& faces,
+                                           const Vector3& direction);
+
+}  // namespace hersey::fem
