@@ -67,7 +67,7 @@ const ElasticMotion& ElasticAssembly::read(const TreeMotion& motion, const solve
     frame.X_WF = motion.pose(frames_[f]);
     to_frame_[f] = motion_transform(frame.X_WF.inverse());
     frame.V = to_frame_[f] * motion.V(frames_[f].link);
-    if (f > 0) frame.deformation = deformation(freedoms_[f - 1], state.q);
+    if (f > 0 && !freedoms_.empty()) frame.deformation = deformation(freedoms_[f - 1], state.q);
     if (accelerate) frame.A = to_frame_[f] * motion.A(frames_[f].link);
   }
   motion_.eta = state.q.segment(own_q_, own_count());

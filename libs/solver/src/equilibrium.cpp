@@ -24,7 +24,7 @@ class EquilibriumSearch {
  public:
   EquilibriumSearch(Equations& equations, const State& start, const EquilibriumOptions& options)
       : equations_(equations), options_(options), here_(start), reach_(equations.position_scales()) {
-    here_.v.setZero();
+    if (!options.turning) here_.v.setZero();
     here_.vdot.setZero();
   }
 
@@ -43,7 +43,7 @@ class EquilibriumSearch {
     }
     summary_.converged = true;
     state = here_;
-    judge(state);
+    if (!options_.turning) judge(state);
     return summary_;
   }
 
