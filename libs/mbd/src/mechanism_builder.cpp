@@ -179,6 +179,7 @@ BeamBodyIds MechanismBuilder::add_beam_body(const std::string& name, const std::
     rest = rest * segments[i]->rest_pose(1);
     ids.bodies.push_back(add_free_frame(name + "." + node_names[i], ids.bodies[0], rest));
     ids.frames.push_back(frame_of(ids.bodies.back()));
+    ids.freedoms.push_back(spec_.deforming.back());
     ids.segments.push_back(append<ElasticId>(
         spec_.elastics, MechanismSpec::Elastic{name, {ids.frames[i], ids.frames[i + 1]}, {}, std::move(segments[i])}));
   }

@@ -145,6 +145,7 @@ void interpret_analysis(Context& context, const Value& value) {
                         : analysis == "modes"    ? Analysis::modes
                                                  : Analysis::dynamics;
   simulation.modes_about = about == "equilibrium" ? ModesAbout::equilibrium
+                           : about == "turning"   ? ModesAbout::turning
                            : about == "end"       ? ModesAbout::end
                                                   : ModesAbout::start;
   if (needs_duration(simulation)) {

@@ -47,10 +47,10 @@ void Recorder::declare_flexible_bodies() {
 }
 
 void Recorder::write_flexible_bodies(const mbd::Observation& seen) {
-  double strain = 0;
+  double strain = 0;  // of all, beams too
+  for (const mbd::ElasticObservation& body : seen.elastics) strain += body.energy.strain;
   for (std::size_t i = 0; i < flexibles_.size(); ++i) {
-    const mbd::ElasticObservation& body = seen.elastics[i];
-    strain += body.energy.strain;
+    const mbd::ElasticObservation& body = seen.elastics[static_cast<std::size_t>(machine_.flexibles[i].elastic.index)];
     flexibles_[i].strain.append(body.energy.strain);
     flexibles_[i].dissipation.append(body.energy.dissipation);
     const Eigen::VectorXd amplitudes = machine_.flexibles[i].body->amplitudes(body.motion);
@@ -75,7 +75,8 @@ void Recorder::write_flexible_mode(const solver::State& state, const Eigen::Vect
   const auto amplitudes = [&](std::size_t i, const Eigen::VectorXd& increment) {
     solver::State moved = state;
     mechanism.retract(state.q, increment, moved.q);
-    return machine_.flexibles[i].body->amplitudes(mechanism.observe(moved).elastics[i].motion);
+    const auto elastic = static_cast<std::size_t>(machine_.flexibles[i].elastic.index);
+    return machine_.flexibles[i].body->amplitudes(mechanism.observe(moved).elastics[elastic].motion);
   };
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(shape.size());
   for (std::size_t i = 0; i < machine_.flexibles.size(); ++i) {
@@ -107,7 +108,7 @@ void DeformedMeshes::write(double t, double since_start, double slack, const mbd
     if (since_start < series.next * series.every - slack) continue;
     series.next = std::floor((since_start + slack) / series.every) + 1;
     const model::BuiltFlexible& flexible = machine_.flexibles[series.flexible];
-    const mbd::ElasticMotion& motion = seen.elastics[series.flexible].motion;
+    const mbd::ElasticMotion& motion = seen.elastics[static_cast<std::size_t>(flexible.elastic.index)].motion;
     const Pose& X_WB = motion.frames[0].X_WF;
     const Eigen::VectorXd u = flexible.shapes * flexible.body->amplitudes(motion);
     const auto nodes = static_cast<Eigen::Index>(flexible.mesh->nodes.size());

@@ -165,8 +165,9 @@ struct FlexibleBodyIds {
 /// Where a beam went in a mechanism.
 struct BeamBodyIds {
   std::vector<ElasticId> segments;
-  std::vector<BodyId> bodies;   ///< of each node; the first has the beam's name and axes
-  std::vector<FrameId> frames;  ///< their own frames
+  std::vector<JointId> freedoms;  ///< of each node but the first, against the first
+  std::vector<BodyId> bodies;     ///< of each node; the first has the beam's name and axes
+  std::vector<FrameId> frames;    ///< their own frames
 };
 
 class Mechanism;
