@@ -5,25 +5,63 @@ import { colour } from "./colormap";
 import type { Numbers, Run } from "./data";
 import type { ShapeData } from "./machine_geometry";
 
-/** Amplitudes of a body's shapes over the stored instants, and what a unit of each does to the corners of its skin. */
+/** Writes u, three numbers per corner, for given amplitudes. */
+type Mover = (amplitudes: ArrayLike<number>, u: Float32Array) => void;
+
+/** Every corner moves by a sum of shapes. */
+function moverByShapes(shapes: Numbers, count: number): Mover {
+  return (amplitudes, u) => {
+    u.fill(0);
+    for (let k = 0; k < count; k++) {
+      const a = amplitudes[k]!;
+      if (a === 0) continue;
+      const from = k * u.length;
+      for (let i = 0; i < u.length; i++) u[i]! += a * shapes[from + i]!;
+    }
+  };
+}
+
+/** Numbers per node of a beam: its displacement, and what its x-, y- and z-axis change. */
+const perNode = 12;
+
+/** Every corner rides on a node of a beam, so far away. */
+function moverByNodes(node: Numbers, offset: Numbers): Mover {
+  return (amplitudes, u) => {
+    for (let corner = 0; corner < node.length; corner++) {
+      const a = perNode * node[corner]!;
+      const at = 3 * corner;
+      for (let i = 0; i < 3; i++)
+        u[at + i] =
+          amplitudes[a + i]! + offset[at]! * amplitudes[a + 3 + i]! + offset[at + 1]! * amplitudes[a + 6 + i]! + offset[at + 2]! * amplitudes[a + 9 + i]!;
+    }
+  };
+}
+
+/** Amplitudes of a body over the stored instants, and how they move the corners of its skin. */
 export class Deformation {
   /** Largest displacement of any corner over the run [m]. */
   readonly largest: number;
 
   static of(run: Run, body: string, skin: ShapeData): Deformation | null {
     const amplitudes = run.dataset(`/bodies/${body}/amplitudes`);
-    const shapes = skin.list("deformation");
-    return amplitudes && shapes.length > 0 ? new Deformation(shapes, amplitudes.values, amplitudes.width) : null;
+    if (!amplitudes) return null;
+    const { values, width } = amplitudes;
+    const corners = skin.list("corners").length;
+    const [shapes, node] = [skin.list("deformation"), skin.list("node")];
+    if (shapes.length > 0) return new Deformation(moverByShapes(shapes, width), corners, values, width);
+    return node.length > 0 ? new Deformation(moverByNodes(node, skin.list("offset")), corners, values, width) : null;
   }
 
   private constructor(
-    private readonly shapes: Numbers,
+    /** Displacements of all corners. */
+    readonly displacements: Mover,
+    corners: number,
     private readonly amplitudes: Numbers,
     readonly count: number,
   ) {
     const rows = amplitudes.length / count;
     const step = Math.max(1, Math.floor(rows / 60));
-    const u = new Float32Array(shapes.length / count);
+    const u = new Float32Array(corners);
     let largest = 0;
     for (let row = 0; row < rows; row += step) {
       this.displacements(this.at(row, row, 0), u);
@@ -36,17 +74,6 @@ export class Deformation {
   at(low: number, high: number, share: number): Float64Array {
     const { amplitudes, count } = this;
     return Float64Array.from({ length: count }, (_, k) => (1 - share) * amplitudes[low * count + k]! + share * amplitudes[high * count + k]!);
-  }
-
-  /** u, three numbers per corner, for the given amplitudes. */
-  displacements(amplitudes: ArrayLike<number>, u: Float32Array): void {
-    u.fill(0);
-    for (let k = 0; k < this.count; k++) {
-      const a = amplitudes[k]!;
-      if (a === 0) continue;
-      const from = k * u.length;
-      for (let i = 0; i < u.length; i++) u[i]! += a * this.shapes[from + i]!;
-    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -201,6 +202,64 @@ TEST_CASE("RotatingBlade_HasTheFrequenciesOfTheClosedForm") {
       CHECK(fine[i] + (fine[i] - coarse[i]) / 3 == doctest::Approx(frequencies[i]).epsilon(1e-3));
     }
   }
+}
+
+TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
+  // A disc (m, I_d across, I_p along) at the end of a massless shaft that turns at W: with deflection and slope as
+  // unknowns, (K - w^2 diag(m, I_d) + w W diag(0, I_p)) x = 0 for whirl at w, forward where w has W's sign. Seen in the
+  // axes that turn, its frequency is |w - W|.
+  constexpr double L = 0.5, EI = 400, m = 2, I_d = 0.012, I_p = 0.022, W = 150, e = 1e-5;
+  test::StraightBeam shaft{.length = L,
+                           .elements = 20,
+                           .stiffness = {1e8, 1e8, 1e8, 1e3, EI, EI},
+                           .mass_per_length = 1e-3,
+                           .inertia_per_length = {2e-7, 1e-7, 1e-7}};
+  MechanismBuilder b;
+  const BeamBodyIds ids = shaft.add_to(b);
+  const BodyId disc =
+      b.add_body({.name = "disc", .mass = m, .com = {0, e, 0}, .inertia = Vector3(I_p, I_d, I_d).asDiagonal()});
+  b.add_joint({.name = "fit", .type = JointType::fixed, .inboard = ids.frames.back(), .outboard = b.frame_of(disc)});
+  const JointId motor = b.add_joint({.name = "motor",
+                                     .type = JointType::revolute,
+                                     .inboard = b.frame_of(b.ground()),
+                                     .outboard = ids.frames[0],
+                                     .axis = {1, 0, 0}});
+  b.add_drive(
+      {.name = "drive", .coordinate = {motor, 0}, .kind = DriveSpec::Kind::speed, .function = test::constant(W)});
+  const auto mechanism = b.finalise();
+  solver::State state = test::start(*mechanism);
+  const solver::EquilibriumSummary steady = solver::find_equilibrium(*mechanism, state, {.turning = true});
+  INFO(steady.message);
+  REQUIRE(steady.converged);
+
+  const Eigen::Matrix2d compliance = (Eigen::Matrix2d() << L * L * L / 3, L * L / 2, L * L / 2, L).finished() / EI;
+  // Off its axis by e the disc bows the shaft as (K - W^2 diag(m, I_d - I_p)) x = (m W^2 e, 0): above the critical
+  // speed, its centre of mass on the inner side.
+  const Eigen::Matrix2d dynamic =
+      compliance.inverse() - W * W * Eigen::Matrix2d(Eigen::Vector2d(m, I_d - I_p).asDiagonal());
+  const Eigen::Vector2d bow = dynamic.inverse() * Eigen::Vector2d(m * W * W * e, 0);
+  CHECK(bow[0] < 0);
+  CHECK(mechanism->frame_motion(state, ids.frames.back()).X_WF.r.y() == doctest::Approx(bow[0]).epsilon(5e-3));
+  const Eigen::Vector2d inertia(m, I_d);
+  Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
+  companion.topRightCorner<2, 2>().setIdentity();
+  companion.bottomLeftCorner<2, 2>() = inertia.cwiseInverse().asDiagonal() * compliance.inverse();
+  companion(3, 3) = W * I_p / I_d;
+  const Eigen::Vector4cd whirl = companion.eigenvalues();
+  std::vector<double> expected;
+  for (const std::complex<double>& w : whirl) {
+    CHECK(std::abs(w.imag()) < 1e-6 * std::abs(w));
+    expected.push_back(std::abs(w.real() - W));
+  }
+  std::sort(expected.begin(), expected.end());
+  std::vector<double> found;
+  for (const solver::Mode& mode : solver::find_modes(solver::linearise(*mechanism, state, 0)).modes)
+    found.push_back(2 * kPi * mode.frequency);
+  // Between them lies the disc's twist against the driven root.
+  const double twist = std::sqrt(1e3 / L / I_p);
+  expected.push_back(twist);
+  std::sort(expected.begin(), expected.end());
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(found[i] == doctest::Approx(expected[i]).epsilon(2e-3));
 }
 
 TEST_CASE("BeamUnderItsWeight_SagsLikeASlenderBeam") {
