@@ -69,6 +69,20 @@ Eigen::VectorXd amplitudes_of(const model::Beam& beam, const model::BuiltBeam& b
   return amplitudes;
 }
 
+/// Whether a joint or force between bodies holds a node, beyond the beam itself.
+bool is_held(const mbd::MechanismSpec& spec, mbd::BodyId node) {
+  const auto on_node = [&](mbd::FrameId frame) {
+    return spec.frames[static_cast<std::size_t>(frame.index)].body == node;
+  };
+  for (std::size_t j = 0; j < spec.joints.size(); ++j) {
+    const mbd::JointId id{static_cast<int>(j)};
+    if (std::find(spec.deforming.begin(), spec.deforming.end(), id) != spec.deforming.end()) continue;
+    if (on_node(spec.joints[j].inboard) || on_node(spec.joints[j].outboard)) return true;
+  }
+  return std::any_of(spec.forces.begin(), spec.forces.end(),
+                     [&](const mbd::MechanismSpec::Force& force) { return on_node(force.a) || on_node(force.b); });
+}
+
 }  // namespace
 
 void Recorder::hide_inner_nodes() {
@@ -105,6 +119,7 @@ void Recorder::declare_beams() {
     writer_.attribute(shape, "shape", "mesh");
     writer_.constant(shape + "/corners", surface.corners, "m", "x, y, z of each corner");
     writer_.constant(shape + "/triangles", surface.triangles, "1", "corners of each triangle, counted from 0");
+    writer_.attribute(shape, "held_at_both_ends", is_held(machine_.mechanism->spec(), built.ids.bodies.back()) ? 1 : 0);
     writer_.constant(shape + "/node", surface.node, "1", "that each corner follows, counted from 0");
     writer_.constant(shape + "/offset", surface.offset, "m", "x, y, z of each corner from its node");
   }
