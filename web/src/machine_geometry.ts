@@ -27,6 +27,8 @@ export interface ShapeData {
   point: (name: string) => Vector3;
   number: (name: string) => number;
   list: (name: string) => Numbers;
+  /** Of a beam. */
+  heldAtBothEnds: boolean;
 }
 
 export class MachineGeometry {
@@ -79,6 +81,7 @@ export class MachineGeometry {
         point: (part) => vector(values(part)),
         number: (part) => values(part)[0] ?? 0,
         list: values,
+        heldAtBothEnds: this.run.number(`${group}/${name}`, "held_at_both_ends") === 1,
       };
     });
   }

@@ -354,7 +354,7 @@ export class MachineView {
     const { low, high, share } = this.geometry.around(this.time);
     const amplitudes = increment?.amplitudes ?? skin.deformation.at(low, high, share);
     // A mode is enlarged already.
-    skin.show(amplitudes, increment?.amplitudes ? 1 : this.enlargement, increment?.amplitudes ? shareOfSize * this.bounds.radius : this.largestDeformation());
+    skin.show(amplitudes, increment?.amplitudes ? 1 : this.enlargement, increment?.amplitudes ? shareOfSize * this.bounds.radius : this.largestDeformation(), Boolean(increment?.amplitudes));
   }
 
   private largestDeformation(): number {

@@ -203,6 +203,7 @@ const std::vector<Dimension>& dimensions() {
       {"m", "a length", "45 mm", {"m", "cm", "mm", "um", "nm", "in"}},
       {"m^2", "an area", "4418 mm^2", {"m^2", "cm^2", "mm^2"}},
       {"m^3", "a volume", "450 cm^3", {"m^3", "cm^3", "mm^3", "l"}},
+      {"m^4", "a second moment of area", "12 cm^4", {"m^4", "cm^4", "mm^4"}},
       {"kg", "a mass", "5 kg", {"kg", "g", "t"}},
       {"s", "a time", "0.1 ms", {"s", "ms", "us", "min"}},
       {"rad", "an angle", "90 deg", {"deg", "rad", "rev"}},

@@ -83,36 +83,72 @@ struct Ends {
   Vec3 r_a, r_b;
 };
 
-/// Wrenches on both ends, moments in their sections' axes, and the energy.
+/// How an element is deformed, and what its forces need of that.
+struct Deformation {
+  Rotation half, R_m;  ///< from the section at a to the middle one; of that
+  Vec3 psi, along;     ///< along: from a to b in the axes of the middle section
+  Vec3 Gamma;
+};
+
+/// (elastic.16).
+Deformation deformation(const BeamElement& element, const Ends& ends) {
+  Rotation relative = inverse(ends.R_a) * ends.R_b;
+  if (relative.w.value < 0) relative = {-relative.w, Dual(-1) * relative.v};
+  Deformation d{.half = half_of(relative), .psi = log(relative)};
+  d.R_m = ends.R_a * d.half;
+  d.along = inverse(d.R_m) * (ends.r_b - ends.r_a);
+  const double L = element.length;
+  d.Gamma = {d.along[0] / L - 1, d.along[1] / L, d.along[2] / L};
+  return d;
+}
+
+/// Forces in the middle section.
+struct SectionForces {
+  Vec3 N, M;
+};
+SectionForces section_forces(const BeamStiffness& c, const Vec3& Gamma, const Vec3& kappa) {
+  return {.N = {c.EA * Gamma[0], c.GA_y * Gamma[1], c.GA_z * Gamma[2]},
+          .M = {c.GJ * kappa[0], c.EI_y * kappa[1], c.EI_z * kappa[2]}};
+}
+
+/// Wrenches on both ends, moments in their sections' axes, forces in space.
 struct EndForces {
-  Dual energy;
   Vec3 moment_a, force_a, moment_b, force_b;
 };
 
-/// (elastic.16), (elastic.17).
-EndForces end_forces(const BeamElement& element, const Ends& ends) {
-  Rotation relative = inverse(ends.R_a) * ends.R_b;
-  if (relative.w.value < 0) relative = {-relative.w, Dual(-1) * relative.v};
-  const Vec3 psi = log(relative);
-  const Rotation half = half_of(relative), R_m = ends.R_a * half;
-  const Vec3 along = inverse(R_m) * (ends.r_b - ends.r_a);  // in the axes of the middle section
-
-  const BeamStiffness& c = element.stiffness;
-  const double L = element.length;
-  const Vec3 Gamma = {along[0] / L - 1, along[1] / L, along[2] / L};
-  const Vec3 N = {c.EA * Gamma[0], c.GA_y * Gamma[1], c.GA_z * Gamma[2]};
-  const Vec3 M = {c.GJ / L * psi[0], c.EI_y / L * psi[1], c.EI_z / L * psi[2]};
-
-  // d Gamma = (R_m^T d(r_b - r_a) + along x dtheta_m)/L, d psi = T^-1(psi) dtheta_b - T^-T(psi) dtheta_a,
-  // dtheta_m = exp(-psi/2) dtheta_a + T(psi/2) d psi/2: the forces are what stands before each of them in d energy.
-  const Vec3 couple = cross(N, along);
-  const Vec3 on_psi = M + Dual(0.5) * transposed_tangent(Dual(0.5) * psi, couple);
-  const Vec3 force = R_m * N;
-  return {.energy = (L * dot(Gamma, N) + dot(psi, M)) / 2,
-          .moment_a = half * couple - inverse_tangent(psi, on_psi),
+/// (elastic.17). d Gamma = (R_m^T d(r_b - r_a) + along x dtheta_m)/L, d psi = T^-1(psi) dtheta_b - T^-T(psi) dtheta_a,
+/// dtheta_m = exp(-psi/2) dtheta_a + T(psi/2) d psi/2: the forces are what stands before each of them in d energy.
+EndForces end_forces(const Deformation& d, const SectionForces& section) {
+  const Vec3 couple = cross(section.N, d.along);
+  const Vec3 on_psi = section.M + Dual(0.5) * transposed_tangent(Dual(0.5) * d.psi, couple);
+  const Vec3 force = d.R_m * section.N;
+  return {.moment_a = d.half * couple - inverse_tangent(d.psi, on_psi),
           .force_a = Dual(-1) * force,
-          .moment_b = inverse_tangent(Dual(-1) * psi, on_psi),
+          .moment_b = inverse_tangent(Dual(-1) * d.psi, on_psi),
           .force_b = force};
+}
+
+/// Rates of Gamma and kappa, by the same differentials.
+struct StrainRates {
+  Vec3 Gamma, kappa;
+};
+StrainRates strain_rates(const BeamElement& element, const Ends& ends, const Deformation& d, const BeamVector& V) {
+  const auto given = [&](int first) { return Vec3{Dual(V[first]), Dual(V[first + 1]), Dual(V[first + 2])}; };
+  const Vec3 omega_a = given(0), omega_b = given(6);
+  const Vec3 psi_rate = inverse_tangent(d.psi, omega_b) - inverse_tangent(Dual(-1) * d.psi, omega_a);
+  const Vec3 omega_m =
+      inverse(d.half) * omega_a + Dual(0.5) * transposed_tangent(Dual(-0.5) * d.psi, psi_rate);  // T(x) = T^T(-x)
+  const Vec3 along_rate = inverse(d.R_m) * (ends.R_b * given(9) - ends.R_a * given(3)) + cross(d.along, omega_m);
+  const Dual by_length = 1 / element.length;
+  return {by_length * along_rate, by_length * psi_rate};
+}
+
+double energy_of(const BeamElement& element, const Deformation& d, const SectionForces& section) {
+  return (element.length * dot(d.Gamma, section.N) + dot(d.psi, section.M)).value / 2;
+}
+
+SectionForces elastic_forces(const BeamElement& element, const Deformation& d) {
+  return section_forces(element.stiffness, d.Gamma, Dual(1 / element.length) * d.psi);
 }
 
 /// The section's rotation with its derivatives: q (1 + theta/2) to the first order.
@@ -127,26 +163,107 @@ Vec3 varied(const Vector3& r, int first) {
           Dual(r[2], BeamVector::Unit(first + 2))};
 }
 
+/// Values and derivatives of the four parts of a wrench on each end.
+void put(const EndForces& forces, BeamVector& values, BeamMatrix& derivatives) {
+  int row = 0;
+  for (const Vec3* part : {&forces.moment_a, &forces.force_a, &forces.moment_b, &forces.force_b})
+    for (const Dual& component : *part) {
+      values[row] = component.value;
+      derivatives.row(row++) = component.d.transpose();
+    }
+}
+
+Vector6 values(const Vec3& a, const Vec3& b) {
+  return (Vector6() << a[0].value, a[1].value, a[2].value, b[0].value, b[1].value, b[2].value).finished();
+}
+
+/// From each node's axes to those of its section, in all four parts.
+BeamMatrix sections_from_nodes(const BeamElement& element) {
+  BeamMatrix to_section = BeamMatrix::Zero();
+  for (int i = 0; i < 12; i += 3) to_section.block<3, 3>(i, i) = element.frame.transpose();
+  return to_section;
+}
+
+/// A displacement in the axes of the section: r + R d to the first order.
+Vec3 varied_along(const Vector3& r, const Rotation& section, int first) {
+  const Vec3 d = {Dual(0, BeamVector::Unit(first)), Dual(0, BeamVector::Unit(first + 1)),
+                  Dual(0, BeamVector::Unit(first + 2))};
+  const Vec3 turned = section * d;
+  return {Dual(r[0]) + turned[0], Dual(r[1]) + turned[1], Dual(r[2]) + turned[2]};
+}
+
+/// Both ends with all derivatives in section axes, seen from node a's place and axes.
+Ends ends_of(const BeamElement& element, const BeamMotion& motion) {
+  const Eigen::Quaterniond E(element.frame);
+  const Matrix3 R_ab = motion.X_a.R.transpose() * motion.X_b.R;
+  Ends ends;
+  ends.R_a = varied(E, 0);
+  ends.R_b = varied(Eigen::Quaterniond(R_ab).normalized() * E, 6);
+  ends.r_a = varied_along(Vector3::Zero(), ends.R_a, 3);
+  ends.r_b = varied_along(motion.X_a.R.transpose() * (motion.X_b.r - motion.X_a.r), ends.R_b, 9);
+  return ends;
+}
+
+/// Rows of d[Gamma; kappa].
+Eigen::Matrix<double, 6, 12> strain_derivatives(const Deformation& d, double length) {
+  Eigen::Matrix<double, 6, 12> B;
+  for (int i = 0; i < 3; ++i) {
+    B.row(i) = d.Gamma[static_cast<std::size_t>(i)].d.transpose();
+    B.row(3 + i) = d.psi[static_cast<std::size_t>(i)].d.transpose() / length;
+  }
+  return B;
+}
+
 }  // namespace
 
 BeamResponse beam_response(const BeamElement& element, const BeamState& state) {
   const Eigen::Quaterniond E(element.frame);
   const auto a = static_cast<std::size_t>(element.a), b = static_cast<std::size_t>(element.b);
-  const EndForces forces = end_forces(
+  const Deformation d = deformation(
       element, {varied(state.R[a] * E, 0), varied(state.R[b] * E, 6), varied(state.r[a], 3), varied(state.r[b], 9)});
+  const SectionForces section = elastic_forces(element, d);
   BeamResponse response;
-  response.energy = forces.energy.value;
-  int row = 0;
-  for (const Vec3* part : {&forces.moment_a, &forces.force_a, &forces.moment_b, &forces.force_b})
-    for (const Dual& component : *part) {
-      response.force[row] = component.value;
-      response.tangent.row(row++) = component.d.transpose();
-    }
+  response.energy = energy_of(element, d, section);
+  put(end_forces(d, section), response.force, response.tangent);
   // So far turns were in the section's axes; those of the unknowns are in the node's.
   BeamMatrix to_section = BeamMatrix::Identity();
   to_section.block<3, 3>(0, 0) = to_section.block<3, 3>(6, 6) = element.frame.transpose();
   response.force = to_section.transpose() * response.force;
   response.tangent = to_section.transpose() * response.tangent * to_section;
+  return response;
+}
+
+BeamMotionResponse beam_response(const BeamElement& element, const BeamMotion& motion, double damping) {
+  const Ends ends = ends_of(element, motion);
+  const Deformation d = deformation(element, ends);
+  const BeamMatrix to_section = sections_from_nodes(element);
+  BeamVector V;
+  V << motion.V_a, motion.V_b;
+  const StrainRates rates = strain_rates(element, ends, d, to_section * V);
+  const SectionForces elastic = elastic_forces(element, d);
+  const SectionForces viscous =
+      section_forces(element.stiffness, Dual(damping) * rates.Gamma, Dual(damping) * rates.kappa);
+
+  BeamMotionResponse response;
+  response.energy = energy_of(element, d, elastic);
+  response.strain = values(d.Gamma, Dual(1 / element.length) * d.psi);
+  response.elastic = values(elastic.N, elastic.M);
+  response.viscous = values(viscous.N, viscous.M);
+  const Vector6 rate = values(rates.Gamma, rates.kappa);
+  response.energy_rate = element.length * rate.dot(response.elastic);
+  response.dissipation = element.length * rate.dot(response.viscous);
+  EndForces forces = end_forces(d, {elastic.N + viscous.N, elastic.M + viscous.M});
+  forces.force_a = inverse(ends.R_a) * forces.force_a;
+  forces.force_b = inverse(ends.R_b) * forces.force_b;
+  put(forces, response.force, response.K);
+  const BeamStiffness& c = element.stiffness;
+  const Vector6 D = (Vector6() << c.EA, c.GA_y, c.GA_z, c.GJ, c.EI_y, c.EI_z).finished();
+  const Eigen::Matrix<double, 6, 12> B = strain_derivatives(d, element.length);
+  response.C = damping * element.length * B.transpose() * D.asDiagonal() * B;
+
+  response.force = to_section.transpose() * response.force;
+  response.K = to_section.transpose() * response.K * to_section;
+  response.C = to_section.transpose() * response.C * to_section;
   return response;
 }
 

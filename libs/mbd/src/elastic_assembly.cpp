@@ -59,18 +59,14 @@ std::optional<Vector6> ElasticAssembly::deformation(const Freedom& freedom, cons
 const ElasticMotion& ElasticAssembly::read(const TreeMotion& motion, const solver::State& state,
                                            const solver::Stage& stage, bool accelerate) {
   motion_.t = state.t;
-  motion_.stage = {.dt = stage.dt,
-                   .k = stage.k,
-                   .c = stage.c,
-                   .m = stage.m,
-                   .parameters = stage.parameters,
-                   .fresh = stage.fresh};
+  motion_.stage = {
+      .dt = stage.dt, .k = stage.k, .c = stage.c, .m = stage.m, .parameters = stage.parameters, .fresh = stage.fresh};
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     ElasticFrame& frame = motion_.frames[f];
     frame.X_WF = motion.pose(frames_[f]);
     to_frame_[f] = motion_transform(frame.X_WF.inverse());
     frame.V = to_frame_[f] * motion.V(frames_[f].link);
-    if (f > 0) frame.deformation = deformation(freedoms_[f - 1], state.q);
+    if (f > 0 && !freedoms_.empty()) frame.deformation = deformation(freedoms_[f - 1], state.q);
     if (accelerate) frame.A = to_frame_[f] * motion.A(frames_[f].link);
   }
   for (std::size_t i = 0; i < loads_.size(); ++i)

@@ -58,7 +58,7 @@ class ElasticAssembly {
   std::shared_ptr<ElasticBody> body_;
   std::vector<Attachment> frames_;
   std::vector<std::shared_ptr<const ScalarFunction>> loads_;
-  std::vector<Freedom> freedoms_;         ///< of all frames but the first
+  std::vector<Freedom> freedoms_;         ///< of all frames but the first; empty where none are known
   std::vector<int> columns_;              ///< tree columns that move any frame, then own coordinates
   int tree_columns_ = 0;                  ///< how many of them are the tree's
   std::vector<std::vector<char>> moves_;  ///< [frame][place in columns_]

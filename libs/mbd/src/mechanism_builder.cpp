@@ -135,6 +135,18 @@ CouplingId MechanismBuilder::add_coupling(CouplingSpec coupling) {
   return append<CouplingId>(spec_.couplings, std::move(coupling));
 }
 
+BodyId MechanismBuilder::add_free_frame(const std::string& name, BodyId base, const Pose& rest) {
+  const FrameId inboard = add_frame({.name = name + " at rest", .body = base, .X_BF = rest});
+  const BodyId body = add_body({.name = name});
+  // Given values, so that the assembly at the start leaves the body undeformed where it can.
+  spec_.deforming.push_back(add_joint({.name = name,
+                                       .type = JointType::free,
+                                       .inboard = inboard,
+                                       .outboard = frame_of(body),
+                                       .initial = std::vector<double>(6, 0.0)}));
+  return body;
+}
+
 FlexibleBodyIds MechanismBuilder::add_flexible_body(const std::string& name,
                                                     const std::vector<std::string>& frame_names,
                                                     std::shared_ptr<ElasticBody> body) {
@@ -146,17 +158,10 @@ FlexibleBodyIds MechanismBuilder::add_flexible_body(const std::string& name,
   ids.frames.push_back(frame_of(ids.bodies[0]));
   std::vector<JointId> freedoms;
   for (std::size_t i = 0; i < frame_names.size(); ++i) {
-    const std::string full = name + "." + frame_names[i];
-    const FrameId rest =
-        add_frame({.name = full + " at rest", .body = ids.bodies[0], .X_BF = body->rest_pose(static_cast<int>(i) + 1)});
-    ids.bodies.push_back(add_body({.name = full}));
+    ids.bodies.push_back(
+        add_free_frame(name + "." + frame_names[i], ids.bodies[0], body->rest_pose(static_cast<int>(i) + 1)));
+    freedoms.push_back(spec_.deforming.back());
     ids.frames.push_back(frame_of(ids.bodies.back()));
-    // Given values, so that the assembly at the start leaves the body undeformed where it can.
-    freedoms.push_back(add_joint({.name = full,
-                                  .type = JointType::free,
-                                  .inboard = rest,
-                                  .outboard = ids.frames.back(),
-                                  .initial = std::vector<double>(6, 0.0)}));
   }
   ids.elastic =
       append<ElasticId>(spec_.elastics, MechanismSpec::Elastic{name, ids.frames, freedoms, std::move(body), {}, {}});
@@ -174,6 +179,25 @@ void MechanismBuilder::add_nodal_load(ElasticId elastic, const NodalLoad& load,
 
 std::size_t MechanismBuilder::nodal_loads(ElasticId elastic) const {
   return spec_.elastics.at(static_cast<std::size_t>(elastic.index)).loads.size();
+}
+
+BeamBodyIds MechanismBuilder::add_beam_body(const std::string& name, const std::vector<std::string>& node_names,
+                                            std::vector<std::shared_ptr<ElasticBody>> segments) {
+  HERSEY_REQUIRE(!segments.empty() && node_names.size() == segments.size(), "a name for each node but the first");
+  BeamBodyIds ids;
+  ids.bodies.push_back(add_body({.name = name}));
+  ids.frames.push_back(frame_of(ids.bodies[0]));
+  Pose rest;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    HERSEY_REQUIRE(segments[i] != nullptr && segments[i]->frame_count() == 2, "a segment has two frames");
+    rest = rest * segments[i]->rest_pose(1);
+    ids.bodies.push_back(add_free_frame(name + "." + node_names[i], ids.bodies[0], rest));
+    ids.frames.push_back(frame_of(ids.bodies.back()));
+    ids.freedoms.push_back(spec_.deforming.back());
+    ids.segments.push_back(append<ElasticId>(
+        spec_.elastics, MechanismSpec::Elastic{name, {ids.frames[i], ids.frames[i + 1]}, {}, std::move(segments[i])}));
+  }
+  return ids;
 }
 
 std::unique_ptr<Mechanism> MechanismBuilder::finalise() {

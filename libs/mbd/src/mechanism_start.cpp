@@ -44,9 +44,7 @@ std::vector<Mechanism::Index> Mechanism::Implementation::given_coordinates() con
 }
 
 bool Mechanism::Implementation::is_deformation(int joint) const {
-  return std::any_of(spec.elastics.begin(), spec.elastics.end(), [&](const MechanismSpec::Elastic& elastic) {
-    return std::find(elastic.freedoms.begin(), elastic.freedoms.end(), JointId{joint}) != elastic.freedoms.end();
-  });
+  return std::find(spec.deforming.begin(), spec.deforming.end(), JointId{joint}) != spec.deforming.end();
 }
 
 std::vector<Mechanism::Index> Mechanism::Implementation::elastic_coordinates() const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "build_beam.h"
 #include "build_flexible.h"
 #include "hersey/core/contract.h"
 #include "hersey/fem/surface_loads.h"
@@ -114,6 +115,10 @@ class Builder {
         add_flexible(body);
         continue;
       }
+      if (body.beam) {
+        add_beam(body);
+        continue;
+      }
       add_frames(body, mechanism_.add_body({body.name, body.mass, body.centre_of_mass, body.inertia}));
     }
     for (const Joint& joint : model_.joints) add_joint(joint);
@@ -155,6 +160,20 @@ class Builder {
     }
     built.elastic = ids.elastic;
     machine_.flexibles.push_back(std::move(built));
+  }
+
+  void add_beam(const Body& body) {
+    BuiltBeam built = build_beam(body, mechanism_);
+    bodies_[body.name] = built.ids.bodies[0];
+    frames_[{body.name, ""}] = built.ids.frames[0];
+    poses_[{body.name, ""}] = Pose{};
+    for (const Frame& frame : body.frames) {
+      const Pose X{frame.X_BF.R, Vector3::Zero()};  // nodes keep the body's axes
+      const mbd::BodyId node = built.ids.bodies[static_cast<std::size_t>(frame.nodes.front())];
+      frames_[{body.name, frame.name}] = mechanism_.add_frame({frame.name, node, X});
+      poses_[{body.name, frame.name}] = X;
+    }
+    machine_.beams.push_back(std::move(built));
   }
 
   [[nodiscard]] mbd::FrameId frame(const FrameName& name) const { return frames_.at({name.body, name.frame}); }

@@ -6,6 +6,7 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
+#include "hersey/mbd/nodal_body.h"
 
 namespace hersey::model {
 namespace {
@@ -41,7 +42,8 @@ BuiltFlexible build_flexible(const Body& body) {
   fem::ReductionOptions options;
   options.modes = flexible.modes;
   if (flexible.highest > 0) options.highest = 2 * std::numbers::pi * flexible.highest;
-  const fem::Reduction reduction = fem::reduce(assembled(body), frames, options);
+  fem::ElasticBody mesh = assembled(body);
+  const fem::Reduction reduction = fem::reduce(mesh, frames, options);
   if (!reduction.ok)
     throw InputError({.position = flexible.position,
                       .path = "bodies." + body.name + ".flexible",
@@ -51,7 +53,11 @@ BuiltFlexible build_flexible(const Body& body) {
   BuiltFlexible built;
   built.name = body.name;
   built.mesh = flexible.mesh;
-  built.body = std::make_shared<mbd::ModalBody>(mbd::modal_data(reduction.body, flexible.damping, &built.shapes));
+  mbd::ModalBodyData data = mbd::modal_data(reduction.body, flexible.damping, &built.shapes);
+  if (flexible.nodal)
+    built.body = std::make_shared<mbd::NodalBody>(std::move(mesh), reduction.body, flexible.damping);
+  else
+    built.body = std::make_shared<mbd::ModalBody>(std::move(data));
   for (const double omega : reduction.body.internal_omega) built.frequencies.push_back(omega / (2 * std::numbers::pi));
   return built;
 }

@@ -10,6 +10,7 @@ namespace hersey::model {
 // Its parts, one per file.
 [[nodiscard]] TypePtr bodies_format();
 [[nodiscard]] TypePtr flexible_format();
+[[nodiscard]] TypePtr beam_format();
 [[nodiscard]] TypePtr shapes_format();
 [[nodiscard]] TypePtr joints_format();
 [[nodiscard]] TypePtr drives_format();

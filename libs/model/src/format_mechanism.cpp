@@ -23,6 +23,11 @@ TypePtr frames_format() {
                                                        "the frame follows the nodes' mean motion, and what acts on it "
                                                        "spreads over them"}}),
                                               "How frame and nodes hold each other.", "rigid"),
+                                     optional("along",
+                                              or_word(quantity("m", "250 mm", Range::not_negative()),
+                                                      {{"start", "at its first point"}, {"end", "at its last point"}}),
+                                              "Where on a beam the frame sits: distance from its start along its axis.",
+                                              "**required** on beams"),
                                  }));
 }
 
@@ -94,16 +99,18 @@ TypePtr bodies_format() {
                  optional("mass", quantity("kg", "5 kg", Range::not_negative()), "Mass."),
                  optional("flexible", flexible_format(),
                           "The body deforms: its mesh takes the place of mass, centre and inertia."),
+                 optional("beam", beam_format(),
+                          "The body is a beam: section and material take the place of mass, centre and inertia."),
                  defaulted("inertia", inertia, "{}", "Inertia matrix about the centre of mass, body axes."),
                  defaulted("centre_of_mass", vector("m", "0 48 0 mm"), "0 0 0 m", "From the body's origin, body axes."),
                  optional("frames", frames, "Frames fixed on the body; `body` alone names the body's own frame."),
                  optional("shapes", shapes_format(), "What the report draws of it, and what `contacts` name.",
-                          "lines between its joints; of a flexible body, its mesh"),
+                          "lines between its joints; of a flexible body or beam, its surface"),
              });
   const TypePtr ground =
       object("ground", {optional("frames", frames, "Frames fixed in space."),
                         optional("shapes", shapes_format(), "What the report draws of it, and what `contacts` name.")});
-  return named("a mapping from names to bodies", with_exactly_one(body, {"mass", "flexible"}),
+  return named("a mapping from names to bodies", with_exactly_one(body, {"mass", "flexible", "beam"}),
                {optional("ground", ground, "The resting body; it exists always and may carry frames.")});
 }
 

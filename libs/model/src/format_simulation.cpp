@@ -35,10 +35,13 @@ TypePtr simulation_format() {
                                    {"kinematics", "motion that drives prescribe completely, and the forces it takes"},
                                    {"static", "rest under gravity and the loads at `start`, drives held; no bearings"},
                                    {"modes", "natural frequencies, damping and stability of small motions"}});
-  const TypePtr about =
-      choice({{"start", "the state at the start"},
-              {"equilibrium", "the static equilibrium"},
-              {"end", "the state at the end of a run over `duration`; bearings by their tangent there"}});
+  const TypePtr about = choice(
+      {{"start", "the state at the start"},
+       {"equilibrium", "the static equilibrium"},
+       {"turning",
+        "the steady motion in which drives keep the speed they have at the start and everything else keeps still "
+        "in its coordinates: rotating blades and shafts"},
+       {"end", "the state at the end of a run over `duration`; bearings by their tangent there"}});
   return object(
       "simulation settings",
       {

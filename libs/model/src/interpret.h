@@ -91,6 +91,10 @@ void require_function_of_time(Context& context, const Function& function, const 
 /// A pressure or force on the mesh of a flexible body.
 [[nodiscard]] SurfaceLoad surface_load_of(Context& context, const Value& value);
 
+/// The beam described by `beam` of `body`, none where there is no such key; places `frames` on its nodes too. Reports
+/// what is wrong with its axis, section and frames.
+[[nodiscard]] std::optional<Beam> beam_of(Context& context, const Value& body, std::vector<Frame>& frames);
+
 /// Its outer surface, for the report.
 [[nodiscard]] mbd::Shape skin_of(const fem::Mesh& mesh);
 

@@ -19,6 +19,7 @@ class FlexibleReader {
   Flexible read(const Value& value, std::vector<Frame>& frames) {
     Flexible flexible;
     flexible.position = value.key_position;
+    flexible.nodal = text_of(value, "form") == "nodal";
     flexible.modes = integer_of(value, "modes");
     flexible.highest = number_of(value, "highest_frequency");
     if (const Value* damping = value.find("damping"))

@@ -83,6 +83,7 @@ void interpret_bodies(Context& context) {
     if (name == "ground") {
       context.model.ground.frames = frames_of(context, value);
       (void)flexible_of(context, value, context.model.ground.frames);
+      (void)beam_of(context, value, context.model.ground.frames);
       context.model.ground.shapes = shapes_of(context, value);
       context.model.ground.position = value.key_position;
       continue;
@@ -96,6 +97,7 @@ void interpret_bodies(Context& context) {
     body.frames = frames_of(context, value);
     body.shapes = shapes_of(context, value);
     body.flexible = flexible_of(context, value, body.frames);
+    body.beam = beam_of(context, value, body.frames);
     if (body.flexible && body.flexible->mesh && body.shapes.empty())
       body.shapes.push_back(skin_of(*body.flexible->mesh));
     context.model.bodies.push_back(std::move(body));

@@ -137,6 +137,20 @@ void refuse_bearings(Context& context, const Value& value) {
   }
 }
 
+void refuse_flexible_bodies(Context& context, const Value& value) {
+  const Analysis analysis = context.model.simulation.analysis;
+  for (const auto& [name, body] : section(context.root, "bodies")) {
+    const Value* flexible = body.find("flexible");
+    if (analysis == Analysis::kinematics && (flexible != nullptr || body.find("beam") != nullptr)) {
+      context.fault(*value.find("analysis"), "a kinematic analysis with the flexible body '" + name + "'",
+                    "rigid bodies: how others deform depends on forces", "use dynamics, or make the body rigid");
+    } else if (analysis == Analysis::modes && flexible != nullptr && text_of(*flexible, "form") == "nodal") {
+      context.fault(*flexible->find("form"), "`form: nodal` of a body whose small motions are sought",
+                    "`form: modal`, with as many `modes` as are needed", "");
+    }
+  }
+}
+
 void interpret_analysis(Context& context, const Value& value) {
   Simulation& simulation = context.model.simulation;
   const std::string analysis = text_of(value, "analysis"), about = text_of(value, "modes_about");
@@ -145,6 +159,7 @@ void interpret_analysis(Context& context, const Value& value) {
                         : analysis == "modes"    ? Analysis::modes
                                                  : Analysis::dynamics;
   simulation.modes_about = about == "equilibrium" ? ModesAbout::equilibrium
+                           : about == "turning"   ? ModesAbout::turning
                            : about == "end"       ? ModesAbout::end
                                                   : ModesAbout::start;
   if (needs_duration(simulation)) {
@@ -154,6 +169,7 @@ void interpret_analysis(Context& context, const Value& value) {
       context.fault_at_key(value, "missing key 'step'", "a time or an angle > 0, such as 0.1 ms, or {tolerance}");
   }
   refuse_bearings(context, value);
+  refuse_flexible_bodies(context, value);
 }
 
 void interpret_step(Context& context, const Value& parent) {

@@ -166,6 +166,9 @@ std::pair<std::string, std::string> method(const model::Simulation& run) {
     return {"small motions", "linear about the state at the start"};
   if (run.analysis == Analysis::modes && run.modes_about == model::ModesAbout::equilibrium)
     return {"small motions", "linear about the static equilibrium"};
+  if (run.analysis == Analysis::modes && run.modes_about == model::ModesAbout::turning)
+    return {"small motions",
+            "linear about the steady motion at the drives' speeds, seen in the axes that turn with the drives"};
   const std::string then = run.analysis == Analysis::modes ? "; then linear about the end" : "";
   return {"time integration", integration(run) + then};
 }

@@ -28,7 +28,7 @@ std::vector<double> deformation_of_skin(const model::BuiltFlexible& flexible) {
 void Recorder::declare_flexible_bodies() {
   for (const model::BuiltFlexible& flexible : machine_.flexibles) {
     const std::string group = "/bodies/" + flexible.name, path = group + "/";
-    const auto shapes = static_cast<int>(flexible.body->data().shapes());
+    const auto shapes = static_cast<int>(flexible.shapes.cols());
     flexibles_.push_back({writer_.series(path + "strain_energy", 1, "J", "strain energy"),
                           writer_.series(path + "dissipation", 1, "W", "power lost to the material's damping"),
                           shapes > 0 ? writer_.series(path + "amplitudes", shapes, "SI",
@@ -47,10 +47,10 @@ void Recorder::declare_flexible_bodies() {
 }
 
 void Recorder::write_flexible_bodies(const mbd::Observation& seen) {
-  double strain = 0;
+  double strain = 0;  // of all, beams too
+  for (const mbd::ElasticObservation& body : seen.elastics) strain += body.energy.strain;
   for (std::size_t i = 0; i < flexibles_.size(); ++i) {
-    const mbd::ElasticObservation& body = seen.elastics[i];
-    strain += body.energy.strain;
+    const mbd::ElasticObservation& body = seen.elastics[static_cast<std::size_t>(machine_.flexibles[i].elastic.index)];
     flexibles_[i].strain.append(body.energy.strain);
     flexibles_[i].dissipation.append(body.energy.dissipation);
     const Eigen::VectorXd amplitudes = machine_.flexibles[i].body->amplitudes(body.motion);
@@ -61,7 +61,7 @@ void Recorder::write_flexible_bodies(const mbd::Observation& seen) {
 
 void Recorder::declare_flexible_modes() {
   for (const model::BuiltFlexible& flexible : machine_.flexibles) {
-    const auto shapes = static_cast<int>(flexible.body->data().shapes());
+    const auto shapes = static_cast<int>(flexible.shapes.cols());
     const std::string path = "/modes/fields/" + flexible.name + "_amplitudes_";
     modes_.amplitudes_real.push_back(
         writer_.series(path + "real", shapes, "SI", "mode shape in the body's amplitudes"));
@@ -75,7 +75,8 @@ void Recorder::write_flexible_mode(const solver::State& state, const Eigen::Vect
   const auto amplitudes = [&](std::size_t i, const Eigen::VectorXd& increment) {
     solver::State moved = state;
     mechanism.retract(state.q, increment, moved.q);
-    return machine_.flexibles[i].body->amplitudes(mechanism.observe(moved).elastics[i].motion);
+    const auto elastic = static_cast<std::size_t>(machine_.flexibles[i].elastic.index);
+    return machine_.flexibles[i].body->amplitudes(mechanism.observe(moved).elastics[elastic].motion);
   };
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(shape.size());
   for (std::size_t i = 0; i < machine_.flexibles.size(); ++i) {
@@ -107,9 +108,9 @@ void DeformedMeshes::write(double t, double since_start, double slack, const mbd
     if (since_start < series.next * series.every - slack) continue;
     series.next = std::floor((since_start + slack) / series.every) + 1;
     const model::BuiltFlexible& flexible = machine_.flexibles[series.flexible];
-    const mbd::ElasticMotion& motion = seen.elastics[series.flexible].motion;
+    const mbd::ElasticMotion& motion = seen.elastics[static_cast<std::size_t>(flexible.elastic.index)].motion;
     const Pose& X_WB = motion.frames[0].X_WF;
-    const Eigen::VectorXd u = flexible.shapes * flexible.body->amplitudes(motion);
+    const Eigen::VectorXd u = flexible.body->displacements(motion, flexible.shapes);
     const auto nodes = static_cast<Eigen::Index>(flexible.mesh->nodes.size());
     fem::VtuFrame frame;
     frame.positions.resize(3, nodes);

@@ -1,6 +1,8 @@
 #include "geometry_record.h"
 
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace hersey::run {
@@ -80,25 +82,37 @@ void write_link(const mbd::MechanismSpec& spec, const std::string& group, mbd::F
   end("outboard", b);
 }
 
+/// Mass and centre, in its axes, of the elastic body called `name`, whose pieces may be many.
+std::pair<double, Vector3> mass_of_elastic(const mbd::MechanismSpec& spec, const std::string& name) {
+  double mass = 0;
+  Vector3 moment = Vector3::Zero(), origin = Vector3::Zero();  // a piece begins where the one before it ends
+  for (const mbd::MechanismSpec::Elastic& elastic : spec.elastics) {
+    if (elastic.name != name) continue;
+    mass += elastic.body->mass();
+    moment += elastic.body->mass() * (origin + elastic.body->centre());
+    origin += elastic.body->rest_pose(elastic.body->frame_count() - 1).r;
+  }
+  return {mass, moment / mass};
+}
+
 }  // namespace
 
-void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, results::Writer& writer) {
+void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, const std::vector<bool>& hidden_joints,
+                    results::Writer& writer) {
   writer.constant("/ground/gravity", {spec.gravity.data(), 3}, "m/s^2", "acceleration of gravity");
   write_shapes(model.ground, "/ground", writer);
   for (const model::Body& body : model.bodies) {
     const std::string group = "/bodies/" + body.name;
     double mass = body.mass;
     Vector3 centre = body.centre_of_mass;
-    for (const mbd::MechanismSpec::Elastic& elastic : spec.elastics) {
-      if (elastic.name != body.name) continue;
-      mass = elastic.body->mass();
-      centre = elastic.body->centre();
-    }
+    if (body.flexible || body.beam) std::tie(mass, centre) = mass_of_elastic(spec, body.name);
     writer.attribute(group, "mass", mass);
     writer.constant(group + "/centre_of_mass", {centre.data(), 3}, "m", "in the body");
     write_shapes(body, group, writer);
   }
-  for (const mbd::JointSpec& joint : spec.joints) {
+  for (std::size_t j = 0; j < spec.joints.size(); ++j) {
+    if (hidden_joints[j]) continue;
+    const mbd::JointSpec& joint = spec.joints[j];
     const std::string group = "/joints/" + joint.name;
     writer.attribute(group, "type", std::string(mbd::name_of(joint.type)));
     write_link(spec, group, joint.inboard, joint.outboard, writer);

@@ -57,13 +57,15 @@ bool is_rotational(const mbd::JointSpec& joint, int value) {
 
 Recorder::Recorder(const model::Model& model, const model::Machine& machine, const Options& options)
     : model_(model), machine_(machine), writer_(options.results, {.overwrite = options.overwrite}) {
+  hide_inner_nodes();
   declare_run(options);
   declare_machine();
   declare_flexible_bodies();
   declare_surface_loads();
+  declare_beams();
   declare_contacts();
   for (const model::Bearing& bearing : model.bearings) bearings_.push_back(declare_bearing(bearing));
-  write_geometry(model, machine.mechanism->spec(), writer_);
+  write_geometry(model, machine.mechanism->spec(), hidden_joints_, writer_);
   if (model.simulation.analysis == model::Analysis::modes) declare_modes();
   writer_.flush();
 }
@@ -106,6 +108,10 @@ void Recorder::declare_run(const Options& options) {
 void Recorder::declare_machine() {
   const mbd::MechanismSpec& spec = machine_.mechanism->spec();
   for (std::size_t i = 1; i < spec.bodies.size(); ++i) {
+    if (hidden_bodies_[i]) {
+      bodies_.emplace_back();
+      continue;
+    }
     const std::string path = "/bodies/" + spec.bodies[i].name + "/";
     bodies_.push_back({writer_.series(path + "position", 3, "m", "origin in ground"),
                        writer_.series(path + "orientation", 4, "1", "unit quaternion w, x, y, z"),
@@ -114,6 +120,10 @@ void Recorder::declare_machine() {
                        writer_.series(path + "acceleration", 3, "m/s^2", "of the origin, ground axes")});
   }
   for (const mbd::JointSpec& joint : spec.joints) {
+    if (hidden_joints_[joints_.size()]) {
+      joints_.emplace_back();
+      continue;
+    }
     const std::string path = "/joints/" + joint.name + "/";
     const int n = mbd::degrees_of_freedom(joint.type);
     JointSeries series;
@@ -246,6 +256,7 @@ void Recorder::write_row(const StepRecord& step) {
   drift_.append(step.constraint_drift);
   if (model_.simulation.error_control) error_.append(step.error);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (hidden_bodies_[i + 1]) continue;
     const mbd::FrameMotion& motion = seen.bodies[i + 1];
     const Eigen::Quaterniond R(motion.X_WF.R);
     bodies_[i].position.append(motion.X_WF.r);
@@ -255,6 +266,7 @@ void Recorder::write_row(const StepRecord& step) {
     bodies_[i].acceleration.append(motion.a);
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (hidden_joints_[i]) continue;
     const mbd::JointObservation& joint = seen.joints[i];
     if (!joint.position.empty()) {
       joints_[i].coordinates.append(joint.position);
@@ -278,6 +290,7 @@ void Recorder::write_row(const StepRecord& step) {
   energy_.springs.append(seen.spring_energy);
   write_flexible_bodies(seen);
   write_surface_loads(seen);
+  write_beams(seen);
 
   const PowerBalance& power = step.power;
   power_.drives.append(power.drives);
@@ -327,6 +340,7 @@ void Recorder::declare_modes() {
   for (std::size_t i = 1; i < all.size(); ++i) bodies.push_back(all[i].name);
   writer_.attribute("/modes", "bodies", bodies);
   declare_flexible_modes();
+  declare_beam_modes();
 }
 
 // Rotation and displacement of every body for small increments of the coordinates: what a velocity would give.
@@ -354,6 +368,7 @@ void Recorder::write_modes(const solver::State& state, const solver::Modes& foun
     modes_.body_real.append(body_increments(state, mode.shape.real()));
     modes_.body_imaginary.append(body_increments(state, mode.shape.imag()));
     write_flexible_mode(state, mode.shape);
+    write_beam_mode(state, mode.shape);
   }
   writer_.attribute("/modes", "stable", found.stable ? 1 : 0);
 }

@@ -53,6 +53,9 @@ class Recorder {
   struct SurfaceLoadSeries {
     results::Series force, moment, power;
   };
+  struct BeamSeries {
+    results::Series strain, dissipation, amplitudes, positions, forces, moments;
+  };
   struct DriveSeries {
     results::Series effort, power;
   };
@@ -79,6 +82,7 @@ class Recorder {
     results::Series frequency, damped_frequency, damping_ratio, real, imaginary, shape_real, shape_imaginary, body_real,
         body_imaginary;
     std::vector<results::Series> amplitudes_real, amplitudes_imaginary;  // of flexible bodies
+    std::vector<results::Series> beams_real, beams_imaginary;            // the same of beams
   };
 
   void declare_modes();
@@ -91,6 +95,11 @@ class Recorder {
   void write_flexible_bodies(const mbd::Observation& seen);
   void declare_surface_loads();
   void write_surface_loads(const mbd::Observation& seen);
+  void hide_inner_nodes();
+  void declare_beams();
+  void write_beams(const mbd::Observation& seen);
+  void declare_beam_modes();
+  void write_beam_mode(const solver::State& state, const Eigen::VectorXcd& shape);
   void declare_contacts();
   void write_contacts(const std::vector<mbd::ContactObservation>& seen) const;
   [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
@@ -103,6 +112,8 @@ class Recorder {
   results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, rejected_, drift_;
   std::vector<FlexibleSeries> flexibles_;
   std::vector<SurfaceLoadSeries> surface_loads_;
+  std::vector<BeamSeries> beams_;
+  std::vector<bool> hidden_bodies_, hidden_joints_;  ///< inner nodes of beams: not written one by one
   EnergySeries energy_;
   PowerSeries power_;
   ModeSeries modes_;

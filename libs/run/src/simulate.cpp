@@ -152,7 +152,7 @@ class Simulation {
           integrate();
           if (summary_.status != Status::completed) return;
         } else {
-          if (plan.modes_about == model::ModesAbout::equilibrium && !come_to_rest()) return;
+          if (plan.modes_about != model::ModesAbout::start && !come_to_rest()) return;
           take(observe(0, {}));
         }
         return linearise_here();
@@ -192,10 +192,13 @@ class Simulation {
   }
 
   bool come_to_rest() {
-    const solver::EquilibriumSummary rest = solver::find_equilibrium(*machine_.mechanism, state_);
+    solver::EquilibriumOptions options;
+    options.turning = model_.simulation.analysis == model::Analysis::modes &&
+                      model_.simulation.modes_about == model::ModesAbout::turning;
+    const solver::EquilibriumSummary rest = solver::find_equilibrium(*machine_.mechanism, state_, options);
     summary_.newton_iterations += rest.iterations;
     summary_.message = rest.message;
-    if (!rest.converged) fail("static: " + rest.message);
+    if (!rest.converged) fail((options.turning ? "steady motion: " : "static: ") + rest.message);
     return rest.converged;
   }
 

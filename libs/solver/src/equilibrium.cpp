@@ -24,7 +24,7 @@ class EquilibriumSearch {
  public:
   EquilibriumSearch(Equations& equations, const State& start, const EquilibriumOptions& options)
       : equations_(equations), options_(options), here_(start), reach_(equations.position_scales()) {
-    here_.v.setZero();
+    if (!options.turning) here_.v.setZero();
     here_.vdot.setZero();
   }
 
@@ -39,11 +39,15 @@ class EquilibriumSearch {
         return failure(fmt::format("no equilibrium in {} iterations; worst equation: {}, {:.3g} times its tolerance",
                                    summary_.iterations, summary_.worst_row, worst_));
       }
-      advance();
+      if (options_.turning) {
+        if (!advance_to_steady_motion()) return failure("no steady motion near the start: " + summary_.worst_row);
+      } else {
+        advance();
+      }
     }
     summary_.converged = true;
     state = here_;
-    judge(state);
+    if (!options_.turning) judge(state);
     return summary_;
   }
 
@@ -76,6 +80,23 @@ class EquilibriumSearch {
     here_ = from;
     mu_ = std::max(10 * mu_, 1e-12);
     (void)assemble(here_);
+  }
+
+  /// One step of Newton's method, halved until it comes nearer. A steady motion costs no least energy: above a critical
+  /// speed the stiffness that centrifugal forces leave is indefinite.
+  bool advance_to_steady_motion() {
+    mu_ = 0;
+    if (!solve()) return false;
+    const Index nv = equations_.nv();
+    const State from = here_;
+    const double before = worst_;
+    const double reach = increment_.head(nv).cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
+    for (double length = std::min(1.0, kLargestIncrement / std::max(reach, 1e-300)); length > 1e-4; length /= 2) {
+      equations_.retract(from.q, length * increment_.head(nv), here_.q);
+      here_.lambda = from.lambda + length * increment_.tail(increment_.size() - nv);
+      if (assemble(here_) && worst_ < before) return true;
+    }
+    return false;
   }
 
   bool assemble(const State& at) {

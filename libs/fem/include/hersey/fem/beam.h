@@ -63,6 +63,29 @@ struct BeamResponse {
 };
 [[nodiscard]] BeamResponse beam_response(const BeamElement& element, const BeamState& state);
 
+/// Both ends of an element that moves: poses of its nodes in any common axes, velocities [omega; v] each in its node's
+/// own axes at the node.
+struct BeamMotion {
+  Pose X_a, X_b;
+  Vector6 V_a = Vector6::Zero(), V_b = Vector6::Zero();
+};
+
+/// What deforming an element takes, everything in the nodes' own axes. Positions are moved by twists in these axes,
+/// X -> X exp(xi^), at fixed V.
+struct BeamMotionResponse {
+  double energy = 0;       ///< [J]
+  double energy_rate = 0;  ///< [W]
+  double dissipation = 0;  ///< [W], >= 0
+  Vector6 strain;          ///< [Gamma; kappa], axes of the middle section [-; 1/m]
+  Vector6 elastic;         ///< [N; M] there [N; N m]
+  Vector6 viscous;         ///< the same from the rates of strain
+  BeamVector force;        ///< elastic and viscous: [moment; force] at node a, at node b
+  BeamMatrix K, C;         ///< d force / d position, d force / d velocity; exact
+};
+
+/// (elastic.22): forces of strains and of their rates times `damping` [s].
+[[nodiscard]] BeamMotionResponse beam_response(const BeamElement& element, const BeamMotion& motion, double damping);
+
 /// Moves a state by small unknowns (6 nodes): R exp(theta), r + d.
 void move(BeamState& state, const Eigen::VectorXd& small);
 

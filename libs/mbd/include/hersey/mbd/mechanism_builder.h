@@ -147,12 +147,13 @@ struct MechanismSpec {
   struct Elastic {
     std::string name;
     std::vector<FrameId> frames;    ///< as the elastic body counts them, each on a body of its own
-    std::vector<JointId> freedoms;  ///< free joints from the first frame at rest_pose to each other frame
+    std::vector<JointId> freedoms;  ///< free joints from the first frame at rest_pose to each other; none of segments
     std::shared_ptr<ElasticBody> body;
     std::vector<std::string> load_names;                       ///< of its loads, in the order they were added
     std::vector<std::shared_ptr<const ScalarFunction>> loads;  ///< their values, functions of time
   };
   std::vector<Elastic> elastics;
+  std::vector<JointId> deforming;  ///< free joints of elastic bodies, whose coordinates are deformations
 };
 
 /// Where a flexible body went in a mechanism.
@@ -160,6 +161,14 @@ struct FlexibleBodyIds {
   ElasticId elastic;
   std::vector<BodyId> bodies;   ///< of each frame; the first has the flexible body's name and axes
   std::vector<FrameId> frames;  ///< their own frames
+};
+
+/// Where a beam went in a mechanism.
+struct BeamBodyIds {
+  std::vector<ElasticId> segments;
+  std::vector<JointId> freedoms;  ///< of each node but the first, against the first
+  std::vector<BodyId> bodies;     ///< of each node; the first has the beam's name and axes
+  std::vector<FrameId> frames;    ///< their own frames
 };
 
 class Mechanism;
@@ -207,11 +216,20 @@ class MechanismBuilder {
   /// How many nodal loads a flexible body carries so far.
   [[nodiscard]] std::size_t nodal_loads(ElasticId elastic) const;
 
+  /// A beam: its nodes become massless bodies `name`, `name.node_names[0]`, ..., free to move against the first, and
+  /// each segment couples two that follow each other.
+  /// @param node_names  of all nodes but the first
+  BeamBodyIds add_beam_body(const std::string& name, const std::vector<std::string>& node_names,
+                            std::vector<std::shared_ptr<ElasticBody>> segments);
+
   /// @throws InputError if a body, spring or joint makes no physical sense (all faults together), or two drives act on
   ///         one coordinate; ContractError if an id or a count is not the builder's own.
   [[nodiscard]] std::unique_ptr<Mechanism> finalise();
 
  private:
+  /// A massless body at `rest` of `base`, free to move against it.
+  BodyId add_free_frame(const std::string& name, BodyId base, const Pose& rest);
+
   MechanismSpec spec_;
 };
 

@@ -79,7 +79,7 @@ class NodalBody final : public ModalBody {
   Eigen::MatrixXd Psi_;            ///< static shapes of the frames, (3 nodes, shapes)
   Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
   Eigen::VectorXd vibration_mass_;
-  Eigen::MatrixXd inertia_;  ///< columns of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi
+  Eigen::MatrixXd inertia_;  ///< columns E of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi
   std::vector<NodalLoad> loads_;
   solver::SecondOrderHistory w_;
   std::unique_ptr<NodalFactors> factors_;

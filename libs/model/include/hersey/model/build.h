@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hersey/bearing/journal_bearing.h"
+#include "hersey/mbd/beam_segment.h"
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/mechanism.h"
 #include "hersey/model/model.h"
@@ -41,6 +42,14 @@ struct BuiltSurfaceLoad {
   std::size_t first = 0, count = 0;
 };
 
+/// A beam of a machine.
+struct BuiltBeam {
+  std::string name;
+  std::vector<std::shared_ptr<mbd::BeamSegment>> segments;
+  mbd::BeamBodyIds ids;
+  std::vector<bool> is_named;  ///< of each node: a frame sits on it, or the beam's own
+};
+
 /// A model turned into equations. Bodies, joints, drives, contacts and bearings keep the order of the model; body 0 of
 /// the mechanism is ground, and a flexible body is followed by bodies and free joints of its further frames.
 struct Machine {
@@ -49,6 +58,7 @@ struct Machine {
   std::vector<BuiltBearing> bearings;
   std::vector<BuiltFlexible> flexibles;
   std::vector<BuiltSurfaceLoad> surface_loads;
+  std::vector<BuiltBeam> beams;
 };
 
 /// @throws InputError where the parts make no mechanism: impossible inertia, a joint between a body and itself, two

@@ -11,6 +11,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/core/spatial.h"
+#include "hersey/fem/beam.h"
 #include "hersey/fem/elastic_material.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/film/film_model.h"
@@ -55,7 +56,7 @@ struct Frame {
   Pose X_BF;  ///< pose of the frame in its body
   SourcePosition position;
   // On a flexible body
-  std::vector<int> nodes;  ///< of its mesh that the frame stands on
+  std::vector<int> nodes;  ///< of its mesh that the frame stands on; of a beam, the one
   fem::Connection connection = fem::Connection::rigid;
 };
 
@@ -63,10 +64,22 @@ struct Frame {
 struct Flexible {
   std::shared_ptr<const fem::Mesh> mesh;        ///< in metres; null where the file is broken
   std::vector<fem::ElasticMaterial> materials;  ///< of the mesh's elements
+  bool nodal = false;                           ///< a displacement of every node, not of shapes
   int modes = 10;                               ///< with all frames held
   double highest = 0;                           ///< leave out modes above this frequency [Hz]; 0: none
   mbd::RayleighDamping damping;
   double vtu_every = 0;  ///< interval of the deformed meshes written beside the results [s]; 0: none
+  SourcePosition position;
+};
+
+/// A slender body: its axis divided into straight elements.
+struct Beam {
+  std::vector<Vector3> nodes;  ///< of the axis, from the first one, body axes [m]; at least two
+  std::vector<Matrix3> axes;   ///< of the section in each element; x from node to node
+  fem::BeamSection section;
+  std::vector<Eigen::Vector2d> outline;  ///< of the section (y, z), around; for pictures [m]
+  fem::ElasticMaterial material;
+  double damping = 0;  ///< forces of strain rates over those of strains [s]
   SourcePosition position;
 };
 
@@ -78,6 +91,7 @@ struct Body {
   std::vector<Frame> frames;
   std::vector<mbd::Shape> shapes;
   std::optional<Flexible> flexible;  ///< then mass, centre and inertia are those of its mesh, and each frame has nodes
+  std::optional<Beam> beam;          ///< the same
   SourcePosition position;
 };
 
@@ -292,7 +306,12 @@ enum class Analysis {
 };
 
 /// The state about which modes are sought.
-enum class ModesAbout { start, equilibrium, end };
+enum class ModesAbout {
+  start,
+  equilibrium,
+  turning,  ///< the steady motion in which drives go on as they do at the start and all else keeps still
+  end,
+};
 
 struct Simulation {
   Analysis analysis = Analysis::dynamics;

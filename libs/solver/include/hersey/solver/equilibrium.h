@@ -9,6 +9,9 @@ namespace hersey::solver {
 struct EquilibriumOptions {
   double rtol = 1e-10;       ///< out-of-balance force of every row, relative to the terms it balances
   int max_iterations = 500;  ///< Newton iterations
+  /// Steady motion instead of rest: the state keeps its velocities, of drives that turn at constant speed for example,
+  /// and everything else keeps still in its coordinates. Stability is not judged then: modes tell it.
+  bool turning = false;
 };
 
 /// Whether small motions about an equilibrium come back to it.
@@ -30,7 +33,7 @@ struct EquilibriumSummary {
 /// Newton's method with a share of the mass matrix added to the stiffness, (K + mu M) dq + G^T lambda = -r: a large mu
 /// goes a small way the forces push, as overdamped motion would, mu = 0 is Newton's method. mu falls with the residual,
 /// and rises where a step overshoots; so the method slides down to a stable equilibrium, whatever loads are applied
-/// at once, and ends quadratically. Theory manual eq. (integrator.16).
+/// at once, and ends quadratically. Theory manual eq. (integrator.16). With `turning` the same for r(q, v, 0, lambda).
 [[nodiscard]] EquilibriumSummary find_equilibrium(Equations& equations, State& state,
                                                   const EquilibriumOptions& options = {});
 

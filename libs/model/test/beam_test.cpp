@@ -1,0 +1,104 @@
+#include "hersey/model/build.h"
+#include "model_text.h"
+
+// Beams in the model file: what is read, how they are divided, and what is told about wrong ones.
+namespace hersey::model {
+namespace {
+
+const std::string kMachine = R"(hersey: 1
+title: Beam
+bodies:
+  shaft:
+    beam:
+      points: [10 0 0 mm, 110 0 0 mm, 110 0 200 mm]
+      section: {circle: {diameter: 20 mm, bore: 10 mm}}
+      up: y
+      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
+      elements: 6
+      damping: {stiffness: 2 us}
+    frames:
+      left: {along: start}
+      disc: {along: 130 mm, rotation: {axis: x, angle: 90 deg}}
+      right: {along: end}
+joints:
+  hinge: {type: revolute, between: [ground, shaft.left]}
+simulation: {duration: 1 ms, step: 0.1 ms}
+)";
+
+std::string faults_with(const std::string& from, const std::string& to) {
+  return faults_of(edited(kMachine, from, to));
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_CASE("Beam_IsReadAndDividedAtItsPointsAndFrames") {
+  const Model model = read_text(kMachine, "m.yaml");
+  REQUIRE(model.bodies[0].beam);
+  const Beam& beam = *model.bodies[0].beam;
+  // 100 mm to the bend, 30 to the disc, 170 to the end; about 50 mm each.
+  const std::vector<Vector3> nodes = {
+      {0, 0, 0},    {0.05, 0, 0}, {0.1, 0, 0}, {0.1, 0, 0.03}, {0.1, 0, 0.03 + 0.17 / 3}, {0.1, 0, 0.03 + 0.34 / 3},
+      {0.1, 0, 0.2}};
+  REQUIRE(beam.nodes.size() == nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) CHECK((beam.nodes[i] - nodes[i]).norm() < 1e-15);
+  CHECK((beam.axes[0] - (Matrix3() << 1, 0, 0, 0, 0, 1, 0, 1, 0).finished() * Vector3(1, -1, 1).asDiagonal()).norm() <
+        1e-15);
+  CHECK((beam.axes[5].col(0) - Vector3::UnitZ()).norm() < 1e-15);
+  CHECK(beam.section.area == doctest::Approx(235.6194e-6).epsilon(1e-6));
+  CHECK(beam.damping == 2e-6);
+  const std::vector<Frame>& frames = model.bodies[0].frames;
+  CHECK(frames[0].nodes == std::vector<int>{0});
+  CHECK(frames[1].nodes == std::vector<int>{3});
+  CHECK(frames[2].nodes == std::vector<int>{6});
+}
+
+TEST_CASE("Beam_IsBuiltFromSegmentsBetweenNodes") {
+  const Machine machine = build(read_text(kMachine, "m.yaml"));
+  REQUIRE(machine.beams.size() == 1);
+  const BuiltBeam& beam = machine.beams[0];
+  CHECK(beam.segments.size() == 6);
+  CHECK(beam.is_named == std::vector<bool>{true, false, false, true, false, false, true});
+  double mass = 0;
+  for (const auto& segment : beam.segments) mass += segment->mass();
+  CHECK(mass == doctest::Approx(7850 * 235.6194e-6 * 0.3).epsilon(1e-6));
+  CHECK(machine.mechanism->nv() == 1 + 6 * 6);
+  const mbd::MechanismSpec& spec = machine.mechanism->spec();
+  CHECK(spec.bodies[static_cast<std::size_t>(beam.ids.bodies[3].index)].name == "shaft.disc");
+  CHECK(spec.bodies[static_cast<std::size_t>(beam.ids.bodies[4].index)].name == "shaft.node 5");
+}
+
+TEST_CASE("BeamAlongZ_NeedsNoUp") {
+  const Model model = read_text(
+      edited(edited(kMachine, "10 0 0 mm, 110 0 0 mm, 110 0 200 mm", "0 0 0 mm, 0 0 200 mm"), "      up: y\n", ""),
+      "m.yaml");
+  CHECK((model.bodies[0].beam->axes[0].col(2) - Vector3::UnitX()).norm() < 1e-15);
+}
+
+TEST_CASE("Beam_FaultsNameWhatIsThere") {
+  CHECK(contains(faults_with("[10 0 0 mm, 110 0 0 mm, 110 0 200 mm]", "[10 0 0 mm]"),
+                 "m.yaml:6:15: bodies.shaft.beam.points: a beam with one point"));
+  CHECK(contains(faults_with("110 0 0 mm,", "10 0 0 mm,"), "the place of the point before it"));
+  CHECK(contains(faults_with("bore: 10 mm", "bore: 20 mm"), "a bore of 20 mm"));
+  CHECK(contains(faults_with("circle: {diameter", "circel: {diameter"), "circle"));
+  CHECK(contains(faults_with("{circle: {diameter: 20 mm, bore: 10 mm}}",
+                             "{circle: {diameter: 20 mm}, rectangle: {width: 1 mm, height: 1 mm}}"),
+                 "bodies.shaft.beam.section"));
+  CHECK(contains(faults_with("up: y", "up: x"), "bodies.shaft.beam.up: a beam that runs along the section's z-axis"));
+  CHECK(contains(faults_with("130 mm", "400 mm"),
+                 "bodies.shaft.frames.disc.along: a place 400 mm along a beam of 300 mm"));
+  CHECK(contains(faults_with("130 mm", "ende"), "bodies.shaft.frames.disc.along"));
+  CHECK(contains(faults_with("{along: end}", "{}"), "a frame of a beam without `along`"));
+  CHECK(contains(faults_with("{along: end}", "{along: end, origin: 1 0 0 mm}"), "`origin` of a frame on a beam"));
+  CHECK(contains(faults_with("{along: end}", "{along: end, nodes: tip}"), "`nodes` of a frame"));
+  CHECK(
+      contains(faults_with("    frames:", "    centre_of_mass: 1 0 0 mm\n    frames:"), "`centre_of_mass` of a beam"));
+  CHECK(contains(faults_with("    frames:", "    shapes: {ball: {shape: sphere, diameter: 1 mm}}\n    frames:"),
+                 "`shapes` of a beam"));
+  CHECK(contains(faults_with("    beam:", "    mass: 1 kg\n    beam:"), "bodies.shaft"));
+  CHECK(contains(faults_with("density: 7850 kg/m^3", "density: 7850 kg"), "bodies.shaft.beam.material.density"));
+  CHECK(contains(faults_of(edited(good_model, "{origin: 0 50 0 mm,", "{along: start, origin: 0 50 0 mm,")),
+                 "`along` of a frame on a body that is no beam"));
+}
+
+}  // namespace
+}  // namespace hersey::model

@@ -1,0 +1,110 @@
+// Beams from the model file to the results file.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "hersey/model/read.h"
+#include "hersey/results/reader.h"
+#include "hersey/run/simulate.h"
+#include "temporary_directory.h"
+
+namespace hersey::run {
+namespace {
+
+// A slender blade on a hub: EI = 1 N m^2, 1 kg/m, 1 m long.
+const char* const kBlade = R"(hersey: 1
+title: A rotating blade
+bodies:
+  blade:
+    beam:
+      points: [0 0 0 m, 1 0 0 m]
+      section: {properties: {area: 1 cm^2, shear_y: 0.5 cm^2, shear_z: 0.5 cm^2, I_y: 0.01 cm^4, I_z: 0.01 cm^4, J: 0.02 cm^4}}
+      material: {youngs_modulus: 10 GPa, poisson_ratio: 0.3, density: 10000 kg/m^3}
+      elements: 16
+    frames:
+      tip: {along: end}
+joints:
+  hub: {type: revolute, between: [ground, blade], axis: z}
+drives:
+  motor: {joint: hub, coordinate: rotation, speed: 3 rad/s}
+simulation: {analysis: modes, modes_about: turning}
+)";
+
+/// Runs a model in `folder` and opens its results.
+results::Reader run_in(const TemporaryDirectory& folder, const std::string& text) {
+  std::ofstream(folder / "model.yaml") << text;
+  const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
+  INFO(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  return results::Reader(folder / "r.h5");
+}
+
+std::string edited(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_CASE("TurningBlade_HasTheFrequenciesOfTheClosedForm") {
+  // sqrt(E I/(rho A L^4)) = 1 rad/s: lag and flap at 3 rad/s of the slender blade; shear, rotary inertia and elements
+  // of 1/16 make 1e-3 of the first modes.
+  const TemporaryDirectory folder;
+  const results::Reader reader = run_in(folder, kBlade);
+  const auto frequency = reader.read("/modes/fields/frequency").values;
+  CHECK(2 * std::numbers::pi * frequency[0] == doctest::Approx(3.743511896).epsilon(2e-3));
+  CHECK(2 * std::numbers::pi * frequency[1] == doctest::Approx(4.797278532).epsilon(2e-3));
+  // In flap the tip moves along z, in lag along y, for rows [real part of all amplitudes of 17 nodes].
+  const auto shape = reader.read("/modes/fields/blade_amplitudes_real").values;
+  const auto tip = [&](std::size_t mode, std::size_t axis) { return std::abs(shape[(mode * 17 + 16) * 12 + axis]); };
+  const auto other = reader.read("/modes/fields/blade_amplitudes_imaginary").values;
+  const auto tip_imaginary = [&](std::size_t mode, std::size_t axis) {
+    return std::abs(other[(mode * 17 + 16) * 12 + axis]);
+  };
+  CHECK(tip(0, 1) + tip_imaginary(0, 1) > 100 * (tip(0, 2) + tip_imaginary(0, 2)));
+  CHECK(tip(1, 2) + tip_imaginary(1, 2) > 100 * (tip(1, 1) + tip_imaginary(1, 1)));
+}
+
+TEST_CASE("HeldBeam_ShowsItsSectionForces") {
+  const TemporaryDirectory folder;
+  std::string text = edited(kBlade, "title:", "gravity: 0 0 -0.02 m/s^2\ntitle:");
+  text = edited(text, "type: revolute, between: [ground, blade], axis: z", "type: fixed, between: [ground, blade]");
+  text = edited(text, "drives:\n  motor: {joint: hub, coordinate: rotation, speed: 3 rad/s}\n", "");
+  text = edited(text, "modes, modes_about: turning", "static");
+  const results::Reader reader = run_in(folder, text);
+  const auto force = reader.read("/bodies/blade/section_force").values,
+             moment = reader.read("/bodies/blade/section_moment").values,
+             position = reader.read("/bodies/blade/node_position").values;
+  REQUIRE(force.size() == 48);
+  REQUIRE(position.size() == 51);
+  // q = 0.02 N/m; the middle of element k sees what hangs beyond its ends' share: q (L - x) and q (L - x)^2/2.
+  for (std::size_t k = 0; k < 16; ++k) {
+    const double x = (static_cast<double>(k) + 0.5) / 16;
+    CHECK(std::abs(force[3 * k + 2]) == doctest::Approx(0.02 * (1 - x)).epsilon(1e-3));
+    CHECK(moment[3 * k + 1] == doctest::Approx(0.02 * (1 - x) * (1 - x) / 2).epsilon(1e-2).scale(1e-3));
+  }
+  CHECK(position[50] == doctest::Approx(-0.02 / 8).epsilon(5e-3));
+  CHECK(reader.number_attribute("/bodies/blade", "mass").value_or(0) == doctest::Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("FallingBeam_IsRecordedAndBalanced") {
+  const TemporaryDirectory folder;
+  std::string text = edited(kBlade, "title:", "gravity: 0 -9.81 0 m/s^2\ntitle:");
+  text = edited(text, "drives:\n  motor: {joint: hub, coordinate: rotation, speed: 3 rad/s}\n", "");
+  text = edited(text, "analysis: modes, modes_about: turning", "duration: 0.3 s, step: 1 ms");
+  text = edited(text, "elements: 16", "elements: 6\n      damping: {stiffness: 10 ms}");
+  std::ofstream(folder / "model.yaml") << text;
+  const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
+  INFO(summary.message);
+  CHECK(summary.status == Status::completed);
+  CHECK(summary.worst_power_balance < 1e-7);
+  const results::Reader reader(folder / "r.h5");
+  const auto series = [&](const std::string& name) { return reader.read(name).values; };
+  CHECK(series("/energy/strain") == series("/bodies/blade/strain_energy"));
+  CHECK(series("/bodies/blade/dissipation").back() > 0);
+  CHECK(series("/bodies/blade.tip/position").size() == 3 * series("/time").size());
+  CHECK_FALSE(reader.has("/bodies/blade.node 2/position"));
+  CHECK_FALSE(reader.has("/joints/blade.tip/coordinates"));
+}
+
+}  // namespace
+}  // namespace hersey::run
