@@ -1,6 +1,7 @@
 #include "nodal_factors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace hersey::mbd {
@@ -13,6 +14,10 @@ namespace {
 // Factors are kept up to this size together, the one in use in any case.
 constexpr double kMemory = 1.5e9;  // [bytes]
 constexpr std::size_t kMost = 6;
+
+// A step size that differs by less takes the same factor: times at which steps end have round-off, and the factor of a
+// matrix so close solves as well.
+constexpr double kSameStep = 1e-7;
 
 /// Component p of displacements (3 n, columns), shape (n, columns).
 MatrixXd component(const MatrixXd& u, std::size_t p) {
@@ -33,7 +38,8 @@ NodalFactors::NodalFactors(const fem::ElasticBody& body, fem::FrameSupports supp
 const NodalFactor* NodalFactors::of(const solver::Stage& stage, std::string& message) {
   const double scale = stage.k + stage.c * damping_.stiffness;
   const double shift = -(stage.m + stage.c * damping_.mass) / scale;
-  const auto same = [&](const NodalFactor& factor) { return factor.shift == shift && factor.scale == scale; };
+  const auto close = [](double a, double b) { return std::abs(a - b) <= kSameStep * std::abs(a); };
+  const auto same = [&](const NodalFactor& factor) { return close(factor.shift, shift) && close(factor.scale, scale); };
   if (const auto found = std::find_if(factors_.begin(), factors_.end(), same); found != factors_.end()) {
     factors_.splice(factors_.begin(), factors_, found);
     return &factors_.front();

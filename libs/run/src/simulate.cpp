@@ -235,15 +235,25 @@ class Simulation {
   // Steps of controlled error, from one instant that has to be hit to the next.
   void march_controlled(const model::ErrorControl& limits, const mbd::Observation& start) {
     const std::vector<double> bends = kinks(model_, machine_.mechanism->spec(), start);
-    solver::StepControl control({.smallest = limits.smallest, .largest = limits.largest},
-                                first_step(*machine_.mechanism, state_, limits));
-    for (const double target : instants_to_hit(model_, bends)) {
+    const std::vector<double> targets = instants_to_hit(model_, bends);
+    solver::StepControl control(
+        {.smallest = limits.smallest, .largest = limits.largest, .unit = unit_of_steps(targets)},
+        first_step(*machine_.mechanism, state_, limits));
+    for (const double target : targets) {
       while (target - state_.t > 1e-12 * std::max(std::abs(target), limits.largest)) {
         if (!take_controlled_step(limits, control, target)) return;
         if (ends_early()) return;
       }
       if (std::binary_search(bends.begin(), bends.end(), target)) start_afresh();
     }
+  }
+
+  // Bodies with a displacement of every node factorise a matrix for every step size: few of them then, parts of the
+  // interval between the instants to hit.
+  [[nodiscard]] double unit_of_steps(const std::vector<double>& targets) const {
+    const auto is_nodal = [](const model::Body& body) { return body.flexible && body.flexible->nodal; };
+    if (std::none_of(model_.bodies.begin(), model_.bodies.end(), is_nodal)) return 0;
+    return targets.front() - state_.t;
   }
 
   // Beyond a kink of a drive's speed its acceleration is another one: the method's history would ring on it.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "hersey/solver/generalized_alpha.h"
 #include "one_coordinate.h"
@@ -25,6 +26,25 @@ TEST_CASE("StepControl_HitsInstantsWithoutCrumbs") {
   CHECK(control.proposed(10) == 0.3);
   CHECK(control.proposed(0.3) == 0.3);
   CHECK(control.proposed(0.31) == doctest::Approx(0.155).epsilon(1e-15));
+}
+
+TEST_CASE("StepControl_TakesPartsOfItsUnit") {
+  // Parts 1, 1/2, 1/4, ... of 0.1, as large as errors of 8e6 dt^3 allow, also across an instant they cannot reach.
+  StepControl control({.smallest = 1e-9, .largest = 1, .unit = 0.1}, 1e-3);
+  std::vector<double> sizes;
+  double t = 0;
+  for (const double instant : {0.1, 0.2, 0.2123, 0.3123})
+    while (instant - t > 1e-12) {
+      const double dt = control.proposed(instant - t);
+      REQUIRE(8e6 * std::pow(dt, 3) < 1);
+      control.accepted(dt, 8e6 * std::pow(dt, 3));
+      t += dt;
+      sizes.push_back(dt);
+    }
+  const auto is_part = [](double dt) { return std::abs(std::log2(dt / 0.1) - std::round(std::log2(dt / 0.1))) < 1e-6; };
+  const auto others = std::count_if(sizes.begin(), sizes.end(), [&](double dt) { return !is_part(dt); });
+  CHECK(std::count_if(sizes.begin(), sizes.end(), [](double dt) { return std::abs(dt - 0.1 / 32) < 1e-9; }) > 90);
+  CHECK(others <= 3);
 }
 
 TEST_CASE("StepControl_KeepsItsStepAfterACutOne") {

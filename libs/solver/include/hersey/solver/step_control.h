@@ -6,6 +6,7 @@ namespace hersey::solver {
 struct StepControlOptions {
   double smallest = 1e-9;  ///< [s], > 0
   double largest = 1;      ///< [s], >= smallest
+  double unit = 0;         ///< > 0: steps are this over powers of 2, where each new step size costs a factorisation [s]
 };
 
 /// Chooses step lengths from the errors of the steps before (theory manual eq. (integrator.12)).
@@ -21,7 +22,8 @@ class StepControl {
   StepControl(const StepControlOptions& options, double first);
 
   /// The step to try when `remaining` is left to an instant that must be hit: equal parts where one step does not reach
-  /// it and two do, so that no crumb is left.
+  /// it and two do, so that no crumb is left. With a unit the largest part of it that fits, wherever parts of it can
+  /// reach the instant.
   [[nodiscard]] double proposed(double remaining) const;
 
   /// The step taken had this error, relative to the tolerance (<= 1).
@@ -35,6 +37,8 @@ class StepControl {
 
  private:
   [[nodiscard]] bool shorten(double dt, double factor);
+  void accept_part(double dt, double error);
+  [[nodiscard]] double part_of_unit(double most) const;
 
   StepControlOptions options_;
   double dt_;
