@@ -14,8 +14,13 @@ interface Place {
 export function mechanismGraph(run: Run): HTMLElement | null {
   const geometry = MachineGeometry.of(run);
   if (!geometry) return null;
-  const links = [...geometry.joints, ...geometry.bearings, ...geometry.forces];
-  const layers = layersFromGround(["ground", ...geometry.bodies.map((body) => body.name)], links);
+  // The frames of a flexible body, "rod.tip", are parts of it.
+  const names = geometry.bodies.map((body) => body.name);
+  const owner = (name: string) => (names.includes(name.split(".")[0]!) ? name.split(".")[0]! : name);
+  const links = [...geometry.joints, ...geometry.bearings, ...geometry.forces]
+    .map((link) => ({ ...link, inboard: owner(link.inboard), outboard: owner(link.outboard) }))
+    .filter((link) => link.inboard !== link.outboard);
+  const layers = layersFromGround(["ground", ...names.filter((name) => owner(name) === name)], links);
   const widest = Math.max(...layers.map((layer) => layer.length));
   const places = new Map<string, Place>();
   layers.forEach((layer, depth) =>

@@ -128,7 +128,7 @@ EndForces end_forces(const Deformation& d, const SectionForces& section) {
           .force_b = force};
 }
 
-/// Rates of Gamma and kappa, by the same differentials.
+/// Rates of Gamma and kappa, by the same differentials: theory manual eq. (beams.2).
 struct StrainRates {
   Vec3 Gamma, kappa;
 };

@@ -46,7 +46,7 @@ fem::BeamMotionResponse BeamSegment::section(const ElasticMotion& motion) const 
   return fem::beam_response(data_.element, {a.X_WF, b.X_WF, a.V, b.V}, data_.damping);
 }
 
-/// Theory manual eq. (flexible-bodies.16).
+/// Theory manual eq. (beams.4).
 BeamVector BeamSegment::inertia_force(const ElasticMotion& motion) const {
   const Matrix3 R_ab = relative_rotation(motion);
   const Vector3 a = origin_acceleration(motion.frames[0]), b = origin_acceleration(motion.frames[1]);
@@ -61,7 +61,7 @@ BeamVector BeamSegment::inertia_force(const ElasticMotion& motion) const {
   return force;
 }
 
-/// Theory manual eq. (flexible-bodies.17).
+/// Theory manual eq. (beams.5).
 void BeamSegment::differentiate_inertia(const ElasticMotion& motion, ElasticResponse& response) const {
   const Matrix3 R_ab = relative_rotation(motion);
   const double third = mass() / 3, sixth = mass() / 6;
@@ -108,7 +108,7 @@ void BeamSegment::evaluate(const ElasticMotion& motion, bool want_tangent, Elast
   differentiate_inertia(motion, response);
 }
 
-/// Theory manual eq. (flexible-bodies.18).
+/// Theory manual eq. (beams.6).
 ElasticEnergy BeamSegment::energy(const ElasticMotion& motion, const Vector3& gravity) {
   const fem::BeamMotionResponse strained = section(motion);
   const double third = mass() / 3, sixth = mass() / 6;

@@ -262,6 +262,30 @@ TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(found[i] == doctest::Approx(expected[i]).epsilon(2e-3));
 }
 
+TEST_CASE("TurningBladeInGravityAcross_HasNoSteadyMotion") {
+  test::StraightBeam blade{.length = 1,
+                           .elements = 4,
+                           .stiffness = {1e6, 1e5, 1e5, 1, 1, 1},
+                           .mass_per_length = 1,
+                           .inertia_per_length = {2e-5, 1e-5, 1e-5}};
+  for (const bool across : {false, true}) {
+    CAPTURE(across);
+    MechanismBuilder b;
+    b.set_gravity(across ? Vector3(0, 1e-3, 0) : Vector3(0, 0, 1e-3));
+    const BeamBodyIds ids = blade.add_to(b);
+    b.add_drive({.name = "motor",
+                 .coordinate = {hub(b, ids), 0},
+                 .kind = DriveSpec::Kind::speed,
+                 .function = test::constant(3)});
+    const auto m = b.finalise();
+    solver::State state = test::start(*m);
+    const solver::EquilibriumSummary steady = solver::find_equilibrium(*m, state, {.turning = true});
+    CAPTURE(steady.message);
+    CHECK(steady.converged == !across);
+    CHECK((steady.message.find("no steady motion: joint beam.4, ") == 0) == across);
+  }
+}
+
 TEST_CASE("BeamUnderItsWeight_SagsLikeASlenderBeam") {
   test::StraightBeam beam{.length = 2,
                           .elements = 10,

@@ -98,13 +98,16 @@ TEST_CASE("EnergyChangesByThePowersReported") {
     m->retract(state.q, s * state.v + 0.5 * s * s * state.vdot, moved.q);
     moved.v = state.v + s * state.vdot;
     const Observation seen = m->observe(moved);
-    return seen.kinetic_energy + seen.potential_energy + seen.elastics[0].energy.strain;
+    double strain = 0;
+    for (const ElasticObservation& body : seen.elastics) strain += body.energy.strain;
+    return seen.kinetic_energy + seen.potential_energy + strain;
   };
   constexpr double step = 1e-4;  // central difference, Richardson's weights: error ~ step^4
   const double slope =
       (8 * (mechanical(step) - mechanical(-step)) - (mechanical(2 * step) - mechanical(-2 * step))) / (12 * step);
   const Observation seen = m->observe(state);
-  double power = -seen.elastics[0].energy.dissipation, size = 0;
+  double power = 0, size = 0;
+  for (const ElasticObservation& body : seen.elastics) power -= body.energy.dissipation;
   for (const auto* powers :
        {&seen.drive_powers, &seen.load_powers, &seen.spring_powers, &seen.force_powers, &seen.coordinate_force_powers})
     for (double p : *powers) {

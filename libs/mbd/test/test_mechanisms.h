@@ -7,6 +7,7 @@
 #include <span>
 
 #include "hersey/core/scalar_function.h"
+#include "hersey/mbd/beam_segment.h"
 #include "hersey/mbd/coordinate_laws.h"
 #include "hersey/mbd/mechanism.h"
 #include "hersey/mbd/modal_body.h"
@@ -126,6 +127,17 @@ inline ModalBodyData random_modal_data() {
   return data;
 }
 
+/// A soft, damped piece of a beam with turned section axes.
+inline std::shared_ptr<BeamSegment> random_segment(double length) {
+  BeamSegmentData data;
+  data.element = {.length = length, .stiffness = {50, 30, 20, 3, 5, 7}};
+  data.element.frame = rotation_exp({0.4, -0.9, 0.3}).toRotationMatrix();
+  data.mass_per_length = 1.5;
+  data.inertia_per_length = {0.7, 0.5, 0.3};
+  data.damping = 0.1;
+  return std::make_shared<BeamSegment>(data);
+}
+
 /// Every joint type, in the tree and closing, both ways round; balls; loads of joint angles; springs; drives; a force.
 inline std::unique_ptr<Mechanism> nasty_mechanism() {
   MechanismBuilder b;
@@ -198,6 +210,13 @@ inline std::unique_ptr<Mechanism> nasty_mechanism() {
        at(bow.bodies[1], {0, 0.2, 0}, {0, 0.1, 0.1}), {0, 1, 0.5}, {0.3}, {-0.4});
   join("tip_ball", JointType::spherical, at(bow.bodies[2], {0.1, 0, 0.1}, {0.1, 0, 0}),
        at(nut, {0, 0.1, 0.2}, {0.2, 0, 0.1}));
+  // A beam entered through its second node, in a loop through its last.
+  const BeamBodyIds reed =
+      b.add_beam_body("reed", {"1", "2", "3"}, {random_segment(0.4), random_segment(0.3), random_segment(0.5)});
+  join("reed_hinge", JointType::revolute, at(plate, {0.1, 0, 0.2}, {0, 0.2, 0.1}),
+       at(reed.bodies[1], {0, 0.3, 0}, {0.1, 0, 0}), {1, 0, 0.5}, {0.2}, {0.5});
+  join("reed_ball", JointType::spherical, at(reed.bodies[3], {0.2, 0, 0.1}, {0, 0.1, 0}),
+       at(hand, {0, 0.1, 0.2}, {0.1, 0, 0.2}));
   // Closing: one plain, one with a coordinate that a spring reads.
   join("loop", JointType::cylindrical, at(hand, {0, 0, 0.1}, {0.1, 0.1, 0.2}), at(bob, {0.2, 0.1, 0}, {0, -0.3, 0.1}),
        {1, 0, 1});

@@ -1,7 +1,9 @@
 // Beams from the model file to the results file.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 
@@ -86,6 +88,36 @@ TEST_CASE("HeldBeam_ShowsItsSectionForces") {
   CHECK(reader.number_attribute("/bodies/blade", "mass").value_or(0) == doctest::Approx(1).epsilon(1e-12));
 }
 
+TEST_CASE("SteppedBeam_IsTwoBeamsEndToEnd") {
+  // E I = 2 N m^2 over the first half, 1 N m^2 over the second; 1 mN across the tip.
+  const TemporaryDirectory folder;
+  const results::Reader reader = run_in(folder, R"(hersey: 1
+title: A stepped cantilever
+bodies:
+  thick:
+    beam:
+      points: [0 0 0 m, 0.5 0 0 m]
+      section: {properties: {area: 1 cm^2, shear_y: 1 cm^2, shear_z: 1 cm^2, I_y: 2 mm^4, I_z: 2 mm^4, J: 4 mm^4}}
+      material: {youngs_modulus: 1000 GPa, poisson_ratio: 0, density: 1000 kg/m^3}
+    frames: {end: {along: end}}
+  thin:
+    beam:
+      points: [0 0 0 m, 0.5 0 0 m]
+      section: {properties: {area: 1 cm^2, shear_y: 1 cm^2, shear_z: 1 cm^2, I_y: 1 mm^4, I_z: 1 mm^4, J: 2 mm^4}}
+      material: {youngs_modulus: 1000 GPa, poisson_ratio: 0, density: 1000 kg/m^3}
+    frames: {end: {along: end}}
+joints:
+  clamp: {type: fixed, between: [ground, thick]}
+  step: {type: fixed, between: [thick.end, thin]}
+forces:
+  tip: {type: force, body: thin.end, components: [0 N, 1 mN, 0 N]}
+simulation: {analysis: static}
+)");
+  const auto position = reader.read("/bodies/thin/node_position").values;
+  const double deflection = 1e-3 * ((1 - 0.125) / (3 * 2) + 0.125 / 3);
+  CHECK(position[3 * 20 + 1] == doctest::Approx(deflection).epsilon(1e-3));
+}
+
 TEST_CASE("FallingBeam_IsRecordedAndBalanced") {
   const TemporaryDirectory folder;
   std::string text = edited(kBlade, "title:", "gravity: 0 -9.81 0 m/s^2\ntitle:");
@@ -104,6 +136,32 @@ TEST_CASE("FallingBeam_IsRecordedAndBalanced") {
   CHECK(series("/bodies/blade.tip/position").size() == 3 * series("/time").size());
   CHECK_FALSE(reader.has("/bodies/blade.node 2/position"));
   CHECK_FALSE(reader.has("/joints/blade.tip/coordinates"));
+}
+
+TEST_CASE("JournalOnABeam_MovesWithItsNode") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path file =
+      std::filesystem::path(HERSEY_SOURCE_DIR) / "examples" / "flexible_rotor" / "films.yaml";
+  const model::Model model =
+      model::read(file.string(), {"simulation.duration=4 ms", "bearings.right.grid.circumferential=24"});
+  const Summary summary = simulate(model, {.results = folder / "r.h5"});
+  INFO(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  CHECK(summary.worst_power_balance < 1e-6);
+  const results::Reader reader(folder / "r.h5");
+  const auto series = [&](const std::string& name) { return reader.read(name).values; };
+  const auto node = series("/bodies/shaft/node_position"), left = series("/bearings/left/eccentricity"),
+             right = series("/bearings/right/eccentricity"), fall = series("/bearings/right/force");
+  const std::size_t rows = left.size() / 2, width = node.size() / rows, last = width - 3;
+  double size = 0;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      CHECK(std::abs(left[2 * row + axis] - node[width * row + axis]) < 1e-10);
+      CHECK(std::abs(right[2 * row + axis] - node[width * row + last + axis]) < 1e-10);
+      size = std::max(size, std::abs(right[2 * row + axis]));
+    }
+  CHECK(size > 1e-6);
+  CHECK(std::abs(fall[3 * (rows - 1) + 1]) > 0.1);
 }
 
 }  // namespace

@@ -19,11 +19,14 @@ using Index = Equations::Index;
 
 constexpr double kLargestIncrement = 0.2;  // rad, or sizes of the system
 constexpr double kRoundOff = 1e-13;
+constexpr double kSteady = 1e-8;      // rad, or sizes of the system: ten times what Newton's tolerance leaves
+constexpr double kFixedShare = 1e-2;  // of the deformation may stand still in space while the rest turns
 
 class EquilibriumSearch {
  public:
   EquilibriumSearch(Equations& equations, const State& start, const EquilibriumOptions& options)
       : equations_(equations), options_(options), here_(start), reach_(equations.position_scales()) {
+    walked_.setZero(reach_.size());
     if (!options.turning) here_.v.setZero();
     here_.vdot.setZero();
   }
@@ -44,6 +47,11 @@ class EquilibriumSearch {
       } else {
         advance();
       }
+    }
+    if (options_.turning) {
+      const State steady = here_;
+      if (!stays_steady(steady)) return failure(summary_.message);
+      here_ = steady;
     }
     summary_.converged = true;
     state = here_;
@@ -90,12 +98,39 @@ class EquilibriumSearch {
     const Index nv = equations_.nv();
     const State from = here_;
     const double before = worst_;
-    const double reach = increment_.head(nv).cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
+    const VectorXd dx = increment_.head(nv);
+    const double reach = dx.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
     for (double length = std::min(1.0, kLargestIncrement / std::max(reach, 1e-300)); length > 1e-4; length /= 2) {
-      equations_.retract(from.q, length * increment_.head(nv), here_.q);
+      equations_.retract(from.q, length * dx, here_.q);
       here_.lambda = from.lambda + length * increment_.tail(increment_.size() - nv);
-      if (assemble(here_) && worst_ < before) return true;
+      if (!assemble(here_) || !(worst_ < before)) continue;
+      walked_ += length * dx;
+      return true;
     }
+    return false;
+  }
+
+  /// Whether the motion goes on as it is: a little later, solved again, it must have kept still but for its velocities.
+  bool stays_steady(const State& now) {
+    const double fastest = now.v.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
+    if (fastest == 0) return true;
+    const double dt = kLargestIncrement / fastest;
+    State expected = now;
+    expected.t += dt;
+    equations_.retract(now.q, dt * now.v, expected.q);
+    here_ = expected;
+    const double deformed = walked_.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
+    walked_.setZero(reach_.size());
+    if (!assemble(here_)) return true;  // outside of the domain: the state itself is what was asked for
+    for (int i = 0; worst_ > 1 && i < 20; ++i)
+      if (!advance_to_steady_motion()) break;
+    const VectorXd moved = walked_.cwiseQuotient(reach_).cwiseAbs();
+    Index farthest = 0;
+    if (moved.maxCoeff(&farthest) < std::max(kSteady, kFixedShare * kLargestIncrement * deformed)) return true;
+    summary_.message = fmt::format(
+        "no steady motion: {} does not keep still while the drives turn; what it turns in must be alike all around its "
+        "axis, with gravity along it, and the drives' speeds constant",
+        equations_.name_of_row(farthest));
     return false;
   }
 
@@ -187,6 +222,7 @@ class EquilibriumSearch {
   EquilibriumOptions options_;
   State here_;
   VectorXd reach_, residual_, scale_, increment_;
+  VectorXd walked_;  ///< by the steps towards a steady motion
   Equations::SparseMatrix stiffness_, mass_, tangent_;
   SparseLu lu_;
   double mu_ = 0, worst_ = 0;

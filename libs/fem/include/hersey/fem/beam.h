@@ -83,7 +83,7 @@ struct BeamMotionResponse {
   BeamMatrix K, C;         ///< d force / d position, d force / d velocity; exact
 };
 
-/// (elastic.22): forces of strains and of their rates times `damping` [s].
+/// Theory manual eq. (beams.2), (beams.3): forces of strains and of their rates times `damping` [s].
 [[nodiscard]] BeamMotionResponse beam_response(const BeamElement& element, const BeamMotion& motion, double damping);
 
 /// Moves a state by small unknowns (6 nodes): R exp(theta), r + d.

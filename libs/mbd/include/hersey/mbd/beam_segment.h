@@ -15,7 +15,7 @@ struct BeamSegmentData {
 };
 
 /// One element of a beam of any rotation and small strain, which shares its frames with its neighbours (theory manual
-/// eq. (flexible-bodies.15) to (flexible-bodies.18)): forces of strains and of their rates as the element of `fem` has
+/// eq. (beams.1) to (beams.6)): forces of strains and of their rates as the element of `fem` has
 /// them, the mass of linearly moving points, half of the sections' inertia on each frame.
 class BeamSegment final : public ElasticBody {
  public:
