@@ -71,9 +71,13 @@ struct ReduceArguments {
   std::string length_unit = "m";
   std::vector<std::string> frames;                     ///< "name=set:connection"
   std::string youngs_modulus, poisson_ratio, density;  ///< empty: the mesh file's
+  std::string orthotropic;                             ///< nine constants in place of the first two
   std::filesystem::path stiffness, mass;               ///< matrices of another program; empty: ours
   int modes = 20;
-  std::string highest;  ///< frequency; empty: none
+  std::string highest;             ///< frequency; empty: none
+  std::vector<std::string> loads;  ///< surfaces that carry load
+  int harmonics = 4;               ///< of the pressures around a bore
+  std::string static_error;        ///< share or percent; empty: told alone
   std::filesystem::path output;
   bool force = false;
 };
@@ -85,7 +89,7 @@ struct ReduceArguments {
 struct SolidArguments {
   std::string file;
   std::string length_unit = "m";
-  std::string young, poisson, density;
+  std::string young, poisson, orthotropic, density;
   std::vector<std::string> hold;      ///< sets that do not move: SET, or SET:xz for some directions only
   std::vector<std::string> pressure;  ///< SURFACE=20MPa
   std::string gravity;                ///< "0,0,-9.81", in m/s^2; empty: none

@@ -101,6 +101,11 @@ CLI::App* add_reduce_command(CLI::App& app, ReduceArguments& reduce) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--youngs-modulus", reduce.youngs_modulus, "Default: the file's")->type_name("210GPa");
   command->add_option("--poisson-ratio", reduce.poisson_ratio, "Default: the file's")->type_name("0.3");
+  command
+      ->add_option(
+          "--orthotropic", reduce.orthotropic,
+          "Nine constants along the mesh's axes in place of these: E_1,E_2,E_3,nu_12,nu_23,nu_13,G_12,G_23,G_13")
+      ->type_name("140GPa,...");
   command->add_option("--density", reduce.density, "Default: the file's")->type_name("7850kg/m^3");
   command->add_option("--stiffness", reduce.stiffness, "Stiffness matrix of another program instead (.mtx, SI)")
       ->type_name("FILE");
@@ -108,6 +113,18 @@ CLI::App* add_reduce_command(CLI::App& app, ReduceArguments& reduce) {
   command->add_option("--modes", reduce.modes, "Modes with all frames held, at most (default: 20)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--highest", reduce.highest, "Modes up to this frequency only")->type_name("5000Hz");
+  command
+      ->add_option("--load", reduce.loads,
+                   "Surface or node set that carries load: tells how well the modes meet its static displacement")
+      ->type_name("SET")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--harmonics", reduce.harmonics,
+                   "Of the pressures looked at around a bore under --load (default: 4)")
+      ->check(CLI::Range(0, 40));
+  command->add_option("--static-error", reduce.static_error, "Adds static shapes until no error under --load is larger")
+      ->type_name("1%");
   command->add_option("--output", reduce.output, "File to write")->type_name("FILE.h5")->required();
   command->add_flag("--force", reduce.force, "Replace the file if it exists");
   return command;
@@ -122,6 +139,9 @@ CLI::App* add_solid_command(CLI::App& app, const char* name, const char* descrip
   value("--length-unit", solid.length_unit, "What one unit of the file is (default: m)", "mm");
   value("--youngs-modulus", solid.young, "Young's modulus, instead of the file's", "210GPa");
   value("--poisson-ratio", solid.poisson, "Poisson's ratio, instead of the file's", "0.3");
+  value("--orthotropic", solid.orthotropic,
+        "Nine constants along the mesh's axes in place of these: E_1,E_2,E_3,nu_12,nu_23,nu_13,G_12,G_23,G_13",
+        "140GPa,...");
   value("--density", solid.density, "Density, instead of the file's", "7850kg/m^3");
   command->add_option("--hold", solid.hold, "Set of nodes that does not move, or SET:xz along some axes only")
       ->type_name("SET")
@@ -143,7 +163,10 @@ CLI::App* add_modes_command(CLI::App& app, SolidArguments& solid) {
 CLI::App* add_stress_command(CLI::App& app, SolidArguments& solid) {
   CLI::App* command =
       add_solid_command(app, "stress", "Displacements and stresses of an elastic body under constant loads", solid);
-  command->add_option("--pressure", solid.pressure, "Pressure on a surface of the mesh")
+  command
+      ->add_option("--pressure", solid.pressure,
+                   "Pressure on a surface or a node set's faces; with :x,y,z that of a pin pressed this way, which "
+                   "falls as the cosine")
       ->type_name("SURFACE=20MPa")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "commands.h"
@@ -14,7 +15,9 @@
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduced_body_file.h"
+#include "hersey/fem/surface_loads.h"
 #include "option_value.h"
+#include "orthotropic_option.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -71,6 +74,11 @@ std::vector<fem::SolidMaterial> materials_of(const Mesh& mesh, const ReduceArgum
   if (in_file.empty()) in_file.emplace_back();
   std::vector<fem::SolidMaterial> materials;
   for (const fem::MeshMaterial& material : in_file) {
+    if (!arguments.orthotropic.empty()) {
+      materials.push_back(orthotropic_material(
+          arguments.orthotropic, constant("--density", arguments.density, material.density, "kg/m^3", material.name)));
+      continue;
+    }
     const double E =
         constant("--youngs-modulus", arguments.youngs_modulus, material.youngs_modulus, "Pa", material.name);
     const double nu = constant("--poisson-ratio", arguments.poisson_ratio, material.poisson_ratio, "1", material.name);
@@ -93,6 +101,51 @@ fem::ElasticBody body_of(Mesh mesh, const ReduceArguments& arguments) {
   return fem::assemble(std::move(mesh), std::move(materials));
 }
 
+// "1%" or "0.01".
+double share_of(const std::string& text) {
+  const bool percent = !text.empty() && text.back() == '%';
+  const double share =
+      in_si("--static-error", percent ? text.substr(0, text.size() - 1) : text, "1") * (percent ? 0.01 : 1);
+  if (!(share > 0 && share < 1)) fail("--static-error", "'" + text + "'", "a share between 0 and 1, such as 1%");
+  return share;
+}
+
+std::vector<fem::LoadedSurface> surfaces_of(const Mesh& mesh, const ReduceArguments& arguments) {
+  std::vector<fem::LoadedSurface> surfaces;
+  for (const std::string& name : arguments.loads) {
+    if (fem::faces_called(mesh, name).empty()) {
+      std::set<std::string> names;
+      for (const auto& [known, nodes] : mesh.node_sets) names.insert(known);
+      for (const auto& [known, faces] : mesh.surfaces) names.insert(known);
+      const std::vector<std::string> all(names.begin(), names.end());
+      fail("--load", names.count(name) > 0 ? "'" + name + "' has no faces" : "no surface or set '" + name + "'",
+           one_of(all), did_you_mean(name, all));
+    }
+    surfaces.push_back(fem::loaded_surface(mesh, name, arguments.harmonics));
+  }
+  return surfaces;
+}
+
+fem::ReductionOptions options_of(const Mesh& mesh, const ReduceArguments& arguments) {
+  fem::ReductionOptions options;
+  options.modes = arguments.modes;
+  if (!arguments.highest.empty()) options.highest = 2 * std::numbers::pi * in_si("--highest", arguments.highest, "Hz");
+  options.surfaces = surfaces_of(mesh, arguments);
+  if (arguments.static_error.empty()) return options;
+  options.static_error = share_of(arguments.static_error);
+  if (options.surfaces.empty()) fail("--static-error", "no --load", "a surface that carries load: --load SET");
+  return options;
+}
+
+void print_static_errors(const fem::ReducedBody& reduced) {
+  if (reduced.static_errors.empty()) return;
+  std::vector<std::vector<std::string>> lines = {{"load on", "pressures", "static error, modes alone", "reduced body"}};
+  for (const fem::StaticError& error : reduced.static_errors)
+    lines.push_back({error.surface, fmt::format("{}", error.shapes), fmt::format("{:.3g} %", 100 * error.modes),
+                     fmt::format("{:.3g} %", 100 * error.reduced)});
+  fmt::print("{}", aligned(lines, 1));
+}
+
 void print(const fem::ElasticBody& body, const fem::ReducedBody& reduced, const std::filesystem::path& output) {
   fmt::print("nodes     {} ({} degrees of freedom), {:.6g} kg\n", body.node_count(), body.size(), body.mass);
   std::vector<std::vector<std::string>> lines = {{"frame", "connection", "nodes", "x, y, z [m]"}};
@@ -105,6 +158,7 @@ void print(const fem::ElasticBody& body, const fem::ReducedBody& reduced, const 
   for (const double omega : reduced.internal_omega)
     frequencies.push_back(fmt::format("{:.5g}", omega / (2 * std::numbers::pi)));
   fmt::print("modes     {} with all frames held [Hz]: {}\n", frequencies.size(), fmt::join(frequencies, ", "));
+  print_static_errors(reduced);
   fmt::print("reduced   {} coordinates: {}\n", reduced.size(), output.string());
 }
 
@@ -123,10 +177,7 @@ int reduce_command(const ReduceArguments& arguments) {
   std::vector<fem::InterfaceFrame> frames;
   for (const std::string& text : arguments.frames) frames.push_back(frame_of(mesh, text));
   const fem::ElasticBody body = body_of(std::move(mesh), arguments);
-  fem::ReductionOptions options;
-  options.modes = arguments.modes;
-  if (!arguments.highest.empty()) options.highest = 2 * std::numbers::pi * in_si("--highest", arguments.highest, "Hz");
-  const fem::Reduction reduction = fem::reduce(body, frames, options);
+  const fem::Reduction reduction = fem::reduce(body, frames, options_of(body.mesh, arguments));
   if (!reduction.ok) throw std::runtime_error(reduction.message);
   fem::write_reduced_body(arguments.output, reduction.body);
   print(body, reduction.body, arguments.output);

@@ -48,8 +48,12 @@ void write_modes(const SolidArguments& arguments, const fem::ElasticBody& body, 
   fem::write_vtu(arguments.vtu, body.mesh, frame);
 }
 
-void print_modes(const fem::ElasticBody& body, const fem::Vibration& modes) {
-  fmt::print("body      {} degrees of freedom, {:.6g} kg\n\n", body.size(), body.mass);
+void print_modes(const SolidArguments& arguments, const fem::ElasticBody& body, const fem::Vibration& modes) {
+  fmt::print("body      {} degrees of freedom, {:.6g} kg\n", body.size(), body.mass);
+  if (arguments.hold.empty())
+    fmt::print("free      {} rigid motions\n\n", modes.rigid);
+  else
+    fmt::print("held      at {}\n\n", fmt::join(arguments.hold, ", "));
   std::vector<std::vector<std::string>> lines = {{"mode", "frequency/Hz", ""}};
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k)
     lines.push_back({fmt::format("{}", k + 1), fmt::format("{:.5g}", modes.omega[k] / (2 * std::numbers::pi)),
@@ -91,13 +95,15 @@ int modes_command(const SolidArguments& arguments) {
   if (!modes.ok) return fail(modes.message);
   if (!arguments.vtu.empty()) write_modes(arguments, body, modes);
   if (!arguments.json) {
-    print_modes(body, modes);
+    print_modes(arguments, body, modes);
     return kOk;
   }
   nlohmann::json document = {{"file", arguments.file},
                              {"degrees_of_freedom", body.size()},
                              {"mass", body.mass},
+                             {"held", arguments.hold},
                              {"rigid", modes.rigid},
+                             {"unit", "Hz"},
                              {"frequencies", nlohmann::json::array()}};
   for (const double omega : modes.omega) document["frequencies"].push_back(omega / (2 * std::numbers::pi));
   fmt::print("{}\n", document.dump(2));

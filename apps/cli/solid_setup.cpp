@@ -9,10 +9,11 @@
 
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
-#include "hersey/fem/loads.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
+#include "hersey/fem/surface_loads.h"
 #include "option_value.h"
+#include "orthotropic_option.h"
 
 namespace hersey::cli {
 namespace {
@@ -40,6 +41,10 @@ double constant(const char* option, const std::string& given, const char* unit, 
 }
 
 fem::SolidMaterial material_of(const SolidArguments& a, const fem::MeshMaterial& of_file, bool needs_mass) {
+  if (!a.orthotropic.empty()) {
+    const std::optional<double> rho = needs_mass || of_file.density ? of_file.density : std::optional<double>(0);
+    return orthotropic_material(a.orthotropic, constant("--density", a.density, "kg/m^3", rho));
+  }
   fem::ElasticMaterial material;
   material.youngs_modulus = constant("--youngs-modulus", a.young, "Pa", of_file.youngs_modulus);
   material.poisson_ratio = constant("--poisson-ratio", a.poisson, "1", of_file.poisson_ratio);
@@ -63,23 +68,38 @@ void require_constants(const SolidArguments& a, const std::vector<fem::MeshMater
     if (given.empty() && !in_file)
       faults.push_back({{"", 0, 0}, option, "the mesh file does not say it", expected, "give it on the command line"});
   };
-  need("--youngs-modulus", a.young, "Young's modulus, such as 210GPa", &fem::MeshMaterial::youngs_modulus);
-  need("--poisson-ratio", a.poisson, "Poisson's ratio, such as 0.3", &fem::MeshMaterial::poisson_ratio);
+  if (a.orthotropic.empty()) {
+    need("--youngs-modulus", a.young, "Young's modulus, such as 210GPa", &fem::MeshMaterial::youngs_modulus);
+    need("--poisson-ratio", a.poisson, "Poisson's ratio, such as 0.3", &fem::MeshMaterial::poisson_ratio);
+  }
   if (needs_mass) need("--density", a.density, "a density, such as 7850kg/m^3", &fem::MeshMaterial::density);
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-Vector3 vector_of(const char* option, const std::string& text) {
+Vector3 vector_of(const char* option, const std::string& text, const char* expected) {
   Vector3 v;
   const char *at = text.data(), *end = text.data() + text.size();
   for (int k = 0; k < 3; ++k) {
     const auto [next, error] = std::from_chars(at, end, v[k]);
     const bool last = k == 2;
     if (error != std::errc() || (last ? next != end : next == end || *next != ','))
-      refuse(option, "'" + text + "'", "three numbers in m/s^2, such as 0,0,-9.81");
+      refuse(option, "'" + text + "'", expected);
     at = next + 1;
   }
   return v;
+}
+
+/// Nodal forces of "20MPa" or, as a pin pressed that way does it, "20MPa:0,1,0" on a surface or the faces of a set.
+Eigen::VectorXd pressure_of(const fem::Mesh& mesh, const std::string& name, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const double pressure = in_si("--pressure", text.substr(0, colon), "Pa");
+  std::vector<fem::ElementFace> faces = fem::faces_called(mesh, name);
+  if (faces.empty()) faces = named(mesh.surfaces, name, "--pressure", "surface");
+  if (colon == std::string::npos) return fem::pressure_load(mesh, faces, pressure);
+  const Vector3 towards =
+      vector_of("--pressure", text.substr(colon + 1), "three numbers behind the colon, such as 0,1,0");
+  if (!(towards.norm() > 0)) refuse("--pressure", "'" + text + "'", "a direction of some length");
+  return pressure * fem::cosine_pressure_load(mesh, faces, towards.normalized());
 }
 
 }  // namespace
@@ -127,11 +147,11 @@ Eigen::VectorXd loads_of(const SolidArguments& arguments, const fem::ElasticBody
   for (const std::string& text : arguments.pressure) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) refuse("--pressure", "'" + text + "'", "a surface and a value, SURFACE=20MPa");
-    const double pressure = in_si("--pressure", text.substr(equals + 1), "Pa");
-    f += fem::pressure_load(body.mesh, named(body.mesh.surfaces, text.substr(0, equals), "--pressure", "surface"),
-                            pressure);
+    f += pressure_of(body.mesh, text.substr(0, equals), text.substr(equals + 1));
   }
-  if (!arguments.gravity.empty()) f += fem::gravity_load(body, vector_of("--gravity", arguments.gravity));
+  if (!arguments.gravity.empty())
+    f +=
+        fem::gravity_load(body, vector_of("--gravity", arguments.gravity, "three numbers in m/s^2, such as 0,0,-9.81"));
   return f;
 }
 

@@ -124,6 +124,15 @@ class CommandLine(unittest.TestCase):
             self.assertAlmostEqual(moved, 0.4621, delta=1e-4)
         run = hersey(*arguments, "--density", "7850 kg/m^3")
         self.assertIn("--force", run.stderr, "a file that exists is kept")
+        run = hersey(*arguments, "--density", "7850 kg/m^3", "--force", "--load", "big_end", "--static-error", "1%")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertRegex(run.stdout, r"big_end +18 +\d\d\.\d %")
+        run = hersey(*arguments, "--density", "7850 kg/m^3", "--force", "--load", "bigend")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("did you mean 'big_end'", run.stderr)
+        run = hersey(*arguments, "--density", "7850 kg/m^3", "--force", "--static-error", "1%")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("--load SET", run.stderr)
         run = hersey(*arguments[:-1], file + "2", "--density", "7850 kg/m^3", "--frame", "smal_end")
         self.assertEqual(run.returncode, WRONG_INPUT)
         self.assertIn("'small_end'", run.stderr)
@@ -154,7 +163,9 @@ class CommandLine(unittest.TestCase):
             self.assertAlmostEqual(frequency / reference, 1, delta=2e-5)
         with open(vtu, "rb") as file:
             self.assertIn(b'Name="mode_6"', file.read())
+        self.assertEqual((told["unit"], told["held"]), ("Hz", ["FIX"]))
         free = hersey("modes", mesh, "--count", "7").stdout
+        self.assertRegex(free, r"free +6 rigid motions")
         self.assertRegex(free, r"1 +0 +rigid")
         self.assertIn("315.06", free)
 

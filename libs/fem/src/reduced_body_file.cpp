@@ -7,6 +7,7 @@
 
 #include "hdf5_file.h"
 #include "hersey/core/input_error.h"
+#include "mesh_data.h"
 
 namespace hersey::fem {
 namespace {
@@ -132,6 +133,7 @@ ReducedBody read_body(const Hdf5File& file) {
           fmt::format("data set 'internal_omega' has {} numbers for {} internal coordinates",
                       body.internal_omega.size(), body.size() - body.internal_first()));
   if (file.has("energy_missed")) body.energy_missed = read_vector(file, "energy_missed");
+  read_mesh_data(file, body);
   return body;
 }
 
@@ -152,6 +154,7 @@ void write_reduced_body(const std::filesystem::path& path, const ReducedBody& bo
       for (std::size_t f = 0; f < body.frames.size(); ++f) write_frame(file, f, body.frames[f]);
       file.write("internal_omega", numbers_of(body.internal_omega));
       file.write("energy_missed", numbers_of(body.energy_missed));
+      write_mesh_data(file, body);
     }
     std::filesystem::rename(unfinished, path);
   } catch (const std::runtime_error& error) {

@@ -9,6 +9,7 @@
 #include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/vibration.h"
 #include "interface_motion.h"
+#include "static_error.h"
 
 namespace hersey::fem {
 namespace {
@@ -149,14 +150,18 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
     modes = natural_modes(body, interface.held, {.count = options.modes, .highest = options.highest}, interface.C);
   if (!modes.ok) return {.message = modes.message};
   const MatrixXd exact = options.loads.size() ? stiffness.solve(options.loads) : MatrixXd(body.size(), 0);
-  internal.resize(body.size(), modes.shapes.cols() + exact.cols());
-  internal << modes.shapes, exact;
+  const StaticShapes of_surfaces = static_shapes(stiffness, modes, options);
+  internal.resize(body.size(), modes.shapes.cols() + exact.cols() + of_surfaces.added.cols());
+  internal << modes.shapes, exact, of_surfaces.added;
 
   Reduction reduction{.ok = true};
   ReducedBody& reduced = reduction.body;
   reduced.frames = frames;
   reduced.nodes = body.mesh.nodes;
   reduced.m = body.m;
+  reduced.mesh = body.mesh;
+  reduced.materials = body.materials;
+  reduced.static_errors = of_surfaces.errors;
   reduced.energy_missed = energy_missed(options.loads, exact, modes);
   reduced.internal_omega = orthonormalise(body, internal);
   const MatrixXd boundary = constraint_modes(body, interface, stiffness);

@@ -1,5 +1,6 @@
 #include "hersey/fem/stress.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -47,11 +48,15 @@ struct PointStress {
   Eigen::VectorXd volume;
 };
 
-PointStress stress_at_points(const ElasticBody& body, const Element& element, const Eigen::VectorXd& u) {
-  const NodeColumns x = body.positions_of(element);
-  NodeColumns displacement(3, x.cols());
-  for (Eigen::Index a = 0; a < x.cols(); ++a) displacement.col(a) = u.segment<3>(3 * body.mesh.nodes_of(element)[a]);
-  const std::vector<QuadraturePoint>& points = stiffness_points(element.type, body.integration);
+PointStress stress_at_points(const Mesh& mesh, const Element& element, const SolidMaterial& material,
+                             const Eigen::VectorXd& u, Integration integration) {
+  NodeColumns x(3, node_count(element.type)), displacement = x;
+  for (Eigen::Index a = 0; a < x.cols(); ++a) {
+    const int node = mesh.nodes_of(element)[a];
+    x.col(a) = mesh.nodes[static_cast<std::size_t>(node)];
+    displacement.col(a) = u.segment<3>(3 * node);
+  }
+  const std::vector<QuadraturePoint>& points = stiffness_points(element.type, integration);
   std::vector<Vector3> xi;
   xi.reserve(points.size());
   Eigen::VectorXd volume(points.size());
@@ -60,7 +65,6 @@ PointStress stress_at_points(const ElasticBody& body, const Element& element, co
         point.weight * element_point(shape_functions(element.type, point.xi), x).jacobian;
     xi.push_back(point.xi);
   }
-  const SolidMaterial& material = body.material_of(element);
   const auto strain = element_strain(element.type, x, material, displacement, xi);
   return {strain, material.D * strain, volume};
 }
@@ -68,27 +72,34 @@ PointStress stress_at_points(const ElasticBody& body, const Element& element, co
 }  // namespace
 
 Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u) {
-  HERSEY_REQUIRE(u.size() == body.size(), "one displacement per degree of freedom");
-  const auto elements = static_cast<Eigen::Index>(body.mesh.elements.size());
+  return recover_stress(body.mesh, body.materials, u, body.integration);
+}
+
+Stress recover_stress(const Mesh& mesh, const std::vector<SolidMaterial>& materials, const Eigen::VectorXd& u,
+                      Integration integration) {
+  const auto nodes = static_cast<Eigen::Index>(mesh.nodes.size());
+  HERSEY_REQUIRE(u.size() == 3 * nodes, "one displacement per degree of freedom");
+  const auto elements = static_cast<Eigen::Index>(mesh.elements.size());
   Stress s;
-  s.nodal.setZero(6, body.node_count());
+  s.nodal.setZero(6, nodes);
   s.element.resize(6, elements);
   s.element_energy.resize(elements);
-  s.nodal_von_mises.resize(body.node_count());
+  s.nodal_von_mises.resize(nodes);
   s.element_von_mises.resize(elements);
-  Eigen::VectorXd around = Eigen::VectorXd::Zero(body.node_count());
+  Eigen::VectorXd around = Eigen::VectorXd::Zero(nodes);
   std::map<ElementType, Continuation> continued;
   for (Eigen::Index e = 0; e < elements; ++e) {
-    const Element& element = body.mesh.elements[static_cast<std::size_t>(e)];
+    const Element& element = mesh.elements[static_cast<std::size_t>(e)];
     const auto [to_nodes, is_new] = continued.try_emplace(element.type);
-    if (is_new) to_nodes->second = continuation(element.type, body.integration);
-    const PointStress at = stress_at_points(body, element, u);
+    if (is_new) to_nodes->second = continuation(element.type, integration);
+    const SolidMaterial& material = materials[static_cast<std::size_t>(std::max(element.material, 0))];
+    const PointStress at = stress_at_points(mesh, element, material, u, integration);
     s.element.col(e) = at.stress * at.volume / at.volume.sum();
     s.element_energy[e] = 0.5 * (at.stress.cwiseProduct(at.strain).colwise().sum() * at.volume).value();
     s.element_von_mises[e] = von_mises(s.element.col(e));
     const Eigen::MatrixXd nodal = at.stress * to_nodes->second.transpose();
     for (Eigen::Index a = 0; a < nodal.cols(); ++a) {
-      const int node = body.mesh.nodes_of(element)[a];
+      const int node = mesh.nodes_of(element)[a];
       s.nodal.col(node) += nodal.col(a);
       ++around[node];
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "hersey/core/contract.h"
 
@@ -35,6 +36,15 @@ std::vector<ElementFace> faces_called(const Mesh& mesh, const std::string& name)
   if (const auto surface = mesh.surfaces.find(name); surface != mesh.surfaces.end()) return surface->second;
   const auto set = mesh.node_sets.find(name);
   return set == mesh.node_sets.end() ? std::vector<ElementFace>() : outer_faces(mesh, set->second);
+}
+
+std::vector<int> nodes_on(const Mesh& mesh, const std::vector<ElementFace>& faces) {
+  std::set<int> nodes;
+  for (const ElementFace& face : faces) {
+    const Element& element = mesh.elements[static_cast<std::size_t>(face.element)];
+    for (const int a : face_nodes(element.type, face.face)) nodes.insert(mesh.nodes_of(element)[a]);
+  }
+  return {nodes.begin(), nodes.end()};
 }
 
 Eigen::VectorXd cosine_pressure_load(const Mesh& mesh, const std::vector<ElementFace>& faces, const Vector3& towards) {

@@ -52,6 +52,37 @@ TEST_CASE("ReducedBody_IsReadBackBitForBit") {
   CHECK_FALSE(std::filesystem::exists(folder / "rod.h5.new"));
 }
 
+TEST_CASE("ReducedBody_KeepsItsMesh") {
+  const TemporaryDirectory folder;
+  const ReducedBody body = reduced();
+  write_reduced_body(folder / "rod.h5", body);
+  const ReducedBody back = read_reduced_body(folder / "rod.h5");
+  CHECK(back.mesh.nodes == body.mesh.nodes);
+  CHECK(back.mesh.node_labels == body.mesh.node_labels);
+  CHECK(back.mesh.connectivity == body.mesh.connectivity);
+  CHECK(back.mesh.node_sets == body.mesh.node_sets);
+  REQUIRE(back.mesh.elements.size() == 4);
+  CHECK(back.mesh.elements[3].type == ElementType::hex8);
+  CHECK(back.mesh.elements[3].first == body.mesh.elements[3].first);
+  CHECK(back.mesh.elements[3].label == body.mesh.elements[3].label);
+  REQUIRE(back.mesh.surfaces.size() == body.mesh.surfaces.size());
+  CHECK(back.mesh.surfaces.at("x1")[0].element == 3);
+  CHECK(back.mesh.surfaces.at("x1")[0].face == body.mesh.surfaces.at("x1")[0].face);
+  REQUIRE(back.materials.size() == 1);
+  CHECK(back.materials[0].D == body.materials[0].D);
+  CHECK(back.materials[0].density == 7850);
+}
+
+TEST_CASE("ReducedBodyOfAnotherProgram_NeedsNoElements") {
+  const TemporaryDirectory folder;
+  ReducedBody body = reduced();
+  body.mesh = {};
+  write_reduced_body(folder / "rod.h5", body);
+  const ReducedBody back = read_reduced_body(folder / "rod.h5");
+  CHECK(back.mesh.elements.empty());
+  CHECK(back.mesh.nodes == body.nodes);
+}
+
 /// What is said of a file that another program wrote wrong.
 template <typename Spoil>
 std::string fault_after(const Spoil& spoil) {
@@ -82,6 +113,14 @@ TEST_CASE("SpoiledReducedBodies_AreToldByTheirDataSet") {
         "frame 'right' has 3 weights for 4 nodes");
   CHECK(fault_after([](ReducedBody& b) { b.internal_omega.conservativeResize(2); }) ==
         "data set 'internal_omega' has 2 numbers for 5 internal coordinates");
+  CHECK(fault_after([](ReducedBody& b) { b.mesh.connectivity[2] = 20; }) ==
+        "data set 'mesh/connectivity' has 20, not from 0 to 19");
+  CHECK(fault_after([](ReducedBody& b) { b.mesh.connectivity.pop_back(); }) ==
+        "data set 'mesh/connectivity' has 31 nodes for elements of 32");
+  CHECK(fault_after([](ReducedBody& b) { b.mesh.surfaces["x0"][0].face = 6; }) ==
+        "data set 'mesh/surfaces/0/faces' has 6, not from 0 to 5");
+  CHECK(fault_after([](ReducedBody& b) { b.mesh.elements[1].material = 1; }) ==
+        "element 2 has a material that is not in 'materials'");
   CHECK(fault_after([](ReducedBody& b) { b.m *= 0.0; }) == "'mass' adds up to nothing");
 }
 

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "hersey/core/contract.h"
@@ -13,10 +14,8 @@ namespace {
 
 fem::ElasticBody assembled(const Body& body) {
   const Flexible& flexible = *body.flexible;
-  std::vector<fem::SolidMaterial> materials;
-  for (const fem::ElasticMaterial& material : flexible.materials) materials.push_back(fem::isotropic(material));
   try {
-    return fem::assemble(*flexible.mesh, std::move(materials));
+    return fem::assemble(*flexible.mesh, flexible.materials);
   } catch (const InputError& error) {
     std::vector<Fault> faults = error.faults();
     for (Fault& fault : faults) {
@@ -27,11 +26,20 @@ fem::ElasticBody assembled(const Body& body) {
   }
 }
 
-}  // namespace
+fem::ReductionOptions options_of(const Flexible& flexible) {
+  fem::ReductionOptions options;
+  options.modes = flexible.modes;
+  if (flexible.highest > 0) options.highest = 2 * std::numbers::pi * flexible.highest;
+  options.static_error = flexible.static_error;
+  for (const std::string& name : flexible.load_surfaces)
+    options.surfaces.push_back(fem::loaded_surface(*flexible.mesh, name, flexible.load_harmonics));
+  return options;
+}
 
-BuiltFlexible build_flexible(const Body& body) {
-  HERSEY_REQUIRE(body.flexible && body.flexible->mesh, "the reader checks meshes");
+/// `mesh` is null where the body comes reduced from a file.
+fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh) {
   const Flexible& flexible = *body.flexible;
+  if (mesh == nullptr) return *flexible.reduced;
   std::vector<fem::InterfaceFrame> frames;
   frames.reserve(body.frames.size());
   for (const Frame& frame : body.frames) {
@@ -39,26 +47,35 @@ BuiltFlexible build_flexible(const Body& body) {
     frames.push_back({frame.name, frame.X_BF.r, frame.nodes, frame.connection,
                       is_average ? fem::face_weights(*flexible.mesh, frame.nodes) : std::vector<double>()});
   }
-  fem::ReductionOptions options;
-  options.modes = flexible.modes;
-  if (flexible.highest > 0) options.highest = 2 * std::numbers::pi * flexible.highest;
-  fem::ElasticBody mesh = assembled(body);
-  const fem::Reduction reduction = fem::reduce(mesh, frames, options);
+  fem::Reduction reduction = fem::reduce(*mesh, frames, options_of(flexible));
   if (!reduction.ok)
     throw InputError({.position = flexible.position,
                       .path = "bodies." + body.name + ".flexible",
                       .found = reduction.message,
                       .expected = "a mesh that can be held at its frames",
                       .suggestion = "see `hersey mesh` for its sets and its quality"});
+  return std::move(reduction.body);
+}
+
+}  // namespace
+
+BuiltFlexible build_flexible(const Body& body) {
+  HERSEY_REQUIRE(body.flexible && body.flexible->mesh, "the reader checks meshes");
+  const Flexible& flexible = *body.flexible;
+  std::optional<fem::ElasticBody> mesh;
+  if (!flexible.reduced) mesh = assembled(body);
+  const fem::ReducedBody shapes = reduced(body, mesh ? &*mesh : nullptr);
   BuiltFlexible built;
   built.name = body.name;
   built.mesh = flexible.mesh;
-  mbd::ModalBodyData data = mbd::modal_data(reduction.body, flexible.damping, &built.shapes);
+  built.materials = shapes.materials;
+  built.static_errors = shapes.static_errors;
+  mbd::ModalBodyData data = mbd::modal_data(shapes, flexible.damping, &built.shapes);
   if (flexible.nodal)
-    built.body = std::make_shared<mbd::NodalBody>(std::move(mesh), reduction.body, flexible.damping);
+    built.body = std::make_shared<mbd::NodalBody>(std::move(*mesh), shapes, flexible.damping);
   else
     built.body = std::make_shared<mbd::ModalBody>(std::move(data));
-  for (const double omega : reduction.body.internal_omega) built.frequencies.push_back(omega / (2 * std::numbers::pi));
+  for (const double omega : shapes.internal_omega) built.frequencies.push_back(omega / (2 * std::numbers::pi));
   return built;
 }
 

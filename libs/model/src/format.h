@@ -26,6 +26,9 @@ namespace hersey::model {
 [[nodiscard]] TypePtr output_format();
 [[nodiscard]] TypePtr study_format();
 
+/// A rotation of axes: about an axis by an angle.
+[[nodiscard]] TypePtr rotation_format();
+
 /// A direction: a frame's x, y or z, or three numbers.
 [[nodiscard]] TypePtr axis_format();
 

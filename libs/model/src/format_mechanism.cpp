@@ -1,34 +1,39 @@
 #include "format.h"
 
 namespace hersey::model {
+
+TypePtr rotation_format() {
+  return object(
+      "an axis and an angle",
+      {
+          required("axis", axis_format(), "Direction: x, y, z or three numbers, whose length does not matter."),
+          required("angle", quantity("rad", "90 deg"), "Right-handed about the axis."),
+      });
+}
+
 namespace {
 
 TypePtr frames_format() {
-  const TypePtr rotation =
-      object("an axis and an angle",
-             {
-                 required("axis", axis_format(), "Direction: x, y, z or three numbers, whose length does not matter."),
-                 required("angle", quantity("rad", "90 deg"), "Right-handed about the axis."),
-             });
-  return named("a mapping from names to frames",
-               object("a frame", {
-                                     optional("origin", vector("m", "0 50 0 mm"), "From the body's origin.",
-                                              "0 0 0 m; with `nodes`, the centre of their faces"),
-                                     optional("rotation", rotation, "Turns the frame's axes from the body's.", "none"),
-                                     optional("nodes", text("a set of nodes", "big_end"),
-                                              "Set of the mesh's nodes that the frame of a flexible body stands on."),
-                                     optional("connection",
-                                              choice({{"rigid", "the nodes follow the frame as one rigid piece"},
-                                                      {"average",
-                                                       "the frame follows the nodes' mean motion, and what acts on it "
-                                                       "spreads over them"}}),
-                                              "How frame and nodes hold each other.", "rigid"),
-                                     optional("along",
-                                              or_word(quantity("m", "250 mm", Range::not_negative()),
-                                                      {{"start", "at its first point"}, {"end", "at its last point"}}),
-                                              "Where on a beam the frame sits: distance from its start along its axis.",
-                                              "**required** on beams"),
-                                 }));
+  return named(
+      "a mapping from names to frames",
+      object("a frame", {
+                            optional("origin", vector("m", "0 50 0 mm"), "From the body's origin.",
+                                     "0 0 0 m; with `nodes`, the centre of their faces"),
+                            optional("rotation", rotation_format(), "Turns the frame's axes from the body's.", "none"),
+                            optional("nodes", text("a set of nodes", "big_end"),
+                                     "Set of the mesh's nodes that the frame of a flexible body stands on."),
+                            optional("connection",
+                                     choice({{"rigid", "the nodes follow the frame as one rigid piece"},
+                                             {"average",
+                                              "the frame follows the nodes' mean motion, and what acts on it "
+                                              "spreads over them"}}),
+                                     "How frame and nodes hold each other.", "rigid"),
+                            optional("along",
+                                     or_word(quantity("m", "250 mm", Range::not_negative()),
+                                             {{"start", "at its first point"}, {"end", "at its last point"}}),
+                                     "Where on a beam the frame sits: distance from its start along its axis.",
+                                     "**required** on beams"),
+                        }));
 }
 
 Key between_format() {

@@ -75,7 +75,12 @@ FrameName frame_of(Context& context, const Value& reference) {
   }
   if (name.frame.empty()) return name;
   const Value* body = context.root.find("bodies")->find(name.body);
-  const std::vector<std::string> frames = body != nullptr ? names_in(*body, "frames") : std::vector<std::string>{};
+  std::vector<std::string> frames = body != nullptr ? names_in(*body, "frames") : std::vector<std::string>{};
+  for (const Body& read : context.model.bodies)  // a reduced body brings its frames along
+    if (read.name == name.body && read.flexible && read.flexible->reduced) {
+      frames.clear();
+      for (const Frame& frame : read.frames) frames.push_back(frame.name);
+    }
   if (std::find(frames.begin(), frames.end(), name.frame) == frames.end()) {
     const std::string found = "unknown frame '" + name.frame + "' of body '" + name.body + "'";
     const std::string expected = frames.empty() ? "'" + name.body + "' alone, for it has no frames" : one_of(frames);

@@ -88,6 +88,9 @@ void require_function_of_time(Context& context, const Function& function, const 
 /// `frames` too. Reports what is wrong with its mesh, materials and frames.
 [[nodiscard]] std::optional<Flexible> flexible_of(Context& context, const Value& body, std::vector<Frame>& frames);
 
+/// The faces of the surface or node set of `mesh` that `name` names; reports where there are none.
+[[nodiscard]] std::vector<fem::ElementFace> faces_of(Context& context, const Value& name, const fem::Mesh& mesh);
+
 /// A pressure or force on the mesh of a flexible body.
 [[nodiscard]] SurfaceLoad surface_load_of(Context& context, const Value& value);
 

@@ -5,6 +5,7 @@
 
 #include "hersey/core/spelling.h"
 #include "hersey/fem/mesh_file.h"
+#include "hersey/fem/reduced_body_file.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/skin.h"
 #include "interpret.h"
@@ -26,10 +27,15 @@ class FlexibleReader {
       flexible.damping = {number_of(*damping, "mass"), number_of(*damping, "stiffness")};
     flexible.vtu_every = number_of(value, "vtu_every");
     refuse_rigid_keys();
+    if (value.find("reduced") != nullptr) {
+      read_reduced(value, flexible, frames);
+      return flexible;
+    }
     auto mesh = mesh_of(value);
     if (!mesh) return flexible;
     flexible.materials = materials_of(value, *mesh);
     place_frames(*mesh, frames);
+    read_load_surfaces(value, *mesh, flexible);
     flexible.mesh = std::make_shared<const fem::Mesh>(std::move(*mesh));
     return flexible;
   }
@@ -42,8 +48,75 @@ class FlexibleReader {
                               "what the mesh and its density give", "remove the key");
   }
 
+  void read_load_surfaces(const Value& value, const fem::Mesh& mesh, Flexible& flexible) {
+    flexible.static_error = number_of(value, "static_error");
+    flexible.load_harmonics = integer_of(value, "load_harmonics");
+    for (const auto& [index, name] : section(value, "load_surfaces")) {
+      if (name.broken || faces_of(context_, name, mesh).empty()) continue;
+      flexible.load_surfaces.push_back(name.text);
+    }
+  }
+
+  /// A file of `hersey reduce`: its frames are the body's, in its order.
+  void read_reduced(const Value& value, Flexible& flexible, std::vector<Frame>& frames) {
+    for (const char* key :
+         {"length_unit", "material", "modes", "highest_frequency", "load_surfaces", "static_error", "load_harmonics"})
+      if (const Value* given = value.find(key); given != nullptr && given->given)
+        context_.fault_at_key(*given, std::string("`") + key + "` of a reduced body", "what the file was made with",
+                              "remove the key, or make the file anew");
+    if (flexible.nodal)
+      context_.fault_at_key(*value.find("form"), "`form: nodal` of a reduced body", "`form: modal`, or a `mesh`");
+    const Value& file = *value.find("reduced");
+    if (file.broken) return;
+    try {
+      auto body = std::make_shared<const fem::ReducedBody>(
+          fem::read_reduced_body(std::filesystem::path(context_.model.file).parent_path() / file.text));
+      if (body->frames.empty())
+        context_.fault(file, "a reduced body without frames", "at least one, which joints and forces attach to");
+      name_frames(*body, file, frames);
+      if (const Value* every = value.find("vtu_every"); every != nullptr && body->mesh.elements.empty())
+        context_.fault_at_key(*every, "`vtu_every` of a reduced body without elements", "a file that has them",
+                              "`hersey reduce` writes them");
+      flexible.mesh = {body, &body->mesh};
+      flexible.reduced = std::move(body);
+    } catch (const InputError& error) {
+      for (const Fault& fault : error.faults())
+        context_.fault(file, fault.position.file + ": " + fault.found, fault.expected, fault.suggestion);
+    }
+  }
+
+  void name_frames(const fem::ReducedBody& body, const Value& file, std::vector<Frame>& frames) {
+    std::vector<std::string> names;
+    for (const fem::InterfaceFrame& frame : body.frames) names.push_back(frame.name);
+    for (const Frame& frame : frames) {
+      const Value& value = *body_.find("frames")->find(frame.name);
+      if (std::find(names.begin(), names.end(), frame.name) == names.end())
+        context_.fault_at_key(value, "frame '" + frame.name + "', which the reduced body has not",
+                              "a frame of " + file.text + ": " + one_of(names), did_you_mean(frame.name, names));
+      for (const char* key : {"origin", "nodes", "connection"})
+        if (const Value* given = value.find(key); given != nullptr && given->given)
+          context_.fault_at_key(*given, std::string("`") + key + "` of a frame of a reduced body", "what the file says",
+                                "only `rotation` may be given");
+    }
+    std::vector<Frame> ordered;
+    for (const fem::InterfaceFrame& in_file : body.frames) {
+      Frame frame;
+      for (const Frame& given : frames)
+        if (given.name == in_file.name) frame = given;
+      frame.name = in_file.name;
+      frame.X_BF.r = in_file.origin;
+      frame.nodes = in_file.nodes;
+      frame.connection = in_file.connection;
+      ordered.push_back(std::move(frame));
+    }
+    frames = std::move(ordered);
+  }
+
   std::optional<fem::Mesh> mesh_of(const Value& value) {
     const Value *file = value.find("mesh"), *unit = value.find("length_unit");
+    if (unit == nullptr && file != nullptr)
+      context_.fault_at_key(value, "a mesh without `length_unit`", "what a length of 1 in it means",
+                            "add `length_unit: 1 mm`");
     if (file == nullptr || file->broken || unit == nullptr || unit->broken) return std::nullopt;
     const auto path = std::filesystem::path(context_.model.file).parent_path() / file->text;
     try {
@@ -68,12 +141,44 @@ class FlexibleReader {
     if (mesh.elements.empty()) context_.fault(file, "a mesh without solid elements", "tetrahedra, wedges or hexahedra");
   }
 
-  std::vector<fem::ElasticMaterial> materials_of(const Value& value, fem::Mesh& mesh) {
+  /// The one material that the model file gives; none where it is broken.
+  std::vector<fem::SolidMaterial> material_of(const Value& given) {
+    const double E = number_of(given, "youngs_modulus"), nu = number_of(given, "poisson_ratio"),
+                 density = number_of(given, "density");
+    const Value* nine = given.find("orthotropic");
+    if (nine == nullptr) {
+      if (!(E > 0 && nu > -1 && nu < 0.5)) return {};  // told already
+      return {fem::isotropic({E, nu, density})};
+    }
+    const Value* ratios = nine->find("poisson_ratios");
+    if (nine->broken || ratios == nullptr || ratios->broken || ratios->members.size() != 3) return {};
+    const Vector3 moduli = vector_of(*nine, "youngs_moduli"), shear = vector_of(*nine, "shear_moduli");
+    fem::OrthotropicMaterial material{.E_1 = moduli[0],
+                                      .E_2 = moduli[1],
+                                      .E_3 = moduli[2],
+                                      .nu_12 = ratios->members[0].value.number,
+                                      .nu_23 = ratios->members[1].value.number,
+                                      .nu_13 = ratios->members[2].value.number,
+                                      .G_12 = shear[0],
+                                      .G_23 = shear[1],
+                                      .G_13 = shear[2],
+                                      .density = density};
+    if (const Value* axes = nine->find("axes"); axes != nullptr && !axes->broken)
+      material.R =
+          Eigen::AngleAxisd(number_of(*axes, "angle"), direction_of(context_, *axes, "axis")).toRotationMatrix();
+    if (fem::is_stable(material)) return {fem::orthotropic(material)};
+    context_.fault_at_key(*nine, "constants of no material: some strain would store no energy",
+                          "moduli > 0 and Poisson's ratios small enough, nu_12^2 < E_1/E_2 and the like",
+                          "nu_12 = contraction along 2 under tension along 1; nu_21 = nu_12 E_2/E_1");
+    return {};
+  }
+
+  std::vector<fem::SolidMaterial> materials_of(const Value& value, fem::Mesh& mesh) {
     if (const Value* given = value.find("material")) {
       for (fem::Element& element : mesh.elements) element.material = 0;
-      return {{number_of(*given, "youngs_modulus"), number_of(*given, "poisson_ratio"), number_of(*given, "density")}};
+      return material_of(*given);
     }
-    std::vector<fem::ElasticMaterial> materials;
+    std::vector<fem::SolidMaterial> materials;
     const Value& at = *value.find("mesh");
     std::set<int> used;
     for (const fem::Element& element : mesh.elements) used.insert(element.material);
@@ -89,7 +194,12 @@ class FlexibleReader {
       if (!complete && (used.count(static_cast<int>(i)) > 0 || (none && i == 0)))
         context_.fault(at, "material '" + m.name + "' of the mesh file without " + missing_of(m),
                        "Young's modulus, Poisson's ratio and density", "complete it there, or give `material` here");
-      materials.push_back({m.youngs_modulus.value_or(1), m.poisson_ratio.value_or(0), m.density.value_or(1)});
+      const double nu = m.poisson_ratio.value_or(0);
+      if (m.youngs_modulus.value_or(1) > 0 && nu > -1 && nu < 0.5)
+        materials.push_back(fem::isotropic({m.youngs_modulus.value_or(1), nu, m.density.value_or(1)}));
+      else
+        context_.fault(at, "material '" + m.name + "' of the mesh file, which no solid has",
+                       "a modulus > 0 and a Poisson's ratio between -1 and 0.5");
     }
     return materials;
   }

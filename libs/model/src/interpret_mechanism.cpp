@@ -98,7 +98,7 @@ void interpret_bodies(Context& context) {
     body.shapes = shapes_of(context, value);
     body.flexible = flexible_of(context, value, body.frames);
     body.beam = beam_of(context, value, body.frames);
-    if (body.flexible && body.flexible->mesh && body.shapes.empty())
+    if (body.flexible && body.flexible->mesh && !body.flexible->mesh->elements.empty() && body.shapes.empty())
       body.shapes.push_back(skin_of(*body.flexible->mesh));
     context.model.bodies.push_back(std::move(body));
   }

@@ -34,25 +34,24 @@ std::string expected_faces(const fem::Mesh& mesh) {
                        : "a surface or set of nodes of the mesh: " + one_of(names);
 }
 
-std::vector<fem::ElementFace> faces_of(Context& context, const Value& value, const fem::Mesh& mesh) {
-  const Value* name = value.find("faces");
-  if (name == nullptr || name->broken) return {};
-  std::vector<fem::ElementFace> faces = fem::faces_called(mesh, name->text);
+}  // namespace
+
+std::vector<fem::ElementFace> faces_of(Context& context, const Value& name, const fem::Mesh& mesh) {
+  if (name.broken) return {};
+  std::vector<fem::ElementFace> faces = fem::faces_called(mesh, name.text);
   if (!faces.empty()) return faces;
-  const bool known = mesh.surfaces.count(name->text) + mesh.node_sets.count(name->text) > 0;
+  const bool known = mesh.surfaces.count(name.text) + mesh.node_sets.count(name.text) > 0;
   std::vector<std::string> names;
   for (const auto& [known_name, nodes] : mesh.node_sets) names.push_back(known_name);
   for (const auto& [known_name, surface] : mesh.surfaces) names.push_back(known_name);
   if (known)
-    context.fault(*name, "set '" + name->text + "', whose nodes make up no face of the body's surface",
+    context.fault(name, "set '" + name.text + "', whose nodes make up no face of the body's surface",
                   "a set that holds all nodes of each face");
   else
-    context.fault(*name, "unknown surface or set '" + name->text + "'", expected_faces(mesh),
-                  did_you_mean(name->text, names));
+    context.fault(name, "unknown surface or set '" + name.text + "'", expected_faces(mesh),
+                  did_you_mean(name.text, names));
   return {};
 }
-
-}  // namespace
 
 SurfaceLoad surface_load_of(Context& context, const Value& value) {
   SurfaceLoad load;
@@ -60,7 +59,8 @@ SurfaceLoad surface_load_of(Context& context, const Value& value) {
   load.axes = text_of(value, "axes") == "ground" ? Axes::ground : Axes::body;
   if (const Body* body = flexible_body(context, value)) {
     load.body = body->name;
-    if (body->flexible->mesh) load.faces = faces_of(context, value, *body->flexible->mesh);
+    const Value* faces = value.find("faces");
+    if (body->flexible->mesh && faces != nullptr) load.faces = faces_of(context, *faces, *body->flexible->mesh);
   }
   if (const Value* pressure = value.find("pressure")) load.functions.push_back(function_of(context, *pressure, "Pa"));
   if (value.find("towards") != nullptr) load.direction = direction_of(context, value, "towards");

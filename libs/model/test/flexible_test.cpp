@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "hersey/fem/reduced_body_file.h"
 #include "hersey/model/build.h"
 #include "model_text.h"
 
@@ -161,6 +162,76 @@ TEST_CASE("SurfaceLoad_FaultsNameWhatIsThere") {
                                   "forces:\n  gas2: {type: pressure, body: rod, faces: a, "
                                   "pressure: 1 bar}\n")),
                  "rigid body 'rod'"));
+}
+
+TEST_CASE("ReducedBody_TakesThePlaceOfItsMesh") {
+  const MeshFile file;
+  const Model meshed = read_text(kMachine + kPressure, "m.yaml");
+  const fem::SolidMaterial steel = fem::isotropic({.youngs_modulus = 2.1e11, .poisson_ratio = 0.3, .density = 7850});
+  std::vector<fem::InterfaceFrame> frames;
+  for (const Frame& frame : meshed.bodies[0].frames)
+    frames.push_back({frame.name, frame.X_BF.r, frame.nodes, frame.connection,
+                      fem::face_weights(*meshed.bodies[0].flexible->mesh, frame.nodes)});
+  frames[0].weights.clear();
+  const fem::Reduction reduction =
+      fem::reduce(fem::assemble(*meshed.bodies[0].flexible->mesh, {steel}), frames, {.modes = 0});
+  REQUIRE(reduction.ok);
+  fem::write_reduced_body("flexible_test_bar.h5", reduction.body);
+  const std::string text = edited(
+      edited(edited(edited(kMachine, "      length_unit: 1 mm\n", ""),
+                    "      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}\n", ""),
+             "      modes: 0\n    frames:\n      root: {nodes: left}\n      tip: {nodes: right, connection: average}\n",
+             ""),
+      "mesh: flexible_test_bar.inp", "reduced: flexible_test_bar.h5");
+  const Model model = read_text(text + kPressure, "m.yaml");
+  REQUIRE(model.bodies[0].frames.size() == 2);
+  CHECK(model.bodies[0].frames[1].name == "tip");
+  const Machine of_file = build(model), of_mesh = build(meshed);
+  const mbd::ModalBodyData &a = of_file.flexibles[0].body->data(), &b = of_mesh.flexibles[0].body->data();
+  CHECK((a.stiffness - b.stiffness).norm() < 1e-12 * b.stiffness.norm());
+  CHECK(a.mass == doctest::Approx(b.mass).epsilon(1e-14));
+  CHECK(of_file.surface_loads.size() == 1);
+  const auto told = [&](const std::string& from, const std::string& to) { return faults_of(edited(text, from, to)); };
+  CHECK(contains(told("bar.root", "bar.rot"), "unknown frame 'rot' of body 'bar'; expected root or tip"));
+  CHECK(contains(told("bar.h5", "br.h5"), "bodies.bar.flexible.reduced"));
+  CHECK(contains(told("bar.h5\n", "bar.h5\n      modes: 3\n"), "`modes` of a reduced body"));
+  CHECK(contains(told("bar.h5\n", "bar.h5\n    frames: {tp: {}}\n"), "frame 'tp', which the reduced body has not"));
+  CHECK(contains(told("bar.h5\n", "bar.h5\n    frames: {tip: {nodes: right}}\n"),
+                 "`nodes` of a frame of a reduced body"));
+  std::filesystem::remove("flexible_test_bar.h5");
+}
+
+TEST_CASE("LoadSurfaces_AddStaticShapesAndAreChecked") {
+  const MeshFile file;
+  const std::string text = edited(kMachine, "      modes: 0\n", "      modes: 0\n      load_surfaces: [right]\n");
+  const std::string one = edited(text, "      tip: {nodes: right, connection: average}\n", "");
+  const Machine machine = build(read_text(one, "m.yaml"));
+  REQUIRE(machine.flexibles[0].static_errors.size() == 1);
+  CHECK(machine.flexibles[0].static_errors[0].modes == doctest::Approx(1));
+  CHECK(machine.flexibles[0].static_errors[0].reduced < 0.01);
+  CHECK(machine.flexibles[0].body->data().shapes() > 0);
+  CHECK(contains(faults_of(edited(text, "[right]", "[rihgt]")), "unknown surface or set 'rihgt'"));
+  CHECK(contains(faults_of(edited(text, "[right]", "[edge]")), "whose nodes make up no face"));
+}
+
+TEST_CASE("OrthotropicMaterial_WithEqualConstantsIsTheIsotropicOne") {
+  const MeshFile file;
+  const std::string isotropic = "youngs_modulus: 210 GPa, poisson_ratio: 0.3";
+  const std::string nine =
+      "orthotropic: {youngs_moduli: 208 208 208 GPa, poisson_ratios: [0.3, 0.3, 0.3], shear_moduli: 80 80 80 GPa, "
+      "axes: {axis: 1 2 3, angle: 40 deg}}";
+  const auto stiffness = [&](const std::string& text) {
+    return build(read_text(text, "m.yaml")).flexibles[0].body->data().stiffness;
+  };
+  const Eigen::MatrixXd K = stiffness(edited(kMachine, isotropic, nine));
+  CHECK((K - stiffness(edited(kMachine, "210 GPa", "208 GPa"))).norm() < 1e-9 * K.norm());
+  const auto told = [&](const std::string& from, const std::string& to) {
+    return faults_of(edited(kMachine, isotropic, edited(nine, from, to)));
+  };
+  CHECK(contains(told("[0.3, ", "[1.2, "), "material.orthotropic: constants of no material"));
+  CHECK(contains(told("208 208 208", "208 -1 208"), "constants of no material"));
+  CHECK(contains(told("[0.3, 0.3, 0.3]", "[0.3, 0.3]"), "poisson_ratios"));
+  CHECK(contains(faults_of(edited(kMachine, "youngs_modulus: 210 GPa, ", "")), "material"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hersey/fem/skin.h"
+#include "hersey/fem/stress.h"
 #include "recorder.h"
 
 namespace hersey::run {
@@ -23,6 +24,13 @@ std::vector<double> deformation_of_skin(const model::BuiltFlexible& flexible) {
   return values;
 }
 
+/// Stresses in the body's axes, which turn with it.
+void add_stress(const model::BuiltFlexible& flexible, const Eigen::VectorXd& u, fem::VtuFrame& frame) {
+  const fem::Stress stress = fem::recover_stress(*flexible.mesh, flexible.materials, u);
+  frame.node_fields.push_back({"stress", stress.nodal});
+  frame.node_fields.push_back({"von_mises", stress.nodal_von_mises.transpose()});
+}
+
 }  // namespace
 
 void Recorder::declare_flexible_bodies() {
@@ -35,12 +43,14 @@ void Recorder::declare_flexible_bodies() {
                                                       "of the shapes: [rotation; displacement] of each frame but the "
                                                       "first against it, then vibrations with all frames held [m]")
                                      : results::Series{}});
-    if (shapes > 0) {
+    if (shapes > 0 && !flexible.mesh->elements.empty()) {
       writer_.constant(path + "shapes/mesh/deformation", deformation_of_skin(flexible), "SI",
                        "displacement of each corner (x, y, z) by a unit amplitude, shape after shape, body axes");
     }
     writer_.attribute(group, "flexible_nodes", static_cast<int>(flexible.mesh->nodes.size()));
     writer_.attribute(group, "flexible_shapes", shapes);
+    for (const fem::StaticError& error : flexible.static_errors)
+      writer_.attribute(group, "static_error_" + error.surface, error.reduced);
     if (!flexible.frequencies.empty())
       writer_.constant(path + "held_frequencies", flexible.frequencies, "Hz", "of the vibrations with all frames held");
   }
@@ -120,6 +130,7 @@ void DeformedMeshes::write(double t, double since_start, double slack, const mbd
       frame.positions.col(n) = X_WB * flexible.mesh->nodes[static_cast<std::size_t>(n)] + displacement.col(n);
     }
     frame.node_fields.push_back({"displacement", std::move(displacement)});
+    if (!flexible.materials.empty()) add_stress(flexible, u, frame);
     series.files.add(t, *flexible.mesh, frame);
   }
 }

@@ -82,6 +82,9 @@ TEST_CASE("FlexiblePendulum_IsRecordedAndBalanced") {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "r_bar"))
     files += entry.path().extension() == ".vtu" ? 1 : 0;
   CHECK(files == 6);
+  std::ifstream last(folder / "r_bar" / "00005.vtu", std::ios::binary);
+  const std::string vtu{std::istreambuf_iterator<char>(last), {}};
+  CHECK(vtu.find("von_mises") != std::string::npos);
 }
 
 TEST_CASE("HeldBar_SagsUnderItsWeight") {

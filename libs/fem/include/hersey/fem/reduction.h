@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,11 +44,38 @@ struct FrameSupports {
 };
 [[nodiscard]] FrameSupports frame_supports(const Mesh& mesh, const std::vector<InterfaceFrame>& frames);
 
+/// A surface that carries loads, and shapes of pressure on it.
+struct LoadedSurface {
+  std::string name;
+  Eigen::MatrixXd loads;      ///< nodal forces (3 n, shapes)
+  std::vector<int> nodes;     ///< of the surface, places in the mesh
+  std::vector<double> areas;  ///< that each node stands for
+};
+
+/// Pressures on the surface or node set `name` of `mesh`: around a bore those of bore_pressures with `harmonics`, on
+/// any other face 1 and what grows along it. @pre the mesh has faces of that name: see faces_called
+[[nodiscard]] LoadedSurface loaded_surface(const Mesh& mesh, const std::string& name, int harmonics);
+
+/// The axis of a bore whose normals are those of `faces`, as the z-axis of a pose; none if they are no part of one.
+[[nodiscard]] std::optional<Pose> bore_of(const Mesh& mesh, const std::vector<ElementFace>& faces);
+
 struct ReductionOptions {
   int modes = 20;                                            ///< fixed-interface modes at most
   double highest = std::numeric_limits<double>::infinity();  ///< up to this angular frequency [rad/s]
   /// Nodal forces (3 n, loads) whose static displacement the reduced body shall have exactly: one mode more for each.
   Eigen::MatrixXd loads;
+  std::vector<LoadedSurface> surfaces;
+  /// Largest error of the static displacement of a surface under each of its pressures, all frames at rest, over the
+  /// largest of these displacements: static shapes are added until it holds. Infinity: the error is told alone.
+  double static_error = std::numeric_limits<double>::infinity();
+};
+
+/// How well a reduced body meets the static displacement of a surface, all frames at rest, (elastic.23).
+struct StaticError {
+  std::string surface;
+  int shapes = 0;      ///< pressures looked at
+  double modes = 0;    ///< largest error of the fixed-interface modes alone, over the largest displacement
+  double reduced = 0;  ///< of the reduced body
 };
 
 /// An elastic body in few coordinates: u = Phi q, (elastic.13).
@@ -66,6 +94,11 @@ struct ReducedBody {
   /// For each load of the options: the share of its static strain energy, all frames at rest, that the fixed-interface
   /// modes alone would miss. Near 1: that many modes say nothing about this load.
   Eigen::VectorXd energy_missed;
+
+  std::vector<StaticError> static_errors;  ///< of the surfaces of the options
+  /// Elements, sets and surfaces, as far as they are known; its nodes are `nodes`.
+  Mesh mesh;
+  std::vector<SolidMaterial> materials;  ///< of the elements; none: unknown
 
   [[nodiscard]] Eigen::Index size() const { return Phi.cols(); }
   [[nodiscard]] Eigen::Index internal_first() const { return 6 * static_cast<Eigen::Index>(frames.size()); }

@@ -20,4 +20,8 @@ struct Stress {
 /// @param u displacements (3 n) [m] @verified_by stress_test.cpp
 [[nodiscard]] Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u);
 
+/// The same of a mesh and its materials alone.
+[[nodiscard]] Stress recover_stress(const Mesh& mesh, const std::vector<SolidMaterial>& materials,
+                                    const Eigen::VectorXd& u, Integration integration = Integration::full);
+
 }  // namespace hersey::fem

@@ -14,6 +14,9 @@ namespace hersey::fem {
 /// Faces of the surface called `name`, or else the outer faces of the node set of that name; none if there is neither.
 [[nodiscard]] std::vector<ElementFace> faces_called(const Mesh& mesh, const std::string& name);
 
+/// Nodes of faces, ascending.
+[[nodiscard]] std::vector<int> nodes_on(const Mesh& mesh, const std::vector<ElementFace>& faces);
+
 /// What a pin pressed into a bore does: a pressure max(0, -n . towards) on faces of outward normal n, for a largest
 /// pressure of 1 Pa, (elastic.22). @pre |towards| = 1
 [[nodiscard]] Eigen::VectorXd cosine_pressure_load(const Mesh& mesh, const std::vector<ElementFace>& faces,

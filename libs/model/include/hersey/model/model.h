@@ -62,11 +62,15 @@ struct Frame {
 
 /// How a body deforms.
 struct Flexible {
-  std::shared_ptr<const fem::Mesh> mesh;        ///< in metres; null where the file is broken
-  std::vector<fem::ElasticMaterial> materials;  ///< of the mesh's elements
-  bool nodal = false;                           ///< a displacement of every node, not of shapes
-  int modes = 10;                               ///< with all frames held
-  double highest = 0;                           ///< leave out modes above this frequency [Hz]; 0: none
+  std::shared_ptr<const fem::Mesh> mesh;            ///< in metres; null where the file is broken
+  std::shared_ptr<const fem::ReducedBody> reduced;  ///< read from a file, with its mesh; null: `mesh` is to be reduced
+  std::vector<fem::SolidMaterial> materials;        ///< of the mesh's elements
+  bool nodal = false;                               ///< a displacement of every node, not of shapes
+  int modes = 10;                                   ///< with all frames held
+  std::vector<std::string> load_surfaces;           ///< surfaces or sets of nodes
+  double static_error = 0.01;                       ///< of their displacements
+  int load_harmonics = 4;
+  double highest = 0;  ///< leave out modes above this frequency [Hz]; 0: none
   mbd::RayleighDamping damping;
   double vtu_every = 0;  ///< interval of the deformed meshes written beside the results [s]; 0: none
   SourcePosition position;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/reduction.h"
+#include "hersey/fem/vibration.h"
+
+namespace hersey::fem {
+
+/// What surfaces ask of a reduced body beside its modes.
+struct StaticShapes {
+  Eigen::MatrixXd added;  ///< displacements (3 n, added), K-orthonormal and K-orthogonal to the modes
+  std::vector<StaticError> errors;
+};
+
+/// Adds the static displacement with the largest error until none is larger than options.static_error, (elastic.23).
+/// @param stiffness  factorised, frames held
+[[nodiscard]] StaticShapes static_shapes(const HeldStiffness& stiffness, const Vibration& modes,
+                                         const ReductionOptions& options);
+
+}  // namespace hersey::fem
