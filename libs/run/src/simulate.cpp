@@ -198,7 +198,7 @@ class Simulation {
     const solver::EquilibriumSummary rest = solver::find_equilibrium(*machine_.mechanism, state_, options);
     summary_.newton_iterations += rest.iterations;
     summary_.message = rest.message;
-    if (!rest.converged) fail((options.turning ? "steady motion: " : "static: ") + rest.message);
+    if (!rest.converged) fail(options.turning ? rest.message : "static: " + rest.message);
     return rest.converged;
   }
 

@@ -43,7 +43,8 @@ class EquilibriumSearch {
                                    summary_.iterations, summary_.worst_row, worst_));
       }
       if (options_.turning) {
-        if (!advance_to_steady_motion()) return failure("no steady motion near the start: " + summary_.worst_row);
+        if (!advance_to_steady_motion())
+          return failure("no steady motion near the start; worst equation: " + summary_.worst_row);
       } else {
         advance();
       }
