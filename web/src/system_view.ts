@@ -1,5 +1,6 @@
 // Collapsible sections about the machine and the solution: mechanism, energy, solver, model file.
 
+import { BeamFigures, beamsOf } from "./beam_figures";
 import type { Run } from "./data";
 import { figure, h } from "./dom";
 import { mechanismGraph } from "./mechanism_graph";
@@ -23,6 +24,7 @@ export class SystemView {
   readonly element = h("div", { class: "sections" });
   private readonly axis: Axis;
   private readonly plots: LinePlot[] = [];
+  private beams: BeamFigures | null = null;
   private time = 0;
 
   constructor(
@@ -38,6 +40,7 @@ export class SystemView {
     };
     if (!alone) solution();
     if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", alone, (body) => this.power(body)));
+    if (beamsOf(run).length > 0) this.element.append(section("Beams", alone, (body) => this.beamFigures(body)));
     const graph = mechanismGraph(run);
     if (graph) this.element.append(section("Mechanism", false, (body) => body.append(graph)));
     const joints = run.children("/joints").length;
@@ -54,6 +57,13 @@ export class SystemView {
   show(time: number): void {
     this.time = time;
     for (const plot of this.plots) plot.mark(this.axis.at(time));
+    this.beams?.show(time);
+  }
+
+  private beamFigures(body: HTMLElement): void {
+    this.beams = new BeamFigures(this.run);
+    body.append(...this.beams.elements);
+    this.beams.show(this.time);
   }
 
   private add(body: HTMLElement, name: string, caption: string, left: LineFigure["left"], curves: Curve[]): void {

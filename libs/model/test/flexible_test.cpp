@@ -94,6 +94,17 @@ TEST_CASE("FlexibleBody_FaultsNameWhatIsThere") {
                  "`nodes` of a frame on a rigid body"));
 }
 
+TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreTold") {
+  const std::string simulation = "{duration: 1 ms, step: 0.1 ms}";
+  CHECK(contains(faults_with(simulation, "{analysis: kinematics, duration: 1 ms, step: 0.1 ms}"),
+                 "a kinematic analysis with the flexible body 'bar'"));
+  const MeshFile file;
+  const std::string nodal = edited(kMachine, "      modes: 0", "      form: nodal");
+  CHECK(contains(faults_of(edited(nodal, simulation, "{analysis: modes}")),
+                 "bodies.bar.flexible.form: `form: nodal` of a body whose small motions are sought"));
+  CHECK(faults_of(nodal) == "no fault");
+}
+
 TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {
   CHECK(contains(faults_with("nodes: right", "nodes: left"), "on which frame 'root' stands too"));
   const MeshFile file;

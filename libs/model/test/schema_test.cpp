@@ -37,11 +37,20 @@ std::set<std::string> keys_of_format() {
 }
 
 void collect_properties(const nlohmann::json& schema, std::set<std::string>& names) {
-  if (schema.is_object() && schema.contains("properties")) {
-    for (const auto& [name, property] : schema["properties"].items()) names.insert(name);
-  }
-  if (schema.is_structured()) {
+  if (!schema.is_structured()) return;
+  if (!schema.is_object()) {
     for (const auto& child : schema) collect_properties(child, names);
+    return;
+  }
+  for (const auto& [keyword, child] : schema.items()) {
+    if (keyword != "properties") {
+      collect_properties(child, names);
+      continue;
+    }
+    for (const auto& [name, property] : child.items()) {  // one of these may be called `properties` too
+      names.insert(name);
+      collect_properties(property, names);
+    }
   }
 }
 
