@@ -153,6 +153,27 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, WRONG_INPUT)
         self.assertIn("both matrices", run.stderr)
 
+    def test_stress_of_an_orthotropic_body_with_equal_constants_is_that_of_the_isotropic_one(self):
+        rod = os.path.join(HERE, "../../examples/meshes/conrod.msh")
+        arguments = ("stress", rod, "--length-unit", "mm", "--hold", "small_end", "--json")
+        pressed = ("--pressure", "big_end=30MPa:0,-1,0")
+        run = hersey(*arguments, *pressed, "--youngs-modulus", "208GPa", "--poisson-ratio", "0.3")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        told = json.loads(run.stdout)
+        self.assertAlmostEqual(told["reaction"][1] / 16540.4, 1, delta=1e-5)
+        nine = "208GPa,208GPa,208GPa,0.3,0.3,0.3,80GPa,80GPa,80GPa"
+        run = hersey(*arguments, *pressed, "--orthotropic", nine)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertAlmostEqual(json.loads(run.stdout)["strain_energy"] / told["strain_energy"], 1, delta=1e-9)
+        for wrong, remedy in ((nine.replace("0.3,0.3", "1.3,0.3"), "constants of no material"), ("1GPa,2GPa", "nine")):
+            run = hersey(*arguments, *pressed, "--orthotropic", wrong)
+            self.assertEqual(run.returncode, WRONG_INPUT)
+            self.assertIn(remedy, run.stderr)
+        for wrong in ("big_end=30MPa:0,1", "big_end=30MPa:0,0,0", "bigend=30MPa"):
+            run = hersey(*arguments, "--pressure", wrong, "--orthotropic", nine)
+            self.assertEqual(run.returncode, WRONG_INPUT)
+            self.assertIn("--pressure", run.stderr)
+
     def test_modes_of_a_held_body_are_those_of_calculix(self):
         mesh = os.path.join(HERE, "../../verification/data/meshes/cant_tet10.inp")
         vtu = os.path.join(self._folder.name, "modes.vtu")
