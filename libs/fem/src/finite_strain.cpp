@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "block_pattern.h"
 #include "hersey/core/contract.h"
@@ -70,22 +71,22 @@ class Equilibrium {
 
 }  // namespace
 
-void finite_strain(const ElasticBody& body, const Eigen::VectorXd& u, FiniteStrain& out) {
+void finite_strain(const ElasticBody& body, const Eigen::VectorXd& u, FiniteStrain& out, bool want_tangent) {
   HERSEY_REQUIRE(u.size() == body.size(), "one displacement per degree of freedom");
-  const BlockPattern pattern(body.mesh);
+  std::optional<BlockPattern> pattern;
+  if (want_tangent) out.tangent = pattern.emplace(body.mesh).vector_matrix();
   out.energy = 0;
   out.force.setZero(body.size());
-  out.tangent = pattern.vector_matrix();
   for (const Element& e : body.mesh.elements) {
     const int* nodes = body.mesh.nodes_of(e);
     NodeColumns displacement(3, fem::node_count(e.type));
     for (Eigen::Index a = 0; a < displacement.cols(); ++a) displacement.col(a) = u.segment<3>(3 * nodes[a]);
-    const FiniteStrainElement element =
-        finite_strain_element(e.type, body.positions_of(e), body.material_of(e), displacement, body.integration);
+    const FiniteStrainElement element = finite_strain_element(e.type, body.positions_of(e), body.material_of(e),
+                                                              displacement, body.integration, want_tangent);
     out.energy += element.energy;
     for (Eigen::Index a = 0; a < displacement.cols(); ++a)
       out.force.segment<3>(3 * nodes[a]) += element.force.segment<3>(3 * a);
-    pattern.add_vector(body.mesh, e, element.tangent, out.tangent);
+    if (want_tangent) pattern->add_vector(body.mesh, e, element.tangent, out.tangent);
   }
 }
 

@@ -74,7 +74,7 @@ ElementMatrix relax(std::vector<Point>& points, const Matrix6& D) {
 }  // namespace
 
 FiniteStrainElement finite_strain_element(ElementType type, const NodeColumns& x, const SolidMaterial& material,
-                                          const NodeColumns& u, Integration rule) {
+                                          const NodeColumns& u, Integration rule, bool want_tangent) {
   HERSEY_REQUIRE(x.cols() == u.cols(), "one displacement per node");
   std::vector<Point> points = points_of(type, x, u, rule);
   const Eigen::Index nodes = x.cols();
@@ -85,6 +85,7 @@ FiniteStrainElement finite_strain_element(ElementType type, const NodeColumns& x
     const Vector6 stress = material.D * p.strain;
     element.energy += p.volume * stress.dot(p.strain) / 2;
     element.force += p.volume * p.B.transpose() * stress;
+    if (!want_tangent) continue;
     const StrainMatrix DB = p.volume * material.D * p.B;
     element.tangent.noalias() += p.B.transpose() * DB;
     const Eigen::MatrixXd geometric = p.volume * p.gradients * stress_tensor(stress) * p.gradients.transpose();

@@ -15,6 +15,7 @@ using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr int kSolvesAtRest = 30;    // the same of a body of finite strain in statics
 constexpr int kSolves = 2;           // most solutions per evaluation
 constexpr double kBalanced = 1e-12;  // of the forces on the nodes: no further solution
 
@@ -50,11 +51,14 @@ struct NodalBody::Fields {
   Matrix3Xd y, y_rate, y_acc, acceleration;
 };
 
-NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping)
+NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping,
+                     Strain strain)
     : ModalBody(static_data(reduced, damping)),
       body_(std::move(body)),
       damping_(damping),
+      strain_(strain),
       fields_(std::make_unique<Fields>()) {
+  HERSEY_REQUIRE(strain == Strain::small || reduced.frames.size() == 1, "finite strains go with one frame");
   HERSEY_REQUIRE(static_cast<std::size_t>(body_.node_count()) == reduced.nodes.size(), "both of one mesh");
   x_.resize(3, body_.node_count());
   for (Index i = 0; i < x_.cols(); ++i) x_.col(i) = reduced.nodes[static_cast<std::size_t>(i)];
@@ -149,13 +153,29 @@ void NodalBody::gather(const ElasticMotion& motion, bool want_tangent) {
   }
 }
 
+/// Of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.24).
+VectorXd NodalBody::elastic_forces() {
+  if (strain_ == Strain::small) return body_.K * (w_.position() + damping_.stiffness * w_.rate());
+  fem::finite_strain(body_, flat(fields_->y - x_), finite_, false);
+  return finite_.force + damping_.stiffness * (body_.K * w_.rate());
+}
+
+/// The matrix of the displacement at hand, theory manual eq. (flexible-bodies.24).
+void NodalBody::refresh_stiffness(const solver::Stage& stage) {
+  update_fields();
+  fem::finite_strain(body_, flat(fields_->y - x_), finite_);
+  const double viscous = stage.c * damping_.stiffness, scale = stage.k + viscous;
+  factors_->restiffen((stage.k / scale) * finite_.tangent + (viscous / scale) * body_.K);
+  is_stale_ = false;
+}
+
 /// Forces on the nodes that nothing balances, into r_; their norm relative to those of the forces they are sums of.
 double NodalBody::unbalance(const ElasticMotion& motion) {
   update_fields();
   const ElasticFrame& base = motion.frames[0];
   update_accelerations(base);
   const VectorXd inertia = flat((fields_->acceleration + damping_.mass * fields_->y_rate) * body_.m);
-  const VectorXd elastic = body_.K * (w_.position() + damping_.stiffness * w_.rate());
+  const VectorXd elastic = elastic_forces();
   r_ = inertia + elastic;
   sizes_ = inertia.cwiseAbs() + elastic.cwiseAbs();
   double size = inertia.norm() + elastic.norm();
@@ -174,19 +194,30 @@ double NodalBody::unbalance(const ElasticMotion& motion) {
   return size > 0 ? r_.norm() / size : 0;
 }
 
-/// Solves the equations of the nodes for this motion of the frames, theory manual eq. (flexible-bodies.16).
+/// Solves the equations of the nodes for this motion of the frames, theory manual eq. (flexible-bodies.17).
 void NodalBody::settle(const ElasticMotion& motion) {
-  solver::Stage stage = motion.stage;
-  if (at_rest_) stage = {};
-  if (!at_rest_ && (stage.dt == 0 || stage.k == 0)) return;  // looked at, not moved
-  const NodalFactor* factor = factors_->of(stage, trouble_);
-  if (factor == nullptr) return;
-  trouble_.clear();
-  if (!at_rest_) w_.predict(stage);
+  const bool moves = at_rest_ || (motion.stage.dt > 0 && motion.stage.k != 0);
+  if (moves && !at_rest_) w_.predict(motion.stage);
   ModalBody::gather(motion, false);
+  if (moves) {
+    iterate(motion, at_rest_ ? solver::Stage{} : motion.stage);
+  } else if (strain_ == Strain::finite) {  // looked at, not moved
+    update_fields();
+    (void)elastic_forces();
+  }
+}
+
+void NodalBody::iterate(const ElasticMotion& motion, const solver::Stage& stage) {
+  // At rest nothing but the material resists, so that its present matrix is needed each time.
+  const bool renews = strain_ == Strain::finite && at_rest_;
+  const int most = renews ? kSolvesAtRest : kSolves;
   for (int solve = 0;; ++solve) {
+    if (renews || (strain_ == Strain::finite && is_stale_)) refresh_stiffness(stage);
     internal_residual_ = unbalance(motion);
-    if (internal_residual_ <= kBalanced || solve == kSolves) return;
+    const NodalFactor* factor = factors_->of(stage, trouble_);
+    if (factor == nullptr) return;
+    trouble_.clear();
+    if (internal_residual_ <= kBalanced || solve == most) return;
     w_.move(stage, factors_->solve(*factor, -r_));
   }
 }
@@ -302,6 +333,7 @@ MatrixXd NodalBody::forces_of_answers(const NodalFactor& factor, const solver::S
 
 void NodalBody::begin_step(const ElasticMotion&, double dt) {
   at_rest_ = dt == 0;
+  is_stale_ = true;
   w_.begin_step();
   if (at_rest_) w_.start(w_.position());
 }
@@ -338,11 +370,17 @@ ElasticEnergy NodalBody::energy(const ElasticMotion& motion, const Vector3& grav
   const Matrix3Xd momentum = velocity * body_.m;
   const Vector3 p = momentum.rowwise().sum();
   const auto q = w.q.tail(n), rate = w.rate.tail(n);
-  const VectorXd K_w = body_.K * w_.position();
   ElasticEnergy e;
   e.kinetic = 0.5 * velocity.cwiseProduct(momentum).sum();
-  e.strain = 0.5 * (q.dot(data().stiffness * q) + w_.position().dot(K_w));
-  e.strain_rate = rate.dot(data().stiffness * q) + w_.rate().dot(K_w);
+  if (strain_ == Strain::finite) {
+    (void)elastic_forces();
+    e.strain = finite_.energy;
+    e.strain_rate = finite_.force.dot(flat(fields_->y_rate));
+  } else {
+    const VectorXd K_w = body_.K * w_.position();
+    e.strain = 0.5 * (q.dot(data().stiffness * q) + w_.position().dot(K_w));
+    e.strain_rate = rate.dot(data().stiffness * q) + w_.rate().dot(K_w);
+  }
   e.dissipation = damping_.stiffness * (rate.dot(data().stiffness * rate) + w_.rate().dot(body_.K * w_.rate())) +
                   damping_.mass * fields_->y_rate.cwiseProduct(fields_->y_rate * body_.m).sum();
   e.potential = -gravity.dot(data().mass * X.r + X.R * w.S);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace hersey::mbd {
@@ -40,21 +41,36 @@ const NodalFactor* NodalFactors::of(const solver::Stage& stage, std::string& mes
   const double shift = -(stage.m + stage.c * damping_.mass) / scale;
   const auto close = [](double a, double b) { return std::abs(a - b) <= kSameStep * std::abs(a); };
   const auto same = [&](const NodalFactor& factor) { return close(factor.shift, shift) && close(factor.scale, scale); };
-  if (const auto found = std::find_if(factors_.begin(), factors_.end(), same); found != factors_.end()) {
+  if (is_stale_ && !factors_.empty()) {
+    factors_.erase(std::next(factors_.begin()), factors_.end());  // the ordering of the first serves the next
+  } else if (const auto found = std::find_if(factors_.begin(), factors_.end(), same); found != factors_.end()) {
     factors_.splice(factors_.begin(), factors_, found);
     return &factors_.front();
+  } else {
+    make_room();
+    factors_.push_front(
+        {shift, scale, fem::HeldStiffness(body_.K, body_.m, supports_.held, supports_.C), {}, {}, {}, {}});
   }
-  make_room();
-  factors_.push_front(
-      {shift, scale, fem::HeldStiffness(body_.K, body_.m, supports_.held, supports_.C), {}, {}, {}, {}});
-  NodalFactor& factor = factors_.front();
+  return factorise(factors_.front(), shift, scale, message) ? &factors_.front() : nullptr;
+}
+
+bool NodalFactors::factorise(NodalFactor& factor, double shift, double scale, std::string& message) {
+  if (K_.rows() > 0) factor.matrix.replace(K_);
+  factor.shift = shift;
+  factor.scale = scale;
   if (const solver::FactorSummary summary = factor.matrix.factorise(shift); !summary.ok()) {
     message = summary.message;
     factors_.pop_front();
-    return nullptr;
+    return false;
   }
+  is_stale_ = false;
   describe(factor);
-  return &factor;
+  return true;
+}
+
+void NodalFactors::restiffen(Eigen::SparseMatrix<double> K) {
+  K_ = std::move(K);
+  is_stale_ = true;
 }
 
 void NodalFactors::describe(NodalFactor& factor) const {

@@ -35,6 +35,9 @@ class NodalFactors {
   /// The factor for a stage with k = 1; null, with `message`, if it does not fit into memory.
   [[nodiscard]] const NodalFactor* of(const solver::Stage& stage, std::string& message);
 
+  /// Takes another stiffness of the same pattern: factors are made anew.
+  void restiffen(Eigen::SparseMatrix<double> K);
+
   /// (m M + c D + k K)^-1 f.
   [[nodiscard]] Eigen::VectorXd solve(const NodalFactor& factor, const Eigen::VectorXd& f);
 
@@ -44,6 +47,7 @@ class NodalFactors {
   [[nodiscard]] long solves() const { return solves_; }
 
  private:
+  [[nodiscard]] bool factorise(NodalFactor& factor, double shift, double scale, std::string& message);
   void make_room();
   void describe(NodalFactor& factor) const;
 
@@ -52,6 +56,8 @@ class NodalFactors {
   RayleighDamping damping_;
   const Eigen::MatrixXd &columns_, &shapes_;
   Eigen::MatrixXd bearing_;         ///< (C C^T)^-1
+  Eigen::SparseMatrix<double> K_;   ///< in place of the body's, where it was given another
+  bool is_stale_ = false;           ///< K_ is newer than the factors
   std::list<NodalFactor> factors_;  ///< the last used first
   long solves_ = 0;
 };

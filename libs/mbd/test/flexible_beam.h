@@ -24,6 +24,7 @@ struct Beam {
   fem::ElementType type = fem::ElementType::hex8;
   RayleighDamping damping = {};
   bool nodal = false;
+  Strain strain = Strain::small;
 
   [[nodiscard]] Pose frame_at(double x) const { return {Matrix3::Identity(), {x, size.y() / 2, size.z() / 2}}; }
   [[nodiscard]] fem::ElasticBody elastic() const {
@@ -41,7 +42,7 @@ struct Beam {
   }
   [[nodiscard]] ModalBodyData reduced() const { return modal_data(reduced_mesh(), damping); }
   [[nodiscard]] std::shared_ptr<NodalBody> all_nodes() const {
-    return std::make_shared<NodalBody>(elastic(), reduced_mesh(), damping);
+    return std::make_shared<NodalBody>(elastic(), reduced_mesh(), damping, strain);
   }
   /// Adds it to `builder` as `name`; its axes have their origin at the corner.
   [[nodiscard]] FlexibleBodyIds add_to(MechanismBuilder& builder, const std::string& name = "beam") const {

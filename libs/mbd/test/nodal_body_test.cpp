@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "flexible_beam.h"
+#include "hersey/fem/finite_strain.h"
 #include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/loads.h"
 #include "hersey/solver/equilibrium.h"
@@ -154,6 +155,106 @@ TEST_CASE("NodalBody_DerivativesOfItsCondensedForcesMatchFiniteDifferences") {
   MESSAGE("wrong share of an increment ", with_nodes, ", without the nodes' answer ", without);
   CHECK(with_nodes < 1e-6);
   CHECK(without > 0.1);
+}
+
+/// Displacement of the middle of a cantilever's end under forces on the nodes there, turning about z.
+Vector3 bent(const test::Beam& beam, const Vector3& force, double omega = 0) {
+  MechanismBuilder b;
+  const std::shared_ptr<NodalBody> body = beam.all_nodes();
+  const FlexibleBodyIds ids = b.add_flexible_body("beam", {}, body);
+  const JointId hinge = b.add_joint({.name = "hinge",
+                                     .type = JointType::revolute,
+                                     .inboard = b.frame_of(b.ground()),
+                                     .outboard = ids.frames[0],
+                                     .initial = {0.0},
+                                     .initial_rate = {omega}});
+  b.add_drive(
+      {.name = "brake", .coordinate = {hinge, 0}, .kind = DriveSpec::Kind::speed, .function = test::constant(omega)});
+  const std::vector<int>& end = body->mesh_body().mesh.node_sets.at("x1");
+  const auto share = 1 / static_cast<double>(end.size());
+  NodalLoad load{
+      .name = "push", .axes = LoadAxes::ground, .forces = Eigen::Matrix3Xd::Zero(3, body->mesh_body().node_count())};
+  for (const int node : end) load.forces.col(node) = share * force;
+  b.add_nodal_load(ids.elastic, load, test::constant(1));
+  const auto m = b.finalise();
+  const solver::State state = test::start(*m);
+  const VectorXd u = body->displacements(m->observe(state).elastics[0].motion, {});
+  CHECK(body->internal_residual() < 1e-9);
+  Vector3 tip = Vector3::Zero();
+  for (const int node : end) tip += share * u.segment<3>(3 * node);
+  return tip;
+}
+
+TEST_CASE("NodalBodyOfFiniteStrain_BendsLikeItsMesh") {
+  // Deflected by a quarter of its length.
+  test::Beam beam{.size = {1, 0.05, 0.05}, .cells = {10, 1, 1}};
+  beam.material.youngs_modulus = 2e9;
+  const Vector3 force{0, -800, 0};
+  const Vector3 small = bent(beam, force);
+  beam.strain = Strain::finite;
+  const Vector3 finite = bent(beam, force);
+  const fem::ElasticBody body = beam.elastic();
+  std::vector<fem::Support> supports;
+  for (const int dof : fem::dofs_of(body.mesh.node_sets.at("x0"))) supports.push_back({dof, 0});
+  VectorXd f = VectorXd::Zero(body.size());
+  const std::vector<int>& end = body.mesh.node_sets.at("x1");
+  for (const int node : end) f.segment<3>(3 * node) = force / static_cast<double>(end.size());
+  const fem::LargeDisplacement whole = fem::solve_large_displacement(body, supports, f);
+  REQUIRE_MESSAGE(whole.ok, whole.message);
+  Vector3 tip = Vector3::Zero();
+  for (const int node : end) tip += whole.u.segment<3>(3 * node) / static_cast<double>(end.size());
+  MESSAGE("tip ", finite.transpose(), ", the mesh's ", tip.transpose(), ", small strains ", small.transpose());
+  CHECK((finite - tip).norm() < 1e-7 * tip.norm());
+  CHECK((small - tip).norm() > 0.05 * tip.norm());
+}
+
+TEST_CASE("NodalBodyOfFiniteStrain_IsStiffenedBySpin") {
+  // Out of its plane of rotation a uniform blade bends like its first mode nearly, omega_f^2 = omega_0^2 + 1.193
+  // omega^2 (Southwell's coefficient of the blade hinged at its hub's centre, Leissa 1981).
+  test::Beam beam{.size = {1, 0.05, 0.05}, .cells = {10, 1, 1}};
+  beam.material.youngs_modulus = 2e9;
+  const double omega_0 = 3.51602 * std::sqrt(beam.material.youngs_modulus / beam.material.density / 12) * 0.05;
+  const Vector3 force{0, 0, 5};
+  beam.strain = Strain::finite;
+  const double ratio = bent(beam, force, omega_0).z() / bent(beam, force).z();
+  MESSAGE("deflection turning over at rest ", ratio);
+  CHECK(ratio == doctest::Approx(1 / (1 + 1.193)).epsilon(0.03));
+  beam.strain = Strain::small;
+  CHECK(bent(beam, force, 0.3 * omega_0).z() == doctest::Approx(bent(beam, force).z()).epsilon(1e-3));
+}
+
+TEST_CASE("NodalBodyOfFiniteStrain_BalancesPowersAsItSwings") {
+  test::Beam beam{.size = {1, 0.05, 0.05}, .cells = {6, 1, 1}};
+  beam.material.youngs_modulus = 5e8;
+  beam.damping.stiffness = 1e-4;
+  beam.nodal = true;
+  beam.strain = Strain::finite;
+  MechanismBuilder b;
+  b.set_gravity({0, -9.81, 0});
+  const FlexibleBodyIds ids = beam.add_to(b);
+  b.add_joint({.name = "hinge",
+               .type = JointType::revolute,
+               .inboard = b.frame_of(b.ground()),
+               .outboard = b.add_frame({.name = "root", .body = ids.bodies[0], .X_BF = beam.frame_at(0)}),
+               .initial = {0.0}});
+  const auto m = b.finalise();
+  solver::State state = test::start(*m);
+  const auto stored = [](const ElasticEnergy& e) { return e.kinetic + e.strain + e.potential; };
+  const ElasticEnergy first = m->observe(state).elastics[0].energy;
+  double lost = 0, before = first.dissipation, moved = 0;
+  const double dt = 0.3 / 600;
+  test::run(*m, state, 0.3, 600, 0.95, [&](const solver::State& now) {
+    const ElasticEnergy e = m->observe(now).elastics[0].energy;
+    lost += 0.5 * dt * (before + e.dissipation);
+    before = e.dissipation;
+    moved = std::max(moved, e.kinetic);
+    CHECK(std::abs(e.kinetic_rate + e.strain_rate + e.dissipation - e.gravity) < 1e-6 * moved / dt);
+  });
+  const ElasticEnergy last = m->observe(state).elastics[0].energy;
+  MESSAGE("kinetic energy ", last.kinetic, " J, strain ", last.strain, ", lost ", lost, ", unaccounted ",
+          stored(last) + lost - stored(first));
+  CHECK(last.strain > 1e-4 * last.kinetic);
+  CHECK(std::abs(stored(last) + lost - stored(first)) < 1e-5 * last.kinetic);
 }
 
 }  // namespace

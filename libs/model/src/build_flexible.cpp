@@ -72,7 +72,7 @@ BuiltFlexible build_flexible(const Body& body) {
   built.static_errors = shapes.static_errors;
   mbd::ModalBodyData data = mbd::modal_data(shapes, flexible.damping, &built.shapes);
   if (flexible.nodal)
-    built.body = std::make_shared<mbd::NodalBody>(std::move(*mesh), shapes, flexible.damping);
+    built.body = std::make_shared<mbd::NodalBody>(std::move(*mesh), shapes, flexible.damping, flexible.strain);
   else
     built.body = std::make_shared<mbd::ModalBody>(std::move(data));
   for (const double omega : shapes.internal_omega) built.frequencies.push_back(omega / (2 * std::numbers::pi));

@@ -21,6 +21,8 @@ class FlexibleReader {
     Flexible flexible;
     flexible.position = value.key_position;
     flexible.nodal = text_of(value, "form") == "nodal";
+    if (text_of(value, "strain") == "finite") flexible.strain = mbd::Strain::finite;
+    refuse_finite_strain(value, flexible, frames);
     flexible.modes = integer_of(value, "modes");
     flexible.highest = number_of(value, "highest_frequency");
     if (const Value* damping = value.find("damping"))
@@ -41,6 +43,16 @@ class FlexibleReader {
   }
 
  private:
+  void refuse_finite_strain(const Value& value, const Flexible& flexible, const std::vector<Frame>& frames) {
+    if (flexible.strain == mbd::Strain::small) return;
+    if (!flexible.nodal)
+      context_.fault(*value.find("strain"), "finite strain of a modal body", "`form: nodal`",
+                     "shapes that add up linearly strain linearly");
+    else if (frames.size() > 1)
+      context_.fault(*value.find("strain"), "finite strain of a body with " + std::to_string(frames.size()) + " frames",
+                     "a body held at one frame", "load others by forces on their faces");
+  }
+
   void refuse_rigid_keys() {
     for (const char* key : {"inertia", "centre_of_mass"})
       if (const Value* given = body_.find(key); given != nullptr && given->given)

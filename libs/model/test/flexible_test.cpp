@@ -103,6 +103,10 @@ TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreTold") {
   CHECK(contains(faults_of(edited(nodal, simulation, "{analysis: modes}")),
                  "bodies.bar.flexible.form: `form: nodal` of a body whose small motions are sought"));
   CHECK(faults_of(nodal) == "no fault");
+  CHECK(
+      contains(faults_of(edited(kMachine, "      modes: 0", "      strain: finite")), "finite strain of a modal body"));
+  CHECK(contains(faults_of(edited(nodal, "form: nodal", "form: nodal\n      strain: finite")),
+                 "finite strain of a body with 2 frames"));
 }
 
 TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {

@@ -137,12 +137,12 @@ const char* const kWind =
     "  wind: {type: surface_force, body: bar, faces: right, direction: y, magnitude: {expression: \"2*t/0.05\", "
     "unit: N}}\n";
 
-TEST_CASE("PendulumOfNodes_IsRecordedAndBalanced") {
+void check_pendulum_of_nodes(const std::string& strains) {
   // Without a frame at its tip the loads act on free nodes.
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);
   std::string text = kPendulum;
-  text.replace(text.find("modes: 4"), 8, "modes: 4\n      form: nodal");
+  text.replace(text.find("modes: 4"), 8, "modes: 4\n      form: nodal\n      strain: " + strains);
   text.replace(text.find("      tip: {nodes: right}\n"), 26, "");
   std::ofstream(folder / "model.yaml") << text << kWind;
   const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
@@ -157,6 +157,11 @@ TEST_CASE("PendulumOfNodes_IsRecordedAndBalanced") {
   CHECK(std::abs(wind.back()) > 1e-3);
   CHECK(series("/bodies/bar/amplitudes").size() == 4 * series("/time").size());
   CHECK(std::filesystem::exists(folder / "r_bar.pvd"));
+}
+
+TEST_CASE("PendulumOfNodes_IsRecordedAndBalanced") {
+  check_pendulum_of_nodes("small");
+  check_pendulum_of_nodes("finite");
 }
 
 TEST_CASE("PendulumBlownAtItsEnd_BalancesPowers") {

@@ -17,15 +17,15 @@ struct FiniteStrainElement {
 };
 [[nodiscard]] FiniteStrainElement finite_strain_element(ElementType type, const NodeColumns& x,
                                                         const SolidMaterial& material, const NodeColumns& u,
-                                                        Integration rule = Integration::full);
+                                                        Integration rule = Integration::full, bool want_tangent = true);
 
 /// The same of a whole body; `tangent` has the pattern of ElasticBody::K and is K where u = 0.
 struct FiniteStrain {
   double energy = 0;
   Eigen::VectorXd force;
-  Eigen::SparseMatrix<double> tangent;
+  Eigen::SparseMatrix<double> tangent;  ///< left alone where it is not wanted
 };
-void finite_strain(const ElasticBody& body, const Eigen::VectorXd& u, FiniteStrain& out);
+void finite_strain(const ElasticBody& body, const Eigen::VectorXd& u, FiniteStrain& out, bool want_tangent = true);
 
 struct LargeDisplacementOptions {
   int steps = 5;  ///< load and prescribed displacements grow in as many equal parts, halved where Newton's method fails

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hersey/fem/elastic_body.h"
+#include "hersey/fem/finite_strain.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/mbd/modal_body.h"
 #include "hersey/solver/second_order_history.h"
@@ -15,6 +16,12 @@ namespace hersey::mbd {
 
 class NodalFactors;
 struct NodalFactor;
+
+/// How displacements strain a body.
+enum class Strain {
+  small,  ///< linearly, in the body's axes
+  finite  ///< by Green and Lagrange
+};
 
 /// The flexible body of small strain and large motion with a displacement of every node: over the static shapes of its
 /// frames, as of a modal body, each node moves by w,
@@ -25,14 +32,20 @@ struct NodalFactor;
 /// in the body's axes. What spin adds to that matrix, 2 c omega~ M and less, is left to iteration (theory manual eq.
 /// (flexible-bodies.15) to (flexible-bodies.20)).
 ///
+/// With Strain::finite, for a body of one frame, the elastic forces are those of Green and Lagrange's strain (St.
+/// Venant and Kirchhoff): strains may be moderate, rotations against the body's axes large, and what is pulled gets
+/// stiffer. The matrix is then that of the state each step starts from, factorised anew for each.
+///
 /// At the start w is the static answer to the forces of inertia and weight of the start, at rest against the axes: as
 /// if the motion had gone on like this before.
 class NodalBody final : public ModalBody {
  public:
   /// @param body     the whole mesh
   /// @param reduced  of that mesh with the same frames; its vibrations serve to draw the body, not to move it
+  /// @pre one frame where `strain` is finite: further frames turn little against the first
   /// @throws InputError  telling the memory needed where the factor does not fit
-  NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping);
+  NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping,
+            Strain strain = Strain::small);
   ~NodalBody() override;
 
   void add_load(const NodalLoad& load) override;
@@ -60,11 +73,14 @@ class NodalBody final : public ModalBody {
   struct Fields;
   [[nodiscard]] Eigen::Matrix3Xd loads_on_nodes(const ElasticMotion& motion) const;
   void settle(const ElasticMotion& motion);
+  void iterate(const ElasticMotion& motion, const solver::Stage& stage);
   void update_fields();
   void update_accelerations(const ElasticFrame& base);
   [[nodiscard]] double unbalance(const ElasticMotion& motion);
   /// Integrals of rho X_r f_p of answers X and a field f: [r](column of X, p).
   using Moments = std::array<Eigen::MatrixX3d, 3>;
+  [[nodiscard]] Eigen::VectorXd elastic_forces();
+  void refresh_stiffness(const solver::Stage& stage);
   void condense(const ElasticMotion& motion);
   [[nodiscard]] Eigen::MatrixXd forces_of_answers(const NodalFactor& factor, const solver::Stage& stage,
                                                   const ElasticFrame& base, const Moments& by_y, const Moments& by_rate,
@@ -74,6 +90,7 @@ class NodalBody final : public ModalBody {
 
   fem::ElasticBody body_;
   RayleighDamping damping_;
+  Strain strain_;
   Eigen::Matrix3Xd x_;             ///< undeformed nodes
   Eigen::RowVectorXd nodal_mass_;  ///< sums of the rows of m
   Eigen::MatrixXd Psi_;            ///< static shapes of the frames, (3 nodes, shapes)
@@ -84,8 +101,10 @@ class NodalBody final : public ModalBody {
   solver::SecondOrderHistory w_;
   std::unique_ptr<NodalFactors> factors_;
   std::unique_ptr<Fields> fields_;
+  fem::FiniteStrain finite_;   ///< at the last displacement looked at
   Eigen::VectorXd r_, sizes_;  ///< forces on the nodes that nothing balances, and sizes of the terms in them
   bool at_rest_ = true;
+  bool is_stale_ = true;  ///< finite strains: the matrix is not of this step
   double internal_residual_ = 0;
   std::string trouble_;
 };
