@@ -15,8 +15,8 @@ using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kSolvesAtRest = 30;    // the same of a body of finite strain in statics
 constexpr int kSolves = 2;           // most solutions per evaluation
+constexpr int kSolvesAtRest = 30;    // the same of a body of finite strain in statics
 constexpr double kBalanced = 1e-12;  // of the forces on the nodes: no further solution
 
 // As in inertia.cpp: the share of the force that would stop a body within the step.
@@ -194,9 +194,14 @@ double NodalBody::unbalance(const ElasticMotion& motion) {
   return size > 0 ? r_.norm() / size : 0;
 }
 
+/// Whether the nodes answer to this motion of the frames, or are only looked at where they are.
+bool NodalBody::follows(const ElasticMotion& motion) const {
+  return at_rest_ || (motion.stage.dt > 0 && motion.stage.k != 0);
+}
+
 /// Solves the equations of the nodes for this motion of the frames, theory manual eq. (flexible-bodies.17).
 void NodalBody::settle(const ElasticMotion& motion) {
-  const bool moves = at_rest_ || (motion.stage.dt > 0 && motion.stage.k != 0);
+  const bool moves = follows(motion);
   if (moves && !at_rest_) w_.predict(motion.stage);
   ModalBody::gather(motion, false);
   if (moves) {
@@ -237,8 +242,7 @@ void NodalBody::add_nodes(const ElasticMotion& motion, bool want_tangent) {
   w.magnitude.head<3>().array() += each.dot(fields_->y.colwise().norm());
   w.magnitude.segment<3>(3).array() += each.sum();
   w.magnitude.tail(n) += Psi_.cwiseAbs().transpose() * size;
-  const bool moves = at_rest_ || (motion.stage.dt > 0 && motion.stage.k != 0);
-  if (want_tangent && moves && trouble_.empty()) condense(motion);
+  if (want_tangent && follows(motion) && trouble_.empty()) condense(motion);
 }
 
 /// How the nodes' answer changes the derivatives. It is sought among the columns of X: onto (X^T S X)^-1 from, theory

@@ -68,8 +68,8 @@ bool NodalFactors::factorise(NodalFactor& factor, double shift, double scale, st
   return true;
 }
 
-void NodalFactors::restiffen(Eigen::SparseMatrix<double> K) {
-  K_ = std::move(K);
+void NodalFactors::restiffen(const Eigen::SparseMatrix<double>& K) {
+  K_ = K;
   is_stale_ = true;
 }
 

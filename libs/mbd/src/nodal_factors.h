@@ -36,7 +36,7 @@ class NodalFactors {
   [[nodiscard]] const NodalFactor* of(const solver::Stage& stage, std::string& message);
 
   /// Takes another stiffness of the same pattern: factors are made anew.
-  void restiffen(Eigen::SparseMatrix<double> K);
+  void restiffen(const Eigen::SparseMatrix<double>& K);
 
   /// (m M + c D + k K)^-1 f.
   [[nodiscard]] Eigen::VectorXd solve(const NodalFactor& factor, const Eigen::VectorXd& f);

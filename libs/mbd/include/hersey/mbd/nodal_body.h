@@ -72,6 +72,7 @@ class NodalBody final : public ModalBody {
  private:
   struct Fields;
   [[nodiscard]] Eigen::Matrix3Xd loads_on_nodes(const ElasticMotion& motion) const;
+  [[nodiscard]] bool follows(const ElasticMotion& motion) const;
   void settle(const ElasticMotion& motion);
   void iterate(const ElasticMotion& motion, const solver::Stage& stage);
   void update_fields();
