@@ -131,7 +131,7 @@ void project(const ElasticBody& body, ReducedBody& reduced) {
 
 FrameSupports frame_supports(const Mesh& mesh, const std::vector<InterfaceFrame>& frames) {
   Interface interface = interface_of(mesh, frames);
-  return {std::move(interface.held), std::move(interface.C)};
+  return {std::move(interface.held), interface.C};
 }
 
 Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& frames, const ReductionOptions& options) {
