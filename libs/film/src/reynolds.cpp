@@ -106,7 +106,7 @@ void Reynolds::Impl::condense_by_adjoint(Vector6& W, Eigen::Matrix<double, 6, Ei
   factorise();
   adjoint = wrench.gradient_u().transpose();
   lu.solve_transposed({adjoint.data(), static_cast<std::size_t>(adjoint.size())}, static_cast<int>(adjoint.cols()));
-  W.noalias() -= adjoint.transpose() * balance.residual();
+  for (Eigen::Index i = 0; i < 6; ++i) W[i] -= adjoint.col(i).dot(balance.residual());
   dW.noalias() -= adjoint.transpose() * residual_ds;
 }
 
