@@ -65,6 +65,7 @@ NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, con
   nodal_mass_ = Eigen::RowVectorXd::Ones(x_.cols()) * body_.m;
   const Index shapes = data().shapes();
   Psi_ = reduced.Phi.middleCols(6, shapes);
+  Psi_size_ = Psi_.cwiseAbs();
   vibrations_ = reduced.Phi.rightCols(reduced.size() - reduced.internal_first());
   for (Index a = 0; a < vibrations_.cols(); ++a) {
     const VectorXd shape = vibrations_.col(a);
@@ -237,11 +238,11 @@ void NodalBody::add_nodes(const ElasticMotion& motion, bool want_tangent) {
   const Index n = data().shapes();
   w.force.tail(n) += damping_.mass * (inertia_.rightCols(n).transpose() * w_.rate());
   if (!loads_.empty()) w.force.head<3>() -= cross_moment(nodes_of(w_.position()) * loads_on_nodes(motion).transpose());
-  const VectorXd size = (sizes_.array() * kNodalShare).matrix();
+  const VectorXd size = kNodalShare * sizes_;
   const Eigen::RowVectorXd each = nodes_of(size).colwise().norm();
   w.magnitude.head<3>().array() += each.dot(fields_->y.colwise().norm());
   w.magnitude.segment<3>(3).array() += each.sum();
-  w.magnitude.tail(n) += Psi_.cwiseAbs().transpose() * size;
+  w.magnitude.tail(n) += Psi_size_.transpose() * size;
   if (want_tangent && follows(motion) && trouble_.empty()) condense(motion);
 }
 

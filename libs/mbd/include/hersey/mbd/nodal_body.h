@@ -95,6 +95,7 @@ class NodalBody final : public ModalBody {
   Eigen::Matrix3Xd x_;             ///< undeformed nodes
   Eigen::RowVectorXd nodal_mass_;  ///< sums of the rows of m
   Eigen::MatrixXd Psi_;            ///< static shapes of the frames, (3 nodes, shapes)
+  Eigen::MatrixXd Psi_size_;       ///< absolute values of Psi_
   Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
   Eigen::VectorXd vibration_mass_;
   Eigen::MatrixXd inertia_;  ///< columns E of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi
