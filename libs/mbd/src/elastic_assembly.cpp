@@ -32,6 +32,7 @@ ElasticAssembly::ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree&
   to_frame_.resize(frames_.size());
   motion_.frames.resize(frames_.size());
   motion_.loads = Eigen::VectorXd::Zero(static_cast<Index>(loads_.size()));
+  shape_columns_.columns = columns_;
   response_.K = response_.C = response_.M = Eigen::MatrixXd::Zero(rows, rows);
   response_.force = response_.magnitude = Eigen::VectorXd::Zero(rows);
 }
@@ -74,6 +75,7 @@ const ElasticMotion& ElasticAssembly::read(const TreeMotion& motion, const solve
   motion_.eta = state.q.segment(own_q_, own_count());
   motion_.eta_rate = state.v.segment(own_v_, own_count());
   motion_.eta_acceleration = state.vdot.segment(own_v_, own_count());
+  motion_.shape_forces.resize(0);
   return motion_;
 }
 
@@ -97,20 +99,44 @@ void ElasticAssembly::fill_directions(const Assembly& assembly) {
   A_.bottomRightCorner(own, own).diagonal().setConstant(stage.m);
 }
 
-void ElasticAssembly::add(Assembly& assembly, const solver::State& state, const Vector3& gravity) {
-  body_->evaluate(read(assembly.motion, state, assembly.stage, true), assembly.tangent != nullptr, response_);
-  // In free fall inertia and weight cancel, so the weight counts by itself.
-  response_.magnitude.segment<3>(3).array() += body_->mass() * gravity.norm();
+void ElasticAssembly::prepare(const Assembly& assembly, const solver::State& state) {
+  read(assembly.motion, state, assembly.stage, true);
   for (std::size_t f = 0; f < frames_.size(); ++f)
     for (int c = 0; c < tree_columns_; ++c)
       if (moves_[f][static_cast<std::size_t>(c)] != 0)
         J_.block<6, 1>(6 * static_cast<Index>(f), c) =
             to_frame_[f] * assembly.motion.J(columns_[static_cast<std::size_t>(c)]);
+  if (assembly.tangent != nullptr) fill_directions(assembly);
+}
+
+void ElasticAssembly::find_shapes(const Assembly& assembly) {
+  const bool want_tangent = assembly.tangent != nullptr;
+  body_->find_shapes(motion_, want_tangent, shapes_);
+  if (!want_tangent) return;
+  shape_columns_.virtual_value.noalias() = shapes_.by_motion * J_;
+  shape_columns_.value.noalias() = shapes_.by_motion * X_;
+  shape_columns_.rate.noalias() = shapes_.by_motion * V_;
+  shape_columns_.rate.noalias() += shapes_.rate_by_motion * X_;
+}
+
+void ElasticAssembly::find_shapes() { body_->find_shapes(motion_, false, shapes_); }
+
+void ElasticAssembly::add_shape_forces(const Eigen::Ref<const Eigen::VectorXd>& Q) {
+  if (motion_.shape_forces.size() == 0) {
+    motion_.shape_forces = motion_.shape_force_sizes = Eigen::VectorXd::Zero(Q.size());
+  }
+  motion_.shape_forces += Q;
+  motion_.shape_force_sizes += Q.cwiseAbs();
+}
+
+void ElasticAssembly::add(Assembly& assembly, const Vector3& gravity) {
+  body_->evaluate(motion_, assembly.tangent != nullptr, response_);
+  // In free fall inertia and weight cancel, so the weight counts by itself.
+  response_.magnitude.segment<3>(3).array() += body_->mass() * gravity.norm();
   for (Index c = 0; c < J_.cols(); ++c)
     assembly.add_residual(columns_[static_cast<std::size_t>(c)], J_.col(c).dot(response_.force),
                           J_.col(c).cwiseAbs().dot(response_.magnitude));
   if (assembly.tangent == nullptr) return;
-  fill_directions(assembly);
   add_tangent(assembly);
   add_turning(assembly);
 }

@@ -11,14 +11,32 @@
 
 namespace hersey::mbd {
 
+/// How the amplitudes of a body's shapes move with the columns of the tree and the body's own coordinates, a matrix
+/// column each: virtually, and by one Newton increment.
+struct ShapeColumns {
+  std::vector<int> columns;
+  Eigen::MatrixXd virtual_value, value, rate;  ///< shape (shapes, columns)
+};
+
 /// An elastic body as the tree sees it: where its frames hang, which columns move them, where its own coordinates lie.
 class ElasticAssembly {
  public:
   /// @param own_q, own_v  places of the body's first own coordinate in q and v
   ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree& tree, int own_q, int own_v);
 
+  /// Reads the motion of the assembly's state; no force acts on the body's shapes yet. Comes before `add`.
+  void prepare(const Assembly& assembly, const solver::State& state);
+
   /// Adds the forces the body needs and their tangent (theory manual eq. (flexible-bodies.13)).
-  void add(Assembly& assembly, const solver::State& state, const Vector3& gravity);
+  void add(Assembly& assembly, const Vector3& gravity);
+
+  /// For forces that see the body deform: its amplitudes and what moves them, per column; see ShapeColumns.
+  void find_shapes(const Assembly& assembly);
+  /// At the motion last read, for looking only.
+  void find_shapes();
+  [[nodiscard]] const ShapeMotion& shapes() const { return shapes_; }
+  [[nodiscard]] const ShapeColumns& shape_columns() const { return shape_columns_; }
+  void add_shape_forces(const Eigen::Ref<const Eigen::VectorXd>& Q);
 
   /// The motion of the frames and own coordinates; `accelerate`: accelerations too, which TreeMotion must hold.
   const ElasticMotion& read(const TreeMotion& motion, const solver::State& state, const solver::Stage& stage,
@@ -38,6 +56,7 @@ class ElasticAssembly {
   [[nodiscard]] const Attachment& frame(std::size_t i) const { return frames_[i]; }
   /// Wrench on frame i's body at the last assembly that equals what the body needs there: at the frame, in its axes.
   [[nodiscard]] Vector6 wrench(std::size_t i) const { return response_.force.segment<6>(6 * static_cast<int>(i)); }
+  [[nodiscard]] const ElasticMotion& motion() const { return motion_; }  ///< last read
   [[nodiscard]] ElasticResponse& response() { return response_; }
 
  private:
@@ -66,6 +85,8 @@ class ElasticAssembly {
 
   ElasticMotion motion_;
   ElasticResponse response_;
+  ShapeMotion shapes_;
+  ShapeColumns shape_columns_;
   std::vector<Matrix6> to_frame_;  ///< Ad(X_WF)^-1
   Eigen::MatrixXd J_, X_, V_, A_;  ///< per column: velocity, and what an increment does to position, velocity, ...
   Eigen::MatrixXd product_, block_;

@@ -19,6 +19,7 @@ Mechanism::Implementation::Implementation(MechanismSpec given)
       motion(tree, spec.gravity),
       inertia(tree),
       directions(tree.columns.size()),
+      relatives(spec.forces.size()),
       responses(spec.forces.size()) {
   for (const LoadSpec& load : spec.loads) loads.emplace_back(load, spec.frames[load.frame.index].body, tree);
   for (const DriveSpec& drive : spec.drives) {
@@ -31,6 +32,7 @@ Mechanism::Implementation::Implementation(MechanismSpec given)
   for (const MechanismSpec::CoordinateForce& force : spec.coordinate_forces)
     coordinate_force_columns.push_back(column_of(tree, force.coordinate));
   place_elastic_bodies();
+  place_surfaces();
   release_redundant_rows();
   make_patterns();
 }
@@ -99,25 +101,17 @@ void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd
   compute_directions(m.tree, m.motion, stage, m.directions);
   Assembly assembly{m.tree, m.motion, stage, m.directions, residual, scale, tangent};
   m.inertia.add(assembly);
-  for (ElasticAssembly& elastic : m.elastics) elastic.add(assembly, state, m.spec.gravity);
+  for (ElasticAssembly& elastic : m.elastics) elastic.prepare(assembly, state);
+  m.evaluate_two_body_forces(assembly, state);
+  for (ElasticAssembly& elastic : m.elastics) elastic.add(assembly, m.spec.gravity);
   for (Load& load : m.loads) load.add(assembly, state);
   m.add_coordinate_springs(assembly, state);
   m.add_coordinate_forces(assembly, state);
-  m.add_two_body_forces(assembly, state);
+  m.add_two_body_forces(assembly);
   m.add_closures(assembly, state);
   m.add_couplings(assembly, state);
   m.add_drives(assembly, state);
   m.floor_scales(scale);
-}
-
-void Mechanism::Implementation::add_two_body_forces(Assembly& assembly, const State& state) {
-  for (std::size_t i = 0; i < spec.forces.size(); ++i) {
-    RelativeMotion relative = motion.relative(tree.forces[i]);
-    relative.t = state.t;
-    relative.dt = assembly.stage.dt;
-    spec.forces[i].force->evaluate(relative, assembly.tangent != nullptr, responses[i]);
-    add_pair_force(assembly, tree.forces[i], responses[i]);
-  }
 }
 
 void Mechanism::Implementation::add_coordinate_springs(Assembly& assembly, const State& state) const {
@@ -314,12 +308,10 @@ void Mechanism::begin_step(const State& start, double dt) {
   Implementation& m = *impl_;
   if (m.spec.forces.empty() && m.elastics.empty()) return;
   m.motion.update(start);
-  for (ElasticAssembly& elastic : m.elastics) elastic.body().begin_step(elastic.read(m.motion, start, {}, true), dt);
-  for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
-    RelativeMotion relative = m.motion.relative(m.tree.forces[i]);
-    relative.t = start.t;
-    m.spec.forces[i].force->begin_step(relative, dt);
-  }
+  m.read_elastic_bodies(start);
+  for (ElasticAssembly& elastic : m.elastics) elastic.body().begin_step(elastic.motion(), dt);
+  for (std::size_t i = 0; i < m.spec.forces.size(); ++i)
+    m.spec.forces[i].force->begin_step(m.relative_motion(i, start.t), dt);
 }
 
 void Mechanism::accept_step(const State& end) {
@@ -335,13 +327,14 @@ void Mechanism::accept_step(const State& end) {
   if (m.spec.forces.empty() && m.elastics.empty()) return;
   m.motion.update_velocities(end);
   m.motion.update_accelerations(end);
-  for (ElasticAssembly& elastic : m.elastics) elastic.body().accept_step(elastic.read(m.motion, end, {}, true));
-  m.accepted_wrenches.resize(m.spec.forces.size());
+  m.read_elastic_bodies(end);
+  m.hand_out_shape_forces(m.responses);
+  for (ElasticAssembly& elastic : m.elastics) elastic.body().accept_step(elastic.motion());
+  m.accepted.resize(m.spec.forces.size());
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
-    RelativeMotion relative = m.motion.relative(m.tree.forces[i]);
-    relative.t = end.t;
-    m.spec.forces[i].force->accept_step(relative);
-    m.accepted_wrenches[i] = m.responses[i].W_B_A;
+    m.spec.forces[i].force->accept_step(m.relative_motion(i, end.t));
+    m.accepted[i].W_B_A = m.responses[i].W_B_A;
+    m.accepted[i].Q = m.responses[i].Q;
   }
 }
 
@@ -389,11 +382,9 @@ FrameMotion Mechanism::frame_motion(const State& state, FrameId frame) {
 
 RelativeMotion Mechanism::relative_motion(const State& state, ForceId force) {
   HERSEY_REQUIRE(0 <= force.index && force.index < static_cast<int>(impl_->tree.forces.size()), "the force exists");
-  impl_->motion.update_positions(state);
-  impl_->motion.update_velocities(state);
-  RelativeMotion relative = impl_->motion.relative(impl_->tree.forces[force.index]);
-  relative.t = state.t;
-  return relative;
+  impl_->motion.update(state);
+  impl_->read_elastic_bodies(state);
+  return impl_->relative_motion(static_cast<std::size_t>(force.index), state.t);
 }
 
 }  // namespace hersey::mbd

@@ -100,11 +100,15 @@ JointId MechanismBuilder::add_joint(JointSpec joint) {
   return append<JointId>(spec_.joints, std::move(joint));
 }
 
-ForceId MechanismBuilder::add_force(std::string name, FrameId a, FrameId b, std::shared_ptr<TwoBodyForce> force) {
+ForceId MechanismBuilder::add_force(std::string name, FrameId a, FrameId b, std::shared_ptr<TwoBodyForce> force,
+                                    const ForceSurfaces& surfaces) {
   const int frames = static_cast<int>(spec_.frames.size());
   HERSEY_REQUIRE(0 <= a.index && a.index < frames && 0 <= b.index && b.index < frames, "both frames exist");
   HERSEY_REQUIRE(force != nullptr, "there is a force");
-  return append<ForceId>(spec_.forces, MechanismSpec::Force{std::move(name), a, b, std::move(force)});
+  for (const std::optional<ElasticId>& side : {surfaces.a, surfaces.b})
+    HERSEY_REQUIRE(!side || spec_.elastics.at(static_cast<std::size_t>(side->index)).body->shape_count() > 0,
+                   "a body whose surfaces deform");
+  return append<ForceId>(spec_.forces, MechanismSpec::Force{std::move(name), a, b, std::move(force), surfaces});
 }
 
 LoadId MechanismBuilder::add_load(LoadSpec load) {

@@ -38,8 +38,15 @@ struct Mechanism::Implementation {
   SparseMatrix pattern;             ///< of the tangent, zeros
   SparseMatrix constraint_pattern;  ///< of G, zeros
 
-  std::vector<ForceResponse> responses;    ///< of the two-body forces at the last assembly
-  std::vector<Vector6> accepted_wrenches;  ///< at the last accepted step; empty before the first
+  /// The elastic bodies that a two-body force sees deform, by place among `elastics`; -1: none.
+  struct Sides {
+    int a = -1, b = -1;
+  };
+  std::vector<Sides> sides;                  ///< of each two-body force
+  std::vector<char> seen_deforming;          ///< of each elastic body: some force sees it deform
+  std::vector<RelativeMotion> relatives;     ///< of the two-body forces at the last assembly
+  std::vector<ForceResponse> responses;      ///< the same
+  std::vector<ForceResponse> accepted;       ///< at the last accepted step, wrenches and forces alone; empty before
 
   // Multipliers: closures, then couplings, then drives.
   [[nodiscard]] Index row_of_coupling(std::size_t i) const { return tree.nclosure + static_cast<Index>(i); }
@@ -62,7 +69,15 @@ struct Mechanism::Implementation {
 
   void place_elastic_bodies();
   void make_patterns();
-  void add_two_body_forces(Assembly& assembly, const solver::State& state);
+  void place_surfaces();
+  [[nodiscard]] RelativeMotion relative_motion(std::size_t force, double t) const;
+  /// Calls visit(row, column) for what the shapes of the bodies that force i sees deform add to its tangent.
+  template <class Visit>
+  void visit_surface_columns(std::size_t i, Visit visit) const;
+  void read_elastic_bodies(const solver::State& state);
+  void evaluate_two_body_forces(const Assembly& assembly, const solver::State& state);
+  void hand_out_shape_forces(const std::vector<ForceResponse>& of_forces);
+  void add_two_body_forces(Assembly& assembly) const;
   void add_closures(Assembly& assembly, const solver::State& state) const;
   void add_coordinate_springs(Assembly& assembly, const solver::State& state) const;
   void add_coordinate_forces(Assembly& assembly, const solver::State& state) const;
@@ -79,7 +94,7 @@ struct Mechanism::Implementation {
   void observe_reactions(const solver::State& state, Observation& seen);
   void observe_drift(const solver::State& state, Observation& seen) const;
   void observe_energies(Observation& seen) const;
-  void observe_elastic_bodies(const solver::State& state, Observation& seen);
+  void observe_elastic_bodies(Observation& seen);
 };
 
 /// The wrench of a closure's multipliers, with its geometric stiffness, in the form of a two-body force.

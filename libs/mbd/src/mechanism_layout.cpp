@@ -47,6 +47,24 @@ std::string Mechanism::name_of_row(Index row) const {
   return {};
 }
 
+template <class Visit>
+void Mechanism::Implementation::visit_surface_columns(std::size_t i, Visit visit) const {
+  std::vector<int> own, pair;
+  for (const int side : {sides[i].a, sides[i].b}) {
+    if (side < 0) continue;
+    const std::vector<int>& columns = elastics[static_cast<std::size_t>(side)].shape_columns().columns;
+    own.insert(own.end(), columns.begin(), columns.end());
+  }
+  for (const SignedColumn& column : tree.forces[i].columns) pair.push_back(column.column);
+  for (const int moved : own) {
+    for (const int pushed : own) visit(pushed, moved);
+    for (const int column : pair) {
+      visit(column, moved);
+      visit(moved, column);
+    }
+  }
+}
+
 void Mechanism::Implementation::make_patterns() {
   std::vector<Eigen::Triplet<double>> entries, constraint_entries;
   const auto visit = [&](Index row, Index column) { entries.emplace_back(row, column, 0.0); };
@@ -65,7 +83,10 @@ void Mechanism::Implementation::make_patterns() {
       visit(k, j);
     }
   }
-  for (const Pair& pair : tree.forces) visit_pair(pair);
+  for (std::size_t i = 0; i < tree.forces.size(); ++i) {
+    visit_pair(tree.forces[i]);
+    visit_surface_columns(i, visit);
+  }
   for (const ElasticAssembly& elastic : elastics) elastic.visit_pattern(visit);
   for (const Load& load : loads) load.visit_pattern(tree, visit);
   for (const Closure& closure : tree.closures) {

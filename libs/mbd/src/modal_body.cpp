@@ -108,8 +108,7 @@ VectorXd ModalBody::stiffness_at_size() const {
   return data_.stiffness.cwiseAbs() * reach;
 }
 
-/// Amplitudes and sums over shapes at a motion.
-void ModalBody::gather(const ElasticMotion& motion, bool want_tangent) {
+void ModalBody::gather_amplitudes(const ElasticMotion& motion, bool want_tangent) {
   Workspace& w = *work_;
   const Index own = coordinate_count();
   w.q[0] = 1;
@@ -124,7 +123,12 @@ void ModalBody::gather(const ElasticMotion& motion, bool want_tangent) {
   w.q.tail(own) = motion.eta;
   w.rate.tail(own) = motion.eta_rate;
   w.acceleration.tail(own) = motion.eta_acceleration;
+}
 
+/// Amplitudes and sums over shapes at a motion.
+void ModalBody::gather(const ElasticMotion& motion, bool want_tangent) {
+  gather_amplitudes(motion, want_tangent);
+  Workspace& w = *work_;
   w.S = data_.first_moment * w.q;
   w.S_rate = data_.first_moment * w.rate;
   w.S_acc = data_.first_moment * w.acceleration;
@@ -238,8 +242,8 @@ void ModalBody::add_elasticity(bool want_tangent) {
   w.C.bottomRightCorner(n, n) += data_.damping;
 }
 
-/// From [frame 0; amplitudes] to [all frames; own coordinates], theory manual eq. (flexible-bodies.12).
-void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
+/// d[frame 0; amplitudes] / d[all frames; own coordinates], theory manual eq. (flexible-bodies.12).
+void ModalBody::fill_transformations(bool want_tangent) {
   Workspace& w = *work_;
   for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
     const RelativeDeformation& interface = w.interfaces[i];
@@ -254,6 +258,24 @@ void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
     put(w.Z_acc_X, interface.accel_dX);
     put(w.Z_acc_V, interface.accel_dV);
   }
+}
+
+void ModalBody::find_shapes(const ElasticMotion& motion, bool want_tangent, ShapeMotion& shapes) {
+  gather_amplitudes(motion, want_tangent);
+  const Workspace& w = *work_;
+  const Index n = data_.shapes();
+  shapes.value = w.q.tail(n);
+  shapes.rate = w.rate.tail(n);
+  if (!want_tangent) return;
+  fill_transformations(true);
+  shapes.by_motion = w.Z.bottomRows(n);
+  shapes.rate_by_motion = w.Z_rate_X.bottomRows(n);
+}
+
+/// From [frame 0; amplitudes] to [all frames; own coordinates], theory manual eq. (flexible-bodies.12).
+void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
+  Workspace& w = *work_;
+  fill_transformations(want_tangent);
   response.magnitude.resize(w.Z.cols());
   response.force.noalias() = w.Z.transpose() * w.force;
   for (Index c = 0; c < w.Z.cols(); ++c) response.magnitude[c] = w.Z.col(c).cwiseAbs().dot(w.magnitude);
@@ -297,6 +319,10 @@ void ModalBody::evaluate(const ElasticMotion& motion, bool want_tangent, Elastic
   add_elasticity(want_tangent);
   add_nodes(motion, want_tangent);
   add_loads(motion, want_tangent);
+  if (motion.shape_forces.size() > 0) {
+    work_->force.tail(data_.shapes()) -= motion.shape_forces;
+    work_->magnitude.tail(data_.shapes()) += motion.shape_force_sizes;
+  }
   reduce_to_frames(want_tangent, response);
 }
 

@@ -127,16 +127,13 @@ void Mechanism::Implementation::observe_efforts(const solver::State& state, Obse
     seen.coordinate_force_efforts.push_back(force.evaluate(state.t, state.q[q_of(k)], state.v[k]).value);
     seen.coordinate_force_powers.push_back(seen.coordinate_force_efforts.back() * state.v[k]);
   }
+  const bool evaluates = accepted.empty();
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
-    RelativeMotion relative = motion.relative(tree.forces[i]);
-    relative.t = state.t;
-    if (accepted_wrenches.empty()) {
-      spec.forces[i].force->evaluate(relative, false, responses[i]);
-      seen.force_wrenches.push_back(responses[i].W_B_A);
-    } else {
-      seen.force_wrenches.push_back(accepted_wrenches[i]);
-    }
-    seen.force_powers.push_back(seen.force_wrenches.back().dot(relative.V_AB_A));
+    const RelativeMotion relative = relative_motion(i, state.t);
+    if (evaluates) spec.forces[i].force->evaluate(relative, false, responses[i]);
+    const ForceResponse& response = evaluates ? responses[i] : accepted[i];
+    seen.force_wrenches.push_back(response.W_B_A);
+    seen.force_powers.push_back(response.W_B_A.dot(relative.V_AB_A) + response.Q.dot(relative.s_rate));
     seen.spring_energy += spec.forces[i].force->stored_energy(relative);
   }
 }
@@ -241,10 +238,10 @@ void Mechanism::Implementation::observe_energies(Observation& seen) const {
   }
 }
 
-void Mechanism::Implementation::observe_elastic_bodies(const solver::State& state, Observation& seen) {
+void Mechanism::Implementation::observe_elastic_bodies(Observation& seen) {
   for (ElasticAssembly& elastic : elastics) {
     ElasticObservation o;
-    o.motion = elastic.read(motion, state, {}, true);
+    o.motion = elastic.motion();
     elastic.body().evaluate(o.motion, false, elastic.response());
     for (std::size_t f = 0; f < o.motion.frames.size(); ++f) o.wrenches.push_back(elastic.wrench(f));
     o.energy = elastic.body().energy(o.motion, spec.gravity);
@@ -262,8 +259,10 @@ Observation Mechanism::observe(const solver::State& state) {
   for (const Attachment& body : m.tree.bodies) seen.bodies.push_back(m.frame_motion(body));
   seen.joints.resize(m.spec.joints.size());
   m.observe_joint_coordinates(state, seen);
+  m.read_elastic_bodies(state);
   m.observe_efforts(state, seen);
-  m.observe_elastic_bodies(state, seen);
+  m.hand_out_shape_forces(m.accepted.empty() ? m.responses : m.accepted);
+  m.observe_elastic_bodies(seen);
   m.observe_reactions(state, seen);
   m.observe_energies(seen);
   m.observe_drift(state, seen);

@@ -30,6 +30,15 @@ struct ElasticMotion {
   std::vector<ElasticFrame> frames;
   Eigen::VectorXd eta, eta_rate, eta_acceleration;  ///< own coordinates, shape (coordinate_count)
   Eigen::VectorXd loads;                            ///< value of each load now, in the order they were added
+  /// Generalised forces that surfaces put on the amplitudes of shapes, and what they are sums of; empty: none.
+  Eigen::VectorXd shape_forces, shape_force_sizes;
+};
+
+/// Amplitudes of a body's shapes at a motion.
+struct ShapeMotion {
+  Eigen::VectorXd value, rate;     ///< shape (shape_count)
+  Eigen::MatrixXd by_motion;       ///< d value / d [twists of the frames; own coordinates] = d rate / d their rates
+  Eigen::MatrixXd rate_by_motion;  ///< d rate / d the same at fixed velocities
 };
 
 /// Forces on the nodes of a body's mesh that grow and shrink together: a pressure, a force spread over a surface.
@@ -91,6 +100,13 @@ class ElasticBody {
   virtual void add_load(const NodalLoad& load) {
     (void)load;
     HERSEY_REQUIRE(false, "bodies without a mesh take no nodal loads");
+  }
+
+  /// How many shapes its surfaces move by; 0: none that a force may see deform.
+  [[nodiscard]] virtual int shape_count() const { return 0; }
+  /// Their amplitudes and, if `want_tangent`, derivatives of these.
+  virtual void find_shapes(const ElasticMotion& motion, bool want_tangent, ShapeMotion& shapes) {
+    (void)motion, (void)want_tangent, (void)shapes;
   }
 
   virtual void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) = 0;

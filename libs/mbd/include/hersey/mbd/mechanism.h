@@ -55,7 +55,7 @@ struct Observation {
   std::vector<double> coordinate_force_powers;   ///< [W]
   std::vector<double> spring_powers;             ///< [W], stored and dissipated together
   std::vector<Vector6> force_wrenches;           ///< of each two-body force on b, at a's origin, a's axes [N m; N]
-  std::vector<double> force_powers;              ///< wrench . relative velocity [W]
+  std::vector<double> force_powers;              ///< of wrenches and of forces on shapes [W]
   std::vector<ElasticObservation> elastics;
   double kinetic_energy = 0;    ///< [J], of elastic bodies too
   double potential_energy = 0;  ///< of gravity, zero at ground's origin [J]

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -118,6 +119,11 @@ struct CouplingSpec {
   std::vector<Term> terms;
 };
 
+/// The elastic bodies that a force between two bodies sees deform, beside the motion of its frames.
+struct ForceSurfaces {
+  std::optional<ElasticId> a, b;
+};
+
 /// Everything a mechanism is made of, as added.
 struct MechanismSpec {
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2], ground axes
@@ -141,6 +147,7 @@ struct MechanismSpec {
     std::string name;
     FrameId a, b;
     std::shared_ptr<TwoBodyForce> force;
+    ForceSurfaces surfaces;
   };
   std::vector<Force> forces;
 
@@ -194,8 +201,10 @@ class MechanismBuilder {
   BodyId add_body(BodySpec body);
   FrameId add_frame(FrameSpec frame);
   JointId add_joint(JointSpec joint);
-  /// The force acts on b's body, its negative on a's; it sees frame b relative to frame a.
-  ForceId add_force(std::string name, FrameId a, FrameId b, std::shared_ptr<TwoBodyForce> force);
+  /// The force acts on b's body, its negative on a's; it sees frame b relative to frame a, and the shapes of elastic
+  /// bodies that carry these frames.
+  ForceId add_force(std::string name, FrameId a, FrameId b, std::shared_ptr<TwoBodyForce> force,
+                    const ForceSurfaces& surfaces = {});
   LoadId add_load(LoadSpec load);
   /// A force or torque on a scalar joint coordinate, between the two bodies of the joint.
   CoordinateForceId add_coordinate_force(std::string name, CoordinateRef coordinate,

@@ -66,6 +66,8 @@ class ModalBody : public ElasticBody {
   [[nodiscard]] double mass() const override { return data_.mass; }
   [[nodiscard]] Vector3 centre() const override { return data_.first_moment.col(0) / data_.mass; }
   void add_load(const NodalLoad& load) override;
+  [[nodiscard]] int shape_count() const override { return static_cast<int>(data_.shapes()); }
+  void find_shapes(const ElasticMotion& motion, bool want_tangent, ShapeMotion& shapes) override;
   void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) override;
   [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
 
@@ -92,6 +94,8 @@ class ModalBody : public ElasticBody {
     std::vector<Matrix3> moments;     ///< sums over nodes of Y_a f^T, Y_0 = x
   };
   [[nodiscard]] Eigen::VectorXd stiffness_at_size() const;
+  void gather_amplitudes(const ElasticMotion& motion, bool want_tangent);
+  void fill_transformations(bool want_tangent);
   void add_inertia(const ElasticFrame& base);
   void differentiate_inertia(const ElasticFrame& base);
   void add_momentum_share(const ElasticFrame& base, double dt);

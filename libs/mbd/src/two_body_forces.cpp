@@ -1,0 +1,114 @@
+// Forces between two bodies, which may see the bodies deform: theory manual, sections on two-body forces and on surfaces
+// that deform.
+#include <future>
+#include <thread>
+
+#include "mechanism_impl.h"
+#include "surface_force.h"
+
+namespace hersey::mbd {
+
+using Eigen::Index;
+
+void ForceResponse::set_zero(Index amplitudes) {
+  W_B_A.setZero();
+  dW_dX.setZero();
+  dW_dV.setZero();
+  Q.setZero(amplitudes);
+  dW_ds.setZero(6, amplitudes);
+  dW_dr.setZero(6, amplitudes);
+  dQ_dX.setZero(amplitudes, 6);
+  dQ_dV.setZero(amplitudes, 6);
+  dQ_ds.setZero(amplitudes, amplitudes);
+  dQ_dr.setZero(amplitudes, amplitudes);
+}
+
+void Mechanism::Implementation::place_surfaces() {
+  seen_deforming.assign(elastics.size(), 0);
+  const auto place = [&](const std::optional<ElasticId>& id) {
+    if (!id) return -1;
+    seen_deforming[static_cast<std::size_t>(id->index)] = 1;
+    return id->index;
+  };
+  for (const MechanismSpec::Force& force : spec.forces)
+    sides.push_back({place(force.surfaces.a), place(force.surfaces.b)});
+}
+
+/// With the shapes of elastic bodies as last found.
+RelativeMotion Mechanism::Implementation::relative_motion(std::size_t force, double t) const {
+  RelativeMotion relative = motion.relative(tree.forces[force]);
+  relative.t = t;
+  Index count = 0;
+  for (const int side : {sides[force].a, sides[force].b})
+    if (side >= 0) count += elastics[static_cast<std::size_t>(side)].shapes().value.size();
+  relative.s.resize(count);
+  relative.s_rate.resize(count);
+  Index at = 0;
+  for (const int side : {sides[force].a, sides[force].b}) {
+    if (side < 0) continue;
+    const ShapeMotion& shapes = elastics[static_cast<std::size_t>(side)].shapes();
+    relative.s.segment(at, shapes.value.size()) = shapes.value;
+    relative.s_rate.segment(at, shapes.value.size()) = shapes.rate;
+    at += shapes.value.size();
+  }
+  return relative;
+}
+
+void Mechanism::Implementation::read_elastic_bodies(const solver::State& state) {
+  for (std::size_t i = 0; i < elastics.size(); ++i) {
+    elastics[i].read(motion, state, {}, true);
+    if (seen_deforming[i] != 0) elastics[i].find_shapes();
+  }
+}
+
+/// Costly ones side by side; each writes to its own response, so that their order does not matter.
+void Mechanism::Implementation::evaluate_two_body_forces(const Assembly& assembly, const solver::State& state) {
+  const bool want_tangent = assembly.tangent != nullptr;
+  for (std::size_t i = 0; i < elastics.size(); ++i)
+    if (seen_deforming[i] != 0) elastics[i].find_shapes(assembly);
+  const auto evaluate = [&](std::size_t i) {
+    spec.forces[i].force->evaluate(relatives[i], want_tangent, responses[i]);
+  };
+  std::vector<std::size_t> costly;
+  for (std::size_t i = 0; i < spec.forces.size(); ++i) {
+    relatives[i] = relative_motion(i, state.t);
+    relatives[i].dt = assembly.stage.dt;
+    if (spec.forces[i].force->is_costly()) costly.push_back(i);
+  }
+  std::vector<std::future<void>> running;
+  if (std::thread::hardware_concurrency() > 1)
+    for (std::size_t c = 1; c < costly.size(); ++c)
+      running.push_back(std::async(std::launch::async, evaluate, costly[c]));
+  for (std::size_t i = 0; i < spec.forces.size(); ++i) {
+    const bool runs = !running.empty() && spec.forces[i].force->is_costly() && i != costly.front();
+    if (!runs) evaluate(i);
+  }
+  for (std::future<void>& one : running) one.get();
+  hand_out_shape_forces(responses);
+}
+
+void Mechanism::Implementation::hand_out_shape_forces(const std::vector<ForceResponse>& of_forces) {
+  for (std::size_t i = 0; i < of_forces.size(); ++i) {
+    Index at = 0;
+    for (const int side : {sides[i].a, sides[i].b}) {
+      if (side < 0) continue;
+      ElasticAssembly& elastic = elastics[static_cast<std::size_t>(side)];
+      const Index count = elastic.shapes().value.size();
+      elastic.add_shape_forces(of_forces[i].Q.segment(at, count));
+      at += count;
+    }
+  }
+}
+
+void Mechanism::Implementation::add_two_body_forces(Assembly& assembly) const {
+  for (std::size_t i = 0; i < spec.forces.size(); ++i) {
+    add_pair_force(assembly, tree.forces[i], responses[i]);
+    if (assembly.tangent == nullptr) continue;
+    std::vector<const ShapeColumns*> surfaces;
+    for (const int side : {sides[i].a, sides[i].b})
+      if (side >= 0) surfaces.push_back(&elastics[static_cast<std::size_t>(side)].shape_columns());
+    if (!surfaces.empty()) add_surface_tangent(assembly, tree.forces[i], surfaces, responses[i]);
+  }
+}
+
+}  // namespace hersey::mbd
