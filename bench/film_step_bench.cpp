@@ -23,16 +23,16 @@ Iteration warm_iteration(const BenchBearing& b, FilmSolver solver, const std::ve
   const int n = b.model.grid.size();
   Eigen::VectorXd u = Eigen::VectorXd::Zero(n), du;
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()));
-  Eigen::Matrix<double, 6, Eigen::Dynamic> derivative;
+  const Eigen::MatrixXd rigid(n, 0);
+  CondensedFilm condensed;
   const FilmHistory history{1e-4, Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n)};
   if (!solve_film(reynolds, b.motion, history, {.solver = solver}, u).converged) std::abort();
-  Vector6 wrench = Vector6::Zero();
   Iteration best;
   double least = std::numeric_limits<double>::infinity();
   for (int run = 0; run < 300; ++run) {
     Iteration now;
     now.linearise = shortest(1, [&] { reynolds.linearise(b.motion, history, u); });
-    now.condense = shortest(1, [&] { reynolds.condense(directions, wrench, derivative); });
+    now.condense = shortest(1, [&] { reynolds.condense(directions, rigid, condensed); });
     now.follow = shortest(1, [&] { reynolds.follow(still, du); });
     if (now.total() < least) least = now.total(), best = now;
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "deforming_surfaces.h"
 #include "hersey/core/contract.h"
 
 namespace hersey::bearing {
@@ -20,11 +21,11 @@ constexpr double kLargestExponent = 20;
 
 // How many of the parameters act. The angles come last: that of the widest gap matters only where the supply follows
 // it, the journal's only where it carries features or a shape of its own.
-int acting_parameters(const film::FilmModel& model) {
+Eigen::Index acting_parameters(const film::FilmModel& model, bool journal_deforms) {
   const auto is_journals = [](const auto& thing) { return thing.surface == film::Surface::journal; };
   const bool turns = std::any_of(model.features.begin(), model.features.end(), is_journals) ||
                      std::any_of(model.profiles.begin(), model.profiles.end(), is_journals);
-  if (turns) return kParameterCount;
+  if (turns || journal_deforms) return kParameterCount;
   return model.supply.kind == film::SupplyKind::widest_gap ? kSupplyAngle + 1 : kSupplyAngle;
 }
 
@@ -35,22 +36,35 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
       options_(options),
       reynolds_(model, film::linear_solver_of(options.film.solver)),
       rigid_(model),
-      directions_(static_cast<std::size_t>(acting_parameters(model))),
+      deforming_(std::make_unique<DeformingSurfaces>(model, options.shell_surface, options.journal_surface)),
+      acting_(acting_parameters(model, options.journal_surface != nullptr)),
+      directions_(static_cast<std::size_t>(acting_ + 2 * deforming_->amplitudes())),
       interface_(options.acceleration, options.relaxation) {
   const int n = model.grid.size();
   u_ = u_start_ = du_ = Eigen::VectorXd::Zero(n);
   history_.theta = Eigen::VectorXd::Ones(n);
   history_.w = Eigen::VectorXd::Zero(n);
   history_start_ = observed_history_ = history_;
+  observed_s_ = Eigen::VectorXd::Zero(deforming_->amplitudes());
+  parameters_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions_.size()));
+  given_ = given_start_ = Eigen::VectorXd::Zero(6 + deforming_->amplitudes());
 }
+
+JournalBearing::~JournalBearing() = default;
 
 void JournalBearing::place(const mbd::RelativeMotion& motion) {
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
   rigid_.place(kinematics_.value, surfaces_);
+  HERSEY_REQUIRE(motion.s.size() == deforming_->amplitudes(), "the amplitudes of both surfaces' bodies");
+  parameters_.head(acting_) = kinematics_.value.head(acting_);
+  parameters_.segment(acting_, motion.s.size()) = motion.s;
+  parameters_.tail(motion.s.size()) = motion.s_rate;
+  deforming_->place(motion.s, motion.s_rate, kinematics_.value[kRotation], kinematics_.value[kJournalSpeed] / model().R,
+                    surfaces_);
   feed(motion.t);
   domain_error_.clear();
-  // An elastic surface may be pushed beyond the undeformed one; rigid ones may not meet.
-  const double gap = rigid_.smallest_gap();
+  // A liner may be pushed beyond its undeformed surface; surfaces without one may not meet.
+  const double gap = smallest_gap();
   if (!std::isfinite(gap) || (model().compliance == 0 && gap <= 0)) report_contact();
 }
 
@@ -62,10 +76,15 @@ void JournalBearing::feed(double t) {
   }
 }
 
+/// Of the surfaces as their bodies deform, without the liner.
+double JournalBearing::smallest_gap() const {
+  return deforming_->deform() ? surfaces_.g.minCoeff() : rigid_.smallest_gap();
+}
+
 void JournalBearing::report_contact() {
   domain_error_ =
       fmt::format("the journal touches the shell (smallest undeformed gap {:.4g} um, eccentricity ratio {:.4f})",
-                  1e6 * rigid_.smallest_gap(), kinematics_.e().norm() / model().c);
+                  1e6 * smallest_gap(), kinematics_.e().norm() / model().c);
 }
 
 // Pressures from a linear prediction may lie beyond any that a viscosity law means; and where the undeformed surfaces
@@ -74,7 +93,7 @@ bool JournalBearing::is_sensible() const {
   const double largest = u_.maxCoeff();
   if (!std::isfinite(largest) || film::log_viscosity_ratio(model().lubricant, largest).value > kLargestExponent)
     return false;
-  return rigid_.smallest_gap() > 0 || film::film_fields(model(), surfaces_, u_).h.minCoeff() > 0;
+  return smallest_gap() > 0 || film::film_fields(model(), surfaces_, u_).h.minCoeff() > 0;
 }
 
 // The film of a freshly filled gap: first without memory of the deformation, then with the deformation it has.
@@ -110,38 +129,56 @@ void JournalBearing::begin_step(const mbd::RelativeMotion& start, double dt) {
 // u += du0 + U (s - s_last): the film's share of the Newton increment the bodies have just taken.
 void JournalBearing::follow_surfaces() {
   if (!linearised_) return;
-  ParameterVector ds = kinematics_.value - s_linearised_;
-  for (const int angle : {kSupplyAngle, kRotation}) ds[angle] = std::remainder(ds[angle], 2 * std::numbers::pi);
-  reynolds_.follow(ds.head(static_cast<Eigen::Index>(directions_.size())), du_);
+  parameter_change_ = parameters_ - parameters_linearised_;
+  for (const int angle : {kSupplyAngle, kRotation})
+    if (angle < acting_) parameter_change_[angle] = std::remainder(parameter_change_[angle], 2 * std::numbers::pi);
+  reynolds_.follow(parameter_change_, du_);
   u_ = u_linearised_ + du_;
   if (!is_sensible()) u_ = u_linearised_;
 }
 
-Vector6 JournalBearing::condense_film() {
-  for (std::size_t k = 0; k < directions_.size(); ++k) directions_[k] = rigid_.direction(static_cast<int>(k));
-  Vector6 wrench;
-  reynolds_.condense(directions_, wrench, wrench_ds_);
-  return wrench;
+// The journal takes the negative of the wrench that the shell takes.
+void JournalBearing::condense_film(mbd::ForceResponse& response) {
+  const Eigen::Index m = deforming_->amplitudes();
+  for (Eigen::Index k = 0; k < acting_; ++k)
+    directions_[static_cast<std::size_t>(k)] = rigid_.direction(static_cast<int>(k));
+  std::copy(deforming_->directions().begin(), deforming_->directions().end(), directions_.begin() + acting_);
+  deforming_->add_turning(directions_);
+  reynolds_.condense(directions_, deforming_->openings(), condensed_);
+  response.W_B_A = -condensed_.wrench;
+  const auto by_journal = condensed_.wrench_ds.leftCols(acting_);
+  response.dW_dX.noalias() = -by_journal * kinematics_.d_dX.topRows(acting_);
+  response.dW_dV.noalias() = -by_journal * kinematics_.d_dV.topRows(acting_);
+  if (m == 0) return;
+  deforming_->add_turning_forces(reynolds_.normal_forces().value, condensed_.Q_ds);
+  response.Q = condensed_.Q;
+  response.dW_ds = -condensed_.wrench_ds.middleCols(acting_, m);
+  response.dW_dr = -condensed_.wrench_ds.rightCols(m);
+  response.dQ_dX.noalias() = condensed_.Q_ds.leftCols(acting_) * kinematics_.d_dX.topRows(acting_);
+  response.dQ_dV.noalias() = condensed_.Q_ds.leftCols(acting_) * kinematics_.d_dV.topRows(acting_);
+  response.dQ_ds = condensed_.Q_ds.middleCols(acting_, m);
+  response.dQ_dr = condensed_.Q_ds.rightCols(m);
 }
 
-Vector6 JournalBearing::incremented_wrench() {
+void JournalBearing::increment_film(mbd::ForceResponse& response) {
   reynolds_.newton_increment(du_);
-  return reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du_);
+  response.W_B_A = -(reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du_));
+  const film::NormalForces& normal = reynolds_.normal_forces();
+  response.Q.noalias() = deforming_->openings().transpose() * (normal.value + normal.by_u.cwiseProduct(du_));
 }
 
 void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
   place(motion);
-  response.W_B_A.setZero();
-  response.dW_dX.setZero();
-  response.dW_dV.setZero();
+  response.set_zero(deforming_->amplitudes());
   if (!domain_error_.empty()) return;
   if (motion.dt == 0) {
     observed_surfaces_ = surfaces_;
+    observed_s_ = motion.s;
     fill_gap();
     if (!domain_error_.empty()) return;
     linearised_ = false;
     evaluate_monolithic(want_tangent, response);
-    given_ = response.W_B_A;
+    given_ << response.W_B_A, response.Q;
   } else if (options_.coupling == Coupling::monolithic) {
     evaluate_monolithic(want_tangent, response);
   } else {
@@ -154,16 +191,16 @@ void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& 
   if (!is_sensible()) return report_contact();
   reynolds_.linearise(surfaces_, history_, u_);
   internal_residual_ = reynolds_.relative_residual();
-  s_linearised_ = kinematics_.value;
+  parameters_linearised_ = parameters_;
   u_linearised_ = u_;
   ++iterations_;
 
-  // The journal takes the negative of what the shell takes.
-  response.W_B_A = -(want_tangent ? condense_film() : incremented_wrench());
+  if (want_tangent) {
+    condense_film(response);
+  } else {
+    increment_film(response);
+  }
   linearised_ = want_tangent;
-  if (!want_tangent) return;
-  response.dW_dX.noalias() = -wrench_ds_ * kinematics_.d_dX.topRows(wrench_ds_.cols());
-  response.dW_dV.noalias() = -wrench_ds_ * kinematics_.d_dV.topRows(wrench_ds_.cols());
 }
 
 void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
@@ -178,25 +215,29 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
     }
     // One more Newton increment: the exchange would otherwise see the film's tolerance as a change of the wrench.
     reynolds_.linearise(surfaces_, history_, u_);
-    const Vector6 wrench = incremented_wrench();
+    increment_film(response);
     u_ += du_;
-    // Moments over the radius, so that all six entries are forces of comparable size.
-    const Vector6 size = (Vector6() << Vector3::Constant(model().R), Vector3::Ones()).finished();
-    const Vector6 x = given_.cwiseQuotient(size), image = -wrench.cwiseQuotient(size);
+    // Moments over the radius, so that all entries are forces of comparable size.
+    Eigen::VectorXd size = Eigen::VectorXd::Ones(given_.size()), answer(given_.size());
+    size.head<3>().setConstant(model().R);
+    answer << response.W_B_A, response.Q;
+    const Eigen::VectorXd x = given_.cwiseQuotient(size), image = answer.cwiseQuotient(size);
     const double largest = std::max(x.norm(), image.norm());
     internal_residual_ = largest > 0 ? (image - x).norm() / largest : 0;
-    given_ = Vector6(interface_.next(x, image)).cwiseProduct(size);
+    given_ = interface_.next(x, image).cwiseProduct(size);
   } else {
     internal_residual_ = 1;
   }
   answered_ = true;
-  response.W_B_A = given_;
+  response.W_B_A = given_.head<6>();
+  response.Q = given_.tail(deforming_->amplitudes());
 }
 
 void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   place(end);
   const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
   observed_surfaces_ = surfaces_;
+  observed_s_ = end.s;
   observed_history_ = history_;
   observed_iterations_ = iterations_;
   history_start_.theta = fields.theta;
@@ -223,10 +264,17 @@ BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) co
   seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.e, u_start_);
   seen.wrench_on_shell = seen.film.wrench_on_shell;
   seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
+  if (deforming_->deform())
+    seen.power_into_bodies += (deforming_->openings().transpose() * seen.film.normal_forces).dot(motion.s_rate);
   seen.film_iterations = observed_iterations_;
   return seen;
 }
 
-film::FilmFields JournalBearing::fields() const { return film::film_fields(model(), observed_surfaces_, u_start_); }
+film::FilmFields JournalBearing::fields() const {
+  film::FilmFields fields = film::film_fields(model(), observed_surfaces_, u_start_);
+  if (options_.shell_surface) fields.d_shell = deforming_->shell_displacement(observed_s_);
+  if (options_.journal_surface) fields.d_journal = deforming_->journal_displacement(observed_s_);
+  return fields;
+}
 
 }  // namespace hersey::bearing

@@ -79,6 +79,7 @@ void FilmWrench::evaluate(const std::vector<Node>& nodes, const RoughGaps& rough
   const Grid& grid = model_.grid;
   set_speeds(motion);
   pressure_.setZero(), shear_.setZero(), asperity_.setZero();
+  for (Eigen::VectorXd* field : {&normal_.value, &normal_.by_u, &normal_.by_g}) field->resize(grid.size());
   if (want_gradient) by_u_.setZero(6, grid.size()), by_g_.setZero(6, grid.size()), by_slip_.setZero();
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
@@ -143,6 +144,9 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap* rough,
     return along_phi * b.shear_tangential + along_z * b.shear_axial;
   };
   pressure_ += area * node.wall * b.radial;
+  normal_.value[k] = area * (node.wall + node.asperity);
+  normal_.by_u[k] = area * (node.wall_u + node.asperity_h * node.h_u);
+  normal_.by_g[k] = area * node.asperity_h * node.h_g;
   shear_ +=
       area * sheared(s.couette[0] * slip_[0] - s.half_gap[0] * p_phi, s.couette[1] * slip_[1] - s.half_gap[1] * p_z);
   const Vector6 contact = b.radial + friction_[0] * b.tangential + friction_[1] * b.axial;

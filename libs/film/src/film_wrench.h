@@ -35,6 +35,8 @@ class FilmWrench {
   /// d total / d(direction) at fixed u.
   [[nodiscard]] Vector6 along(const MotionDirection& direction) const;
   [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& gradient_u() const { return by_u_; }
+  /// What pushes the surfaces apart at each node.
+  [[nodiscard]] const NormalForces& normal() const { return normal_; }
 
  private:
   /// Wrenches of unit tractions at one node: outwards, along phi and along z; the last two also as the film's shear
@@ -58,6 +60,7 @@ class FilmWrench {
   GridGeometry geometry_;
   Eigen::VectorXd cosine_, sine_;
   Vector6 total_, pressure_, shear_, asperity_;
+  NormalForces normal_;
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_;
   Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z
   Eigen::Vector2d slip_;                 ///< that speed [m/s]

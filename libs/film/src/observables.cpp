@@ -198,6 +198,7 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
   o.p_max = peak.value, o.p_max_phi = peak.phi, o.p_max_z = peak.z;
   o.p_max_node = fields.p.maxCoeff();
   observe_forces(wrench, e, o);
+  o.normal_forces = wrench.normal().value;
   observe_oil(balance, motion, u, o);
   observe_power(balance, motion, wrench.friction_power_per_contact(), o);
   return o;

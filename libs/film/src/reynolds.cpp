@@ -27,8 +27,8 @@ struct Reynolds::Impl {
   void factorise();
   [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
-  void condense_by_adjoint(Vector6& W, Eigen::Matrix<double, 6, Eigen::Dynamic>& dW);
-  void condense_by_columns(Vector6& W, Eigen::Matrix<double, 6, Eigen::Dynamic>& dW);
+  void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
+  void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void set_up_multigrid();
   const FilmWrench& summed_wrench();
 
@@ -41,7 +41,7 @@ struct Reynolds::Impl {
   std::vector<double> shifted;
   Eigen::VectorXd rhs, answer;
   // Of the last condensation, n rows each: residual's derivative with the directions; then either the answer of each
-  // wrench entry to the residual, or the increment and the answers to the directions.
+  // force (six of the wrench, then on shapes) to the residual, or the increment and the answers to the directions.
   Eigen::MatrixXd residual_ds, adjoint, answers;
   Eigen::VectorXd increment;
   SurfaceMotion speeds;  // without fields
@@ -101,25 +101,34 @@ void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorX
   lu.solve({x.data(), static_cast<std::size_t>(x.size())});
 }
 
-// With J^T Lambda = W_u^T:  W_u du0 = -Lambda^T r  and  W_u U = -Lambda^T r_s.
-void Reynolds::Impl::condense_by_adjoint(Vector6& W, Eigen::Matrix<double, 6, Eigen::Dynamic>& dW) {
+// With J^T Lambda = F_u^T for forces F:  F_u du0 = -Lambda^T r  and  F_u U = -Lambda^T r_s.
+void Reynolds::Impl::condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film) {
   factorise();
-  adjoint = wrench.gradient_u().transpose();
+  adjoint.resize(wrench.gradient_u().cols(), 6 + openings.cols());
+  adjoint.leftCols<6>() = wrench.gradient_u().transpose();
+  adjoint.rightCols(openings.cols()) = wrench.normal().by_u.asDiagonal() * openings;
   lu.solve_transposed({adjoint.data(), static_cast<std::size_t>(adjoint.size())}, static_cast<int>(adjoint.cols()));
-  for (Eigen::Index i = 0; i < 6; ++i) W[i] -= adjoint.col(i).dot(balance.residual());
-  dW.noalias() -= adjoint.transpose() * residual_ds;
+  for (Eigen::Index i = 0; i < 6; ++i) film.wrench[i] -= adjoint.col(i).dot(balance.residual());
+  film.wrench_ds.noalias() -= adjoint.leftCols<6>().transpose() * residual_ds;
+  if (openings.cols() == 0) return;
+  film.Q.noalias() -= adjoint.rightCols(openings.cols()).transpose() * balance.residual();
+  film.Q_ds.noalias() -= adjoint.rightCols(openings.cols()).transpose() * residual_ds;
 }
 
-void Reynolds::Impl::condense_by_columns(Vector6& W, Eigen::Matrix<double, 6, Eigen::Dynamic>& dW) {
+void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film) {
   rhs = -balance.residual();
   solve(rhs, tight, increment);
-  W += wrench.along_u(increment);
+  film.wrench += wrench.along_u(increment);
+  rhs = wrench.normal().by_u.cwiseProduct(increment);
+  film.Q.noalias() += openings.transpose() * rhs;
   answers.resize(residual_ds.rows(), residual_ds.cols());
   for (Eigen::Index k = 0; k < answers.cols(); ++k) {
     rhs = -residual_ds.col(k);
     solve(rhs, tight, answer);
     answers.col(k) = answer;
-    dW.col(k) += wrench.along_u(answer);
+    film.wrench_ds.col(k) += wrench.along_u(answer);
+    rhs = wrench.normal().by_u.cwiseProduct(answer);
+    film.Q_ds.col(k).noalias() += openings.transpose() * rhs;
   }
 }
 
@@ -182,25 +191,34 @@ void Reynolds::responses(std::span<const MotionDirection> directions, Eigen::Mat
   impl_->lu.solve({du.data(), static_cast<std::size_t>(du.size())}, static_cast<int>(columns));
 }
 
-void Reynolds::condense(std::span<const MotionDirection> directions, Vector6& wrench,
-                        Eigen::Matrix<double, 6, Eigen::Dynamic>& dwrench) {
+void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings,
+                        CondensedFilm& film) {
   Impl& m = *impl_;
-  const FilmWrench& film = m.summed_wrench();
+  HERSEY_REQUIRE(openings.rows() == size(), "openings of shape (grid.size(), shapes)");
+  const FilmWrench& now = m.summed_wrench();
   m.residual_ds.resize(size(), static_cast<Eigen::Index>(directions.size()));
-  dwrench.resize(6, m.residual_ds.cols());
-  for (Eigen::Index k = 0; k < dwrench.cols(); ++k) {
+  film.wrench_ds.resize(6, m.residual_ds.cols());
+  film.Q_ds.setZero(openings.cols(), m.residual_ds.cols());
+  const bool contact_pushes = openings.cols() > 0 && !now.normal().by_g.isZero(0);
+  for (Eigen::Index k = 0; k < m.residual_ds.cols(); ++k) {
     const MotionDirection& direction = directions[static_cast<std::size_t>(k)];
     m.balance.derivative(direction, m.rhs);
     m.residual_ds.col(k) = m.rhs;
-    dwrench.col(k) = film.along(direction);
+    film.wrench_ds.col(k) = now.along(direction);
+    if (!contact_pushes || direction.g.size() == 0) continue;
+    m.rhs = now.normal().by_g.cwiseProduct(direction.g);
+    film.Q_ds.col(k).noalias() = openings.transpose() * m.rhs;
   }
-  wrench = film.total();
+  film.wrench = now.total();
+  film.Q.noalias() = openings.transpose() * now.normal().value;
   if (m.linear == LinearSolver::direct) {
-    m.condense_by_adjoint(wrench, dwrench);
+    m.condense_by_adjoint(openings, film);
   } else {
-    m.condense_by_columns(wrench, dwrench);
+    m.condense_by_columns(openings, film);
   }
 }
+
+const NormalForces& Reynolds::normal_forces() const { return impl_->summed_wrench().normal(); }
 
 void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du) {
   Impl& m = *impl_;

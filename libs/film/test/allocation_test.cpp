@@ -64,14 +64,16 @@ TEST_CASE("WarmLinearisation_DoesNotAllocate") {
     Reynolds reynolds(m, linear);
     Eigen::VectorXd du;
     Eigen::MatrixXd answers;
-    Eigen::Matrix<double, 6, Eigen::Dynamic> wrench, condensed;
+    Eigen::Matrix<double, 6, Eigen::Dynamic> wrench;
+    const Eigen::MatrixXd openings = Eigen::MatrixXd::Random(m.grid.size(), 2);
+    CondensedFilm condensed;
     const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()));
     Vector6 sum = Vector6::Zero();
     const auto iterate = [&] {
       reynolds.linearise(step.motion, step.history, step.u);
       reynolds.newton_increment(du);
       reynolds.responses(directions, answers, wrench);
-      reynolds.condense(directions, sum, condensed);
+      reynolds.condense(directions, openings, condensed);
       reynolds.follow(still, du);
       sum = reynolds.wrench_on_shell() + reynolds.wrench_gradient(du);
     };

@@ -272,8 +272,9 @@ TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
   for (const auto& [what, direction] : directions(s)) all.push_back(direction);
   Eigen::VectorXd du0, du;
   Eigen::MatrixXd answers;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> partial, condensed;
-  Vector6 wrench;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> partial;
+  CondensedFilm film;
+  const Eigen::MatrixXd openings = Eigen::MatrixXd::Random(s.model.grid.size(), 3);
   const Eigen::VectorXd ds = 1e-7 * Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(all.size()), 1, 2);
   for (const auto linear : {LinearSolver::direct, LinearSolver::multigrid}) {
     CAPTURE(static_cast<int>(linear));
@@ -281,11 +282,18 @@ TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
     reynolds.linearise(s.motion, s.history, s.u);
     reynolds.newton_increment(du0);
     reynolds.responses(all, answers, partial);
-    reynolds.condense(all, wrench, condensed);
-    CHECK((wrench - reynolds.wrench_on_shell() - reynolds.wrench_gradient(du0)).norm() < 1e-8 * wrench.norm());
+    reynolds.condense(all, openings, film);
+    const NormalForces normal = reynolds.normal_forces();
+    const auto pushed = [&](const Eigen::VectorXd& force) -> Eigen::VectorXd { return openings.transpose() * force; };
+    CHECK((film.Q - pushed(normal.value + normal.by_u.cwiseProduct(du0))).norm() < 1e-8 * film.Q.norm());
+    CHECK((film.wrench - reynolds.wrench_on_shell() - reynolds.wrench_gradient(du0)).norm() < 1e-8 * film.wrench.norm());
     for (Eigen::Index k = 0; k < answers.cols(); ++k) {
       const Vector6 total = partial.col(k) + reynolds.wrench_gradient(answers.col(k));
-      CHECK((condensed.col(k) - total).norm() <= 1e-8 * total.norm());
+      CHECK((film.wrench_ds.col(k) - total).norm() <= 1e-8 * total.norm());
+      Eigen::VectorXd force = normal.by_u.cwiseProduct(answers.col(k));
+      const MotionDirection& direction = all[static_cast<std::size_t>(k)];
+      if (direction.g.size() > 0) force += normal.by_g.cwiseProduct(direction.g);
+      CHECK((film.Q_ds.col(k) - pushed(force)).norm() <= 1e-8 * pushed(force).norm());
     }
     reynolds.follow(ds, du);
     CHECK((du - du0 - answers * ds).norm() < 1e-8 * du.norm());

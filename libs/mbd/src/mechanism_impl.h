@@ -43,6 +43,7 @@ struct Mechanism::Implementation {
     int a = -1, b = -1;
   };
   std::vector<Sides> sides;                  ///< of each two-body force
+  std::vector<std::size_t> costly;           ///< two-body forces with a thread of their own
   std::vector<char> seen_deforming;          ///< of each elastic body: some force sees it deform
   std::vector<RelativeMotion> relatives;     ///< of the two-body forces at the last assembly
   std::vector<ForceResponse> responses;      ///< the same

@@ -33,15 +33,52 @@ Eigen::Map<const Matrix3Xd> nodes_of(const VectorXd& u) { return {u.data(), 3, u
 
 VectorXd flat(const Matrix3Xd& field) { return Eigen::Map<const VectorXd>(field.data(), field.size()); }
 
-/// The same body with its frames' shapes alone.
-ModalBodyData static_data(const fem::ReducedBody& reduced, const RayleighDamping& damping) {
-  fem::ReducedBody frames = reduced;
+/// The same body with the static shapes alone: those of its frames, and those of the films on its surfaces.
+ModalBodyData static_data(const fem::ElasticBody& body, const fem::ReducedBody& reduced,
+                          const RayleighDamping& damping) {
+  fem::ReducedBody still = reduced;
   const Index n = reduced.internal_first();
-  frames.Phi = reduced.Phi.leftCols(n);
-  frames.K = reduced.K.topLeftCorner(n, n);
-  frames.M = reduced.M.topLeftCorner(n, n);
-  frames.internal_omega.resize(0);
-  return modal_data(frames, damping);
+  Index size = n;
+  for (const fem::FilmModes& film : reduced.film_modes) size += film.shapes.cols();
+  still.Phi.resize(reduced.Phi.rows(), size);
+  still.Phi.leftCols(n) = reduced.Phi.leftCols(n);
+  still.K = MatrixXd::Zero(size, size);
+  still.K.topLeftCorner(n, n) = reduced.K.topLeftCorner(n, n);
+  Index at = n;
+  for (const fem::FilmModes& film : reduced.film_modes) {
+    still.Phi.middleCols(at, film.shapes.cols()) = film.shapes;
+    at += film.shapes.cols();
+  }
+  // Frames at rest bear no work of the films' shapes, so that these strain the body independently of the frames'.
+  const MatrixXd films = still.Phi.rightCols(size - n);
+  const MatrixXd K = films.transpose() * (body.K * films);
+  still.K.bottomRightCorner(size - n, size - n) = 0.5 * (K + K.transpose());
+  still.M = still.Phi.transpose() * fem::mass_times(body.m, still.Phi);
+  still.internal_omega.resize(0);
+  return modal_data(still, damping);
+}
+
+/// What keeps the nodes' own displacements apart from the static shapes: they move no frame, and the pressures that
+/// the films' shapes answer do no work on them.
+fem::FrameSupports supports_of(const fem::ElasticBody& body, const fem::ReducedBody& reduced) {
+  fem::FrameSupports supports = fem::frame_supports(body.mesh, reduced.frames);
+  std::vector<Eigen::Triplet<double>> entries;
+  const Eigen::SparseMatrix<double>& C = supports.C;
+  for (Index j = 0; j < C.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(C, j); entry; ++entry)
+      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(j), entry.value());
+  Index row = C.rows();
+  for (const fem::FilmModes& film : reduced.film_modes) {
+    for (Index k = 0; k < film.loads.cols(); ++k, ++row) {
+      const double largest = film.loads.col(k).cwiseAbs().maxCoeff();
+      for (Index i = 0; i < film.loads.rows(); ++i)
+        if (film.loads(i, k) != 0)
+          entries.emplace_back(static_cast<int>(row), static_cast<int>(i), film.loads(i, k) / largest);
+    }
+  }
+  supports.C.resize(row, body.size());
+  supports.C.setFromTriplets(entries.begin(), entries.end());
+  return supports;
 }
 
 }  // namespace
@@ -53,7 +90,7 @@ struct NodalBody::Fields {
 
 NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping,
                      Strain strain)
-    : ModalBody(static_data(reduced, damping)),
+    : ModalBody(static_data(body, reduced, damping)),
       body_(std::move(body)),
       damping_(damping),
       strain_(strain),
@@ -64,8 +101,8 @@ NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, con
   for (Index i = 0; i < x_.cols(); ++i) x_.col(i) = reduced.nodes[static_cast<std::size_t>(i)];
   nodal_mass_ = Eigen::RowVectorXd::Ones(x_.cols()) * body_.m;
   const Index shapes = data().shapes();
-  Psi_ = reduced.Phi.middleCols(6, shapes);
-  Psi_size_ = Psi_.cwiseAbs();
+  frame_shapes_ = reduced.internal_first() - 6;
+  Psi_size_ = Psi().cwiseAbs();
   vibrations_ = reduced.Phi.rightCols(reduced.size() - reduced.internal_first());
   for (Index a = 0; a < vibrations_.cols(); ++a) {
     const VectorXd shape = vibrations_.col(a);
@@ -80,10 +117,10 @@ NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, con
     for (Index p = 0; p < 3; ++p)
       for (Index i = 0; i < x_.cols(); ++i) inertia_(3 * i + k, kTurning + 3 * p + k) = moments(p, i);
   }
-  inertia_.rightCols(shapes) = fem::mass_times(body_.m, Psi_);
+  inertia_.rightCols(shapes) = fem::mass_times(body_.m, Psi());
 
   factors_ =
-      std::make_unique<NodalFactors>(body_, fem::frame_supports(body_.mesh, reduced.frames), damping_, inertia_, Psi_);
+      std::make_unique<NodalFactors>(body_, supports_of(body_, reduced), damping_, inertia_, Psi());
   w_.start(VectorXd::Zero(body_.size()));
   sizes_ = VectorXd::Zero(body_.size());
 }
@@ -113,9 +150,9 @@ Matrix3Xd NodalBody::loads_on_nodes(const ElasticMotion& motion) const {
 void NodalBody::update_fields() {
   const Workspace& w = work();
   const Index n = data().shapes();
-  fields_->y = x_ + nodes_of(Psi_ * w.q.tail(n) + w_.position());
-  fields_->y_rate = nodes_of(Psi_ * w.rate.tail(n) + w_.rate());
-  fields_->y_acc = nodes_of(Psi_ * w.acceleration.tail(n) + w_.acceleration());
+  fields_->y = x_ + nodes_of(Psi() * w.q.tail(n) + w_.position());
+  fields_->y_rate = nodes_of(Psi() * w.rate.tail(n) + w_.rate());
+  fields_->y_acc = nodes_of(Psi() * w.acceleration.tail(n) + w_.acceleration());
 }
 
 /// Theory manual eq. (flexible-bodies.3) at each node.
@@ -350,17 +387,18 @@ void NodalBody::accept_step(const ElasticMotion& end) {
 
 VectorXd NodalBody::amplitudes(const ElasticMotion& motion) {
   ModalBody::gather(motion, false);
-  const Index n = data().shapes();
-  VectorXd all(n + vibrations_.cols());
-  all.head(n) = work().q.tail(n);
-  const VectorXd momentum = fem::mass_times(body_.m, w_.position());
+  const Index n = data().shapes(), films = n - frame_shapes_;
+  VectorXd all(frame_shapes_ + vibrations_.cols());
+  all.head(frame_shapes_) = work().q.segment(1, frame_shapes_);
+  const VectorXd internal = Psi().rightCols(films) * work().q.tail(films) + w_.position();
+  const VectorXd momentum = fem::mass_times(body_.m, internal);
   all.tail(vibrations_.cols()) = (vibrations_.transpose() * momentum).cwiseQuotient(vibration_mass_);
   return all;
 }
 
 VectorXd NodalBody::displacements(const ElasticMotion& motion, const MatrixXd&) {
   ModalBody::gather(motion, false);
-  return Psi_ * work().q.tail(data().shapes()) + w_.position();
+  return Psi() * work().q.tail(data().shapes()) + w_.position();
 }
 
 ElasticEnergy NodalBody::energy(const ElasticMotion& motion, const Vector3& gravity) {

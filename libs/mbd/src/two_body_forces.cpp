@@ -1,5 +1,6 @@
 // Forces between two bodies, which may see the bodies deform: theory manual, sections on two-body forces and on surfaces
 // that deform.
+#include <algorithm>
 #include <future>
 #include <thread>
 
@@ -30,8 +31,11 @@ void Mechanism::Implementation::place_surfaces() {
     seen_deforming[static_cast<std::size_t>(id->index)] = 1;
     return id->index;
   };
-  for (const MechanismSpec::Force& force : spec.forces)
-    sides.push_back({place(force.surfaces.a), place(force.surfaces.b)});
+  for (std::size_t i = 0; i < spec.forces.size(); ++i) {
+    sides.push_back({place(spec.forces[i].surfaces.a), place(spec.forces[i].surfaces.b)});
+    if (spec.forces[i].force->is_costly() && std::thread::hardware_concurrency() > 1) costly.push_back(i);
+  }
+  if (costly.size() == 1) costly.clear();
 }
 
 /// With the shapes of elastic bodies as last found.
@@ -69,20 +73,15 @@ void Mechanism::Implementation::evaluate_two_body_forces(const Assembly& assembl
   const auto evaluate = [&](std::size_t i) {
     spec.forces[i].force->evaluate(relatives[i], want_tangent, responses[i]);
   };
-  std::vector<std::size_t> costly;
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
     relatives[i] = relative_motion(i, state.t);
     relatives[i].dt = assembly.stage.dt;
-    if (spec.forces[i].force->is_costly()) costly.push_back(i);
   }
   std::vector<std::future<void>> running;
-  if (std::thread::hardware_concurrency() > 1)
-    for (std::size_t c = 1; c < costly.size(); ++c)
-      running.push_back(std::async(std::launch::async, evaluate, costly[c]));
-  for (std::size_t i = 0; i < spec.forces.size(); ++i) {
-    const bool runs = !running.empty() && spec.forces[i].force->is_costly() && i != costly.front();
-    if (!runs) evaluate(i);
-  }
+  for (std::size_t c = 1; c < costly.size(); ++c)
+    running.push_back(std::async(std::launch::async, evaluate, costly[c]));
+  for (std::size_t i = 0; i < spec.forces.size(); ++i)
+    if (std::find(costly.begin() + (costly.empty() ? 0 : 1), costly.end(), i) == costly.end()) evaluate(i);
   for (std::future<void>& one : running) one.get();
   hand_out_shape_forces(responses);
 }

@@ -101,6 +101,45 @@ class FullBushing final : public TwoBodyForce {
   Matrix6 K_, D_;
 };
 
+/// A force that sees the shapes of elastic bodies and pushes on them: every component depends on everything.
+class FullMembrane final : public TwoBodyForce {
+ public:
+  explicit FullMembrane(Eigen::Index amplitudes) : count_(amplitudes), c_(9 + 2 * amplitudes) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    A_.resize(6 + count_, c_.size());
+    B_.resize(6 + count_);
+    for (Eigen::Index i = 0; i < A_.size(); ++i) A_.data()[i] = 3 * uniform(random);
+    for (auto& x : B_) x = 2 * uniform(random);
+    for (auto& x : c_) x = 0.5 * uniform(random);
+  }
+  void evaluate(const RelativeMotion& motion, bool, ForceResponse& response) override {
+    const Vector3 r = motion.X_AB.r;
+    Eigen::VectorXd z(c_.size());
+    z << r, motion.V_AB_A, motion.s, motion.s_rate;
+    const Eigen::VectorXd F = A_ * z + B_ * std::sin(c_.dot(z));
+    const Eigen::MatrixXd dF = A_ + B_ * std::cos(c_.dot(z)) * c_.transpose();
+    Eigen::Matrix<double, 3, 6> dr;
+    dr << -skew(r), Matrix3::Identity();
+    response.set_zero(count_);
+    response.W_B_A = F.head<6>();
+    response.dW_dX = dF.topLeftCorner<6, 3>() * dr;
+    response.dW_dV = dF.block<6, 6>(0, 3);
+    response.dW_ds = dF.block(0, 9, 6, count_);
+    response.dW_dr = dF.topRightCorner(6, count_);
+    response.Q = F.tail(count_);
+    response.dQ_dX = dF.bottomLeftCorner(count_, 3) * dr;
+    response.dQ_dV = dF.block(6, 3, count_, 6);
+    response.dQ_ds = dF.block(6, 9, count_, count_);
+    response.dQ_dr = dF.bottomRightCorner(count_, count_);
+  }
+
+ private:
+  Eigen::Index count_;
+  Eigen::MatrixXd A_;
+  Eigen::VectorXd B_, c_;
+};
+
 inline Pose pose(const Vector3& rotation, const Vector3& r) { return {rotation_exp(rotation).toRotationMatrix(), r}; }
 
 /// A modal body of random points, shapes and stiffness: nothing about it is symmetric, so no term hides. Three frames
@@ -210,6 +249,15 @@ inline std::unique_ptr<Mechanism> nasty_mechanism() {
        at(bow.bodies[1], {0, 0.2, 0}, {0, 0.1, 0.1}), {0, 1, 0.5}, {0.3}, {-0.4});
   join("tip_ball", JointType::spherical, at(bow.bodies[2], {0.1, 0, 0.1}, {0.1, 0, 0}),
        at(nut, {0, 0.1, 0.2}, {0.2, 0, 0.1}));
+  const FlexibleBodyIds fin =
+      b.add_flexible_body("fin", {"root", "edge"}, std::make_shared<ModalBody>(random_modal_data()));
+  join("fin_hinge", JointType::revolute, at(drifter, {0.1, 0, 0.2}, {0, 0.2, 0.1}),
+       at(fin.bodies[0], {0, 0.1, 0}, {0.1, 0.1, 0}), {0.2, 1, 0}, {0.2}, {0.6});
+  b.add_force("membrane", at(bow.bodies[2], {0.2, 0, 0.1}, {0.1, 0, 0.2}),
+              at(fin.bodies[1], {0, 0.2, 0}, {0.1, 0.2, 0}), std::make_shared<FullMembrane>(28),
+              {bow.elastic, fin.elastic});
+  b.add_force("skin", at(hand, {0.2, 0, 0.1}, {0.1, 0, 0.2}), at(bow.bodies[0], {0, 0.2, 0}, {0.1, 0.2, 0}),
+              std::make_shared<FullMembrane>(14), {.a = {}, .b = bow.elastic});
   // A beam entered through its second node, in a loop through its last.
   const BeamBodyIds reed =
       b.add_beam_body("reed", {"1", "2", "3"}, {random_segment(0.4), random_segment(0.3), random_segment(0.5)});

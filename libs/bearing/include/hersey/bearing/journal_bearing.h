@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/bearing/elastic_surface.h"
 #include "hersey/bearing/interface_iteration.h"
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/scalar_function.h"
@@ -31,6 +32,8 @@ struct BearingOptions {
   double initial_dt = 1e-4;  ///< the film at the start is that of a full gap after a step of this length [s], > 0
   /// Pressure of each of the film's features over time [Pa]; empty: the pressures of the film model.
   std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
+  /// Surfaces of elastic bodies; null: rigid. Their amplitudes come with the motion, the shell's before the journal's.
+  std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
 
 /// What one bearing shows at an accepted state.
@@ -38,13 +41,16 @@ struct BearingObservation {
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< journal axis at z = 0 in the bearing frame [m]
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis [-]
   Vector6 wrench_on_shell = Vector6::Zero();       ///< [moment about the bearing's origin; force], bearing frame
-  double power_into_bodies = 0;  ///< wrench times relative velocity [W]; negative: the film takes power
+  double power_into_bodies = 0;  ///< of wrench and forces on shapes [W]; negative: the film takes power
   double speed = 0;              ///< journal's angular velocity about the bearing axis, relative to the shell [rad/s]
   film::FilmObservables film;
   int film_iterations = 0;  ///< film linearisations in the last step
 };
 
-/// An oil film between a shell frame A and a journal frame B of rigid bodies (theory manual, chapter bearing).
+class DeformingSurfaces;
+
+/// An oil film between a shell frame A and a journal frame B (theory manual, chapter bearing). The surfaces are rigid,
+/// or belong to elastic bodies whose shapes move them.
 ///
 /// Monolithic: `evaluate` takes one Newton step of the film together with the bodies. The film's unknowns u follow the
 /// change of the surfaces since the last call through the last linearisation, u += du0 + (du/ds) (s - s_last), are
@@ -54,6 +60,7 @@ struct BearingObservation {
 class JournalBearing final : public mbd::TwoBodyForce {
  public:
   JournalBearing(std::string name, const film::FilmModel& model, const BearingOptions& options = {});
+  ~JournalBearing() override;
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const film::FilmModel& model() const { return reynolds_.model(); }
@@ -64,6 +71,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   void evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) override;
   void begin_step(const mbd::RelativeMotion& start, double dt) override;
   void accept_step(const mbd::RelativeMotion& end) override;
+  [[nodiscard]] bool is_costly() const override { return true; }
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override;
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }
@@ -78,27 +86,32 @@ class JournalBearing final : public mbd::TwoBodyForce {
   void place(const mbd::RelativeMotion& motion);
   void feed(double t);
   void report_contact();
+  [[nodiscard]] double smallest_gap() const;
   [[nodiscard]] bool is_sensible() const;
   void fill_gap();
   void follow_surfaces();
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
   void evaluate_partitioned(mbd::ForceResponse& response);
-  [[nodiscard]] Vector6 condense_film();       // wrench on the shell, and wrench_ds_
-  [[nodiscard]] Vector6 incremented_wrench();  // wrench on the shell after the film's increment at fixed surfaces
+  void condense_film(mbd::ForceResponse& response);
+  void increment_film(mbd::ForceResponse& response);  // forces after the film's increment at fixed surfaces
 
   std::string name_;
   BearingOptions options_;
   film::Reynolds reynolds_;
   RigidSurfaces rigid_;
+  std::unique_ptr<DeformingSurfaces> deforming_;
   film::SurfaceMotion surfaces_;
   film::SurfaceMotion observed_surfaces_;  // at the state last accepted
+  Eigen::VectorXd observed_s_;
   JournalKinematics kinematics_;
-  std::vector<film::MotionDirection> directions_;  // one per parameter that acts
+  Eigen::Index acting_;         // parameters of the journal's position that act
+  Eigen::VectorXd parameters_;  // those, amplitudes of the surfaces' shapes, and their rates
+  std::vector<film::MotionDirection> directions_;  // one per parameter
 
   // The film in the current step: unknowns, their increment, and where (in parameters) they were last linearised.
   Eigen::VectorXd u_, u_linearised_, du_;
-  ParameterVector s_linearised_ = ParameterVector::Zero();
-  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds_;
+  Eigen::VectorXd parameters_linearised_, parameter_change_;
+  film::CondensedFilm condensed_;
   bool linearised_ = false;
 
   // The film at the start of the step: what a rejected step returns to.
@@ -107,9 +120,9 @@ class JournalBearing final : public mbd::TwoBodyForce {
   film::FilmHistory observed_history_;  // of the step last accepted
   Eigen::VectorXd u_start_;
 
-  // Partitioned: the wrench on the journal that the bodies have been given.
+  // Partitioned: the wrench on the journal and the forces on shapes that the bodies have been given.
   InterfaceIteration interface_;
-  Vector6 given_ = Vector6::Zero(), given_start_ = Vector6::Zero();
+  Eigen::VectorXd given_, given_start_;
   bool answered_ = false;
 
   double internal_residual_ = 0;

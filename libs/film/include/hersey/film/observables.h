@@ -15,6 +15,9 @@ struct FilmFields {
   Eigen::VectorXd h;           ///< film thickness, deformation included [m]
   Eigen::VectorXd w;           ///< column deformation [m]
   Eigen::VectorXd p_asperity;  ///< asperity contact pressure [Pa]
+  /// Radial displacement of the surfaces of elastic bodies against their frames, away from the bearing's axis [m];
+  /// empty where a surface is rigid. Whoever places the surfaces fills them in.
+  Eigen::VectorXd d_shell, d_journal;
 };
 
 /// What an engineer asks of a film (docs: definitions as in theory manual, chapter film). Flows and volumes of oil are
@@ -27,6 +30,7 @@ struct FilmObservables {
   double p_max_node = 0;                         ///< largest nodal pressure [Pa]
   Vector6 wrench_on_shell =
       Vector6::Zero();  ///< [moment about the grid's origin; force], grid axes; the journal takes its negative
+  Eigen::VectorXd normal_forces;  ///< by which film and contact push the surfaces apart at the nodes [N]
   Vector3 force_pressure, force_shear, force_asperity;  ///< parts of the force on the shell [N], grid axes
   double torque_journal = 0;                            ///< friction torque on the journal about its own axis [N m]
   double torque_shell = 0;                              ///< friction torque on the shell about its own axis [N m]

@@ -29,6 +29,21 @@ struct LinearSolverCounts {
   int rescues = 0;         ///< right-hand sides that multigrid left to the direct solver
 };
 
+/// Forces that push the surfaces apart at the nodes, film and asperities together: pressure times the node's area,
+/// shape (n) each.
+struct NormalForces {
+  Eigen::VectorXd value;       ///< [N]
+  Eigen::VectorXd by_u, by_g;  ///< derivatives with the node's unknown [m^2] and gap [N/m]
+};
+
+/// Forces of a film whose unknowns are eliminated, and their derivatives with directions in which the surfaces move.
+struct CondensedFilm {
+  Vector6 wrench = Vector6::Zero();                   ///< on the shell
+  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds;  ///< a column per direction
+  Eigen::VectorXd Q;                                   ///< forces on shapes
+  Eigen::MatrixXd Q_ds;                                ///< (shapes, directions)
+};
+
 /// Reynolds' equation on the grid with its derivatives (theory manual, chapter film): residual and Jacobian at a state,
 /// the film's wrench and the answer of both to any change of the surfaces.
 ///
@@ -84,8 +99,13 @@ class Reynolds {
   /// Static condensation of the film: the wrench after its Newton increment at fixed surfaces, and the wrench's total
   /// derivative with each direction (theory manual, bearing.9). `direct` solves the transposed system, once per entry
   /// of the wrench; `multigrid` once per direction.
-  void condense(std::span<const MotionDirection> directions, Vector6& wrench,
-                Eigen::Matrix<double, 6, Eigen::Dynamic>& dwrench);
+  ///
+  /// Surfaces that deform bring the shapes by which they open the gap, `openings` (n, shapes) for unit amplitudes: the
+  /// film puts the force Q = openings^T normal_forces() on them (theory manual, film.57). (n, 0): no shapes.
+  void condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, CondensedFilm& film);
+
+  /// At the state last linearised.
+  [[nodiscard]] const NormalForces& normal_forces() const;
 
   /// The film's share `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
   /// (theory manual, bearing.8). Comes after `condense` and before the next `linearise`.

@@ -28,7 +28,8 @@ enum class Strain {
 ///
 ///     y(x) = x + sum q_a Psi_a(x) + w(x),    no frame moved by w.
 ///
-/// The mechanism sees the frames alone: w is condensed, with the matrix m M + c D + k K factorised once per step size,
+/// Surfaces that carry films bring their film modes as further static shapes, whose amplitudes are coordinates of the
+/// body; film pressures then do no work on w. The mechanism sees these and the frames alone: w is condensed, with the matrix m M + c D + k K factorised once per step size,
 /// in the body's axes. What spin adds to that matrix, 2 c omega~ M and less, is left to iteration (theory manual eq.
 /// (flexible-bodies.15) to (flexible-bodies.20)).
 ///
@@ -41,7 +42,8 @@ enum class Strain {
 class NodalBody final : public ModalBody {
  public:
   /// @param body     the whole mesh
-  /// @param reduced  of that mesh with the same frames; its vibrations serve to draw the body, not to move it
+  /// @param reduced  of that mesh with the same frames and film modes; its vibrations serve to draw the body, not to
+  ///                 move it
   /// @pre one frame where `strain` is finite: further frames turn little against the first
   /// @throws InputError  telling the memory needed where the factor does not fit
   NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping,
@@ -71,6 +73,8 @@ class NodalBody final : public ModalBody {
 
  private:
   struct Fields;
+  /// Static shapes, (3 nodes, shapes).
+  [[nodiscard]] const Eigen::MatrixXd& Psi() const { return data().displacements; }
   [[nodiscard]] Eigen::Matrix3Xd loads_on_nodes(const ElasticMotion& motion) const;
   [[nodiscard]] bool follows(const ElasticMotion& motion) const;
   void settle(const ElasticMotion& motion);
@@ -94,8 +98,8 @@ class NodalBody final : public ModalBody {
   Strain strain_;
   Eigen::Matrix3Xd x_;             ///< undeformed nodes
   Eigen::RowVectorXd nodal_mass_;  ///< sums of the rows of m
-  Eigen::MatrixXd Psi_;            ///< static shapes of the frames, (3 nodes, shapes)
-  Eigen::MatrixXd Psi_size_;       ///< absolute values of Psi_
+  Eigen::Index frame_shapes_ = 0;  ///< static shapes of the frames; those of films follow
+  Eigen::MatrixXd Psi_size_;       ///< absolute values of Psi
   Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
   Eigen::VectorXd vibration_mass_;
   Eigen::MatrixXd inertia_;  ///< columns E of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi

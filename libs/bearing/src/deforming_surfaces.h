@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "hersey/bearing/elastic_surface.h"
+#include "hersey/film/film_model.h"
+#include "hersey/film/reynolds.h"
+
+namespace hersey::bearing {
+
+/// What deforming surfaces add to the gap of rigid ones: the shell's displacement away from the axis opens it, the
+/// journal's closes it (theory manual, bearing.26 to bearing.29). The film's grid is fixed to the shell; over it the
+/// journal's deformation turns with the journal.
+class DeformingSurfaces {
+ public:
+  /// A null surface is rigid.
+  DeformingSurfaces(const film::FilmModel& model, std::shared_ptr<const ElasticSurface> shell,
+                    std::shared_ptr<const ElasticSurface> journal);
+
+  /// Amplitudes of the shell's body, then of the journal's.
+  [[nodiscard]] Eigen::Index amplitudes() const { return openings_.cols(); }
+  [[nodiscard]] bool deform() const { return openings_.cols() > 0; }
+
+  /// Adds to gap and rate in `motion`, whose journal has turned by `phi` [rad] and turns at `omega` [rad/s].
+  void place(const Eigen::VectorXd& s, const Eigen::VectorXd& s_rate, double phi, double omega,
+             film::SurfaceMotion& motion);
+
+  /// Gap opened by unit amplitudes at the journal's angle last placed, (nodes, amplitudes), and how it changes in time.
+  [[nodiscard]] const Eigen::MatrixXd& openings() const { return openings_; }
+  /// What unit changes of the amplitudes, then of their rates, do to the surfaces.
+  [[nodiscard]] const std::vector<film::MotionDirection>& directions() const { return directions_; }
+
+  /// What the journal's deformation adds to the directions of Parameters: it turns with the journal.
+  void add_turning(std::vector<film::MotionDirection>& of_parameters) const;
+  /// What it adds to the derivative of forces on amplitudes with the journal's angle, column kRotation of `Q_ds`.
+  void add_turning_forces(const Eigen::VectorXd& normal_forces, Eigen::MatrixXd& Q_ds) const;
+
+  /// Radial displacement of each surface at the nodes, away from the axis [m]; zero where it is rigid.
+  [[nodiscard]] Eigen::VectorXd shell_displacement(const Eigen::VectorXd& s) const;
+  [[nodiscard]] Eigen::VectorXd journal_displacement(const Eigen::VectorXd& s) const;
+
+ private:
+  using Functions = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< (nodes, functions)
+  /// Values at the nodes and first and second derivatives with phi of a surface's functions turned by `phi`.
+  [[nodiscard]] std::array<Functions, 3> at_nodes(const SurfaceFunctions& functions, double phi) const;
+  void turn_journal(double phi);
+  [[nodiscard]] Eigen::Index shell_count() const { return shell_ ? shell_->D.cols() : 0; }
+
+  film::Grid grid_;
+  double R_, L_;
+  std::shared_ptr<const ElasticSurface> shell_, journal_;
+  Eigen::MatrixXd openings_;
+  Eigen::MatrixXd slopes_, curvatures_;  ///< d openings / d phi of the journal's amplitudes, and again
+  double turned_ = 0;
+  std::vector<film::MotionDirection> directions_;
+  Eigen::VectorXd by_angle_, rate_by_angle_;  ///< d(gap) / d phi = d(gap rate) / d omega, and d(gap rate) / d phi
+};
+
+}  // namespace hersey::bearing

@@ -1,0 +1,161 @@
+// Films between surfaces of elastic bodies: the gap they make, and the forces that go back to their shapes.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "../src/deforming_surfaces.h"
+#include "hersey/bearing/journal_bearing.h"
+
+namespace hersey::bearing {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kShell = 3, kJournal = 2;
+
+/// Unit amplitudes move the surface by up to 1.
+std::shared_ptr<const ElasticSurface> random_surface(double width, Index amplitudes, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  ElasticSurface surface{SurfaceFunctions(9, 4, width), MatrixXd(36, amplitudes)};
+  for (Index i = 0; i < surface.D.size(); ++i) surface.D.data()[i] = uniform(random);
+  return std::make_shared<ElasticSurface>(surface);
+}
+
+film::FilmModel rough_film() {
+  film::FilmModel model;
+  model.c = 34e-6;
+  model.grid = {.n_phi = 30, .n_z = 5};
+  model.lubricant.viscosity_law = film::Barus{1.28e-10};
+  model.supply = {.kind = film::SupplyKind::widest_gap, .phi = 0, .pressure = 2e5};
+  model.asperities = {.model = film::AsperityModel::greenwood_tripp_fit,
+                      .sigma = 3e-6,
+                      .elastic_factor = 3e-3,
+                      .composite_modulus = 57e9,
+                      .mu_friction = 0.1};
+  return model;
+}
+
+BearingOptions between_elastic_surfaces(double width) {
+  BearingOptions options;
+  options.shell_surface = random_surface(width, kShell, 1);
+  options.journal_surface = random_surface(width, kJournal, 2);
+  return options;
+}
+
+mbd::RelativeMotion some_motion() {
+  mbd::RelativeMotion motion;
+  motion.dt = 1e-4;
+  motion.X_AB = {rotation_exp({3e-4, -2e-4, 0.4}).toRotationMatrix(), {14e-6, -12e-6, 0}};
+  motion.V_AB_A << 0.3, -0.2, 370, 4e-3, -9e-3, 0.05;
+  motion.s = VectorXd::LinSpaced(kShell + kJournal, 1e-6, -2e-6);
+  motion.s_rate = VectorXd::LinSpaced(kShell + kJournal, -2e-3, 3e-3);
+  return motion;
+}
+
+/// [wrench on the journal; forces on shapes] with the film solved to the end at `motion`, from the filled state at
+/// `start`.
+VectorXd converged_forces(const mbd::RelativeMotion& start, const mbd::RelativeMotion& motion,
+                          mbd::ForceResponse& response) {
+  const film::FilmModel model = rough_film();
+  JournalBearing bearing("b", model, between_elastic_surfaces(model.L));
+  mbd::RelativeMotion at_start = start;
+  at_start.dt = 0;
+  bearing.evaluate(at_start, false, response);
+  REQUIRE(bearing.domain_error().empty());
+  bearing.accept_step(at_start);
+  bearing.begin_step(start, motion.dt);
+  for (int k = 0; k < 30; ++k) bearing.evaluate(motion, true, response);
+  REQUIRE(bearing.internal_residual() < 1e-11);
+  VectorXd forces(6 + response.Q.size());
+  forces << response.W_B_A, response.Q;
+  return forces;
+}
+
+VectorXd converged_forces(const mbd::RelativeMotion& start, const mbd::RelativeMotion& motion) {
+  mbd::ForceResponse response;
+  return converged_forces(start, motion, response);
+}
+
+/// A column of the tangent against differences between two motions, relative to its own size.
+void compare(const VectorXd& column, const VectorXd& difference, double least) {
+  for (const auto& [first, count] : {std::pair<Index, Index>{0, 3}, {3, 3}, {6, kShell + kJournal}}) {
+    CAPTURE(first);
+    const double scale = std::max(column.segment(first, count).norm(), least);
+    CHECK((column.segment(first, count) - difference.segment(first, count)).norm() <= 2e-4 * scale);
+  }
+}
+
+TEST_CASE("TangentOfAFilmBetweenElasticSurfaces_MatchesFiniteDifferences") {
+  const mbd::RelativeMotion motion = some_motion();
+  mbd::ForceResponse response;
+  const VectorXd forces = converged_forces(motion, motion, response);
+  CHECK(response.Q.cwiseAbs().minCoeff() > 1);
+  const auto difference = [&](const auto& move, double step) -> VectorXd {
+    mbd::RelativeMotion plus = motion, minus = motion;
+    move(plus, step);
+    move(minus, -step);
+    return (converged_forces(motion, plus) - converged_forces(motion, minus)) / (2 * step);
+  };
+  VectorXd column(forces.size());
+  for (Index j = 0; j < 6; ++j) {
+    CAPTURE(j);
+    const auto turn = [&](mbd::RelativeMotion& m, double x) { m.X_AB = pose_exp(x * Vector6::Unit(j)) * m.X_AB; };
+    column << response.dW_dX.col(j), response.dQ_dX.col(j);
+    compare(column, difference(turn, j < 3 ? 1e-7 : 2e-9), 1e-4 * response.dW_dX.norm());
+    const auto speed = [&](mbd::RelativeMotion& m, double x) { m.V_AB_A[j] += x; };
+    column << response.dW_dV.col(j), response.dQ_dV.col(j);
+    compare(column, difference(speed, j < 3 ? 1e-5 : 1e-7), 1e-6 * response.dW_dV.norm());
+  }
+  for (Index a = 0; a < kShell + kJournal; ++a) {
+    CAPTURE(a);
+    column << response.dW_ds.col(a), response.dQ_ds.col(a);
+    compare(column, difference([&](mbd::RelativeMotion& m, double x) { m.s[a] += x; }, 2e-9), 0);
+    column << response.dW_dr.col(a), response.dQ_dr.col(a);
+    compare(column, difference([&](mbd::RelativeMotion& m, double x) { m.s_rate[a] += x; }, 1e-7), 0);
+  }
+}
+
+TEST_CASE("GapOfElasticSurfaces_ChangesAtItsRate") {
+  const film::FilmModel model = rough_film();
+  const BearingOptions options = between_elastic_surfaces(model.L);
+  DeformingSurfaces surfaces(model, options.shell_surface, options.journal_surface);
+  const VectorXd s = VectorXd::LinSpaced(kShell + kJournal, 1, 2), rate = VectorXd::LinSpaced(kShell + kJournal, -3, 5);
+  const double phi = 0.7, omega = 11, dt = 1e-6;
+  const auto gap_at = [&](double t) {
+    film::SurfaceMotion motion;
+    motion.g = motion.g_rate = VectorXd::Zero(model.grid.size());
+    surfaces.place(s + t * rate, rate, phi + t * omega, omega, motion);
+    return motion;
+  };
+  const VectorXd numeric = (gap_at(dt).g - gap_at(-dt).g) / (2 * dt);
+  const film::SurfaceMotion now = gap_at(0);
+  CHECK((now.g_rate - numeric).norm() < 1e-8 * numeric.norm());
+  CHECK((now.g - surfaces.shell_displacement(s) + surfaces.journal_displacement(s)).norm() < 1e-14 * now.g.norm());
+}
+
+TEST_CASE("ShellThatWidensEverywhere_IsAWiderBearing") {
+  film::FilmModel narrow = rough_film(), wide = rough_film();
+  const double widening = 3e-6;
+  wide.c += widening;
+  ElasticSurface bore{SurfaceFunctions(9, 4, narrow.L), MatrixXd::Ones(36, 1)};
+  JournalBearing elastic("b", narrow, {.shell_surface = std::make_shared<ElasticSurface>(bore)}), rigid("b", wide);
+  mbd::RelativeMotion motion = some_motion();
+  motion.dt = 0;
+  motion.s.resize(0);
+  motion.s_rate.resize(0);
+  mbd::ForceResponse of_elastic, of_rigid;
+  rigid.evaluate(motion, false, of_rigid);
+  motion.s = VectorXd::Constant(1, widening);
+  motion.s_rate = VectorXd::Zero(1);
+  elastic.evaluate(motion, false, of_elastic);
+  CHECK((of_elastic.W_B_A - of_rigid.W_B_A).norm() < 1e-8 * of_rigid.W_B_A.norm());
+  CHECK(of_elastic.Q[0] == doctest::Approx(elastic.observe(motion).film.normal_forces.sum()).epsilon(1e-8));
+}
+
+}  // namespace
+}  // namespace hersey::bearing
