@@ -114,6 +114,19 @@ VectorXd energy_missed(const MatrixXd& loads, const MatrixXd& exact, const Vibra
   return missed;
 }
 
+/// All film modes side by side, (3 n, modes).
+MatrixXd shapes_of(const std::vector<FilmModes>& films, Index dofs) {
+  Index columns = 0;
+  for (const FilmModes& film : films) columns += film.shapes.cols();
+  MatrixXd shapes(dofs, columns);
+  columns = 0;
+  for (const FilmModes& film : films) {
+    shapes.middleCols(columns, film.shapes.cols()) = film.shapes;
+    columns += film.shapes.cols();
+  }
+  return shapes;
+}
+
 void project(const ElasticBody& body, ReducedBody& reduced) {
   const MatrixXd K = reduced.Phi.transpose() * (body.K * reduced.Phi);
   const MatrixXd M = reduced.Phi.transpose() * mass_times(body.m, reduced.Phi);
@@ -151,8 +164,13 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
   if (!modes.ok) return {.message = modes.message};
   const MatrixXd exact = options.loads.size() ? stiffness.solve(options.loads) : MatrixXd(body.size(), 0);
   const StaticShapes of_surfaces = static_shapes(stiffness, modes, options);
-  internal.resize(body.size(), modes.shapes.cols() + exact.cols() + of_surfaces.added.cols());
-  internal << modes.shapes, exact, of_surfaces.added;
+  std::vector<FilmModes> films;
+  films.reserve(options.film_surfaces.size());
+  for (const FilmSurface& surface : options.film_surfaces)
+    films.push_back(film_modes(stiffness, surface, options.film_modes, options.film_tolerance));
+  const MatrixXd of_films = shapes_of(films, body.size());
+  internal.resize(body.size(), modes.shapes.cols() + exact.cols() + of_surfaces.added.cols() + of_films.cols());
+  internal << modes.shapes, exact, of_surfaces.added, of_films;
 
   Reduction reduction{.ok = true};
   ReducedBody& reduced = reduction.body;
@@ -162,6 +180,7 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
   reduced.mesh = body.mesh;
   reduced.materials = body.materials;
   reduced.static_errors = of_surfaces.errors;
+  reduced.film_modes = std::move(films);
   reduced.energy_missed = energy_missed(options.loads, exact, modes);
   reduced.internal_omega = orthonormalise(body, internal);
   const MatrixXd boundary = constraint_modes(body, interface, stiffness);

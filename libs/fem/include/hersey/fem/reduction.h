@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hersey/fem/elastic_body.h"
+#include "hersey/fem/film_surface.h"
 
 namespace hersey::fem {
 
@@ -68,6 +69,9 @@ struct ReductionOptions {
   /// Largest error of the static displacement of a surface under each of its pressures, all frames at rest, over the
   /// largest of these displacements: static shapes are added until it holds. Infinity: the error is told alone.
   double static_error = std::numeric_limits<double>::infinity();
+  std::vector<FilmSurface> film_surfaces;  ///< that oil films press on: their film modes are added
+  int film_modes = 60;                     ///< of each of them at most
+  double film_tolerance = 1e-6;            ///< smallest compliance of a film mode, over the largest
 };
 
 /// How well a reduced body meets the static displacement of a surface, all frames at rest, (elastic.23).
@@ -96,6 +100,7 @@ struct ReducedBody {
   Eigen::VectorXd energy_missed;
 
   std::vector<StaticError> static_errors;  ///< of the surfaces of the options
+  std::vector<FilmModes> film_modes;       ///< of each of the film surfaces of the options; files do not keep them
   /// Elements, sets and surfaces, as far as they are known; its nodes are `nodes`.
   Mesh mesh;
   std::vector<SolidMaterial> materials;  ///< of the elements; none: unknown
@@ -110,8 +115,8 @@ struct Reduction {
   ReducedBody body;
 };
 
-/// Craig-Bampton reduction: static displacements for unit motions of each frame, fixed-interface modes, and static
-/// displacements for loads, the last two orthonormalised together. Costs two factorisations, and one solution per
+/// Craig-Bampton reduction: static displacements for unit motions of each frame, fixed-interface modes, static
+/// displacements for loads and film modes, all but the first orthonormalised together. Costs two factorisations, and one solution per
 /// column of Phi.
 /// @see Craig, Bampton (1968), AIAA J. 6, 1313; Cardona (2000) for `average`. @verified_by reduction_test.cpp
 [[nodiscard]] Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& frames,

@@ -1,0 +1,45 @@
+#include <algorithm>
+
+#include "hersey/core/contract.h"
+#include "hersey/fem/film_surface.h"
+
+namespace hersey::fem {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr Index at_once = 48;  // solutions kept: all of them would take a gigabyte on a large mesh
+
+/// T^T K^-1 T.
+MatrixXd compliance_of(const HeldStiffness& stiffness, const FilmSurface& surface) {
+  const Index count = surface.T.cols();
+  MatrixXd C(count, count);
+  for (Index first = 0; first < count; first += at_once) {
+    const Index columns = std::min(at_once, count - first);
+    C.middleCols(first, columns) =
+        surface.T.transpose() * stiffness.solve(MatrixXd(surface.T.middleCols(first, columns)));
+  }
+  return (C + C.transpose()) / 2;
+}
+
+}  // namespace
+
+FilmModes film_modes(const HeldStiffness& stiffness, const FilmSurface& surface, int most, double tolerance) {
+  HERSEY_REQUIRE(most >= 0 && tolerance > 0 && tolerance < 1, "a number of modes and a share of the largest");
+  HERSEY_REQUIRE(stiffness.size() == surface.T.rows(), "the surface is one of this body");
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(compliance_of(stiffness, surface), surface.G);
+  const Eigen::VectorXd lambda = eigen.eigenvalues().reverse();
+  FilmModes modes;
+  const double largest = lambda[0];
+  const Index above = largest > 0 ? (lambda.array() > tolerance * largest).count() : 0;
+  const Index kept = std::min<Index>(above, most);
+  modes.compliance = lambda.head(kept);
+  modes.pressures = eigen.eigenvectors().rightCols(kept).rowwise().reverse();
+  modes.loads = surface.T * modes.pressures;
+  modes.shapes = stiffness.solve(modes.loads);
+  if (kept < lambda.size() && largest > 0) modes.lost = std::max(0.0, lambda[kept]) / largest;
+  return modes;
+}
+
+}  // namespace hersey::fem
