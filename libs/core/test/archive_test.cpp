@@ -18,6 +18,7 @@ struct Thing {
   Colour colour = Colour::red;
   std::string text;
   std::vector<double> list;
+  std::vector<int> counts;
   Eigen::VectorXd v;
   Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
   std::optional<double> maybe, never = 1.0;
@@ -30,6 +31,7 @@ struct Thing {
     archive.io("colour", colour);
     archive.io("text", text);
     archive.io("list", list);
+    archive.io("counts", counts);
     archive.io("v", v);
     archive.io("M", M);
     archive.io("maybe", maybe);
@@ -45,6 +47,7 @@ Thing filled() {
               .colour = Colour::green,
               .text = "a b",
               .list = {1, 2},
+              .counts = {3, -4},
               .v = Eigen::VectorXd::LinSpaced(5, 0, 1),
               .maybe = 3.5,
               .never = std::nullopt,
@@ -73,6 +76,7 @@ TEST_CASE("Archive_RestoresWhatItSaved") {
   CHECK(thing.colour == Colour::green);
   CHECK(thing.text == "a b");
   CHECK(thing.list == saved.list);
+  CHECK(thing.counts == saved.counts);
   CHECK(thing.v == saved.v);
   CHECK(thing.M == saved.M);
   CHECK(thing.maybe == 3.5);

@@ -80,6 +80,15 @@ class Archive {
     if (restores_) value = static_cast<Integer>(number);
   }
 
+  template <std::integral Integer>
+  void io(std::string_view name, std::vector<Integer>& values) {
+    std::vector<double> numbers(values.begin(), values.end());
+    io(name, numbers);
+    if (!restores_) return;
+    values.clear();
+    for (const double number : numbers) values.push_back(static_cast<Integer>(number));
+  }
+
   /// Matrices and vectors; sizes that are not fixed are stored and restored too.
   template <class Derived>
   void io(std::string_view name, Eigen::PlainObjectBase<Derived>& matrix) {
