@@ -95,4 +95,12 @@ Eigen::VectorXd InterfaceIteration::quasi_newton(const Eigen::VectorXd& image, c
   return image - C * (Q.transpose() * residual);
 }
 
+void InterfaceIteration::persist(Archive& archive) {
+  const auto vector = [](Archive& a, Eigen::VectorXd& item) { a.io("change", item); };
+  archive.io("omega", omega_);
+  archive.each("residual_changes", residual_changes_, vector);
+  archive.each("image_changes", image_changes_, vector);
+  has_last_ = false;
+}
+
 }  // namespace hersey::bearing

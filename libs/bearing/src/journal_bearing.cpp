@@ -277,4 +277,19 @@ film::FilmFields JournalBearing::fields() const {
   return fields;
 }
 
+// What begin_step returns to. What the last step showed is not kept: it has been observed.
+void JournalBearing::persist(Archive& archive) {
+  archive.io("theta", history_start_.theta);
+  archive.io("w", history_start_.w);
+  archive.io("density", history_start_.density);
+  archive.io("u", u_start_);
+  archive.io("given_wrench", given_start_);
+  {
+    const Archive::Group group(archive, "exchange");
+    interface_.persist(archive);
+  }
+  const Archive::Group group(archive, "film");
+  reynolds_.persist(archive);
+}
+
 }  // namespace hersey::bearing

@@ -237,6 +237,11 @@ Vector6 Reynolds::wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) c
   return impl_->summed_wrench().along_u(du);
 }
 
+void Reynolds::persist(Archive& archive) {
+  impl_->lu.persist(archive);
+  if (archive.restores()) impl_->linearised = impl_->factorised = impl_->set_up = false;
+}
+
 void Reynolds::residual_derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
   impl_->balance.derivative(direction, dr);
 }

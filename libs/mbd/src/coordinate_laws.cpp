@@ -63,4 +63,11 @@ void SpeedController::accept_step(double t, double position, double) {
   memory_->started = true;
 }
 
+void SpeedController::persist(Archive& archive) {
+  archive.io("started", memory_->started);
+  archive.io("t", memory_->t);
+  archive.io("position", memory_->position);
+  archive.io("integral", memory_->integral);
+}
+
 }  // namespace hersey::mbd

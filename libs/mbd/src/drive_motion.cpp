@@ -101,4 +101,10 @@ void DriveMotion::anchor(double t) {
   anchor_time_ = t;
 }
 
+void DriveMotion::persist(Archive& archive) {
+  archive.io("time", anchor_time_);
+  archive.io("position", anchor_position_);
+  archive.io("rate", anchor_rate_);
+}
+
 }  // namespace hersey::mbd

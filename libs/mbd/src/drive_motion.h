@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "hersey/core/archive.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/mbd/mechanism_builder.h"
 
@@ -22,6 +23,9 @@ class DriveMotion {
 
   /// Moves the anchor of the integration to t: the cost of `position` grows with the distance from it.
   void anchor(double t);
+
+  /// The anchor.
+  void persist(Archive& archive);
 
  private:
   [[nodiscard]] double value(double t) const;

@@ -387,4 +387,25 @@ RelativeMotion Mechanism::relative_motion(const State& state, ForceId force) {
   return impl_->relative_motion(static_cast<std::size_t>(force.index), state.t);
 }
 
+void Mechanism::persist(Archive& archive) {
+  Implementation& m = *impl_;
+  archive.each("accepted_wrenches", m.accepted_wrenches, [](Archive& a, Vector6& wrench) { a.io("wrench", wrench); });
+  for (std::size_t i = 0; i < m.drives.size(); ++i) {
+    const Archive::Group group(archive, "drive " + m.spec.drives[i].name);
+    m.drives[i].motion.persist(archive);
+  }
+  for (const MechanismSpec::CoordinateForce& force : m.spec.coordinate_forces) {
+    const Archive::Group group(archive, "coordinate force " + force.name);
+    force.force->persist(archive);
+  }
+  for (const MechanismSpec::Force& force : m.spec.forces) {
+    const Archive::Group group(archive, force.name);
+    force.force->persist(archive);
+  }
+  for (ElasticAssembly& elastic : m.elastics) {
+    const Archive::Group group(archive, "body " + elastic.name());
+    elastic.body().persist(archive);
+  }
+}
+
 }  // namespace hersey::mbd

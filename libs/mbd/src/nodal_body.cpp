@@ -446,4 +446,11 @@ ElasticEnergy NodalBody::energy(const ElasticMotion& motion, const Vector3& grav
   return e;
 }
 
+void NodalBody::persist(Archive& archive) {
+  w_.persist(archive);
+  archive.io("at_rest", at_rest_);
+  const Archive::Group group(archive, "factors");
+  factors_->persist(archive);
+}
+
 }  // namespace hersey::mbd

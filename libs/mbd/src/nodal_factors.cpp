@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 namespace hersey::mbd {
 
@@ -48,10 +49,15 @@ const NodalFactor* NodalFactors::of(const solver::Stage& stage, std::string& mes
     return &factors_.front();
   } else {
     make_room();
-    factors_.push_front(
-        {shift, scale, fem::HeldStiffness(body_.K, body_.m, supports_.held, supports_.C), {}, {}, {}, {}});
+    return add(shift, scale, message) ? &factors_.front() : nullptr;
   }
   return factorise(factors_.front(), shift, scale, message) ? &factors_.front() : nullptr;
+}
+
+bool NodalFactors::add(double shift, double scale, std::string& message) {
+  factors_.push_front(
+      {shift, scale, fem::HeldStiffness(body_.K, body_.m, supports_.held, supports_.C), {}, {}, {}, {}});
+  return factorise(factors_.front(), shift, scale, message);
 }
 
 bool NodalFactors::factorise(NodalFactor& factor, double shift, double scale, std::string& message) {
@@ -107,6 +113,21 @@ void NodalFactors::leave_to_frames(VectorXd& f) const {
   if (supports_.C.rows() == 0) return;
   f -= supports_.C.transpose() * (bearing_ * (supports_.C * f));
   for (const int dof : supports_.held) f[dof] = 0;
+}
+
+void NodalFactors::persist(Archive& archive) {
+  std::vector<std::pair<double, double>> steps;
+  if (K_.rows() == 0)
+    for (const NodalFactor& factor : factors_) steps.emplace_back(factor.shift, factor.scale);
+  archive.each("step", steps, [](Archive& a, std::pair<double, double>& step) {
+    a.io("shift", step.first);
+    a.io("scale", step.second);
+  });
+  if (!archive.restores() || K_.rows() > 0) return;
+  factors_.clear();
+  std::string message;
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step)
+    if (!add(step->first, step->second, message)) throw ArchiveError(message);
 }
 
 }  // namespace hersey::mbd

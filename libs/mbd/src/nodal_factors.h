@@ -44,10 +44,15 @@ class NodalFactors {
   /// Takes from `f` what the frames bear: forces on held nodes, and those that the averages' constraints exert.
   void leave_to_frames(Eigen::VectorXd& f) const;
 
+  /// Which step sizes there are factors for, where their matrix stays: a step takes the factor of one nearly as long,
+  /// so that the round-off of answers depends on those before. Restoring factorises them again.
+  void persist(Archive& archive);
+
   [[nodiscard]] long solves() const { return solves_; }
 
  private:
   [[nodiscard]] bool factorise(NodalFactor& factor, double shift, double scale, std::string& message);
+  [[nodiscard]] bool add(double shift, double scale, std::string& message);
   void make_room();
   void describe(NodalFactor& factor) const;
 

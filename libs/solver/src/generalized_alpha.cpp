@@ -278,4 +278,16 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   return summary;
 }
 
+void GeneralizedAlpha::persist(Archive& archive) {
+  Workspace& w = *work_;
+  archive.io("started", w.started);
+  archive.io("fresh", w.stage.fresh);
+  archive.io("last_dt", w.last_dt);
+  archive.io("a", w.a);
+  archive.io("drift", w.drift);
+  archive.io("analysed", w.analysed);
+  const Archive::Group group(archive, "lu");
+  w.lu.persist(archive);
+}
+
 }  // namespace hersey::solver

@@ -41,4 +41,17 @@ void SecondOrderHistory::accept() {
   vdot_start_ = vdot_;
 }
 
+void SecondOrderHistory::persist(Archive& archive) {
+  archive.io("x", x_start_);
+  archive.io("v", v_start_);
+  archive.io("vdot", vdot_start_);
+  archive.io("a", a_);
+  archive.io("last_dt", last_dt_);
+  if (!archive.restores()) return;
+  x_ = x_start_;
+  v_ = v_start_;
+  vdot_ = vdot_start_;
+  predicted_ = false;
+}
+
 }  // namespace hersey::solver

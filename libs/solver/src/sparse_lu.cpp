@@ -19,6 +19,7 @@ constexpr double smallest_reciprocal_condition = 1e-15;
 struct SparseLu::Impl {
   int n = 0;
   std::vector<int> column_start, row_index;
+  std::vector<double> pivoted;  // the matrix that chose the pivot order
   klu_common common{};
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
@@ -43,6 +44,7 @@ struct SparseLu::Impl {
   bool pivot(std::span<const double> values) {
     if (numeric) klu_free_numeric(&numeric, &common);
     ++pivotings;
+    pivoted.assign(values.begin(), values.end());
     numeric = klu_factor(column_start.data(), row_index.data(), unconst(values), symbolic, &common);
     return numeric && common.status == KLU_OK && condition_is_sound();
   }
@@ -115,5 +117,20 @@ int SparseLu::size() const { return impl_->n; }
 bool SparseLu::factorised() const { return impl_->factorised; }
 double SparseLu::reciprocal_condition() const { return impl_->rcond; }
 int SparseLu::pivotings() const { return impl_->pivotings; }
+
+void SparseLu::persist(Archive& archive) {
+  Impl& m = *impl_;
+  std::vector<int> column_start = m.column_start, row_index = m.row_index;
+  std::vector<double> values = m.numeric ? m.pivoted : std::vector<double>{};
+  archive.io("column_start", column_start);
+  archive.io("row_index", row_index);
+  archive.io("pivoted_matrix", values);
+  if (!archive.restores()) return;
+  m.clear();
+  if (column_start.empty()) return;
+  analyse(static_cast<int>(column_start.size()) - 1, column_start, row_index);
+  if (!values.empty() && (values.size() != row_index.size() || !m.pivot(values)))
+    throw ArchiveError("the stored matrix cannot be factorised");
+}
 
 }  // namespace hersey::solver

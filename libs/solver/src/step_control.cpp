@@ -78,4 +78,10 @@ bool StepControl::shorten(double dt, double factor) {
   return true;
 }
 
+void StepControl::persist(Archive& archive) {
+  archive.io("dt", dt_);
+  archive.io("last_error", last_error_);
+  archive.io("after_rejection", after_rejection_);
+}
+
 }  // namespace hersey::solver

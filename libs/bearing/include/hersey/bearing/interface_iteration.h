@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "hersey/core/archive.h"
+
 namespace hersey::bearing {
 
 /// How a partitioned coupling corrects the wrench it exchanges.
@@ -23,6 +25,9 @@ class InterfaceIteration {
 
   /// The next x after F(x) came out as `image`. All entries should be of comparable size.
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image);
+
+  /// What the next step starts with.
+  void persist(Archive& archive);
 
  private:
   [[nodiscard]] Eigen::VectorXd aitken(const Eigen::VectorXd& x, const Eigen::VectorXd& residual);

@@ -75,6 +75,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override;
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }
+  void persist(Archive& archive) override;
 
   /// Everything to report at the state last accepted (or initialised).
   [[nodiscard]] BearingObservation observe(const mbd::RelativeMotion& motion) const;

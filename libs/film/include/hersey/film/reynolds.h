@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "hersey/core/archive.h"
 #include "hersey/core/spatial.h"
 #include "hersey/film/film_model.h"
 
@@ -116,6 +117,9 @@ class Reynolds {
 
   /// dr/d(parameter) alone, for tests and un-condensed systems.
   void residual_derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
+
+  /// The pivot order in use; linearise() comes next.
+  void persist(Archive& archive);
 
  private:
   struct Impl;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "hersey/core/archive.h"
+
 namespace hersey::mbd {
 
 /// A force or torque on a scalar coordinate, with its derivatives.
@@ -18,6 +20,9 @@ class CoordinateForce {
 
   /// A step ended here: forces with a memory keep it.
   virtual void accept_step(double t, double position, double rate) { (void)t, (void)position, (void)rate; }
+
+  /// That memory; see solver::Equations.
+  virtual void persist(Archive& archive) { (void)archive; }
 
   /// Whether its power is put in from outside, as a motor's is; a spring's or a brake's is not.
   [[nodiscard]] virtual bool is_source() const { return false; }

@@ -49,6 +49,7 @@ class SpeedController final : public CoordinateForce {
   ~SpeedController() override;
   [[nodiscard]] CoordinateEffort evaluate(double t, double position, double rate) const override;
   void accept_step(double t, double position, double rate) override;
+  void persist(Archive& archive) override;
   [[nodiscard]] bool is_source() const override { return true; }
 
  private:

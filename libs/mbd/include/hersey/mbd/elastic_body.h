@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/archive.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/spatial.h"
 #include "hersey/mbd/load_axes.h"
@@ -120,6 +121,7 @@ class ElasticBody {
   [[nodiscard]] virtual double internal_residual() const { return 0; }
   [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
   [[nodiscard]] virtual std::string domain_error() const { return {}; }
+  virtual void persist(Archive& archive) { (void)archive; }
 };
 
 }  // namespace hersey::mbd

@@ -58,6 +58,7 @@ class NodalBody final : public ModalBody {
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override { return "equations of the nodes"; }
   [[nodiscard]] std::string domain_error() const override { return trouble_; }
+  void persist(Archive& archive) override;
 
   /// Amplitudes of the frames' shapes, then of the vibrations as far as they describe w.
   [[nodiscard]] Eigen::VectorXd amplitudes(const ElasticMotion& motion) override;

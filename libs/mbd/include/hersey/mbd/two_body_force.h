@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <string>
 
+#include "hersey/core/archive.h"
 #include "hersey/core/spatial.h"
 
 namespace hersey::mbd {
@@ -56,6 +57,7 @@ class TwoBodyForce {
   [[nodiscard]] virtual double internal_residual() const { return 0; }
   [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
   [[nodiscard]] virtual std::string domain_error() const { return {}; }
+  virtual void persist(Archive& archive) { (void)archive; }
 };
 
 }  // namespace hersey::mbd

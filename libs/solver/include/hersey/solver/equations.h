@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <string>
 
+#include "hersey/core/archive.h"
 #include "hersey/solver/alpha_parameters.h"
 
 namespace hersey::solver {
@@ -84,6 +85,10 @@ class Equations {
   /// A state outside the domain of the equations, e.g. "bearing big_end: gap closed (-1.2 um at ...)"; empty if inside.
   /// The integrator asks after each `assemble` and shortens the Newton increment where it is not empty.
   [[nodiscard]] virtual std::string domain_error() const { return {}; }
+
+  /// Everything that steps to come depend on beside the state: histories of condensed unknowns, and what is kept from
+  /// one solution to the next if it changes their round-off. After restoring, steps are those of the run that saved.
+  virtual void persist(Archive& archive) { (void)archive; }
 };
 
 }  // namespace hersey::solver

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "hersey/core/archive.h"
 #include "hersey/solver/equations.h"
 
 namespace hersey::solver {
@@ -24,6 +25,9 @@ class SecondOrderHistory {
 
   /// The step is over: what is there stays.
   void accept();
+
+  /// What was accepted; where a step is being solved, it begins again after restoring.
+  void persist(Archive& archive);
 
   [[nodiscard]] const Eigen::VectorXd& position() const { return x_; }
   [[nodiscard]] const Eigen::VectorXd& rate() const { return v_; }

@@ -4,6 +4,8 @@
 #include <memory>
 #include <span>
 
+#include "hersey/core/archive.h"
+
 namespace hersey::solver {
 
 /// Sparse LU of a sequence of square matrices that share one pattern (SuiteSparse KLU, compressed columns).
@@ -46,6 +48,10 @@ class SparseLu {
 
   /// How many factorisations chose pivots afresh since analyse().
   [[nodiscard]] int pivotings() const;
+
+  /// The pattern, and the matrix whose pivot order is being reused: the order decides the round-off of every later
+  /// solution. Restoring factorises it again.
+  void persist(Archive& archive);
 
  private:
   struct Impl;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "hersey/core/archive.h"
+
 namespace hersey::solver {
 
 /// Limits within which steps are chosen.
@@ -34,6 +36,8 @@ class StepControl {
   [[nodiscard]] bool failed(double dt);
 
   [[nodiscard]] double dt() const { return dt_; }
+
+  void persist(Archive& archive);
 
  private:
   [[nodiscard]] bool shorten(double dt, double factor);
