@@ -1,11 +1,12 @@
 // Films between surfaces of elastic bodies: the gap they make, and the forces that go back to their shapes.
+#include "../src/deforming_surfaces.h"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "../src/deforming_surfaces.h"
 #include "hersey/bearing/journal_bearing.h"
 
 namespace hersey::bearing {

@@ -37,6 +37,8 @@ class SpotFinder {
   virtual void find(const Pose& X_AB, std::vector<SpotId>& found) = 0;
   [[nodiscard]] virtual Spot<double> spot(const SpotId& id, const PoseOf<double>& X_AB) const = 0;
   [[nodiscard]] virtual Spot<Dual> spot(const SpotId& id, const PoseOf<Dual>& X_AB) const = 0;
+  /// Every spot that there may be, where each of them has its own place: of corners that deform.
+  virtual void find_all(std::vector<SpotId>& found) const { (void)found; }
   /// Smallest gap of all spots [m], touching or not.
   [[nodiscard]] virtual double smallest_gap(const Pose& X_AB) = 0;
   /// Whether a spot's weight is an area.

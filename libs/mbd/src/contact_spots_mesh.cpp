@@ -119,6 +119,11 @@ class CornersOnSolid final : public SpotFinderOf<CornersOnSolid> {
         });
   }
 
+  void find_all(std::vector<SpotId>& found) const override {
+    for (int corner = 0; corner < static_cast<int>(surface_.mesh().corners.size()); ++corner)
+      found.push_back({0, corner, 0});
+  }
+
   double smallest_gap(const Pose& X_AB) override {
     const Pose X_SM = on_b_ ? X_AB : X_AB.inverse();
     double nearest = std::numeric_limits<double>::infinity();
@@ -140,6 +145,7 @@ class CornersOnSolid final : public SpotFinderOf<CornersOnSolid> {
   template <class T>
   [[nodiscard]] SurfaceDistance<T> surface_distance(const Vec3<T>& p) const {
     if (const auto* plane = std::get_if<HalfSpace>(&solid_)) return distance_from(*plane, p);
+    if (const auto* ball = std::get_if<Sphere>(&solid_)) return distance_from(*ball, p);
     if (const auto* capsule = std::get_if<Capsule>(&solid_)) return distance_from(*capsule, p);
     if (const auto* cylinder = std::get_if<Cylinder>(&solid_)) return distance_from(*cylinder, p);
     return distance_from(std::get<Box>(solid_), p);

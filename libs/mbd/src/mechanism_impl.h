@@ -42,12 +42,12 @@ struct Mechanism::Implementation {
   struct Sides {
     int a = -1, b = -1;
   };
-  std::vector<Sides> sides;                  ///< of each two-body force
-  std::vector<std::size_t> costly;           ///< two-body forces with a thread of their own
-  std::vector<char> seen_deforming;          ///< of each elastic body: some force sees it deform
-  std::vector<RelativeMotion> relatives;     ///< of the two-body forces at the last assembly
-  std::vector<ForceResponse> responses;      ///< the same
-  std::vector<ForceResponse> accepted;       ///< at the last accepted step, wrenches and forces alone; empty before
+  std::vector<Sides> sides;               ///< of each two-body force
+  std::vector<std::size_t> costly;        ///< two-body forces with a thread of their own
+  std::vector<char> seen_deforming;       ///< of each elastic body: some force sees it deform
+  std::vector<RelativeMotion> relatives;  ///< of the two-body forces at the last assembly
+  std::vector<ForceResponse> responses;   ///< the same
+  std::vector<ForceResponse> accepted;    ///< at the last accepted step, wrenches and forces alone; empty before
 
   // Multipliers: closures, then couplings, then drives.
   [[nodiscard]] Index row_of_coupling(std::size_t i) const { return tree.nclosure + static_cast<Index>(i); }

@@ -119,8 +119,7 @@ NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, con
   }
   inertia_.rightCols(shapes) = fem::mass_times(body_.m, Psi());
 
-  factors_ =
-      std::make_unique<NodalFactors>(body_, supports_of(body_, reduced), damping_, inertia_, Psi());
+  factors_ = std::make_unique<NodalFactors>(body_, supports_of(body_, reduced), damping_, inertia_, Psi());
   w_.start(VectorXd::Zero(body_.size()));
   sizes_ = VectorXd::Zero(body_.size());
 }

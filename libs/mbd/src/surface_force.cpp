@@ -23,8 +23,8 @@ PairColumns columns_of(const Assembly& assembly, const Pair& pair) {
     const Vector6& J = assembly.directions[k].J;
     const Link& link = assembly.tree.links[static_cast<std::size_t>(assembly.tree.columns[k].link)];
     // As in add_pair_force: how a column changes the relative velocity.
-    const Vector6 dV = cross_motion(J, motion.V(pair.b.link) - motion.V(link.parent)) +
-                       assembly.stage.c * motion.J(column.column);
+    const Vector6 dV =
+        cross_motion(J, motion.V(pair.b.link) - motion.V(link.parent)) + assembly.stage.c * motion.J(column.column);
     of.virtual_motion.col(c) = column.sign * (to_A * motion.J(column.column));
     of.position.col(c) = column.sign * (to_A * J);
     of.velocity.col(c) = column.sign * (to_A * dV);
@@ -51,17 +51,16 @@ void add_surface_tangent(Assembly& assembly, const Pair& pair, const std::vector
     const Index rows = moved->value.rows();
     const auto of_moved = [&](std::size_t i) { return moved->columns[i]; };
     subtract(assembly, moved->virtual_value.transpose() * forces_by_pair.middleRows(row, rows), of_moved, of_pair);
-    const MatrixXd wrench = response.dW_ds.middleCols(row, rows) * moved->value +
-                            response.dW_dr.middleCols(row, rows) * moved->rate;
+    const MatrixXd wrench =
+        response.dW_ds.middleCols(row, rows) * moved->value + response.dW_dr.middleCols(row, rows) * moved->rate;
     subtract(assembly, tree.virtual_motion.transpose() * wrench, of_pair, of_moved);
-    const MatrixXd forces = response.dQ_ds.middleCols(row, rows) * moved->value +
-                            response.dQ_dr.middleCols(row, rows) * moved->rate;
+    const MatrixXd forces =
+        response.dQ_ds.middleCols(row, rows) * moved->value + response.dQ_dr.middleCols(row, rows) * moved->rate;
     Index pushed_row = 0;
     for (const ShapeColumns* pushed : surfaces) {
       const auto of_pushed = [&](std::size_t i) { return pushed->columns[i]; };
       const Index count = pushed->value.rows();
-      subtract(assembly, pushed->virtual_value.transpose() * forces.middleRows(pushed_row, count), of_pushed,
-               of_moved);
+      subtract(assembly, pushed->virtual_value.transpose() * forces.middleRows(pushed_row, count), of_pushed, of_moved);
       pushed_row += count;
     }
     row += rows;

@@ -1,5 +1,5 @@
-// Forces between two bodies, which may see the bodies deform: theory manual, sections on two-body forces and on surfaces
-// that deform.
+// Forces between two bodies, which may see the bodies deform: theory manual, sections on two-body forces and on
+// surfaces that deform.
 #include <algorithm>
 #include <future>
 #include <thread>

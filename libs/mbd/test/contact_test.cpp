@@ -103,6 +103,80 @@ Vector6 wrench(Contact& contact, const RelativeMotion& motion) {
   return response.W_B_A;
 }
 
+/// A mesh pressed onto a solid whose corners move with three amplitudes.
+struct DeformingPair {
+  std::string name;
+  ShapeGeometry solid;
+  Pose X_AB;
+};
+
+TEST_CASE("ContactOfCornersThatDeform_MatchesFiniteDifferencesAndDoesTheWorkOfItsForces") {
+  const auto mesh = test::box_mesh({{}, {0.4, 0.3, 0.2}}, 2);
+  const auto corners = static_cast<Eigen::Index>(mesh->corners.size());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::MatrixXd U(3 * corners, 3);
+  for (auto& x : U.reshaped()) x = uniform(random);
+  const std::vector<DeformingPair> pairs{
+      {"half-space", HalfSpace{{0, 0, 0.05}, Vector3(0.1, 0.2, 1).normalized()},
+       test::pose_at({0.3, 0.1, 0.4}, {0.2, 0.1, 0.13})},
+      {"sphere", Sphere{{0, 0, -0.5}, 0.6}, test::pose_at({0.3, -0.2, 0.4}, {0.02, 0.05, 0.2})}};
+  for (const DeformingPair& pair : pairs) {
+    CAPTURE(pair.name);
+    Contact contact(pair.solid, mesh, U, kLaw);
+    RelativeMotion motion = motion_at(pair.X_AB);
+    motion.s = Vector3(0.004, -0.006, 0.003);
+    motion.s_rate = Vector3(0.3, 0.2, -0.4);
+    ForceResponse response, other;
+    contact.evaluate(motion, true, response);
+    REQUIRE(response.Q.norm() > 0);
+    const auto forces = [&](const RelativeMotion& m) {
+      contact.evaluate(m, false, other);
+      Eigen::VectorXd all(9);
+      all << other.W_B_A, other.Q;
+      return all;
+    };
+    const auto compare = [&](const Eigen::VectorXd& column, const auto& move) {
+      constexpr double h = 1e-6;
+      RelativeMotion plus = motion, minus = motion;
+      move(plus, h);
+      move(minus, -h);
+      const Eigen::VectorXd numeric = (forces(plus) - forces(minus)) / (2 * h);
+      CHECK((column - numeric).norm() < 1e-6 * std::max(column.norm(), 1.0));
+    };
+    for (int j = 0; j < 6; ++j) {
+      CAPTURE(j);
+      Eigen::VectorXd column(9);
+      column << response.dW_dX.col(j), response.dQ_dX.col(j);
+      compare(column, [&](RelativeMotion& m, double h) { m.X_AB = pose_exp(h * Vector6::Unit(j)) * m.X_AB; });
+      column << response.dW_dV.col(j), response.dQ_dV.col(j);
+      compare(column, [&](RelativeMotion& m, double h) { m.V_AB_A[j] += h; });
+    }
+    for (int a = 0; a < 3; ++a) {
+      CAPTURE(a);
+      Eigen::VectorXd column(9);
+      column << response.dW_ds.col(a), response.dQ_ds.col(a);
+      compare(column, [&](RelativeMotion& m, double h) { m.s[a] += h; });
+      column << response.dW_dr.col(a), response.dQ_dr.col(a);
+      compare(column, [&](RelativeMotion& m, double h) { m.s_rate[a] += h; });
+    }
+    // What the forces do is what the contact takes: its springs fill up, its damping and friction lose the rest.
+    constexpr double dt = 1e-6;
+    const auto later = [&](double t) {
+      RelativeMotion m = motion;
+      const Vector6 V = motion.V_AB_A;
+      m.X_AB = pose_exp(t * V) * motion.X_AB;
+      m.s += t * motion.s_rate;
+      return m;
+    };
+    const double filled = (contact.stored_energy(later(dt)) - contact.stored_energy(later(-dt))) / (2 * dt);
+    const ContactObservation seen = contact.observe(motion);
+    const double done = response.W_B_A.dot(motion.V_AB_A) + response.Q.dot(motion.s_rate);
+    CHECK(done + filled + seen.damping_power + seen.friction_power ==
+          doctest::Approx(0).scale(std::abs(filled) + std::abs(seen.friction_power)).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("ContactDerivatives_MatchFiniteDifferences") {
   constexpr double h = 1e-6;  // truncation h^2, round-off eps/h: 1e-9 of the largest entry is safe
   for (const Pair& pair : pairs()) {

@@ -259,17 +259,23 @@ class Builder {
     mechanism_.add_load(std::move(spec));
   }
 
+  // Place among the machine's flexible bodies.
+  [[nodiscard]] std::size_t flexible_called(const std::string& name) const {
+    const auto at = std::find_if(machine_.flexibles.begin(), machine_.flexibles.end(),
+                                 [&](const BuiltFlexible& flexible) { return flexible.name == name; });
+    HERSEY_REQUIRE(at != machine_.flexibles.end(), "the reader checks bodies");
+    return static_cast<std::size_t>(at - machine_.flexibles.begin());
+  }
+
   void add_surface_load(const Force& force) {
     const SurfaceLoad& load = force.surface_load;
-    const auto at = std::find_if(machine_.flexibles.begin(), machine_.flexibles.end(),
-                                 [&](const BuiltFlexible& flexible) { return flexible.name == load.body; });
-    HERSEY_REQUIRE(at != machine_.flexibles.end(), "the reader checks bodies");
-    const std::size_t first = mechanism_.nodal_loads(at->elastic);
+    const std::size_t at = flexible_called(load.body);
+    const BuiltFlexible& flexible = machine_.flexibles[at];
+    const std::size_t first = mechanism_.nodal_loads(flexible.elastic);
     for (std::size_t i = 0; i < load.functions.size(); ++i)
-      mechanism_.add_nodal_load(at->elastic, nodal_load(force, *at->mesh, i),
+      mechanism_.add_nodal_load(flexible.elastic, nodal_load(force, *flexible.mesh, i),
                                 std::make_shared<OverTime>(load.functions[i], model_.simulation));
-    machine_.surface_loads.push_back(
-        {force.name, static_cast<std::size_t>(at - machine_.flexibles.begin()), first, load.functions.size()});
+    machine_.surface_loads.push_back({force.name, at, first, load.functions.size()});
   }
 
   // What the value `i` of a surface load is multiplied with.
@@ -366,12 +372,30 @@ class Builder {
     mechanism_.add_coupling(std::move(spec));
   }
 
+  // Displacements of some nodes, (3 nodes, shapes), of those of all nodes of a mesh.
+  static Eigen::MatrixXd rows_of(const Eigen::MatrixXd& displacements, const std::vector<int>& nodes) {
+    Eigen::MatrixXd some(3 * static_cast<Eigen::Index>(nodes.size()), displacements.cols());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      some.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = displacements.middleRows<3>(3 * nodes[i]);
+    return some;
+  }
+
   void add_contact(const Contact& contact) {
     const mbd::ShapeGeometry *first = model_.find_shape(contact.first), *second = model_.find_shape(contact.second);
     HERSEY_REQUIRE(first != nullptr && second != nullptr, "the reader checks shapes");
-    auto force = std::make_shared<mbd::Contact>(*first, *second, contact.law);
     const mbd::FrameId a = frames_.at({contact.first.body, ""}), b = frames_.at({contact.second.body, ""});
-    const mbd::ForceId id = mechanism_.add_force("contact " + contact.name, a, b, force);
+    std::shared_ptr<mbd::Contact> force;
+    mbd::ForceSurfaces surfaces;
+    if (const DeformingFaces* faces = model_.find_faces(contact.second)) {
+      const BuiltFlexible& flexible = machine_.flexibles[flexible_called(contact.second.body)];
+      surfaces.b = flexible.elastic;
+      force = std::make_shared<mbd::Contact>(*first,
+                                             std::get<std::shared_ptr<const mbd::TriangleMesh>>(faces->shape.geometry),
+                                             rows_of(flexible.body->data().displacements, faces->nodes), contact.law);
+    } else {
+      force = std::make_shared<mbd::Contact>(*first, *second, contact.law);
+    }
+    const mbd::ForceId id = mechanism_.add_force("contact " + contact.name, a, b, force, surfaces);
     machine_.contacts.push_back({std::move(force), id, bodies_.at(contact.first.body)});
   }
 

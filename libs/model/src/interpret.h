@@ -98,8 +98,11 @@ void require_function_of_time(Context& context, const Function& function, const 
 /// what is wrong with its axis, section and frames.
 [[nodiscard]] std::optional<Beam> beam_of(Context& context, const Value& body, std::vector<Frame>& frames);
 
-/// Its outer surface, for the report.
-[[nodiscard]] mbd::Shape skin_of(const fem::Mesh& mesh);
+/// Shapes of `body` that are faces of its mesh; `flexible` is null where it is rigid.
+[[nodiscard]] std::vector<DeformingFaces> faces_of_body(Context& context, const Value& body, const Flexible* flexible);
+
+/// The whole outer surface, for the report and for contacts.
+[[nodiscard]] DeformingFaces skin_of(const fem::Mesh& mesh);
 
 // The sections of the file.
 void interpret_bodies(Context& context);

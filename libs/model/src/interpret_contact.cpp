@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "hersey/core/spelling.h"
@@ -8,10 +9,12 @@
 namespace hersey::model {
 namespace {
 
-std::vector<std::string> names_of(const std::vector<mbd::Shape>& shapes) {
+std::vector<std::string> names_of(const Body& body) {
   std::vector<std::string> names;
-  names.reserve(shapes.size());
-  for (const mbd::Shape& shape : shapes) names.push_back(shape.name);
+  names.reserve(body.shapes.size() + body.faces.size());
+  for (const mbd::Shape& shape : body.shapes) names.push_back(shape.name);
+  for (const DeformingFaces& faces : body.faces)
+    if (std::find(names.begin(), names.end(), faces.shape.name) == names.end()) names.push_back(faces.shape.name);
   return names;
 }
 
@@ -25,6 +28,8 @@ const Body* find_body(const Model& model, const std::string& name) {
 const mbd::ShapeGeometry* find_in(const Body& body, const std::string& shape) {
   for (const mbd::Shape& candidate : body.shapes)
     if (candidate.name == shape) return &candidate.geometry;
+  for (const DeformingFaces& faces : body.faces)
+    if (faces.shape.name == shape) return &faces.shape.geometry;
   return nullptr;
 }
 
@@ -61,6 +66,11 @@ class ContactReader {
       context_.fault(at, "both shapes on body '" + contact_.first.body + "'", "shapes of two bodies");
       return false;
     }
+    if (context_.model.find_faces(contact_.first) != nullptr) {
+      context_.fault(between->members[0].value, "faces that deform as the first shape", "them as the second one",
+                     "change the two");
+      return false;
+    }
     if (!mbd::can_touch(*first, *second)) {
       context_.fault(at, "contact of a " + mbd::name_of(*first) + " with a " + mbd::name_of(*second),
                      "a sphere and anything, a half_space and anything but another, two capsules, or a mesh and "
@@ -88,7 +98,7 @@ class ContactReader {
     }
     const mbd::ShapeGeometry* shape = find_in(*body, name.shape);
     if (shape == nullptr && !context_.has_fault_in("bodies." + name.body + ".shapes." + name.shape)) {
-      const std::vector<std::string> names = names_of(body->shapes);
+      const std::vector<std::string> names = names_of(*body);
       context_.fault(reference, "unknown shape '" + name.shape + "' of body '" + name.body + "'",
                      names.empty() ? "a body with `shapes`; '" + name.body + "' has none" : one_of(names),
                      did_you_mean(name.shape, names));
@@ -99,7 +109,8 @@ class ContactReader {
   void read_stiffness() {
     const mbd::ShapeGeometry& first = *context_.model.find_shape(contact_.first);
     const mbd::ShapeGeometry& second = *context_.model.find_shape(contact_.second);
-    const bool pressure = mbd::touches_with_pressure(first, second);
+    const bool pressure =
+        context_.model.find_faces(contact_.second) != nullptr || mbd::touches_with_pressure(first, second);
     const std::string pair = "a " + mbd::name_of(first) + " on a " + mbd::name_of(second);
     if (const Value* materials = value_.find("materials")) return read_hertz(*materials, first, second, pair);
     const Value* stiffness = value_.find("stiffness");
@@ -156,6 +167,14 @@ class ContactReader {
 };
 
 }  // namespace
+
+const DeformingFaces* Model::find_faces(const ShapeName& name) const {
+  const Body* body = find_body(*this, name.body);
+  if (body == nullptr) return nullptr;
+  for (const DeformingFaces& faces : body->faces)
+    if (faces.shape.name == name.shape) return &faces;
+  return nullptr;
+}
 
 const mbd::ShapeGeometry* Model::find_shape(const ShapeName& name) const {
   const Body* body = find_body(*this, name.body);

@@ -296,12 +296,4 @@ std::optional<Flexible> flexible_of(Context& context, const Value& body, std::ve
   return FlexibleReader(context, body).read(*value, frames);
 }
 
-mbd::Shape skin_of(const fem::Mesh& mesh) {
-  const fem::Skin skin = fem::skin(mesh);
-  auto triangles = std::make_shared<mbd::TriangleMesh>();
-  for (int n : skin.nodes) triangles->corners.push_back(mesh.nodes[static_cast<std::size_t>(n)]);
-  for (const auto& t : skin.triangles) triangles->triangles.push_back({t[0], t[1], t[2]});
-  return {"mesh", std::shared_ptr<const mbd::TriangleMesh>(std::move(triangles))};
-}
-
 }  // namespace hersey::model

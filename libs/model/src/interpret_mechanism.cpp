@@ -85,6 +85,7 @@ void interpret_bodies(Context& context) {
       (void)flexible_of(context, value, context.model.ground.frames);
       (void)beam_of(context, value, context.model.ground.frames);
       context.model.ground.shapes = shapes_of(context, value);
+      (void)faces_of_body(context, value, nullptr);
       context.model.ground.position = value.key_position;
       continue;
     }
@@ -98,8 +99,11 @@ void interpret_bodies(Context& context) {
     body.shapes = shapes_of(context, value);
     body.flexible = flexible_of(context, value, body.frames);
     body.beam = beam_of(context, value, body.frames);
-    if (body.flexible && body.flexible->mesh && !body.flexible->mesh->elements.empty() && body.shapes.empty())
-      body.shapes.push_back(skin_of(*body.flexible->mesh));
+    body.faces = faces_of_body(context, value, body.flexible ? &*body.flexible : nullptr);
+    if (body.flexible && body.flexible->mesh && !body.flexible->mesh->elements.empty() && body.shapes.empty()) {
+      body.faces.push_back(skin_of(*body.flexible->mesh));
+      body.shapes.push_back(body.faces.back().shape);
+    }
     context.model.bodies.push_back(std::move(body));
   }
 }

@@ -101,7 +101,7 @@ class ShapeReader {
 std::vector<mbd::Shape> shapes_of(Context& context, const Value& body) {
   std::vector<mbd::Shape> shapes;
   for (const auto& [name, value] : section(body, "shapes")) {
-    if (value.broken) continue;
+    if (value.broken || value.text == "faces") continue;  // see faces_of_body
     if (auto geometry = ShapeReader(context).geometry_of(value)) shapes.push_back({name, std::move(*geometry)});
   }
   return shapes;

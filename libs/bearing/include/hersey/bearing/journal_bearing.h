@@ -105,8 +105,8 @@ class JournalBearing final : public mbd::TwoBodyForce {
   film::SurfaceMotion observed_surfaces_;  // at the state last accepted
   Eigen::VectorXd observed_s_;
   JournalKinematics kinematics_;
-  Eigen::Index acting_;         // parameters of the journal's position that act
-  Eigen::VectorXd parameters_;  // those, amplitudes of the surfaces' shapes, and their rates
+  Eigen::Index acting_;                            // parameters of the journal's position that act
+  Eigen::VectorXd parameters_;                     // those, amplitudes of the surfaces' shapes, and their rates
   std::vector<film::MotionDirection> directions_;  // one per parameter
 
   // The film in the current step: unknowns, their increment, and where (in parameters) they were last linearised.

@@ -39,7 +39,7 @@ struct NormalForces {
 
 /// Forces of a film whose unknowns are eliminated, and their derivatives with directions in which the surfaces move.
 struct CondensedFilm {
-  Vector6 wrench = Vector6::Zero();                   ///< on the shell
+  Vector6 wrench = Vector6::Zero();                    ///< on the shell
   Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds;  ///< a column per direction
   Eigen::VectorXd Q;                                   ///< forces on shapes
   Eigen::MatrixXd Q_ds;                                ///< (shapes, directions)

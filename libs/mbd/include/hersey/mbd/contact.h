@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Dense>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct ContactLaw {
   double slip_speed = 0;  ///< speed below which friction gives way [m/s]; > 0 where there is friction
 };
 
+struct SpotId;
+
 /// What a contact shows of itself, in frame A.
 struct ContactObservation {
   double gap = 0;                      ///< smallest distance of both surfaces, negative where they overlap [m]
@@ -33,7 +36,8 @@ struct ContactObservation {
   int spots = 0;                       ///< number of spots that touch
 };
 
-/// Contact between two shapes, each fixed on one body: a force between two frames.
+/// Contact between two shapes, each fixed on one body: a force between two frames. The second may be a mesh whose
+/// corners move with an elastic body: then each corner is a spot where it is now.
 ///
 /// Continuous in position and velocity, its derivatives exact and piecewise continuous; no state of its own. Where the
 /// shapes overlap by more than `deepest_share` of the smaller one, the law says nothing sensible and `domain_error`
@@ -46,6 +50,12 @@ class Contact final : public TwoBodyForce {
 
   /// @throws ContractError if the pair is not supported, the law has impossible numbers.
   Contact(const ShapeGeometry& a, const ShapeGeometry& b, const ContactLaw& law);
+
+  /// With corners of `b` that move with amplitudes of shapes, which come with the motion (theory manual eqs.
+  /// (contact.15) to (contact.17)).
+  /// @param displacements  of the corners in B's axes for unit amplitudes, shape (3 corners, amplitudes)
+  Contact(const ShapeGeometry& a, std::shared_ptr<const TriangleMesh> b, Eigen::MatrixXd displacements,
+          const ContactLaw& law);
   ~Contact() override;
 
   void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) override;
@@ -56,11 +66,23 @@ class Contact final : public TwoBodyForce {
 
  private:
   struct Workspace;
+  struct Place;
+  [[nodiscard]] Place place_of(const RelativeMotion& motion, int corner) const;
+  [[nodiscard]] const std::vector<SpotId>& find(const RelativeMotion& motion) const;
+  [[nodiscard]] double smallest_gap(const RelativeMotion& motion) const;
+  void differentiate(const SpotId& id, const RelativeMotion& motion, ForceResponse& response) const;
+  void push_shapes(const Place& place, const Vector3& force, ForceResponse& response) const;
+  void differentiate_shapes(const Place& place, const Vector3& force, const Eigen::Matrix<double, 6, 12>& spot,
+                            ForceResponse& response) const;
   ContactLaw law_;
-  double deepest_ = 0;   ///< largest penetration allowed [m]
-  double too_deep_ = 0;  ///< penetration beyond that at the last evaluation; 0: none
+  Eigen::MatrixXd displacements_;  ///< of corners that deform; no rows: nothing deforms
+  double deepest_ = 0;             ///< largest penetration allowed [m]
+  double too_deep_ = 0;            ///< penetration beyond that at the last evaluation; 0: none
   std::unique_ptr<Workspace> work_;
 };
+
+/// Whether a mesh whose corners deform may touch a shape: anything but a mesh.
+[[nodiscard]] bool can_touch_deforming(const ShapeGeometry& shape);
 
 /// Whether contact between the two is supported: a sphere and anything; a half-space and anything but itself; two
 /// capsules; a mesh and any of the others but a mesh.

@@ -29,9 +29,9 @@ enum class Strain {
 ///     y(x) = x + sum q_a Psi_a(x) + w(x),    no frame moved by w.
 ///
 /// Surfaces that carry films bring their film modes as further static shapes, whose amplitudes are coordinates of the
-/// body; film pressures then do no work on w. The mechanism sees these and the frames alone: w is condensed, with the matrix m M + c D + k K factorised once per step size,
-/// in the body's axes. What spin adds to that matrix, 2 c omega~ M and less, is left to iteration (theory manual eq.
-/// (flexible-bodies.15) to (flexible-bodies.20)).
+/// body; film pressures then do no work on w. The mechanism sees these and the frames alone: w is condensed, with the
+/// matrix m M + c D + k K factorised once per step size, in the body's axes. What spin adds to that matrix, 2 c omega~
+/// M and less, is left to iteration (theory manual eq. (flexible-bodies.15) to (flexible-bodies.20)).
 ///
 /// With Strain::finite, for a body of one frame, the elastic forces are those of Green and Lagrange's strain (St.
 /// Venant and Kirchhoff): strains may be moderate, rotations against the body's axes large, and what is pulled gets

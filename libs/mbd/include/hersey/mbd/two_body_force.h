@@ -27,7 +27,7 @@ struct ForceResponse {
   Matrix6 dW_dX = Matrix6::Zero();
   Matrix6 dW_dV = Matrix6::Zero();
 
-  Eigen::VectorXd Q;                                     ///< shape (amplitudes) [N m; N]
+  Eigen::VectorXd Q;                                      ///< shape (amplitudes) [N m; N]
   Eigen::Matrix<double, 6, Eigen::Dynamic> dW_ds, dW_dr;  ///< by amplitudes and by their rates
   Eigen::Matrix<double, Eigen::Dynamic, 6> dQ_dX, dQ_dV;
   Eigen::MatrixXd dQ_ds, dQ_dr;

@@ -88,6 +88,12 @@ struct Beam {
   SourcePosition position;
 };
 
+/// Faces of a flexible body's mesh that touch other bodies and deform with it.
+struct DeformingFaces {
+  mbd::Shape shape;        ///< a triangle mesh, undeformed
+  std::vector<int> nodes;  ///< of the body's mesh, for each corner
+};
+
 struct Body {
   std::string name;                          ///< "ground" only in Model::ground
   double mass = 0;                           ///< [kg], >= 0
@@ -95,6 +101,7 @@ struct Body {
   Matrix3 inertia = Matrix3::Zero();  ///< about the centre of mass, body axes [kg m^2]; symmetric, physically possible
   std::vector<Frame> frames;
   std::vector<mbd::Shape> shapes;
+  std::vector<DeformingFaces> faces;
   std::optional<Flexible> flexible;  ///< then mass, centre and inertia are those of its mesh, and each frame has nodes
   std::optional<Beam> beam;          ///< the same
   SourcePosition position;
@@ -387,6 +394,8 @@ struct Model {
   /// Whether the file holds bearings without a machine around them: something to solve, nothing to simulate.
   [[nodiscard]] bool is_of_bearings_alone() const { return bodies.empty() && simulation.duration == 0; }
 
+  /// Faces that a contact names; null if it names none that deform.
+  [[nodiscard]] const DeformingFaces* find_faces(const ShapeName& name) const;
   /// A shape that a contact names; null if there is none.
   [[nodiscard]] const mbd::ShapeGeometry* find_shape(const ShapeName& name) const;
 
