@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 constexpr Index at_once = 48;  // solutions kept: all of them would take a gigabyte on a large mesh
 
 /// T^T K^-1 T.
-MatrixXd compliance_of(const HeldStiffness& stiffness, const FilmSurface& surface) {
+MatrixXd compliance_of(const HeldStiffness& stiffness, const SurfaceMap& surface) {
   const Index count = surface.T.cols();
   MatrixXd C(count, count);
   for (Index first = 0; first < count; first += at_once) {
@@ -25,7 +25,7 @@ MatrixXd compliance_of(const HeldStiffness& stiffness, const FilmSurface& surfac
 
 }  // namespace
 
-FilmModes film_modes(const HeldStiffness& stiffness, const FilmSurface& surface, int most, double tolerance) {
+FilmModes film_modes(const HeldStiffness& stiffness, const SurfaceMap& surface, int most, double tolerance) {
   HERSEY_REQUIRE(most >= 0 && tolerance > 0 && tolerance < 1, "a number of modes and a share of the largest");
   HERSEY_REQUIRE(stiffness.size() == surface.T.rows(), "the surface is one of this body");
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(compliance_of(stiffness, surface), surface.G);

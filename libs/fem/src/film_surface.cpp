@@ -127,12 +127,12 @@ void integrate(const Mesh& mesh, int parts, FilmSurface& surface) {
 
 }  // namespace
 
-MatrixXd FilmSurface::coefficients(const MatrixXd& U) const { return G.llt().solve(T.transpose() * U); }
+MatrixXd SurfaceMap::coefficients(const MatrixXd& U) const { return G.llt().solve(T.transpose() * U); }
 
 FilmSurfaceResult film_surface(const Mesh& mesh, const std::vector<ElementFace>& faces, const FilmCylinder& cylinder,
                                const SurfaceFunctions& functions, double tolerance) {
   HERSEY_REQUIRE(cylinder.R > 0 && cylinder.L > 0, "a film lies on a cylinder");
-  FilmSurface surface{.cylinder = cylinder, .functions = functions, .faces = faces, .T = {}, .G = {}};
+  FilmSurface surface{{}, cylinder, functions, faces};
   const Pose to_cylinder = cylinder.X.inverse();
   std::erase_if(surface.faces,
                 [&](ElementFace face) { return !reaches_into(cylinder_box(mesh, face, to_cylinder), cylinder); });

@@ -79,6 +79,25 @@ std::vector<double> nodal_areas(const Mesh& mesh, const std::vector<ElementFace>
   return areas;
 }
 
+Eigen::Matrix3Xd nodal_normals(const Mesh& mesh, const std::vector<ElementFace>& faces) {
+  Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (const ElementFace& face : faces) {
+    Eigen::Matrix3Xd of_face;
+    std::vector<int> at;
+    double squares = 0;
+    visit_face(mesh, face, [&](const std::vector<int>& nodes, const FacePoint& point) {
+      if (at.empty()) of_face.setZero(3, point.N.size());
+      at = nodes;
+      of_face += point.area * point.normal * point.N.cwiseAbs2().transpose();
+      squares += point.area * point.N.squaredNorm();
+    });
+    // As nodal_areas: midside nodes would otherwise bear everything.
+    const double share = area_of(mesh, {face}) / squares;
+    for (std::size_t a = 0; a < at.size(); ++a) normals.col(at[a]) += share * of_face.col(static_cast<Eigen::Index>(a));
+  }
+  return normals;
+}
+
 double area_of(const Mesh& mesh, const std::vector<ElementFace>& faces) {
   double area = 0;
   for (const ElementFace& face : faces)

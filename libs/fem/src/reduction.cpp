@@ -165,9 +165,11 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
   const MatrixXd exact = options.loads.size() ? stiffness.solve(options.loads) : MatrixXd(body.size(), 0);
   const StaticShapes of_surfaces = static_shapes(stiffness, modes, options);
   std::vector<FilmModes> films;
-  films.reserve(options.film_surfaces.size());
+  films.reserve(options.film_surfaces.size() + options.contact_faces.size());
   for (const FilmSurface& surface : options.film_surfaces)
     films.push_back(film_modes(stiffness, surface, options.film_modes, options.film_tolerance));
+  for (const std::vector<ElementFace>& faces : options.contact_faces)
+    films.push_back(contact_modes(stiffness, body.mesh, faces, options.film_modes, options.film_tolerance));
   const MatrixXd of_films = shapes_of(films, body.size());
   internal.resize(body.size(), modes.shapes.cols() + exact.cols() + of_surfaces.added.cols() + of_films.cols());
   internal << modes.shapes, exact, of_surfaces.added, of_films;

@@ -24,6 +24,7 @@ struct Beam {
   fem::ElementType type = fem::ElementType::hex8;
   RayleighDamping damping = {};
   bool nodal = false;
+  bool contact = false;  ///< film modes of the side y = width
   Strain strain = Strain::small;
 
   [[nodiscard]] Pose frame_at(double x) const { return {Matrix3::Identity(), {x, size.y() / 2, size.z() / 2}}; }
@@ -36,6 +37,7 @@ struct Beam {
     if (tip) frames.push_back({"tip", frame_at(size.x()).r, body.mesh.node_sets.at("x1"), connection, {}});
     fem::ReductionOptions options;
     options.modes = modes;
+    if (contact) options.contact_faces.push_back(body.mesh.surfaces.at("y1"));
     const fem::Reduction reduction = fem::reduce(body, frames, options);
     REQUIRE_MESSAGE(reduction.ok, reduction.message);
     return reduction.body;

@@ -59,6 +59,22 @@ TEST_CASE("NodalBody_MovesAsTheModalBodyWithEveryVibration") {
   }
 }
 
+TEST_CASE("NodalBodyWithFilmModes_MovesAsTheModalBodyWithEveryVibration") {
+  // Coordinates for the answers to pressures on one side are only other coordinates: nothing else may change.
+  for (const fem::Connection connection : {fem::Connection::rigid, fem::Connection::average}) {
+    test::Beam beam{.cells = {4, 1, 1}, .tip = true, .connection = connection};
+    beam.modes = 100;
+    beam.damping = {.mass = 3, .stiffness = 1e-5};
+    beam.material.youngs_modulus = 2e9;
+    const Vector3 modal = pushed(beam);
+    beam.nodal = beam.contact = true;
+    const auto body = beam.all_nodes();
+    CHECK(body->coordinate_count() > 3);
+    CHECK(body->coordinate_count() < 12);
+    CHECK((pushed(beam) - modal).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("NodalBody_SagsLikeItsMesh") {
   test::Beam beam{.cells = {6, 2, 2}, .tip = true, .connection = fem::Connection::average};
   beam.nodal = true;

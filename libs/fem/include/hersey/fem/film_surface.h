@@ -34,15 +34,19 @@ struct FilmCylinder {
 ///     f = T p,    G d = T^T u:    u . f = d . G p = int d p dA,                                (film-surface.3) to
 ///     (.5)
 /// so that forces go over to the nodes, and displacements to the film, with the same work.
-struct FilmSurface {
-  FilmCylinder cylinder;
-  SurfaceFunctions functions;
-  std::vector<ElementFace> faces;  ///< those that reach into the film
-  Eigen::SparseMatrix<double> T;   ///< int psi_j e_r N_a dA, shape (3 n, functions) [m^2]
-  Eigen::MatrixXd G;               ///< int psi_j psi_l dA, shape (functions, functions) [m^2]
+struct SurfaceMap {
+  Eigen::SparseMatrix<double> T;  ///< int psi_j e_r N_a dA, shape (3 n, functions) [m^2]
+  Eigen::MatrixXd G;              ///< int psi_j psi_l dA, shape (functions, functions) [m^2]
 
   /// Radial displacement outward, G^-1 T^T U (functions, columns), of nodal displacements U (3 n, columns).
   [[nodiscard]] Eigen::MatrixXd coefficients(const Eigen::MatrixXd& U) const;
+};
+
+/// The same with what it is made of.
+struct FilmSurface : SurfaceMap {
+  FilmCylinder cylinder;
+  SurfaceFunctions functions;
+  std::vector<ElementFace> faces;  ///< those that reach into the film
 };
 
 /// A surface, or why there is none.
@@ -76,7 +80,7 @@ struct FilmModes {
 /// @param stiffness  factorised, its frames held
 /// @cost one solution per function of the surface and one per mode
 /// @verified_by film_modes_test.cpp
-[[nodiscard]] FilmModes film_modes(const HeldStiffness& stiffness, const FilmSurface& surface, int most,
+[[nodiscard]] FilmModes film_modes(const HeldStiffness& stiffness, const SurfaceMap& surface, int most,
                                    double tolerance);
 
 }  // namespace hersey::fem

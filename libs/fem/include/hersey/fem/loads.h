@@ -19,6 +19,9 @@ using Traction = std::function<Vector3(const Vector3& x, const Vector3& normal)>
 /// Of a pressure [Pa] that pushes on faces against their outward normals.
 [[nodiscard]] Eigen::VectorXd pressure_load(const Mesh& mesh, const std::vector<ElementFace>& faces, double pressure);
 
+/// Outward normals of faces at their nodes times the area that each node stands for [m^2], (3, nodes); zero elsewhere.
+[[nodiscard]] Eigen::Matrix3Xd nodal_normals(const Mesh& mesh, const std::vector<ElementFace>& faces);
+
 /// Area of faces [m^2].
 [[nodiscard]] double area_of(const Mesh& mesh, const std::vector<ElementFace>& faces);
 

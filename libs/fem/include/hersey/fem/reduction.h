@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/fem/contact_modes.h"
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/film_surface.h"
 
@@ -70,6 +71,7 @@ struct ReductionOptions {
   /// largest of these displacements: static shapes are added until it holds. Infinity: the error is told alone.
   double static_error = std::numeric_limits<double>::infinity();
   std::vector<FilmSurface> film_surfaces;  ///< that oil films press on: their film modes are added
+  std::vector<std::vector<ElementFace>> contact_faces;  ///< that touch other bodies: likewise, with contact_modes
   int film_modes = 60;                     ///< of each of them at most
   double film_tolerance = 1e-6;            ///< smallest compliance of a film mode, over the largest
 };
@@ -100,7 +102,7 @@ struct ReducedBody {
   Eigen::VectorXd energy_missed;
 
   std::vector<StaticError> static_errors;  ///< of the surfaces of the options
-  std::vector<FilmModes> film_modes;       ///< of each of the film surfaces of the options; files do not keep them
+  std::vector<FilmModes> film_modes;       ///< of film surfaces, then of contact faces; files do not keep them
   /// Elements, sets and surfaces, as far as they are known; its nodes are `nodes`.
   Mesh mesh;
   std::vector<SolidMaterial> materials;  ///< of the elements; none: unknown

@@ -102,7 +102,7 @@ class Reynolds {
   /// of the wrench; `multigrid` once per direction.
   ///
   /// Surfaces that deform bring the shapes by which they open the gap, `openings` (n, shapes) for unit amplitudes: the
-  /// film puts the force Q = openings^T normal_forces() on them (theory manual, film.57). (n, 0): no shapes.
+  /// film puts the force Q = openings^T normal_forces() on them (theory manual, bearing.22). (n, 0): no shapes.
   void condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, CondensedFilm& film);
 
   /// At the state last linearised.

@@ -52,7 +52,7 @@ class Contact final : public TwoBodyForce {
   Contact(const ShapeGeometry& a, const ShapeGeometry& b, const ContactLaw& law);
 
   /// With corners of `b` that move with amplitudes of shapes, which come with the motion (theory manual eqs.
-  /// (contact.15) to (contact.17)).
+  /// (contact.12) and (contact.13)).
   /// @param displacements  of the corners in B's axes for unit amplitudes, shape (3 corners, amplitudes)
   Contact(const ShapeGeometry& a, std::shared_ptr<const TriangleMesh> b, Eigen::MatrixXd displacements,
           const ContactLaw& law);
