@@ -154,6 +154,7 @@ TEST_CASE("ShellThatWidensEverywhere_IsAWiderBearing") {
   motion.s = VectorXd::Constant(1, widening);
   motion.s_rate = VectorXd::Zero(1);
   elastic.evaluate(motion, false, of_elastic);
+  elastic.accept_step(motion);
   CHECK((of_elastic.W_B_A - of_rigid.W_B_A).norm() < 1e-8 * of_rigid.W_B_A.norm());
   CHECK(of_elastic.Q[0] == doctest::Approx(elastic.observe(motion).film.normal_forces.sum()).epsilon(1e-8));
 }

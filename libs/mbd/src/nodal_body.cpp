@@ -6,6 +6,8 @@
 #include "hersey/core/input_error.h"
 #include "modal_workspace.h"
 #include "nodal_factors.h"
+#include "nodal_fields.h"
+#include "nodal_setup.h"
 
 namespace hersey::mbd {
 namespace {
@@ -33,60 +35,7 @@ Eigen::Map<const Matrix3Xd> nodes_of(const VectorXd& u) { return {u.data(), 3, u
 
 VectorXd flat(const Matrix3Xd& field) { return Eigen::Map<const VectorXd>(field.data(), field.size()); }
 
-/// The same body with the static shapes alone: those of its frames, and those of the films on its surfaces.
-ModalBodyData static_data(const fem::ElasticBody& body, const fem::ReducedBody& reduced,
-                          const RayleighDamping& damping) {
-  fem::ReducedBody still = reduced;
-  const Index n = reduced.internal_first();
-  Index size = n;
-  for (const fem::FilmModes& film : reduced.film_modes) size += film.shapes.cols();
-  still.Phi.resize(reduced.Phi.rows(), size);
-  still.Phi.leftCols(n) = reduced.Phi.leftCols(n);
-  still.K = MatrixXd::Zero(size, size);
-  still.K.topLeftCorner(n, n) = reduced.K.topLeftCorner(n, n);
-  Index at = n;
-  for (const fem::FilmModes& film : reduced.film_modes) {
-    still.Phi.middleCols(at, film.shapes.cols()) = film.shapes;
-    at += film.shapes.cols();
-  }
-  // Frames at rest bear no work of the films' shapes, so that these strain the body independently of the frames'.
-  const MatrixXd films = still.Phi.rightCols(size - n);
-  const MatrixXd K = films.transpose() * (body.K * films);
-  still.K.bottomRightCorner(size - n, size - n) = 0.5 * (K + K.transpose());
-  still.M = still.Phi.transpose() * fem::mass_times(body.m, still.Phi);
-  still.internal_omega.resize(0);
-  return modal_data(still, damping);
-}
-
-/// What keeps the nodes' own displacements apart from the static shapes: they move no frame, and the pressures that
-/// the films' shapes answer do no work on them.
-fem::FrameSupports supports_of(const fem::ElasticBody& body, const fem::ReducedBody& reduced) {
-  fem::FrameSupports supports = fem::frame_supports(body.mesh, reduced.frames);
-  std::vector<Eigen::Triplet<double>> entries;
-  const Eigen::SparseMatrix<double>& C = supports.C;
-  for (Index j = 0; j < C.outerSize(); ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(C, j); entry; ++entry)
-      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(j), entry.value());
-  Index row = C.rows();
-  for (const fem::FilmModes& film : reduced.film_modes) {
-    for (Index k = 0; k < film.loads.cols(); ++k, ++row) {
-      const double largest = film.loads.col(k).cwiseAbs().maxCoeff();
-      for (Index i = 0; i < film.loads.rows(); ++i)
-        if (film.loads(i, k) != 0)
-          entries.emplace_back(static_cast<int>(row), static_cast<int>(i), film.loads(i, k) / largest);
-    }
-  }
-  supports.C.resize(row, body.size());
-  supports.C.setFromTriplets(entries.begin(), entries.end());
-  return supports;
-}
-
 }  // namespace
-
-/// Where the nodes are and how they move against the body's axes, and their accelerations in space, in these axes.
-struct NodalBody::Fields {
-  Matrix3Xd y, y_rate, y_acc, acceleration;
-};
 
 NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping,
                      Strain strain)
@@ -280,96 +229,6 @@ void NodalBody::add_nodes(const ElasticMotion& motion, bool want_tangent) {
   w.magnitude.segment<3>(3).array() += each.sum();
   w.magnitude.tail(n) += Psi_size_.transpose() * size;
   if (want_tangent && follows(motion) && trouble_.empty()) condense(motion);
-}
-
-/// How the nodes' answer changes the derivatives. It is sought among the columns of X: onto (X^T S X)^-1 from, theory
-/// manual eq. (flexible-bodies.17) to (flexible-bodies.20).
-void NodalBody::condense(const ElasticMotion& motion) {
-  Workspace& w = work();
-  const solver::Stage stage = at_rest_ ? solver::Stage{} : motion.stage;
-  const NodalFactor& factor = *factors_->of(stage, trouble_);
-  const ElasticFrame& base = motion.frames[0];
-  const Matrix3 spin = 2 * skew(Vector3(base.V.head<3>()));
-  MatrixXd S = factor.W;
-  for (Index p = 0; p < 3; ++p)
-    for (Index r = 0; r < 3; ++r)
-      S += (stage.c * spin(p, r) + stage.k * w.Omega(p, r)) * factor.answers[static_cast<std::size_t>(3 * p + r)];
-  const auto moments = [&](const Matrix3Xd& field) {
-    Moments of;
-    for (std::size_t r = 0; r < 3; ++r) of[r] = factor.m_X[r].transpose() * field.transpose();
-    return of;
-  };
-  const Moments by_y = moments(fields_->y), by_rate = moments(fields_->y_rate), by_acc = moments(fields_->y_acc);
-  const MatrixXd onto = forces_of_answers(factor, stage, base, by_y, by_rate, by_acc);
-  const MatrixXd answer = S.transpose().fullPivLu().solve(onto.transpose()).transpose();
-  add_forces_on_nodes(factor, base, by_y, by_rate, answer);
-}
-
-/// d forces on the nodes / d (accelerations, velocities, places) of [frame 0; amplitudes], taken by X^T, theory manual
-/// eq. (flexible-bodies.18); `answer` carries them on to the derivatives of the forces.
-void NodalBody::add_forces_on_nodes(const NodalFactor& factor, const ElasticFrame& base, const Moments& by_y,
-                                    const Moments& by_rate, const MatrixXd& answer) {
-  Workspace& w = work();
-  const Index n = data().shapes();
-  const Matrix3 omega_x = skew(Vector3(base.V.head<3>()));
-  MatrixXd from = MatrixXd::Zero(factor.W.rows(), 6 + n);
-  const auto turned = [&](const Matrix3& turn, const Moments& by) {
-    VectorXd sum = VectorXd::Zero(from.rows());
-    for (Index r = 0; r < 3; ++r) sum += by[static_cast<std::size_t>(r)] * turn.row(r).transpose();
-    return sum;
-  };
-  const auto of_shapes = [&](const Matrix3& turn) {
-    MatrixXd sum = MatrixXd::Zero(from.rows(), n);
-    for (Index r = 0; r < 3; ++r)
-      for (Index p = 0; p < 3; ++p) sum += turn(r, p) * factor.shapes[static_cast<std::size_t>(3 * r + p)];
-    return sum;
-  };
-  const auto even = factor.W.leftCols<3>();
-  for (Index j = 0; j < 3; ++j) from.col(j) = turned(skew(Vector3(Vector3::Unit(j))), by_y);
-  from.middleCols<3>(3) = even;
-  from.rightCols(n) = factor.W.rightCols(n);
-  w.M.noalias() -= answer * from;
-
-  for (Index j = 0; j < 3; ++j) {
-    const Matrix3 unit = skew(Vector3(Vector3::Unit(j)));
-    from.col(j) = turned(unit * omega_x + omega_x * unit, by_y) + turned(2 * unit, by_rate);
-  }
-  from.leftCols<3>() -= even * skew(Vector3(base.V.tail<3>()));
-  from.middleCols<3>(3) = even * omega_x;
-  from.rightCols(n) = of_shapes(2 * omega_x) + damping_.mass * factor.W.rightCols(n);
-  w.C.noalias() -= answer * from;
-  w.K.rightCols(n).noalias() -= answer * of_shapes(w.Omega);
-}
-
-/// d forces on [frame 0; amplitudes] / d answer of the nodes as a sum of columns of X, theory manual eq.
-/// (flexible-bodies.19).
-MatrixXd NodalBody::forces_of_answers(const NodalFactor& factor, const solver::Stage& stage, const ElasticFrame& base,
-                                      const Moments& by_y, const Moments& by_rate, const Moments& by_acc) {
-  const Workspace& w = work();
-  const Matrix3 omega_x = skew(Vector3(base.V.head<3>()));
-  const Index n = data().shapes();
-  const double k = stage.k, c = stage.c, m = stage.m;
-  const Matrix3 D = 2 * c * omega_x + k * w.Omega;
-  const auto even = factor.W.topRows<3>();
-  MatrixXd onto(6 + n, factor.W.cols());
-  onto.topRows<3>() = -k * skew(w.a_true) * even;
-  onto.middleRows<3>(3) = (m * Matrix3::Identity() + D) * even;
-  const auto product = [](const Moments& by, Index z) {  // integral of rho (field) w^T
-    Matrix3 B;
-    for (Index r = 0; r < 3; ++r) B.col(r) = by[static_cast<std::size_t>(r)].row(z).transpose();
-    return B;
-  };
-  for (Index z = 0; z < onto.cols(); ++z) {
-    const Matrix3 B = product(by_y, z), B_rate = product(by_rate, z), B_acc = product(by_acc, z);
-    onto.col(z).head<3>() +=
-        cross_moment(k * (B + B.transpose()) * w.Omega.transpose() +
-                     2 * (c * B + k * B_rate.transpose()) * omega_x.transpose() + m * B + k * B_acc.transpose());
-  }
-  onto.bottomRows(n) = (m + c * damping_.mass) * factor.W.bottomRows(n);
-  for (Index p = 0; p < 3; ++p)
-    for (Index r = 0; r < 3; ++r)
-      onto.bottomRows(n) += D(p, r) * factor.shapes[static_cast<std::size_t>(3 * r + p)].transpose();
-  return onto;
 }
 
 void NodalBody::begin_step(const ElasticMotion&, double dt) {

@@ -178,7 +178,8 @@ inline std::shared_ptr<BeamSegment> random_segment(double length) {
 }
 
 /// Every joint type, in the tree and closing, both ways round; balls; loads of joint angles; springs; drives; a force.
-inline std::unique_ptr<Mechanism> nasty_mechanism() {
+/// @param membranes  with forces that see bodies deform, whose dense blocks are made anew each time
+inline std::unique_ptr<Mechanism> nasty_mechanism(bool membranes = true) {
   MechanismBuilder b;
   b.set_gravity({0.3, -9.81, 1.2});
   const auto body = [&](const char* name, double mass) {
@@ -253,11 +254,13 @@ inline std::unique_ptr<Mechanism> nasty_mechanism() {
       b.add_flexible_body("fin", {"root", "edge"}, std::make_shared<ModalBody>(random_modal_data()));
   join("fin_hinge", JointType::revolute, at(drifter, {0.1, 0, 0.2}, {0, 0.2, 0.1}),
        at(fin.bodies[0], {0, 0.1, 0}, {0.1, 0.1, 0}), {0.2, 1, 0}, {0.2}, {0.6});
-  b.add_force("membrane", at(bow.bodies[2], {0.2, 0, 0.1}, {0.1, 0, 0.2}),
-              at(fin.bodies[1], {0, 0.2, 0}, {0.1, 0.2, 0}), std::make_shared<FullMembrane>(28),
-              {bow.elastic, fin.elastic});
-  b.add_force("skin", at(hand, {0.2, 0, 0.1}, {0.1, 0, 0.2}), at(bow.bodies[0], {0, 0.2, 0}, {0.1, 0.2, 0}),
-              std::make_shared<FullMembrane>(14), {.a = {}, .b = bow.elastic});
+  if (membranes) {
+    b.add_force("membrane", at(bow.bodies[2], {0.2, 0, 0.1}, {0.1, 0, 0.2}),
+                at(fin.bodies[1], {0, 0.2, 0}, {0.1, 0.2, 0}), std::make_shared<FullMembrane>(28),
+                {bow.elastic, fin.elastic});
+    b.add_force("skin", at(hand, {0.2, 0, 0.1}, {0.1, 0, 0.2}), at(bow.bodies[0], {0, 0.2, 0}, {0.1, 0.2, 0}),
+                std::make_shared<FullMembrane>(14), {.a = {}, .b = bow.elastic});
+  }
   // A beam entered through its second node, in a loop through its last.
   const BeamBodyIds reed =
       b.add_beam_body("reed", {"1", "2", "3"}, {random_segment(0.4), random_segment(0.3), random_segment(0.5)});

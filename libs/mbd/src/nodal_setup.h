@@ -1,0 +1,17 @@
+#pragma once
+
+#include "hersey/fem/elastic_body.h"
+#include "hersey/fem/reduction.h"
+#include "hersey/mbd/modal_body.h"
+
+namespace hersey::mbd {
+
+/// The same body with the static shapes alone: those of its frames, and its film modes.
+[[nodiscard]] ModalBodyData static_data(const fem::ElasticBody& body, const fem::ReducedBody& reduced,
+                                        const RayleighDamping& damping);
+
+/// What keeps the nodes' own displacements apart from the static shapes: they move no frame, and the pressures that
+/// the film modes answer do no work on them (theory manual eq. (flexible-bodies.28)).
+[[nodiscard]] fem::FrameSupports supports_of(const fem::ElasticBody& body, const fem::ReducedBody& reduced);
+
+}  // namespace hersey::mbd
