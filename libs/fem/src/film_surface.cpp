@@ -9,6 +9,7 @@
 #include "film_cover.h"
 #include "film_quadrature.h"
 #include "hersey/core/contract.h"
+#include "hersey/fem/elastic_body.h"
 #include "hersey/fem/surface_loads.h"
 
 namespace hersey::fem {
@@ -128,6 +129,14 @@ void integrate(const Mesh& mesh, int parts, FilmSurface& surface) {
 }  // namespace
 
 MatrixXd SurfaceMap::coefficients(const MatrixXd& U) const { return G.llt().solve(T.transpose() * U); }
+
+MatrixXd coefficients_from_frame(const FilmSurface& surface, const Mesh& mesh, const MatrixXd& U, const Vector3& origin,
+                                 Index first) {
+  HERSEY_REQUIRE(first >= 0 && first + 6 <= U.cols(), "a frame has six unit motions");
+  MatrixXd D = surface.coefficients(U);
+  D.middleCols<6>(first) -= surface.coefficients(rigid_motions(mesh, origin));
+  return D;
+}
 
 FilmSurfaceResult film_surface(const Mesh& mesh, const std::vector<ElementFace>& faces, const FilmCylinder& cylinder,
                                const SurfaceFunctions& functions, double tolerance) {

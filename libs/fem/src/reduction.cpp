@@ -167,7 +167,7 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
   std::vector<FilmModes> films;
   films.reserve(options.film_surfaces.size() + options.contact_faces.size());
   for (const FilmSurface& surface : options.film_surfaces)
-    films.push_back(film_modes(stiffness, surface, options.film_modes, options.film_tolerance));
+    films.push_back(film_modes(stiffness, surface, surface.modes.value_or(options.film_modes), options.film_tolerance));
   for (const std::vector<ElementFace>& faces : options.contact_faces)
     films.push_back(contact_modes(stiffness, body.mesh, faces, options.film_modes, options.film_tolerance));
   const MatrixXd of_films = shapes_of(films, body.size());

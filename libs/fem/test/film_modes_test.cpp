@@ -139,6 +139,21 @@ TEST_CASE("FilmModes_OfASurfaceThatAFrameHolds_AreNone") {
   CHECK(modes.lost == 0);
 }
 
+TEST_CASE("CoefficientsFromAFrame_SeeDeformationAlone") {
+  const Ring ring{.cells = {2, 18, 3}};
+  const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});
+  // A bore that its frame carries rigidly does not deform, however the frame moves; seen from the other frame it does.
+  const std::vector<int>& nodes = body.mesh.node_sets.at("bore");
+  const std::vector<InterfaceFrame> frames = {average_on(body.mesh, "outside"),
+                                              {"bore", {0, 0, 1e-3}, nodes, Connection::rigid, {}}};
+  const Reduction reduction = reduce(body, frames, {.modes = 3});
+  REQUIRE(reduction.ok);
+  const MatrixXd U = reduction.body.Phi.rightCols(9);  // of frame 1, and vibrations
+  const FilmSurface surface = must_make(body.mesh, film_of(ring), {16, 4, ring.width});
+  CHECK(surface.coefficients(U).leftCols(6).colwise().norm().maxCoeff() > 1);
+  CHECK(coefficients_from_frame(surface, body.mesh, U, frames[1].origin, 0).cwiseAbs().maxCoeff() < 1e-12);
+}
+
 TEST_CASE("ReducedBody_AnswersFilmPressuresAsTheMeshDoes") {
   const Ring ring{.cells = {2, 18, 3}};
   const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});

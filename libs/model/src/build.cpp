@@ -143,8 +143,18 @@ class Builder {
     }
   }
 
+  // Surfaces of bearings that lie on the mesh of `body`, in the order of the bearings, the shell's first.
+  [[nodiscard]] std::vector<const DeformingSurface*> surfaces_on(const Body& body) const {
+    std::vector<const DeformingSurface*> surfaces;
+    for (const Bearing& bearing : model_.bearings) {
+      if (bearing.shell_surface && bearing.shell.body == body.name) surfaces.push_back(&*bearing.shell_surface);
+      if (bearing.journal_surface && bearing.journal.body == body.name) surfaces.push_back(&*bearing.journal_surface);
+    }
+    return surfaces;
+  }
+
   void add_flexible(const Body& body) {
-    BuiltFlexible built = build_flexible(body);
+    BuiltFlexible built = build_flexible(body, surfaces_on(body));
     std::vector<std::string> names;
     for (std::size_t i = 1; i < body.frames.size(); ++i) names.push_back(body.frames[i].name);
     const mbd::FlexibleBodyIds ids = mechanism_.add_flexible_body(body.name, names, built.body);

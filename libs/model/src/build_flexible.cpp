@@ -26,18 +26,27 @@ fem::ElasticBody assembled(const Body& body) {
   }
 }
 
-fem::ReductionOptions options_of(const Flexible& flexible) {
+constexpr int modes_of_nodal_body = 100000;  // all above the tolerance
+
+fem::ReductionOptions options_of(const Flexible& flexible, const std::vector<const DeformingSurface*>& surfaces) {
   fem::ReductionOptions options;
   options.modes = flexible.modes;
   if (flexible.highest > 0) options.highest = 2 * std::numbers::pi * flexible.highest;
   options.static_error = flexible.static_error;
   for (const std::string& name : flexible.load_surfaces)
     options.surfaces.push_back(fem::loaded_surface(*flexible.mesh, name, flexible.load_harmonics));
+  if (flexible.nodal) options.film_modes = modes_of_nodal_body;
+  options.film_surfaces.reserve(surfaces.size());
+  for (const DeformingSurface* surface : surfaces) {
+    options.film_surfaces.push_back(*surface->surface);
+    options.film_surfaces.back().modes = surface->modes;
+  }
   return options;
 }
 
 /// `mesh` is null where the body comes reduced from a file.
-fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh) {
+fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh,
+                         const std::vector<const DeformingSurface*>& surfaces) {
   const Flexible& flexible = *body.flexible;
   if (mesh == nullptr) return *flexible.reduced;
   std::vector<fem::InterfaceFrame> frames;
@@ -47,7 +56,7 @@ fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh) {
     frames.push_back({frame.name, frame.X_BF.r, frame.nodes, frame.connection,
                       is_average ? fem::face_weights(*flexible.mesh, frame.nodes) : std::vector<double>()});
   }
-  fem::Reduction reduction = fem::reduce(*mesh, frames, options_of(flexible));
+  fem::Reduction reduction = fem::reduce(*mesh, frames, options_of(flexible, surfaces));
   if (!reduction.ok)
     throw InputError({.position = flexible.position,
                       .path = "bodies." + body.name + ".flexible",
@@ -59,17 +68,20 @@ fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh) {
 
 }  // namespace
 
-BuiltFlexible build_flexible(const Body& body) {
+BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces) {
   HERSEY_REQUIRE(body.flexible && body.flexible->mesh, "the reader checks meshes");
   const Flexible& flexible = *body.flexible;
   std::optional<fem::ElasticBody> mesh;
   if (!flexible.reduced) mesh = assembled(body);
-  const fem::ReducedBody shapes = reduced(body, mesh ? &*mesh : nullptr);
+  const fem::ReducedBody shapes = reduced(body, mesh ? &*mesh : nullptr, surfaces);
   BuiltFlexible built;
   built.name = body.name;
   built.mesh = flexible.mesh;
   built.materials = shapes.materials;
   built.static_errors = shapes.static_errors;
+  built.film_modes.reserve(shapes.film_modes.size());
+  for (const fem::FilmModes& modes : shapes.film_modes)
+    built.film_modes.push_back({static_cast<int>(modes.compliance.size()), modes.lost});
   mbd::ModalBodyData data = mbd::modal_data(shapes, flexible.damping, &built.shapes);
   if (flexible.nodal)
     built.body = std::make_shared<mbd::NodalBody>(std::move(*mesh), shapes, flexible.damping, flexible.strain);

@@ -5,9 +5,10 @@
 namespace hersey::model {
 
 /// Assembles and reduces the mesh of a flexible body.
+/// @param surfaces  of bearings that lie on it: it gets their film modes
 /// @throws InputError at the body's line: folded elements, frames that share nodes, parts that nothing holds, a mesh
 /// that
 ///         does not fit into memory.
-[[nodiscard]] BuiltFlexible build_flexible(const Body& body);
+[[nodiscard]] BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces);
 
 }  // namespace hersey::model

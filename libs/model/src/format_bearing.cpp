@@ -157,6 +157,26 @@ TypePtr compressibility_format() {
                  });
 }
 
+TypePtr deforming_surface_format() {
+  const TypePtr on_mesh = with_exactly_one(
+      object("a surface on the mesh of a flexible body",
+             {
+                 optional("faces", text("a surface or a set of nodes", "big_end"),
+                          "Surface or set of nodes of the mesh. Its faces that lie in the bearing's width are taken."),
+                 optional("within", quantity("m", "0.1 mm", Range::positive()),
+                          "Takes all outer faces whose nodes lie this near to the bearing's cylinder."),
+                 optional("functions", list("functions around and along", integer(24, {.low = 1, .high = 200}), 2),
+                          "How many smooth functions describe displacement and pressure: around (at least 4) and along "
+                          "the axis.",
+                          "about one per 1.5 distances of nodes, at most 48 and 7"),
+                 optional("modes", integer(60, {.low = 1, .high = 2000}),
+                          "How many static answers to film pressures the body keeps, the most compliant ones first.",
+                          "60 of a modal body, of a nodal one all above a millionth of the first"),
+             }),
+      {"faces", "within"});
+  return any_of("`rigid`, or a mapping", {choice({{"rigid", "it keeps its shape"}}), on_mesh});
+}
+
 }  // namespace
 
 TypePtr lubricants_format() {
@@ -231,6 +251,10 @@ TypePtr bearings_format() {
                    "smooth"),
           defaulted("asperities", asperities_format(), "none", "Contact of rough surfaces."),
           defaulted("compliance", compliance_format(), "rigid", "Elastic deformation of both surfaces."),
+          defaulted("shell_surface", deforming_surface_format(), "rigid",
+                    "Whether the bore deforms as the mesh of the shell's body does."),
+          defaulted("journal_surface", deforming_surface_format(), "rigid",
+                    "Whether the journal deforms as the mesh of its body does."),
           optional("materials", materials_format(), "Give the composite modulus where it is not given itself."),
           defaulted("cavitated_shear",
                     choice({{"film_share", "the liquid's share of the gap"}, {"full", "as if the gap were full"}}),

@@ -91,6 +91,15 @@ void require_function_of_time(Context& context, const Function& function, const 
 /// The faces of the surface or node set of `mesh` that `name` names; reports where there are none.
 [[nodiscard]] std::vector<fem::ElementFace> faces_of(Context& context, const Value& name, const fem::Mesh& mesh);
 
+/// The surface of a bearing's `side`, "shell" or "journal", that lies on the mesh of the body it is fixed to; none
+/// where it is rigid or cannot be, which is reported.
+[[nodiscard]] std::optional<DeformingSurface> deforming_surface_of(Context& context, const Value& bearing,
+                                                                   const std::string& side, const FrameName& on,
+                                                                   const film::FilmModel& film);
+
+/// Reports a shell and a journal on meshes of different size.
+void require_facing_surfaces(Context& context, const Value& value, const Bearing& bearing);
+
 /// A pressure or force on the mesh of a flexible body.
 [[nodiscard]] SurfaceLoad surface_load_of(Context& context, const Value& value);
 

@@ -410,6 +410,9 @@ void interpret_bearings(Context& context) {
     bearing.shell_material = material_of(value, "shell");
     bearing.journal_material = material_of(value, "journal");
     FilmReader(context, value, bearing).read();
+    bearing.shell_surface = deforming_surface_of(context, value, "shell", bearing.shell, bearing.film);
+    bearing.journal_surface = deforming_surface_of(context, value, "journal", bearing.journal, bearing.film);
+    require_facing_surfaces(context, value, bearing);
     bearing.solver = solver_of(value);
     bearing.coupling = coupling_of(value);
     bearing.operating_point = operating_point_of(context, value, bearing.film);

@@ -31,8 +31,7 @@ struct FilmCylinder {
                                              const FilmCylinder& cylinder);
 
 /// A film's surface on a mesh. With radial displacement d = sum_j psi_j d_j and pressure p = sum_j psi_j p_j,
-///     f = T p,    G d = T^T u:    u . f = d . G p = int d p dA,                                (film-surface.3) to
-///     (.5)
+///     f = T p,    G d = T^T u:    u . f = d . G p = int d p dA,                       (film-surface.3 to 5)
 /// so that forces go over to the nodes, and displacements to the film, with the same work.
 struct SurfaceMap {
   Eigen::SparseMatrix<double> T;  ///< int psi_j e_r N_a dA, shape (3 n, functions) [m^2]
@@ -46,7 +45,8 @@ struct SurfaceMap {
 struct FilmSurface : SurfaceMap {
   FilmCylinder cylinder;
   SurfaceFunctions functions;
-  std::vector<ElementFace> faces;  ///< those that reach into the film
+  std::vector<ElementFace> faces;           ///< those that reach into the film
+  std::optional<int> modes = std::nullopt;  ///< that a body keeps at most, other than ReductionOptions::film_modes
 };
 
 /// A surface, or why there is none.
@@ -65,6 +65,12 @@ struct FilmSurfaceResult {
 [[nodiscard]] FilmSurfaceResult film_surface(const Mesh& mesh, const std::vector<ElementFace>& faces,
                                              const FilmCylinder& cylinder, const SurfaceFunctions& functions,
                                              double tolerance);
+
+/// The same seen from a frame at `origin` whose unit motions [theta; d] are the six columns of U from `first` on: what
+/// they move rigidly is no deformation, (film-surface.6).
+[[nodiscard]] Eigen::MatrixXd coefficients_from_frame(const FilmSurface& surface, const Mesh& mesh,
+                                                      const Eigen::MatrixXd& U, const Vector3& origin,
+                                                      Eigen::Index first);
 
 /// Static answers of a body to film pressures, the most compliant ones first: pressures p_k and displacements
 ///     (T^T K^-1 T) p_k = lambda_k G p_k,    u_k = K^-1 T p_k,    p_k . G p_l = 0 for k != l.          (film-surface.7)

@@ -70,10 +70,10 @@ struct ReductionOptions {
   /// Largest error of the static displacement of a surface under each of its pressures, all frames at rest, over the
   /// largest of these displacements: static shapes are added until it holds. Infinity: the error is told alone.
   double static_error = std::numeric_limits<double>::infinity();
-  std::vector<FilmSurface> film_surfaces;  ///< that oil films press on: their film modes are added
+  std::vector<FilmSurface> film_surfaces;               ///< that oil films press on: their film modes are added
   std::vector<std::vector<ElementFace>> contact_faces;  ///< that touch other bodies: likewise, with contact_modes
-  int film_modes = 60;                     ///< of each of them at most
-  double film_tolerance = 1e-6;            ///< smallest compliance of a film mode, over the largest
+  int film_modes = 60;                                  ///< of each of them at most that does not say so itself
+  double film_tolerance = 1e-6;                         ///< smallest compliance of a film mode, over the largest
 };
 
 /// How well a reduced body meets the static displacement of a surface, all frames at rest, (elastic.23).
@@ -118,8 +118,8 @@ struct Reduction {
 };
 
 /// Craig-Bampton reduction: static displacements for unit motions of each frame, fixed-interface modes, static
-/// displacements for loads and film modes, all but the first orthonormalised together. Costs two factorisations, and one solution per
-/// column of Phi.
+/// displacements for loads and film modes, all but the first orthonormalised together. Costs two factorisations, and
+/// one solution per column of Phi.
 /// @see Craig, Bampton (1968), AIAA J. 6, 1313; Cardona (2000) for `average`. @verified_by reduction_test.cpp
 [[nodiscard]] Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& frames,
                                const ReductionOptions& options = {});

@@ -25,6 +25,12 @@ struct BuiltContact {
   mbd::BodyId first;
 };
 
+/// What a flexible body keeps of the answers of one bearing's surface to film pressure.
+struct FilmModesKept {
+  int modes = 0;
+  double lost = 0;  ///< largest compliance left out over the largest
+};
+
 /// A flexible body of a machine.
 struct BuiltFlexible {
   std::string name;
@@ -34,6 +40,7 @@ struct BuiltFlexible {
   std::vector<double> frequencies;              ///< with all frames held [Hz]
   std::vector<fem::SolidMaterial> materials;    ///< of the mesh's elements; none: unknown
   std::vector<fem::StaticError> static_errors;  ///< of the surfaces that carry load
+  std::vector<FilmModesKept> film_modes;        ///< of the bearings' surfaces on it, in the order of the bearings
   mbd::ElasticId elastic;
 };
 

@@ -13,6 +13,7 @@
 #include "hersey/core/spatial.h"
 #include "hersey/fem/beam.h"
 #include "hersey/fem/elastic_material.h"
+#include "hersey/fem/film_surface.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/film/film_model.h"
 #include "hersey/mbd/contact.h"
@@ -275,6 +276,13 @@ struct OperatingPoint {
   SourcePosition position;
 };
 
+/// A bearing's surface that lies on the mesh of its flexible body.
+struct DeformingSurface {
+  std::shared_ptr<const fem::FilmSurface> surface;  ///< in the axes of the bearing's frame; never null
+  std::optional<int> modes;  ///< film modes that the body keeps of it at most; unset: by its form
+  SourcePosition position;
+};
+
 struct Bearing {
   std::string name;
   FrameName shell, journal;  ///< empty in a model of bearings alone
@@ -284,6 +292,7 @@ struct Bearing {
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;
   std::optional<fem::ElasticMaterial> shell_material, journal_material;
+  std::optional<DeformingSurface> shell_surface, journal_surface;  ///< unset: rigid
   std::optional<OperatingPoint> operating_point;
   SourcePosition position;
 };

@@ -1,0 +1,168 @@
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "hersey/model/build.h"
+#include "model_text.h"
+
+// Bearings whose surfaces deform with the mesh of a body: what is read, and what is told about wrong ones.
+namespace hersey::model {
+namespace {
+
+constexpr int around = 24, along = 3;
+
+long label(int layer, int i, int k) { return 1 + layer + 2L * (i % around) + 2L * around * k; }
+
+/// A ring of hexahedra about z, bore 45 mm, 60 mm outside, 15.6 mm wide, with sets `bore` and `outside`.
+std::string ring_file() {
+  std::string text = "*NODE\n", elements = "*ELEMENT, TYPE=C3D8, ELSET=all\n";
+  std::string bore = "*NSET, NSET=bore\n", outside = "*NSET, NSET=outside\n", foot = "*NSET, NSET=foot\n";
+  const auto number = [](double x) { return std::to_string(x); };
+  for (int k = 0; k <= along; ++k)
+    for (int i = 0; i < around; ++i)
+      for (int layer = 0; layer < 2; ++layer) {
+        const double phi = 2 * std::numbers::pi * i / around, r = layer == 0 ? 22.5 : 30;
+        text += std::to_string(label(layer, i, k)) + ", " + number(r * std::cos(phi)) + ", " +
+                number(r * std::sin(phi)) + ", " + number(15.6 * k / along - 7.8) + "\n";
+        (layer == 0 ? bore : outside) += std::to_string(label(layer, i, k)) + ",\n";
+        if (layer == 1 && i < 3) foot += std::to_string(label(layer, i, k)) + ",\n";
+      }
+  long element = 0;
+  for (int k = 0; k < along; ++k)
+    for (int i = 0; i < around; ++i) {
+      elements += std::to_string(++element);
+      for (const int z : {k, k + 1})
+        for (const auto& [layer, a] : {std::pair{0, i}, {1, i}, {1, i + 1}, {0, i + 1}})
+          elements += ", " + std::to_string(label(layer, a, z));
+      elements += "\n";
+    }
+  return text + elements + bore + outside + foot;
+}
+
+const std::string machine_text = R"(hersey: 1
+title: A ring around a journal
+bodies:
+  ring:
+    flexible:
+      mesh: film_surface_test_ring.inp
+      length_unit: 1 mm
+      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
+      modes: 2
+    frames:
+      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
+  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+joints:
+  clamp: {type: fixed, between: [ground, ring.hub]}
+  slide: {type: planar, between: [ground, shaft]}
+lubricants:
+  oil: {viscosity: 15 mPa.s}
+bearings:
+  main:
+    shell: ring.hub
+    journal: shaft
+    diameter: 45 mm
+    width: 15.6 mm
+    radial_clearance: 34 um
+    lubricant: oil
+    edge_pressure: 1 bar
+    shell_surface: {within: 0.01 mm, functions: [16, 3], modes: 12}
+simulation: {duration: 1 ms, step: 0.1 ms}
+)";
+
+/// The mesh stands where the model file would: in the working directory.
+struct RingFile {
+  RingFile() { std::ofstream("film_surface_test_ring.inp") << ring_file(); }
+  ~RingFile() { std::filesystem::remove("film_surface_test_ring.inp"); }
+  RingFile(const RingFile&) = delete;
+  RingFile& operator=(const RingFile&) = delete;
+};
+
+std::string told(const std::string& from, const std::string& to) { return faults_of(edited(machine_text, from, to)); }
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+const std::string surface = "{within: 0.01 mm, functions: [16, 3], modes: 12}";
+
+TEST_CASE("DeformingSurface_IsReadAndBuilt") {
+  const RingFile file;
+  CHECK(faults_of(machine_text) == "no fault");
+  const Model model = read_text(machine_text, "m.yaml");
+  const Bearing& bearing = model.bearings[0];
+  REQUIRE(bearing.shell_surface);
+  CHECK_FALSE(bearing.journal_surface);
+  CHECK(bearing.shell_surface->surface->faces.size() == around * along);
+  CHECK(bearing.shell_surface->surface->functions.around() == 16);
+  CHECK(bearing.shell_surface->surface->functions.along() == 3);
+  CHECK(bearing.shell_surface->modes == 12);
+  const Machine machine = build(model);
+  REQUIRE(machine.flexibles[0].film_modes.size() == 1);
+  CHECK(machine.flexibles[0].film_modes[0].modes == 12);
+  CHECK(machine.flexibles[0].film_modes[0].lost > 0);
+  CHECK(machine.flexibles[0].film_modes[0].lost < 0.2);
+  CHECK(machine.flexibles[0].body->data().shapes() == 2 + 12);
+}
+
+TEST_CASE("DeformingSurface_ByNameWithDefaults") {
+  const RingFile file;
+  const Model model = read_text(edited(machine_text, surface, "{faces: bore}"), "m.yaml");
+  const DeformingSurface& on = *model.bearings[0].shell_surface;
+  CHECK(on.surface->functions.around() == 16);  // 24 nodes
+  CHECK(on.surface->functions.along() == 3);    // 4 nodes
+  CHECK_FALSE(on.modes);
+  CHECK(faults_of(edited(machine_text, surface, "rigid")) == "no fault");
+}
+
+TEST_CASE("DeformingSurface_FaultsSayWhereAndWhatToDo") {
+  const RingFile file;
+  const std::string wide = told("width: 15.6 mm", "width: 20 mm");
+  CHECK(contains(wide, "m.yaml:27:29: bearings.main.shell_surface.within: a surface that covers only 7"));
+  CHECK(contains(wide, "there is none all around"));
+  CHECK(contains(wide, "make the bearing's width that of the surface"));
+  const std::string small = told("diameter: 45 mm", "diameter: 44 mm");
+  CHECK(contains(small, "no face of the mesh on the film's surface"));
+  CHECK(contains(small, "the nearest nodes have a radius of 22.5 mm"));
+  CHECK(contains(small, "about the z-axis of ring.hub"));
+  const std::string on_outside = edited(machine_text, surface, "{faces: outside}");
+  CHECK(contains(faults_of(edited(on_outside, "diameter: 45 mm", "diameter: 60 mm")), "looks away from the axis"));
+  CHECK(contains(faults_of(on_outside), "nodes at a radius of 30 mm, 7.5 mm off the film's 22.5 mm"));
+  CHECK(contains(told(surface, "{faces: bre}"), "unknown surface or set 'bre'"));
+  CHECK(contains(told(surface, "{faces: bore, within: 1 mm}"), "'faces' and 'within' together"));
+  CHECK(contains(told(surface, "{modes: 3}"), "faces"));
+  CHECK(contains(told("[16, 3]", "[3, 3]"), "fewer than 4 functions around"));
+  CHECK(contains(told(surface, "stiff"), "rigid"));
+  CHECK(contains(told("nodes: outside, connection: average", "nodes: bore, connection: rigid"),
+                 "a surface whose nodes all belong to the rigid frame 'hub'"));
+  CHECK(
+      contains(told("nodes: outside, connection: average", "nodes: bore, connection: rigid"), "'connection: average'"));
+}
+
+TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsTold") {
+  const RingFile file;
+  const std::string rigid = told("shell_surface: " + surface, "journal_surface: {within: 0.1 mm}");
+  CHECK(contains(rigid, "m.yaml:27:5: bearings.main.journal_surface: a deforming surface on rigid body 'shaft'"));
+  CHECK(contains(rigid, "leave 'journal_surface' out"));
+  CHECK(contains(told("shell: ring.hub", "shell: ground"), "a deforming surface on rigid body 'ground'"));
+}
+
+TEST_CASE("DeformingSurfaces_OfDifferentSizeDoNotFaceEachOther") {
+  const RingFile file;
+  // The same ring within itself: its outside as the journal of its own bore.
+  std::string text = edited(machine_text,
+                            "  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: "
+                            "1e-3 kg.m^2}}\n",
+                            "  shaft:\n    flexible:\n      mesh: film_surface_test_ring.inp\n      length_unit: 1 mm\n"
+                            "      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}\n"
+                            "    frames:\n      pin: {nodes: foot}\n");
+  text = edited(edited(text, "[ground, shaft]", "[ground, shaft.pin]"), "journal: shaft", "journal: shaft");
+  const std::string both = edited(text, "within: 0.01 mm, functions: [16, 3], modes: 12}",
+                                  "faces: bore}\n    journal_surface: {within: 8 mm}");
+  const std::string faults = faults_of(both);
+  CAPTURE(faults);
+  CHECK(contains(faults, "looks towards the axis"));
+  const std::string outside = edited(both, "{within: 8 mm}", "{faces: outside}");
+  CHECK(contains(faults_of(outside), "30 mm, 7.5 mm off"));
+}
+
+}  // namespace
+}  // namespace hersey::model
