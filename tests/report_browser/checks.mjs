@@ -106,6 +106,19 @@ export const everyReport = {
     assert.equal(pictures.size, choices.length, "two choices of the map look the same");
   },
 
+  "the maps of the cycle differ": async (page) => {
+    const choices = await page.locator('[data-figure="cycle"] .segmented label').all();
+    assert.ok(choices.length >= 4, "thickness and pressure, and when, cannot be chosen");
+    const pictures = new Set();
+    for (const choice of choices) {
+      await choice.click();
+      await frame(page);
+      pictures.add(await picture(page, "cycle"));
+    }
+    assert.equal(pictures.size, choices.length, "two maps of the cycle look the same");
+    assert.match(await page.locator('[data-figure="cycle"] figcaption').innerText(), /whole run|last of/, "which cycle is not said");
+  },
+
   "tooltips tell values with units": async (page) => {
     const plot = page.locator('[data-figure="peak-pressure"] .u-over');
     await plot.scrollIntoViewIfNeeded();

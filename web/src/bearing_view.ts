@@ -1,5 +1,6 @@
 // Everything about one bearing of one run.
 
+import { cycleMaps } from "./cycle_maps";
 import type { Run } from "./data";
 import { figure, h, segmented } from "./dom";
 import { FieldMap, type Mark } from "./field_map";
@@ -30,6 +31,8 @@ export class BearingView {
     this.addOrbit();
     this.addMap();
     this.addMidplane();
+    const cycle = cycleMaps(run, bearing);
+    if (cycle) this.element.append(cycle);
     this.addSeries();
   }
 

@@ -38,6 +38,14 @@ export class FilmFields {
     return fields.size > 0 ? new FilmFields(time, phi, z, fields) : null;
   }
 
+  /** Other fields of one instant on the nodes of a bearing's film. */
+  static with(run: Run, bearing: string, fields: Map<string, Dataset>): FilmFields | null {
+    const phi = run.dataset(`/bearings/${bearing}/fields/phi`)?.values;
+    const z = run.dataset(`/bearings/${bearing}/fields/z`)?.values;
+    const fit = phi && z && [...fields.values()].every(({ width }) => width === phi.length * z.length);
+    return fit ? new FilmFields(Float64Array.of(0), phi, z, fields) : null;
+  }
+
   /** The kinds of field stored, without an asperity pressure that is zero throughout. */
   kinds(): FieldKind[] {
     return fieldKinds.filter(({ key }) => {

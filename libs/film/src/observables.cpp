@@ -128,6 +128,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
 void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, double friction, FilmObservables& o) {
   const double slip2_phi = std::pow(motion.u_journal - motion.u_shell, 2);
   const double slip2_z = std::pow(motion.w_journal - motion.w_shell, 2);
+  o.sliding_speed = std::sqrt(slip2_phi + slip2_z);
   const RoughGaps& rough = balance.rough_gaps();
   for (int k = 0; k < balance.size(); ++k) {
     const Node& node = balance.nodes()[k];

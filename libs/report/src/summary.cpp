@@ -50,7 +50,67 @@ class Summary {
       last("minimum film thickness at the end", "h_min", 1e6, "µm");
       last("peak film pressure at the end", "p_max", 1e-6, "MPa");
       extreme("worst mass-balance error of the film", "mass_balance_error", largest_size, 1, "", false);
+      cycle_rows();
     }
+  }
+
+  /// Losses and loads of the surfaces over the last cycle, or over the whole run where the model has none.
+  void cycle_rows() {
+    const std::vector<double> begin = cycle("begin"), end = cycle("end"), complete = cycle("complete");
+    if (begin.empty() || begin.size() != end.size() || begin.size() != complete.size()) return;
+    const bool is_cycle = complete.back() > 0;
+    const std::string over = is_cycle ? ", last cycle" : "";
+    const std::string when =
+        is_cycle ? fmt::format("t = {:.4g} to {:.4g} ms", begin.back() * 1e3, end.back() * 1e3) : std::string{};
+    if (is_cycle) {
+      of_cycle("minimum film thickness (MOFT)" + over, "moft", 1e6, "µm");
+      of_cycle("peak film pressure (POFP)" + over, "pofp", 1e-6, "MPa");
+    }
+    last_of("energy lost in the film" + over, "energy_film", 1, "J", when);
+    last_of("energy lost in asperity contact" + over, "energy_asperity", 1, "J", when);
+    if (is_cycle) {
+      last_of("mean power loss in the film" + over, "power_film", 1, "W", when);
+      last_of("mean power loss in asperity contact" + over, "power_asperity", 1, "W", when);
+    }
+    const std::vector<double> contact = cycle("contact");
+    if (contact.empty() || contact.back() <= 0) return;
+    of_cycle("largest contact pressure" + over, "contact", 1e-6, "MPa");
+    largest_of_map("largest mean contact pressure" + over, "asperity_pressure_mean", "MPa");
+    largest_of_map("largest wear load" + over, "wear_load", "W/mm²");
+  }
+
+  std::vector<double> cycle(const std::string& name) const { return values("cycles/fields/" + name); }
+
+  void last_of(const std::string& name, const std::string& series, double factor, const std::string& unit,
+               const std::string& when) {
+    if (const std::vector<double> all = cycle(series); !all.empty()) add(name, factor * all.back(), unit, when);
+  }
+
+  /// An extreme of the last cycle, with its own instant and place.
+  void of_cycle(const std::string& name, const std::string& series, double factor, const std::string& unit) {
+    const std::vector<double> all = cycle(series), t = cycle(series + "_time");
+    if (all.empty() || t.size() != all.size()) return;
+    std::string where = fmt::format("t = {:.4g} ms", t.back() * 1e3);
+    if (const auto row = row_at(t.back())) where = instant(*row);
+    add(name, factor * all.back(), unit, where + place("cycles/fields/" + series, all.size() - 1));
+  }
+
+  /// The largest value of the last cycle's map, in 1e-6 of its unit, and where.
+  void largest_of_map(const std::string& name, const std::string& map, const std::string& unit) {
+    const std::vector<double> phi = values("fields/phi"), z = values("fields/z"), all = cycle(map);
+    const std::size_t n = phi.size() * z.size();
+    if (n == 0 || all.size() < n) return;
+    const auto last = all.end() - static_cast<std::ptrdiff_t>(n), most = std::max_element(last, all.end());
+    const auto k = static_cast<std::size_t>(most - last);
+    add(name, 1e-6 * *most, unit,
+        fmt::format("φ = {:.1f}°, z = {:.2f} mm", phi[k / z.size()] * degrees, z[k % z.size()] * 1e3));
+  }
+
+  /// The stored instant at time t, if there is one.
+  std::optional<std::size_t> row_at(double t) const {
+    const auto found = std::lower_bound(time_.begin(), time_.end(), t);
+    if (found == time_.end() || *found != t) return std::nullopt;
+    return static_cast<std::size_t>(found - time_.begin());
   }
 
   void contact_rows() {

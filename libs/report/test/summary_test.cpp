@@ -55,6 +55,60 @@ TEST_CASE("WorstBalanceError_IsTheLargestInSize") {
   CHECK(find(rows, "the same, share of the largest power").value == doctest::Approx(5e-8).epsilon(round_off));
 }
 
+void write_cycles(const std::filesystem::path& path, double complete, double contact) {
+  results::Writer writer(path, {.overwrite = true});
+  const std::string bearing = "/bearings/big_end/", cycles = bearing + "cycles/fields/";
+  const results::Series time = writer.series("/time", 1, "s", "test series");
+  const std::vector<std::pair<std::string, double>> rows{
+      {"begin", 0.02},          {"end", 0.04},        {"complete", complete}, {"energy_film", 3},
+      {"energy_asperity", 0.5}, {"power_film", 150},  {"power_asperity", 25}, {"moft", 2e-6},
+      {"moft_time", 0.03},      {"moft_phi", 0.5},    {"moft_z", 1e-3},       {"contact", contact},
+      {"contact_time", 0.025},  {"contact_phi", 1.5}, {"contact_z", 0}};
+  writer.constant(bearing + "fields/phi", std::vector<double>{0, 1.5, 3}, "rad", "bearing angle");
+  writer.constant(bearing + "fields/z", std::vector<double>{-0.01, 0.01}, "m", "axial position");
+  for (const auto& [name, value] : rows) {
+    const results::Series series = writer.series(cycles + name, 1, "1", "test series");
+    series.append(0.0);  // of the cycle before
+    series.append(value);
+  }
+  const results::Series wear = writer.field(cycles + "wear_load", {3, 2}, "W/m^2", "wear load");
+  wear.append(std::vector<double>(6, 9e9));
+  wear.append(std::vector<double>{0, 1e6, 2e6, 7e6, 3e6, 0});
+  for (const double t : {0.0, 0.01, 0.02, 0.03, 0.04}) time.append(t);
+  writer.finish(results::Status::completed);
+}
+
+TEST_CASE("LastCycle_HasItsLossesAndLoads") {
+  const TemporaryDirectory directory;
+  write_cycles(directory / "run.h5", 1, 80e6);
+  const auto rows = summary_table({directory / "run.h5"});
+  const SummaryRow& film = find(rows, "energy lost in the film, last cycle");
+  CHECK(film.value == 3);
+  CHECK(film.unit == "J");
+  CHECK(film.where == "t = 20 to 40 ms");
+  CHECK(find(rows, "mean power loss in asperity contact, last cycle").value == 25);
+  const SummaryRow& moft = find(rows, "minimum film thickness (MOFT), last cycle");
+  CHECK(moft.value == doctest::Approx(2).epsilon(round_off));
+  CHECK(moft.where == "t = 30 ms, φ = 28.6°, z = 1.00 mm");
+  CHECK(find(rows, "largest contact pressure, last cycle").value == doctest::Approx(80).epsilon(round_off));
+  const SummaryRow& wear = find(rows, "largest wear load, last cycle");
+  CHECK(wear.value == doctest::Approx(7).epsilon(round_off));
+  CHECK(wear.unit == "W/mm²");
+  CHECK(wear.where == "φ = 85.9°, z = 10.00 mm");
+}
+
+TEST_CASE("WholeRunWithoutContact_HasItsEnergiesOnly") {
+  const TemporaryDirectory directory;
+  write_cycles(directory / "run.h5", 0, 0);
+  const auto rows = summary_table({directory / "run.h5"});
+  CHECK(find(rows, "energy lost in asperity contact").value == 0.5);
+  for (const SummaryRow& row : rows) {
+    CAPTURE(row.name);
+    CHECK(row.name.find("last cycle") == std::string::npos);
+    CHECK(row.name.find("wear") == std::string::npos);
+  }
+}
+
 TEST_CASE("SingleRow_HasItsOwnValueAsMean") {
   const auto rows = summary_of({.rows = 1});
   CHECK(find(rows, "mean side flow, left").value == doctest::Approx(300).epsilon(round_off));

@@ -56,7 +56,10 @@ bool is_rotational(const mbd::JointSpec& joint, int value) {
 }  // namespace
 
 Recorder::Recorder(const model::Model& model, const model::Machine& machine, const Options& options)
-    : model_(model), machine_(machine), writer_(options.results, {.overwrite = options.overwrite}) {
+    : model_(model),
+      machine_(machine),
+      writer_(options.results, {.overwrite = options.overwrite}),
+      cycles_(model, machine, writer_) {
   hide_inner_nodes();
   declare_run(options);
   declare_machine();
@@ -374,6 +377,7 @@ void Recorder::write_modes(const solver::State& state, const solver::Modes& foun
 }
 
 void Recorder::finish(results::Status status, const std::string& message, double wall_time) {
+  cycles_.finish();
   writer_.attribute("/", "wall_time", wall_time);
   writer_.finish(status, message);
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "cycle_record.h"
 #include "hersey/mbd/mechanism.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
@@ -35,6 +36,10 @@ class Recorder {
 
   void write_row(const StepRecord& step);
   void write_fields(const StepRecord& step);
+  /// What the bearings' maps and losses over a cycle are made of: every accepted step.
+  void gather(const StepRecord& step) { cycles_.take(step.mechanism.t, step.bearings); }
+  /// A cycle of the machine ends with the step last gathered.
+  std::vector<BearingCycle> close_cycle() { return cycles_.close(); }
   /// Small motions about `state`.
   void write_modes(const solver::State& state, const solver::Modes& found);
   void flush_if_due() { writer_.flush_if_due(); }
@@ -109,6 +114,7 @@ class Recorder {
   const model::Model& model_;
   const model::Machine& machine_;
   results::Writer writer_;
+  CycleRecord cycles_;
   results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, rejected_, drift_;
   std::vector<FlexibleSeries> flexibles_;
   std::vector<SurfaceLoadSeries> surface_loads_;

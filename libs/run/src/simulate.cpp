@@ -356,6 +356,7 @@ class Simulation {
     largest_power_ = std::max(largest_power_, step.power.largest());
     largest_error_ = std::max(largest_error_, std::abs(step.power.error()));
     settled_ = settling_.settled(step);
+    recorder_.gather(step);
     write(step);
     report_progress(step, moft);
   }

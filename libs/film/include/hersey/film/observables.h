@@ -34,6 +34,7 @@ struct FilmObservables {
   Vector3 force_pressure, force_shear, force_asperity;  ///< parts of the force on the shell [N], grid axes
   double torque_journal = 0;                            ///< friction torque on the journal about its own axis [N m]
   double torque_shell = 0;                              ///< friction torque on the shell about its own axis [N m]
+  double sliding_speed = 0;                             ///< of the surfaces against each other [m/s], >= 0
   double power_film = 0;                                ///< viscous dissipation: Couette and Poiseuille [W]
   double power_asperity = 0;                            ///< boundary friction [W]
   double flow_left = 0, flow_right = 0;                 ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "hersey/bearing/journal_bearing.h"
+
+namespace hersey::run {
+
+/// An extreme value on the film, when and where.
+struct FilmExtreme {
+  double value = 0;
+  double t = 0;           ///< [s]
+  double phi = 0, z = 0;  ///< [rad, m]
+};
+
+/// One bearing over one cycle, or over a whole run that has none. Maps are over the nodes, shape (n_phi n_z).
+struct BearingCycle {
+  double begin = 0, end = 0;       ///< [s]
+  double energy_film = 0;          ///< viscous dissipation [J]
+  double energy_asperity = 0;      ///< boundary friction [J]
+  FilmExtreme moft, pofp;          ///< minimum oil film thickness [m], peak oil film pressure [Pa]
+  FilmExtreme contact;             ///< largest contact pressure of a node [Pa]
+  Eigen::VectorXd mean_contact;    ///< contact pressure p_a, mean over time [Pa]
+  Eigen::VectorXd wear_load;       ///< p_a times sliding speed, mean over time [W/m^2]
+  Eigen::VectorXd h_min, t_h_min;  ///< smallest film thickness [m] and when [s]
+  Eigen::VectorXd p_max, t_p_max;  ///< largest film pressure [Pa] and when [s]
+  [[nodiscard]] double duration() const { return end - begin; }
+};
+
+/// Gathers a bearing's accepted states into cycles. Integrals over time are by the trapezoidal rule.
+class CycleSums {
+ public:
+  explicit CycleSums(const film::FilmModel& model) : model_(model) {}
+
+  /// The bearing at time `t`; the first call begins the first cycle.
+  void take(double t, const bearing::BearingObservation& seen, const film::FilmFields& fields);
+
+  /// The cycle that ends with the last state taken; the next one begins there.
+  /// @pre a state was taken.
+  [[nodiscard]] BearingCycle close();
+
+  /// Time since the beginning of the cycle [s].
+  [[nodiscard]] double duration() const { return is_begun_ ? cycle_.end - cycle_.begin : 0; }
+
+ private:
+  struct Sample {
+    double power_film = 0, power_asperity = 0, sliding_speed = 0;
+    Eigen::VectorXd contact;
+    FilmExtreme moft, pofp;
+    Eigen::VectorXd h, p;
+  };
+
+  void begin(double t);
+  void integrate(double dt, const Sample& next);
+  void compare(double t);
+
+  const film::FilmModel& model_;
+  BearingCycle cycle_;  // means as integrals
+  Sample last_;
+  bool is_begun_ = false;
+};
+
+}  // namespace hersey::run
