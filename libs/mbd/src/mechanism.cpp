@@ -389,7 +389,10 @@ RelativeMotion Mechanism::relative_motion(const State& state, ForceId force) {
 
 void Mechanism::persist(Archive& archive) {
   Implementation& m = *impl_;
-  archive.each("accepted_wrenches", m.accepted_wrenches, [](Archive& a, Vector6& wrench) { a.io("wrench", wrench); });
+  archive.each("accepted", m.accepted, [](Archive& a, ForceResponse& response) {
+    a.io("W", response.W_B_A);
+    a.io("Q", response.Q);
+  });
   for (std::size_t i = 0; i < m.drives.size(); ++i) {
     const Archive::Group group(archive, "drive " + m.spec.drives[i].name);
     m.drives[i].motion.persist(archive);
