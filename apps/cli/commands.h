@@ -13,6 +13,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::filesystem::path output;  ///< empty: results/<name of the model>
   bool force = false;
+  bool resume = false;
   bool json = false;
   int jobs = 0;
 };

@@ -21,6 +21,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  hersey run examples/paper_big_end/model.yaml                  all runs of its study\n"
     "  hersey run model.yaml --set load=500N --output out            one parameter changed\n"
+    "  hersey run model.yaml --resume                                goes on after Ctrl-C or a crash\n"
     "  hersey run model.yaml --set bearings.big_end.grid.circumferential=120\n"
     "  hersey bearing model.yaml --sweep load=100N:2500N:10          one bearing by itself\n"
     "  hersey check model.yaml                                       every fault, nothing simulated\n"
@@ -188,7 +189,11 @@ int dispatch(int argc, char** argv) {
   add_overrides(*run_app, run.overrides);
   run_app->add_option("--output", run.output, "Folder for results and report (default: results/<model>)")
       ->type_name("DIR");
-  run_app->add_flag("--force", run.force, "Replace results that exist already");
+  CLI::Option* force = run_app->add_flag("--force", run.force, "Replace results that exist already");
+  run_app
+      ->add_flag("--resume", run.resume,
+                 "Go on where a run was interrupted, from its last checkpoint; of a study, finish what is missing")
+      ->excludes(force);
   run_app->add_flag("--json", run.json, "Print the closing table as JSON");
   run_app->add_option("--jobs", run.jobs, "Runs of a study at the same time (default: one per core)")
       ->check(CLI::PositiveNumber);

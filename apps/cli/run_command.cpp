@@ -108,10 +108,13 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
 
 void tell(const std::string& label, const run::Summary& summary) {
   const std::string name = label.empty() ? "" : label + ": ";
+  if (!summary.warning.empty()) fmt::print(stderr, "hersey: {}{}\n", name, summary.warning);
   if (summary.status != run::Status::completed) {
     fmt::print(stderr, "hersey: {}{}\n", name, summary.message);
     if (summary.steps > 0)
       fmt::print(stderr, "hersey: results up to t = {:.6g} s are in {}\n", summary.t_results, summary.results.string());
+    if (summary.status == run::Status::stopped && std::filesystem::exists(run::checkpoint_file(summary.results)))
+      fmt::print(stderr, "hersey: {}the same command with --resume goes on from there\n", name);
   } else {
     const std::string rejected =
         summary.rejected_steps > 0 ? fmt::format(" ({} more rejected)", summary.rejected_steps) : "";
@@ -125,8 +128,9 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   run::Options options;
   options.results = folder / "results.h5";
   options.overwrite = arguments.force;
+  options.resume = arguments.resume;
   options.stop = &catch_interrupts();
-  refuse_existing({options.results}, arguments.force);
+  refuse_existing({options.results}, arguments.force || arguments.resume);
   ProgressBar bar;
   options.on_progress = [&](const run::Progress& progress) { bar.show("", progress); };
   warn(run::check(model));
@@ -142,11 +146,12 @@ int run_all(const RunArguments& arguments, const std::filesystem::path& folder,
   study::Options options;
   options.directory = folder;
   options.overwrite = arguments.force;
+  options.resume = arguments.resume;
   options.threads = arguments.jobs;
   options.stop = &catch_interrupts();
   Paths planned;
   for (const model::StudyRun& run : runs) planned.push_back(study::results_file(options, run));
-  refuse_existing(planned, arguments.force);
+  refuse_existing(planned, arguments.force || arguments.resume);
   make_folder(folder);
 
   ProgressBar bar;

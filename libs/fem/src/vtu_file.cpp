@@ -155,9 +155,24 @@ VtuSeries::VtuSeries(std::filesystem::path pvd) : pvd_(std::move(pvd)) {
 }
 
 void VtuSeries::add(double time, const Mesh& mesh, const VtuFrame& frame) {
-  const std::string name = fmt::format("{}/{:05}.vtu", pvd_.stem().string(), files_.size());
+  const std::string name = name_of(files_.size());
   write_vtu(pvd_.parent_path() / name, mesh, frame);
   files_.emplace_back(time, name);
+  write_index();
+}
+
+std::string VtuSeries::name_of(std::size_t file) const {
+  return fmt::format("{}/{:05}.vtu", pvd_.stem().string(), file);
+}
+
+void VtuSeries::persist(Archive& archive) {
+  std::vector<double> times;
+  times.reserve(files_.size());
+  for (const auto& [time, name] : files_) times.push_back(time);
+  archive.io("times", times);
+  if (!archive.restores()) return;
+  files_.clear();
+  for (const double time : times) files_.emplace_back(time, name_of(files_.size()));
   write_index();
 }
 

@@ -19,6 +19,16 @@ TypePtr step_format() {
   return any_of("a time such as 0.1 ms, an angle of the crank, or {tolerance}", {fixed, controlled});
 }
 
+TypePtr checkpoint_format() {
+  return object("intervals of checkpoints",
+                {
+                    optional("every", quantity_in({"s", "rad"}, "0.1 s", Range::positive()),
+                             "Simulated time or crank angle between two checkpoints.", "`wall_time` alone counts"),
+                    defaulted("wall_time", quantity("s", "5 min", Range::positive()), "5 min",
+                              "Computing time after which a checkpoint is written in any case."),
+                });
+}
+
 }  // namespace
 
 TypePtr simulation_format() {
@@ -65,6 +75,10 @@ TypePtr simulation_format() {
           defaulted("max_iterations", integer(20, {.low = 1, .high = 10000}), "20", "Newton iterations per step."),
           defaulted("smallest_step", quantity("s", "1e-9 s", Range::positive()), "1e-9 s",
                     "A step that still fails at this length ends the run."),
+          optional("checkpoint", checkpoint_format(),
+                   "How often the run writes down how to go on: `hersey run --resume` continues after Ctrl-C, a crash "
+                   "or a lost machine, to the same numbers.",
+                   "`{wall_time: 5 min}`"),
           optional("settle", settle, "Ends the run once every bearing repeats itself.", "runs to the end"),
       });
 }

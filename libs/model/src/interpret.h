@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,6 +34,9 @@ struct Context {
 /// The named things in the section `key` of the file, in its order.
 [[nodiscard]] const std::vector<Member>& section(const Value& root, const std::string& key);
 [[nodiscard]] std::vector<std::string> names_in(const Value& root, const std::string& key);
+
+/// Path of a file that the model names, which lies relative to the model file; notes its content in Model::files.
+[[nodiscard]] std::filesystem::path referenced_file(Context& context, const std::string& name);
 
 /// A direction of length 1. A zero vector is a fault.
 [[nodiscard]] Vector3 direction_of(Context& context, const Value& parent, const std::string& key);

@@ -81,8 +81,8 @@ class FlexibleReader {
     const Value& file = *value.find("reduced");
     if (file.broken) return;
     try {
-      auto body = std::make_shared<const fem::ReducedBody>(
-          fem::read_reduced_body(std::filesystem::path(context_.model.file).parent_path() / file.text));
+      auto body =
+          std::make_shared<const fem::ReducedBody>(fem::read_reduced_body(referenced_file(context_, file.text)));
       if (body->frames.empty())
         context_.fault(file, "a reduced body without frames", "at least one, which joints and forces attach to");
       name_frames(*body, file, frames);
@@ -130,7 +130,7 @@ class FlexibleReader {
       context_.fault_at_key(value, "a mesh without `length_unit`", "what a length of 1 in it means",
                             "add `length_unit: 1 mm`");
     if (file == nullptr || file->broken || unit == nullptr || unit->broken) return std::nullopt;
-    const auto path = std::filesystem::path(context_.model.file).parent_path() / file->text;
+    const auto path = referenced_file(context_, file->text);
     try {
       fem::Mesh mesh = fem::read_mesh(path, unit->number);
       check_elements(mesh, *file);

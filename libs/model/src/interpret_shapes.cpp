@@ -47,7 +47,7 @@ class ShapeReader {
   std::optional<mbd::ShapeGeometry> mesh_of(const Value& value) {
     const Value* file = value.find("file");
     if (file == nullptr || file->broken) return std::nullopt;
-    const std::filesystem::path path = std::filesystem::path(context_.model.file).parent_path() / file->text;
+    const std::filesystem::path path = referenced_file(context_, file->text);
     const double unit = number_of(value, "unit");
     std::optional<mbd::TriangleMesh> mesh =
         fem::mesh_format_of(path) ? skin_of(*file, path, unit) : stl_of(*file, path, unit);

@@ -240,6 +240,10 @@ void interpret_simulation(Context& context) {
   if (const Value* settle = value->find("settle"); settle != nullptr && !settle->broken) {
     simulation.settle = Settle{number_of(*settle, "tolerance"), seconds_of(context, *settle, "over", simulation.crank)};
   }
+  if (const Value* checkpoint = value->find("checkpoint"); checkpoint != nullptr && !checkpoint->broken) {
+    simulation.checkpoint = {seconds_of(context, *checkpoint, "every", simulation.crank),
+                             number_of(*checkpoint, "wall_time")};
+  }
   interpret_output(context);
 }
 

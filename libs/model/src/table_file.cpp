@@ -10,7 +10,7 @@ namespace hersey::model {
 
 std::optional<CsvTable> read_table_file(Context& context, const Value& file) {
   if (file.broken) return std::nullopt;
-  const std::filesystem::path path = std::filesystem::path(context.model.file).parent_path() / file.text;
+  const std::filesystem::path path = referenced_file(context, file.text);
   std::ifstream stream(path, std::ios::binary);
   std::error_code ignored;
   if (!stream || !std::filesystem::is_regular_file(path, ignored)) {

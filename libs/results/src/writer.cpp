@@ -11,6 +11,7 @@
 
 #include "hdf5_handle.h"
 #include "hersey/core/contract.h"
+#include "hersey/results/reader.h"
 #include "reserving_driver.h"
 
 namespace hersey::results {
@@ -24,6 +25,7 @@ constexpr std::size_t chunk_cache_bytes = 64u << 10;  // per dataset; only the l
 
 /// One growing dataset and its rows that are not in the file yet.
 struct Growing {
+  std::string name;
   Handle dataset;
   std::vector<hsize_t> shape;  // of the dataset; shape[0] rows are in it
   std::size_t width;           // numbers per row
@@ -149,7 +151,7 @@ struct Writer::Impl {
 
   std::size_t make_growing(std::string_view name, const std::vector<hsize_t>& row_shape, std::string_view unit,
                            std::string_view description) {
-    Growing entry{{}, {0}, 1, {}};
+    Growing entry{absolute(name), {}, {0}, 1, {}};
     for (const hsize_t n : row_shape) {
       HERSEY_REQUIRE(n > 0, "a row has numbers");
       entry.shape.push_back(n);
@@ -324,6 +326,47 @@ void Series::append(std::span<const double> row) const {
 std::size_t Series::width() const {
   HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
   return writer_->impl_->growing.at(index_).width;
+}
+
+std::vector<std::pair<std::string, std::size_t>> Writer::rows() {
+  flush();
+  const Quiet quiet;
+  const int fd = ::open(impl_->path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool synced = fd >= 0 && (::fsync(fd) == 0 || errno == EINVAL);
+  const std::string reason = std::strerror(errno);
+  if (fd >= 0) ::close(fd);
+  impl_->require(synced, reason);
+  std::vector<std::pair<std::string, std::size_t>> rows;
+  rows.reserve(impl_->growing.size());
+  for (const Growing& entry : impl_->growing) rows.emplace_back(entry.name, entry.shape[0]);
+  return rows;
+}
+
+void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::string, std::size_t>>& rows) {
+  impl_->require_open();
+  if (rows.size() != impl_->growing.size()) throw ReadError(from.path(), "it holds other series");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Growing& entry = impl_->growing[i];
+    const auto& [name, count] = rows[i];
+    if (name != entry.name || !from.has(name)) throw ReadError(from.path(), "it lacks " + entry.name);
+    const std::size_t block = std::max<std::size_t>(1, waiting_numbers / entry.width);
+    for (std::size_t first = 0; first < count; first += block) {
+      const std::size_t size = std::min(block, count - first);
+      Array part = from.read_rows(name, first, size);
+      if (part.values.size() != size * entry.width) throw ReadError(from.path(), "it lacks rows of " + name);
+      entry.waiting = std::move(part.values);
+      const Quiet quiet;
+      impl_->drain(entry);
+    }
+  }
+  flush();
+}
+
+void Writer::rename(const std::filesystem::path& path) {
+  impl_->require_open();
+  const bool renamed = ::rename(impl_->path.c_str(), path.c_str()) == 0;
+  impl_->require(renamed, std::strerror(errno));
+  impl_->path = path;
 }
 
 void Writer::flush() {

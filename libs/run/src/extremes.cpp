@@ -43,4 +43,16 @@ BearingSummary BearingExtremes::summary() const {
   return summary;
 }
 
+void BearingExtremes::persist(Archive& archive) {
+  BearingSummary& s = summary_;
+  archive.io("moft", s.moft), archive.io("moft_t", s.moft_t);
+  archive.io("moft_phi", s.moft_phi), archive.io("moft_z", s.moft_z);
+  archive.io("pofp", s.pofp), archive.io("pofp_t", s.pofp_t);
+  archive.io("pofp_phi", s.pofp_phi), archive.io("pofp_z", s.pofp_z);
+  archive.io("max_force", s.max_force);
+  archive.io("eccentricity_ratio", s.eccentricity_ratio);
+  archive.io("worst_mass_balance", s.worst_mass_balance);
+  archive.io("time", time_), archive.io("energy", energy_), archive.io("volume", volume_);
+}
+
 }  // namespace hersey::run

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hersey/bearing/journal_bearing.h"
+#include "hersey/core/archive.h"
 #include "hersey/run/simulate.h"
 
 namespace hersey::run {
@@ -11,6 +12,8 @@ class BearingExtremes {
   explicit BearingExtremes(std::string name);
   void take(double t, double dt, double clearance, const bearing::BearingObservation& seen);
   [[nodiscard]] BearingSummary summary() const;
+  [[nodiscard]] const std::string& name() const { return summary_.name; }
+  void persist(Archive& archive);
 
  private:
   BearingSummary summary_;

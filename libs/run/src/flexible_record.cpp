@@ -135,4 +135,12 @@ void DeformedMeshes::write(double t, double since_start, double slack, const mbd
   }
 }
 
+void DeformedMeshes::persist(Archive& archive) {
+  for (Series& series : series_) {
+    const Archive::Group group(archive, machine_.flexibles[series.flexible].name);
+    archive.io("next", series.next);
+    series.files.persist(archive);
+  }
+}
+
 }  // namespace hersey::run

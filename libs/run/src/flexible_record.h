@@ -19,6 +19,8 @@ class DeformedMeshes {
   /// Writes those that are due at time `t`, `since_start` after the start of the run.
   void write(double t, double since_start, double slack, const mbd::Observation& seen);
 
+  void persist(Archive& archive);
+
  private:
   struct Series {
     std::size_t flexible = 0;  ///< place in Machine::flexibles

@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "geometry_record.h"
 #include "hersey/core/version.h"
+#include "hersey/results/reader.h"
 #include "hersey/run/assumptions.h"
 #include "redundancies.h"
 
@@ -55,10 +59,17 @@ bool is_rotational(const mbd::JointSpec& joint, int value) {
 
 }  // namespace
 
-Recorder::Recorder(const model::Model& model, const model::Machine& machine, const Options& options)
+std::filesystem::path unfinished_file(const std::filesystem::path& results) {
+  std::filesystem::path path = results;
+  path += ".resuming";
+  return path;
+}
+
+Recorder::Recorder(const model::Model& model, const model::Machine& machine, const Options& options, bool resumes)
     : model_(model),
       machine_(machine),
-      writer_(options.results, {.overwrite = options.overwrite}),
+      writer_(resumes ? unfinished_file(options.results) : options.results,
+              {.overwrite = resumes || options.overwrite}),
       cycles_(model, machine, writer_) {
   hide_inner_nodes();
   declare_run(options);
@@ -374,6 +385,33 @@ void Recorder::write_modes(const solver::State& state, const solver::Modes& foun
     write_beam_mode(state, mode.shape);
   }
   writer_.attribute("/modes", "stable", found.stable ? 1 : 0);
+}
+
+void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
+  std::string names;
+  std::vector<std::size_t> counts;
+  if (!archive.restores()) {
+    for (const auto& [name, count] : writer_.rows()) {
+      names += name + "\n";
+      counts.push_back(count);
+    }
+  }
+  archive.io("series", names);
+  archive.io("rows", counts);
+  if (!archive.restores()) return;
+  std::vector<std::pair<std::string, std::size_t>> rows;
+  std::istringstream lines(names);
+  std::string name;
+  for (const std::size_t count : counts) {
+    std::getline(lines, name);
+    rows.emplace_back(name, count);
+  }
+  {
+    const results::Reader before(results);
+    writer_.copy_rows(before, rows);
+    if (const auto created = before.text_attribute("/", "created")) writer_.attribute("/", "created", *created);
+  }
+  writer_.rename(results);
 }
 
 void Recorder::finish(results::Status status, const std::string& message, double wall_time) {

@@ -28,11 +28,15 @@ struct StepRecord {
   PowerBalance power;
 };
 
+/// Where the results of a resumed run are gathered until they hold all that the interrupted one had.
+[[nodiscard]] std::filesystem::path unfinished_file(const std::filesystem::path& results);
+
 /// Puts steps into the results file (layout: docs/results-file.md).
 class Recorder {
  public:
+  /// @param resumes  the file is written under another name, to take the place of `options.results` in `persist`
   /// @throws results::FileExists, results::WriteError.
-  Recorder(const model::Model& model, const model::Machine& machine, const Options& options);
+  Recorder(const model::Model& model, const model::Machine& machine, const Options& options, bool resumes = false);
 
   void write_row(const StepRecord& step);
   void write_fields(const StepRecord& step);
@@ -43,6 +47,9 @@ class Recorder {
   /// Small motions about `state`.
   void write_modes(const solver::State& state, const solver::Modes& found);
   void flush_if_due() { writer_.flush_if_due(); }
+  /// How many rows there are; restoring takes so many from the results of the run that was interrupted.
+  /// @throws results::ReadError where these have fewer
+  void persist(Archive& archive, const std::filesystem::path& results);
   void finish(results::Status status, const std::string& message, double wall_time);
 
  private:

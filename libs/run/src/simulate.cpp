@@ -7,10 +7,12 @@
 #include <exception>
 #include <optional>
 
+#include "checkpoint.h"
 #include "extremes.h"
 #include "flexible_record.h"
 #include "hersey/core/input_error.h"
 #include "hersey/model/build.h"
+#include "hersey/results/checkpoint.h"
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/solver/equilibrium.h"
@@ -76,6 +78,11 @@ class SettlingTest {
     return false;
   }
 
+  void persist(Archive& archive) {
+    archive.each("last", last_, [](Archive& a, bearing::BearingObservation& seen) { a.io("e", seen.e); });
+    archive.io("next", next_);
+  }
+
  private:
   [[nodiscard]] double change(const StepRecord& step) const {
     double largest = 0;
@@ -90,10 +97,13 @@ class SettlingTest {
   std::optional<double> next_;
 };
 
+void discard_checkpoint(const std::filesystem::path& results);
+
 // One simulation: owns the machine, its state and its record.
 class Simulation {
  public:
-  Simulation(const model::Model& model, const Options& options)
+  /// @param checkpoint  where an interrupted run goes on; empty: from the start
+  Simulation(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint)
       : model_(model),
         options_(options),
         began_(Clock::now()),
@@ -101,9 +111,10 @@ class Simulation {
         state_(starting_state(model, machine_)),
         integrator_(integrator_options(model)),
         step_error_(model, machine_),
-        recorder_(model, machine_, options),
+        recorder_(model, machine_, options, checkpoint.has_value()),
         deformed_(model, machine_, options.results),
-        settling_(model) {
+        settling_(model),
+        checkpoints_(model.simulation) {
     kinds_.resize(machine_.mechanism->spec().forces.size(), ForceKind::spring);
     for (const model::BuiltContact& contact : machine_.contacts) {
       kinds_[static_cast<std::size_t>(contact.force.index)] = ForceKind::contact;
@@ -113,6 +124,7 @@ class Simulation {
       extremes_.emplace_back(bearing.bearing->name());
     }
     summary_.results = options.results;
+    if (checkpoint) restore(std::move(*checkpoint));
   }
 
   Summary run() {
@@ -121,6 +133,7 @@ class Simulation {
       finish(summary_.status == Status::completed ? results::Status::completed
              : summary_.status == Status::stopped ? results::Status::stopped
                                                   : results::Status::failed);
+      if (summary_.status == Status::completed) discard_checkpoint(options_.results);
     } catch (const results::WriteError& error) {
       fail(error.what());
     } catch (const std::exception& error) {
@@ -159,11 +172,16 @@ class Simulation {
     }
   }
 
-  void integrate() {
+  void begin() {
     const StepRecord start = observe(0, {});
+    plan_steps(start.mechanism);
     take(start);
+  }
+
+  void integrate() {
+    if (!resumes_) begin();
     if (model_.simulation.error_control) {
-      march_controlled(*model_.simulation.error_control, start.mechanism);
+      march_controlled(*model_.simulation.error_control);
     } else {
       march();
     }
@@ -172,9 +190,10 @@ class Simulation {
   // Instant by instant, nothing integrated.
   void follow_drives() {
     const model::Simulation& plan = model_.simulation;
-    take(observe(0, {}));
+    if (!resumes_) take(observe(0, {}));
     const int intervals = std::max(1, static_cast<int>(std::ceil(plan.duration / plan.step - 1e-9)));
-    for (int k = 1; k <= intervals; ++k) {
+    for (int& k = instant_; k < intervals;) {
+      ++k;
       const double t = k == intervals ? plan.start + plan.duration : plan.start + k * plan.step;
       const double dt = t - state_.t;
       const Eigen::VectorXd guess = dt * state_.v + 0.5 * dt * dt * state_.vdot;
@@ -215,15 +234,18 @@ class Simulation {
   void march() {
     const model::Simulation& plan = model_.simulation;
     const int intervals = std::max(1, static_cast<int>(std::ceil(plan.duration / plan.step - 1e-9)));
-    for (int k = 1; k <= intervals; ++k) {
+    for (int& k = instant_; k < intervals;) {
+      ++k;
       const double target = k == intervals ? plan.start + plan.duration : plan.start + k * plan.step;
       if (!advance_to(target) || ends_early()) return;
     }
   }
 
-  // Whether the run ends here, asked to or settled.
+  // Whether the run ends here, asked to or settled. Here it can go on later: nothing of a step is pending.
   bool ends_early() {
-    if (options_.stop && options_.stop->load()) {
+    const bool stops = options_.stop && options_.stop->load();
+    if (stops || checkpoints_.is_due(state_.t)) write_checkpoint();
+    if (stops) {
       summary_.status = Status::stopped;
       summary_.message = fmt::format("stopped on request at t = {:.6g} s", state_.t);
       return true;
@@ -232,19 +254,27 @@ class Simulation {
     return settled_;
   }
 
-  // Steps of controlled error, from one instant that has to be hit to the next.
-  void march_controlled(const model::ErrorControl& limits, const mbd::Observation& start) {
-    const std::vector<double> bends = kinks(model_, machine_.mechanism->spec(), start);
-    const std::vector<double> targets = instants_to_hit(model_, bends);
-    solver::StepControl control(
-        {.smallest = limits.smallest, .largest = limits.largest, .unit = unit_of_steps(targets)},
-        first_step(*machine_.mechanism, state_, limits));
-    for (const double target : targets) {
+  // The instants that steps of controlled error have to hit, and the first such step. At the start of the run.
+  void plan_steps(const mbd::Observation& start) {
+    const auto& limits = model_.simulation.error_control;
+    if (!limits) return;
+    bends_ = kinks(model_, machine_.mechanism->spec(), start);
+    targets_ = instants_to_hit(model_, bends_);
+    control_.emplace(
+        solver::StepControlOptions{
+            .smallest = limits->smallest, .largest = limits->largest, .unit = unit_of_steps(targets_)},
+        first_step(*machine_.mechanism, state_, *limits));
+  }
+
+  // From one instant that has to be hit to the next.
+  void march_controlled(const model::ErrorControl& limits) {
+    for (int& i = instant_; i < static_cast<int>(targets_.size()); ++i) {
+      const double target = targets_[static_cast<std::size_t>(i)];
       while (target - state_.t > 1e-12 * std::max(std::abs(target), limits.largest)) {
-        if (!take_controlled_step(limits, control, target)) return;
+        if (!take_controlled_step(limits, *control_, target)) return;
         if (ends_early()) return;
       }
-      if (std::binary_search(bends.begin(), bends.end(), target)) start_afresh();
+      if (std::binary_search(bends_.begin(), bends_.end(), target)) start_afresh();
     }
   }
 
@@ -253,7 +283,7 @@ class Simulation {
   [[nodiscard]] double unit_of_steps(const std::vector<double>& targets) const {
     const auto is_nodal = [](const model::Body& body) { return body.flexible && body.flexible->nodal; };
     if (std::none_of(model_.bodies.begin(), model_.bodies.end(), is_nodal)) return 0;
-    return targets.front() - state_.t;
+    return targets.front() - model_.simulation.start;
   }
 
   // Beyond a kink of a drive's speed its acceleration is another one: the method's history would ring on it.
@@ -385,6 +415,71 @@ class Simulation {
     return is_due || settled_ || t >= model_.simulation.duration - slack;
   }
 
+  // Everything that the rest of the run depends on.
+  void persist(Archive& archive) {
+    {
+      const Archive::Group group(archive, "state");
+      archive.io("t", state_.t), archive.io("q", state_.q), archive.io("v", state_.v);
+      archive.io("vdot", state_.vdot), archive.io("lambda", state_.lambda);
+    }
+    {
+      const Archive::Group group(archive, "mechanism");
+      machine_.mechanism->persist(archive);
+    }
+    {
+      const Archive::Group group(archive, "integrator");
+      integrator_.persist(archive);
+    }
+    {
+      const Archive::Group group(archive, "steps");
+      archive.io("reached", instant_), archive.io("length", last_dt_);
+      if (control_) control_->persist(archive);
+    }
+    const Archive::Group group(archive, "record");
+    persist_record(archive);
+  }
+
+  void persist_record(Archive& archive) {
+    archive.io("steps", summary_.steps), archive.io("rejected_steps", summary_.rejected_steps);
+    archive.io("newton_iterations", summary_.newton_iterations);
+    archive.io("worst_constraint_drift", summary_.worst_constraint_drift);
+    archive.io("largest_power", largest_power_), archive.io("largest_error", largest_error_);
+    archive.io("next_fields", next_fields_), archive.io("next_row", next_row_);
+    double wall_time = elapsed();
+    archive.io("wall_time", wall_time);
+    if (archive.restores()) before_ = wall_time;
+    for (BearingExtremes& extremes : extremes_) {
+      const Archive::Group group(archive, extremes.name());
+      extremes.persist(archive);
+    }
+    settling_.persist(archive);
+    deformed_.persist(archive);
+    recorder_.persist(archive, options_.results);
+  }
+
+  void write_checkpoint() {
+    Archive archive;
+    save_identity(archive, model_);
+    persist(archive);
+    results::write_checkpoint(checkpoint_file(options_.results), archive.content());
+    checkpoints_.written(state_.t);
+  }
+
+  void restore(Archive::Content checkpoint) {
+    plan_steps(observe(0, {}).mechanism);
+    Archive archive(std::move(checkpoint));
+    const std::filesystem::path file = checkpoint_file(options_.results);
+    try {
+      persist(archive);
+    } catch (const ArchiveError& error) {
+      throw results::ReadError(file, std::string("it does not fit this program: ") + error.what());
+    }
+    for (const std::string& name : archive.unread())
+      if (!is_identity(name)) throw results::ReadError(file, "it does not fit this program: it holds '" + name + "'");
+    checkpoints_.written(state_.t);
+    resumes_ = true;
+  }
+
   void report_progress(const StepRecord& step, double moft) const {
     if (!options_.on_progress) return;
     const model::Simulation& plan = model_.simulation;
@@ -410,7 +505,9 @@ class Simulation {
     }
   }
 
-  [[nodiscard]] double elapsed() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
+  [[nodiscard]] double elapsed() const {
+    return before_ + std::chrono::duration<double>(Clock::now() - began_).count();
+  }
 
   const model::Model& model_;
   const Options& options_;
@@ -422,8 +519,14 @@ class Simulation {
   Recorder recorder_;
   DeformedMeshes deformed_;
   SettlingTest settling_;
+  CheckpointSchedule checkpoints_;
   std::vector<BearingExtremes> extremes_;
   std::vector<ForceKind> kinds_;
+  std::vector<double> bends_, targets_;         // under error control
+  std::optional<solver::StepControl> control_;  // the same
+  int instant_ = 0;                             // how many of the instants to hit have been reached
+  bool resumes_ = false;
+  double before_ = 0;  // computing time before the run was resumed [s]
   double next_fields_ = -std::numeric_limits<double>::infinity();
   double last_dt_ = 0;
   double next_row_ = 0;  // in intervals
@@ -431,6 +534,55 @@ class Simulation {
   bool settled_ = false;
   Summary summary_;
 };
+
+void discard_checkpoint(const std::filesystem::path& results) {
+  std::error_code ignored;
+  std::filesystem::remove(checkpoint_file(results), ignored);
+}
+
+// A checkpoint of results that are about to be replaced.
+void discard_checkpoint_of_replaced(const Options& options) {
+  if (options.overwrite || !std::filesystem::exists(options.results)) discard_checkpoint(options.results);
+}
+
+// Says whether the run of these results has come to its end; refuses results of another model.
+bool is_complete(const model::Model& model, const std::filesystem::path& file) {
+  const results::Reader reader(file);
+  require_same_text(reader.has("/model") ? reader.text("/model") : "", model);
+  return reader.text_attribute("/", "status") == results::to_string(results::Status::completed);
+}
+
+Summary resume(const model::Model& model, const Options& options) {
+  Summary summary;
+  const bool has_results = std::filesystem::exists(options.results);
+  if (has_results && is_complete(model, options.results)) {
+    summary.results = options.results;
+    summary.t_end = summary.t_results = last_time(options.results);
+    summary.message = "it was complete already";
+    return summary;
+  }
+  const std::filesystem::path file = checkpoint_file(options.results);
+  if (!has_results || !std::filesystem::exists(file)) {
+    Options anew = options;
+    anew.overwrite = true;
+    anew.resume = false;
+    summary = simulate(model, anew);
+    summary.warning = "there was no checkpoint to go on from: the run began anew";
+    return summary;
+  }
+  Archive::Content checkpoint = results::read_checkpoint(file);
+  std::string warning;
+  require_identity(checkpoint, model, file, warning);
+  try {
+    summary = Simulation(model, options, std::move(checkpoint)).run();
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished_file(options.results), ignored);
+    throw;
+  }
+  summary.warning = warning;
+  return summary;
+}
 
 }  // namespace
 
@@ -449,7 +601,9 @@ Summary simulate(const model::Model& model, const Options& options) {
                            "bodies and a simulation to run",
                            "'hersey bearing' solves bearings by themselves"});
   }
-  return Simulation(model, options).run();
+  if (options.resume) return resume(model, options);
+  discard_checkpoint_of_replaced(options);
+  return Simulation(model, options, std::nullopt).run();
 }
 
 }  // namespace hersey::run

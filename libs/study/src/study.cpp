@@ -22,6 +22,7 @@ RunResult simulate_one(const std::string& path, const model::StudyRun& run, cons
   run::Options run_options;
   run_options.results = results_file(options, run);
   run_options.overwrite = options.overwrite;
+  run_options.resume = options.resume;
   run_options.stop = options.stop;
   for (const model::StudyValue& value : run.values) run_options.study_parameters.push_back({value.name, value.text});
   run_options.on_progress = [&](const run::Progress& progress) {

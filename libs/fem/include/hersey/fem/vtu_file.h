@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "hersey/core/archive.h"
 #include "hersey/fem/mesh.h"
 
 namespace hersey::fem {
@@ -37,7 +38,11 @@ class VtuSeries {
   explicit VtuSeries(std::filesystem::path pvd);
   void add(double time, const Mesh& mesh, const VtuFrame& frame);
 
+  /// Which files there are; those of later times are left out of the series when it is restored.
+  void persist(Archive& archive);
+
  private:
+  [[nodiscard]] std::string name_of(std::size_t file) const;
   void write_index() const;
 
   std::filesystem::path pvd_;

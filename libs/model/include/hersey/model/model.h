@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -347,6 +348,13 @@ struct Simulation {
   int max_iterations = 20;       ///< of Newton, per step
   double smallest_step = 1e-9;   ///< [s]
   std::optional<Settle> settle;
+
+  /// When the run writes down how to go on after an interruption.
+  struct Checkpoints {
+    double every = 0;        ///< simulated time between them [s]; 0: does not count
+    double wall_time = 300;  ///< computing time between them [s], > 0
+  };
+  Checkpoints checkpoint;
   SourcePosition position;
 };
 
@@ -397,6 +405,8 @@ struct Model {
   std::optional<Study> study;
   std::vector<Fault> warnings;  ///< what can be computed but is hardly meant
   std::string resolved_text;    ///< the file's text, preceded by comments naming the overrides of this run
+
+  std::map<std::string, std::uint64_t> files;  ///< that it names, as it names them, and a hash of their content
 
   std::map<std::string, SourcePosition> positions;  ///< of every key in the file, by key path
 

@@ -31,6 +31,7 @@ struct WriterOptions {
   double flush_interval = 0.5;  ///< shortest time between two writes by flush_if_due() [s], >= 0
 };
 
+class Reader;
 class Writer;
 
 /// Handle of a growing dataset, one row per append. Cheap to copy; valid as long as its Writer.
@@ -106,6 +107,16 @@ class Writer {
   /// A growing dataset of shape [n, rows, cols]; a row is row-major, index i cols + j.
   [[nodiscard]] Series field(std::string_view path, std::array<int, 2> shape, std::string_view unit,
                              std::string_view description);
+
+  /// How many rows each series has; they are flushed, and put onto the disk.
+  [[nodiscard]] std::vector<std::pair<std::string, std::size_t>> rows();
+
+  /// Begins every series with rows of another file of the same series, as many as `rows` says.
+  /// @throws ReadError where that file has fewer rows, or other series.
+  void copy_rows(const Reader& from, const std::vector<std::pair<std::string, std::size_t>>& rows);
+
+  /// Renames the file, which goes on growing; a file of that name is replaced.
+  void rename(const std::filesystem::path& path);
 
   void flush();  ///< puts all rows so far into the file
   void

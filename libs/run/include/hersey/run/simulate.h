@@ -42,6 +42,7 @@ struct BearingSummary {
 struct Summary {
   Status status = Status::completed;
   std::string message;   ///< why it ended early; "settled" where it did because nothing changed any more
+  std::string warning;   ///< what the user should know about a resumed run
   double t_end = 0;      ///< last accepted time [s]
   double t_results = 0;  ///< last time in the results file [s]
   int steps = 0, rejected_steps = 0;
@@ -60,6 +61,7 @@ struct StudyParameterValue {
 struct Options {
   std::filesystem::path results;                      ///< the HDF5 file to write
   bool overwrite = false;                             ///< replace an existing one
+  bool resume = false;                                ///< go on where `results` and its checkpoint end
   std::function<void(const Progress&)> on_progress;   ///< may be empty
   const std::atomic<bool>* stop = nullptr;            ///< set from a signal handler: end after the current step
   std::vector<StudyParameterValue> study_parameters;  ///< of this run, for the results file
@@ -71,8 +73,17 @@ struct Options {
 /// as `failed` with the time, the worst equation and the reason, its results up to there intact.
 /// @throws InputError where the model cannot start: gap closed, singular mechanism, a table that does not cover the
 /// run.
+///
+/// Beside the results lies a checkpoint, written as model::Simulation::Checkpoints asks and whenever the run is
+/// stopped; it is removed when the run completes. With `resume` the run goes on from there, or from the start where
+/// there is no checkpoint yet, and ends with the numbers of a run that was never interrupted, to the last bit on one
+/// machine. A run that was completed is left as it is.
 /// @throws results::FileExists if the results file exists and is not to be overwritten.
+/// @throws InputError if `resume` is asked for another model; results::ReadError if results or checkpoint are damaged.
 [[nodiscard]] Summary simulate(const model::Model& model, const Options& options);
+
+/// The checkpoint of a results file: results.checkpoint beside results.h5.
+[[nodiscard]] std::filesystem::path checkpoint_file(const std::filesystem::path& results);
 
 /// Builds `model` and finds its starting state, as `simulate` does first, and writes nothing.
 /// @returns what the user should know though the model runs: redundant constraints and how they are treated.

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+
+#include "hersey/core/archive.h"
+#include "hersey/results/error.h"
+
+namespace hersey::results {
+
+/// Writes a checkpoint (HDF5; layout in docs/results-file.md) in place of the one before. A program killed at any
+/// moment, or a disk that is full, leaves the old one or the new one, never a part: it is written under another name,
+/// put onto the disk and renamed.
+/// @throws WriteError. @verified_by checkpoint_test.cpp
+void write_checkpoint(const std::filesystem::path& path, const Archive::Content& content);
+
+/// @throws ReadError if the file is missing or not a checkpoint that this version understands.
+[[nodiscard]] Archive::Content read_checkpoint(const std::filesystem::path& path);
+
+}  // namespace hersey::results

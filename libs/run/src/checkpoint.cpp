@@ -1,0 +1,108 @@
+#include "checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "hersey/core/input_error.h"
+#include "hersey/core/version.h"
+#include "hersey/run/simulate.h"
+
+namespace hersey::run {
+namespace {
+
+constexpr const char* kModel = "identity/model";
+constexpr const char* kVersion = "identity/version";
+constexpr const char* kFiles = "identity/files/";
+
+std::string digits(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+[[noreturn]] void refuse(const model::Model& model, const std::string& difference) {
+  throw InputError(Fault{{model.file, 0, 0},
+                         "",
+                         "a model that has changed since the run began: " + difference,
+                         "the model and the overrides of that run",
+                         "run it anew with --force, or undo the change"});
+}
+
+}  // namespace
+
+CheckpointSchedule::CheckpointSchedule(const model::Simulation& plan)
+    : plan_(plan.checkpoint),
+      start_(plan.start),
+      slack_(1e-9 * plan.step),
+      next_(plan_.every > 0 ? start_ + plan_.every : std::numeric_limits<double>::infinity()) {}
+
+bool CheckpointSchedule::is_due(double t) const {
+  const std::chrono::duration<double> since = Clock::now() - last_;
+  return t >= next_ - slack_ || since.count() >= plan_.wall_time;
+}
+
+void CheckpointSchedule::written(double t) {
+  last_ = Clock::now();
+  if (plan_.every > 0) next_ = start_ + plan_.every * (std::floor((t - start_ + slack_) / plan_.every) + 1);
+}
+
+void save_identity(Archive& archive, const model::Model& model) {
+  std::string text = model.resolved_text, program = version();
+  archive.io(kModel, text);
+  archive.io(kVersion, program);
+  for (const auto& [name, hash] : model.files) {
+    std::string value = digits(hash);
+    const Archive::Group group(archive, "identity");
+    const Archive::Group files(archive, "files");
+    const Archive::Group file(archive, name);
+    archive.io("content", value);
+  }
+}
+
+std::string difference_of(const std::string& before, const std::string& now) {
+  if (before == now) return {};
+  std::istringstream old_lines(before), new_lines(now);
+  std::string was, is;
+  for (int line = 1;; ++line) {
+    const bool had = static_cast<bool>(std::getline(old_lines, was));
+    const bool has = static_cast<bool>(std::getline(new_lines, is));
+    if (!had && !has) return "the end of its last line";
+    if (!has) return fmt::format("line {} was '{}' and is gone", line, was);
+    if (!had) return fmt::format("line {}, '{}', is new", line, is);
+    if (was != is) return fmt::format("line {} was '{}' and is '{}'", line, was, is);
+  }
+}
+
+bool is_identity(const std::string& name) { return name.starts_with("identity/"); }
+
+void require_same_text(const std::string& before, const model::Model& model) {
+  if (const std::string difference = difference_of(before, model.resolved_text); !difference.empty())
+    refuse(model, difference);
+}
+
+void require_identity(const Archive::Content& stored, const model::Model& model, const std::filesystem::path& file,
+                      std::string& warning) {
+  const auto text = [&](const std::string& name) {
+    const auto found = stored.texts.find(name);
+    return found == stored.texts.end() ? std::string() : found->second;
+  };
+  require_same_text(text(kModel), model);
+  Archive now;
+  save_identity(now, model);
+  for (const auto& [name, value] : now.content().texts)
+    if (name.starts_with(kFiles) && text(name) != value) {
+      const std::string path = name.substr(std::string(kFiles).size());
+      refuse(model, "the content of " + path.substr(0, path.rfind('/')));
+    }
+  if (const std::string before = text(kVersion); before != version())
+    warning = fmt::format("{} was written by hersey {}, this is {}: numbers may differ in their last digits",
+                          file.string(), before, version());
+}
+
+std::filesystem::path checkpoint_file(const std::filesystem::path& results) {
+  std::filesystem::path path = results;
+  path.replace_extension(".checkpoint");
+  return path;
+}
+
+}  // namespace hersey::run

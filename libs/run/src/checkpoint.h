@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "hersey/core/archive.h"
+#include "hersey/model/model.h"
+
+namespace hersey::run {
+
+/// Says when the next checkpoint is due: after simulated time or computing time, whichever comes first.
+class CheckpointSchedule {
+ public:
+  explicit CheckpointSchedule(const model::Simulation& plan);
+
+  /// @param t  [s]; a state in which a run can go on
+  [[nodiscard]] bool is_due(double t) const;
+  void written(double t);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  model::Simulation::Checkpoints plan_;
+  double start_, slack_, next_;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// Stores what a run is of: program, model file with its overrides, contents of the files it names.
+void save_identity(Archive& archive, const model::Model& model);
+
+/// Whether a name in an archive is one of `save_identity`.
+[[nodiscard]] bool is_identity(const std::string& name);
+
+/// @throws InputError unless `before` is the text of the model, overrides noted
+void require_same_text(const std::string& before, const model::Model& model);
+
+/// Compares with what is stored, read from `file`.
+/// @param warning  receives a sentence where another version of the program wrote it
+/// @throws InputError telling what of the model differs
+void require_identity(const Archive::Content& stored, const model::Model& model, const std::filesystem::path& file,
+                      std::string& warning);
+
+/// The first line in which two texts differ, as "line 12 was 'a' and is 'b'"; empty where they do not.
+[[nodiscard]] std::string difference_of(const std::string& before, const std::string& now);
+
+}  // namespace hersey::run
