@@ -35,6 +35,7 @@ fem::ReductionOptions options_of(const Flexible& flexible, const std::vector<con
   options.static_error = flexible.static_error;
   for (const std::string& name : flexible.load_surfaces)
     options.surfaces.push_back(fem::loaded_surface(*flexible.mesh, name, flexible.load_harmonics));
+  options.contact_faces = flexible.contact_faces;
   if (flexible.nodal) options.film_modes = modes_of_nodal_body;
   options.film_surfaces.reserve(surfaces.size());
   for (const DeformingSurface* surface : surfaces) {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +19,8 @@ std::vector<std::string> names_of(const Body& body) {
     if (std::find(names.begin(), names.end(), faces.shape.name) == names.end()) names.push_back(faces.shape.name);
   return names;
 }
+
+constexpr int most_contact_nodes = 500;  // each takes a solution with the body's stiffness at the start
 
 const Body* find_body(const Model& model, const std::string& name) {
   if (name == "ground") return &model.ground;
@@ -43,6 +47,7 @@ class ContactReader {
     contact_.position = value_.key_position;
     const bool is_pair = read_pair();
     if (is_pair) read_stiffness();
+    if (is_pair) keep_answers();
     read_damping();
     if (const Value* friction = value_.find("friction"); friction != nullptr && !friction->broken) {
       contact_.law.friction = number_of(*friction, "coefficient");
@@ -79,6 +84,23 @@ class ContactReader {
       return false;
     }
     return true;
+  }
+
+  // Faces that deform bring static answers to forces at their nodes into their body.
+  void keep_answers() {
+    const DeformingFaces* faces = context_.model.find_faces(contact_.second);
+    if (faces == nullptr) return;
+    for (Body& body : context_.model.bodies) {
+      if (body.name != contact_.second.body || body.flexible->reduced) continue;
+      if (static_cast<int>(faces->nodes.size()) <= most_contact_nodes) {
+        body.flexible->contact_faces.push_back(faces->faces);
+      } else if (body.flexible->nodal) {
+        context_.fault(value_.find("between")->members[1].value,
+                       fmt::format("{} nodes of a nodal body that may touch", faces->nodes.size()),
+                       fmt::format("at most {}", most_contact_nodes),
+                       "give the body a shape `faces` of the part that touches");
+      }
+    }
   }
 
   static ShapeName name_of(const Value& reference) {

@@ -5,12 +5,13 @@
 namespace hersey::model {
 namespace {
 
-DeformingFaces deforming(const std::string& name, const fem::Mesh& mesh, const fem::Skin& skin) {
+DeformingFaces deforming(const std::string& name, const fem::Mesh& mesh, const std::vector<fem::ElementFace>& faces) {
+  const fem::Skin skin = fem::skin(mesh, faces);
   auto triangles = std::make_shared<mbd::TriangleMesh>();
   triangles->corners.reserve(skin.nodes.size());
   for (const int node : skin.nodes) triangles->corners.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
   triangles->triangles = skin.triangles;
-  return {{name, std::shared_ptr<const mbd::TriangleMesh>(std::move(triangles))}, skin.nodes};
+  return {{name, std::shared_ptr<const mbd::TriangleMesh>(std::move(triangles))}, skin.nodes, faces};
 }
 
 }  // namespace
@@ -28,11 +29,11 @@ std::vector<DeformingFaces> faces_of_body(Context& context, const Value& body, c
       continue;
     }
     const std::vector<fem::ElementFace> faces = faces_of(context, *of, *mesh);
-    if (!faces.empty()) all.push_back(deforming(name, *mesh, fem::skin(*mesh, faces)));
+    if (!faces.empty()) all.push_back(deforming(name, *mesh, faces));
   }
   return all;
 }
 
-DeformingFaces skin_of(const fem::Mesh& mesh) { return deforming("mesh", mesh, fem::skin(mesh)); }
+DeformingFaces skin_of(const fem::Mesh& mesh) { return deforming("mesh", mesh, fem::outer_faces(mesh)); }
 
 }  // namespace hersey::model

@@ -73,6 +73,7 @@ struct Flexible {
   std::vector<std::string> load_surfaces;           ///< surfaces or sets of nodes
   double static_error = 0.01;                       ///< of their displacements
   int load_harmonics = 4;
+  std::vector<std::vector<fem::ElementFace>> contact_faces;  ///< that touch other bodies
   double highest = 0;  ///< leave out modes above this frequency [Hz]; 0: none
   mbd::RayleighDamping damping;
   double vtu_every = 0;  ///< interval of the deformed meshes written beside the results [s]; 0: none
@@ -92,8 +93,9 @@ struct Beam {
 
 /// Faces of a flexible body's mesh that touch other bodies and deform with it.
 struct DeformingFaces {
-  mbd::Shape shape;        ///< a triangle mesh, undeformed
-  std::vector<int> nodes;  ///< of the body's mesh, for each corner
+  mbd::Shape shape;                     ///< a triangle mesh, undeformed
+  std::vector<int> nodes;               ///< of the body's mesh, for each corner
+  std::vector<fem::ElementFace> faces;  ///< the same faces
 };
 
 struct Body {
