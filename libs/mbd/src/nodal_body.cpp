@@ -67,6 +67,12 @@ NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, con
       for (Index i = 0; i < x_.cols(); ++i) inertia_(3 * i + k, kTurning + 3 * p + k) = moments(p, i);
   }
   inertia_.rightCols(shapes) = fem::mass_times(body_.m, Psi());
+  for (std::size_t p = 0; p < 3; ++p) {
+    m_Psi_[p].resize(x_.cols(), shapes);
+    for (Index a = 0; a < shapes; ++a)
+      m_Psi_[p].col(a) =
+          Eigen::Map<const VectorXd, 0, Eigen::InnerStride<3>>(inertia_.col(kShapes + a).data() + p, x_.cols());
+  }
 
   factors_ = std::make_unique<NodalFactors>(body_, supports_of(body_, reduced), damping_, inertia_, Psi());
   w_.start(VectorXd::Zero(body_.size()));
@@ -98,9 +104,15 @@ Matrix3Xd NodalBody::loads_on_nodes(const ElasticMotion& motion) const {
 void NodalBody::update_fields() {
   const Workspace& w = work();
   const Index n = data().shapes();
-  fields_->y = x_ + nodes_of(Psi() * w.q.tail(n) + w_.position());
-  fields_->y_rate = nodes_of(Psi() * w.rate.tail(n) + w_.rate());
-  fields_->y_acc = nodes_of(Psi() * w.acceleration.tail(n) + w_.acceleration());
+  MatrixXd amplitudes(n, 3);
+  amplitudes << w.q.tail(n), w.rate.tail(n), w.acceleration.tail(n);
+  if (fields_->amplitudes.size() == 0 || amplitudes != fields_->amplitudes) {
+    fields_->carried.noalias() = Psi() * amplitudes;
+    fields_->amplitudes = amplitudes;
+  }
+  fields_->y = x_ + nodes_of(fields_->carried.col(0) + w_.position());
+  fields_->y_rate = nodes_of(fields_->carried.col(1) + w_.rate());
+  fields_->y_acc = nodes_of(fields_->carried.col(2) + w_.acceleration());
 }
 
 /// Theory manual eq. (flexible-bodies.3) at each node.
@@ -124,17 +136,23 @@ void NodalBody::gather(const ElasticMotion& motion, bool want_tangent) {
   w.Gamma = m_y * y.transpose();
   w.Gamma_rate = m_y * y_rate.transpose();
   w.Gamma_acc = m_y * y_acc.transpose();
+  const MatrixXd all = fields_->side_by_side();
+  for (std::size_t p = 0; p < 3; ++p) {
+    const MatrixXd sums = m_Psi_[p].transpose() * all;
+    for (std::size_t r = 0; r < 3; ++r) {
+      const auto column = static_cast<Index>(r);
+      w.h[3 * p + r].tail(sums.rows()) = sums.col(column);
+      w.h_rate[3 * p + r].tail(sums.rows()) = sums.col(3 + column);
+      w.h_acc[3 * p + r].tail(sums.rows()) = sums.col(6 + column);
+    }
+  }
   for (Index a = 1; a <= data().shapes(); ++a) {
-    const Eigen::Map<const Matrix3Xd> m_shape(inertia_.col(kShapes + a - 1).data(), 3, x_.cols());
     const auto at = static_cast<std::size_t>(a);
-    w.H[at] = m_shape * y.transpose();
-    w.H_rate[at] = m_shape * y_rate.transpose();
-    w.H_acc[at] = m_shape * y_acc.transpose();
     for (std::size_t i = 0; i < 9; ++i) {
       const auto row = static_cast<Index>(i / 3), column = static_cast<Index>(i % 3);
-      w.h[i][a] = w.H[at](row, column);
-      w.h_rate[i][a] = w.H_rate[at](row, column);
-      w.h_acc[i][a] = w.H_acc[at](row, column);
+      w.H[at](row, column) = w.h[i][a];
+      w.H_rate[at](row, column) = w.h_rate[i][a];
+      w.H_acc[at](row, column) = w.h_acc[i][a];
     }
   }
 }

@@ -7,7 +7,6 @@
 namespace hersey::mbd {
 
 using Eigen::Index;
-using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -23,12 +22,14 @@ void NodalBody::condense(const ElasticMotion& motion) {
   for (Index p = 0; p < 3; ++p)
     for (Index r = 0; r < 3; ++r)
       S += (stage.c * spin(p, r) + stage.k * w.Omega(p, r)) * factor.answers[static_cast<std::size_t>(3 * p + r)];
-  const auto moments = [&](const Matrix3Xd& field) {
-    Moments of;
-    for (std::size_t r = 0; r < 3; ++r) of[r] = factor.m_X[r].transpose() * field.transpose();
-    return of;
-  };
-  const Moments by_y = moments(fields_->y), by_rate = moments(fields_->y_rate), by_acc = moments(fields_->y_acc);
+  const MatrixXd all = fields_->side_by_side();
+  Moments by_y, by_rate, by_acc;
+  for (std::size_t r = 0; r < 3; ++r) {
+    const MatrixXd sums = factor.m_X[r].transpose() * all;
+    by_y[r] = sums.leftCols<3>();
+    by_rate[r] = sums.middleCols<3>(3);
+    by_acc[r] = sums.rightCols<3>();
+  }
   const MatrixXd onto = forces_of_answers(factor, stage, base, by_y, by_rate, by_acc);
   const MatrixXd answer = S.transpose().fullPivLu().solve(onto.transpose()).transpose();
   add_forces_on_nodes(factor, base, by_y, by_rate, answer);

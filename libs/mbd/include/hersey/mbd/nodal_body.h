@@ -103,7 +103,8 @@ class NodalBody final : public ModalBody {
   Eigen::MatrixXd Psi_size_;       ///< absolute values of Psi
   Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
   Eigen::VectorXd vibration_mass_;
-  Eigen::MatrixXd inertia_;  ///< columns E of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi
+  std::array<Eigen::MatrixXd, 3> m_Psi_;  ///< m times each component of Psi, (nodes, shapes)
+  Eigen::MatrixXd inertia_;               ///< columns E of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi
   std::vector<NodalLoad> loads_;
   solver::SecondOrderHistory w_;
   std::unique_ptr<NodalFactors> factors_;
