@@ -154,7 +154,10 @@ class Builder {
   }
 
   void add_flexible(const Body& body) {
-    BuiltFlexible built = build_flexible(body, surfaces_on(body));
+    const std::vector<const DeformingSurface*> surfaces = surfaces_on(body);
+    std::vector<BuiltSurface> kept;
+    BuiltFlexible built = build_flexible(body, surfaces, kept);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) kept_[surfaces[i]] = kept[i];
     std::vector<std::string> names;
     for (std::size_t i = 1; i < body.frames.size(); ++i) names.push_back(body.frames[i].name);
     const mbd::FlexibleBodyIds ids = mechanism_.add_flexible_body(body.name, names, built.body);
@@ -409,6 +412,24 @@ class Builder {
     machine_.contacts.push_back({std::move(force), id, bodies_.at(contact.first.body)});
   }
 
+  // A bearing's surface by the shapes of the flexible body it lies on, seen from the bearing's frame.
+  [[nodiscard]] std::shared_ptr<const bearing::ElasticSurface> elastic_surface(const DeformingSurface& surface,
+                                                                               const FrameName& on) const {
+    const BuiltFlexible& flexible = machine_.flexibles[flexible_called(on.body)];
+    const auto body =
+        std::find_if(model_.bodies.begin(), model_.bodies.end(), [&](const Body& b) { return b.name == on.body; });
+    const auto frame =
+        std::find_if(body->frames.begin(), body->frames.end(), [&](const Frame& f) { return f.name == on.frame; });
+    const Eigen::MatrixXd& U = flexible.body->data().displacements;
+    const fem::FilmSurface& map = *surface.surface;
+    // No shape moves the first frame, nor the body's own axes, which ride on it.
+    const auto place = frame == body->frames.end() ? 0 : frame - body->frames.begin();
+    const Eigen::MatrixXd D =
+        place == 0 ? map.coefficients(U)
+                   : fem::coefficients_from_frame(map, *flexible.mesh, U, frame->X_BF.r, 6 * (place - 1));
+    return std::make_shared<const bearing::ElasticSurface>(bearing::ElasticSurface{map.functions, D});
+  }
+
   void add_bearing(const Bearing& bearing) {
     bearing::BearingOptions options;
     options.coupling = bearing.coupling.scheme == CouplingScheme::partitioned ? bearing::Coupling::partitioned
@@ -420,15 +441,28 @@ class Builder {
     for (const Function& pressure : bearing.feature_pressures) {
       options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
     }
-    auto film = std::make_shared<bearing::JournalBearing>(bearing.name, bearing.film, options);
-    const mbd::ForceId id =
-        mechanism_.add_force("bearing " + bearing.name, frame(bearing.shell), frame(bearing.journal), film);
-    machine_.bearings.push_back({std::move(film), id});
+    BuiltBearing built;
+    mbd::ForceSurfaces surfaces;
+    if (bearing.shell_surface) {
+      options.shell_surface = elastic_surface(*bearing.shell_surface, bearing.shell);
+      surfaces.a = machine_.flexibles[flexible_called(bearing.shell.body)].elastic;
+      built.shell = kept_.at(&*bearing.shell_surface);
+    }
+    if (bearing.journal_surface) {
+      options.journal_surface = elastic_surface(*bearing.journal_surface, bearing.journal);
+      surfaces.b = machine_.flexibles[flexible_called(bearing.journal.body)].elastic;
+      built.journal = kept_.at(&*bearing.journal_surface);
+    }
+    built.bearing = std::make_shared<bearing::JournalBearing>(bearing.name, bearing.film, options);
+    built.force = mechanism_.add_force("bearing " + bearing.name, frame(bearing.shell), frame(bearing.journal),
+                                       built.bearing, surfaces);
+    machine_.bearings.push_back(std::move(built));
   }
 
   const Model& model_;
   mbd::MechanismBuilder mechanism_;
   Machine machine_;
+  std::map<const DeformingSurface*, BuiltSurface> kept_;  // what flexible bodies keep of bearings' surfaces
   std::map<std::string, mbd::BodyId> bodies_;
   std::map<std::pair<std::string, std::string>, mbd::FrameId> frames_;
   std::map<std::pair<std::string, std::string>, Pose> poses_;

@@ -69,7 +69,8 @@ fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh,
 
 }  // namespace
 
-BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces) {
+BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces,
+                             std::vector<BuiltSurface>& kept) {
   HERSEY_REQUIRE(body.flexible && body.flexible->mesh, "the reader checks meshes");
   const Flexible& flexible = *body.flexible;
   std::optional<fem::ElasticBody> mesh;
@@ -80,9 +81,9 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
   built.mesh = flexible.mesh;
   built.materials = shapes.materials;
   built.static_errors = shapes.static_errors;
-  built.film_modes.reserve(shapes.film_modes.size());
-  for (const fem::FilmModes& modes : shapes.film_modes)
-    built.film_modes.push_back({static_cast<int>(modes.compliance.size()), modes.lost});
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    kept.push_back({body.name, surfaces[i]->surface->functions.around(), surfaces[i]->surface->functions.along(),
+                    static_cast<int>(shapes.film_modes[i].compliance.size()), shapes.film_modes[i].lost});
   mbd::ModalBodyData data = mbd::modal_data(shapes, flexible.damping, &built.shapes);
   if (flexible.nodal)
     built.body = std::make_shared<mbd::NodalBody>(std::move(*mesh), shapes, flexible.damping, flexible.strain);

@@ -96,10 +96,12 @@ TEST_CASE("DeformingSurface_IsReadAndBuilt") {
   CHECK(bearing.shell_surface->surface->functions.along() == 3);
   CHECK(bearing.shell_surface->modes == 12);
   const Machine machine = build(model);
-  REQUIRE(machine.flexibles[0].film_modes.size() == 1);
-  CHECK(machine.flexibles[0].film_modes[0].modes == 12);
-  CHECK(machine.flexibles[0].film_modes[0].lost > 0);
-  CHECK(machine.flexibles[0].film_modes[0].lost < 0.2);
+  REQUIRE(machine.bearings[0].shell);
+  CHECK_FALSE(machine.bearings[0].journal);
+  CHECK(machine.bearings[0].shell->body == "ring");
+  CHECK(machine.bearings[0].shell->modes == 12);
+  CHECK(machine.bearings[0].shell->lost > 0);
+  CHECK(machine.bearings[0].shell->lost < 0.2);
   CHECK(machine.flexibles[0].body->data().shapes() == 2 + 12);
 }
 

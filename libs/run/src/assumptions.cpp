@@ -106,6 +106,12 @@ std::string grid(const film::FilmModel& film) {
                             180 / std::numbers::pi * narrowest, 1e3 * film.L * lowest);
 }
 
+std::string compliance(const model::Bearing& bearing) {
+  if (bearing.film.compliance > 0)
+    return fmt::format("column, {:.4g} um/MPa, film and contact pressure", 1e12 * bearing.film.compliance);
+  return bearing.shell_surface || bearing.journal_surface ? "no columns" : "rigid surfaces";
+}
+
 }  // namespace
 
 Rows bearing_assumptions(const model::Bearing& bearing) {
@@ -132,9 +138,7 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   row("viscosity", viscosity(film.lubricant));
   row("roughness", roughness(film));
   row("contact", asperities(film.asperities));
-  row("compliance", film.compliance > 0
-                        ? fmt::format("column, {:.4g} um/MPa, film and contact pressure", 1e12 * film.compliance)
-                        : std::string("rigid surfaces"));
+  row("compliance", compliance(bearing));
   row("shear", fmt::format("Couette part over the {} in cavitated nodes; {}",
                            film.cavitated_shear == film::CavitatedShear::full ? "full gap" : "filled share",
                            film.shear_force == film::ShearForce::full ? "force and torque" : "torque only"));

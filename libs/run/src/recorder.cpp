@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "film_surface_rows.h"
 #include "geometry_record.h"
 #include "hersey/core/version.h"
 #include "hersey/results/reader.h"
@@ -101,6 +102,7 @@ void Recorder::declare_run(const Options& options) {
   if (!study_parameters.empty()) writer_.attribute("/", "study_parameters", study_parameters);
   writer_.text("/model", model_.resolved_text, "model file of this run, overrides noted");
   std::vector<std::pair<std::string, std::string>> texts = assumptions(model_);
+  for (auto& text : film_surface_rows(machine_)) texts.push_back(std::move(text));
   for (auto& text : redundancies(*machine_.mechanism)) texts.push_back(std::move(text));
   writer_.text_table("/assumptions", texts, "what decides the results: name, text");
 

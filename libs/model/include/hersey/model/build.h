@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,19 @@
 
 namespace hersey::model {
 
+/// A bearing's surface on a flexible body.
+struct BuiltSurface {
+  std::string body;
+  int around = 0, along = 0;  ///< functions
+  int modes = 0;              ///< answers to film pressure that the body keeps of this surface
+  double lost = 0;            ///< largest compliance left out over the largest
+};
+
 /// A bearing of a machine and the two-body force it is in the mechanism.
 struct BuiltBearing {
   std::shared_ptr<bearing::JournalBearing> bearing;
   mbd::ForceId force;
+  std::optional<BuiltSurface> shell, journal;  ///< unset: rigid
 };
 
 /// A contact of a machine, the two-body force it is, and the body of its first shape.
@@ -23,12 +33,6 @@ struct BuiltContact {
   std::shared_ptr<mbd::Contact> contact;
   mbd::ForceId force;
   mbd::BodyId first;
-};
-
-/// What a flexible body keeps of the answers of one bearing's surface to film pressure.
-struct FilmModesKept {
-  int modes = 0;
-  double lost = 0;  ///< largest compliance left out over the largest
 };
 
 /// A flexible body of a machine.
@@ -40,7 +44,6 @@ struct BuiltFlexible {
   std::vector<double> frequencies;              ///< with all frames held [Hz]
   std::vector<fem::SolidMaterial> materials;    ///< of the mesh's elements; none: unknown
   std::vector<fem::StaticError> static_errors;  ///< of the surfaces that carry load
-  std::vector<FilmModesKept> film_modes;        ///< of the bearings' surfaces on it, in the order of the bearings
   mbd::ElasticId elastic;
 };
 
