@@ -14,6 +14,8 @@ export const fieldKinds: FieldKind[] = [
   { key: "thickness", label: "Film thickness", display: micrometre },
   { key: "fill", label: "Fill fraction", display: percent },
   { key: "asperity_pressure", label: "Asperity pressure", display: megapascal },
+  { key: "shell_displacement", label: "Shell displacement", display: micrometre },
+  { key: "journal_displacement", label: "Journal displacement", display: micrometre },
 ];
 
 export class FilmFields {

@@ -5,6 +5,15 @@
 #include "hersey/core/contract.h"
 
 namespace hersey::run {
+namespace {
+
+void persist_extreme(Archive& archive, const char* name, FilmExtreme& extreme) {
+  const Archive::Group group(archive, name);
+  archive.io("value", extreme.value), archive.io("t", extreme.t);
+  archive.io("phi", extreme.phi), archive.io("z", extreme.z);
+}
+
+}  // namespace
 
 void CycleSums::take(double t, const bearing::BearingObservation& seen, const film::FilmFields& fields) {
   const film::FilmObservables& film = seen.film;
@@ -80,6 +89,22 @@ void CycleSums::compare(double t) {
       cycle_.t_p_max[k] = t;
     }
   }
+}
+
+void CycleSums::persist(Archive& archive) {
+  BearingCycle& c = cycle_;
+  archive.io("is_begun", is_begun_), archive.io("begin", c.begin), archive.io("end", c.end);
+  archive.io("energy_film", c.energy_film), archive.io("energy_asperity", c.energy_asperity);
+  persist_extreme(archive, "moft", c.moft), persist_extreme(archive, "pofp", c.pofp);
+  persist_extreme(archive, "contact", c.contact);
+  archive.io("mean_contact", c.mean_contact), archive.io("wear_load", c.wear_load);
+  archive.io("h_min", c.h_min), archive.io("t_h_min", c.t_h_min);
+  archive.io("p_max", c.p_max), archive.io("t_p_max", c.t_p_max);
+  const Archive::Group group(archive, "last");
+  archive.io("power_film", last_.power_film), archive.io("power_asperity", last_.power_asperity);
+  archive.io("sliding_speed", last_.sliding_speed), archive.io("contact", last_.contact);
+  persist_extreme(archive, "moft", last_.moft), persist_extreme(archive, "pofp", last_.pofp);
+  archive.io("h", last_.h), archive.io("p", last_.p);
 }
 
 }  // namespace hersey::run

@@ -257,6 +257,12 @@ void Recorder::declare_fields(const model::Bearing& bearing, BearingSeries& s) {
   s.thickness = writer_.field(path + "thickness", shape, "m", "film thickness");
   s.fill = writer_.field(path + "fill", shape, "1", "fill fraction");
   s.asperity_pressure = writer_.field(path + "asperity_pressure", shape, "Pa", "asperity contact pressure");
+  const film::FilmFields start = machine_.bearings[bearings_.size()].bearing->fields();
+  const auto displacement = [&](const char* name, const char* whose) {
+    return writer_.field(path + name, shape, "m", fmt::format("radial displacement of the {}, outward", whose));
+  };
+  if (start.d_shell.size() > 0) s.shell_displacement = displacement("shell_displacement", "shell's surface");
+  if (start.d_journal.size() > 0) s.journal_displacement = displacement("journal_displacement", "journal's surface");
 }
 
 void Recorder::write_row(const StepRecord& step) {
@@ -468,6 +474,8 @@ void Recorder::write_fields(const StepRecord& step) {
     bearings_[i].thickness.append(fields.h);
     bearings_[i].fill.append(fields.theta);
     bearings_[i].asperity_pressure.append(fields.p_asperity);
+    if (bearings_[i].shell_displacement) bearings_[i].shell_displacement->append(fields.d_shell);
+    if (bearings_[i].journal_displacement) bearings_[i].journal_displacement->append(fields.d_journal);
   }
 }
 

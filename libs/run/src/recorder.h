@@ -1,8 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "cycle_record.h"
+#include "cycle_maps.h"
 #include "hersey/mbd/mechanism.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
@@ -88,6 +89,7 @@ class Recorder {
         oil_volume, mass_balance_error, cavitated_share, film_iterations;
     std::vector<results::Series> flow_features;
     results::Series field_time, pressure, thickness, fill, asperity_pressure;
+    std::optional<results::Series> shell_displacement, journal_displacement;  // of surfaces of elastic bodies
   };
 
   struct ModeSeries {
@@ -121,7 +123,7 @@ class Recorder {
   const model::Model& model_;
   const model::Machine& machine_;
   results::Writer writer_;
-  CycleRecord cycles_;
+  CycleMaps cycles_;
   results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, rejected_, drift_;
   std::vector<FlexibleSeries> flexibles_;
   std::vector<SurfaceLoadSeries> surface_loads_;

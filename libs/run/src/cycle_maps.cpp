@@ -1,4 +1,4 @@
-#include "cycle_record.h"
+#include "cycle_maps.h"
 
 #include <array>
 #include <string>
@@ -16,7 +16,7 @@ void append(const Series& series, const FilmExtreme& extreme) {
 
 }  // namespace
 
-CycleRecord::CycleRecord(const model::Model& model, const model::Machine& machine, results::Writer& writer)
+CycleMaps::CycleMaps(const model::Model& model, const model::Machine& machine, results::Writer& writer)
     : machine_(machine) {
   series_.reserve(model.bearings.size());
   sums_.reserve(model.bearings.size());
@@ -27,7 +27,7 @@ CycleRecord::CycleRecord(const model::Model& model, const model::Machine& machin
 }
 
 // A group called fields counts its rows by itself: cycles are no instants.
-CycleRecord::BearingSeries CycleRecord::declare(const model::Bearing& bearing, results::Writer& writer) {
+CycleMaps::BearingSeries CycleMaps::declare(const model::Bearing& bearing, results::Writer& writer) {
   const std::string path = "/bearings/" + bearing.name + "/cycles/fields/";
   const auto series = [&](const std::string& name, const char* unit, const std::string& description) {
     return writer.series(path + name, 1, unit, description);
@@ -60,17 +60,25 @@ CycleRecord::BearingSeries CycleRecord::declare(const model::Bearing& bearing, r
           .t_p_max = map("pressure_max_time", "s", "when")};
 }
 
-void CycleRecord::take(double t, const std::vector<bearing::BearingObservation>& seen) {
+void CycleMaps::take(double t, const std::vector<bearing::BearingObservation>& seen) {
   for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].take(t, seen[i], machine_.bearings[i].bearing->fields());
 }
 
-std::vector<BearingCycle> CycleRecord::close() { return write(true); }
+std::vector<BearingCycle> CycleMaps::close() { return write(true); }
 
-void CycleRecord::finish() {
+void CycleMaps::finish() {
   if (rows_ == 0 && !sums_.empty() && sums_.front().duration() > 0) write(false);
 }
 
-std::vector<BearingCycle> CycleRecord::write(bool is_complete) {
+void CycleMaps::persist(Archive& archive) {
+  archive.io("rows", rows_);
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    const Archive::Group group(archive, machine_.bearings[i].bearing->name());
+    sums_[i].persist(archive);
+  }
+}
+
+std::vector<BearingCycle> CycleMaps::write(bool is_complete) {
   std::vector<BearingCycle> cycles;
   cycles.reserve(sums_.size());
   for (std::size_t i = 0; i < sums_.size(); ++i) {

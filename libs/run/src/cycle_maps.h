@@ -10,9 +10,9 @@
 namespace hersey::run {
 
 /// The bearings' cycles in the results file: losses, extremes and maps, one row per cycle (docs/results-file.md).
-class CycleRecord {
+class CycleMaps {
  public:
-  CycleRecord(const model::Model& model, const model::Machine& machine, results::Writer& writer);
+  CycleMaps(const model::Model& model, const model::Machine& machine, results::Writer& writer);
 
   /// All bearings at an accepted state.
   void take(double t, const std::vector<bearing::BearingObservation>& seen);
@@ -23,6 +23,8 @@ class CycleRecord {
 
   /// At the end of the run: without a complete cycle the row is that of the whole run.
   void finish();
+
+  void persist(Archive& archive);
 
  private:
   struct ExtremeSeries {
