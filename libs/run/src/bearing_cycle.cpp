@@ -82,4 +82,27 @@ void CycleSums::compare(double t) {
   }
 }
 
+void CycleSums::persist(Archive& archive) {
+  const auto extreme = [&](const char* name, FilmExtreme& value) {
+    const Archive::Group group(archive, name);
+    archive.io("value", value.value), archive.io("t", value.t);
+    archive.io("phi", value.phi), archive.io("z", value.z);
+  };
+  archive.io("is_begun", is_begun_);
+  {
+    const Archive::Group group(archive, "cycle");
+    archive.io("begin", cycle_.begin), archive.io("end", cycle_.end);
+    archive.io("energy_film", cycle_.energy_film), archive.io("energy_asperity", cycle_.energy_asperity);
+    extreme("moft", cycle_.moft), extreme("pofp", cycle_.pofp), extreme("contact", cycle_.contact);
+    archive.io("mean_contact", cycle_.mean_contact), archive.io("wear_load", cycle_.wear_load);
+    archive.io("h_min", cycle_.h_min), archive.io("t_h_min", cycle_.t_h_min);
+    archive.io("p_max", cycle_.p_max), archive.io("t_p_max", cycle_.t_p_max);
+  }
+  const Archive::Group group(archive, "last");
+  archive.io("power_film", last_.power_film), archive.io("power_asperity", last_.power_asperity);
+  archive.io("sliding_speed", last_.sliding_speed);
+  archive.io("contact", last_.contact), archive.io("h", last_.h), archive.io("p", last_.p);
+  extreme("moft", last_.moft), extreme("pofp", last_.pofp);
+}
+
 }  // namespace hersey::run

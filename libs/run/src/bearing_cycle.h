@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "hersey/bearing/journal_bearing.h"
+#include "hersey/core/archive.h"
 
 namespace hersey::run {
 
@@ -39,6 +40,9 @@ class CycleSums {
   /// The cycle that ends with the last state taken; the next one begins there.
   /// @pre a state was taken.
   [[nodiscard]] BearingCycle close();
+
+  /// The cycle under way.
+  void persist(Archive& archive);
 
   /// Time since the beginning of the cycle [s].
   [[nodiscard]] double duration() const { return is_begun_ ? cycle_.end - cycle_.begin : 0; }
