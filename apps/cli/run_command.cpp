@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -75,6 +76,7 @@ nlohmann::json json_of(const run::Summary& summary) {
           {"t_results", summary.t_results},
           {"steps", summary.steps},
           {"rejected_steps", summary.rejected_steps},
+          {"cycles", summary.cycles},
           {"newton_iterations", summary.newton_iterations},
           {"worst_constraint_drift", summary.worst_constraint_drift},
           {"worst_power_balance", summary.worst_power_balance},
@@ -106,6 +108,14 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
   return code;
 }
 
+void tell(const run::CycleProgress& cycle) {
+  if (std::isfinite(cycle.change)) {
+    fmt::print(stderr, "cycle {}: {:.2g} % ({})\n", cycle.number, 100 * cycle.change, cycle.largest);
+  } else {
+    fmt::print(stderr, "cycle {}\n", cycle.number);
+  }
+}
+
 void tell(const std::string& label, const run::Summary& summary) {
   const std::string name = label.empty() ? "" : label + ": ";
   if (!summary.warning.empty()) fmt::print(stderr, "hersey: {}{}\n", name, summary.warning);
@@ -133,6 +143,10 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   refuse_existing({options.results}, arguments.force || arguments.resume);
   ProgressBar bar;
   options.on_progress = [&](const run::Progress& progress) { bar.show("", progress); };
+  options.on_cycle = [&](const run::CycleProgress& cycle) {
+    bar.clear();
+    tell(cycle);
+  };
   warn(run::check(model));
   make_folder(folder);
   const run::Summary summary = run::simulate(model, options);

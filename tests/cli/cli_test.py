@@ -4,6 +4,7 @@
 import glob
 import json
 import os
+import random
 import re
 import resource
 import signal
@@ -450,6 +451,86 @@ class CommandLine(unittest.TestCase):
             self.assertGreater(len(file["time"]), 1)
         report = hersey("report", self.results()[0], "--output", os.path.join(self._folder.name, "killed.html"))
         self.assertEqual(report.returncode, OK, report.stderr)
+
+    def datasets(self, path):
+        """Every dataset of a results file, as bytes."""
+        found = {}
+        with h5py.File(path) as file:
+            def keep(name, item):
+                if isinstance(item, h5py.Dataset):
+                    found[name] = item[()].tobytes() if item.dtype.kind == "f" else str(item[()])
+            file.visititems(keep)
+        return found
+
+    def test_killed_run_resumes_to_the_same_numbers(self):
+        seed = random.randrange(2**32)
+        print("seed", seed)
+        chance = random.Random(seed)
+        arguments = ["run", MODEL, "--set", "duration=0.3 s", "--set", "simulation.checkpoint.wall_time=20 ms"]
+        whole, parts = os.path.join(self.out, "whole"), os.path.join(self.out, "parts")
+        begun = time.monotonic()
+        self.assertEqual(hersey(*arguments, "--output", whole).returncode, OK)
+        span = time.monotonic() - begun
+        kills = 0
+        for attempt in range(30):
+            resume = ["--resume"] if attempt else []
+            with subprocess.Popen([HERSEY, *arguments, "--output", parts, *resume], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True) as process:
+                try:
+                    process.wait(timeout=chance.uniform(0.1, 0.6) * span if kills < 6 else 120)
+                except subprocess.TimeoutExpired:
+                    process.kill()
+                    kills += 1
+                _, errors = process.communicate()
+            if process.returncode == OK:
+                break
+            self.assertEqual(process.returncode, -signal.SIGKILL, f"seed {seed}: {errors}")
+        self.assertEqual(process.returncode, OK, f"seed {seed}: {errors}")
+        self.assertGreater(kills, 1, f"seed {seed}")
+        expected, found = (self.datasets(os.path.join(folder, "results.h5")) for folder in (whole, parts))
+        self.assertEqual(expected.keys(), found.keys())
+        for name in expected:
+            self.assertTrue(expected[name] == found[name], f"seed {seed}: {name} differs")
+        self.assertEqual(sorted(os.listdir(parts)), ["report.html", "results.h5"])
+
+    def test_resume_of_another_model_is_refused(self):
+        with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                              text=True) as process:
+            deadline = time.monotonic() + 60
+            while not self.results() and process.poll() is None and time.monotonic() < deadline:
+                time.sleep(0.05)
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            _, stderr = process.communicate(timeout=60)
+        self.assertIn("--resume", stderr)
+        before = self.datasets(self.results()[0])
+        run = hersey("run", MODEL, "--output", self.out, "--set", "duration=2000 s", "--resume")
+        self.assertEqual(run.returncode, WRONG_INPUT, run.stderr)
+        self.assertIn("line 1 was '# --set duration=1000 s' and is '# --set duration=2000 s'", run.stderr)
+        self.assertEqual(before, self.datasets(self.results()[0]))
+        self.assertEqual(hersey("run", MODEL, "--output", self.out, "--resume", "--force").returncode, WRONG_INPUT)
+
+    def test_resumed_study_runs_what_is_missing(self):
+        path = self.model_with("simulation:", "study: {parameters: {load: [50 N, 100 N]}}\nsimulation:")
+        self.assertEqual(hersey("run", path, "--output", self.out).returncode, OK)
+        first, second = self.results()
+        stamp = os.stat(first).st_mtime_ns
+        os.remove(second)
+        run = hersey("run", path, "--output", self.out, "--resume")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertIn("complete already", run.stderr)
+        self.assertEqual(self.results(), [first, second])
+        self.assertEqual(os.stat(first).st_mtime_ns, stamp)
+
+    def test_cycles_are_told_as_they_end(self):
+        path = self.model_with('  duration: "${duration}"\n  step: 0.1 ms',
+                               "  cycle: {period: 5 ms, until_converged: 0.05, most: 40}\n  step: 0.1 ms")
+        run = hersey("run", path, "--output", self.out)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertRegex(run.stderr, r"cycle 1\ncycle 2: [\d.e+]+ % \((film thickness|peak pressure|friction) of main\)")
+        self.assertIn("converged in cycle", run.stderr)
+        self.assertRegex(run.stdout, r"cycle 2: largest difference from the one before +[\d.]+ +%")
 
     def test_full_disk_ends_with_the_reason_and_keeps_what_was_written(self):
         def small_disk():  # writing beyond the limit, some seconds away, fails as on a full disk

@@ -402,7 +402,7 @@ void Mechanism::persist(Archive& archive) {
     force.force->persist(archive);
   }
   for (const MechanismSpec::Force& force : m.spec.forces) {
-    const Archive::Group group(archive, force.name);
+    const Archive::Group group(archive, "force " + force.name);
     force.force->persist(archive);
   }
   for (ElasticAssembly& elastic : m.elastics) {

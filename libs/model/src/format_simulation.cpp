@@ -19,6 +19,19 @@ TypePtr step_format() {
   return any_of("a time such as 0.1 ms, an angle of the crank, or {tolerance}", {fixed, controlled});
 }
 
+TypePtr cycle_format() {
+  return object(
+      "a cycle",
+      {
+          required("period", quantity_in({"s", "rad"}, "720 deg", Range::positive()),
+                   "Time or crank angle of one cycle; a whole number of steps."),
+          defaulted("until_converged", number("0.01", {.low = 0, .high = 1, .high_open = true}), "0.01",
+                    "Ends the run once no bearing's smallest film thickness, peak pressure and mean friction loss "
+                    "differs by more than this share from the cycle before; 0 runs all cycles."),
+          defaulted("most", integer(20, {.low = 1, .high = 100000}), "20", "Cycles after which the run ends anyway."),
+      });
+}
+
 TypePtr checkpoint_format() {
   return object("intervals of checkpoints",
                 {
@@ -57,7 +70,7 @@ TypePtr simulation_format() {
       {
           defaulted("analysis", analysis, "dynamics", "What is computed."),
           optional("duration", span, "Time to simulate, or the crank's angle.",
-                   "**required** unless the analysis stays at the start"),
+                   "**required** unless there is a `cycle` or the analysis stays at the start"),
           optional(
               "step", step_format(),
               "Time step, or the crank's angle; or `{tolerance}`, and steps are chosen so that the estimated error "
@@ -75,6 +88,11 @@ TypePtr simulation_format() {
           defaulted("max_iterations", integer(20, {.low = 1, .high = 10000}), "20", "Newton iterations per step."),
           defaulted("smallest_step", quantity("s", "1e-9 s", Range::positive()), "1e-9 s",
                     "A step that still fails at this length ends the run."),
+          optional(
+              "cycle", cycle_format(),
+              "Runs cycle by cycle until the bearings repeat themselves; `duration`, which may then be left out, can "
+              "only end it earlier. Each cycle's figures are in the results and the report.",
+              "runs to the end"),
           optional("checkpoint", checkpoint_format(),
                    "How often the run writes down how to go on: `hersey run --resume` continues after Ctrl-C, a crash "
                    "or a lost machine, to the same numbers.",

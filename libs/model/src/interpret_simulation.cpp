@@ -163,7 +163,7 @@ void interpret_analysis(Context& context, const Value& value) {
                            : about == "end"       ? ModesAbout::end
                                                   : ModesAbout::start;
   if (needs_duration(simulation)) {
-    if (value.find("duration") == nullptr)
+    if (value.find("duration") == nullptr && value.find("cycle") == nullptr)
       context.fault_at_key(value, "missing key 'duration'", "a time or an angle > 0, such as 0.1 s");
     if (value.find("step") == nullptr)
       context.fault_at_key(value, "missing key 'step'", "a time or an angle > 0, such as 0.1 ms, or {tolerance}");
@@ -208,7 +208,32 @@ void interpret_output(Context& context) {
   }
   output.fields_every = out->find("fields_every") != nullptr
                             ? seconds_of(context, *out, "fields_every", simulation.crank)
-                            : simulation.duration / 100;
+                            : (simulation.cycle ? simulation.cycle->period : simulation.duration) / 100;
+}
+
+/// Cycles that end the run, if its duration does not.
+void interpret_cycle(Context& context, const Value& parent) {
+  Simulation& simulation = context.model.simulation;
+  const Value* value = parent.find("cycle");
+  if (value == nullptr || value->broken) return;
+  const Value* bearings = context.root.find("bearings");
+  if (bearings == nullptr || bearings->members.empty())
+    context.fault_at_key(*value, "cycles of a machine without bearings", "bearings whose figures repeat",
+                         "give a `duration` instead");
+  simulation.cycle = Cycle{seconds_of(context, *value, "period", simulation.crank),
+                           number_of(*value, "until_converged"), integer_of(*value, "most")};
+  const double longest = simulation.cycle->most * simulation.cycle->period;
+  simulation.duration = parent.find("duration") != nullptr ? std::min(simulation.duration, longest) : longest;
+}
+
+/// Each cycle has to end with a step.
+void require_whole_steps(Context& context, const Value& parent) {
+  const Simulation& simulation = context.model.simulation;
+  if (!simulation.cycle || simulation.error_control || simulation.step <= 0 || simulation.cycle->period <= 0) return;
+  const double steps = simulation.cycle->period / simulation.step;
+  if (steps > 0.5 && std::abs(steps - std::round(steps)) < 1e-6) return;
+  context.fault(*parent.find("cycle")->find("period"), "a cycle of " + in_users_unit(steps, false) + " steps",
+                "a whole number of steps", "change the step, or let steps be chosen with step: {tolerance: 1e-4}");
 }
 
 }  // namespace
@@ -222,7 +247,9 @@ void interpret_simulation(Context& context) {
   simulation.crank = crank_of(context, *value);
   simulation.start = number_of(*value, "start");
   simulation.duration = seconds_of(context, *value, "duration", simulation.crank);
+  interpret_cycle(context, *value);
   interpret_step(context, *value);
+  require_whole_steps(context, *value);
   if (simulation.error_control && simulation.analysis == Analysis::kinematics) {
     context.fault(*value->find("step"), "an error control of a kinematic analysis, which integrates nothing",
                   "the time between its instants, such as 0.1 ms");

@@ -328,6 +328,18 @@ TEST_CASE("CrankWithoutDrive_IsReported") {
         "m.yaml:31:10: simulation.crank: joint 'guide', which is not revolute; expected a revolute joint");
 }
 
+TEST_CASE("ImpossibleCycles_AreReported") {
+  CHECK(faults_after("duration: 2 rev", "cycle: {period: 360.5 deg}") ==
+        "m.yaml:32:19: simulation.cycle.period: a cycle of 360.5 steps; expected a whole number of steps; change the "
+        "step, or let steps be chosen with step: {tolerance: 1e-4}");
+  CHECK(
+      faults_after("duration: 2 rev", "cycle: {until_converged: 1}") ==
+      "m.yaml:32:3: simulation.cycle: missing key 'period'; expected a time or an angle > 0, such as 720 deg\n"
+      "m.yaml:32:28: simulation.cycle.until_converged: '1'; expected a number without unit >= 0 and < 1, such as 0.01");
+  CHECK(faults_after("duration: 2 rev", "duration: 2 rev\n  checkpoint: {every: 0 s}") ==
+        "m.yaml:33:23: simulation.checkpoint.every: '0 s'; expected a time or an angle > 0, such as 0.1 s");
+}
+
 TEST_CASE("ImpossibleSteps_AreReported") {
   CHECK(faults_after("step: 1 deg", "step: 3 rev") ==
         "m.yaml:33:9: simulation.step: a step longer than the run; expected a step of at most the duration");

@@ -92,6 +92,27 @@ TEST_CASE("CrankAngles_BecomeTimes") {
   CHECK(model.simulation.crank->initial_angle == near(pi / 6));
 }
 
+TEST_CASE("CyclesAndCheckpoints_AreRead") {
+  CHECK(read_text(good_model, "m.yaml").simulation.checkpoint.wall_time == 300);
+  CHECK(read_text(good_model, "m.yaml").simulation.checkpoint.every == 0);
+  CHECK_FALSE(read_text(good_model, "m.yaml").simulation.cycle.has_value());
+  const Model model = read_text(edited(good_model, "duration: 2 rev",
+                                       "cycle: {period: 360 deg, until_converged: 0.02, most: 7}\n"
+                                       "  checkpoint: {every: 90 deg, wall_time: 1 min}"),
+                                "m.yaml");
+  REQUIRE(model.simulation.cycle.has_value());
+  CHECK(model.simulation.cycle->period == near(0.02));
+  CHECK(model.simulation.cycle->tolerance == 0.02);
+  CHECK(model.simulation.cycle->most == 7);
+  CHECK(model.simulation.duration == near(0.14));
+  const Model shorter =
+      read_text(edited(good_model, "duration: 2 rev", "duration: 2 rev\n  cycle: {period: 1 rev}"), "m.yaml");
+  CHECK(shorter.simulation.duration == near(0.04));
+  CHECK(model.output.fields_every == near(0.0002));
+  CHECK(model.simulation.checkpoint.every == near(0.005));
+  CHECK(model.simulation.checkpoint.wall_time == 60);
+}
+
 TEST_CASE("CrankTurningBackwards_StillTakesPositiveTime") {
   const Model model = read_text(edited(good_model, "speed: 3000 rpm", "speed: -3000 rpm"), "m.yaml");
   CHECK(model.simulation.duration == near(0.04));

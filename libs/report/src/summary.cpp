@@ -22,6 +22,7 @@ class Summary {
 
   std::vector<SummaryRow> rows() {
     mode_rows();
+    convergence_rows();
     bearing_rows();
     contact_rows();
     run_rows();
@@ -148,6 +149,18 @@ class Summary {
       relative_power_error();
     }
     if (const auto wall = reader_.number_attribute("/", "wall_time")) add("computing time", *wall, "s");
+  }
+
+  void convergence_rows() {
+    constexpr std::size_t most = 24;
+    group_ = "cycles";
+    path_ = "/cycles/fields/";
+    const std::vector<double> change = values("change"), end = values("time");
+    const std::size_t first = change.size() > most ? change.size() - most : 1;  // the first has none before it
+    for (std::size_t i = first; i < change.size(); ++i)
+      add(fmt::format("cycle {}: largest difference from the one before", i + 1), 100 * change[i], "%",
+          fmt::format("ended at t = {:.4g} s", end[i]));
+    if (!change.empty()) add("cycles", static_cast<double>(change.size()), "");
   }
 
   void mode_rows() {

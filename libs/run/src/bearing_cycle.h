@@ -41,6 +41,7 @@ class CycleSums {
   /// @pre a state was taken.
   [[nodiscard]] BearingCycle close();
 
+  /// The cycle under way.
   void persist(Archive& archive);
 
   /// Time since the beginning of the cycle [s].

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "hersey/core/input_error.h"
 #include "hersey/core/version.h"
+#include "hersey/results/reader.h"
+#include "hersey/results/writer.h"
 #include "hersey/run/simulate.h"
 
 namespace hersey::run {
@@ -97,6 +101,24 @@ void require_identity(const Archive::Content& stored, const model::Model& model,
   if (const std::string before = text(kVersion); before != version())
     warning = fmt::format("{} was written by hersey {}, this is {}: numbers may differ in their last digits",
                           file.string(), before, version());
+}
+
+bool is_complete(const model::Model& model, const std::filesystem::path& results) {
+  const results::Reader reader(results);
+  require_same_text(reader.has("/model") ? reader.text("/model") : "", model);
+  return reader.text_attribute("/", "status") == results::to_string(results::Status::completed);
+}
+
+bool has_results(const std::filesystem::path& results) {
+  std::ifstream stream(results, std::ios::binary);
+  std::array<char, 8> first{};
+  stream.read(first.data(), first.size());
+  return std::any_of(first.begin(), first.end(), [](char byte) { return byte != 0; });
+}
+
+void discard_checkpoint(const std::filesystem::path& results) {
+  std::error_code ignored;
+  std::filesystem::remove(checkpoint_file(results), ignored);
 }
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& results) {

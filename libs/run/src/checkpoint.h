@@ -41,6 +41,16 @@ void require_same_text(const std::string& before, const model::Model& model);
 void require_identity(const Archive::Content& stored, const model::Model& model, const std::filesystem::path& file,
                       std::string& warning);
 
+/// Whether the run of these results has come to its end.
+/// @throws InputError where they are of another model; results::ReadError
+[[nodiscard]] bool is_complete(const model::Model& model, const std::filesystem::path& results);
+
+/// Whether there are results, be they those of a killed run. A program killed while it makes the file leaves zeros.
+[[nodiscard]] bool has_results(const std::filesystem::path& results);
+
+/// Removes the checkpoint of these results, if there is one.
+void discard_checkpoint(const std::filesystem::path& results);
+
 /// The first line in which two texts differ, as "line 12 was 'a' and is 'b'"; empty where they do not.
 [[nodiscard]] std::string difference_of(const std::string& before, const std::string& now);
 

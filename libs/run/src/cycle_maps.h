@@ -24,6 +24,7 @@ class CycleMaps {
   /// At the end of the run: without a complete cycle the row is that of the whole run.
   void finish();
 
+  /// The cycles under way.
   void persist(Archive& archive);
 
  private:

@@ -87,6 +87,7 @@ std::vector<double> instants_to_hit(const model::Model& model, const std::vector
   const model::Simulation& run = model.simulation;
   std::vector<double> times = kinks;
   add_multiples(model.output.interval, run, times);
+  if (run.cycle) add_multiples(run.cycle->period, run, times);
   if (!model.bearings.empty()) add_multiples(model.output.fields_every, run, times);
   times.push_back(run.start + run.duration);
   std::sort(times.begin(), times.end());

@@ -80,6 +80,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
   declare_beams();
   declare_contacts();
   for (const model::Bearing& bearing : model.bearings) bearings_.push_back(declare_bearing(bearing));
+  declare_cycles();
   write_geometry(model, machine.mechanism->spec(), hidden_joints_, writer_);
   if (model.simulation.analysis == model::Analysis::modes) declare_modes();
   writer_.flush();
@@ -265,6 +266,22 @@ void Recorder::declare_fields(const model::Bearing& bearing, BearingSeries& s) {
   if (start.d_journal.size() > 0) s.journal_displacement = displacement("journal_displacement", "journal's surface");
 }
 
+// Cycles are no instants: a group called fields counts its rows by itself.
+void Recorder::declare_cycles() {
+  if (!model_.simulation.cycle) return;
+  cycle_end_ = writer_.series("/cycles/fields/time", 1, "s", "end of the cycle");
+  cycle_change_ = writer_.series("/cycles/fields/change", 1, "1",
+                                 "largest difference from the cycle before of a bearing's smallest film thickness, "
+                                 "peak pressure and mean friction loss, over the larger");
+  writer_.attribute("/cycles", "period", model_.simulation.cycle->period);
+  writer_.attribute("/cycles", "tolerance", model_.simulation.cycle->tolerance);
+}
+
+void Recorder::write_cycle(double t, double change) const {
+  cycle_end_.append(t);
+  cycle_change_.append(change);
+}
+
 void Recorder::write_row(const StepRecord& step) {
   const mbd::Observation& seen = step.mechanism;
   time_.append(seen.t);
@@ -403,6 +420,10 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
       names += name + "\n";
       counts.push_back(count);
     }
+  }
+  {
+    const Archive::Group group(archive, "cycles");
+    cycles_.persist(archive);
   }
   archive.io("series", names);
   archive.io("rows", counts);

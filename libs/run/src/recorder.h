@@ -51,6 +51,8 @@ class Recorder {
   /// How many rows there are; restoring takes so many from the results of the run that was interrupted.
   /// @throws results::ReadError where these have fewer
   void persist(Archive& archive, const std::filesystem::path& results);
+  /// How far the cycle that ended at `t` repeats the one before: CycleChange::value.
+  void write_cycle(double t, double change) const;
   void finish(results::Status status, const std::string& message, double wall_time);
 
  private:
@@ -99,6 +101,7 @@ class Recorder {
     std::vector<results::Series> beams_real, beams_imaginary;            // the same of beams
   };
 
+  void declare_cycles();
   void declare_modes();
   void declare_flexible_modes();
   void write_flexible_mode(const solver::State& state, const Eigen::VectorXcd& shape);
@@ -132,6 +135,7 @@ class Recorder {
   EnergySeries energy_;
   PowerSeries power_;
   ModeSeries modes_;
+  results::Series cycle_end_, cycle_change_;
   std::vector<BodySeries> bodies_;
   std::vector<JointSeries> joints_;
   std::vector<DriveSeries> drives_;

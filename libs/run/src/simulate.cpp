@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "checkpoint.h"
+#include "cycle_convergence.h"
 #include "extremes.h"
 #include "flexible_record.h"
 #include "hersey/core/input_error.h"
@@ -24,6 +25,7 @@
 #include "instants.h"
 #include "recorder.h"
 #include "redundancies.h"
+#include "settling.h"
 #include "start.h"
 #include "step_error.h"
 
@@ -60,45 +62,6 @@ double last_time(const std::filesystem::path& file) {
   return rows > 0 ? reader.read_rows("/time", rows - 1, 1).values.front() : 0;
 }
 
-// Says whether every journal is where it was `over` ago.
-class SettlingTest {
- public:
-  explicit SettlingTest(const model::Model& model) : model_(model) {}
-
-  [[nodiscard]] bool settled(const StepRecord& step) {
-    const std::optional<model::Settle>& settle = model_.simulation.settle;
-    if (!settle || step.bearings.empty()) return false;
-    const double t = step.mechanism.t;
-    if (!next_ || t >= *next_) {
-      const bool repeats = !last_.empty() && change(step) <= settle->tolerance;
-      last_ = step.bearings;
-      next_ = t + settle->over * (1 - 1e-9);
-      return repeats;
-    }
-    return false;
-  }
-
-  void persist(Archive& archive) {
-    archive.each("last", last_, [](Archive& a, bearing::BearingObservation& seen) { a.io("e", seen.e); });
-    archive.io("next", next_);
-  }
-
- private:
-  [[nodiscard]] double change(const StepRecord& step) const {
-    double largest = 0;
-    for (std::size_t i = 0; i < last_.size(); ++i) {
-      largest = std::max(largest, (step.bearings[i].e - last_[i].e).norm() / model_.bearings[i].film.c);
-    }
-    return largest;
-  }
-
-  const model::Model& model_;
-  std::vector<bearing::BearingObservation> last_;
-  std::optional<double> next_;
-};
-
-void discard_checkpoint(const std::filesystem::path& results);
-
 // One simulation: owns the machine, its state and its record.
 class Simulation {
  public:
@@ -114,6 +77,7 @@ class Simulation {
         recorder_(model, machine_, options, checkpoint.has_value()),
         deformed_(model, machine_, options.results),
         settling_(model),
+        cycles_(model),
         checkpoints_(model.simulation) {
     kinds_.resize(machine_.mechanism->spec().forces.size(), ForceKind::spring);
     for (const model::BuiltContact& contact : machine_.contacts) {
@@ -185,6 +149,7 @@ class Simulation {
     } else {
       march();
     }
+    tell_unconverged();
   }
 
   // Instant by instant, nothing integrated.
@@ -251,7 +216,7 @@ class Simulation {
       return true;
     }
     if (settled_) summary_.message = fmt::format("settled at t = {:.6g} s", state_.t);
-    return settled_;
+    return settled_ || repeats_;
   }
 
   // The instants that steps of controlled error have to hit, and the first such step. At the start of the run.
@@ -387,15 +352,37 @@ class Simulation {
     largest_error_ = std::max(largest_error_, std::abs(step.power.error()));
     settled_ = settling_.settled(step);
     recorder_.gather(step);
+    if (cycles_.ends(state_.t)) end_cycle();
     write(step);
     report_progress(step, moft);
+  }
+
+  void end_cycle() {
+    const CycleChange change = cycles_.take(recorder_.close_cycle());
+    recorder_.write_cycle(state_.t, change.value);
+    summary_.cycles = change.number;
+    summary_.cycle_change = change.value;
+    if (options_.on_cycle) options_.on_cycle({change.number, change.value, change.largest});
+    repeats_ = cycles_.converged(change);
+    if (repeats_)
+      summary_.message =
+          fmt::format("converged in cycle {}: {:.2g} % ({})", change.number, 100 * change.value, change.largest);
+  }
+
+  // At the end of a run whose cycles were to repeat.
+  void tell_unconverged() {
+    const auto& plan = model_.simulation.cycle;
+    if (!plan || plan->tolerance == 0 || repeats_ || settled_ || summary_.status != Status::completed) return;
+    summary_.message = summary_.cycles < 2 ? "fewer than two cycles, of which none can repeat"
+                                           : fmt::format("not converged after {} cycles: {:.2g} %", summary_.cycles,
+                                                         100 * summary_.cycle_change);
   }
 
   void write(const StepRecord& step) {
     const double slack = 1e-9 * model_.simulation.step;
     deformed_.write(state_.t, state_.t - model_.simulation.start, slack, step.mechanism);
     if (is_row_due(slack)) recorder_.write_row(step);
-    if (state_.t >= next_fields_ - slack || settled_) {
+    if (state_.t >= next_fields_ - slack || settled_ || repeats_) {
       recorder_.write_fields(step);
       next_fields_ =
           (next_fields_ < state_.t - model_.output.fields_every ? state_.t
@@ -412,7 +399,7 @@ class Simulation {
     const double t = state_.t - model_.simulation.start;
     const bool is_due = t >= next_row_ * output.interval - slack;
     if (is_due) next_row_ = std::floor((t + slack) / output.interval) + 1;
-    return is_due || settled_ || t >= model_.simulation.duration - slack;
+    return is_due || settled_ || repeats_ || t >= model_.simulation.duration - slack;
   }
 
   // Everything that the rest of the run depends on.
@@ -449,11 +436,19 @@ class Simulation {
     archive.io("wall_time", wall_time);
     if (archive.restores()) before_ = wall_time;
     for (BearingExtremes& extremes : extremes_) {
-      const Archive::Group group(archive, extremes.name());
+      const Archive::Group group(archive, "extremes of " + extremes.name());
       extremes.persist(archive);
     }
     settling_.persist(archive);
-    deformed_.persist(archive);
+    archive.io("cycles_ended", summary_.cycles), archive.io("cycle_change", summary_.cycle_change);
+    {
+      const Archive::Group cycle(archive, "cycle");
+      cycles_.persist(archive);
+    }
+    {
+      const Archive::Group meshes(archive, "deformed_meshes");
+      deformed_.persist(archive);
+    }
     recorder_.persist(archive, options_.results);
   }
 
@@ -519,6 +514,7 @@ class Simulation {
   Recorder recorder_;
   DeformedMeshes deformed_;
   SettlingTest settling_;
+  CycleConvergence cycles_;
   CheckpointSchedule checkpoints_;
   std::vector<BearingExtremes> extremes_;
   std::vector<ForceKind> kinds_;
@@ -531,38 +527,21 @@ class Simulation {
   double last_dt_ = 0;
   double next_row_ = 0;  // in intervals
   double largest_power_ = 0, largest_error_ = 0;
-  bool settled_ = false;
+  bool settled_ = false, repeats_ = false;
   Summary summary_;
 };
 
-void discard_checkpoint(const std::filesystem::path& results) {
-  std::error_code ignored;
-  std::filesystem::remove(checkpoint_file(results), ignored);
-}
-
-// A checkpoint of results that are about to be replaced.
-void discard_checkpoint_of_replaced(const Options& options) {
-  if (options.overwrite || !std::filesystem::exists(options.results)) discard_checkpoint(options.results);
-}
-
-// Says whether the run of these results has come to its end; refuses results of another model.
-bool is_complete(const model::Model& model, const std::filesystem::path& file) {
-  const results::Reader reader(file);
-  require_same_text(reader.has("/model") ? reader.text("/model") : "", model);
-  return reader.text_attribute("/", "status") == results::to_string(results::Status::completed);
-}
-
 Summary resume(const model::Model& model, const Options& options) {
   Summary summary;
-  const bool has_results = std::filesystem::exists(options.results);
-  if (has_results && is_complete(model, options.results)) {
+  const bool begun = has_results(options.results);
+  if (begun && is_complete(model, options.results)) {
     summary.results = options.results;
     summary.t_end = summary.t_results = last_time(options.results);
     summary.message = "it was complete already";
     return summary;
   }
   const std::filesystem::path file = checkpoint_file(options.results);
-  if (!has_results || !std::filesystem::exists(file)) {
+  if (!begun || !std::filesystem::exists(file)) {
     Options anew = options;
     anew.overwrite = true;
     anew.resume = false;
@@ -602,7 +581,8 @@ Summary simulate(const model::Model& model, const Options& options) {
                            "'hersey bearing' solves bearings by themselves"});
   }
   if (options.resume) return resume(model, options);
-  discard_checkpoint_of_replaced(options);
+  // A checkpoint of results that are about to be replaced.
+  if (options.overwrite || !std::filesystem::exists(options.results)) discard_checkpoint(options.results);
   return Simulation(model, options, std::nullopt).run();
 }
 

@@ -26,7 +26,7 @@ struct FilmCylinder {
 [[nodiscard]] std::vector<ElementFace> faces_on_cylinder(const Mesh& mesh, const FilmCylinder& cylinder,
                                                          double tolerance);
 
-/// As many functions as a mesh can tell apart: one per 1.5 distances of nodes, 8 to 48 around and at most 7 along.
+/// As many functions as a mesh can tell apart: one per 1.5 distances of nodes, 8 to 32 around and at most 5 along.
 [[nodiscard]] SurfaceFunctions functions_for(const Mesh& mesh, const std::vector<ElementFace>& faces,
                                              const FilmCylinder& cylinder);
 

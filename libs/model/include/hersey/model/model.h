@@ -313,6 +313,13 @@ struct Settle {
   double over = 0;          ///< time between comparisons [s]
 };
 
+/// Ends the run early once a cycle repeats the one before.
+struct Cycle {
+  double period = 0;        ///< [s], > 0
+  double tolerance = 0.01;  ///< relative difference of the figures of two cycles; 0: all cycles are run
+  int most = 20;            ///< cycles, >= 1
+};
+
 /// Steps chosen by their error.
 struct ErrorControl {
   double tolerance = 1e-4;  ///< of the local error of a step: angles, lengths over the machine's size, and journals'
@@ -350,6 +357,7 @@ struct Simulation {
   int max_iterations = 20;       ///< of Newton, per step
   double smallest_step = 1e-9;   ///< [s]
   std::optional<Settle> settle;
+  std::optional<Cycle> cycle;  ///< then `duration` is at most that of all cycles
 
   /// When the run writes down how to go on after an interruption.
   struct Checkpoints {

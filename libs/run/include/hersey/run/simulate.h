@@ -21,6 +21,13 @@ struct Progress {
   double elapsed = 0;                                     ///< wall time since the start of the run [s]
 };
 
+/// A cycle that has just ended; handed to Options::on_cycle.
+struct CycleProgress {
+  int number = 0;       ///< from 1
+  double change = 0;    ///< largest difference from the cycle before, relative; not a number in the first
+  std::string largest;  ///< of what, "film thickness of big_end"
+};
+
 enum class Status {
   completed,  ///< reached the end, or settled
   stopped,    ///< asked to stop; results up to then are complete
@@ -47,6 +54,8 @@ struct Summary {
   double t_results = 0;  ///< last time in the results file [s]
   int steps = 0, rejected_steps = 0;
   int newton_iterations = 0;
+  int cycles = 0;                     ///< that ended, where the model asks for cycles
+  double cycle_change = 0;            ///< of the last of them: CycleProgress::change
   double worst_constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares [-]
   double worst_power_balance = 0;     ///< largest |power in - power out - energy rate| over the largest power [-]
   double wall_time = 0;               ///< [s]
@@ -59,12 +68,13 @@ struct StudyParameterValue {
 };
 
 struct Options {
-  std::filesystem::path results;                      ///< the HDF5 file to write
-  bool overwrite = false;                             ///< replace an existing one
-  bool resume = false;                                ///< go on where `results` and its checkpoint end
-  std::function<void(const Progress&)> on_progress;   ///< may be empty
-  const std::atomic<bool>* stop = nullptr;            ///< set from a signal handler: end after the current step
-  std::vector<StudyParameterValue> study_parameters;  ///< of this run, for the results file
+  std::filesystem::path results;                       ///< the HDF5 file to write
+  bool overwrite = false;                              ///< replace an existing one
+  bool resume = false;                                 ///< go on where `results` and its checkpoint end
+  std::function<void(const Progress&)> on_progress;    ///< may be empty
+  std::function<void(const CycleProgress&)> on_cycle;  ///< may be empty
+  const std::atomic<bool>* stop = nullptr;             ///< set from a signal handler: end after the current step
+  std::vector<StudyParameterValue> study_parameters;   ///< of this run, for the results file
 };
 
 /// Simulates `model` from its start to its end and writes the results as it goes.

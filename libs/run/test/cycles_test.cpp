@@ -1,0 +1,101 @@
+// Runs that go cycle by cycle until they repeat themselves.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/core/input_error.h"
+#include "hersey/results/reader.h"
+#include "hersey/run/simulate.h"
+#include "small_rig.h"
+#include "temporary_directory.h"
+
+namespace hersey::run {
+namespace {
+
+std::string rig_of_cycles(const std::string& cycle) {
+  std::string text = rig_with("  duration: \"${duration}\"\n", "  cycle: " + cycle + "\n");
+  // A load that turns round with the crank: the film never comes to rest.
+  const std::string push = "components: [0 N, \"-${load}\", 0 N]";
+  return text.replace(text.find(push), push.size(),
+                      "direction: y, magnitude: {expression: \"-500*(1 + 0.5*sin(main.rotation))\", unit: N}");
+}
+
+struct Cycles {
+  Summary summary;
+  std::vector<CycleProgress> told;
+  std::vector<double> end, change, h_min, p_max, friction;
+  std::vector<double> time;  // rows of the run
+};
+
+Cycles cycles_of(const std::string& text) {
+  const TemporaryDirectory scratch;
+  Cycles seen;
+  Options options{.results = scratch / "run.h5"};
+  options.on_cycle = [&](const CycleProgress& cycle) { seen.told.push_back(cycle); };
+  seen.summary = simulate(rig(text), options);
+  const results::Reader reader(options.results);
+  const auto values = [&](const char* name) { return reader.read(name).values; };
+  seen.end = values("/cycles/fields/time"), seen.change = values("/cycles/fields/change");
+  seen.h_min = values("/bearings/big_end/cycles/fields/moft"),
+  seen.p_max = values("/bearings/big_end/cycles/fields/pofp");
+  seen.friction = values("/bearings/big_end/cycles/fields/power_film");  // nothing touches
+  seen.time = values("/time");
+  return seen;
+}
+
+constexpr double kTurn = 60.0 / 3000;
+
+TEST_CASE("Cycles_EndTheRunOnceTheyRepeat") {
+  const Cycles seen = cycles_of(rig_of_cycles("{period: 360 deg, until_converged: 0.01, most: 12}"));
+  INFO(seen.summary.message);
+  REQUIRE(seen.summary.status == Status::completed);
+  const std::size_t n = seen.change.size();
+  REQUIRE(n >= 2);
+  CHECK(n < 12);
+  CHECK(seen.summary.cycles == static_cast<int>(n));
+  CHECK(seen.summary.message.find("converged in cycle") == 0);
+  CHECK(seen.told.size() == n);
+  CHECK(seen.time.back() == doctest::Approx(kTurn * static_cast<double>(n)));
+  CHECK(std::isnan(seen.change[0]));
+  for (std::size_t i = 1; i < n; ++i) {
+    CHECK(seen.end[i] == doctest::Approx(kTurn * static_cast<double>(i + 1)));
+    // The change is that of the figure that changed most.
+    const auto differ = [&](const std::vector<double>& x) {
+      return std::abs(x[i] - x[i - 1]) / std::max(x[i], x[i - 1]);
+    };
+    CHECK(seen.change[i] == std::max({differ(seen.h_min), differ(seen.p_max), differ(seen.friction)}));
+    CHECK((seen.change[i] <= 0.01) == (i + 1 == n));
+    CHECK(seen.told[i].change == seen.change[i]);
+    CHECK(seen.told[i].largest.find(" of big_end") != std::string::npos);
+  }
+}
+
+TEST_CASE("AllCyclesAskedFor_AreRun") {
+  const Cycles seen = cycles_of(rig_of_cycles("{period: 90 deg, until_converged: 0, most: 3}"));
+  CHECK(seen.h_min.size() == 3);
+  CHECK(seen.summary.message.empty());
+  CHECK(seen.time.back() == doctest::Approx(0.75 * kTurn));
+}
+
+TEST_CASE("CyclesThatDoNotConverge_AreTold") {
+  const Cycles seen = cycles_of(rig_of_cycles("{period: 90 deg, until_converged: 1e-9, most: 3}"));
+  CHECK(seen.summary.status == Status::completed);
+  CHECK(seen.summary.cycles == 3);
+  CHECK(seen.summary.message.find("not converged after 3 cycles: ") == 0);
+  const Cycles one = cycles_of(rig_of_cycles("{period: 90 deg}\n  duration: 135 deg"));
+  CHECK(one.summary.cycles == 1);
+  CHECK(one.summary.message.find("fewer than two cycles") == 0);
+}
+
+TEST_CASE("StepsOfControlledError_HitTheEndOfEachCycle") {
+  std::string text = rig_of_cycles("{period: 90 deg, until_converged: 0, most: 2}");
+  text.replace(text.find("step: 2 deg"), 11, "step: {tolerance: 1e-4}");
+  const Cycles seen = cycles_of(text);
+  REQUIRE(seen.end.size() == 2);
+  CHECK(seen.end[0] == doctest::Approx(kTurn / 4).epsilon(1e-14));
+  CHECK(seen.end[1] == doctest::Approx(kTurn / 2).epsilon(1e-14));
+}
+
+}  // namespace
+}  // namespace hersey::run

@@ -1,0 +1,328 @@
+// Interrupted runs that go on, against runs that were never interrupted: the same numbers to the last bit.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstring>
+#include <fstream>
+
+#include "checkpoint.h"
+#include "hersey/core/input_error.h"
+#include "hersey/model/read.h"
+#include "hersey/results/checkpoint.h"
+#include "hersey/results/reader.h"
+#include "hersey/run/simulate.h"
+#include "small_bar.h"
+#include "small_rig.h"
+#include "temporary_directory.h"
+
+namespace hersey::run {
+namespace {
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), 8 * a.size()) == 0;
+}
+
+/// Runs until `steps` more steps have been taken, or to the end.
+Summary run_for(const model::Model& model, const std::filesystem::path& results, int steps, bool resume) {
+  std::atomic<bool> stop{false};
+  Options options{.results = results, .resume = resume, .stop = &stop};
+  int taken = resume ? 1 : 0;  // the start is told too
+  options.on_progress = [&](const Progress&) { stop = taken++ >= steps; };
+  return simulate(model, options);
+}
+
+/// All datasets of both files agree in every bit.
+void check_same(const std::filesystem::path& whole, const std::filesystem::path& parts) {
+  const results::Reader a(whole), b(parts);
+  REQUIRE(a.datasets() == b.datasets());
+  CHECK(a.rows() == b.rows());
+  for (const std::string& name : a.datasets()) {
+    if (name == "/model" || name == "/assumptions") continue;
+    CAPTURE(name);
+    const results::Array x = a.read(name), y = b.read(name);
+    CHECK(x.info.shape == y.info.shape);
+    CHECK(same_bits(x.values, y.values));
+  }
+}
+
+/// Interrupts the run twice; also checks that something was left to do each time.
+void check_resumed(const model::Model& model, const std::filesystem::path& folder, int first, int second) {
+  const std::filesystem::path whole = folder / "whole.h5", parts = folder / "parts.h5";
+  const Summary straight = simulate(model, {.results = whole});
+  INFO(straight.message);
+  REQUIRE(straight.status == Status::completed);
+  CHECK_FALSE(std::filesystem::exists(checkpoint_file(whole)));
+  REQUIRE(run_for(model, parts, first, false).status == Status::stopped);
+  CHECK(std::filesystem::exists(checkpoint_file(parts)));
+  REQUIRE(run_for(model, parts, second, true).status == Status::stopped);
+  const Summary summary = simulate(model, {.results = parts, .resume = true});
+  INFO(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  CHECK(summary.steps == straight.steps);
+  CHECK(summary.newton_iterations == straight.newton_iterations);
+  CHECK(summary.worst_power_balance == straight.worst_power_balance);
+  for (std::size_t i = 0; i < summary.bearings.size(); ++i) {
+    CHECK(summary.bearings[i].moft == straight.bearings[i].moft);
+    CHECK(summary.bearings[i].mean_power == straight.bearings[i].mean_power);
+  }
+  CHECK_FALSE(std::filesystem::exists(checkpoint_file(parts)));
+  check_same(whole, parts);
+}
+
+void check_resumed(const std::string& text, int first, int second) {
+  const TemporaryDirectory scratch;
+  check_resumed(model::read_text(text, (scratch / "model.yaml").string()), scratch.path(), first, second);
+}
+
+const std::string kMechanism = R"(hersey: 1
+gravity: 0 -9.81 0 m/s^2
+bodies:
+  crank: {mass: 2 kg, centre_of_mass: 10 0 0 mm, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 2e-3 kg.m^2}}
+  rod: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 2e-3 kg.m^2}, frames: {end: {origin: 200 0 0 mm}}}
+  arm: {mass: 1 kg, centre_of_mass: 50 0 0 mm, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 2e-3 kg.m^2}}
+joints:
+  main: {type: revolute, between: [ground, crank], initial: {rotation: 20 deg}}
+  pin: {type: revolute, between: [crank, rod], initial: {rotation: 30 deg, rotation_rate: 3 rad/s}}
+  shoulder: {type: revolute, between: [ground, arm]}
+drives:
+  motor: {joint: main, coordinate: rotation, speed: {expression: "20 + 5*sin(70*t)",
+                  unit : rad / s
+}
+}
+forces:
+  servo: {type: speed_control, joint: shoulder, coordinate: rotation, speed: 10 rad/s, proportional: 0.2 N.m.s/rad, integral: 4 N.m/rad, limit: 3 N.m}
+simulation: {duration: 0.1 s, step: 0.5 ms}
+)";
+
+TEST_CASE("ResumedMechanism_IsTheSame") {
+  check_resumed(kMechanism, 37, 81);
+}
+
+std::string edited(std::string text, const std::string& old, const std::string& replacement) {
+  const std::size_t at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), replacement);
+}
+
+TEST_CASE("ResumedRunOfControlledError_IsTheSame") {
+  // Interrupted before and after the table's bend, where the method starts afresh.
+  const std::string text = edited(edited(kMechanism, R"({expression: "20 + 5*sin(70*t)", unit: rad/s})",
+                                         "{table: {points: [[0, 5], [0.04, 20], [0.1, 8]], x_unit: s, y_unit: rad/s}}"),
+                                  "step: 0.5 ms", "step: {tolerance: 1e-6}");
+check_resumed(text + "output: {interval: 3 ms}\n", 5, 40);
+}
+
+TEST_CASE("ResumedFilm_IsTheSame") {
+  for (const char* coupling : {"monolithic", "{scheme: partitioned, acceleration: quasi_newton}",
+                               "{scheme: partitioned, acceleration: aitken}"}) {
+    CAPTURE(coupling);
+    const std::string line = "    supply: {line: widest_gap, pressure: 1 bar}\n";
+    check_resumed(rig_with(line, line + "    compliance: {model: column, composite_modulus: 115 GPa}\n    coupling: " +
+                                     coupling + "\n"),
+                  7, 12);
+  }
+}
+
+TEST_CASE("ResumedFilmUnderErrorControl_IsTheSame") {
+  check_resumed(rig_with("step: 2 deg", "step: {tolerance: 1e-5}\n  settle: {tolerance: 1e-9, over: 1 ms}"), 9, 30);
+}
+
+TEST_CASE("ResumedFlexibleBodies_AreTheSame") {
+  for (const char* form : {"modal", "nodal", "nodal\n      strain: finite"}) {
+    for (const char* step : {"step: 0.1 ms", "step: {tolerance: 1e-6}"}) {
+      CAPTURE(form);
+      CAPTURE(step);
+      const TemporaryDirectory scratch;
+      write_bar(scratch / "bar.inp", 4);
+      std::string text = edited(kPendulum, "modes: 4", std::string("modes: 4\n      form: ") + form);
+      if (std::string(form) != "modal") text = edited(text, "      tip: {nodes: right}\n", "");
+      text = edited(edited(text, "duration: 50 ms", "duration: 8 ms"), "step: 0.1 ms", step);
+      text = edited(text, "vtu_every: 10 ms", "vtu_every: 2 ms");
+      const model::Model model = model::read_text(text, (scratch / "model.yaml").string());
+      check_resumed(model, scratch.path(), 11, 13);
+      std::ifstream whole(scratch / "whole_bar.pvd"), parts(scratch / "parts_bar.pvd");
+      std::string a{std::istreambuf_iterator<char>(whole), {}}, b{std::istreambuf_iterator<char>(parts), {}};
+      for (std::size_t at = 0; (at = b.find("parts_bar", at)) != std::string::npos;) b.replace(at, 9, "whole_bar");
+      CHECK(a == b);
+      CHECK(a.find("00004.vtu") != std::string::npos);
+    }
+  }
+}
+
+const std::string kBall = R"(hersey: 1
+gravity: 0 0 -9.81 m/s^2
+bodies:
+  ball:
+    mass: 40 g
+    inertia: {xx: 6.4e-6 kg.m^2, yy: 6.4e-6 kg.m^2, zz: 6.4e-6 kg.m^2}
+    shapes: {surface: {shape: sphere, diameter: 40 mm}}
+  ground:
+    shapes: {floor: {shape: half_space, point: 0 0 1 mm, normal: 0 0 1}}
+joints:
+  flight: {type: free, between: [ground, ball], initial: {position: 0 0 22 mm, velocity: 0.5 0 -1 m/s}}
+contacts:
+  bounce:
+    between: [ball.surface, ground.floor]
+    stiffness: {force: 50 N, penetration: 1 mm}
+    damping: {restitution: 0.8, speed: 1 m/s}
+    friction: {coefficient: 0.4, slip_speed: 1 mm/s}
+simulation: {duration: 20 ms, step: 0.05 ms}
+)";
+
+TEST_CASE("ResumedContact_IsTheSame") { check_resumed(kBall, 60, 100); }
+
+TEST_CASE("ResumedKinematics_AreTheSame") {
+  std::string text = edited(kMechanism, "simulation: {", "simulation: {analysis: kinematics, ");
+  text = edited(text, "  servo:", "  none:");
+  text.erase(text.find("forces:"), text.find("simulation:") - text.find("forces:"));
+  text = edited(text, "drives:\n",
+                "drives:\n  turn: {joint: pin, coordinate: rotation, speed: 4 rad/s}\n"
+                "  lift: {joint: shoulder, coordinate: rotation, speed: 1 rad/s}\n");
+  check_resumed(edited(text, ", rotation_rate: 3 rad/s", ""), 20, 90);
+}
+
+TEST_CASE("ResumedCycles_AreTheSame") {
+  check_resumed(rig_with("  duration: \"${duration}\"\n", "  cycle: {period: 36 deg, until_converged: 0.02}\n"), 25,
+                31);
+}
+
+TEST_CASE("CheckpointsOnTheWay_ChangeNothing") {
+  const TemporaryDirectory scratch;
+  REQUIRE(simulate(rig(), {.results = scratch / "plain.h5"}).status == Status::completed);
+  const model::Model often = rig(rig_with("step: 2 deg", "step: 2 deg\n  checkpoint: {every: 0.3 ms}"));
+  Options options{.results = scratch / "often.h5"};
+  int written = 0;
+  std::filesystem::file_time_type last;
+  options.on_progress = [&](const Progress&) {
+    std::error_code missing;
+    const auto now = std::filesystem::last_write_time(checkpoint_file(options.results), missing);
+    if (!missing && now != last) ++written, last = now;
+  };
+  REQUIRE(simulate(often, options).status == Status::completed);
+  CHECK(written >= 12);
+  check_same(scratch / "plain.h5", scratch / "often.h5");
+}
+
+TEST_CASE("CheckpointSchedule_CountsBothTimes") {
+  model::Simulation plan;
+  plan.start = 1;
+  plan.step = 0.01;
+  plan.checkpoint = {.every = 0.1, .wall_time = 1e9};
+  CheckpointSchedule schedule(plan);
+  CHECK_FALSE(schedule.is_due(1.09));
+  CHECK(schedule.is_due(1.1));
+  schedule.written(1.25);
+  CHECK_FALSE(schedule.is_due(1.29));
+  CHECK(schedule.is_due(1.3 - 1e-12));
+  plan.checkpoint = {.every = 0, .wall_time = 1e-9};
+  CHECK(CheckpointSchedule(plan).is_due(1));
+}
+
+/// The fault of resuming with another model.
+std::string refusal(const model::Model& model, const std::filesystem::path& results) {
+  try {
+    (void)simulate(model, {.results = results, .resume = true});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST_CASE("ChangedModel_IsRefused") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5";
+  REQUIRE(run_for(rig(), results, 5, false).status == Status::stopped);
+  CHECK(refusal(rig(rig_with("load: 500 N", "load: 600 N")), results)
+            .find("line 4 was '  load: 500 N' and is '  load: 600 N'") != std::string::npos);
+  CHECK(refusal(rig(kSmallRig, {"load=600 N"}), results).find("# --set load=600 N") != std::string::npos);
+  CHECK(refusal(rig(kSmallRig + "# more\n"), results).find("line 36, '# more', is new") != std::string::npos);
+  CHECK(refusal(rig(), results) == "taken");
+  CHECK(refusal(rig(rig_with("load: 500 N", "load: 600 N")), results) != "taken");  // nor when it is complete
+}
+
+TEST_CASE("ChangedMesh_IsRefused") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5";
+  const auto model = [&] { return model::read_text(kPendulum, (scratch / "model.yaml").string()); };
+  write_bar(scratch / "bar.inp", 3);
+  REQUIRE(run_for(model(), results, 5, false).status == Status::stopped);
+  write_bar(scratch / "bar.inp", 4);
+  CHECK(refusal(model(), results).find("the content of bar.inp") != std::string::npos);
+}
+
+TEST_CASE("DamagedFiles_AreTold") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5", checkpoint = checkpoint_file(results);
+  REQUIRE(run_for(rig(), results, 5, false).status == Status::stopped);
+  const Archive::Content good = results::read_checkpoint(checkpoint);
+  const auto resume = [&] { (void)simulate(rig(), {.results = results, .resume = true}); };
+
+  Archive::Content bad = good;
+  bad.numbers.erase("state/q");
+  results::write_checkpoint(checkpoint, bad);
+  CHECK_THROWS_WITH_AS(resume(), doctest::Contains("there is no 'state/q'"), results::ReadError);
+  bad = good;
+  bad.numbers["state/more"] = {{}, {1}};
+  results::write_checkpoint(checkpoint, bad);
+  CHECK_THROWS_WITH_AS(resume(), doctest::Contains("it holds 'state/more'"), results::ReadError);
+  bad = good;
+  bad.numbers["record/rows"].values[0] += 1;
+  results::write_checkpoint(checkpoint, bad);
+  CHECK_THROWS_WITH_AS(resume(), doctest::Contains("it lacks rows of /time"), results::ReadError);
+  std::ofstream(checkpoint) << "nonsense";
+  CHECK_THROWS_WITH_AS(resume(), doctest::Contains("not a checkpoint"), results::ReadError);
+  CHECK_FALSE(std::filesystem::exists(results.string() + ".resuming"));
+
+  // What was there is still good.
+  results::write_checkpoint(checkpoint, good);
+  resume();
+  CHECK(results::Reader(results).text_attribute("/", "status") == "completed");
+}
+
+TEST_CASE("OtherProgramVersion_IsAWarning") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5", checkpoint = checkpoint_file(results);
+  REQUIRE(run_for(rig(), results, 5, false).status == Status::stopped);
+  Archive::Content content = results::read_checkpoint(checkpoint);
+  content.texts["identity/version"] = "0.0.1";
+  results::write_checkpoint(checkpoint, content);
+  const Summary summary = simulate(rig(), {.results = results, .resume = true});
+  CHECK(summary.status == Status::completed);
+  CHECK(summary.warning.find("was written by hersey 0.0.1") != std::string::npos);
+}
+
+TEST_CASE("NothingToGoOnFrom_BeginsAnewOrIsDone") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5";
+  const Summary first = simulate(rig(), {.results = results, .resume = true});
+  CHECK(first.status == Status::completed);
+  CHECK(first.warning.find("began anew") != std::string::npos);
+  const auto written = std::filesystem::last_write_time(results);
+  const Summary again = simulate(rig(), {.results = results, .resume = true});
+  CHECK(again.status == Status::completed);
+  CHECK(again.message == "it was complete already");
+  CHECK(again.t_results == first.t_end);
+  CHECK(std::filesystem::last_write_time(results) == written);
+}
+
+TEST_CASE("FileOfNothingButReservedSpace_IsNoHindrance") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5";
+  std::ofstream(results, std::ios::binary) << std::string(1 << 20, '\0');
+  CHECK(simulate(rig(), {.results = results, .resume = true}).status == Status::completed);
+  std::ofstream(results, std::ios::binary) << "somebody's text";
+  CHECK_THROWS_AS((void)simulate(rig(), {.results = results, .resume = true}), results::ReadError);
+}
+
+TEST_CASE("ReplacedResults_LoseTheirCheckpoint") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5";
+  REQUIRE(run_for(rig(), results, 5, false).status == Status::stopped);
+  REQUIRE(std::filesystem::exists(checkpoint_file(results)));
+  const model::Model other = rig(kSmallRig, {"simulation.tolerance=1e-30", "simulation.smallest_step=0.05 ms"});
+  CHECK(simulate(other, {.results = results, .overwrite = true}).status == Status::failed);
+  CHECK_FALSE(std::filesystem::exists(checkpoint_file(results)));
+}
+
+}  // namespace
+}  // namespace hersey::run
