@@ -9,7 +9,7 @@
 namespace hersey::fem {
 namespace {
 
-constexpr int most_around = 48, least_around = 8, most_along = 7;
+constexpr int most_around = 32, least_around = 8, most_along = 5;
 constexpr double nodes_per_function = 1.5;
 
 }  // namespace

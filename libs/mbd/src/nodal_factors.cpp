@@ -90,8 +90,12 @@ void NodalFactors::describe(NodalFactor& factor) const {
   for (std::size_t p = 0; p < 3; ++p) {
     factor.m_X[p] = body_.m * answer[p];
     for (std::size_t r = 0; r < 3; ++r) {
-      factor.answers[3 * p + r] = factor.m_X[p].transpose() * answer[r];
       factor.shapes[3 * p + r] = factor.m_X[p].transpose() * shape[r];
+      if (r < p) {
+        factor.answers[3 * p + r] = factor.answers[3 * r + p].transpose();  // m is symmetric
+      } else {
+        factor.answers[3 * p + r] = factor.m_X[p].transpose() * answer[r];
+      }
     }
   }
 }

@@ -168,7 +168,7 @@ TypePtr deforming_surface_format() {
                  optional("functions", list("functions around and along", integer(24, {.low = 1, .high = 200}), 2),
                           "How many smooth functions describe displacement and pressure: around (at least 4) and along "
                           "the axis.",
-                          "about one per 1.5 distances of nodes, at most 48 and 7"),
+                          "about one per 1.5 distances of nodes, at most 32 and 5"),
                  optional("modes", integer(60, {.low = 1, .high = 2000}),
                           "How many static answers to film pressures the body keeps, the most compliant ones first.",
                           "60 of a modal body, of a nodal one all above a millionth of the first"),
