@@ -1,44 +1,13 @@
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 #include "hersey/model/build.h"
 #include "model_text.h"
+#include "ring_file.h"
 
 // Bearings whose surfaces deform with the mesh of a body: what is read, and what is told about wrong ones.
 namespace hersey::model {
 namespace {
-
-constexpr int around = 24, along = 3;
-
-long label(int layer, int i, int k) { return 1 + layer + 2L * (i % around) + 2L * around * k; }
-
-/// A ring of hexahedra about z, bore 45 mm, 60 mm outside, 15.6 mm wide, with sets `bore` and `outside`.
-std::string ring_file() {
-  std::string text = "*NODE\n", elements = "*ELEMENT, TYPE=C3D8, ELSET=all\n";
-  std::string bore = "*NSET, NSET=bore\n", outside = "*NSET, NSET=outside\n", foot = "*NSET, NSET=foot\n";
-  const auto number = [](double x) { return std::to_string(x); };
-  for (int k = 0; k <= along; ++k)
-    for (int i = 0; i < around; ++i)
-      for (int layer = 0; layer < 2; ++layer) {
-        const double phi = 2 * std::numbers::pi * i / around, r = layer == 0 ? 22.5 : 30;
-        text += std::to_string(label(layer, i, k)) + ", " + number(r * std::cos(phi)) + ", " +
-                number(r * std::sin(phi)) + ", " + number(15.6 * k / along - 7.8) + "\n";
-        (layer == 0 ? bore : outside) += std::to_string(label(layer, i, k)) + ",\n";
-        if (layer == 1 && i < 3) foot += std::to_string(label(layer, i, k)) + ",\n";
-      }
-  long element = 0;
-  for (int k = 0; k < along; ++k)
-    for (int i = 0; i < around; ++i) {
-      elements += std::to_string(++element);
-      for (const int z : {k, k + 1})
-        for (const auto& [layer, a] : {std::pair{0, i}, {1, i}, {1, i + 1}, {0, i + 1}})
-          elements += ", " + std::to_string(label(layer, a, z));
-      elements += "\n";
-    }
-  return text + elements + bore + outside + foot;
-}
 
 const std::string machine_text = R"(hersey: 1
 title: A ring around a journal
@@ -71,11 +40,11 @@ simulation: {duration: 1 ms, step: 0.1 ms}
 )";
 
 /// The mesh stands where the model file would: in the working directory.
-struct RingFile {
-  RingFile() { std::ofstream("film_surface_test_ring.inp") << ring_file(); }
-  ~RingFile() { std::filesystem::remove("film_surface_test_ring.inp"); }
-  RingFile(const RingFile&) = delete;
-  RingFile& operator=(const RingFile&) = delete;
+struct WrittenRing {
+  WrittenRing() { std::ofstream("film_surface_test_ring.inp") << RingFile().text(); }
+  ~WrittenRing() { std::filesystem::remove("film_surface_test_ring.inp"); }
+  WrittenRing(const WrittenRing&) = delete;
+  WrittenRing& operator=(const WrittenRing&) = delete;
 };
 
 std::string told(const std::string& from, const std::string& to) { return faults_of(edited(machine_text, from, to)); }
@@ -85,13 +54,13 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 const std::string surface = "{within: 0.01 mm, functions: [16, 3], modes: 12}";
 
 TEST_CASE("DeformingSurface_IsReadAndBuilt") {
-  const RingFile file;
+  const WrittenRing file;
   CHECK(faults_of(machine_text) == "no fault");
   const Model model = read_text(machine_text, "m.yaml");
   const Bearing& bearing = model.bearings[0];
   REQUIRE(bearing.shell_surface);
   CHECK_FALSE(bearing.journal_surface);
-  CHECK(bearing.shell_surface->surface->faces.size() == around * along);
+  CHECK(bearing.shell_surface->surface->faces.size() == 24 * 3);
   CHECK(bearing.shell_surface->surface->functions.around() == 16);
   CHECK(bearing.shell_surface->surface->functions.along() == 3);
   CHECK(bearing.shell_surface->modes == 12);
@@ -106,7 +75,7 @@ TEST_CASE("DeformingSurface_IsReadAndBuilt") {
 }
 
 TEST_CASE("DeformingSurface_ByNameWithDefaults") {
-  const RingFile file;
+  const WrittenRing file;
   const Model model = read_text(edited(machine_text, surface, "{faces: bore}"), "m.yaml");
   const DeformingSurface& on = *model.bearings[0].shell_surface;
   CHECK(on.surface->functions.around() == 16);  // 24 nodes
@@ -116,7 +85,7 @@ TEST_CASE("DeformingSurface_ByNameWithDefaults") {
 }
 
 TEST_CASE("DeformingSurface_FaultsSayWhereAndWhatToDo") {
-  const RingFile file;
+  const WrittenRing file;
   const std::string wide = told("width: 15.6 mm", "width: 20 mm");
   CHECK(contains(wide, "m.yaml:27:29: bearings.main.shell_surface.within: a surface that covers only 7"));
   CHECK(contains(wide, "there is none all around"));
@@ -140,7 +109,7 @@ TEST_CASE("DeformingSurface_FaultsSayWhereAndWhatToDo") {
 }
 
 TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsTold") {
-  const RingFile file;
+  const WrittenRing file;
   const std::string rigid = told("shell_surface: " + surface, "journal_surface: {within: 0.1 mm}");
   CHECK(contains(rigid, "m.yaml:27:5: bearings.main.journal_surface: a deforming surface on rigid body 'shaft'"));
   CHECK(contains(rigid, "leave 'journal_surface' out"));
@@ -148,7 +117,7 @@ TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsTold") {
 }
 
 TEST_CASE("DeformingSurfaces_OfDifferentSizeDoNotFaceEachOther") {
-  const RingFile file;
+  const WrittenRing file;
   // The same ring within itself: its outside as the journal of its own bore.
   std::string text = edited(machine_text,
                             "  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: "

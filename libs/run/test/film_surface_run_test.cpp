@@ -1,0 +1,164 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "hersey/model/read.h"
+#include "hersey/results/reader.h"
+#include "hersey/run/simulate.h"
+#include "ring_file.h"
+#include "temporary_directory.h"
+
+// Bearings between the surfaces of meshes, in a run: limits, one form of body against the other, power balance.
+namespace hersey::run {
+namespace {
+
+const char* const shell_model = R"(hersey: 1
+title: A ring around a journal
+bodies:
+  ring:
+    flexible:
+      mesh: ring.inp
+      length_unit: 1 mm
+      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
+      modes: 4
+      damping: {stiffness: 2 us}
+    frames:
+      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
+  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+joints:
+  clamp: {type: fixed, between: [ground, ring.hub]}
+  slide: {type: planar, between: [ground, shaft]}
+drives:
+  motor: {joint: slide, coordinate: rotation, speed: 3000 rpm}
+forces:
+  push: {type: force, body: shaft, components: [0 N, -2 kN, 0 N]}
+lubricants:
+  oil: {viscosity: 15 mPa.s}
+bearings:
+  main:
+    shell: ring.hub
+    journal: shaft
+    diameter: 45 mm
+    width: 15.6 mm
+    radial_clearance: 34 um
+    lubricant: oil
+    edge_pressure: 1 bar
+    grid: {circumferential: 36, axial: 7}
+    shell_surface: {faces: bore}
+simulation: {duration: 1.5 ms, step: 0.1 ms}
+)";
+
+/// The same film in a rigid bore, around a hollow shaft that gives way.
+const char* const journal_model = R"(hersey: 1
+title: A hollow shaft
+bodies:
+  shaft:
+    flexible:
+      mesh: shaft.inp
+      length_unit: 1 mm
+      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
+      modes: 4
+      damping: {stiffness: 2 us}
+    frames:
+      pin: {nodes: bore, connection: average, origin: 0 0 0 mm}
+joints:
+  slide: {type: planar, between: [ground, shaft.pin]}
+drives:
+  motor: {joint: slide, coordinate: rotation, speed: 3000 rpm}
+forces:
+  push: {type: force, body: shaft.pin, components: [0 N, -2 kN, 0 N]}
+lubricants:
+  oil: {viscosity: 15 mPa.s}
+bearings:
+  main:
+    shell: ground
+    journal: shaft.pin
+    diameter: 45 mm
+    width: 15.6 mm
+    radial_clearance: 34 um
+    lubricant: oil
+    edge_pressure: 1 bar
+    grid: {circumferential: 36, axial: 7}
+    journal_surface: {within: 0.1 mm}
+simulation: {duration: 1.5 ms, step: 0.1 ms}
+)";
+
+/// Smallest film thickness and peak pressure of the last instant, the worst power balance over the largest power.
+struct Outcome {
+  double h_min = 0, p_max = 0, balance = 0;
+  std::vector<std::pair<std::string, std::string>> assumptions;
+};
+
+Outcome run(const char* text, const std::vector<std::string>& overrides) {
+  const TemporaryDirectory folder;
+  std::ofstream(folder / "ring.inp") << RingFile().text();
+  std::ofstream(folder / "shaft.inp") << RingFile{.inner = 12, .outer = 22.466}.text();
+  std::ofstream(folder / "model.yaml") << text;
+  const Summary summary = simulate(model::read(folder / "model.yaml", overrides), {.results = folder / "r.h5"});
+  CAPTURE(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  const results::Reader reader(folder / "r.h5");
+  Outcome outcome{.h_min = reader.read("/bearings/main/h_min").values.back(),
+                  .p_max = reader.read("/bearings/main/p_max").values.back(),
+                  .balance = summary.worst_power_balance,
+                  .assumptions = reader.text_table("/assumptions")};
+  return outcome;
+}
+
+double deviation(double a, double b) { return std::abs(a / b - 1); }
+
+/// The same once the start, at which stiff shapes are not loaded yet, is forgotten.
+Outcome run_on(const char* text, std::vector<std::string> overrides) {
+  overrides.insert(overrides.end(), {"simulation.duration=8 ms", "simulation.step=50 us"});
+  return run(text, overrides);
+}
+
+TEST_CASE("DeformingShell_WhenStiffIsRigid_WhenSoftGivesWay") {
+  const std::string few = "bearings.main.shell_surface.modes=12", E = "bodies.ring.flexible.material.youngs_modulus=";
+  const Outcome rigid = run_on(shell_model, {"bearings.main.shell_surface=rigid"});
+  const Outcome stiff = run_on(shell_model, {few, E + "2.1e8 GPa"});
+  const Outcome soft = run_on(shell_model, {few});
+  MESSAGE("smallest film: rigid " << 1e6 * rigid.h_min << " um, stiff " << 1e6 * stiff.h_min << " um, steel "
+                                  << 1e6 * soft.h_min << " um");
+  CHECK(deviation(stiff.h_min, rigid.h_min) < 1e-4);
+  CHECK(deviation(stiff.p_max, rigid.p_max) < 1e-4);
+  CHECK(deviation(soft.h_min, rigid.h_min) > 0.01);
+  CHECK(soft.p_max < 0.9 * rigid.p_max);
+  CHECK(std::abs(soft.balance) < 1e-6);
+  const auto row = std::find_if(soft.assumptions.begin(), soft.assumptions.end(),
+                                [](const auto& assumption) { return assumption.first == "main: shell surface"; });
+  REQUIRE(row != soft.assumptions.end());
+  CHECK(row->second.find("deforms with the mesh of ring: 16 x 3 functions (around x along), 12 static answers") !=
+        std::string::npos);
+}
+
+TEST_CASE("DeformingShell_OfModesAndOfNodesAgree_BetterTheMoreModes") {
+  const Outcome nodal = run(shell_model, {"bodies.ring.flexible.form=nodal"});
+  const auto error_with = [&](const std::string& modes) {
+    return deviation(run(shell_model, {"bearings.main.shell_surface.modes=" + modes}).h_min, nodal.h_min);
+  };
+  const double few = error_with("6"), many = error_with("40");
+  MESSAGE("smallest film of a modal body against the nodal one: 6 modes " << few << ", 40 modes " << many);
+  CHECK(many < 0.2 * few);
+  CHECK(many < 2e-4);
+}
+
+TEST_CASE("DeformingJournal_WhenStiffIsRigid_WhenSoftGivesWay") {
+  const std::string few = "bearings.main.journal_surface.modes=12",
+                    stiff_steel = "bodies.shaft.flexible.material.youngs_modulus=2.1e8 GPa";
+  const Outcome rigid = run_on(journal_model, {"bearings.main.journal_surface=rigid", stiff_steel});
+  const Outcome stiff = run_on(journal_model, {few, stiff_steel});
+  const Outcome soft = run_on(journal_model, {few});
+  MESSAGE("smallest film: rigid " << 1e6 * rigid.h_min << " um, stiff " << 1e6 * stiff.h_min << " um, steel "
+                                  << 1e6 * soft.h_min << " um");
+  CHECK(deviation(stiff.h_min, rigid.h_min) < 1e-4);
+  CHECK(deviation(stiff.p_max, rigid.p_max) < 1e-4);
+  CHECK(deviation(soft.h_min, rigid.h_min) > 1e-3);
+  CHECK(std::abs(soft.balance) < 1e-6);
+}
+
+}  // namespace
+}  // namespace hersey::run
