@@ -427,6 +427,10 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
   }
   archive.io("series", names);
   archive.io("rows", counts);
+  {
+    const Archive::Group group(archive, "cycles");
+    cycles_.persist(archive);
+  }
   if (!archive.restores()) return;
   std::vector<std::pair<std::string, std::size_t>> rows;
   std::istringstream lines(names);
