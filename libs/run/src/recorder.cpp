@@ -421,10 +421,6 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
       counts.push_back(count);
     }
   }
-  {
-    const Archive::Group group(archive, "cycles");
-    cycles_.persist(archive);
-  }
   archive.io("series", names);
   archive.io("rows", counts);
   {
