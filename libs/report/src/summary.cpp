@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 namespace hersey::report {
 namespace {
@@ -74,7 +76,7 @@ class Summary {
       last_of("mean power loss in asperity contact" + over, "power_asperity", 1, "W", when);
     }
     const std::vector<double> contact = cycle("contact");
-    if (contact.empty() || contact.back() <= 0) return;
+    if (contact.empty() || contact.back() < 1) return;  // [Pa]: the tail of a distribution of heights, no contact
     of_cycle("largest contact pressure" + over, "contact", 1e-6, "MPa");
     largest_of_map("largest mean contact pressure" + over, "asperity_pressure_mean", "MPa");
     largest_of_map("largest wear load" + over, "wear_load", "W/mm²");
@@ -141,6 +143,7 @@ class Summary {
     if (!time_.empty()) add("simulated time", (time_.back() - time_.front()) * 1e3, "ms");
     add("stored instants", static_cast<double>(time_.size()), "");
     mean_of_rows("mean Newton iterations per step", "solver/newton_iterations");
+    median_of_steps("median Newton iterations per step", "solver/newton_iterations");
     step_rows();
     const std::string error = "power/balance_error";
     if (reader_.has(path_ + error)) {
@@ -148,7 +151,12 @@ class Summary {
       extreme("worst power-balance error of the system", error, largest_size, 1, unit == "1" ? "" : unit, false);
       relative_power_error();
     }
-    if (const auto wall = reader_.number_attribute("/", "wall_time")) add("computing time", *wall, "s");
+    if (const auto wall = reader_.number_attribute("/", "wall_time")) {
+      add("computing time", *wall, "s");
+      if (every_step_is_stored()) {
+        add("computing time per step", 1e3 * *wall / static_cast<double>(time_.size() - 1), "ms");
+      }
+    }
   }
 
   void convergence_rows() {
@@ -176,6 +184,13 @@ class Summary {
       if (is_damped) add(name + "damping ratio", damping[i], "", damping[i] < 0 ? "unstable" : "");
     }
     if (natural.size() > most) add("modes in the results file", static_cast<double>(natural.size()), "");
+  }
+
+  [[nodiscard]] bool every_step_is_stored() const {
+    const std::vector<double> dt = values("solver/dt");
+    if (time_.size() < 2 || dt.size() != time_.size()) return false;
+    const double span = time_.back() - time_.front();
+    return std::abs(std::accumulate(dt.begin() + 1, dt.end(), 0.0) - span) < 1e-6 * span;
   }
 
   void step_rows() {
@@ -286,6 +301,16 @@ class Summary {
     double sum = 0;
     for (const double value : all) sum += value;
     add(name, sum / static_cast<double>(all.size()), "");
+  }
+
+  /// Without the first row, the start.
+  void median_of_steps(const std::string& name, const std::string& series) {
+    std::vector<double> all = values(series);
+    if (all.size() < 2) return;
+    all.erase(all.begin());
+    std::sort(all.begin(), all.end());
+    const std::size_t n = all.size();
+    add(name, 0.5 * (all[(n - 1) / 2] + all[n / 2]), "");
   }
 
   void last(const std::string& name, const std::string& series, double factor, const std::string& unit) {

@@ -109,6 +109,11 @@ TEST_CASE("WholeRunWithoutContact_HasItsEnergiesOnly") {
   }
 }
 
+TEST_CASE("MedianOfIterations_LeavesOutTheStart") {
+  // 2, then ten steps of 4 and 2 in turn.
+  CHECK(find(summary_of({}), "median Newton iterations per step").value == 3);
+}
+
 TEST_CASE("SingleRow_HasItsOwnValueAsMean") {
   const auto rows = summary_of({.rows = 1});
   CHECK(find(rows, "mean side flow, left").value == doctest::Approx(300).epsilon(round_off));

@@ -421,12 +421,12 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
       counts.push_back(count);
     }
   }
+  archive.io("series", names);
+  archive.io("rows", counts);
   {
     const Archive::Group group(archive, "cycles");
     cycles_.persist(archive);
   }
-  archive.io("series", names);
-  archive.io("rows", counts);
   if (!archive.restores()) return;
   std::vector<std::pair<std::string, std::size_t>> rows;
   std::istringstream lines(names);
