@@ -106,12 +106,4 @@ std::vector<BearingCycle> CycleMaps::write(bool is_complete) {
   return cycles;
 }
 
-void CycleRecord::persist(Archive& archive) {
-  archive.io("rows", rows_);
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    const Archive::Group group(archive, machine_.bearings[i].bearing->name());
-    sums_[i].persist(archive);
-  }
-}
-
 }  // namespace hersey::run
