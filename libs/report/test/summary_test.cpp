@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "hersey/report/report.h"
@@ -53,6 +55,31 @@ TEST_CASE("WorstBalanceError_IsTheLargestInSize") {
   CHECK(row.unit == "W");
   // The largest power of the run is 40 W, put in by the loads.
   CHECK(find(rows, "the same, share of the largest power").value == doctest::Approx(5e-8).epsilon(round_off));
+}
+
+TEST_CASE("DifferencesOfCycles_AreToldFromTheSecondOn") {
+  const TemporaryDirectory directory;
+  {
+    results::Writer writer(directory / "run.h5");
+    const results::Series time = writer.series("/time", 1, "s", "test series");
+    const results::Series end = writer.series("/cycles/fields/time", 1, "s", "test series");
+    const results::Series change = writer.series("/cycles/fields/change", 1, "1", "test series");
+    time.append(0), time.append(0.06);
+    const std::array<double, 3> changes{std::nan(""), 0.25, 0.004};
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+      end.append(0.02 * static_cast<double>(k + 1));
+      change.append(changes[k]);
+    }
+    writer.finish(results::Status::completed);
+  }
+  const auto rows = summary_table({directory / "run.h5"});
+  CHECK(find(rows, "cycles").value == 3);
+  const SummaryRow& third = find(rows, "cycle 3: largest difference from the one before");
+  CHECK(third.value == doctest::Approx(0.4).epsilon(round_off));
+  CHECK(third.unit == "%");
+  CHECK(third.where == "ended at t = 0.06 s");
+  CHECK(find(rows, "cycle 2: largest difference from the one before").value == doctest::Approx(25).epsilon(round_off));
+  CHECK_THROWS(find(rows, "cycle 1: largest difference from the one before"));
 }
 
 void write_cycles(const std::filesystem::path& path, double complete, double contact) {

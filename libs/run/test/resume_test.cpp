@@ -85,18 +85,13 @@ joints:
   pin: {type: revolute, between: [crank, rod], initial: {rotation: 30 deg, rotation_rate: 3 rad/s}}
   shoulder: {type: revolute, between: [ground, arm]}
 drives:
-  motor: {joint: main, coordinate: rotation, speed: {expression: "20 + 5*sin(70*t)",
-                  unit : rad / s
-}
-}
+  motor: {joint: main, coordinate: rotation, speed: {expression: '20 + 5*sin(70*t)', unit: rad/s}}
 forces:
   servo: {type: speed_control, joint: shoulder, coordinate: rotation, speed: 10 rad/s, proportional: 0.2 N.m.s/rad, integral: 4 N.m/rad, limit: 3 N.m}
 simulation: {duration: 0.1 s, step: 0.5 ms}
 )";
 
-TEST_CASE("ResumedMechanism_IsTheSame") {
-  check_resumed(kMechanism, 37, 81);
-}
+TEST_CASE("ResumedMechanism_IsTheSame") { check_resumed(kMechanism, 37, 81); }
 
 std::string edited(std::string text, const std::string& old, const std::string& replacement) {
   const std::size_t at = text.find(old);
@@ -106,10 +101,10 @@ std::string edited(std::string text, const std::string& old, const std::string& 
 
 TEST_CASE("ResumedRunOfControlledError_IsTheSame") {
   // Interrupted before and after the table's bend, where the method starts afresh.
-  const std::string text = edited(edited(kMechanism, R"({expression: "20 + 5*sin(70*t)", unit: rad/s})",
+  const std::string text = edited(edited(kMechanism, "{expression: '20 + 5*sin(70*t)', unit: rad/s}",
                                          "{table: {points: [[0, 5], [0.04, 20], [0.1, 8]], x_unit: s, y_unit: rad/s}}"),
                                   "step: 0.5 ms", "step: {tolerance: 1e-6}");
-check_resumed(text + "output: {interval: 3 ms}\n", 5, 40);
+  check_resumed(text + "output: {interval: 3 ms}\n", 5, 40);
 }
 
 TEST_CASE("ResumedFilm_IsTheSame") {
