@@ -1,6 +1,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "hersey/fem/reduced_body_file.h"
+#include "hersey/fem/reduction.h"
 #include "hersey/model/build.h"
 #include "model_text.h"
 #include "ring_file.h"
@@ -116,23 +118,52 @@ TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsTold") {
   CHECK(contains(told("shell: ring.hub", "shell: ground"), "a deforming surface on rigid body 'ground'"));
 }
 
+TEST_CASE("DeformingSurface_OfAReducedBodyIsTold") {
+  const WrittenRing file;
+  const Model model = read_text(machine_text, "m.yaml");
+  const Body& ring = model.bodies[0];
+  const Frame& hub = ring.frames[0];
+  const fem::Reduction reduction = fem::reduce(
+      fem::assemble(*ring.flexible->mesh, ring.flexible->materials),
+      {{hub.name, hub.X_BF.r, hub.nodes, hub.connection, fem::face_weights(*ring.flexible->mesh, hub.nodes)}},
+      {.modes = 2});
+  REQUIRE(reduction.ok);
+  fem::write_reduced_body("film_surface_test_ring.h5", reduction.body);
+  std::string text = edited(machine_text,
+                            "      mesh: film_surface_test_ring.inp\n      length_unit: 1 mm\n"
+                            "      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}\n"
+                            "      modes: 2\n    frames:\n"
+                            "      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}\n",
+                            "      reduced: film_surface_test_ring.h5\n");
+  const std::string faults = faults_of(text);
+  CAPTURE(faults);
+  CHECK(
+      contains(faults, "a deforming surface on the reduced body 'ring', whose file holds no answers to film pressure"));
+  CHECK(contains(faults, "'mesh' in place of 'reduced'"));
+  CHECK(faults_of(edited(text, surface, "rigid")) == "no fault");
+  std::filesystem::remove("film_surface_test_ring.h5");
+}
+
 TEST_CASE("DeformingSurfaces_OfDifferentSizeDoNotFaceEachOther") {
   const WrittenRing file;
-  // The same ring within itself: its outside as the journal of its own bore.
-  std::string text = edited(machine_text,
-                            "  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: "
-                            "1e-3 kg.m^2}}\n",
-                            "  shaft:\n    flexible:\n      mesh: film_surface_test_ring.inp\n      length_unit: 1 mm\n"
-                            "      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}\n"
-                            "    frames:\n      pin: {nodes: foot}\n");
-  text = edited(edited(text, "[ground, shaft]", "[ground, shaft.pin]"), "journal: shaft", "journal: shaft");
-  const std::string both = edited(text, "within: 0.01 mm, functions: [16, 3], modes: 12}",
-                                  "faces: bore}\n    journal_surface: {within: 8 mm}");
-  const std::string faults = faults_of(both);
+  const auto with_shaft = [](double outer) {
+    std::ofstream("film_surface_test_shaft.inp") << RingFile{.inner = 10, .outer = outer}.text();
+    const std::string text =
+        edited(machine_text, "  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}\n",
+               "  shaft:\n    flexible:\n      mesh: film_surface_test_shaft.inp\n      length_unit: 1 mm\n"
+               "      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}\n"
+               "    frames:\n      pin: {nodes: bore, connection: average, origin: 0 0 0 mm}\n");
+    return faults_of(edited(
+        edited(edited(text, "[ground, shaft]", "[ground, shaft.pin]"), "journal: shaft\n", "journal: shaft.pin\n"),
+        surface, "{faces: bore}\n    journal_surface: {within: 3 mm}"));
+  };
+  CHECK(with_shaft(22.466) == "no fault");
+  const std::string faults = with_shaft(20);
   CAPTURE(faults);
-  CHECK(contains(faults, "looks towards the axis"));
-  const std::string outside = edited(both, "{within: 8 mm}", "{faces: outside}");
-  CHECK(contains(faults_of(outside), "30 mm, 7.5 mm off"));
+  CHECK(contains(faults,
+                 "bearings.main.journal_surface: surfaces that do not face each other: the shell's nodes have a "
+                 "mean radius of 22.5 mm, the journal's one of 20 mm"));
+  std::filesystem::remove("film_surface_test_shaft.inp");
 }
 
 }  // namespace

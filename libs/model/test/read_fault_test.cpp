@@ -5,12 +5,14 @@ namespace hersey::model {
 namespace {
 
 TEST_CASE("UnknownKey_NamesTheNearest") {
-  CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
-        "m.yaml:27:5: bearings.big_end: unknown key 'widht'; expected shell, journal, diameter, width, "
-        "radial_clearance, diametral_clearance, lubricant, grid, pressures, cavitation, edge_pressure, ambient_fill, "
-        "supply, features, shape, roughness, asperities, "
-        "compliance, materials, cavitated_shear, shear_force, solver, operating_point or coupling; did you mean "
-        "'width'?");
+  CHECK(
+      faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
+      "m.yaml:27:5: bearings.big_end: unknown key 'widht'; expected shell, journal, diameter, width, "
+      "radial_clearance, diametral_clearance, lubricant, grid, pressures, cavitation, edge_pressure, ambient_fill, "
+      "supply, features, shape, roughness, asperities, "
+      "compliance, shell_surface, journal_surface, materials, cavitated_shear, shear_force, solver, operating_point or "
+      "coupling; did you mean "
+      "'width'?");
 }
 
 TEST_CASE("UnphysicalPressures_AreReported") {
