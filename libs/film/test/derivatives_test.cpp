@@ -286,7 +286,8 @@ TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
     const NormalForces normal = reynolds.normal_forces();
     const auto pushed = [&](const Eigen::VectorXd& force) -> Eigen::VectorXd { return openings.transpose() * force; };
     CHECK((film.Q - pushed(normal.value + normal.by_u.cwiseProduct(du0))).norm() < 1e-8 * film.Q.norm());
-    CHECK((film.wrench - reynolds.wrench_on_shell() - reynolds.wrench_gradient(du0)).norm() < 1e-8 * film.wrench.norm());
+    CHECK((film.wrench - reynolds.wrench_on_shell() - reynolds.wrench_gradient(du0)).norm() <
+          1e-8 * film.wrench.norm());
     for (Eigen::Index k = 0; k < answers.cols(); ++k) {
       const Vector6 total = partial.col(k) + reynolds.wrench_gradient(answers.col(k));
       CHECK((film.wrench_ds.col(k) - total).norm() <= 1e-8 * total.norm());

@@ -170,8 +170,11 @@ bodies:
     inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}
     shapes:
       face: {shape: box, centre: 200 20 5 mm, size: 20 20 40 mm}
+  ground:
+    frames:
+      wall: {origin: 0 5 5 mm}
 joints:
-  clamp: {type: fixed, between: [ground, bar.root]}
+  clamp: {type: fixed, between: [ground.wall, bar.root]}
   guide: {type: prismatic, between: [ground, block], axis: y}
 drives:
   push: {joint: guide, coordinate: translation, position: "-0.5 mm", ramp: 30 ms}
@@ -187,7 +190,7 @@ simulation: {duration: 60 ms, step: 0.25 ms}
 TEST_CASE("BarPushedByABlock_AnswersLikeACantilever") {
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);
-  const std::string faces = "    shapes:\n      end: {shape: faces, of: right}";
+  const std::string faces = "    shapes:\n      end: {shape: faces, of: pad}";
   struct Case {
     std::string form, shapes, part;
   };
@@ -197,7 +200,8 @@ TEST_CASE("BarPushedByABlock_AnswersLikeACantilever") {
     CAPTURE(c.form);
     CAPTURE(c.part);
     std::ofstream(folder / "model.yaml") << pressed_bar(c.form, c.shapes, c.part);
-    const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
+    const Summary summary =
+        simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5", .overwrite = true});
     INFO(summary.message);
     REQUIRE(summary.status == Status::completed);
     CHECK(summary.worst_power_balance < 1e-6);

@@ -22,6 +22,8 @@ inline void write_bar(const std::filesystem::path& path, int cells) {
   }
   file << "*NSET, NSET=left\n1, 2, 3, 4\n*NSET, NSET=right\n";
   for (int corner = 0; corner < 4; ++corner) file << 4 * cells + corner + 1 << (corner < 3 ? ", " : "\n");
+  file << "*NSET, NSET=pad\n";  // on the upper side, at the right end
+  for (int i = cells - 2; i <= cells; ++i) file << 4 * i + 2 << ", " << 4 * i + 3 << (i < cells ? ", " : "\n");
 }
 
 inline const char* const kPendulum = R"(hersey: 1

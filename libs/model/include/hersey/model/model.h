@@ -74,7 +74,7 @@ struct Flexible {
   double static_error = 0.01;                       ///< of their displacements
   int load_harmonics = 4;
   std::vector<std::vector<fem::ElementFace>> contact_faces;  ///< that touch other bodies
-  double highest = 0;  ///< leave out modes above this frequency [Hz]; 0: none
+  double highest = 0;                                        ///< leave out modes above this frequency [Hz]; 0: none
   mbd::RayleighDamping damping;
   double vtu_every = 0;  ///< interval of the deformed meshes written beside the results [s]; 0: none
   SourcePosition position;
