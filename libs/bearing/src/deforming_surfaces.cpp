@@ -97,7 +97,8 @@ void DeformingSurfaces::add_turning(std::vector<film::MotionDirection>& of_param
 
 void DeformingSurfaces::add_turning_forces(const VectorXd& normal_forces, MatrixXd& Q_ds) const {
   if (!journal_) return;
-  Q_ds.col(kRotation).tail(slopes_.cols()).noalias() += slopes_.transpose() * normal_forces;
+  const Index first = Q_ds.rows() - slopes_.cols();
+  for (Index k = 0; k < slopes_.cols(); ++k) Q_ds(first + k, kRotation) += slopes_.col(k).dot(normal_forces);
 }
 
 VectorXd DeformingSurfaces::shell_displacement(const VectorXd& s) const {

@@ -130,8 +130,9 @@ void NodalFactors::persist(Archive& archive) {
   if (!archive.restores() || K_.rows() > 0) return;
   factors_.clear();
   std::string message;
-  for (auto step = steps.rbegin(); step != steps.rend(); ++step)
-    if (!add(step->first, step->second, message)) throw ArchiveError(message);
+  std::reverse(steps.begin(), steps.end());  // the one used last goes in last, to the front
+  for (const auto& [shift, scale] : steps)
+    if (!add(shift, scale, message)) throw ArchiveError(message);
 }
 
 }  // namespace hersey::mbd
