@@ -54,7 +54,7 @@ fem::InterfaceFrame frame_of(const Mesh& mesh, const std::string& text) {
   frame.nodes = nodes_of(mesh, set);
   frame.origin = fem::face_centre(mesh, frame.nodes);
   if (frame.connection == fem::Connection::average) frame.weights = fem::face_weights(mesh, frame.nodes);
-  return frame;
+  return fem::braced(mesh, std::move(frame));
 }
 
 double constant(const char* option, const std::string& given, const std::optional<double>& in_file, const char* unit,

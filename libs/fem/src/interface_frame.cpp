@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "hersey/core/contract.h"
@@ -53,6 +54,26 @@ Vector3 face_centre(const Mesh& mesh, const std::vector<int>& nodes) {
     total += weights[i];
   }
   return sum / total;
+}
+
+InterfaceFrame braced(const Mesh& mesh, InterfaceFrame frame) {
+  constexpr double share = 1e-4;  // of a neighbour's weight in that of a node of the frame's own
+  if (frame.connection != Connection::average || frame.nodes.empty() || nodes_span_rotations(mesh, frame)) return frame;
+  std::vector<char> is_own(mesh.nodes.size(), 0), is_near(mesh.nodes.size(), 0);
+  for (const int node : frame.nodes) is_own[static_cast<std::size_t>(node)] = 1;
+  for (const Element& element : mesh.elements) {
+    const int* const first = mesh.nodes_of(element);
+    const int* const last = first + node_count(element.type);
+    if (std::none_of(first, last, [&](int node) { return is_own[static_cast<std::size_t>(node)] != 0; })) continue;
+    std::for_each(first, last, [&](int node) { is_near[static_cast<std::size_t>(node)] = 1; });
+  }
+  frame.weights.assign(frame.nodes.size(), 1.0);
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
+    if (is_near[node] == 0 || is_own[node] != 0) continue;
+    frame.nodes.push_back(static_cast<int>(node));
+    frame.weights.push_back(share);
+  }
+  return frame;
 }
 
 Eigen::SparseMatrix<double> frame_motion(const Mesh& mesh, const InterfaceFrame& frame) {

@@ -36,7 +36,7 @@ std::string fault_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames
     if (!nodes_span_rotations(mesh, frame))
       return fmt::format(
           "the nodes of frame '{}' lie on one line, about which nothing would hold it; take a face or an edge that "
-          "bends",
+          "bends, or the connection `average`, which turns with the elements around",
           frame.name);
     if (frame.connection == Connection::average) continue;
     for (const int node : frame.nodes) {

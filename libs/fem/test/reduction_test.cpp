@@ -164,6 +164,35 @@ TEST_CASE("BorePressures_HaveTheResultantsOfTheirHarmonics") {
   CHECK(w(1, 5) == doctest::Approx(w(3, 2) * 1.5 / 3));  // int s (h s) over the height, h = 1.5
 }
 
+TEST_CASE("FrameOnANodeOrAnEdge_MovesWithItAndTurnsWithTheElementsAround") {
+  const ElasticBody body = bar(ElementType::hex20, {6, 2, 2});
+  const InterfaceFrame root = frame_on(body.mesh, "x0", Connection::rigid);
+  std::vector<int> edge;  // the upper edge of the free end
+  double length = 0, top = 0;
+  for (const Vector3& x : body.mesh.nodes) length = std::max(length, x.x()), top = std::max(top, x.z());
+  for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n)
+    if (body.mesh.nodes[n].x() > length - 1e-9 && body.mesh.nodes[n].z() > top - 1e-9)
+      edge.push_back(static_cast<int>(n));
+  REQUIRE(edge.size() == 5);
+  for (const std::vector<int>& nodes : {edge, std::vector<int>{edge[2]}}) {
+    CAPTURE(nodes.size());
+    InterfaceFrame tip{"tip", face_centre(body.mesh, nodes), nodes, Connection::average, {}};
+    tip = braced(body.mesh, std::move(tip));
+    CHECK(tip.nodes.size() > nodes.size());
+    const ReducedBody reduced = must_reduce(body, {root, tip}, {.modes = 0}).body;
+    // A force on the frame, the root at rest, against the same force shared by its own nodes of the whole mesh.
+    const Eigen::MatrixXd flexibility = reduced.K.bottomRightCorner(6, 6).inverse();
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(body.size());
+    for (const int n : nodes) f[3 * n + 2] = 1.0 / static_cast<double>(nodes.size());
+    std::vector<Support> supports;
+    for (const int dof : dofs_of(body.mesh.node_sets.at("x0"))) supports.push_back({dof, 0});
+    const StaticSolution whole = solve_static(body, supports, f);
+    REQUIRE(whole.ok);
+    CHECK(flexibility(5, 5) == doctest::Approx(f.dot(whole.u.col(0))).epsilon(5e-3));
+    CHECK(flexibility(1, 1) > 0);  // its rotation is held by something
+  }
+}
+
 TEST_CASE("FramesThatCannotHoldTheBody_AreToldByName") {
   const ElasticBody body = bar(ElementType::tet4, {2, 1, 1});
   InterfaceFrame good = frame_on(body.mesh, "x0", Connection::rigid),

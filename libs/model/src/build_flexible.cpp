@@ -54,8 +54,9 @@ fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh,
   frames.reserve(body.frames.size());
   for (const Frame& frame : body.frames) {
     const bool is_average = frame.connection == fem::Connection::average;
-    frames.push_back({frame.name, frame.X_BF.r, frame.nodes, frame.connection,
-                      is_average ? fem::face_weights(*flexible.mesh, frame.nodes) : std::vector<double>()});
+    frames.push_back(fem::braced(
+        *flexible.mesh, {frame.name, frame.X_BF.r, frame.nodes, frame.connection,
+                         is_average ? fem::face_weights(*flexible.mesh, frame.nodes) : std::vector<double>()}));
   }
   fem::Reduction reduction = fem::reduce(*mesh, frames, options_of(flexible, surfaces));
   if (!reduction.ok)

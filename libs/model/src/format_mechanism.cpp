@@ -26,7 +26,8 @@ TypePtr frames_format() {
                                      choice({{"rigid", "the nodes follow the frame as one rigid piece"},
                                              {"average",
                                               "the frame follows the nodes' mean motion, and what acts on it "
-                                              "spreads over them"}}),
+                                              "spreads over them; on one node or a line it turns with the elements "
+                                              "around"}}),
                                      "How frame and nodes hold each other.", "rigid"),
                             optional("along",
                                      or_word(quantity("m", "250 mm", Range::not_negative()),
