@@ -112,9 +112,14 @@ TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreTold") {
 TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {
   CHECK(contains(faults_with("nodes: right", "nodes: left"), "on which frame 'root' stands too"));
   const MeshFile file;
-  const Model model = read_text(edited(kMachine, "    frames:\n      root: {nodes: left}\n      tip: {nodes: right",
-                                       "    frames:\n      root: {nodes: edge"),
-                                "m.yaml");
+  const auto on_edge = [](const std::string& connection) {
+    return read_text(
+        edited(kMachine, "    frames:\n      root: {nodes: left}\n      tip: {nodes: right, connection: average}",
+               "    frames:\n      root: {nodes: edge, connection: " + connection + "}"),
+        "m.yaml");
+  };
+  CHECK(build(on_edge("average")).flexibles.size() == 1);  // turns with the elements around
+  const Model model = on_edge("rigid");
   try {
     (void)build(model);
     FAIL_CHECK("not refused");
