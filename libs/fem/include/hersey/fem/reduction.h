@@ -30,8 +30,9 @@ struct InterfaceFrame {
 /// face.
 [[nodiscard]] std::vector<double> face_weights(const Mesh& mesh, const std::vector<int>& nodes);
 
-/// An `average` frame on one node, or on nodes of one line, with the other nodes of the elements around them: these turn
-/// the frame, but count for little where it is, so that it stays with the nodes it was given. Any other frame as it is.
+/// An `average` frame on one node, or on nodes of one line, with the other nodes of the elements around them: these
+/// turn the frame, but count for little where it is, so that it stays with the nodes it was given. Any other frame as
+/// it is.
 [[nodiscard]] InterfaceFrame braced(const Mesh& mesh, InterfaceFrame frame);
 
 /// The centre of the faces whose nodes are all among `nodes`: of a bore a point on its axis, however it is meshed. The
