@@ -90,6 +90,12 @@ class ContactReader {
   void keep_answers() {
     const DeformingFaces* faces = context_.model.find_faces(contact_.second);
     if (faces == nullptr) return;
+    // Two contacts on the same faces share the answers: given twice, they would depend on each other.
+    const auto has_them = [&](const Contact& other) {
+      return other.second.body == contact_.second.body && other.second.shape == contact_.second.shape;
+    };
+    const std::vector<Contact>& before = context_.model.contacts;
+    if (std::any_of(before.begin(), before.end(), has_them)) return;
     for (Body& body : context_.model.bodies) {
       if (body.name != contact_.second.body || body.flexible->reduced) continue;
       if (static_cast<int>(faces->nodes.size()) <= most_contact_nodes) {

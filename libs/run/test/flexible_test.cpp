@@ -173,6 +173,8 @@ bodies:
   ground:
     frames:
       wall: {origin: 0 5 5 mm}
+    shapes:
+      floor: {shape: half_space, point: 0 -50 0 mm, normal: y}  # out of reach
 joints:
   clamp: {type: fixed, between: [ground.wall, bar.root]}
   guide: {type: prismatic, between: [ground, block], axis: y}
@@ -181,6 +183,10 @@ drives:
 contacts:
   touch:
     between: [block.face, )" +
+         part + R"(]
+    stiffness: {pressure: 1 GPa, penetration: 10 um}
+  fall:
+    between: [ground.floor, )" +
          part + R"(]
     stiffness: {pressure: 1 GPa, penetration: 10 um}
 simulation: {duration: 60 ms, step: 0.25 ms}
