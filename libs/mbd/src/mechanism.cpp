@@ -373,6 +373,7 @@ State Mechanism::initial_state() const { return impl_->initial_state(); }
 std::vector<Mechanism::Index> Mechanism::given_coordinates() const { return impl_->given_coordinates(); }
 
 std::vector<Mechanism::Index> Mechanism::elastic_coordinates() const { return impl_->elastic_coordinates(); }
+std::vector<Mechanism::Index> Mechanism::internal_coordinates() const { return impl_->internal_coordinates(); }
 
 FrameMotion Mechanism::frame_motion(const State& state, FrameId frame) {
   HERSEY_REQUIRE(0 <= frame.index && frame.index < static_cast<int>(impl_->tree.frames.size()), "the frame exists");

@@ -59,6 +59,7 @@ struct Mechanism::Implementation {
   [[nodiscard]] solver::State initial_state() const;
   [[nodiscard]] std::vector<Index> given_coordinates() const;
   [[nodiscard]] std::vector<Index> elastic_coordinates() const;
+  [[nodiscard]] std::vector<Index> internal_coordinates() const;
   [[nodiscard]] bool is_deformation(int joint) const;
 
   // Redundant constraints

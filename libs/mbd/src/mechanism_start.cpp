@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mechanism_impl.h"
 #include "redundancy.h"
@@ -52,8 +53,15 @@ std::vector<Mechanism::Index> Mechanism::Implementation::elastic_coordinates() c
   for (const Link& link : tree.links)
     if (link.joint >= 0 && is_deformation(link.joint))
       for (int c = 0; c < link.columns; ++c) stiff.push_back(link.first_v + c);
-  for (Index k = tree.nv; k < nv; ++k) stiff.push_back(k);
+  const std::vector<Index> internal = internal_coordinates();
+  stiff.insert(stiff.end(), internal.begin(), internal.end());
   return stiff;
+}
+
+std::vector<Mechanism::Index> Mechanism::Implementation::internal_coordinates() const {
+  std::vector<Index> internal(static_cast<std::size_t>(nv - tree.nv));
+  std::iota(internal.begin(), internal.end(), tree.nv);
+  return internal;
 }
 
 void Mechanism::Implementation::release_redundant_rows() {

@@ -81,6 +81,16 @@ TypePtr simulation_format() {
                    "Revolute joint driven at a constant speed: turns angles into times, and is the report's abscissa.",
                    "angles cannot be used"),
           defaulted("start", quantity("s", "0 s"), "0 s", "Time at the start."),
+          optional("initial_deformation",
+                   choice({{"none", "undeformed: what presses on it makes it vibrate"},
+                           {"internal",
+                            "as the forces of the start hold it between its frames; these stand as in the undeformed "
+                            "body, so that journals start where the joints put them"},
+                           {"static",
+                            "as the forces of the start hold it; frames, and journals with them, are shifted by what "
+                            "the body gives way"}}),
+                   "How bodies that deform start, in `dynamics`.",
+                   "`internal` where a film presses on a surface that deforms, otherwise `none`"),
           defaulted("spectral_radius", number("0.8", {.low = 0, .high = 1}), "0.8",
                     "Damping of the fastest vibrations by generalized-alpha: 1 none, 0 all within a step."),
           defaulted("tolerance", number("1e-8", fraction), "1e-8",

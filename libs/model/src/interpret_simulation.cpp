@@ -236,6 +236,16 @@ void require_whole_steps(Context& context, const Value& parent) {
                 "a whole number of steps", "change the step, or let steps be chosen with step: {tolerance: 1e-4}");
 }
 
+InitialDeformation initial_deformation_of(const Model& model, const Value& simulation) {
+  if (const Value* value = simulation.find("initial_deformation"); value != nullptr && !value->broken)
+    return value->text == "static"     ? InitialDeformation::complete
+           : value->text == "internal" ? InitialDeformation::internal
+                                       : InitialDeformation::none;
+  const auto deforms = [](const Bearing& bearing) { return bearing.shell_surface || bearing.journal_surface; };
+  return std::any_of(model.bearings.begin(), model.bearings.end(), deforms) ? InitialDeformation::internal
+                                                                            : InitialDeformation::none;
+}
+
 }  // namespace
 
 void interpret_simulation(Context& context) {
@@ -254,6 +264,7 @@ void interpret_simulation(Context& context) {
     context.fault(*value->find("step"), "an error control of a kinematic analysis, which integrates nothing",
                   "the time between its instants, such as 0.1 ms");
   }
+  simulation.initial_deformation = initial_deformation_of(context.model, *value);
   simulation.spectral_radius = number_of(*value, "spectral_radius");
   simulation.tolerance = number_of(*value, "tolerance");
   simulation.max_iterations = integer_of(*value, "max_iterations");

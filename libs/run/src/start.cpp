@@ -14,6 +14,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/solver/initialise.h"
 #include "hersey/solver/kinematics.h"
+#include "hersey/solver/static_deformation.h"
 
 namespace hersey::run {
 namespace {
@@ -120,6 +121,25 @@ void require_damped_multipliers(const model::Model& model, const mbd::Mechanism&
                          "0.95 dissipates little; at 1 the multipliers grow without bound"});
 }
 
+// Bodies that deform start as the forces hold them, where that is asked for.
+void deform(const model::Model& model, model::Machine& machine, solver::InitialiseOptions options,
+            solver::State& state) {
+  using model::InitialDeformation;
+  const model::Simulation& plan = model.simulation;
+  if (plan.analysis != model::Analysis::dynamics || plan.initial_deformation == InitialDeformation::none) return;
+  if (plan.initial_deformation == InitialDeformation::internal) {
+    options.held.insert(options.held.end(), options.stiff.begin(), options.stiff.end());
+    options.stiff = machine.mechanism->internal_coordinates();
+  }
+  if (options.stiff.empty()) return;
+  const solver::StaticDeformationSummary summary = solver::settle_deformations(*machine.mechanism, state, options);
+  if (summary.converged) return;
+  throw InputError(Fault{model.position_of("simulation"), "simulation.initial_deformation",
+                         "a start in which the deformation that the forces hold cannot be found: " + summary.message,
+                         "forces that the bodies can carry at the start",
+                         "start nearer to the motion that follows, or undeformed with initial_deformation: none"});
+}
+
 }  // namespace
 
 solver::State starting_state(const model::Model& model, model::Machine& machine) {
@@ -131,6 +151,7 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   options.stiff = machine.mechanism->elastic_coordinates();
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
   if (!summary.consistent()) throw InputError(faults_of(model, summary));
+  deform(model, machine, options, state);
   if (model.simulation.analysis == model::Analysis::kinematics) require_prescribed_motion(model, machine, state);
   return state;
 }

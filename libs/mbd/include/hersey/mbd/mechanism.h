@@ -101,6 +101,9 @@ class Mechanism final : public solver::Equations {
   /// Velocity components that deform elastic bodies: InitialiseOptions::stiff.
   [[nodiscard]] std::vector<Index> elastic_coordinates() const;
 
+  /// Those of them that move no frame.
+  [[nodiscard]] std::vector<Index> internal_coordinates() const;
+
   /// Everything about `state`. Two-body forces are those of the last accepted step, which must have ended in `state`.
   [[nodiscard]] Observation observe(const solver::State& state);
 

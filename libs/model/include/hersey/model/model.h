@@ -344,6 +344,13 @@ enum class ModesAbout {
   end,
 };
 
+/// How bodies that deform start.
+enum class InitialDeformation {
+  none,      ///< undeformed
+  internal,  ///< as forces hold it between its frames, which stand where an undeformed body has them
+  complete   ///< as forces hold it
+};
+
 struct Simulation {
   Analysis analysis = Analysis::dynamics;
   ModesAbout modes_about = ModesAbout::start;
@@ -352,6 +359,7 @@ struct Simulation {
   double step = 0;      ///< [s], > 0; under error control a hundredth of its largest
   std::optional<ErrorControl> error_control;
   std::optional<Crank> crank;
+  InitialDeformation initial_deformation = InitialDeformation::none;
   double spectral_radius = 0.8;  ///< of generalized-alpha, 0..1
   double tolerance = 1e-8;       ///< relative, of Newton
   int max_iterations = 20;       ///< of Newton, per step

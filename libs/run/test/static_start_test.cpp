@@ -1,0 +1,76 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "hersey/model/read.h"
+#include "hersey/results/reader.h"
+#include "hersey/run/simulate.h"
+#include "small_bar.h"
+#include "temporary_directory.h"
+
+// Bodies that start deformed as the forces hold them.
+namespace hersey::run {
+namespace {
+
+/// The pendulum's strain energy in time, with `change` made to its text.
+std::vector<double> strain_energy(const std::string& text, const std::string& initial_deformation) {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::ofstream(folder / "model.yaml") << text;
+  const Summary summary =
+      simulate(model::read(folder / "model.yaml", {"simulation.initial_deformation=" + initial_deformation}),
+               {.results = folder / "r.h5"});
+  INFO(summary.message);
+  CHECK(summary.status == Status::completed);
+  return results::Reader(folder / "r.h5").read("/energy/strain").values;
+}
+
+std::string pendulum(const std::string& joints) {
+  std::string text = kPendulum;
+  const std::string hinge = "  hinge: {type: revolute, between: [ground, bar.root]}\n";
+  return text.replace(text.find(hinge), hinge.size(), joints);
+}
+
+/// Largest departure from where it starts, relative to it.
+double swing(const std::vector<double>& energy) {
+  double largest = 0;
+  for (const double now : energy) largest = std::max(largest, std::abs(now - energy.front()));
+  return largest / energy.front();
+}
+
+TEST_CASE("HeldBar_StartsAtRestUnderItsWeight") {
+  const std::string held = pendulum("  clamp: {type: fixed, between: [ground, bar.root]}\n");
+  CHECK(swing(strain_energy(held, "static")) < 1e-6);
+  const std::vector<double> let_go = strain_energy(held, "none");
+  CHECK(let_go.front() == 0);
+  // Let go, it swings to twice the deflection: four times the energy, less what damping takes.
+  const double at_rest = strain_energy(held, "static").front();
+  CHECK(*std::max_element(let_go.begin(), let_go.end()) == doctest::Approx(4 * at_rest).epsilon(0.1));
+}
+
+// Its rigid rotation depends on the constraints, as do two of its deformations.
+TEST_CASE("BarInALoop_StartsAtRestUnderItsWeight") {
+  const std::string loop =
+      pendulum(
+          "  hinge: {type: revolute, between: [ground, bar.root]}\n  end: {type: spherical, between: [ground.far, "
+          "bar.tip]}\n")
+          .insert(std::string(kPendulum).find("  bar:"), "  ground: {frames: {far: {origin: 200 5 5 mm}}}\n");
+  const std::vector<double> energy = strain_energy(loop, "static");
+  CHECK(energy.front() > 0);
+  CHECK(swing(energy) < 1e-6);
+}
+
+// It falls, and bends as its own inertia has it: not as a bar that is held.
+TEST_CASE("FallingPendulum_StartsWithoutVibration") {
+  const std::vector<double> smooth = strain_energy(kPendulum, "static"), ringing = strain_energy(kPendulum, "none");
+  const std::size_t first = 60;  // 6 ms, more than a period of its first bending vibration
+  CHECK(swing({smooth.begin(), smooth.begin() + first}) < 0.05);
+  CHECK(*std::max_element(ringing.begin(), ringing.begin() + first) > 3 * smooth.front());
+}
+
+}  // namespace
+}  // namespace hersey::run

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "hersey/solver/initialise.h"
+
+namespace hersey::solver {
+
+/// Outcome of `settle_deformations`. Unless it converged the state is unchanged.
+struct StaticDeformationSummary {
+  bool converged = false;
+  int iterations = 0;   ///< of Newton's method
+  double residual = 0;  ///< largest row residual relative to its tolerance
+  std::string message;  ///< empty when converged: what failed, and where
+};
+
+/// Deforms what is elastic as the forces at the start hold it, so that a run does not begin with the vibrations of
+/// bodies let go undeformed: deformations and multipliers with which nothing elastic is accelerated,
+///
+///     r(q, v, vdot, lambda) = 0,    Phi(q) = 0,    G v + Phi_t = 0,    G vdot + gamma = 0,
+///     v_e = vdot_e = 0 of the deformations e,    q, v of the free rigid motions as they are,
+///
+/// theory manual eq. (integrator.18). The rigid motions keep their accelerations: a body may fall or spin. Forces that
+/// depend on the deformation, a film among them, take part in Newton's method with their tangent. Ends with begin_step
+/// / accept_step of zero length.
+/// @param state    consistent, as `initialise` leaves it
+/// @param options  `stiff`: the deformations; `held`: other components that keep their positions if the constraints allow
+/// @pre every deformation has a stiffness
+/// @cost per iteration two assemblies and one sparse factorisation; once a dense QR of G
+[[nodiscard]] StaticDeformationSummary settle_deformations(Equations& equations, State& state,
+                                                           const InitialiseOptions& options);
+
+}  // namespace hersey::solver
