@@ -120,7 +120,7 @@ void JournalBearing::begin_step(const mbd::RelativeMotion& start, double dt) {
   history_.dt = dt;
   u_ = u_start_;
   linearised_ = false;
-  iterations_ = 0;
+  iterations_ = exchanges_ = 0;
   given_ = given_start_;
   answered_ = false;
   interface_.begin_step();
@@ -209,6 +209,7 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
     if (!is_sensible()) return report_contact();
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
     iterations_ += summary.iterations;
+    ++exchanges_;
     if (!summary.converged) {
       domain_error_ = summary.message;
       return;
@@ -240,6 +241,7 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   observed_s_ = end.s;
   observed_history_ = history_;
   observed_iterations_ = iterations_;
+  observed_exchanges_ = exchanges_;
   history_start_.theta = fields.theta;
   history_start_.w = fields.w;
   history_start_.density = fields.density;
@@ -267,6 +269,7 @@ BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) co
   if (deforming_->deform())
     seen.power_into_bodies += (deforming_->openings().transpose() * seen.film.normal_forces).dot(motion.s_rate);
   seen.film_iterations = observed_iterations_;
+  seen.exchanges = observed_exchanges_;
   return seen;
 }
 

@@ -15,6 +15,7 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/assumptions.h"
 #include "redundancies.h"
+#include "work_record.h"
 
 namespace hersey::run {
 namespace {
@@ -243,6 +244,8 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   s.mass_balance_error = series("mass_balance_error", "1", "|supply - edges - storage| over the largest flow");
   s.cavitated_share = series("cavitated_share", "1", "share of the area that is cavitated");
   s.film_iterations = series("film_iterations", "1", "film linearisations in the step");
+  if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
+    s.exchanges = series("exchanges", "1", "wrenches that film and bodies exchanged in the step");
   declare_fields(bearing, s);
   return s;
 }
@@ -443,9 +446,11 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
   writer_.rename(results);
 }
 
-void Recorder::finish(results::Status status, const std::string& message, double wall_time) {
+void Recorder::finish(results::Status status, const std::string& message, double wall_time, const Work& work,
+                      int steps) {
   cycles_.finish();
   writer_.attribute("/", "wall_time", wall_time);
+  write_work(work, steps, writer_);
   writer_.finish(status, message);
 }
 
@@ -485,6 +490,7 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
   s.mass_balance_error.append(film.mass_balance_error);
   s.cavitated_share.append(film.cavitated_share);
   s.film_iterations.append(seen.film_iterations);
+  if (s.exchanges) s.exchanges->append(seen.exchanges);
 }
 
 void Recorder::write_fields(const StepRecord& step) {
