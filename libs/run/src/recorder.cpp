@@ -104,7 +104,7 @@ void Recorder::declare_run(const Options& options) {
   if (!study_parameters.empty()) writer_.attribute("/", "study_parameters", study_parameters);
   writer_.text("/model", model_.resolved_text, "model file of this run, overrides noted");
   std::vector<std::pair<std::string, std::string>> texts = assumptions(model_);
-  for (auto& text : film_surface_rows(machine_)) texts.push_back(std::move(text));
+  for (auto& text : film_surface_rows(model_, machine_)) texts.push_back(std::move(text));
   for (auto& text : redundancies(*machine_.mechanism)) texts.push_back(std::move(text));
   writer_.text_table("/assumptions", texts, "what decides the results: name, text");
 

@@ -10,6 +10,7 @@
 #include "checkpoint.h"
 #include "cycle_convergence.h"
 #include "extremes.h"
+#include "facing_surfaces.h"
 #include "flexible_record.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/stopwatch.h"
@@ -583,7 +584,9 @@ std::vector<Fault> check(const model::Model& model) {
   if (model.is_of_bearings_alone()) return {};
   model::Machine machine = model::build(model);
   (void)starting_state(model, machine);
-  return redundancy_warnings(model, *machine.mechanism);
+  std::vector<Fault> warnings = redundancy_warnings(model, *machine.mechanism);
+  for (Fault& warning : offset_warnings(model)) warnings.push_back(std::move(warning));
+  return warnings;
 }
 
 Summary simulate(const model::Model& model, const Options& options) {
