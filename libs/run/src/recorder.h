@@ -91,6 +91,7 @@ class Recorder {
         oil_volume, mass_balance_error, cavitated_share, film_iterations;
     std::vector<results::Series> flow_features;
     std::optional<results::Series> exchanges;  // of a partitioned coupling
+    results::Series h_min_around, p_max_around;
     results::Series field_time, pressure, thickness, fill, asperity_pressure;
     std::optional<results::Series> shell_displacement, journal_displacement;  // of surfaces of elastic bodies
   };
@@ -122,6 +123,7 @@ class Recorder {
   void write_contacts(const std::vector<mbd::ContactObservation>& seen) const;
   [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
   void declare_fields(const model::Bearing& bearing, BearingSeries& series);
+  void write_around(std::size_t bearing) const;
   void write_bearing(const BearingSeries& series, const bearing::BearingObservation& seen, double clearance) const;
 
   const model::Model& model_;
