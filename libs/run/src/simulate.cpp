@@ -388,7 +388,7 @@ class Simulation {
 
   void write(const StepRecord& step) {
     const double slack = 1e-9 * model_.simulation.step;
-    deformed_.write(state_.t, state_.t - model_.simulation.start, slack, step.mechanism);
+    deformed_.write(state_.t, state_.t - model_.simulation.start, slack, step);
     if (is_row_due(slack)) recorder_.write_row(step);
     if (state_.t >= next_fields_ - slack || settled_ || repeats_) {
       recorder_.write_fields(step);
