@@ -166,6 +166,26 @@ TEST_CASE("FilmPressureOnMeshes_HasTheFilmsForce_AtTheChosenTimes") {
   }
 }
 
+TEST_CASE("DeformedMesh_MovesAsTheFilmSeesItsSurface") {
+  // Displacements, and with them stresses, hold the answers to film pressure: most of what a bore does.
+  const Run run;
+  const results::Reader reader(run.results);
+  const std::vector<double> seen = reader.read("/bearings/main/fields/shell_displacement").values;
+  constexpr std::size_t nodes = 48 * 9;
+  REQUIRE(seen.size() >= nodes);
+  const auto last = seen.end() - static_cast<std::ptrdiff_t>(nodes);
+  const double most = *std::max_element(last, seen.end());
+  const fem::Mesh ring = fem::read_mesh(run.folder / "ring.inp", 1e-3);
+  const std::vector<double> u = field_of(files_in(run.folder / "r_ring").back(), "displacement");
+  double radial = 0;
+  for (std::size_t n = 0; n < ring.nodes.size(); ++n) {
+    const Eigen::Vector2d x = ring.nodes[n].head<2>();
+    if (x.norm() < 0.023) radial = std::max(radial, Eigen::Vector2d(u[3 * n], u[3 * n + 1]).dot(x.normalized()));
+  }
+  CHECK(radial > 0.05e-6);
+  CHECK(radial == doctest::Approx(most).epsilon(0.03));
+}
+
 TEST_CASE("MeshesAt_AnglesComeAgainInEveryCycle") {
   const model::Model model =
       rig(rig_with("  duration: \"${duration}\"\n", "  cycle: {period: 360 deg, until_converged: 0, most: 3}\n") +
