@@ -68,6 +68,24 @@ const char* word(run::Status status) {
   return "";
 }
 
+nlohmann::json json_of(const run::PerStep& figures) {
+  return {{"median", figures.median}, {"mean", figures.mean}, {"most", figures.most}};
+}
+
+nlohmann::json json_of(const run::Work& work) {
+  nlohmann::json document{{"start_up", work.start_up},
+                          {"stepping", work.stepping},
+                          {"newton_iterations", json_of(work.newton_iterations)},
+                          {"parts", nlohmann::json::object()},
+                          {"couplings", nlohmann::json::object()}};
+  for (const run::WorkPart& part : work.parts) document["parts"][part.name] = part.seconds;
+  for (const run::CouplingWork& coupling : work.couplings)
+    document["couplings"][coupling.bearing] = {{"scheme", coupling.scheme},
+                                               {"film_iterations", json_of(coupling.film_iterations)},
+                                               {"exchanges", json_of(coupling.exchanges)}};
+  return document;
+}
+
 nlohmann::json json_of(const run::Summary& summary) {
   return {{"status", word(summary.status)},
           {"message", summary.message},
@@ -80,7 +98,8 @@ nlohmann::json json_of(const run::Summary& summary) {
           {"newton_iterations", summary.newton_iterations},
           {"worst_constraint_drift", summary.worst_constraint_drift},
           {"worst_power_balance", summary.worst_power_balance},
-          {"wall_time", summary.wall_time}};
+          {"wall_time", summary.wall_time},
+          {"work", json_of(summary.work)}};
 }
 
 // Report and closing table from whatever rows there are; a report that cannot be made does not undo a good run.
@@ -133,6 +152,33 @@ void tell(const std::string& label, const run::Summary& summary) {
   }
 }
 
+std::string text_of(const run::PerStep& figures) {
+  return fmt::format("median {:g}, mean {:.1f}, most {}", figures.median, figures.mean, figures.most);
+}
+
+// Where the time went, largest shares first, and what it took to bring films and bodies together.
+void tell_work(const run::Summary& summary) {
+  const run::Work& work = summary.work;
+  if (summary.steps == 0 || work.stepping <= 0) return;
+  fmt::print(stderr, "{:.3g} ms per step after {:.2f} s of start-up; Newton iterations per step: {}\n",
+             1e3 * work.stepping / summary.steps, work.start_up, text_of(work.newton_iterations));
+  std::vector<run::WorkPart> parts = work.parts;
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const run::WorkPart& a, const run::WorkPart& b) { return a.seconds > b.seconds; });
+  std::string shares;
+  for (const run::WorkPart& part : parts) {
+    const double percent = 100 * part.seconds / work.stepping;
+    if (percent >= 0.1) shares += fmt::format("{}{} {:.1f} %", shares.empty() ? "" : ", ", part.name, percent);
+  }
+  fmt::print(stderr, "share of time: {}\n", shares);
+  for (const run::CouplingWork& coupling : work.couplings) {
+    const std::string exchanges =
+        coupling.exchanges.most > 0 ? fmt::format("exchanges per step: {}; ", text_of(coupling.exchanges)) : "";
+    fmt::print(stderr, "bearing {}: {}; {}film iterations per step: {}\n", coupling.bearing, coupling.scheme, exchanges,
+               text_of(coupling.film_iterations));
+  }
+}
+
 int run_one(const RunArguments& arguments, const std::filesystem::path& folder) {
   const model::Model model = model::read(arguments.model, arguments.overrides);
   run::Options options;
@@ -152,6 +198,7 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   const run::Summary summary = run::simulate(model, options);
   bar.clear();
   tell("", summary);
+  tell_work(summary);
   return close(arguments, folder, {options.results}, {summary}, exit_code(summary.status));
 }
 

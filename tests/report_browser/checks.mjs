@@ -119,6 +119,28 @@ export const everyReport = {
     assert.match(await page.locator('[data-figure="cycle"] figcaption').innerText(), /whole run|last of/, "which cycle is not said");
   },
 
+  "maps over angle and time differ, follow the instant, and a click picks one": async (page) => {
+    const figure = page.locator('[data-figure="around"]').first();
+    await figure.scrollIntoViewIfNeeded();
+    const pictures = new Set();
+    for (const choice of await figure.locator(".segmented label").all()) {
+      await choice.click();
+      await frame(page);
+      pictures.add(await picture(page, "around"));
+    }
+    assert.equal(pictures.size, 2, "thickness and pressure look the same");
+    await pressOnSlider(page, "Home");
+    const first = await picture(page, "around");
+    const canvas = figure.locator("canvas");
+    await canvas.scrollIntoViewIfNeeded();
+    await canvas.click();
+    await frame(page);
+    assert.notEqual(await picture(page, "around"), first, "the mark of the instant stays");
+    assert.ok(Number(await page.locator(".timeline-slider").inputValue()) > 0, "the click picks no instant");
+    await canvas.hover();
+    assert.match(await figure.locator(".tooltip").innerText(), /φ .*°, (time|crank angle) .*(s|°)/, "the tooltip does not tell where and when");
+  },
+
   "tooltips tell values with units": async (page) => {
     const plot = page.locator('[data-figure="peak-pressure"] .u-over');
     await plot.scrollIntoViewIfNeeded();

@@ -1,5 +1,6 @@
 // Everything about one bearing of one run.
 
+import { AngleTimeMap } from "./angle_time_map";
 import { cycleMaps } from "./cycle_maps";
 import type { Run } from "./data";
 import { figure, h, segmented } from "./dom";
@@ -31,6 +32,7 @@ export class BearingView {
     this.addOrbit();
     this.addMap();
     this.addMidplane();
+    this.addAround();
     const cycle = cycleMaps(run, bearing);
     if (cycle) this.element.append(cycle);
     this.addSeries();
@@ -107,6 +109,18 @@ export class BearingView {
     });
     this.followers.push((_t, instant) => plot.update(curves(instant).map((c) => c.y)));
     this.element.append(figure("midplane", "Pressure and film thickness along the middle of the bearing at the instant shown.", plot.tools, plot.element));
+  }
+
+  private addAround(): void {
+    const time = this.run.column("/time");
+    const map = AngleTimeMap.of(this.run, this.bearing, this.axis, (row) => this.pickTime(time?.[row] ?? 0));
+    if (!map) return;
+    this.followers.push((t) => map.mark(this.axis.at(t)));
+    const choices = map.kinds.map(({ key, label }) => ({ value: key, label }));
+    const controls = h("div", { class: "controls" }, segmented("Map over time", choices, choices[0]!.value, (key) => map.choose(map.kinds.find((kind) => kind.key === key)!)));
+    this.element.append(
+      figure("around", "Extremes over the bearing’s width, around the bore and over the run. White line: the instant shown; a click shows another.", null, controls, map.element),
+    );
   }
 
   private add(name: string, caption: string, left: LineFigure["left"], curves: Curve[], right?: LineFigure["right"]): void {

@@ -24,6 +24,8 @@ export interface RunText {
   rows: number;
   series_stride: number;
   field_stride: number;
+  /** Of maps over angle and time: rows of the time series between theirs. */
+  around_stride: number;
   attributes: Record<string, Record<string, Attribute>>;
   datasets: Record<string, DatasetText>;
   assumptions: [string, string][];
@@ -117,6 +119,9 @@ export class Run {
   get fieldStride(): number {
     return this.text.field_stride;
   }
+  get aroundStride(): number {
+    return this.text.around_stride;
+  }
   get assumptions(): [string, string][] {
     return this.text.assumptions;
   }
@@ -208,7 +213,7 @@ export interface Report {
 
 /** A run that has fields only, of one instant. */
 export function fieldsOnly(datasets: Record<string, DatasetText>): Run {
-  return new Run({ file: "", rows: 1, series_stride: 1, field_stride: 1, attributes: {}, datasets, assumptions: [], summary: [] });
+  return new Run({ file: "", rows: 1, series_stride: 1, field_stride: 1, around_stride: 1, attributes: {}, datasets, assumptions: [], summary: [] });
 }
 
 /** Reads the data element of the page. */

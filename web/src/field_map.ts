@@ -1,7 +1,8 @@
 // A field on the unwrapped bearing: angle to the right, axial position upwards, one colour scale for the whole run.
 
 import { Drawing, ticks } from "./canvas";
-import { colour, colourTable } from "./colormap";
+import { colourTable } from "./colormap";
+import { line, paintColourBar, verticalText, type Box } from "./colour_bar";
 import type { FieldKind, FilmFields } from "./film_fields";
 import { extent } from "./film_fields";
 import { palette } from "./theme";
@@ -72,7 +73,7 @@ export class FieldMap extends Drawing {
     this.paintOutlines(context);
     this.paintMarks(context);
     this.paintFrame(context);
-    this.paintColourBar(context, range);
+    paintColourBar(context, box, this.width, range, this.kind.label, this.kind.display);
   }
 
   protected describe(x: number, y: number): string[] | null {
@@ -89,7 +90,7 @@ export class FieldMap extends Drawing {
     ];
   }
 
-  private box(): { left: number; top: number; width: number; height: number } {
+  private box(): Box {
     return {
       left: margin.left,
       top: margin.top,
@@ -253,43 +254,4 @@ export class FieldMap extends Drawing {
     }
     verticalText(context, "z [mm]", 12, box.top + box.height / 2);
   }
-
-  private paintColourBar(context: CanvasRenderingContext2D, [low, high]: [number, number]): void {
-    const box = this.box();
-    const left = box.left + box.width + 16;
-    const { ink, faint } = palette();
-    const gradient = context.createLinearGradient(0, box.top + box.height, 0, box.top);
-    for (let k = 0; k <= 16; k++) gradient.addColorStop(k / 16, `rgb(${colour(k / 16).join(" ")})`);
-    context.fillStyle = gradient;
-    context.fillRect(left, box.top, 12, box.height);
-    context.strokeStyle = faint;
-    context.strokeRect(left + 0.5, box.top + 0.5, 11, box.height - 1);
-    const { factor, unit } = this.kind.display;
-    context.fillStyle = ink;
-    context.textAlign = "left";
-    context.textBaseline = "middle";
-    for (const value of ticks(low * factor, high * factor, 5)) {
-      const y = box.top + (1 - (value / factor - low) / (high - low)) * box.height;
-      line(context, left + 12, y, left + 16, y);
-      context.fillText(format(value, 4), left + 19, y);
-    }
-    verticalText(context, `${this.kind.label.toLowerCase()} [${unit}]`, this.width - 8, box.top + box.height / 2);
-  }
-}
-
-function line(context: CanvasRenderingContext2D, x0: number, y0: number, x1: number, y1: number): void {
-  context.beginPath();
-  context.moveTo(x0, y0);
-  context.lineTo(x1, y1);
-  context.stroke();
-}
-
-function verticalText(context: CanvasRenderingContext2D, text: string, x: number, y: number): void {
-  context.save();
-  context.translate(x, y);
-  context.rotate(-Math.PI / 2);
-  context.textAlign = "center";
-  context.textBaseline = "middle";
-  context.fillText(text, 0, 0);
-  context.restore();
 }

@@ -16,6 +16,9 @@ namespace {
 // Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
 constexpr double kDirectionFloor = 1e-6;
 
+// Axes further from parallel than 60 deg are no bearing's.
+constexpr double kLeastCosine = 0.5;
+
 // exp(20) = 5e8: no oil, and far from overflow.
 constexpr double kLargestExponent = 20;
 
@@ -52,6 +55,16 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
 
 JournalBearing::~JournalBearing() = default;
 
+bool JournalBearing::faces(const Pose& X_AB) {
+  domain_error_.clear();
+  const double cosine = std::abs(X_AB.R(2, 2));
+  if (cosine > kLeastCosine) return true;
+  domain_error_ =
+      fmt::format("the surfaces do not face each other: the journal's z-axis stands at {:.0f} deg to the shell's",
+                  std::acos(cosine) * 180 / std::numbers::pi);
+  return false;
+}
+
 void JournalBearing::place(const mbd::RelativeMotion& motion) {
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
   rigid_.place(kinematics_.value, surfaces_);
@@ -82,9 +95,21 @@ double JournalBearing::smallest_gap() const {
 }
 
 void JournalBearing::report_contact() {
-  domain_error_ =
-      fmt::format("the journal touches the shell (smallest undeformed gap {:.4g} um, eccentricity ratio {:.4f})",
-                  1e6 * smallest_gap(), kinematics_.e().norm() / model().c);
+  Eigen::Index node = 0;
+  surfaces_.g.minCoeff(&node);
+  const film::Grid& grid = model().grid;
+  const int i = static_cast<int>(node) / grid.n_z, j = static_cast<int>(node) % grid.n_z;
+  domain_error_ = fmt::format(
+      "the journal touches the shell (smallest undeformed gap {:.4g} um at {:.0f} deg, z = {:.3g} mm; eccentricity "
+      "ratio "
+      "{:.4f}",
+      1e6 * smallest_gap(), grid.phi(i) * 180 / std::numbers::pi, 1e3 * model().L * grid.z_over_L(j),
+      kinematics_.e().norm() / model().c);
+  // A tilt that closes the gap at the edges of a concentric journal.
+  const double tilt = kinematics_.tilt().norm();
+  domain_error_ += tilt * model().L / 2 > model().c
+                       ? fmt::format(", its axis {:.3g} deg off the bore's)", std::atan(tilt) * 180 / std::numbers::pi)
+                       : ")";
 }
 
 // Pressures from a linear prediction may lie beyond any that a viscosity law means; and where the undeformed surfaces
@@ -120,7 +145,7 @@ void JournalBearing::begin_step(const mbd::RelativeMotion& start, double dt) {
   history_.dt = dt;
   u_ = u_start_;
   linearised_ = false;
-  iterations_ = 0;
+  iterations_ = exchanges_ = 0;
   given_ = given_start_;
   answered_ = false;
   interface_.begin_step();
@@ -168,8 +193,9 @@ void JournalBearing::increment_film(mbd::ForceResponse& response) {
 }
 
 void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
-  place(motion);
   response.set_zero(deforming_->amplitudes());
+  if (!faces(motion.X_AB)) return;
+  place(motion);
   if (!domain_error_.empty()) return;
   if (motion.dt == 0) {
     observed_surfaces_ = surfaces_;
@@ -209,6 +235,7 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
     if (!is_sensible()) return report_contact();
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
     iterations_ += summary.iterations;
+    ++exchanges_;
     if (!summary.converged) {
       domain_error_ = summary.message;
       return;
@@ -240,6 +267,7 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   observed_s_ = end.s;
   observed_history_ = history_;
   observed_iterations_ = iterations_;
+  observed_exchanges_ = exchanges_;
   history_start_.theta = fields.theta;
   history_start_.w = fields.w;
   history_start_.density = fields.density;
@@ -267,6 +295,7 @@ BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) co
   if (deforming_->deform())
     seen.power_into_bodies += (deforming_->openings().transpose() * seen.film.normal_forces).dot(motion.s_rate);
   seen.film_iterations = observed_iterations_;
+  seen.exchanges = observed_exchanges_;
   return seen;
 }
 

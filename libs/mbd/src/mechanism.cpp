@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
+#include "hersey/core/stopwatch.h"
 #include "mechanism_impl.h"
 
 namespace hersey::mbd {
@@ -35,6 +36,8 @@ Mechanism::Implementation::Implementation(MechanismSpec given)
   place_surfaces();
   release_redundant_rows();
   make_patterns();
+  timing.force.assign(spec.forces.size(), 0);
+  timing.elastic.assign(elastics.size(), 0);
 }
 
 void Mechanism::Implementation::place_elastic_bodies() {
@@ -64,6 +67,7 @@ Mechanism::Index Mechanism::nq() const { return impl_->nq; }
 Mechanism::Index Mechanism::nv() const { return impl_->nv; }
 Mechanism::Index Mechanism::nlambda() const { return impl_->nlambda(); }
 const MechanismSpec& Mechanism::spec() const { return impl_->spec; }
+const MechanismTiming& Mechanism::timing() const { return impl_->timing; }
 
 std::vector<JointId> Mechanism::closing_joints() const {
   std::vector<JointId> ids;
@@ -90,6 +94,7 @@ void Mechanism::retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Ei
 void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd& residual, Eigen::VectorXd& scale,
                          SparseMatrix* tangent) {
   Implementation& m = *impl_;
+  const Stopwatch all(m.timing.total);
   const Index n = nv() + nlambda();
   residual.setZero(n);
   scale.setZero(n);
@@ -101,9 +106,9 @@ void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd
   compute_directions(m.tree, m.motion, stage, m.directions);
   Assembly assembly{m.tree, m.motion, stage, m.directions, residual, scale, tangent};
   m.inertia.add(assembly);
-  for (ElasticAssembly& elastic : m.elastics) elastic.prepare(assembly, state);
+  m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.prepare(assembly, state); });
   m.evaluate_two_body_forces(assembly, state);
-  for (ElasticAssembly& elastic : m.elastics) elastic.add(assembly, m.spec.gravity);
+  m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.add(assembly, m.spec.gravity); });
   for (Load& load : m.loads) load.add(assembly, state);
   m.add_coordinate_springs(assembly, state);
   m.add_coordinate_forces(assembly, state);
@@ -307,15 +312,20 @@ Eigen::VectorXd Mechanism::position_scales() const {
 void Mechanism::begin_step(const State& start, double dt) {
   Implementation& m = *impl_;
   if (m.spec.forces.empty() && m.elastics.empty()) return;
+  const Stopwatch all(m.timing.total);
   m.motion.update(start);
   m.read_elastic_bodies(start);
-  for (ElasticAssembly& elastic : m.elastics) elastic.body().begin_step(elastic.motion(), dt);
-  for (std::size_t i = 0; i < m.spec.forces.size(); ++i)
+  m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.body().begin_step(elastic.motion(), dt); });
+  const Stopwatch forces(m.timing.forces);
+  for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
+    const Stopwatch one(m.timing.force[i]);
     m.spec.forces[i].force->begin_step(m.relative_motion(i, start.t), dt);
+  }
 }
 
 void Mechanism::accept_step(const State& end) {
   Implementation& m = *impl_;
+  const Stopwatch all(m.timing.total);
   for (BoundDrive& drive : m.drives) drive.motion.anchor(end.t);
   for (std::size_t i = 0; i < m.spec.coordinate_forces.size(); ++i) {
     const int k = m.coordinate_force_columns[i];
@@ -329,9 +339,11 @@ void Mechanism::accept_step(const State& end) {
   m.motion.update_accelerations(end);
   m.read_elastic_bodies(end);
   m.hand_out_shape_forces(m.responses);
-  for (ElasticAssembly& elastic : m.elastics) elastic.body().accept_step(elastic.motion());
+  m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.body().accept_step(elastic.motion()); });
   m.accepted.resize(m.spec.forces.size());
+  const Stopwatch forces(m.timing.forces);
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
+    const Stopwatch one(m.timing.force[i]);
     m.spec.forces[i].force->accept_step(m.relative_motion(i, end.t));
     m.accepted[i].W_B_A = m.responses[i].W_B_A;
     m.accepted[i].Q = m.responses[i].Q;

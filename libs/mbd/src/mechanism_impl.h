@@ -6,6 +6,7 @@
 #include "coupling.h"
 #include "drive_motion.h"
 #include "elastic_assembly.h"
+#include "hersey/core/stopwatch.h"
 #include "hersey/mbd/mechanism.h"
 #include "load.h"
 #include "tree.h"
@@ -47,7 +48,8 @@ struct Mechanism::Implementation {
   std::vector<char> seen_deforming;       ///< of each elastic body: some force sees it deform
   std::vector<RelativeMotion> relatives;  ///< of the two-body forces at the last assembly
   std::vector<ForceResponse> responses;   ///< the same
-  std::vector<ForceResponse> accepted;    ///< at the last accepted step, wrenches and forces alone; empty before
+  MechanismTiming timing;
+  std::vector<ForceResponse> accepted;  ///< at the last accepted step, wrenches and forces alone; empty before
 
   // Multipliers: closures, then couplings, then drives.
   [[nodiscard]] Index row_of_coupling(std::size_t i) const { return tree.nclosure + static_cast<Index>(i); }
@@ -70,6 +72,14 @@ struct Mechanism::Implementation {
   void watch_dropped_rows();
 
   void place_elastic_bodies();
+  /// Calls visit(elastic) for each, and takes its time.
+  template <class Visit>
+  void for_each_elastic(Visit visit) {
+    for (std::size_t i = 0; i < elastics.size(); ++i) {
+      const Stopwatch one(timing.elastic[i]);
+      visit(elastics[i]);
+    }
+  }
   void make_patterns();
   void place_surfaces();
   [[nodiscard]] RelativeMotion relative_motion(std::size_t force, double t) const;

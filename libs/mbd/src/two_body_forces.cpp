@@ -4,6 +4,7 @@
 #include <future>
 #include <thread>
 
+#include "hersey/core/stopwatch.h"
 #include "mechanism_impl.h"
 #include "surface_force.h"
 
@@ -68,9 +69,13 @@ void Mechanism::Implementation::read_elastic_bodies(const solver::State& state) 
 /// Costly ones side by side; each writes to its own response, so that their order does not matter.
 void Mechanism::Implementation::evaluate_two_body_forces(const Assembly& assembly, const solver::State& state) {
   const bool want_tangent = assembly.tangent != nullptr;
-  for (std::size_t i = 0; i < elastics.size(); ++i)
+  for (std::size_t i = 0; i < elastics.size(); ++i) {
+    const Stopwatch one(timing.elastic[i]);
     if (seen_deforming[i] != 0) elastics[i].find_shapes(assembly);
+  }
+  const Stopwatch all(timing.forces);
   const auto evaluate = [&](std::size_t i) {
+    const Stopwatch one(timing.force[i]);
     spec.forces[i].force->evaluate(relatives[i], want_tangent, responses[i]);
   };
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {

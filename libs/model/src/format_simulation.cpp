@@ -122,6 +122,14 @@ TypePtr output_format() {
                    "rows by steps"),
           optional("fields_every", quantity_in({"s", "rad"}, "5 deg", Range::positive()),
                    "Time or crank angle between stored pressure and film-thickness fields.", "a hundredth of the run"),
+          optional(
+              "meshes_at",
+              list("times or crank angles, counted from the start",
+                   quantity_in({"s", "rad"}, "360 deg", Range::not_negative())),
+              "When to write the deformed meshes of all flexible bodies, with stress and film pressure, beside the "
+              "results file, for ParaView; angles in every cycle where the model has cycles. At the first step "
+              "there or beyond; steps of controlled error end there.",
+              "not written"),
       });
 }
 

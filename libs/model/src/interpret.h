@@ -126,6 +126,8 @@ void interpret_forces(Context& context);
 void interpret_contacts(Context& context);
 void interpret_lubricants(Context& context);
 void interpret_bearings(Context& context);
+/// Refuses faces of nodal bodies that carry several films or contacts. After contacts and bearings.
+void require_separate_faces(Context& context);
 void interpret_simulation(Context& context);
 /// Reports supply pressures, and loads on meshes, that follow a joint other than the crank.
 void check_functions_of_crank(Context& context);

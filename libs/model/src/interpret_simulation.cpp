@@ -193,6 +193,27 @@ void interpret_step(Context& context, const Value& parent) {
   simulation.error_control = control;
 }
 
+/// Angles come again in every cycle.
+void interpret_meshes_at(Context& context, const Value& list) {
+  if (list.broken) return;
+  const Simulation& simulation = context.model.simulation;
+  std::vector<double>& times = context.model.output.meshes_at;
+  const double end = simulation.duration * (1 + 1e-9);
+  for (const Member& member : list.members) {
+    const double at = seconds_of(context, member.value, simulation.crank);
+    const bool repeats = member.value.unit == "rad" && simulation.cycle && simulation.cycle->period > 0;
+    const int most = repeats ? simulation.cycle->most : 1;
+    if (simulation.duration > 0 && at > end)
+      context.fault(member.value, "a mesh after the end of the run", "a time or an angle during the run");
+    for (int k = 0; k < most; ++k) {
+      const double t = at + (repeats ? k * simulation.cycle->period : 0);
+      if (t <= end) times.push_back(t);
+    }
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+}
+
 void interpret_output(Context& context) {
   Output& output = context.model.output;
   const Simulation& simulation = context.model.simulation;
@@ -209,6 +230,7 @@ void interpret_output(Context& context) {
   output.fields_every = out->find("fields_every") != nullptr
                             ? seconds_of(context, *out, "fields_every", simulation.crank)
                             : (simulation.cycle ? simulation.cycle->period : simulation.duration) / 100;
+  if (const Value* meshes = out->find("meshes_at")) interpret_meshes_at(context, *meshes);
 }
 
 /// Cycles that end the run, if its duration does not.

@@ -144,6 +144,27 @@ TEST_CASE("DeformingSurface_OfAReducedBodyIsTold") {
   std::filesystem::remove("film_surface_test_ring.h5");
 }
 
+TEST_CASE("FilmAndContactOnTheSameFaces_OfANodalBodyAreRefused") {
+  const WrittenRing file;
+  const auto touching = [](const std::string& form, const std::string& of) {
+    std::string text = edited(machine_text, "      modes: 2\n", "      modes: 2\n      form: " + form + "\n");
+    text = edited(text, "  shaft: {mass: 1 kg,",
+                  "    shapes: {part: {shape: faces, of: " + of + "}}\n" +
+                      "  shaft: {shapes: {ball: {shape: sphere, diameter: 20 mm}}, mass: 1 kg,");
+    return faults_of(edited(text, "lubricants:",
+                            "contacts:\n  bump: {between: [shaft.ball, ring.part], stiffness: {pressure: 1 GPa, "
+                            "penetration: 10 um}}\nlubricants:"));
+  };
+  const std::string faults = touching("nodal", "bore");
+  CAPTURE(faults);
+  CHECK(contains(faults,
+                 "bearings.main.shell_surface: faces of the nodal body 'ring' that carry contact 'bump' and "
+                 "bearing 'main'"));
+  CHECK(contains(faults, "choose faces apart for the two, or give the body `form: modal`"));
+  CHECK(touching("modal", "bore") == "no fault");  // its shapes are made independent of each other
+  CHECK(touching("nodal", "outside") == "no fault");
+}
+
 TEST_CASE("DeformingSurfaces_OfDifferentSizeDoNotFaceEachOther") {
   const WrittenRing file;
   const auto with_shaft = [](double outer) {

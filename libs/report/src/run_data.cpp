@@ -1,5 +1,6 @@
 #include "run_data.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base64.h"
@@ -44,6 +45,9 @@ std::size_t field_stride(const Reader& reader, std::size_t budget) {
 /// Time and angle grow large and are subtracted from each other: they keep double precision.
 bool needs_double(const std::string& path) { return path.ends_with("/time") || path.ends_with("/crank_angle"); }
 
+/// Maps over angle and time: many numbers a row, of which a picture shows some hundred rows.
+bool is_around(const std::string& path) { return path.ends_with("_around"); }
+
 json dataset(const Reader& reader, const std::string& path, const DatasetInfo& info, std::size_t stride) {
   const std::size_t rows = info.shape.empty() ? 0 : info.shape[0];
   const std::size_t first = rows > 0 ? (rows - 1) % stride : 0;
@@ -64,11 +68,15 @@ json dataset(const Reader& reader, const std::string& path, const DatasetInfo& i
 json run_data(const Reader& reader, const Budget& budget) {
   const std::size_t series_stride = stride_for(reader.rows(), budget.series_rows);
   const std::size_t instants_stride = field_stride(reader, budget.field_bytes);
+  const std::size_t shown = (reader.rows() + series_stride - 1) / series_stride;
+  const std::size_t most_around = std::clamp<std::size_t>(budget.series_rows / 10, 90, 360);
+  const std::size_t around_stride = stride_for(shown, most_around);
   json run;
   run["file"] = reader.path().filename().string();
   run["rows"] = reader.rows();
   run["series_stride"] = series_stride;
   run["field_stride"] = instants_stride;
+  run["around_stride"] = around_stride;
   run["attributes"] = json::object();
   for (const std::string& group : reader.groups()) run["attributes"][group] = attributes_of(reader, group);
   run["datasets"] = json::object();
@@ -80,7 +88,8 @@ json run_data(const Reader& reader, const Budget& budget) {
       run["assumptions"] = reader.text_table(path);
     } else {
       const DatasetInfo info = reader.info(path);
-      const std::size_t stride = !info.grows ? 1 : in_fields(path) ? instants_stride : series_stride;
+      const std::size_t of_series = is_around(path) ? around_stride * series_stride : series_stride;
+      const std::size_t stride = !info.grows ? 1 : in_fields(path) ? instants_stride : of_series;
       run["datasets"][path] = dataset(reader, path, info, stride);
     }
   }

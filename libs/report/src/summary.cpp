@@ -143,7 +143,7 @@ class Summary {
     if (!time_.empty()) add("simulated time", (time_.back() - time_.front()) * 1e3, "ms");
     add("stored instants", static_cast<double>(time_.size()), "");
     mean_of_rows("mean Newton iterations per step", "solver/newton_iterations");
-    median_of_steps("median Newton iterations per step", "solver/newton_iterations");
+    newton_row();
     step_rows();
     const std::string error = "power/balance_error";
     if (reader_.has(path_ + error)) {
@@ -153,10 +153,42 @@ class Summary {
     }
     if (const auto wall = reader_.number_attribute("/", "wall_time")) {
       add("computing time", *wall, "s");
-      if (every_step_is_stored()) {
+      if (!reader_.has("/timing") && every_step_is_stored())
         add("computing time per step", 1e3 * *wall / static_cast<double>(time_.size() - 1), "ms");
-      }
     }
+    timing_rows();
+  }
+
+  /// What the steps cost, part by part, and how films and bodies were brought together.
+  void timing_rows() {
+    const double stepping = reader_.number_attribute("/timing", "stepping").value_or(0);
+    const double steps = reader_.number_attribute("/timing", "steps").value_or(0);
+    if (stepping <= 0 || steps <= 0) return;
+    add("computing time per step", 1e3 * stepping / steps, "ms", "without the start");
+    for (const std::string& part : reader_.list_attribute("/timing", "part_names")) {
+      const double seconds = reader_.number_attribute("/timing/parts", part).value_or(0);
+      if (seconds > 5e-4 * stepping) add("share of computing time: " + part, 100 * seconds / stepping, "%");
+    }
+    for (const std::string& bearing : reader_.children("/timing/couplings")) {
+      const std::string group = "/timing/couplings/" + bearing;
+      const auto per_step = [&](const std::string& what, const std::string& attribute) {
+        const double most = reader_.number_attribute(group, attribute + "_most").value_or(0);
+        if (most == 0) return;
+        add(fmt::format("median {} per step, {}", what, bearing),
+            reader_.number_attribute(group, attribute + "_median").value_or(0), "",
+            fmt::format("{}, at most {:g}", reader_.text_attribute(group, "scheme").value_or(""), most));
+      };
+      per_step("exchanges", "exchanges");
+      per_step("film iterations", "film_iterations");
+    }
+  }
+
+  /// Of all steps where the file knows it, else of those stored.
+  void newton_row() {
+    const std::string name = "median Newton iterations per step";
+    const auto median = reader_.number_attribute("/timing", "newton_iterations_median");
+    if (median && reader_.number_attribute("/timing", "steps").value_or(0) > 0) return add(name, *median, "");
+    median_of_steps(name, "solver/newton_iterations");
   }
 
   void convergence_rows() {

@@ -150,7 +150,7 @@ struct Writer::Impl {
   }
 
   std::size_t make_growing(std::string_view name, const std::vector<hsize_t>& row_shape, std::string_view unit,
-                           std::string_view description) {
+                           std::string_view description, Precision precision = Precision::float64) {
     Growing entry{absolute(name), {}, {0}, 1, {}};
     for (const hsize_t n : row_shape) {
       HERSEY_REQUIRE(n > 0, "a row has numbers");
@@ -165,7 +165,8 @@ struct Writer::Impl {
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE)), access(H5Pcreate(H5P_DATASET_ACCESS));
     H5Pset_chunk(creation.get(), rank, chunk.data());
     H5Pset_chunk_cache(access.get(), 31, std::max(chunk_cache_bytes, 2 * 8 * entry.width), 1.0);
-    entry.dataset = make_dataset(name, H5T_IEEE_F64LE, space.get(), creation.get(), access.get(), unit, description);
+    const hid_t type = precision == Precision::float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+    entry.dataset = make_dataset(name, type, space.get(), creation.get(), access.get(), unit, description);
     growing.push_back(std::move(entry));
     return growing.size() - 1;
   }
@@ -292,13 +293,14 @@ void Writer::constant(std::string_view path, std::span<const double> values, std
                  "HDF5 cannot write a constant");
 }
 
-Series Writer::series(std::string_view path, int columns, std::string_view unit, std::string_view description) {
+Series Writer::series(std::string_view path, int columns, std::string_view unit, std::string_view description,
+                      Precision precision) {
   const Quiet quiet;
   impl_->require_open();
   HERSEY_REQUIRE(columns >= 1, "a row has numbers");
   std::vector<hsize_t> row;
   if (columns > 1) row.push_back(static_cast<hsize_t>(columns));
-  return {this, impl_->make_growing(path, row, unit, description)};
+  return {this, impl_->make_growing(path, row, unit, description, precision)};
 }
 
 Series Writer::field(std::string_view path, std::array<int, 2> shape, std::string_view unit,

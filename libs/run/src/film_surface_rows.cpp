@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "facing_surfaces.h"
+
 namespace hersey::run {
 namespace {
 
@@ -16,11 +18,19 @@ std::string described(const model::BuiltSurface& surface) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> film_surface_rows(const model::Machine& machine) {
+std::vector<std::pair<std::string, std::string>> film_surface_rows(const model::Model& model,
+                                                                   const model::Machine& machine) {
   std::vector<std::pair<std::string, std::string>> rows;
-  for (const model::BuiltBearing& built : machine.bearings) {
-    if (built.shell) rows.emplace_back(built.bearing->name() + ": shell surface", described(*built.shell));
-    if (built.journal) rows.emplace_back(built.bearing->name() + ": journal surface", described(*built.journal));
+  for (std::size_t i = 0; i < machine.bearings.size(); ++i) {
+    const model::BuiltBearing& built = machine.bearings[i];
+    const auto add = [&](const char* side, const model::BuiltSurface& surface, bool shell) {
+      const SurfaceOffset offset = offset_of(model, model.bearings[i], shell);
+      rows.emplace_back(built.bearing->name() + ": " + side + " surface",
+                        fmt::format("{}; {}{}", described(surface), offset.text(),
+                                    offset.is_large() ? ", WHICH THE FILM LEAVES OUT" : ""));
+    };
+    if (built.shell) add("shell", *built.shell, true);
+    if (built.journal) add("journal", *built.journal, false);
   }
   return rows;
 }

@@ -89,6 +89,8 @@ std::vector<double> instants_to_hit(const model::Model& model, const std::vector
   add_multiples(model.output.interval, run, times);
   if (run.cycle) add_multiples(run.cycle->period, run, times);
   if (!model.bearings.empty()) add_multiples(model.output.fields_every, run, times);
+  for (const double t : model.output.meshes_at)
+    if (t > 0 && t < run.duration) times.push_back(run.start + t);
   times.push_back(run.start + run.duration);
   std::sort(times.begin(), times.end());
   // Two instants closer than round-off are one; of these the later, so that the end stays the end.

@@ -15,6 +15,7 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/assumptions.h"
 #include "redundancies.h"
+#include "work_record.h"
 
 namespace hersey::run {
 namespace {
@@ -103,7 +104,7 @@ void Recorder::declare_run(const Options& options) {
   if (!study_parameters.empty()) writer_.attribute("/", "study_parameters", study_parameters);
   writer_.text("/model", model_.resolved_text, "model file of this run, overrides noted");
   std::vector<std::pair<std::string, std::string>> texts = assumptions(model_);
-  for (auto& text : film_surface_rows(machine_)) texts.push_back(std::move(text));
+  for (auto& text : film_surface_rows(model_, machine_)) texts.push_back(std::move(text));
   for (auto& text : redundancies(*machine_.mechanism)) texts.push_back(std::move(text));
   writer_.text_table("/assumptions", texts, "what decides the results: name, text");
 
@@ -243,6 +244,13 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   s.mass_balance_error = series("mass_balance_error", "1", "|supply - edges - storage| over the largest flow");
   s.cavitated_share = series("cavitated_share", "1", "share of the area that is cavitated");
   s.film_iterations = series("film_iterations", "1", "film linearisations in the step");
+  if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
+    s.exchanges = series("exchanges", "1", "wrenches that film and bodies exchanged in the step");
+  const auto around = [&](const char* name, const char* unit, const char* description) {
+    return writer_.series(path + name, film.grid.n_phi, unit, description, results::Precision::float32);
+  };
+  s.h_min_around = around("h_min_around", "m", "smallest film thickness over the width at each angle of fields/phi");
+  s.p_max_around = around("p_max_around", "Pa", "largest film pressure over the width at each angle of fields/phi");
   declare_fields(bearing, s);
   return s;
 }
@@ -344,6 +352,7 @@ void Recorder::write_row(const StepRecord& step) {
   double film_friction = 0, asperity_friction = 0;
   for (std::size_t i = 0; i < bearings_.size(); ++i) {
     write_bearing(bearings_[i], step.bearings[i], model_.bearings[i].film.c);
+    write_around(i);
     film_friction += step.bearings[i].film.power_film;
     asperity_friction += step.bearings[i].film.power_asperity;
   }
@@ -443,9 +452,11 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
   writer_.rename(results);
 }
 
-void Recorder::finish(results::Status status, const std::string& message, double wall_time) {
+void Recorder::finish(results::Status status, const std::string& message, double wall_time, const Work& work,
+                      int steps) {
   cycles_.finish();
   writer_.attribute("/", "wall_time", wall_time);
+  write_work(work, steps, writer_);
   writer_.finish(status, message);
 }
 
@@ -485,6 +496,18 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
   s.mass_balance_error.append(film.mass_balance_error);
   s.cavitated_share.append(film.cavitated_share);
   s.film_iterations.append(seen.film_iterations);
+  if (s.exchanges) s.exchanges->append(seen.exchanges);
+}
+
+// Over the width at each angle: index i n_z + j of a field is angle i, height j.
+void Recorder::write_around(std::size_t bearing) const {
+  const film::FilmFields fields = machine_.bearings[bearing].bearing->fields();
+  const film::Grid& grid = model_.bearings[bearing].film.grid;
+  using Map = Eigen::Map<const Eigen::MatrixXd>;
+  const Eigen::VectorXd h = Map(fields.h.data(), grid.n_z, grid.n_phi).colwise().minCoeff();
+  const Eigen::VectorXd p = Map(fields.p.data(), grid.n_z, grid.n_phi).colwise().maxCoeff();
+  bearings_[bearing].h_min_around.append(h);
+  bearings_[bearing].p_max_around.append(p);
 }
 
 void Recorder::write_fields(const StepRecord& step) {

@@ -53,7 +53,7 @@ class Recorder {
   void persist(Archive& archive, const std::filesystem::path& results);
   /// How far the cycle that ended at `t` repeats the one before: CycleChange::value.
   void write_cycle(double t, double change) const;
-  void finish(results::Status status, const std::string& message, double wall_time);
+  void finish(results::Status status, const std::string& message, double wall_time, const Work& work, int steps);
 
  private:
   struct BodySeries {
@@ -90,6 +90,8 @@ class Recorder {
         torque_shell, power_film, power_asperity, power_into_bodies, flow_left, flow_right, flow_supply, storage_rate,
         oil_volume, mass_balance_error, cavitated_share, film_iterations;
     std::vector<results::Series> flow_features;
+    std::optional<results::Series> exchanges;  // of a partitioned coupling
+    results::Series h_min_around, p_max_around;
     results::Series field_time, pressure, thickness, fill, asperity_pressure;
     std::optional<results::Series> shell_displacement, journal_displacement;  // of surfaces of elastic bodies
   };
@@ -121,6 +123,7 @@ class Recorder {
   void write_contacts(const std::vector<mbd::ContactObservation>& seen) const;
   [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
   void declare_fields(const model::Bearing& bearing, BearingSeries& series);
+  void write_around(std::size_t bearing) const;
   void write_bearing(const BearingSeries& series, const bearing::BearingObservation& seen, double clearance) const;
 
   const model::Model& model_;

@@ -10,8 +10,10 @@
 #include "checkpoint.h"
 #include "cycle_convergence.h"
 #include "extremes.h"
+#include "facing_surfaces.h"
 #include "flexible_record.h"
 #include "hersey/core/input_error.h"
+#include "hersey/core/stopwatch.h"
 #include "hersey/model/build.h"
 #include "hersey/results/checkpoint.h"
 #include "hersey/results/reader.h"
@@ -28,6 +30,7 @@
 #include "settling.h"
 #include "start.h"
 #include "step_error.h"
+#include "work_record.h"
 
 namespace hersey::run {
 namespace {
@@ -73,6 +76,7 @@ class Simulation {
         machine_(model::build(model)),
         state_(starting_state(model, machine_)),
         integrator_(integrator_options(model)),
+        work_(model, machine_, integrator_),
         step_error_(model, machine_),
         recorder_(model, machine_, options, checkpoint.has_value()),
         deformed_(model, machine_, options.results),
@@ -144,6 +148,7 @@ class Simulation {
 
   void integrate() {
     if (!resumes_) begin();
+    work_.begin();
     if (model_.simulation.error_control) {
       march_controlled(*model_.simulation.error_control);
     } else {
@@ -309,6 +314,7 @@ class Simulation {
   }
 
   [[nodiscard]] StepRecord observe(double dt, const solver::StepSummary& step, double error = 0) {
+    const Stopwatch watch(work_.recording());
     StepRecord record;
     record.error = error;
     record.rejected_steps = summary_.rejected_steps;
@@ -340,6 +346,8 @@ class Simulation {
   }
 
   void take(const StepRecord& step) {
+    const Stopwatch watch(work_.recording());
+    work_.take(step);
     if (step.dt > 0) ++summary_.steps;
     summary_.worst_constraint_drift = std::max(summary_.worst_constraint_drift, step.constraint_drift);
     summary_.newton_iterations += step.newton_iterations;
@@ -380,7 +388,7 @@ class Simulation {
 
   void write(const StepRecord& step) {
     const double slack = 1e-9 * model_.simulation.step;
-    deformed_.write(state_.t, state_.t - model_.simulation.start, slack, step.mechanism);
+    deformed_.write(state_.t, state_.t - model_.simulation.start, slack, step);
     if (is_row_due(slack)) recorder_.write_row(step);
     if (state_.t >= next_fields_ - slack || settled_ || repeats_) {
       recorder_.write_fields(step);
@@ -439,6 +447,10 @@ class Simulation {
       const Archive::Group group(archive, "extremes of " + extremes.name());
       extremes.persist(archive);
     }
+    {
+      const Archive::Group work(archive, "work");
+      work_.persist(archive);
+    }
     settling_.persist(archive);
     archive.io("cycles_ended", summary_.cycles), archive.io("cycle_change", summary_.cycle_change);
     {
@@ -453,6 +465,7 @@ class Simulation {
   }
 
   void write_checkpoint() {
+    const Stopwatch watch(work_.recording());
     Archive archive;
     save_identity(archive, model_);
     persist(archive);
@@ -493,8 +506,9 @@ class Simulation {
   }
 
   void finish(results::Status status) {
+    summary_.work = work_.work();
     try {
-      recorder_.finish(status, summary_.message, elapsed());
+      recorder_.finish(status, summary_.message, elapsed(), summary_.work, summary_.steps);
     } catch (const results::WriteError& error) {
       fail(error.what());
     }
@@ -510,6 +524,7 @@ class Simulation {
   model::Machine machine_;
   solver::State state_;
   solver::GeneralizedAlpha integrator_;
+  WorkRecord work_;
   StepError step_error_;
   Recorder recorder_;
   DeformedMeshes deformed_;
@@ -569,7 +584,9 @@ std::vector<Fault> check(const model::Model& model) {
   if (model.is_of_bearings_alone()) return {};
   model::Machine machine = model::build(model);
   (void)starting_state(model, machine);
-  return redundancy_warnings(model, *machine.mechanism);
+  std::vector<Fault> warnings = redundancy_warnings(model, *machine.mechanism);
+  for (Fault& warning : offset_warnings(model)) warnings.push_back(std::move(warning));
+  return warnings;
 }
 
 Summary simulate(const model::Model& model, const Options& options) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "facing_surfaces.h"
 #include "hersey/core/input_error.h"
 #include "hersey/solver/initialise.h"
 #include "hersey/solver/kinematics.h"
@@ -91,6 +92,10 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
                      "move the joints' `initial` values or the shapes; of a half-space or mesh, see that its normals "
                      "point out of the solid")};
   }
+  if (summary.status == Status::domain_error && summary.message.find("do not face each other") != std::string::npos) {
+    return {fault_at(model, summary.message, summary.message, "frames whose z-axes are those of bore and journal",
+                     "turn the frame of the shell or of the journal, or the bodies by the joints' `initial` values")};
+  }
   if (summary.status == Status::domain_error) {
     return {fault_at(model, summary.message, summary.message, "a journal inside its shell at the start",
                      "move the bodies' frames or the joints' `initial` values, or enlarge `radial_clearance`")};
@@ -153,6 +158,7 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   if (!summary.consistent()) throw InputError(faults_of(model, summary));
   deform(model, machine, options, state);
   if (model.simulation.analysis == model::Analysis::kinematics) require_prescribed_motion(model, machine, state);
+  require_clearance(model, machine, state);
   return state;
 }
 

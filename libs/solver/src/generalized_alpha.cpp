@@ -8,6 +8,7 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
+#include "hersey/core/stopwatch.h"
 #include "hersey/solver/sparse_lu.h"
 
 namespace hersey::solver {
@@ -38,6 +39,7 @@ struct GeneralizedAlpha::Workspace {
   Equations::SparseMatrix tangent;
   SparseLu lu;
   Index analysed = -1;
+  double linear_solve_time = 0;
   double worst = 0;       ///< largest residual relative to its tolerance at the last assembly
   Index worst_index = 0;  ///< its row; -1: a condensed equation
   VectorXd error;         ///< estimate of the step's local error of position
@@ -126,6 +128,7 @@ void GeneralizedAlpha::Workspace::measure(Equations& equations, double rtol) {
 /// Solves for the Newton increment, with motions divided by m and multipliers by m: then no entry grows as dt shrinks
 /// (Bottasso, Bauchau and Cardona 2007). False if the matrix is singular.
 bool GeneralizedAlpha::Workspace::solve_increment(Index nv) {
+  const Stopwatch watch(linear_solve_time);
   const Index n = tangent.rows();
   const double m = stage.m;
   for (Index column = 0; column < n; ++column)
@@ -187,6 +190,7 @@ void GeneralizedAlpha::Workspace::estimate_error(Index nv, bool factorised) {
   for (Index column = 0; column < nv; ++column)
     for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
       if (entry.row() < nv) rhs[entry.row()] += entry.value() / stage.m * error[column];
+  const Stopwatch watch(linear_solve_time);
   lu.solve({rhs.data(), static_cast<std::size_t>(n)});
   across = error - rhs.head(nv);
 }
@@ -218,6 +222,8 @@ GeneralizedAlpha::GeneralizedAlpha(GeneralizedAlpha&&) noexcept = default;
 GeneralizedAlpha& GeneralizedAlpha::operator=(GeneralizedAlpha&&) noexcept = default;
 
 void GeneralizedAlpha::reset() { work_->started = false; }
+
+double GeneralizedAlpha::linear_solve_time() const { return work_->linear_solve_time; }
 
 StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt) {
   return step(equations, state, dt, {});

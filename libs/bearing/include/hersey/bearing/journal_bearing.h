@@ -45,6 +45,7 @@ struct BearingObservation {
   double speed = 0;              ///< journal's angular velocity about the bearing axis, relative to the shell [rad/s]
   film::FilmObservables film;
   int film_iterations = 0;  ///< film linearisations in the last step
+  int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step
 };
 
 class DeformingSurfaces;
@@ -84,6 +85,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   [[nodiscard]] film::FilmFields fields() const;
 
  private:
+  [[nodiscard]] bool faces(const Pose& X_AB);
   void place(const mbd::RelativeMotion& motion);
   void feed(double t);
   void report_contact();
@@ -127,8 +129,8 @@ class JournalBearing final : public mbd::TwoBodyForce {
   bool answered_ = false;
 
   double internal_residual_ = 0;
-  int iterations_ = 0;
-  int observed_iterations_ = 0;
+  int iterations_ = 0, exchanges_ = 0;
+  int observed_iterations_ = 0, observed_exchanges_ = 0;
   std::string domain_error_;
 };
 

@@ -63,6 +63,14 @@ struct Observation {
   double constraint_drift = 0;  ///< largest violation, redundant rows included, relative to size or radian
 };
 
+/// Computing time since the mechanism was made, looking at it (`observe`) excluded [s].
+struct MechanismTiming {
+  double total = 0;             ///< of its equations: assembling them, beginning and accepting steps
+  double forces = 0;            ///< of that, until all two-body forces are known, costly ones side by side
+  std::vector<double> force;    ///< of each of them by itself, in the thread it has
+  std::vector<double> elastic;  ///< of the total, in each elastic body
+};
+
 /// Rigid bodies in joint coordinates: recursive kinematics along a spanning tree, loops closed by Lagrange multipliers
 /// (theory manual, chapter mechanisms).
 ///
@@ -114,6 +122,8 @@ class Mechanism final : public solver::Equations {
   [[nodiscard]] RelativeMotion relative_motion(const solver::State& state, ForceId force);
 
   [[nodiscard]] const MechanismSpec& spec() const;
+
+  [[nodiscard]] const MechanismTiming& timing() const;
 
   /// Closing joints some of whose constraints are redundant, in order of declaration.
   [[nodiscard]] const std::vector<Redundancy>& redundancies() const;

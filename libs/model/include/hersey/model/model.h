@@ -377,9 +377,10 @@ struct Simulation {
 };
 
 struct Output {
-  int every = 1;            ///< steps between rows of the time series, >= 1
-  double interval = 0;      ///< time between rows of the time series, hit exactly; 0: rows by steps [s]
-  double fields_every = 0;  ///< time between stored fields [s]; the reader fills in duration/100
+  int every = 1;                  ///< steps between rows of the time series, >= 1
+  double interval = 0;            ///< time between rows of the time series, hit exactly; 0: rows by steps [s]
+  double fields_every = 0;        ///< time between stored fields [s]; the reader fills in duration/100
+  std::vector<double> meshes_at;  ///< times since the start at which deformed meshes are written, ascending [s]
   SourcePosition position;
 };
 

@@ -31,6 +31,9 @@ struct WriterOptions {
   double flush_interval = 0.5;  ///< shortest time between two writes by flush_if_due() [s], >= 0
 };
 
+/// How numbers of a series are stored.
+enum class Precision { float64, float32 };
+
 class Reader;
 class Writer;
 
@@ -102,7 +105,8 @@ class Writer {
                 std::string_view description);
 
   /// A growing dataset, shape [n] for columns = 1, else [n, columns]. `unit` in SI, "1" for a pure number.
-  [[nodiscard]] Series series(std::string_view path, int columns, std::string_view unit, std::string_view description);
+  [[nodiscard]] Series series(std::string_view path, int columns, std::string_view unit, std::string_view description,
+                              Precision precision = Precision::float64);
 
   /// A growing dataset of shape [n, rows, cols]; a row is row-major, index i cols + j.
   [[nodiscard]] Series field(std::string_view path, std::array<int, 2> shape, std::string_view unit,

@@ -9,6 +9,7 @@
 
 #include "hersey/core/input_error.h"
 #include "hersey/model/model.h"
+#include "hersey/run/work.h"
 
 namespace hersey::run {
 
@@ -59,6 +60,7 @@ struct Summary {
   double worst_constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares [-]
   double worst_power_balance = 0;     ///< largest |power in - power out - energy rate| over the largest power [-]
   double wall_time = 0;               ///< [s]
+  Work work;                          ///< where it went
   std::vector<BearingSummary> bearings;
   std::filesystem::path results;
 };

@@ -67,6 +67,9 @@ class GeneralizedAlpha {
   /// otherwise the step is `inaccurate`, and state, condensed unknowns and history are those before it.
   [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt, const StepJudge& judge);
 
+  /// Computing time of factorising and solving linear systems so far [s].
+  [[nodiscard]] double linear_solve_time() const;
+
   /// The history, and the pivot order in use.
   void persist(Archive& archive);
 

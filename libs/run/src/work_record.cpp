@@ -1,0 +1,170 @@
+#include "work_record.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace hersey::run {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point then) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+std::string scheme_of(const model::Coupling& coupling) {
+  if (coupling.scheme == model::CouplingScheme::monolithic) return "monolithic";
+  switch (coupling.acceleration) {
+    case bearing::Acceleration::constant:
+      return "partitioned, constant relaxation";
+    case bearing::Acceleration::aitken:
+      return "partitioned, Aitken";
+    case bearing::Acceleration::quasi_newton:
+      return "partitioned, quasi-Newton";
+  }
+  return {};
+}
+
+}  // namespace
+
+void StepCounts::take(int count) {
+  const auto place = static_cast<std::size_t>(std::max(count, 0));
+  if (place >= times_.size()) times_.resize(place + 1, 0);
+  ++times_[place];
+}
+
+PerStep StepCounts::per_step() const {
+  PerStep figures;
+  const long long steps = std::accumulate(times_.begin(), times_.end(), 0LL);
+  if (steps == 0) return figures;
+  // The median is the mean of the two middle ones, which may be the same.
+  const long long lower = (steps - 1) / 2, upper = steps / 2;
+  long long seen = 0;
+  double total = 0;
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    const auto count = static_cast<double>(k);
+    for (const long long middle : {lower, upper})
+      if (seen <= middle && middle < seen + times_[k]) figures.median += 0.5 * count;
+    seen += times_[k];
+    total += count * times_[k];
+    if (times_[k] > 0) figures.most = static_cast<int>(k);
+  }
+  figures.mean = total / static_cast<double>(steps);
+  return figures;
+}
+
+WorkRecord::WorkRecord(const model::Model& model, const model::Machine& machine,
+                       const solver::GeneralizedAlpha& integrator)
+    : model_(model),
+      machine_(machine),
+      integrator_(integrator),
+      made_(Clock::now()),
+      began_(made_),
+      film_iterations_(model.bearings.size()),
+      exchanges_(model.bearings.size()) {}
+
+void WorkRecord::begin() {
+  began_ = Clock::now();
+  spent_at_begin_ = spent();
+  is_begun_ = true;
+}
+
+void WorkRecord::take(const StepRecord& step) {
+  if (step.dt == 0) return;
+  newton_iterations_.take(step.newton_iterations);
+  for (std::size_t i = 0; i < step.bearings.size(); ++i) {
+    film_iterations_[i].take(step.bearings[i].film_iterations);
+    exchanges_[i].take(step.bearings[i].exchanges);
+  }
+}
+
+std::vector<double> WorkRecord::spent() const {
+  const mbd::MechanismTiming& timing = machine_.mechanism->timing();
+  const double own = sum(timing.force), elastic = sum(timing.elastic);
+  const double share = own > 0 ? timing.forces / own : 0;
+  std::vector<double> seconds;
+  double films = 0;
+  for (const model::BuiltBearing& bearing : machine_.bearings) {
+    seconds.push_back(share * timing.force[static_cast<std::size_t>(bearing.force.index)]);
+    films += seconds.back();
+  }
+  seconds.insert(seconds.end(), {elastic, timing.total - elastic - films, integrator_.linear_solve_time(), recording_});
+  return seconds;
+}
+
+double WorkRecord::start_up() const {
+  const auto own = is_begun_ ? std::chrono::duration<double>(began_ - made_).count() : seconds_since(made_);
+  return start_up_before_ + own;
+}
+
+// What no part accounts for comes last.
+std::vector<double> WorkRecord::stepping() const {
+  std::vector<double> seconds = spent();
+  seconds.push_back(0);
+  if (is_begun_) {
+    for (std::size_t i = 0; i < spent_at_begin_.size(); ++i) seconds[i] -= spent_at_begin_[i];
+    seconds.back() = seconds_since(began_) - sum(seconds);
+  } else {
+    std::fill(seconds.begin(), seconds.end(), 0.0);
+  }
+  for (std::size_t i = 0; i < spent_before_.size(); ++i) seconds[i] += spent_before_[i];
+  return seconds;
+}
+
+Work WorkRecord::work() const {
+  Work work{.start_up = start_up(), .newton_iterations = newton_iterations_.per_step()};
+  const std::vector<double> seconds = stepping();
+  work.stepping = sum(seconds);
+  std::vector<std::string> names;
+  for (const model::Bearing& bearing : model_.bearings) names.push_back("film " + bearing.name);
+  names.insert(names.end(), {"elastic bodies", "other bodies and forces", "linear solve", "recording", "rest"});
+  for (std::size_t i = 0; i < names.size(); ++i) work.parts.push_back({names[i], seconds[i]});
+  for (std::size_t i = 0; i < model_.bearings.size(); ++i)
+    work.couplings.push_back({.bearing = model_.bearings[i].name,
+                              .scheme = scheme_of(model_.bearings[i].coupling),
+                              .film_iterations = film_iterations_[i].per_step(),
+                              .exchanges = exchanges_[i].per_step()});
+  return work;
+}
+
+void WorkRecord::persist(Archive& archive) {
+  newton_iterations_.persist(archive, "newton_iterations");
+  for (std::size_t i = 0; i < film_iterations_.size(); ++i) {
+    const Archive::Group group(archive, model_.bearings[i].name);
+    film_iterations_[i].persist(archive, "film_iterations");
+    exchanges_[i].persist(archive, "exchanges");
+  }
+  double start = start_up();
+  std::vector<double> seconds = stepping();
+  archive.io("start_up", start), archive.io("seconds", seconds);
+  if (!archive.restores()) return;
+  start_up_before_ = start;
+  spent_before_ = seconds;
+}
+
+void write_work(const Work& work, int steps, results::Writer& writer) {
+  const std::string group = "/timing";
+  writer.attribute(group, "start_up", work.start_up);
+  writer.attribute(group, "stepping", work.stepping);
+  writer.attribute(group, "steps", steps);
+  const auto figures = [&](const std::string& object, const std::string& name, const PerStep& of) {
+    writer.attribute(object, name + "_median", of.median);
+    writer.attribute(object, name + "_mean", of.mean);
+    writer.attribute(object, name + "_most", of.most);
+  };
+  figures(group, "newton_iterations", work.newton_iterations);
+  std::vector<std::string> names;
+  for (const WorkPart& part : work.parts) {
+    names.push_back(part.name);
+    writer.attribute(group + "/parts", part.name, part.seconds);
+  }
+  writer.attribute(group, "part_names", names);
+  for (const CouplingWork& coupling : work.couplings) {
+    const std::string bearing = group + "/couplings/" + coupling.bearing;
+    writer.attribute(bearing, "scheme", coupling.scheme);
+    figures(bearing, "film_iterations", coupling.film_iterations);
+    figures(bearing, "exchanges", coupling.exchanges);
+  }
+}
+
+}  // namespace hersey::run

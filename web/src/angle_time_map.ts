@@ -1,0 +1,201 @@
+// A quantity around one bearing over the whole run: time or crank angle to the right, bearing angle upwards.
+
+import { Drawing, ticks } from "./canvas";
+import { colourTable } from "./colormap";
+import { line, paintColourBar, verticalText, type Box } from "./colour_bar";
+import type { Numbers, Run } from "./data";
+import { extent, type FieldKind } from "./film_fields";
+import type { Axis } from "./series";
+import { palette } from "./theme";
+import { format, megapascal, micrometre, withUnit } from "./units";
+
+/** Extremes over the width that the results keep for every row. */
+const kinds: FieldKind[] = [
+  { key: "h_min_around", label: "Smallest film thickness", display: micrometre },
+  { key: "p_max_around", label: "Peak film pressure", display: megapascal },
+];
+
+const margin = { left: 52, right: 92, top: 10, bottom: 40 };
+
+export class AngleTimeMap extends Drawing {
+  readonly kinds: FieldKind[];
+  private kind: FieldKind;
+  private at: number | null = null;
+  private readonly image = document.createElement("canvas");
+
+  private constructor(
+    private readonly fields: Map<string, Numbers>,
+    private readonly phi: Numbers,
+    private readonly x: Float64Array,
+    private readonly axis: { label: string; unit: string },
+    pick: (row: number) => void,
+  ) {
+    super("Field around the bearing over time");
+    this.element.classList.add("field-map");
+    this.kinds = kinds.filter(({ key }) => fields.has(key));
+    this.kind = this.kinds[0]!;
+    this.canvas.addEventListener("click", (event) => {
+      const share = (event.offsetX - margin.left) / this.box().width;
+      if (share >= 0 && share <= 1) pick(Math.round(this.rowAt(this.valueAt(share))));
+    });
+  }
+
+  /** The maps of one bearing, or null where the file has none or but one instant; `pick` is told a row of the maps. */
+  static of(run: Run, bearing: string, axis: Axis, pick: (rowOfSeries: number) => void): AngleTimeMap | null {
+    const phi = run.dataset(`/bearings/${bearing}/fields/phi`)?.values;
+    const fields = new Map<string, Numbers>();
+    let rows = 0;
+    for (const { key } of kinds) {
+      const dataset = run.dataset(`/bearings/${bearing}/${key}`);
+      if (!phi || dataset?.width !== phi.length) continue;
+      fields.set(key, dataset.values);
+      rows = dataset.shape[0]!;
+    }
+    const all = axis.x.values;
+    // Rows are thinned more than those of the series, both counted from the last one.
+    const row = (k: number) => all.length - 1 - (rows - 1 - k) * run.aroundStride;
+    if (!phi || rows < 2 || row(0) < 0) return null;
+    const x = Float64Array.from({ length: rows }, (_, k) => all[row(k)]!);
+    return new AngleTimeMap(fields, phi, x, axis.x, (k) => pick(row(k)));
+  }
+
+  choose(kind: FieldKind): void {
+    this.kind = kind;
+    this.draw();
+  }
+
+  /** Marks a place on the abscissa. */
+  mark(x: number | null): void {
+    this.at = x;
+    this.draw();
+  }
+
+  protected heightFor(width: number): number {
+    return Math.round(Math.min(360, Math.max(210, 0.5 * width)));
+  }
+
+  protected paint(context: CanvasRenderingContext2D, ratio: number): void {
+    const box = this.box();
+    const range = this.range();
+    this.paintImage(range, Math.round(box.width * ratio), Math.round(box.height * ratio));
+    context.drawImage(this.image, box.left, box.top, box.width, box.height);
+    this.paintFrame(context, box);
+    paintColourBar(context, box, this.width, range, this.kind.label, this.kind.display);
+  }
+
+  protected describe(px: number, py: number): string[] | null {
+    const box = this.box();
+    const [u, v] = [(px - box.left) / box.width, 1 - (py - box.top) / box.height];
+    if (u < 0 || u > 1 || v < 0 || v > 1) return null;
+    const { label, display } = this.kind;
+    const value = this.sample(this.rowAt(this.valueAt(u)), this.placeAt(2 * Math.PI * v));
+    return [
+      `${label} ${withUnit(value * display.factor, display.unit)}`,
+      `φ ${format(360 * v, 4)}°, ${this.axis.label} ${withUnit(this.valueAt(u), this.axis.unit, 5)}`,
+    ];
+  }
+
+  private box(): Box {
+    return {
+      left: margin.left,
+      top: margin.top,
+      width: Math.max(10, this.width - margin.left - margin.right),
+      height: this.height - margin.top - margin.bottom,
+    };
+  }
+
+  private range(): [number, number] {
+    const [low, high] = extent(this.fields.get(this.kind.key)!);
+    const bottom = Math.min(0, low);
+    return high > bottom ? [bottom, high] : [bottom, bottom + 1];
+  }
+
+  private valueAt(share: number): number {
+    const [first, last] = [this.x[0]!, this.x[this.x.length - 1]!];
+    return first + share * (last - first);
+  }
+
+  /** Fractional row at a value of the abscissa, which grows; rows may be unevenly spaced. */
+  private rowAt(value: number): number {
+    const x = this.x;
+    const sign = x[x.length - 1]! >= x[0]! ? 1 : -1;
+    let [low, high] = [0, x.length - 1];
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (sign * x[middle]! <= sign * value) low = middle;
+      else high = middle;
+    }
+    const span = x[high]! - x[low]!;
+    return span === 0 ? high : low + Math.min(1, Math.max(0, (value - x[low]!) / span));
+  }
+
+  /** Fractional index around at an angle within the turn; grids may be graded. */
+  private placeAt(angle: number): number {
+    const phi = this.phi;
+    const n = phi.length;
+    let k = n - 1;
+    while (k > 0 && phi[k]! > angle) k--;
+    const next = k + 1 < n ? phi[k + 1]! : phi[0]! + 2 * Math.PI;
+    return k + Math.min(1, Math.max(0, (angle - phi[k]!) / (next - phi[k]!)));
+  }
+
+  private sample(row: number, place: number): number {
+    const values = this.fields.get(this.kind.key)!;
+    const n = this.phi.length;
+    const r = Math.min(this.x.length - 2, Math.floor(row));
+    const i = Math.floor(place);
+    const [s, t] = [row - r, place - i];
+    const around = (k: number) => values[k * n + (i % n)]! * (1 - t) + values[k * n + ((i + 1) % n)]! * t;
+    return around(r) * (1 - s) + around(r + 1) * s;
+  }
+
+  private paintImage([low, high]: [number, number], width: number, height: number): void {
+    this.image.width = width;
+    this.image.height = height;
+    const context = this.image.getContext("2d")!;
+    const pixels = context.createImageData(width, height);
+    const words = new Uint32Array(pixels.data.buffer);
+    const factor = 255 / (high - low);
+    const rows = Array.from({ length: width }, (_, column) => this.rowAt(this.valueAt((column + 0.5) / width)));
+    for (let y = 0; y < height; y++) {
+      const place = this.placeAt(2 * Math.PI * (1 - (y + 0.5) / height));
+      for (let column = 0; column < width; column++) {
+        const value = (this.sample(rows[column]!, place) - low) * factor;
+        words[y * width + column] = colourTable[value <= 0 ? 0 : value >= 255 ? 255 : Math.round(value)]!;
+      }
+    }
+    context.putImageData(pixels, 0, 0);
+  }
+
+  private paintFrame(context: CanvasRenderingContext2D, box: Box): void {
+    const { ink, faint } = palette();
+    context.strokeStyle = faint;
+    context.fillStyle = ink;
+    context.lineWidth = 1;
+    context.strokeRect(box.left + 0.5, box.top + 0.5, box.width - 1, box.height - 1);
+    const [first, last] = [this.x[0]!, this.x[this.x.length - 1]!];
+    const place = (value: number) => box.left + ((value - first) / (last - first || 1)) * box.width;
+    context.textAlign = "center";
+    context.textBaseline = "top";
+    for (const value of ticks(Math.min(first, last), Math.max(first, last), Math.max(3, box.width / 90))) {
+      line(context, place(value), box.top + box.height, place(value), box.top + box.height + 4);
+      context.fillText(format(value, 5), place(value), box.top + box.height + 6);
+    }
+    context.fillText(`${this.axis.label} [${this.axis.unit}]`, box.left + box.width / 2, box.top + box.height + 23);
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    for (let angle = 0; angle <= 360; angle += 90) {
+      const y = box.top + (1 - angle / 360) * box.height;
+      line(context, box.left - 4, y, box.left, y);
+      context.fillText(String(angle), box.left - 7, y);
+    }
+    verticalText(context, "bearing angle φ [°]", 12, box.top + box.height / 2);
+    if (this.at === null) return;
+    // Dark under white: visible on every colour of the map.
+    for (const [colour, width] of [["rgb(0 0 0 / 0.6)", 3], ["#ffffff", 1.4]] as const) {
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      line(context, place(this.at), box.top, place(this.at), box.top + box.height);
+    }
+  }
+}
