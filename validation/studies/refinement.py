@@ -167,7 +167,7 @@ def print_table(title, labels, columns):
         orders = ", ".join("-" if order is None else f"{order:.1f}" for order, _ in triplets)
         limit = triplets[-1][1] if triplets else None
         left = "-" if limit is None else f"{abs(values[-1] / limit - 1):.1e}"
-        print(f"| {name} | " + " | ".join(f"{value:.5g}" for value in values) + f" | {orders} | {left} |")
+        print(f"| {name} | " + " | ".join(f"{value:.6g}" for value in values) + f" | {orders} | {left} |")
 
 
 def main():
