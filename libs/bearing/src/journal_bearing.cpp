@@ -53,6 +53,10 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
 JournalBearing::~JournalBearing() = default;
 
 void JournalBearing::place(const mbd::RelativeMotion& motion) {
+  if (!is_aligned(motion.X_AB)) {
+    domain_error_ = "the journal's axis has turned away from the bearing's";
+    return;
+  }
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
   rigid_.place(kinematics_.value, surfaces_);
   HERSEY_REQUIRE(motion.s.size() == deforming_->amplitudes(), "the amplitudes of both surfaces' bodies");

@@ -163,5 +163,17 @@ TEST_CASE("ClosedGap_IsADomainError") {
   CHECK(bearing.domain_error().find("the journal touches the shell") != std::string::npos);
 }
 
+// A trial of Newton's method may throw the bodies anywhere: the step is then shortened, the run goes on.
+TEST_CASE("JournalTurnedAway_IsADomainError") {
+  JournalBearing bearing("big_end", small_film());
+  mbd::RelativeMotion motion;
+  mbd::ForceResponse response;
+  bearing.evaluate(motion, false, response);
+  CHECK(bearing.domain_error().empty());
+  motion.X_AB.R = Eigen::AngleAxisd(1.5, Vector3::UnitX()).toRotationMatrix();
+  bearing.evaluate(motion, false, response);
+  CHECK(bearing.domain_error() == "the journal's axis has turned away from the bearing's");
+}
+
 }  // namespace
 }  // namespace hersey::bearing
