@@ -10,12 +10,18 @@ export interface Combination {
   runs: Run[];
 }
 
+/** The parameter whose values name the study's variants: they need no name before them. */
+const variant = "variant";
+
 export class Study {
   readonly runs: Run[];
   readonly parameters: string[];
   readonly combinations: Combination[];
 
+  private readonly given: Run[];
+
   constructor(report: Report) {
+    this.given = report.runs;
     const first = report.runs[0]!;
     const named = first.list("/", "study_parameters");
     this.parameters = named.length > 0 ? named : varying(report.runs);
@@ -53,14 +59,19 @@ export class Study {
   }
 
   private otherValues(run: Run): string {
-    return this.parameters.slice(1).map((p) => `${p.replaceAll("_", " ")} ${this.value(run, p)}`).join(", ");
+    return this.parameters.slice(1).map((p) => (p === variant ? "" : `${p.replaceAll("_", " ")} `) + this.value(run, p)).join(", ");
+  }
+
+  /** Words stand in the order in which the study gives them. */
+  private place(parameter: string, word: string): number {
+    return this.given.findIndex((run) => this.value(run, parameter) === word);
   }
 
   private compare(a: Run, b: Run): number {
     for (const parameter of [...this.parameters.slice(1), ...this.parameters.slice(0, 1)]) {
       const [va, vb] = [this.value(a, parameter), this.value(b, parameter)];
       const [qa, qb] = [quantity(va), quantity(vb)];
-      const order = qa && qb && qa.unit === qb.unit ? qa.value - qb.value : va.localeCompare(vb);
+      const order = qa && qb && qa.unit === qb.unit ? qa.value - qb.value : this.place(parameter, va) - this.place(parameter, vb);
       if (order !== 0) return order;
     }
     return 0;

@@ -66,6 +66,10 @@ bool JournalBearing::faces(const Pose& X_AB) {
 }
 
 void JournalBearing::place(const mbd::RelativeMotion& motion) {
+  if (!is_aligned(motion.X_AB)) {
+    domain_error_ = "the journal's axis has turned away from the bearing's";
+    return;
+  }
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
   rigid_.place(kinematics_.value, surfaces_);
   HERSEY_REQUIRE(motion.s.size() == deforming_->amplitudes(), "the amplitudes of both surfaces' bodies");
@@ -121,21 +125,15 @@ bool JournalBearing::is_sensible() const {
   return smallest_gap() > 0 || film::film_fields(model(), surfaces_, u_).h.minCoeff() > 0;
 }
 
-// The film of a freshly filled gap: first without memory of the deformation, then with the deformation it has.
+// The film of a freshly filled gap; its liner has yielded to it and rests.
 void JournalBearing::fill_gap() {
   history_.dt = options_.initial_dt;
   history_.theta.setOnes();
-  history_.w.setZero();
+  history_.w.resize(0);
   history_.density.setOnes(u_.size());
   if (!is_sensible()) return report_contact();
-  for (int pass = 0; pass < (model().compliance > 0 ? 2 : 1); ++pass) {
-    const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
-    if (!summary.converged) {
-      domain_error_ = "no film at the start: " + summary.message;
-      return;
-    }
-    history_.w = film::film_fields(model(), surfaces_, u_).w;
-  }
+  const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
+  if (!summary.converged) domain_error_ = "no film at the start: " + summary.message;
 }
 
 void JournalBearing::begin_step(const mbd::RelativeMotion& start, double dt) {

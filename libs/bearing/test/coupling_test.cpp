@@ -119,6 +119,23 @@ TEST_CASE("FloatingRod_SettlesWhereTheFilmCarriesTheLoad") {
   CHECK(seen.film.mass_balance_error < 1e-6);
 }
 
+TEST_CASE("LinerIsAtRest_InTheFilmOfTheStart") {
+  film::FilmModel film = small_film();
+  film.supply.pressure = 3e5;
+  film.lubricant.mu0 = 9e-3;
+  film.compliance = 0.0225 / 115e9;
+  Rig rig(film, 500, {.initial_dt = 2e-5});  // requires that the start is found
+  const film::FilmFields fields = rig.bearing->fields();
+  for (int i = 0; i < film.grid.size(); ++i) CHECK(fields.w[i] == doctest::Approx(film.compliance * fields.p[i]));
+  // The same bearing yet to yield to its supply would squeeze its oil out at once: the film shows none of it.
+  film::FilmModel rigid = film;
+  rigid.compliance = 0;
+  const double p_rigid = Rig(rigid, 500, {.initial_dt = 2e-5}).observe().film.p_max;
+  // The liner yields by p_max compliance = 0.2 % of the clearance at most; pressure goes with its third power.
+  CHECK(rig.observe().film.p_max == doctest::Approx(p_rigid).epsilon(0.01));
+  rig.march(2e-5, 20);
+}
+
 TEST_CASE("StepIsSecondOrderInTime_FullFilm") {
   // A film that stays full (half the supply pressure everywhere keeps it from cavitating): no transported fill, so
   // the order is the integrator's.
@@ -144,6 +161,18 @@ TEST_CASE("ClosedGap_IsADomainError") {
   mbd::ForceResponse response;
   bearing.evaluate(motion, false, response);
   CHECK(bearing.domain_error().find("the journal touches the shell") != std::string::npos);
+}
+
+// A trial of Newton's method may throw the bodies anywhere: the step is then shortened, the run goes on.
+TEST_CASE("JournalTurnedAway_IsADomainError") {
+  JournalBearing bearing("big_end", small_film());
+  mbd::RelativeMotion motion;
+  mbd::ForceResponse response;
+  bearing.evaluate(motion, false, response);
+  CHECK(bearing.domain_error().empty());
+  motion.X_AB.R = Eigen::AngleAxisd(1.5, Vector3::UnitX()).toRotationMatrix();
+  bearing.evaluate(motion, false, response);
+  CHECK(bearing.domain_error() == "the journal's axis has turned away from the bearing's");
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ CoarseFilm coarsened(const FilmModel& model, const SurfaceMotion& motion, const 
   coarse.motion.g_rate = to_coarse(motion.g_rate);
   if (history.dt == 0) return coarse;
   coarse.history.theta = to_coarse(history.theta);
-  coarse.history.w = to_coarse(history.w);
+  if (history.w.size() != 0) coarse.history.w = to_coarse(history.w);
   if (history.density.size() != 0) coarse.history.density = to_coarse(history.density);
   return coarse;
 }

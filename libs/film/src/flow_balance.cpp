@@ -210,14 +210,16 @@ void FlowBalance::take_history(const FilmHistory& history) {
   HERSEY_REQUIRE(history.dt >= 0, "time runs forwards");
   dt_ = history.dt;
   if (dt_ == 0) return;
-  HERSEY_REQUIRE(history.theta.size() == size() && history.w.size() == size(), "history of shape (grid.size())");
+  liner_rests_ = history.w.size() == 0;
+  HERSEY_REQUIRE(history.theta.size() == size() && (liner_rests_ || history.w.size() == size()),
+                 "history of shape (grid.size())");
   content_start_.setOnes();
   if (model_.cavitation == Cavitation::mass_conserving) content_start_ = history.theta;
   if (history.density.size() != 0) {
     HERSEY_REQUIRE(history.density.size() == size(), "density at the start of shape (grid.size()) or empty");
     content_start_.array() *= history.density.array();
   }
-  w_start_ = history.w;
+  if (!liner_rests_) w_start_ = history.w;
 }
 
 void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
@@ -249,6 +251,7 @@ void FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::Vecto
   for (int i = 0; i < size(); ++i) {
     nodes_[i] = law_.state(motion.g[i], u[i], i % model_.grid.n_z);
     HERSEY_REQUIRE(nodes_[i].h > 0, "the film has closed at node " + std::to_string(i));
+    if (liner_rests_) w_start_[i] = nodes_[i].w;
     if (!rough_law_) continue;
     rough_[i] = rough_law_->state(nodes_[i].h);
     if (dt_ > 0) mean_start_[i] = rough_law_->mean(motion.g[i] - dt_ * motion.g_rate[i] + w_start_[i]);
@@ -345,22 +348,28 @@ double FlowBalance::storage_u(int i) const {
   return node.content_u * storage_by_content(i) + storage_h(i) * node.h_u;
 }
 
-// With the film thickness, at a given content and start.
+// The start's part of what storage changes with the gap from which the step comes (film.8, film.33).
+double FlowBalance::storage_by_start(int i) const {
+  return area_[i] * content_start_[i] * (rough_.empty() ? 1.0 : mean_start_[i].slope);
+}
+
+// With the film thickness, at a given content; a liner at rest takes the gap of the start along.
 double FlowBalance::storage_h(int i) const {
   const double by_h = rough_.empty() ? 1.0 : rough_[i].mean_h;
-  if (dt_ > 0) return area_[i] * nodes_[i].content * by_h / dt_;
+  if (dt_ > 0) {
+    return (area_[i] * nodes_[i].content * by_h - (liner_rests_ ? storage_by_start(i) : 0)) / dt_;
+  }
   return rough_.empty() ? 0 : area_[i] * nodes_[i].content * g_rate_[i] * rough_[i].mean_hh;
 }
 
 double FlowBalance::storage_g(int i) const {
   const double now = storage_h(i) * nodes_[i].h_g;
-  if (dt_ == 0) return now;
-  return now - area_[i] * content_start_[i] * (rough_.empty() ? 1.0 : mean_start_[i].slope) / dt_;
+  return dt_ == 0 || liner_rests_ ? now : now - storage_by_start(i) / dt_;
 }
 
 double FlowBalance::storage_g_rate(int i) const {
   if (dt_ == 0) return area_[i] * nodes_[i].content * (rough_.empty() ? 1.0 : rough_[i].mean_h);
-  return area_[i] * content_start_[i] * (rough_.empty() ? 1.0 : mean_start_[i].slope);
+  return storage_by_start(i);
 }
 
 // What a row carries beside its balance: in reynolds the slack of p >= p_cav, on an open edge the outflow or

@@ -128,6 +128,7 @@ class FlowBalance {
   [[nodiscard]] double slack(int node) const;
   [[nodiscard]] double slack_u(int node) const;
   [[nodiscard]] double storage_u(int node) const;
+  [[nodiscard]] double storage_by_start(int node) const;
   [[nodiscard]] double storage_h(int node) const;
   [[nodiscard]] double storage_g(int node) const;
   [[nodiscard]] double storage_g_rate(int node) const;
@@ -158,6 +159,7 @@ class FlowBalance {
   std::vector<HeldNode> held_;
   std::vector<int> held_index_;  ///< of every node its place in held_, -1 for none
   std::vector<CoveredNode> covered_;
+  bool liner_rests_ = false;  ///< the step starts with the deformation it ends with
   double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, half_slip_phi_ = 0, half_slip_z_ = 0, largest_throughput_ = 0;
 };
 

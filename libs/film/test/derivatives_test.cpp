@@ -101,6 +101,13 @@ std::vector<State> rough_states() {
     s.model.roughness = {FlowFactors::patir_cheng, {3e-6, 0.2}, {5e-6, 4}};  // from contact to full film
     s.name = std::string("flow factors") + (transient ? ", transient" : ", steady");
     states.push_back(s);
+    if (!transient) continue;
+    s.history.w.resize(0);
+    s.name = "flow factors, liner at rest";
+    states.push_back(s);
+    s.model.roughness = {};
+    s.name = "liner at rest";
+    states.push_back(s);
   }
   return states;
 }

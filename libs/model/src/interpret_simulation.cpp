@@ -324,6 +324,12 @@ void interpret_study(Context& context) {
     }
     study.parameters.push_back(std::move(parameter));
   }
+  if (const Value* variants = value->find("variants"); variants != nullptr && !variants->broken) {
+    if (std::find(names.begin(), names.end(), kVariant) != names.end()) {
+      context.fault_at_key(*variants, "variants beside a parameter called 'variant'", "another name for the parameter");
+    }
+    study.parameters.push_back({kVariant, names_in(*value, "variants"), variants->key_position});
+  }
   for (const auto& [index, figure] : section(*value, "figures")) {
     study.figures.push_back(figure.text == "film_thickness" ? StudyFigure::film_thickness
                                                             : StudyFigure::midplane_pressure);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <optional>
 
 #include "hersey/core/spelling.h"
 
@@ -121,24 +122,51 @@ class Substitution {
   std::map<std::string, Node> parameters_;
 };
 
+std::optional<Override> parse_override(const std::string& text, const SourcePosition& place,
+                                       std::vector<Fault>& faults) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    faults.push_back({place, "", "'" + text + "'", "name=value, such as load=500N", ""});
+    return std::nullopt;
+  }
+  Override change{text.substr(0, equals), {}, place};
+  std::vector<Fault> in_value;
+  change.value = parse_yaml(text.substr(equals + 1), place.file, in_value).value_or(Node{});
+  change.value.reported = !in_value.empty();
+  for (Fault& fault : in_value) faults.push_back({place, change.name, fault.found, fault.expected, fault.suggestion});
+  move_to(change.value, place);
+  return change;
+}
+
+const Node* variants_of(const Node& root) {
+  const Node* study = root.find("study");
+  return study == nullptr ? nullptr : study->find("variants");
+}
+
+// The overrides of the variant that `choice` names; those that are no overrides are told with the study.
+std::vector<Override> overrides_of_variant(const Node& variants, const Override& choice, std::vector<Fault>& faults) {
+  std::vector<Override> overrides;
+  const Node* chosen = variants.find(choice.value.text);
+  if (chosen == nullptr) {
+    const std::vector<std::string> names = keys_of(variants);
+    faults.push_back({choice.position, kVariant, "unknown variant '" + choice.value.text + "'", one_of(names),
+                      did_you_mean(choice.value.text, names)});
+    return overrides;
+  }
+  for (const Node& item : chosen->items) {
+    std::optional<Override> change = parse_override(item.text, item.position, faults);
+    if (change) overrides.push_back(std::move(*change));
+  }
+  return overrides;
+}
+
 }  // namespace
 
 std::vector<Override> parse_overrides(const std::vector<std::string>& texts, std::vector<Fault>& faults) {
-  const SourcePosition place{"--set", 0, 0};
   std::vector<Override> overrides;
   for (const std::string& text : texts) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      faults.push_back({place, "", "'" + text + "'", "name=value, such as load=500N", ""});
-      continue;
-    }
-    Override change{text.substr(0, equals), {}, place};
-    std::vector<Fault> in_value;
-    change.value = parse_yaml(text.substr(equals + 1), place.file, in_value).value_or(Node{});
-    change.value.reported = !in_value.empty();
-    for (Fault& fault : in_value) faults.push_back({place, change.name, fault.found, fault.expected, fault.suggestion});
-    move_to(change.value, place);
-    overrides.push_back(std::move(change));
+    std::optional<Override> change = parse_override(text, {"--set", 0, 0}, faults);
+    if (change) overrides.push_back(std::move(*change));
   }
   return overrides;
 }
@@ -153,6 +181,11 @@ void apply_overrides(Node& root, const std::vector<Override>& overrides, const s
   for (const Override& change : overrides) {
     if (is_parameter(root, change.name)) {
       *root.find("parameters")->find(change.name) = change.value;
+      continue;
+    }
+    const Node* variants = change.name == kVariant ? variants_of(root) : nullptr;
+    if (variants != nullptr) {
+      apply_overrides(root, overrides_of_variant(*variants, change, faults), top_keys, faults);
       continue;
     }
     const std::string first = split_path(change.name).front();

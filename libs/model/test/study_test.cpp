@@ -57,6 +57,40 @@ TEST_CASE("Study_IsEveryCombination") {
   CHECK(model.forces[0].load.functions[1].value->value({}) == -1000);
 }
 
+const std::string variants = R"(study:
+  parameters:
+    load: [100 N, 1 kN]
+  variants:
+    as_it_is: unchanged
+    starved: [bearings.big_end.cavitation=reynolds, "bearings.big_end.supply={line: 30 deg, pressure: 2 bar}"]
+)";
+
+TEST_CASE("Variants_AreRunBesideEachOther") {
+  const StudyFile file(good_model + variants);
+  const std::vector<StudyRun> runs = expand_study(file.path());
+  REQUIRE(runs.size() == 4);
+  CHECK(runs[0].label == "load = 100 N, variant = as_it_is");
+  CHECK(runs[3].slug == "load_1_kN-variant_starved");
+  const Model plain = read(file.path()), same = read(file.path(), runs[2].overrides);
+  CHECK(same.bearings[0].film.cavitation == plain.bearings[0].film.cavitation);
+  const film::FilmModel starved = read(file.path(), runs[3].overrides).bearings[0].film;
+  CHECK(starved.cavitation == film::Cavitation::reynolds);
+  CHECK(starved.supply.pressure == doctest::Approx(2e5));
+  CHECK(expand_study(file.path(), {"variant=starved"}).size() == 2);
+}
+
+TEST_CASE("FaultyVariants_ArePlaced") {
+  const std::string above = good_model + "study:\n  parameters:\n    load: [1 N]\n  variants:\n";
+  CHECK(faults_of(above + "    dry: 3\n") ==
+        "m.yaml:38:10: study.variants.dry: '3'; expected unchanged");
+  const StudyFile file(above + "    dry: [bearings.big_end.widht=3]\n    wet: [load]\n");
+  CHECK_THROWS_WITH_AS((void)expand_study(file.path()), doctest::Contains(":38:11: "), InputError);
+  CHECK_THROWS_WITH_AS((void)expand_study(file.path()), doctest::Contains("unknown key 'widht'"), InputError);
+  CHECK_THROWS_WITH_AS((void)expand_study(file.path()), doctest::Contains("'load'; expected name=value"), InputError);
+  CHECK_THROWS_WITH_AS((void)read(file.path(), {"variant=weet"}),
+                       "--set: variant: unknown variant 'weet'; expected dry or wet; did you mean 'wet'?", InputError);
+}
+
 TEST_CASE("FixedParameter_IsNoLongerVaried") {
   const StudyFile file(good_model + study);
   const std::vector<StudyRun> runs = expand_study(file.path(), {"load=7 N"});

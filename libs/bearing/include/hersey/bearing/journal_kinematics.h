@@ -40,10 +40,14 @@ struct JournalKinematics {
   [[nodiscard]] Eigen::Vector2d tilt() const { return value.segment<2>(kTx); }
 };
 
+/// Whether the journal's axis is far enough from the bearing's mid-plane to pierce it: within 84 degrees of the
+/// bearing's axis.
+[[nodiscard]] bool is_aligned(const Pose& X_AB);
+
 /// @param X_AB,V_AB_A  journal relative to bearing, as in mbd::RelativeMotion.
 /// @param R            bearing radius [m].
 /// @param e_floor      eccentricity below which the angle of the widest gap is frozen at its last direction [m].
-/// @throws ContractError where the journal's axis lies in the bearing's mid-plane.
+/// @throws ContractError unless the journal is aligned.
 /// @verified_by journal_kinematics_test.cpp: Derivatives_MatchFiniteDifferences, Rates_AreTimeDerivatives
 [[nodiscard]] JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, double R, double e_floor);
 

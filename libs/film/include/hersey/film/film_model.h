@@ -118,7 +118,7 @@ struct SurfaceMotion {
 struct FilmHistory {
   double dt = 0;            ///< [s]
   Eigen::VectorXd theta;    ///< fill fraction at the start [-], shape (grid.size()); unused for dt = 0
-  Eigen::VectorXd w;        ///< compliance deformation at the start [m]; unused for dt = 0
+  Eigen::VectorXd w;        ///< compliance deformation at the start [m]; empty: it rests (w' = 0); unused for dt = 0
   Eigen::VectorXd density;  ///< rho/rho0 at the start [-]; empty: 1; unused for dt = 0
 };
 

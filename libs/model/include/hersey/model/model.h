@@ -393,7 +393,7 @@ struct StudyParameter {
 enum class StudyFigure { midplane_pressure, film_thickness };
 
 struct Study {
-  std::vector<StudyParameter> parameters;
+  std::vector<StudyParameter> parameters;  ///< with variants, the last is called `variant`, its values their names
   std::vector<StudyFigure> figures;
   SourcePosition position;
 };
