@@ -156,9 +156,9 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   options.stiff = machine.mechanism->elastic_coordinates();
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
   if (!summary.consistent()) throw InputError(faults_of(model, summary));
+  require_clearance(model, machine, state);
   deform(model, machine, options, state);
   if (model.simulation.analysis == model::Analysis::kinematics) require_prescribed_motion(model, machine, state);
-  require_clearance(model, machine, state);
   return state;
 }
 
