@@ -147,7 +147,13 @@ void tell(const std::string& label, const run::Summary& summary) {
   } else {
     const std::string rejected =
         summary.rejected_steps > 0 ? fmt::format(" ({} more rejected)", summary.rejected_steps) : "";
-    fmt::print(stderr, "{}{} steps{} in {:.2f} s{}{}\n", name, summary.steps, rejected, summary.wall_time,
+    // Of a run of a study its cost in short; that of a single run follows at length.
+    const std::string cost =
+        !label.empty() && summary.steps > 0
+            ? fmt::format(", {:.3g} ms per step, Newton iterations {:g} (median)",
+                          1e3 * summary.work.stepping / summary.steps, summary.work.newton_iterations.median)
+            : "";
+    fmt::print(stderr, "{}{} steps{} in {:.2f} s{}{}{}\n", name, summary.steps, rejected, summary.wall_time, cost,
                summary.message.empty() ? "" : ", ", summary.message);
   }
 }

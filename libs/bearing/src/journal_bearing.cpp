@@ -16,9 +16,6 @@ namespace {
 // Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
 constexpr double kDirectionFloor = 1e-6;
 
-// Axes further from parallel than 60 deg are no bearing's.
-constexpr double kLeastCosine = 0.5;
-
 // exp(20) = 5e8: no oil, and far from overflow.
 constexpr double kLargestExponent = 20;
 
@@ -55,19 +52,11 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
 
 JournalBearing::~JournalBearing() = default;
 
-bool JournalBearing::faces(const Pose& X_AB) {
-  domain_error_.clear();
-  const double cosine = std::abs(X_AB.R(2, 2));
-  if (cosine > kLeastCosine) return true;
-  domain_error_ =
-      fmt::format("the surfaces do not face each other: the journal's z-axis stands at {:.0f} deg to the shell's",
-                  std::acos(cosine) * 180 / std::numbers::pi);
-  return false;
-}
-
 void JournalBearing::place(const mbd::RelativeMotion& motion) {
   if (!is_aligned(motion.X_AB)) {
-    domain_error_ = "the journal's axis has turned away from the bearing's";
+    domain_error_ =
+        fmt::format("the surfaces do not face each other: the journal's z-axis stands at {:.0f} deg to the shell's",
+                    std::acos(std::abs(motion.X_AB.R(2, 2))) * 180 / std::numbers::pi);
     return;
   }
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
@@ -192,7 +181,6 @@ void JournalBearing::increment_film(mbd::ForceResponse& response) {
 
 void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
   response.set_zero(deforming_->amplitudes());
-  if (!faces(motion.X_AB)) return;
   place(motion);
   if (!domain_error_.empty()) return;
   if (motion.dt == 0) {

@@ -172,7 +172,8 @@ TEST_CASE("JournalTurnedAway_IsADomainError") {
   CHECK(bearing.domain_error().empty());
   motion.X_AB.R = Eigen::AngleAxisd(1.5, Vector3::UnitX()).toRotationMatrix();
   bearing.evaluate(motion, false, response);
-  CHECK(bearing.domain_error() == "the journal's axis has turned away from the bearing's");
+  CHECK(bearing.domain_error() ==
+        "the surfaces do not face each other: the journal's z-axis stands at 86 deg to the shell's");
 }
 
 }  // namespace

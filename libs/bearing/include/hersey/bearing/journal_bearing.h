@@ -85,7 +85,6 @@ class JournalBearing final : public mbd::TwoBodyForce {
   [[nodiscard]] film::FilmFields fields() const;
 
  private:
-  [[nodiscard]] bool faces(const Pose& X_AB);
   void place(const mbd::RelativeMotion& motion);
   void feed(double t);
   void report_contact();
