@@ -6,8 +6,8 @@
 
 SERIES are step, grid, modes and, of the rig, full-film-step (Guembel's condition: no fill is carried, the equations are
 smooth in time) and mesh (which calls gmsh); without any, all but mesh. Results lie below
-build/refinement, runs that exist there are not repeated. Prints a table per series. Levels go down by a factor of two, and
-of each three that follow each other
+build/refinement, runs that exist there are not repeated. Prints a table per series. Levels go down by a factor of two; of
+each three that follow each other
 
     order = log2((a - b)/(b - c)),   limit = c + (c - b)/(2^order - 1)   (Richardson),
 
@@ -81,7 +81,8 @@ def engine():
         {
             "step": [(f"{s} deg", [f"simulation.step={s}deg"] + grids(0.5)) for s in (1, 0.5, 0.25, 0.125)],
             "grid": [(f"{int(60 * f)} x {int(12 * f) + 1}", grids(f)) for f in (0.5, 1, 2)],
-            "modes": [(f"{b} + {s} film modes", modes(b, s) + grids(0.5)) for b, s in ((10, 8), (20, 15), (40, 30))],
+            "modes": [(f"{b} + {s} film modes", modes(b, s) + grids(0.5))
+                      for b, s in ((10, 8), (20, 15), (40, 30), (80, 60), (160, 120))],
         })
 
 
