@@ -48,6 +48,15 @@ double interpolated(const Eigen::VectorXd& field, const film::FilmModel& film, d
   return (1 - a) * along(i) + a * along(next);
 }
 
+/// Between the bearing's ideal cylinders where the machine starts, before anything deforms [m].
+Eigen::VectorXd undeformed_gap(const bearing::JournalBearing& bearing) {
+  const film::FilmFields fields = bearing.fields();
+  Eigen::VectorXd gap = fields.h;
+  if (fields.d_shell.size() > 0) gap -= fields.d_shell;
+  if (fields.d_journal.size() > 0) gap += fields.d_journal;
+  return gap;
+}
+
 /// What the meshes leave between shell and journal, where it is least.
 struct LeastClearance {
   double value = std::numeric_limits<double>::infinity();
@@ -140,7 +149,7 @@ void require_clearance(const model::Model& model, model::Machine& machine, const
     const Pose X_AB = machine.mechanism->relative_motion(start, built.force).X_AB;
     require_facing_widths(model, bearing, X_AB.r.z());
     if (bearing.film.compliance > 0) continue;  // a liner may be pushed in
-    const LeastClearance least = least_clearance(bearing, shell, journal, built.bearing->fields().h, X_AB);
+    const LeastClearance least = least_clearance(bearing, shell, journal, undeformed_gap(*built.bearing), X_AB);
     if (least.value < -round_off * bearing.film.c) throw InputError(fault_of(model, bearing, least));
   }
 }
