@@ -79,8 +79,9 @@ def engine():
         180,
         (300, 390, 540),
         {
-            "step": [(f"{s} deg", [f"simulation.step={s}deg"] + grids(0.5)) for s in (1, 0.5, 0.25, 0.125)],
-            "grid": [(f"{int(60 * f)} x {int(12 * f) + 1}", grids(f)) for f in (0.5, 1, 2)],
+            "step": [(f"{s} deg", [f"simulation.step={s}deg"] + grids(0.5) + modes(40, 30))
+                     for s in (1, 0.5, 0.25, 0.125)],
+            "grid": [(f"{int(60 * f)} x {int(12 * f) + 1}", grids(f) + modes(40, 30)) for f in (0.5, 1, 2)],
             "modes": [(f"{b} + {s} film modes", modes(b, s) + grids(0.5))
                       for b, s in ((10, 8), (20, 15), (40, 30), (60, 45), (80, 60), (160, 120))],
         })
