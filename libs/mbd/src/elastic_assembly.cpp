@@ -24,11 +24,9 @@ ElasticAssembly::ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree&
   }
   const int own = own_count();
   for (int i = 0; i < own; ++i) columns_.push_back(own_v + i);
-  const Index rows = 6 * static_cast<Index>(frames_.size()) + own, columns = static_cast<Index>(columns_.size());
-  J_ = X_ = V_ = A_ = Eigen::MatrixXd::Zero(rows, columns);
-  J_.bottomRightCorner(own, own).setIdentity();
-  product_.resize(rows, columns);
-  block_.resize(columns, columns);
+  const Index outer = 6 * static_cast<Index>(frames_.size()), rows = outer + own;
+  J_ = X_ = V_ = A_ = Eigen::MatrixXd::Zero(outer, tree_columns_);
+  block_.resize(static_cast<Index>(columns_.size()), static_cast<Index>(columns_.size()));
   to_frame_.resize(frames_.size());
   motion_.frames.resize(frames_.size());
   motion_.loads = Eigen::VectorXd::Zero(static_cast<Index>(loads_.size()));
@@ -81,7 +79,6 @@ const ElasticMotion& ElasticAssembly::read(const TreeMotion& motion, const solve
 
 /// Columns in the frames' axes: dX = Ad^-1 J', dV = Ad^-1 H, dA = Ad^-1 (E + H x V).
 void ElasticAssembly::fill_directions(const Assembly& assembly) {
-  const solver::Stage& stage = assembly.stage;
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     const Index row = 6 * static_cast<Index>(f);
     const Vector6& V = assembly.motion.V(frames_[f].link);
@@ -93,10 +90,6 @@ void ElasticAssembly::fill_directions(const Assembly& assembly) {
       A_.block<6, 1>(row, c) = to_frame_[f] * (d.E + cross_motion(d.H, V));
     }
   }
-  const Index own = own_count();
-  X_.bottomRightCorner(own, own).diagonal().setConstant(stage.k);
-  V_.bottomRightCorner(own, own).diagonal().setConstant(stage.c);
-  A_.bottomRightCorner(own, own).diagonal().setConstant(stage.m);
 }
 
 void ElasticAssembly::prepare(const Assembly& assembly, const solver::State& state) {
@@ -113,10 +106,12 @@ void ElasticAssembly::find_shapes(const Assembly& assembly) {
   const bool want_tangent = assembly.tangent != nullptr;
   body_->find_shapes(motion_, want_tangent, shapes_);
   if (!want_tangent) return;
-  shape_columns_.virtual_value.noalias() = shapes_.by_motion * J_;
-  shape_columns_.value.noalias() = shapes_.by_motion * X_;
-  shape_columns_.rate.noalias() = shapes_.by_motion * V_;
-  shape_columns_.rate.noalias() += shapes_.rate_by_motion * X_;
+  shape_columns_.virtual_value.noalias() = shapes_.by_frames * J_;
+  shape_columns_.value.noalias() = shapes_.by_frames * X_;
+  shape_columns_.rate.noalias() = shapes_.by_frames * V_;
+  shape_columns_.rate.noalias() += shapes_.rate_by_frames * X_;
+  shape_columns_.own_value = assembly.stage.k;
+  shape_columns_.own_rate = assembly.stage.c;
 }
 
 void ElasticAssembly::find_shapes() { body_->find_shapes(motion_, false, shapes_); }
@@ -133,19 +128,30 @@ void ElasticAssembly::add(Assembly& assembly, const Vector3& gravity) {
   body_->evaluate(motion_, assembly.tangent != nullptr, response_);
   // In free fall inertia and weight cancel, so the weight counts by itself.
   response_.magnitude.segment<3>(3).array() += body_->mass() * gravity.norm();
+  const Index outer = J_.rows();
   for (Index c = 0; c < J_.cols(); ++c)
-    assembly.add_residual(columns_[static_cast<std::size_t>(c)], J_.col(c).dot(response_.force),
-                          J_.col(c).cwiseAbs().dot(response_.magnitude));
+    assembly.add_residual(columns_[static_cast<std::size_t>(c)], J_.col(c).dot(response_.force.head(outer)),
+                          J_.col(c).cwiseAbs().dot(response_.magnitude.head(outer)));
+  for (int i = 0; i < own_count(); ++i)
+    assembly.add_residual(own_v_ + i, response_.force[outer + i], response_.magnitude[outer + i]);
   if (assembly.tangent == nullptr) return;
   add_tangent(assembly);
   add_turning(assembly);
 }
 
+/// The tree's columns move frames alone, an increment of an own coordinate that alone.
 void ElasticAssembly::add_tangent(Assembly& assembly) {
-  product_.noalias() = response_.K * X_;
-  product_.noalias() += response_.C * V_;
-  product_.noalias() += response_.M * A_;
-  block_.noalias() = J_.transpose() * product_;
+  const Index outer = J_.rows(), own = own_count(), tree = tree_columns_;
+  const solver::Stage& stage = assembly.stage;
+  product_.noalias() = response_.K.leftCols(outer) * X_;
+  product_.noalias() += response_.C.leftCols(outer) * V_;
+  product_.noalias() += response_.M.leftCols(outer) * A_;
+  by_own_ = stage.k * response_.K.rightCols(own) + stage.c * response_.C.rightCols(own) +
+            stage.m * response_.M.rightCols(own);
+  block_.topLeftCorner(tree, tree).noalias() = J_.transpose() * product_.topRows(outer);
+  block_.bottomLeftCorner(own, tree) = product_.bottomRows(own);
+  block_.topRightCorner(tree, own).noalias() = J_.transpose() * by_own_.topRows(outer);
+  block_.bottomRightCorner(own, own) = by_own_.bottomRows(own);
   for (Index c = 0; c < block_.cols(); ++c)
     for (Index r = 0; r < block_.rows(); ++r)
       assembly.add_tangent(columns_[static_cast<std::size_t>(r)], columns_[static_cast<std::size_t>(c)], block_(r, c));

@@ -11,11 +11,37 @@
 
 namespace hersey::mbd {
 
-/// How the amplitudes of a body's shapes move with the columns of the tree and the body's own coordinates, a matrix
-/// column each: virtually, and by one Newton increment.
+/// How the amplitudes of a body's shapes move with the columns of the tree and the body's own coordinates: virtually,
+/// and by one Newton increment. The last amplitudes are the own coordinates; the others move with the tree's columns
+/// alone.
 struct ShapeColumns {
-  std::vector<int> columns;
-  Eigen::MatrixXd virtual_value, value, rate;  ///< shape (shapes, columns)
+  std::vector<int> columns;                    ///< of the tree, then of the own coordinates
+  Eigen::MatrixXd virtual_value, value, rate;  ///< shape (shapes less own coordinates, columns of the tree)
+  double own_value = 0, own_rate = 0;          ///< by which an increment of an own coordinate moves it
+
+  [[nodiscard]] Eigen::Index shapes() const {
+    return value.rows() + static_cast<Eigen::Index>(columns.size()) - value.cols();
+  }
+
+  /// by_value d value + by_rate d rate per column, both of shape (rows, shapes).
+  [[nodiscard]] Eigen::MatrixXd moved(const Eigen::Ref<const Eigen::MatrixXd>& by_value,
+                                      const Eigen::Ref<const Eigen::MatrixXd>& by_rate) const {
+    const Eigen::Index inner = value.rows(), own = shapes() - inner;
+    Eigen::MatrixXd change(by_value.rows(), value.cols() + own);
+    change.leftCols(value.cols()).noalias() = by_value.leftCols(inner) * value;
+    change.leftCols(value.cols()).noalias() += by_rate.leftCols(inner) * rate;
+    change.rightCols(own) = own_value * by_value.rightCols(own) + own_rate * by_rate.rightCols(own);
+    return change;
+  }
+
+  /// What forces on the shapes do on each column, for `forces` of shape (shapes, any).
+  [[nodiscard]] Eigen::MatrixXd on_columns(const Eigen::Ref<const Eigen::MatrixXd>& forces) const {
+    const Eigen::Index inner = value.rows(), own = shapes() - inner;
+    Eigen::MatrixXd generalised(value.cols() + own, forces.cols());
+    generalised.topRows(value.cols()).noalias() = virtual_value.transpose() * forces.topRows(inner);
+    generalised.bottomRows(own) = forces.bottomRows(own);
+    return generalised;
+  }
 };
 
 /// An elastic body as the tree sees it: where its frames hang, which columns move them, where its own coordinates lie.
@@ -88,8 +114,9 @@ class ElasticAssembly {
   ShapeMotion shapes_;
   ShapeColumns shape_columns_;
   std::vector<Matrix6> to_frame_;  ///< Ad(X_WF)^-1
-  Eigen::MatrixXd J_, X_, V_, A_;  ///< per column: velocity, and what an increment does to position, velocity, ...
-  Eigen::MatrixXd product_, block_;
+  /// Of the frames per column of the tree: velocity, and what an increment does to position, velocity, ...
+  Eigen::MatrixXd J_, X_, V_, A_;
+  Eigen::MatrixXd product_, by_own_, block_;
 };
 
 }  // namespace hersey::mbd

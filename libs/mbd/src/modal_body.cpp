@@ -88,10 +88,9 @@ ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::ma
   w.H_rate = w.H_acc = w.H;
   w.load = VectorXd::Zero(6 + n);
   w.K = w.C = w.M = MatrixXd::Zero(6 + n, 6 + n);
-  const Index outer = 6 * frame_count() + coordinate_count();
-  w.Z = w.Z_rate_X = w.Z_acc_X = w.Z_acc_V = MatrixXd::Zero(6 + n, outer);
+  const Index outer = 6 * frame_count();
+  w.Z = w.Z_rate_X = w.Z_acc_X = w.Z_acc_V = MatrixXd::Zero(outer, outer);
   w.Z.topLeftCorner<6, 6>().setIdentity();
-  w.Z.bottomRightCorner(coordinate_count(), coordinate_count()).setIdentity();
 }
 
 ModalBody::~ModalBody() = default;
@@ -242,7 +241,7 @@ void ModalBody::add_elasticity(bool want_tangent) {
   w.C.bottomRightCorner(n, n) += data_.damping;
 }
 
-/// d[frame 0; amplitudes] / d[all frames; own coordinates], theory manual eq. (flexible-bodies.12).
+/// d[frame 0; amplitudes that follow from frames] / d[all frames], theory manual eq. (flexible-bodies.12).
 void ModalBody::fill_transformations(bool want_tangent) {
   Workspace& w = *work_;
   for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
@@ -268,27 +267,38 @@ void ModalBody::find_shapes(const ElasticMotion& motion, bool want_tangent, Shap
   shapes.rate = w.rate.tail(n);
   if (!want_tangent) return;
   fill_transformations(true);
-  shapes.by_motion = w.Z.bottomRows(n);
-  shapes.rate_by_motion = w.Z_rate_X.bottomRows(n);
+  shapes.by_frames = w.Z.bottomRows(w.Z.rows() - 6);
+  shapes.rate_by_frames = w.Z_rate_X.bottomRows(w.Z.rows() - 6);
 }
 
-/// From [frame 0; amplitudes] to [all frames; own coordinates], theory manual eq. (flexible-bodies.12).
+/// From [frame 0; amplitudes] to [all frames; own coordinates], theory manual eq. (flexible-bodies.12). The last of the
+/// amplitudes are the own coordinates, so that only the leading blocks change.
 void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
   Workspace& w = *work_;
   fill_transformations(want_tangent);
-  response.magnitude.resize(w.Z.cols());
-  response.force.noalias() = w.Z.transpose() * w.force;
-  for (Index c = 0; c < w.Z.cols(); ++c) response.magnitude[c] = w.Z.col(c).cwiseAbs().dot(w.magnitude);
+  const Index outer = w.Z.rows(), own = coordinate_count();
+  response.force = w.force;
+  response.force.head(outer).noalias() = w.Z.transpose() * w.force.head(outer);
+  response.magnitude = w.magnitude;
+  response.magnitude.head(outer).noalias() = w.Z.cwiseAbs().transpose() * w.magnitude.head(outer);
   if (!want_tangent) return;
-  w.product.noalias() = w.K * w.Z;
-  w.product.noalias() += w.C * w.Z_rate_X;
-  w.product.noalias() += w.M * w.Z_acc_X;
-  response.K.noalias() = w.Z.transpose() * w.product;
-  w.product.noalias() = w.C * w.Z;
-  w.product.noalias() += w.M * w.Z_acc_V;
-  response.C.noalias() = w.Z.transpose() * w.product;
-  w.product.noalias() = w.M * w.Z;
-  response.M.noalias() = w.Z.transpose() * w.product;
+  // With `product` what the frames change: A' = [Z^T product_top, Z^T A_top,own; product_bottom, A_own,own].
+  const auto reduce = [&](const MatrixXd& A, MatrixXd& reduced) {
+    reduced.resize(outer + own, outer + own);
+    reduced.topLeftCorner(outer, outer).noalias() = w.Z.transpose() * w.product.topRows(outer);
+    reduced.bottomLeftCorner(own, outer) = w.product.bottomRows(own);
+    reduced.topRightCorner(outer, own).noalias() = w.Z.transpose() * A.topRightCorner(outer, own);
+    reduced.bottomRightCorner(own, own) = A.bottomRightCorner(own, own);
+  };
+  w.product.noalias() = w.K.leftCols(outer) * w.Z;
+  w.product.noalias() += w.C.leftCols(outer) * w.Z_rate_X;
+  w.product.noalias() += w.M.leftCols(outer) * w.Z_acc_X;
+  reduce(w.K, response.K);
+  w.product.noalias() = w.C.leftCols(outer) * w.Z;
+  w.product.noalias() += w.M.leftCols(outer) * w.Z_acc_V;
+  reduce(w.C, response.C);
+  w.product.noalias() = w.M.leftCols(outer) * w.Z;
+  reduce(w.M, response.M);
   for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
     const Index at = 6 + 6 * static_cast<Index>(i);
     const Matrix12 G = w.interfaces[i].geometric(w.force.segment<6>(at));

@@ -48,19 +48,17 @@ void add_surface_tangent(Assembly& assembly, const Pair& pair, const std::vector
   const MatrixXd forces_by_pair = response.dQ_dX * tree.position + response.dQ_dV * tree.velocity;
   Index row = 0;
   for (const ShapeColumns* moved : surfaces) {
-    const Index rows = moved->value.rows();
+    const Index rows = moved->shapes();
     const auto of_moved = [&](std::size_t i) { return moved->columns[i]; };
-    subtract(assembly, moved->virtual_value.transpose() * forces_by_pair.middleRows(row, rows), of_moved, of_pair);
-    const MatrixXd wrench =
-        response.dW_ds.middleCols(row, rows) * moved->value + response.dW_dr.middleCols(row, rows) * moved->rate;
+    subtract(assembly, moved->on_columns(forces_by_pair.middleRows(row, rows)), of_moved, of_pair);
+    const MatrixXd wrench = moved->moved(response.dW_ds.middleCols(row, rows), response.dW_dr.middleCols(row, rows));
     subtract(assembly, tree.virtual_motion.transpose() * wrench, of_pair, of_moved);
-    const MatrixXd forces =
-        response.dQ_ds.middleCols(row, rows) * moved->value + response.dQ_dr.middleCols(row, rows) * moved->rate;
+    const MatrixXd forces = moved->moved(response.dQ_ds.middleCols(row, rows), response.dQ_dr.middleCols(row, rows));
     Index pushed_row = 0;
     for (const ShapeColumns* pushed : surfaces) {
       const auto of_pushed = [&](std::size_t i) { return pushed->columns[i]; };
-      const Index count = pushed->value.rows();
-      subtract(assembly, pushed->virtual_value.transpose() * forces.middleRows(pushed_row, count), of_pushed, of_moved);
+      const Index count = pushed->shapes();
+      subtract(assembly, pushed->on_columns(forces.middleRows(pushed_row, count)), of_pushed, of_moved);
       pushed_row += count;
     }
     row += rows;

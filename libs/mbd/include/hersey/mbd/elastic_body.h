@@ -35,11 +35,12 @@ struct ElasticMotion {
   Eigen::VectorXd shape_forces, shape_force_sizes;
 };
 
-/// Amplitudes of a body's shapes at a motion.
+/// Amplitudes of a body's shapes at a motion. The last of them are the own coordinates; the others, shape (inner),
+/// follow from the frames alone.
 struct ShapeMotion {
-  Eigen::VectorXd value, rate;     ///< shape (shape_count)
-  Eigen::MatrixXd by_motion;       ///< d value / d [twists of the frames; own coordinates] = d rate / d their rates
-  Eigen::MatrixXd rate_by_motion;  ///< d rate / d the same at fixed velocities
+  Eigen::VectorXd value, rate;  ///< shape (shape_count)
+  Eigen::MatrixXd by_frames;    ///< d inner value / d twists of the frames = d rate / d their rates, (inner, 6 frames)
+  Eigen::MatrixXd rate_by_frames;  ///< d inner rate / d the same at fixed velocities
 };
 
 /// Forces on the nodes of a body's mesh that grow and shrink together: a pressure, a force spread over a surface.
