@@ -81,8 +81,7 @@ TEST_CASE("Variants_AreRunBesideEachOther") {
 
 TEST_CASE("FaultyVariants_ArePlaced") {
   const std::string above = good_model + "study:\n  parameters:\n    load: [1 N]\n  variants:\n";
-  CHECK(faults_of(above + "    dry: 3\n") ==
-        "m.yaml:38:10: study.variants.dry: '3'; expected unchanged");
+  CHECK(faults_of(above + "    dry: 3\n") == "m.yaml:38:10: study.variants.dry: '3'; expected unchanged");
   const StudyFile file(above + "    dry: [bearings.big_end.widht=3]\n    wet: [load]\n");
   CHECK_THROWS_WITH_AS((void)expand_study(file.path()), doctest::Contains(":38:11: "), InputError);
   CHECK_THROWS_WITH_AS((void)expand_study(file.path()), doctest::Contains("unknown key 'widht'"), InputError);

@@ -24,7 +24,8 @@ struct StaticDeformationSummary {
 /// depend on the deformation, a film among them, take part in Newton's method with their tangent. Ends with begin_step
 /// / accept_step of zero length.
 /// @param state    consistent, as `initialise` leaves it
-/// @param options  `stiff`: the deformations; `held`: other components that keep their positions if the constraints allow
+/// @param options  `stiff`: the deformations; `held`: other components that keep their positions if the constraints
+/// allow
 /// @pre every deformation has a stiffness
 /// @cost per iteration two assemblies and one sparse factorisation; once a dense QR of G
 [[nodiscard]] StaticDeformationSummary settle_deformations(Equations& equations, State& state,
