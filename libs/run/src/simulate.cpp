@@ -25,6 +25,7 @@
 #include "hersey/solver/linearise.h"
 #include "hersey/solver/step_control.h"
 #include "instants.h"
+#include "observe_step.h"
 #include "recorder.h"
 #include "redundancies.h"
 #include "settling.h"
@@ -48,14 +49,6 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
     }
   }
   return options;
-}
-
-// Seen from ground instead of the first body.
-mbd::ContactObservation in_ground(mbd::ContactObservation seen, const Pose& X_WA) {
-  seen.force = X_WA.R * seen.force;
-  seen.friction = X_WA.R * seen.friction;
-  seen.position = X_WA * seen.position;
-  return seen;
 }
 
 // Read back: after a write error the file holds less than was handed to it.
@@ -315,34 +308,13 @@ class Simulation {
 
   [[nodiscard]] StepRecord observe(double dt, const solver::StepSummary& step, double error = 0) {
     const Stopwatch watch(work_.recording());
-    StepRecord record;
+    StepRecord record = observe_step(machine_, state_, kinds_);
     record.error = error;
     record.rejected_steps = summary_.rejected_steps;
     record.dt = dt;
     record.newton_iterations = step.iterations;
     record.newton_residual = step.residual;
-    record.mechanism = machine_.mechanism->observe(state_);
-    // The mechanism's own figure also looks at rows left out as redundant.
-    record.constraint_drift = std::max(constraint_drift(), record.mechanism.constraint_drift);
-    for (const model::BuiltBearing& bearing : machine_.bearings) {
-      record.journal_motions.push_back(machine_.mechanism->relative_motion(state_, bearing.force));
-      record.bearings.push_back(bearing.bearing->observe(record.journal_motions.back()));
-    }
-    for (const model::BuiltContact& contact : machine_.contacts) {
-      const mbd::RelativeMotion motion = machine_.mechanism->relative_motion(state_, contact.force);
-      const Pose& X_WA = record.mechanism.bodies[static_cast<std::size_t>(contact.first.index)].X_WF;
-      record.contacts.push_back(in_ground(contact.contact->observe(motion), X_WA));
-    }
-    record.power = power_balance(machine_.mechanism->spec(), record.mechanism, kinds_);
     return record;
-  }
-
-  // The largest violation of a constraint, relative to the lengths or angles it compares.
-  [[nodiscard]] double constraint_drift() {
-    if (machine_.mechanism->nlambda() == 0) return 0;
-    Eigen::VectorXd phi, scale;
-    machine_.mechanism->constraints(state_, phi, scale, nullptr);
-    return phi.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
   }
 
   void take(const StepRecord& step) {
