@@ -477,7 +477,7 @@ class CommandLine(unittest.TestCase):
             with subprocess.Popen([HERSEY, *arguments, "--output", parts, *resume], stdout=subprocess.DEVNULL,
                                   stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True) as process:
                 try:
-                    process.wait(timeout=chance.uniform(0.1, 0.6) * span if kills < 6 else 120)
+                    process.wait(timeout=chance.uniform(0.1, 0.6 if kills > 1 else 0.4) * span if kills < 6 else 120)
                 except subprocess.TimeoutExpired:
                     process.kill()
                     kills += 1

@@ -27,7 +27,8 @@ class FilmSurfaceReader {
     const fem::FilmCylinder cylinder{.X = pose_in(*body), .R = film_.R, .L = film_.L, .is_bore = is_shell_};
     const fem::Mesh& mesh = *body->flexible->mesh;
     const Value *named = value_.find("faces"), *within = value_.find("within");
-    const Value& choice = named != nullptr ? *named : within != nullptr ? *within : value_;
+    if (named == nullptr && within == nullptr) return std::nullopt;  // told
+    const Value& choice = named != nullptr ? *named : *within;
     if (choice.broken || context_.has_fault_in(value_.path)) return std::nullopt;
     if (!has_enough_functions()) return std::nullopt;
     std::vector<fem::ElementFace> faces;

@@ -151,10 +151,10 @@ class Summary {
       extreme("worst power-balance error of the system", error, largest_size, 1, unit == "1" ? "" : unit, false);
       relative_power_error();
     }
-    if (const auto wall = reader_.number_attribute("/", "wall_time")) {
-      add("computing time", *wall, "s");
+    if (const double wall = reader_.number_attribute("/", "wall_time").value_or(0); wall > 0) {
+      add("computing time", wall, "s");
       if (!reader_.has("/timing") && every_step_is_stored())
-        add("computing time per step", 1e3 * *wall / static_cast<double>(time_.size() - 1), "ms");
+        add("computing time per step", 1e3 * wall / static_cast<double>(time_.size() - 1), "ms");
     }
     timing_rows();
   }

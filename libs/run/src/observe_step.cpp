@@ -25,6 +25,16 @@ double constraint_drift(mbd::Mechanism& mechanism, const solver::State& state) {
 
 }  // namespace
 
+std::vector<ForceKind> force_kinds(const model::Machine& machine) {
+  std::vector<ForceKind> kinds(machine.mechanism->spec().forces.size(), ForceKind::spring);
+  const auto mark = [&](const auto& built, ForceKind kind) {
+    kinds[static_cast<std::size_t>(built.force.index)] = kind;
+  };
+  for (const model::BuiltContact& contact : machine.contacts) mark(contact, ForceKind::contact);
+  for (const model::BuiltBearing& bearing : machine.bearings) mark(bearing, ForceKind::bearing);
+  return kinds;
+}
+
 StepRecord observe_step(const model::Machine& machine, const solver::State& state,
                         const std::vector<ForceKind>& kinds) {
   mbd::Mechanism& mechanism = *machine.mechanism;

@@ -452,11 +452,20 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
   writer_.rename(results);
 }
 
+void Recorder::declare_cost(const Work& work) {
+  write_cost(0, work, 0);
+  writer_.flush();
+}
+
+void Recorder::write_cost(double wall_time, const Work& work, int steps) {
+  writer_.attribute("/", "wall_time", wall_time);
+  write_work(work, steps, writer_);
+}
+
 void Recorder::finish(results::Status status, const std::string& message, double wall_time, const Work& work,
                       int steps) {
   cycles_.finish();
-  writer_.attribute("/", "wall_time", wall_time);
-  write_work(work, steps, writer_);
+  write_cost(wall_time, work, steps);
   writer_.finish(status, message);
 }
 

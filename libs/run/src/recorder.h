@@ -53,9 +53,15 @@ class Recorder {
   void persist(Archive& archive, const std::filesystem::path& results);
   /// How far the cycle that ended at `t` repeats the one before: CycleChange::value.
   void write_cycle(double t, double change) const;
+  /// Makes room for what `finish` writes, so that it changes nothing of the file's structure: a program killed then
+  /// leaves a file that can be read. Before the first row.
+  /// @param work  of no steps yet
+  void declare_cost(const Work& work);
   void finish(results::Status status, const std::string& message, double wall_time, const Work& work, int steps);
 
  private:
+  void write_cost(double wall_time, const Work& work, int steps);
+
   struct BodySeries {
     results::Series position, orientation, velocity, angular_velocity, acceleration;
   };

@@ -59,6 +59,7 @@ void check_resumed(const model::Model& model, const std::filesystem::path& folde
   INFO(summary.message);
   REQUIRE(summary.status == Status::completed);
   CHECK(summary.steps == straight.steps);
+  CHECK(summary.rejected_steps == straight.rejected_steps);
   CHECK(summary.newton_iterations == straight.newton_iterations);
   CHECK(summary.worst_power_balance == straight.worst_power_balance);
   for (std::size_t i = 0; i < summary.bearings.size(); ++i) {
@@ -296,6 +297,22 @@ TEST_CASE("NothingToGoOnFrom_BeginsAnewOrIsDone") {
   CHECK(again.message == "it was complete already");
   CHECK(again.t_results == first.t_end);
   CHECK(std::filesystem::last_write_time(results) == written);
+}
+
+TEST_CASE("CheckpointBesideResultsThatSayToBeComplete_IsGoneOnFrom") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path whole = scratch / "whole.h5", parts = scratch / "parts.h5", kept = scratch / "kept";
+  REQUIRE(simulate(rig(), {.results = whole}).status == Status::completed);
+  REQUIRE(run_for(rig(), parts, 5, false).status == Status::stopped);
+  std::filesystem::copy_file(checkpoint_file(parts), kept);
+  REQUIRE(simulate(rig(), {.results = parts, .resume = true}).status == Status::completed);
+  // As a program leaves them that is killed between the end of its results and the removal of its checkpoint.
+  std::filesystem::copy_file(kept, checkpoint_file(parts));
+  const Summary again = simulate(rig(), {.results = parts, .resume = true});
+  CHECK(again.status == Status::completed);
+  CHECK(again.message != "it was complete already");
+  CHECK_FALSE(std::filesystem::exists(checkpoint_file(parts)));
+  check_same(whole, parts);
 }
 
 TEST_CASE("FileOfNothingButReservedSpace_IsNoHindrance") {

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "cycle_convergence.h"
+#include "extremes.h"
+#include "flexible_record.h"
+#include "hersey/core/archive.h"
+#include "hersey/model/build.h"
+#include "hersey/model/model.h"
+#include "hersey/run/simulate.h"
+#include "recorder.h"
+#include "settling.h"
+
+namespace hersey::run {
+
+/// What the accepted steps of a run leave behind: rows and fields in the results file, deformed meshes, cycles,
+/// extremes for the summary. Says when a run has settled or repeats itself.
+class RunRecord {
+ public:
+  /// @param resumes  Recorder
+  /// @throws as Recorder
+  RunRecord(const model::Model& model, const model::Machine& machine, const Options& options, bool resumes);
+
+  /// The start of the run, then every accepted step.
+  void take(const StepRecord& step);
+  void declare_cost(const Work& work) { recorder_.declare_cost(work); }
+  void write_modes(const solver::State& state, const solver::Modes& found) { recorder_.write_modes(state, found); }
+  void finish(results::Status status, const std::string& message, double wall_time, const Work& work);
+
+  /// Nothing changes any more, or cycle repeats cycle: the run may end with the step last taken.
+  [[nodiscard]] bool is_settled() const { return settled_; }
+  [[nodiscard]] bool repeats() const { return repeats_; }
+  /// What to say of that, or of cycles that did not repeat, when the run ends at `t`; empty where there is nothing.
+  [[nodiscard]] std::string ending(double t) const;
+
+  /// Smallest film thickness so far of all bearings [m].
+  [[nodiscard]] double moft() const;
+  /// The figures of all steps taken.
+  void summarise(Summary& summary) const;
+
+  void persist(Archive& archive);
+
+ private:
+  void end_cycle(double t);
+  void write(const StepRecord& step);
+  [[nodiscard]] bool is_row_due(double t, double slack);
+  [[nodiscard]] bool are_fields_due(double t, double slack);
+
+  const model::Model& model_;
+  const Options& options_;
+  Recorder recorder_;
+  DeformedMeshes deformed_;
+  SettlingTest settling_;
+  CycleConvergence cycles_;
+  std::vector<BearingExtremes> extremes_;
+  int steps_ = 0, newton_iterations_ = 0;
+  double constraint_drift_ = 0, largest_power_ = 0, largest_error_ = 0;
+  CycleChange last_cycle_;
+  bool settled_ = false, repeats_ = false;
+  double next_fields_ = -std::numeric_limits<double>::infinity();
+  double next_row_ = 0;  ///< in intervals
+};
+
+}  // namespace hersey::run

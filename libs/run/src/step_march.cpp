@@ -1,0 +1,160 @@
+#include "step_march.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/solver/initialise.h"
+#include "hersey/solver/kinematics.h"
+#include "instants.h"
+
+namespace hersey::run {
+namespace {
+
+solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
+  solver::GeneralizedAlphaOptions options;
+  options.spectral_radius = model.simulation.spectral_radius;
+  options.rtol = model.simulation.tolerance;
+  options.max_iterations = model.simulation.max_iterations;
+  for (const model::Bearing& bearing : model.bearings) {
+    if (bearing.coupling.scheme == model::CouplingScheme::partitioned) {
+      options.max_iterations = std::max(options.max_iterations, bearing.coupling.max_iterations);
+    }
+  }
+  return options;
+}
+
+// The multiples of simulation.step, and the end of the run.
+std::vector<double> equal_instants(const model::Simulation& plan) {
+  const int intervals = std::max(1, static_cast<int>(std::ceil(plan.duration / plan.step - 1e-9)));
+  std::vector<double> instants;
+  for (int k = 1; k < intervals; ++k) instants.push_back(plan.start + k * plan.step);
+  instants.push_back(plan.start + plan.duration);
+  return instants;
+}
+
+}  // namespace
+
+StepMarch::StepMarch(const model::Model& model, model::Machine& machine)
+    : model_(model), machine_(machine), integrator_(integrator_options(model)), step_error_(model, machine) {}
+
+void StepMarch::plan(const solver::State& state, const mbd::Observation& start) {
+  const auto& limits = model_.simulation.error_control;
+  if (!limits || model_.simulation.analysis == model::Analysis::kinematics) {
+    targets_ = equal_instants(model_.simulation);
+    return;
+  }
+  bends_ = kinks(model_, machine_.mechanism->spec(), start);
+  targets_ = instants_to_hit(model_, bends_);
+  control_.emplace(
+      solver::StepControlOptions{.smallest = limits->smallest, .largest = limits->largest, .unit = unit_of_steps()},
+      first_step(*machine_.mechanism, state, *limits));
+}
+
+// Bodies with a displacement of every node factorise a matrix for every step size: few of them then, parts of the
+// interval between the instants to hit.
+double StepMarch::unit_of_steps() const {
+  const auto is_nodal = [](const model::Body& body) { return body.flexible && body.flexible->nodal; };
+  if (std::none_of(model_.bodies.begin(), model_.bodies.end(), is_nodal)) return 0;
+  return targets_.front() - model_.simulation.start;
+}
+
+MarchedStep StepMarch::take(solver::State& state) {
+  const double target = targets_[reached_];
+  if (at_bend_) start_afresh(state);
+  at_bend_ = false;
+  const bool is_kinematic = model_.simulation.analysis == model::Analysis::kinematics;
+  MarchedStep step = is_kinematic ? follow_drives(state, target)
+                     : control_   ? take_controlled(state, target)
+                                  : take_fixed(state, target);
+  if (!step.is_taken()) return step;
+  last_dt_ = step.dt;
+  const model::Simulation& plan = model_.simulation;
+  const double scale = control_ ? std::max(std::abs(target), plan.error_control->largest) : plan.step;
+  if (target - state.t > 1e-12 * scale) return step;
+  ++reached_;
+  trial_ = std::numeric_limits<double>::infinity();
+  at_bend_ = std::binary_search(bends_.begin(), bends_.end(), target);
+  return step;
+}
+
+// Beyond a kink of a drive's speed its acceleration is another one: the method's history would ring on it.
+void StepMarch::start_afresh(solver::State& state) {
+  if (solver::solve_accelerations(*machine_.mechanism, state, last_dt_)) integrator_.reset();
+}
+
+// Nothing integrated: the last step, gone on with, is where Newton's method begins.
+MarchedStep StepMarch::follow_drives(solver::State& state, double target) const {
+  MarchedStep step{.dt = target - state.t};
+  const Eigen::VectorXd guess = step.dt * state.v + 0.5 * step.dt * step.dt * state.vdot;
+  solver::State next = state;
+  machine_.mechanism->retract(state.q, guess, next.q);
+  next.t = target;
+  const solver::KinematicsSummary solved = solver::solve_kinematics(*machine_.mechanism, next);
+  step.solution.iterations = solved.iterations;
+  if (solved.solved())
+    state = next;
+  else
+    step.trouble = solved.message;
+  return step;
+}
+
+MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
+  MarchedStep step;
+  for (;;) {
+    step.dt = std::min(trial_, target - state.t);
+    step.solution = integrator_.step(*machine_.mechanism, state, step.dt);
+    if (step.solution.converged()) {
+      trial_ = 2 * step.dt;
+      return step;
+    }
+    ++rejected_;
+    trial_ = step.dt / 2;
+    if (trial_ < model_.simulation.smallest_step) {
+      step.trouble = fmt::format("t = {:.6g} s: no convergence with a step of {:.2g} s: {}", state.t, step.dt,
+                                 step.solution.message);
+      return step;
+    }
+  }
+}
+
+MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
+  MarchedStep step;
+  const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
+    step.error = step_error_.measure(end, estimate) / model_.simulation.error_control->tolerance;
+    return step.error <= 1;
+  };
+  for (;;) {
+    const double remaining = target - state.t;
+    step.dt = control_->proposed(remaining);
+    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
+    if (step.solution.converged()) {
+      if (step.dt == remaining) state.t = target;  // exactly, not as a sum of steps
+      control_->accepted(step.dt, step.error);
+      return step;
+    }
+    ++rejected_;
+    const bool inaccurate = step.solution.status == solver::StepStatus::inaccurate;
+    if (inaccurate ? control_->rejected(step.dt, step.error) : control_->failed(step.dt)) continue;
+    const std::string reason =
+        inaccurate ? fmt::format("the error of {} is {:.2g} times the tolerance", step_error_.worst(), step.error)
+                   : step.solution.message;
+    step.trouble = fmt::format("t = {:.6g} s: {} with the smallest step, {:.2g} s: {}", state.t,
+                               inaccurate ? "the tolerance is exceeded" : "no convergence", step.dt, reason);
+    return step;
+  }
+}
+
+void StepMarch::persist(Archive& archive) {
+  {
+    const Archive::Group group(archive, "integrator");
+    integrator_.persist(archive);
+  }
+  const Archive::Group group(archive, "steps");
+  archive.io("reached", reached_), archive.io("at_bend", at_bend_), archive.io("trial", trial_);
+  archive.io("length", last_dt_), archive.io("rejected", rejected_);
+  if (control_) control_->persist(archive);
+}
+
+}  // namespace hersey::run
