@@ -20,27 +20,6 @@
 namespace hersey::run {
 namespace {
 
-// Attitude: from the load on the journal (the shell's film force turned round) to the line of centres, 0..pi.
-double attitude(const bearing::BearingObservation& seen) {
-  const Eigen::Vector2d load = seen.wrench_on_shell.tail<3>().head<2>();
-  const double cross = load.x() * seen.e.y() - load.y() * seen.e.x();
-  return std::abs(std::atan2(cross, load.dot(seen.e)));
-}
-
-std::vector<double> angles(const film::Grid& grid) {
-  std::vector<double> phi(static_cast<std::size_t>(grid.n_phi));
-  for (int i = 0; i < grid.n_phi; ++i) phi[static_cast<std::size_t>(i)] = grid.phi(i);
-  return phi;
-}
-
-std::vector<double> heights(const film::FilmModel& film) {
-  std::vector<double> z(static_cast<std::size_t>(film.grid.n_z));
-  for (int j = 0; j < film.grid.n_z; ++j) {
-    z[static_cast<std::size_t>(j)] = film.L * film.grid.z_over_L(j);
-  }
-  return z;
-}
-
 std::vector<std::string> coordinate_names(mbd::JointType type) {
   std::vector<std::string> names;
   for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type)) {
@@ -194,86 +173,6 @@ void Recorder::declare_machine() {
             writer_.series("/power/asperity_friction", 1, "W", "boundary friction in all films")};
 }
 
-Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing) {
-  const std::string group = "/bearings/" + bearing.name, path = group + "/";
-  const film::FilmModel& film = bearing.film;
-  writer_.attribute(group, "radius", film.R);
-  writer_.attribute(group, "width", film.L);
-  writer_.attribute(group, "radial_clearance", film.c);
-  writer_.attribute(group, "n_phi", film.grid.n_phi);
-  writer_.attribute(group, "n_z", film.grid.n_z);
-  for (const auto& [name, text] : assumptions(model_)) {
-    if (name.starts_with(bearing.name + ": ")) writer_.attribute(group, name.substr(bearing.name.size() + 2), text);
-  }
-  const auto series = [&](const char* name, const char* unit, const char* description, int columns = 1) {
-    return writer_.series(path + name, columns, unit, description);
-  };
-  BearingSeries s;
-  s.eccentricity = series("eccentricity", "m", "journal axis from bore axis at z = 0, bearing frame", 2);
-  s.ratio = series("eccentricity_ratio", "1", "eccentricity over radial clearance");
-  s.attitude = series("attitude", "rad", "angle between load and line of centres");
-  s.tilt = series("tilt", "1", "slope of the journal's axis in the bearing frame", 2);
-  s.h_min = series("h_min", "m", "smallest film thickness on the surface, edges included");
-  s.h_min_phi = series("h_min_phi", "rad", "where: bearing angle");
-  s.h_min_z = series("h_min_z", "m", "where: axial");
-  s.h_min_centre = series("h_min_centre", "m", "smallest film thickness at z = 0");
-  s.p_max = series("p_max", "Pa", "peak film pressure, interpolated");
-  s.p_max_phi = series("p_max_phi", "rad", "where: bearing angle");
-  s.p_max_z = series("p_max_z", "m", "where: axial");
-  s.p_max_node = series("p_max_node", "Pa", "largest nodal film pressure");
-  s.force = series("force", "N", "film force on the shell, bearing frame", 3);
-  s.force_pressure = series("force_pressure", "N", "its part from film pressure", 3);
-  s.force_shear = series("force_shear", "N", "its part from shear", 3);
-  s.force_asperity = series("force_asperity", "N", "its part from asperity contact", 3);
-  s.moment = series("moment", "N.m", "film moment on the shell about the bearing's origin", 3);
-  s.speed = series("speed", "rad/s", "journal's angular velocity relative to the shell");
-  s.torque_journal = series("torque_journal", "N.m", "friction torque on the journal about its own axis");
-  s.torque_shell = series("torque_shell", "N.m", "friction torque on the shell about its own axis");
-  s.power_film = series("power_film", "W", "viscous dissipation in the film");
-  s.power_asperity = series("power_asperity", "W", "boundary friction");
-  s.power_into_bodies = series("power_into_bodies", "W", "film wrench times relative velocity (negative: taken)");
-  s.flow_left = series("flow_left", "m^3/s", "oil leaving over the edge z = -L/2");
-  s.flow_right = series("flow_right", "m^3/s", "oil leaving over the edge z = +L/2");
-  s.flow_supply = series("flow_supply", "m^3/s", "oil entering through the supply");
-  for (const film::SurfaceFeature& feature : film.features) {
-    s.flow_features.push_back(
-        series(("flow_feature_" + feature.name).c_str(), "m^3/s", "oil entering through this feature"));
-  }
-  s.storage_rate = series("storage_rate", "m^3/s", "rate of change of the oil volume in the film");
-  s.oil_volume = series("oil_volume", "m^3", "oil volume in the film");
-  s.mass_balance_error = series("mass_balance_error", "1", "|supply - edges - storage| over the largest flow");
-  s.cavitated_share = series("cavitated_share", "1", "share of the area that is cavitated");
-  s.film_iterations = series("film_iterations", "1", "film linearisations in the step");
-  if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
-    s.exchanges = series("exchanges", "1", "wrenches that film and bodies exchanged in the step");
-  const auto around = [&](const char* name, const char* unit, const char* description) {
-    return writer_.series(path + name, film.grid.n_phi, unit, description, results::Precision::float32);
-  };
-  s.h_min_around = around("h_min_around", "m", "smallest film thickness over the width at each angle of fields/phi");
-  s.p_max_around = around("p_max_around", "Pa", "largest film pressure over the width at each angle of fields/phi");
-  declare_fields(bearing, s);
-  return s;
-}
-
-void Recorder::declare_fields(const model::Bearing& bearing, BearingSeries& s) {
-  const std::string path = "/bearings/" + bearing.name + "/fields/";
-  const film::Grid& grid = bearing.film.grid;
-  writer_.constant(path + "phi", angles(grid), "rad", "bearing angle of the nodes");
-  writer_.constant(path + "z", heights(bearing.film), "m", "axial position of the nodes");
-  const std::array<int, 2> shape{grid.n_phi, grid.n_z};
-  s.field_time = writer_.series(path + "time", 1, "s", "time of the fields");
-  s.pressure = writer_.field(path + "pressure", shape, "Pa", "film pressure");
-  s.thickness = writer_.field(path + "thickness", shape, "m", "film thickness");
-  s.fill = writer_.field(path + "fill", shape, "1", "fill fraction");
-  s.asperity_pressure = writer_.field(path + "asperity_pressure", shape, "Pa", "asperity contact pressure");
-  const film::FilmFields start = machine_.bearings[bearings_.size()].bearing->fields();
-  const auto displacement = [&](const char* name, const char* whose) {
-    return writer_.field(path + name, shape, "m", fmt::format("radial displacement of the {}, outward", whose));
-  };
-  if (start.d_shell.size() > 0) s.shell_displacement = displacement("shell_displacement", "shell's surface");
-  if (start.d_journal.size() > 0) s.journal_displacement = displacement("journal_displacement", "journal's surface");
-}
-
 // Cycles are no instants: a group called fields counts its rows by itself.
 void Recorder::declare_cycles() {
   if (!model_.simulation.cycle) return;
@@ -360,67 +259,6 @@ void Recorder::write_row(const StepRecord& step) {
   power_.asperity_friction.append(asperity_friction);
 }
 
-void Recorder::declare_modes() {
-  // Modes are no instants: a group called fields counts its rows by itself.
-  const std::string path = "/modes/fields/";
-  const auto series = [&](const char* name, const char* unit, const char* description, int columns = 1) {
-    return writer_.series(path + name, columns, unit, description);
-  };
-  const auto nv = static_cast<int>(machine_.mechanism->nv());
-  modes_ = {.frequency = series("frequency", "Hz", "natural frequency |s|/(2 pi), one row per mode"),
-            .damped_frequency = series("damped_frequency", "Hz", "frequency of the damped motion, Im s/(2 pi)"),
-            .damping_ratio = series("damping_ratio", "1", "-Re s/|s|; negative: the motion grows"),
-            .real = series("eigenvalue_real", "1/s", "real part of the eigenvalue s"),
-            .imaginary = series("eigenvalue_imaginary", "1/s", "imaginary part of the eigenvalue s"),
-            .shape_real = series("shape_real", "1", "mode shape, real part: increments of the coordinates", nv),
-            .shape_imaginary = series("shape_imaginary", "1", "mode shape, imaginary part", nv),
-            .body_real = series("body_real", "1", "mode shape, real part: small rotation and displacement of each body",
-                                6 * static_cast<int>(bodies_.size())),
-            .body_imaginary =
-                series("body_imaginary", "1", "the same, imaginary part", 6 * static_cast<int>(bodies_.size()))};
-  std::vector<std::string> names;
-  names.reserve(static_cast<std::size_t>(nv));
-  for (int k = 0; k < nv; ++k) names.push_back(machine_.mechanism->name_of_row(k));
-  writer_.attribute("/modes", "coordinates", names);
-  const std::vector<mbd::BodySpec>& all = machine_.mechanism->spec().bodies;
-  std::vector<std::string> bodies;
-  bodies.reserve(all.size());
-  for (std::size_t i = 1; i < all.size(); ++i) bodies.push_back(all[i].name);
-  writer_.attribute("/modes", "bodies", bodies);
-  declare_flexible_modes();
-  declare_beam_modes();
-}
-
-// Rotation and displacement of every body for small increments of the coordinates: what a velocity would give.
-Eigen::VectorXd Recorder::body_increments(const solver::State& state, const Eigen::VectorXd& shape) const {
-  solver::State moving = state;
-  moving.v = shape;
-  const std::vector<mbd::FrameId>& frames = machine_.mechanism->spec().body_frames;
-  Eigen::VectorXd all(6 * static_cast<Eigen::Index>(bodies_.size()));
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const mbd::FrameMotion motion = machine_.mechanism->frame_motion(moving, frames[i + 1]);
-    all.segment<6>(6 * static_cast<Eigen::Index>(i)) << motion.omega, motion.v;
-  }
-  return all;
-}
-
-void Recorder::write_modes(const solver::State& state, const solver::Modes& found) {
-  for (const solver::Mode& mode : found.modes) {
-    modes_.frequency.append(mode.frequency);
-    modes_.damped_frequency.append(mode.damped_frequency);
-    modes_.damping_ratio.append(mode.damping_ratio);
-    modes_.real.append(mode.s.real());
-    modes_.imaginary.append(mode.s.imag());
-    modes_.shape_real.append(Eigen::VectorXd(mode.shape.real()));
-    modes_.shape_imaginary.append(Eigen::VectorXd(mode.shape.imag()));
-    modes_.body_real.append(body_increments(state, mode.shape.real()));
-    modes_.body_imaginary.append(body_increments(state, mode.shape.imag()));
-    write_flexible_mode(state, mode.shape);
-    write_beam_mode(state, mode.shape);
-  }
-  writer_.attribute("/modes", "stable", found.stable ? 1 : 0);
-}
-
 void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
   std::string names;
   std::vector<std::size_t> counts;
@@ -467,69 +305,6 @@ void Recorder::finish(results::Status status, const std::string& message, double
   cycles_.finish();
   write_cost(wall_time, work, steps);
   writer_.finish(status, message);
-}
-
-void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObservation& seen, double clearance) const {
-  const film::FilmObservables& film = seen.film;
-  s.eccentricity.append(seen.e);
-  s.ratio.append(seen.e.norm() / clearance);
-  s.attitude.append(attitude(seen));
-  s.tilt.append(seen.tilt);
-  s.h_min.append(film.h_min);
-  s.h_min_phi.append(film.h_min_phi);
-  s.h_min_z.append(film.h_min_z);
-  s.h_min_centre.append(film.h_min_centre);
-  s.p_max.append(film.p_max);
-  s.p_max_phi.append(film.p_max_phi);
-  s.p_max_z.append(film.p_max_z);
-  s.p_max_node.append(film.p_max_node);
-  s.force.append(Vector3(seen.wrench_on_shell.tail<3>()));
-  s.force_pressure.append(film.force_pressure);
-  s.force_shear.append(film.force_shear);
-  s.force_asperity.append(film.force_asperity);
-  s.moment.append(Vector3(seen.wrench_on_shell.head<3>()));
-  s.speed.append(seen.speed);
-  s.torque_journal.append(film.torque_journal);
-  s.torque_shell.append(film.torque_shell);
-  s.power_film.append(film.power_film);
-  s.power_asperity.append(film.power_asperity);
-  s.power_into_bodies.append(seen.power_into_bodies);
-  s.flow_left.append(film.flow_left);
-  s.flow_right.append(film.flow_right);
-  s.flow_supply.append(film.flow_supply);
-  for (std::size_t f = 0; f < s.flow_features.size(); ++f) {
-    s.flow_features[f].append(film.flow_features[static_cast<Eigen::Index>(f)]);
-  }
-  s.storage_rate.append(film.storage_rate);
-  s.oil_volume.append(film.oil_volume);
-  s.mass_balance_error.append(film.mass_balance_error);
-  s.cavitated_share.append(film.cavitated_share);
-  s.film_iterations.append(seen.film_iterations);
-  if (s.exchanges) s.exchanges->append(seen.exchanges);
-}
-
-// Over the width at each angle: index i n_z + j of a field is angle i, height j.
-void Recorder::write_around(std::size_t bearing) const {
-  const film::FilmFields fields = machine_.bearings[bearing].bearing->fields();
-  const film::Grid& grid = model_.bearings[bearing].film.grid;
-  using Map = Eigen::Map<const Eigen::MatrixXd>;
-  const Eigen::VectorXd h = Map(fields.h.data(), grid.n_z, grid.n_phi).colwise().minCoeff();
-  const Eigen::VectorXd p = Map(fields.p.data(), grid.n_z, grid.n_phi).colwise().maxCoeff();
-  bearings_[bearing].h_min_around.append(h);
-  bearings_[bearing].p_max_around.append(p);
-}
-
-void Recorder::write_fields(const StepRecord& step) {
-  for (std::size_t i = 0; i < bearings_.size(); ++i) {
-    const film::FilmFields fields = machine_.bearings[i].bearing->fields();
-    bearings_[i].field_time.append(step.mechanism.t);
-    bearings_[i].pressure.append(fields.p);
-    bearings_[i].thickness.append(fields.h);
-    bearings_[i].fill.append(fields.theta);
-    bearings_[i].asperity_pressure.append(fields.p_asperity);
-    if (bearings_[i].shell_displacement) bearings_[i].shell_displacement->append(fields.d_shell);
-    if (bearings_[i].journal_displacement) bearings_[i].journal_displacement->append(fields.d_journal);
-  }
 }
 
 }  // namespace hersey::run
