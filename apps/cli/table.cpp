@@ -40,6 +40,15 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines, std::siz
   return text;
 }
 
+// What the closing table calls a group of rows (report::SummaryRow::group).
+std::string heading_of(const SummaryRow& row) {
+  if (row.group == "run") return row.run;
+  if (row.group == "modes") return "small motions";
+  if (row.group == "computing") return "computing time";
+  if (row.group == "cycles" || row.group.starts_with("contact ")) return row.group;
+  return "bearing " + row.group;
+}
+
 std::string summary_text(const std::vector<SummaryRow>& rows) {
   std::string text, group;
   std::vector<std::vector<std::string>> lines;
@@ -48,10 +57,7 @@ std::string summary_text(const std::vector<SummaryRow>& rows) {
     lines.clear();
   };
   for (const SummaryRow& row : rows) {
-    const std::string name = row.group == "run"                  ? row.run
-                             : row.group == "modes"              ? "small motions"
-                             : row.group.starts_with("contact ") ? row.group
-                                                                 : "bearing " + row.group;
+    const std::string name = heading_of(row);
     if (name != group) close_block();
     group = name;
     lines.push_back({row.name, number(row.value), row.unit, row.where});
@@ -79,16 +85,17 @@ std::string comparison_text(const std::vector<SummaryRow>& rows) {
     lines.front().push_back(figure.heading + unit);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].group == "run" || (i > 0 && rows[i].run == rows[i - 1].run && rows[i].group == rows[i - 1].group))
-      continue;
+    if (i > 0 && rows[i].run == rows[i - 1].run && rows[i].group == rows[i - 1].group) continue;
     std::vector<std::string> line{rows[i].run, rows[i].group};
+    bool is_of_bearing = false;
     for (const Figure& figure : wanted) {
       const auto found = std::find_if(rows.begin(), rows.end(), [&](const SummaryRow& row) {
         return row.run == rows[i].run && row.group == rows[i].group && row.name == figure.name;
       });
       line.push_back(found == rows.end() ? "-" : number(found->value));
+      is_of_bearing = is_of_bearing || found != rows.end();
     }
-    lines.push_back(std::move(line));
+    if (is_of_bearing) lines.push_back(std::move(line));
   }
   return "\n" + aligned(lines, 99);
 }

@@ -530,7 +530,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, OK, run.stderr)
         self.assertRegex(run.stderr, r"cycle 1\ncycle 2: [\d.e+]+ % \((film thickness|peak pressure|friction) of main\)")
         self.assertIn("converged in cycle", run.stderr)
-        self.assertRegex(run.stdout, r"cycle 2: largest difference from the one before +[\d.]+ +%")
+        self.assertRegex(run.stdout, r"cycle 2: change from the one before +[\d.]+ +%")
 
     def test_full_disk_ends_with_the_reason_and_keeps_what_was_written(self):
         def small_disk():  # writing beyond the limit, some seconds away, fails as on a full disk

@@ -254,6 +254,29 @@ export const studyReport = {
   },
 };
 
+/** Reports of a machine with several bearings. */
+export const machineReport = {
+  "assumptions name each topic once, and bearings where they differ": async (page) => {
+    const topics = await page.locator(".assumptions dt").allInnerTexts();
+    assert.equal(new Set(topics).size, topics.length, `a topic stands twice: ${topics.join(", ")}`);
+    const answer = (topic) => page.locator(`.assumptions dt:text-is("${topic}") + dd`).innerText();
+    assert.match(await answer("clearance"), /main left, main right: 30 µm.*big end: 28 µm.*small end: 12 µm/s);
+    assert.doesNotMatch(await answer("compliance"), /main left/, "what all bearings share is said of one of them");
+  },
+
+  "how far cycles repeat stands in the summary, what steps cost with the solution": async (page) => {
+    assert.ok((await page.locator('.summary tr[data-quantity="cycles"]').count()) === 1, "the cycles are not counted");
+    assert.ok((await page.locator('.summary.cost tr[data-quantity^="share of computing time"]').count()) >= 4, "no shares of computing time");
+  },
+
+  "each bearing can be chosen": async (page) => {
+    const before = await page.locator(".tile").first().innerText();
+    await page.getByText("small end", { exact: true }).first().click();
+    await frame(page);
+    assert.notEqual(await page.locator(".tile").first().innerText(), before, "the figures are still those of the first bearing");
+  },
+};
+
 /** Reports of a bearing by itself. */
 export const bearingReport = {
   "title, conditions and status come first": everyReport["title, assumptions and status come first"],

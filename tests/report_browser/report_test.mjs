@@ -4,7 +4,7 @@ import { existsSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { bearingReport, everyReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
+import { bearingReport, everyReport, machineReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
 
 const flags = [
   "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -68,7 +68,14 @@ async function testReport(browser, file) {
   const isStudy = (await page.locator(".study").count()) > 0;
   const isBearing = (await page.locator(".solution").count()) > 0;
   const isModes = (await page.locator(".mode-player").count()) > 0;
-  const tests = isModes ? modesReport : isBearing ? { ...(isStudy ? sweepReport : {}), ...bearingReport } : { ...(isStudy ? studyReport : {}), ...everyReport };
+  const isMachine = (await page.locator(".assumptions .owners").count()) > 0;
+  const tests = isModes
+    ? modesReport
+    : isBearing
+      ? { ...(isStudy ? sweepReport : {}), ...bearingReport }
+      : isMachine
+        ? machineReport
+        : { ...(isStudy ? studyReport : {}), ...everyReport };
   for (const [name, test] of Object.entries(tests)) await check(name, () => test(page));
   await check("nothing on the console and nothing over the network", async () => {
     if (complaints.length > 0) throw new Error(complaints.join("\n"));

@@ -9,7 +9,7 @@ import { FilmFields, type FieldKind } from "./film_fields";
 import { assumptions, date, themeButton } from "./header";
 import { LinePlot, sweepPlots, type Curve, type LineFigure } from "./line_plot";
 import { Locus } from "./locus";
-import { capital } from "./run_view";
+import { capital } from "./summary_table";
 import { format, megapascal, micrometre, typeset } from "./units";
 
 const groups: [string, string][] = [

@@ -42,21 +42,47 @@ export function statusName(run: Run): string {
   return statusText[value] ?? value;
 }
 
-/** How a run ended; what it says goes with it unless all is well. */
+/** How a run ended, and what it says of that. */
 export function status(run: Run): HTMLElement {
   const value = run.attribute("/", "status");
   const message = run.attribute("/", "message");
   const text = statusName(run);
-  return h("span", { class: `status ${value}` }, value === "completed" || !message ? text : `${text}: ${message}`);
+  return h("span", { class: `status ${value}` }, message ? `${text}: ${message}` : text);
 }
 
 export function assumptions(list: [string, string][]): HTMLElement | null {
   if (list.length === 0) return null;
-  // "big_end: cavitation": where there is one bearing only, its name goes without saying.
-  const owners = new Set(list.filter(([name]) => name.includes(": ")).map(([name]) => name.split(": ")[0]));
-  const short = (name: string) => (owners.size === 1 ? name.replace(/^.*?: /, "") : name).replaceAll("_", " ");
-  const items = list.flatMap(([name, text]) => [h("dt", {}, short(name)), h("dd", {}, typeset(text))]);
+  const owners = new Set(list.map(([name]) => split(name).owner).filter((owner) => owner));
+  const items = [...byTopic(list)].flatMap(([topic, said]) => [h("dt", {}, topic), h("dd", {}, ...sayings(said, owners.size))]);
   return h("section", { class: "assumptions", "aria-label": "Assumptions" }, h("h2", {}, "Assumptions"), h("dl", {}, ...items));
+}
+
+type Said = { owner: string; text: string };
+
+/** "big_end: cavitation": what is assumed, and for which bearing. */
+function split(name: string): { owner: string; topic: string } {
+  const end = name.indexOf(": ");
+  const [owner, topic] = end < 0 ? ["", name] : [name.slice(0, end), name.slice(end + 2)];
+  return { owner: owner.replaceAll("_", " "), topic: topic.replaceAll("_", " ") };
+}
+
+function byTopic(list: [string, string][]): Map<string, Said[]> {
+  const topics = new Map<string, Said[]>();
+  for (const [name, text] of list) {
+    const { owner, topic } = split(name);
+    topics.set(topic, [...(topics.get(topic) ?? []), { owner, text }]);
+  }
+  return topics;
+}
+
+/** One text where all bearings share it; else each text after the bearings that it is said of. */
+function sayings(said: Said[], bearings: number): (HTMLElement | string)[] {
+  const texts = [...new Set(said.map(({ text }) => text))];
+  if (said.some(({ owner }) => !owner) || (texts.length === 1 && said.length === bearings)) return texts.map(typeset);
+  return texts.map((text) => {
+    const owners = said.filter((one) => one.text === text).map(({ owner }) => owner);
+    return h("div", {}, h("span", { class: "owners" }, `${owners.join(", ")}: `), typeset(text));
+  });
 }
 
 export function themeButton(): HTMLElement {

@@ -9,6 +9,7 @@ import { sweepPlots } from "./line_plot";
 import { MachineView, sweepMachineViews } from "./machine_view";
 import { ModePlayer } from "./mode_player";
 import type { Abscissa } from "./series";
+import { place, summaryTables } from "./summary_table";
 import { SystemView } from "./system_view";
 import { Timeline } from "./timeline";
 import { format } from "./units";
@@ -117,27 +118,13 @@ export class RunView {
   }
 
   private table(): HTMLElement {
-    const groups = [this.bearing, "modes", "run"];
-    const tables = groups.flatMap((group) => {
-      const rows = this.run.summary.filter((row) => row.group === group);
-      const title = group === "run" ? "Whole run" : group === "modes" ? "Small motions" : `Bearing ${group.replaceAll("_", " ")}`;
-      const half = rows.length > 10 ? Math.ceil(rows.length / 2) : rows.length;
-      return [rows.slice(0, half), rows.slice(half)]
-        .filter((part) => part.length > 0)
-        .map((part, i) => summaryTable(i === 0 ? title : `${title}, continued`, part));
-    });
+    const tables = [
+      ...summaryTables(this.run, this.bearing, `Bearing ${this.bearing.replaceAll("_", " ")}`),
+      ...summaryTables(this.run, "modes", "Small motions"),
+      h("div", { class: "stack" }, ...summaryTables(this.run, "run", "Whole run"), ...summaryTables(this.run, "cycles", "Cycles")),
+    ];
     return h("section", { class: "summary", "aria-label": "Summary" }, ...tables);
   }
-}
-
-function summaryTable(title: string, rows: SummaryRow[]): HTMLElement {
-  return h("table", {}, h("caption", {}, title), h("tbody", {}, ...rows.map(summaryRow)));
-}
-
-function summaryRow(row: SummaryRow): HTMLElement {
-  const name = h("th", { scope: "row" }, capital(row.name), row.where ? h("span", { class: "where" }, place(row.where)) : null);
-  const value = h("td", { class: "number" }, format(row.value), row.unit ? h("span", { class: "unit" }, row.unit === "°" ? "°" : ` ${row.unit}`) : null);
-  return h("tr", { "data-quantity": row.name }, name, value);
 }
 
 function tile(label: string, row: SummaryRow): HTMLElement {
@@ -148,15 +135,6 @@ function tile(label: string, row: SummaryRow): HTMLElement {
     h("div", { class: "tile-value" }, format(row.value), row.unit ? h("span", { class: "unit" }, ` ${row.unit}`) : null),
     h("div", { class: "tile-where" }, place(row.where) || "\u00a0"),
   );
-}
-
-/** With true minus signs, and line breaks only after commas. */
-export function place(text: string): string {
-  return text.replace(/-(?=\d)/g, "−").replace(/(?<!,) /g, "\u00a0");
-}
-
-export function capital(text: string): string {
-  return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 function ordinal(n: number): string {

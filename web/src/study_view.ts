@@ -6,7 +6,7 @@ import { figure, h, segmented } from "./dom";
 import { FilmFields } from "./film_fields";
 import { statusName } from "./header";
 import { LinePlot, type Curve } from "./line_plot";
-import { capital } from "./run_view";
+import { capital } from "./summary_table";
 import { Study } from "./study";
 import { isDark, onThemeChange } from "./theme";
 import { degree, format, megapascal, micrometre, plain, type Display } from "./units";

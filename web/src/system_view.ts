@@ -6,6 +6,7 @@ import { figure, h } from "./dom";
 import { mechanismGraph } from "./mechanism_graph";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Axis, columns, curve, scaled, timeDisplay, type Abscissa } from "./series";
+import { summaryTables } from "./summary_table";
 import { degree, millimetre, plain, type Display } from "./units";
 
 /** A section that draws its figures when it is first opened. */
@@ -94,6 +95,8 @@ export class SystemView {
     const display = { factor: 1, unit: unit === "1" ? "" : unit };
     this.add(body, "balance", "Power balance of the whole system: what drives, loads, losses and storage leave unexplained.", { label: "power-balance error", unit: display.unit, log: true },
       sizes(curve(run, "/power/balance_error", "power balance", display)));
+    const cost = summaryTables(run, "computing", "Computing time");
+    if (cost.length > 0) body.append(h("section", { class: "summary cost", "aria-label": "Computing time" }, ...cost));
   }
 
   private power(body: HTMLElement): void {

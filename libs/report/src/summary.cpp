@@ -151,6 +151,7 @@ class Summary {
       extreme("worst power-balance error of the system", error, largest_size, 1, unit == "1" ? "" : unit, false);
       relative_power_error();
     }
+    group_ = "computing";
     if (const double wall = reader_.number_attribute("/", "wall_time").value_or(0); wall > 0) {
       add("computing time", wall, "s");
       if (!reader_.has("/timing") && every_step_is_stored())
@@ -198,7 +199,7 @@ class Summary {
     const std::vector<double> change = values("change"), end = values("time");
     const std::size_t first = change.size() > most ? change.size() - most : 1;  // the first has none before it
     for (std::size_t i = first; i < change.size(); ++i)
-      add(fmt::format("cycle {}: largest difference from the one before", i + 1), 100 * change[i], "%",
+      add(fmt::format("cycle {}: change from the one before", i + 1), 100 * change[i], "%",
           fmt::format("ended at t = {:.4g} s", end[i]));
     if (!change.empty()) add("cycles", static_cast<double>(change.size()), "");
   }

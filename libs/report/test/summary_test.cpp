@@ -74,12 +74,12 @@ TEST_CASE("DifferencesOfCycles_AreToldFromTheSecondOn") {
   }
   const auto rows = summary_table({directory / "run.h5"});
   CHECK(find(rows, "cycles").value == 3);
-  const SummaryRow& third = find(rows, "cycle 3: largest difference from the one before");
+  const SummaryRow& third = find(rows, "cycle 3: change from the one before");
   CHECK(third.value == doctest::Approx(0.4).epsilon(round_off));
   CHECK(third.unit == "%");
   CHECK(third.where == "ended at t = 0.06 s");
-  CHECK(find(rows, "cycle 2: largest difference from the one before").value == doctest::Approx(25).epsilon(round_off));
-  CHECK_THROWS(find(rows, "cycle 1: largest difference from the one before"));
+  CHECK(find(rows, "cycle 2: change from the one before").value == doctest::Approx(25).epsilon(round_off));
+  CHECK_THROWS(find(rows, "cycle 1: change from the one before"));
 }
 
 void write_cycles(const std::filesystem::path& path, double complete, double contact) {
