@@ -2,8 +2,9 @@
 //
 //   coupling_bench [EXAMPLES_DIR]
 //
-// The paper's big end between rigid surfaces and in a rod that bends, in steps of 1 degree from the start.
-// A scheme that needs steps below 1 us, or 40 s, is given up.
+// The paper's big end between rigid surfaces and in a rod that bends, in steps of 1 degree from the start. What comes
+// before the first step (reading the mesh, its modes, the first film) is the same for all and not counted. A scheme
+// that needs steps below 1 us, or 40 s, is given up.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,10 +51,13 @@ Cost run(const std::filesystem::path& file, const std::filesystem::path& scratch
   run::Options options;
   options.results = scratch / "run.h5";
   options.overwrite = true;
-  const double began = processor_time();
+  double began = 0;
   std::atomic<bool> gives_up{false};
   options.stop = &gives_up;
-  options.on_progress = [&](const run::Progress&) { gives_up = processor_time() - began > kPatience; };
+  options.on_progress = [&](const run::Progress& progress) {
+    if (progress.dt == 0) began = processor_time();
+    gives_up = processor_time() - began > kPatience;
+  };
   const run::Summary summary = run::simulate(model, options);
   return {.completed = summary.status == run::Status::completed,
           .seconds = processor_time() - began,
