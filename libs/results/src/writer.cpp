@@ -127,19 +127,21 @@ struct Writer::Impl {
   /// In place where there is one of that type and shape: nothing of the file's structure changes then.
   void set_attribute(hid_t object, std::string_view name, hid_t type, hid_t space, const void* value) {
     const std::string key(name);
-    if (rewrite_attribute(object, key, type, space, value)) return;
-    if (H5Aexists(object, key.c_str()) > 0) require(H5Adelete(object, key.c_str()) >= 0, "HDF5 cannot replace " + key);
-    const Handle attribute(H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
+    Handle attribute;
+    if (H5Aexists(object, key.c_str()) > 0) {
+      attribute = Handle(H5Aopen(object, key.c_str(), H5P_DEFAULT));
+      if (!is_alike(attribute.get(), type, space)) {
+        attribute.reset();
+        require(H5Adelete(object, key.c_str()) >= 0, "HDF5 cannot replace " + key);
+      }
+    }
+    if (!attribute.valid()) attribute = Handle(H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
     require(attribute.valid() && H5Awrite(attribute.get(), type, value) >= 0, "HDF5 cannot write attribute " + key);
   }
 
-  bool rewrite_attribute(hid_t object, const std::string& key, hid_t type, hid_t space, const void* value) {
-    if (H5Aexists(object, key.c_str()) <= 0) return false;
-    const Handle attribute(H5Aopen(object, key.c_str(), H5P_DEFAULT));
-    const Handle type_there(H5Aget_type(attribute.get())), space_there(H5Aget_space(attribute.get()));
-    if (H5Tequal(type_there.get(), type) <= 0 || H5Sextent_equal(space_there.get(), space) <= 0) return false;
-    require(H5Awrite(attribute.get(), type, value) >= 0, "HDF5 cannot write attribute " + key);
-    return true;
+  static bool is_alike(hid_t attribute, hid_t type, hid_t space) {
+    const Handle type_there(H5Aget_type(attribute)), space_there(H5Aget_space(attribute));
+    return H5Tequal(type_there.get(), type) > 0 && H5Sextent_equal(space_there.get(), space) > 0;
   }
 
   void set_text(hid_t object, std::string_view name, std::string_view value) {

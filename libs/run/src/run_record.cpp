@@ -71,11 +71,11 @@ bool RunRecord::is_row_due(double t, double slack) {
   const double since_start = t - model_.simulation.start;
   const bool is_due = since_start >= next_row_ * output.interval - slack;
   if (is_due) next_row_ = std::floor((since_start + slack) / output.interval) + 1;
-  return is_due || settled_ || repeats_ || since_start >= model_.simulation.duration - slack;
+  return is_due || ends_run() || since_start >= model_.simulation.duration - slack;
 }
 
 bool RunRecord::are_fields_due(double t, double slack) {
-  if (t < next_fields_ - slack && !settled_ && !repeats_) return false;
+  if (t < next_fields_ - slack && !ends_run()) return false;
   const double every = model_.output.fields_every;
   // Counted from here at the start, and after a step longer than the interval.
   next_fields_ = (next_fields_ < t - every ? t : std::max(next_fields_, model_.simulation.start)) + every;

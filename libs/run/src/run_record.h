@@ -30,9 +30,8 @@ class RunRecord {
   void write_modes(const solver::State& state, const solver::Modes& found) { recorder_.write_modes(state, found); }
   void finish(results::Status status, const std::string& message, double wall_time, const Work& work);
 
-  /// Nothing changes any more, or cycle repeats cycle: the run may end with the step last taken.
-  [[nodiscard]] bool is_settled() const { return settled_; }
-  [[nodiscard]] bool repeats() const { return repeats_; }
+  /// Nothing changes any more, or cycle repeats cycle: the run ends with the step last taken.
+  [[nodiscard]] bool ends_run() const { return settled_ || repeats_; }
   /// What to say of that, or of cycles that did not repeat, when the run ends at `t`; empty where there is nothing.
   [[nodiscard]] std::string ending(double t) const;
 

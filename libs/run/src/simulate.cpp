@@ -106,7 +106,7 @@ class Simulation {
       record(start);
     }
     work_.begin();
-    while (!march_.is_at_end() && !record_.is_settled() && !record_.repeats()) {
+    while (!march_.is_at_end() && !record_.ends_run()) {
       const MarchedStep step = march_.take(state_);
       if (!step.is_taken()) return fail(step.trouble);
       record(step);

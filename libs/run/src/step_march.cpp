@@ -61,16 +61,15 @@ double StepMarch::unit_of_steps() const {
 }
 
 MarchedStep StepMarch::take(solver::State& state) {
+  const model::Simulation& plan = model_.simulation;
   const double target = targets_[reached_];
   if (at_bend_) start_afresh(state);
   at_bend_ = false;
-  const bool is_kinematic = model_.simulation.analysis == model::Analysis::kinematics;
-  MarchedStep step = is_kinematic ? follow_drives(state, target)
-                     : control_   ? take_controlled(state, target)
-                                  : take_fixed(state, target);
+  MarchedStep step = plan.analysis == model::Analysis::kinematics ? follow_drives(state, target)
+                     : control_                                   ? take_controlled(state, target)
+                                                                  : take_fixed(state, target);
   if (!step.is_taken()) return step;
   last_dt_ = step.dt;
-  const model::Simulation& plan = model_.simulation;
   const double scale = control_ ? std::max(std::abs(target), plan.error_control->largest) : plan.step;
   if (target - state.t > 1e-12 * scale) return step;
   ++reached_;
