@@ -120,14 +120,15 @@ void JournalBearing::fill_gap() {
   history_.theta.setOnes();
   history_.w.resize(0);
   history_.density.setOnes(u_.size());
+  history_.gap.resize(0);
+  history_.phi_journal = surfaces_.phi_journal;
+  started_ = false;
   if (!is_sensible()) return report_contact();
   const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
   if (!summary.converged) domain_error_ = "no film at the start: " + summary.message;
 }
 
-void JournalBearing::begin_step(const mbd::RelativeMotion& start, double dt) {
-  const Vector3 x_axis = start.X_AB.R.col(0);
-  rigid_.begin_step(std::atan2(x_axis.y(), x_axis.x()), dt);
+void JournalBearing::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {
   history_ = history_start_;
   history_.dt = dt;
   u_ = u_start_;
@@ -248,17 +249,40 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
 
 void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   place(end);
-  const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
   observed_surfaces_ = surfaces_;
   observed_s_ = end.s;
   observed_history_ = history_;
   observed_iterations_ = iterations_;
   observed_exchanges_ = exchanges_;
-  history_start_.theta = fields.theta;
-  history_start_.w = fields.w;
-  history_start_.density = fields.density;
+  close_step();
+  linearised_ = false;
   u_start_ = u_;
   given_start_ = given_;
+}
+
+// The next step starts from the oil there is, which is what was there before and what has come in since.
+void JournalBearing::close_step() {
+  const bool is_step = started_;
+  if (is_step) {
+    reynolds_.settle(surfaces_, history_, u_, oil_);
+  } else {
+    reynolds_.take_stock(surfaces_, history_, u_, oil_);
+    oil_of_run_ = {};
+    started_ = true;
+  }
+  const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
+  history_start_.w = fields.w;
+  history_start_.density = fields.density;
+  history_start_.theta = oil_.content.cwiseQuotient(fields.density);
+  history_start_.gap = oil_.gap;
+  history_start_.phi_journal = surfaces_.phi_journal;
+  if (is_step) {
+    const double dt = history_.dt, in = oil_.flow_supply, out = oil_.flow_left + oil_.flow_right;
+    oil_of_run_.step_error = oil_.volume - oil_of_run_.volume - dt * (in - out);
+    oil_of_run_.unexplained += oil_of_run_.step_error;
+    oil_of_run_.through_flow += dt * std::max(std::abs(in), std::abs(out));
+  }
+  oil_of_run_.volume = oil_.volume;
 }
 
 std::string JournalBearing::name_of_internal_residual() const {
@@ -276,6 +300,8 @@ BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) co
   seen.tilt = k.tilt();
   seen.speed = motion.V_AB_A[2];
   seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.e, u_start_);
+  show_oil(seen.film);
+  seen.oil = oil_of_run_;
   seen.wrench_on_shell = seen.film.wrench_on_shell;
   seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
   if (deforming_->deform())
@@ -285,8 +311,24 @@ BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) co
   return seen;
 }
 
+// Flows of the step as a whole, in place of those at its end.
+void JournalBearing::show_oil(film::FilmObservables& film) const {
+  film.oil_volume = oil_of_run_.volume;
+  if (oil_.flow_features.size() != film.flow_features.size() || observed_history_.dt == 0) return;
+  film.flow_left = oil_.flow_left, film.flow_right = oil_.flow_right;
+  film.flow_supply = oil_.flow_supply, film.flow_features = oil_.flow_features;
+  film.storage_rate = oil_.flow_supply - oil_.flow_left - oil_.flow_right + oil_of_run_.step_error / observed_history_.dt;
+  double scale = std::max({std::abs(oil_.flow_left), std::abs(oil_.flow_right), std::abs(oil_.flow_supply),
+                           std::abs(film.storage_rate), std::abs(observed_surfaces_.u_journal) * model().c * model().L});
+  if (oil_.flow_features.size() > 0) scale = std::max(scale, oil_.flow_features.cwiseAbs().maxCoeff());
+  film.mass_balance_error = scale > 0 ? std::abs(oil_of_run_.step_error) / (scale * observed_history_.dt) : 0;
+}
+
 film::FilmFields JournalBearing::fields() const {
   film::FilmFields fields = film::film_fields(model(), observed_surfaces_, u_start_);
+  if (model().cavitation == film::Cavitation::mass_conserving && history_start_.theta.size() == u_.size())
+    fields.theta = history_start_.theta.cwiseMax(0.0).cwiseMin(1.0);
+  fields.depth = film::mean_depth(model(), observed_surfaces_.phi_journal);
   if (options_.shell_surface) fields.d_shell = deforming_->shell_displacement(observed_s_);
   if (options_.journal_surface) fields.d_journal = deforming_->journal_displacement(observed_s_);
   return fields;
@@ -297,6 +339,12 @@ void JournalBearing::persist(Archive& archive) {
   archive.io("theta", history_start_.theta);
   archive.io("w", history_start_.w);
   archive.io("density", history_start_.density);
+  archive.io("gap", history_start_.gap);
+  archive.io("phi_journal", history_start_.phi_journal);
+  archive.io("oil_volume", oil_of_run_.volume);
+  archive.io("oil_through_flow", oil_of_run_.through_flow);
+  archive.io("oil_unexplained", oil_of_run_.unexplained);
+  archive.io("started", started_);
   archive.io("u", u_start_);
   archive.io("given_wrench", given_start_);
   {

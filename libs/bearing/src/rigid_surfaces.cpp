@@ -33,11 +33,6 @@ void RigidSurfaces::lay_directions() {
   directions_[kRotation].phi_journal = 1;
 }
 
-void RigidSurfaces::begin_step(double phi_journal, double dt) {
-  dt_ = dt;
-  if (shape_.pockets_turn()) shape_.turn_pockets(phi_journal, pockets_start_, first_);
-}
-
 void RigidSurfaces::place(const ParameterVector& p, film::SurfaceMotion& motion) {
   motion.g = shape_.still().array() + model_.c - (p[kEx] + p[kTx] * z_.array()) * cosine_.array() -
              (p[kEy] + p[kTy] * z_.array()) * sine_.array();
@@ -60,28 +55,14 @@ void RigidSurfaces::place(const ParameterVector& p, film::SurfaceMotion& motion)
 
 // The journal's own shape: the gap at a fixed point changes as it passes there.
 void RigidSurfaces::add_turning(double phi_journal, double omega, film::SurfaceMotion& motion) {
-  if (!shape_.profiles_turn() && !shape_.pockets_turn()) return;
+  if (!shape_.profiles_turn()) return;
   film::MotionDirection &turn = directions_[kRotation], &speed = directions_[kJournalSpeed];
-  for (Eigen::VectorXd* field : {&turn.g, &turn.g_rate, &speed.g_rate}) field->setZero(motion.g.size());
-  if (shape_.profiles_turn()) {
-    shape_.turn_profiles(phi_journal, opening_, first_, second_);
-    motion.g += opening_;
-    motion.g_rate += omega * first_;
-    turn.g += first_;
-    turn.g_rate += omega * second_;
-    speed.g_rate += first_ / model_.R;
-  }
-  if (!shape_.pockets_turn()) return;
-  shape_.turn_pockets(phi_journal, opening_, first_);
+  shape_.turn_profiles(phi_journal, opening_, first_, second_);
   motion.g += opening_;
-  turn.g += first_;
-  if (dt_ > 0) {
-    motion.g_rate += (opening_ - pockets_start_) / dt_;
-    turn.g_rate += first_ / dt_;
-  } else {
-    motion.g_rate += omega * first_;
-    speed.g_rate += first_ / model_.R;
-  }
+  motion.g_rate += omega * first_;
+  turn.g = first_;
+  turn.g_rate = omega * second_;
+  speed.g_rate = first_ / model_.R;
 }
 
 void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion) {

@@ -60,6 +60,7 @@ CoarseFilm coarsened(const FilmModel& model, const SurfaceMotion& motion, const 
   coarse.history.theta = to_coarse(history.theta);
   if (history.w.size() != 0) coarse.history.w = to_coarse(history.w);
   if (history.density.size() != 0) coarse.history.density = to_coarse(history.density);
+  if (history.gap.size() != 0) coarse.history.gap = to_coarse(history.gap);
   return coarse;
 }
 

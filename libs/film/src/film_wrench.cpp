@@ -74,9 +74,11 @@ void FilmWrench::set_speeds(const SurfaceMotion& motion) {
   friction_slip_ = mu_friction / speed * (Eigen::Matrix2d::Identity() - slip_ * slip_.transpose() / square);
 }
 
-void FilmWrench::evaluate(const std::vector<Node>& nodes, const RoughGaps& rough, const SurfaceMotion& motion,
-                          bool want_gradient) {
+void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motion, bool want_gradient) {
+  const std::vector<Node>& nodes = balance.nodes();
+  const RoughGaps& rough = balance.rough_gaps();
   const Grid& grid = model_.grid;
+  take_relief(balance);
   set_speeds(motion);
   pressure_.setZero(), shear_.setZero(), asperity_.setZero();
   for (Eigen::VectorXd* field : {&normal_.value, &normal_.by_u, &normal_.by_g}) field->resize(grid.size());
@@ -87,16 +89,53 @@ void FilmWrench::evaluate(const std::vector<Node>& nodes, const RoughGaps& rough
     }
   }
   if (model_.cavitation == Cavitation::guembel) cut_off(nodes, want_gradient);
+  if (balance.relief().has_pockets()) push_on_pocket_walls(balance, want_gradient);
   total_ = pressure_ + shear_ + asperity_;
 }
 
-FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap* rough) {
+// Over a share of a control volume the gap is deeper: mu v/h counts there with the depth (film.62).
+void FilmWrench::take_relief(const FlowBalance& balance) {
+  relief_.clear();
+  if (balance.relief().is_empty()) return;
+  relief_.assign(balance.nodes().size(), {1, 0});
+  for (const CoveredDepth& covered : balance.relief().covered()) {
+    const double h = balance.nodes()[covered.node].h, whole = h + covered.depth;
+    relief_[covered.node].value -= covered.share * covered.depth / whole;
+    relief_[covered.node].slope += covered.share * covered.depth / (whole * whole);
+  }
+  for (ValueAndSlope& factor : relief_) {
+    if (factor.value < 0) factor = {0, 0};  // two features one over the other
+  }
+}
+
+// Pressure falls otherwise over a pocket than over the land: what of it shears the oil, and pushes on the pocket's
+// walls, is half of the integral of d dp each, in the same direction on the surface that has the pocket (film.62).
+void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_gradient) {
+  const Grid& grid = model_.grid;
+  for (const PocketTube& tube : balance.relief().tubes()) {
+    const Face& face = balance.faces()[tube.face];
+    const FaceFlow& flow = balance.flows()[tube.face];
+    if (flow.moment_of_drop == 0 || tube.in_shell == tube.in_journal) continue;
+    const bool axial = tube.face >= static_cast<std::size_t>(grid.size());
+    const Basis at_a = basis(face.a / grid.n_z, face.a % grid.n_z), at_b = basis(face.b / grid.n_z, face.b % grid.n_z);
+    const double sign = tube.in_shell ? 1 : -1;
+    const Vector6 direction =
+        0.5 * sign * 0.5 * (axial ? at_a.shear_axial + at_b.shear_axial : at_a.shear_tangential + at_b.shear_tangential);
+    shear_ += flow.moment_of_drop * direction;
+    if (!want_gradient) continue;
+    by_u_.col(face.a) -= flow.moment_by_drop * balance.nodes()[face.a].wall_u * direction;
+    by_u_.col(face.b) += flow.moment_by_drop * balance.nodes()[face.b].wall_u * direction;
+  }
+}
+
+FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap* rough, const ValueAndSlope& relief) {
   Shear s;
   const double mu = 1 / node.fluidity, couette = node.share * mu / node.h;
   const double couette_u = (node.share_u * mu - node.share * mu * mu * node.fluidity_u) / node.h;
   for (int k = 0; k < 2; ++k) {
-    const double factor = rough == nullptr ? 1 : rough->couette[k],
-                 factor_h = rough == nullptr ? 0 : rough->couette_h[k];
+    const double by_rough = rough == nullptr ? 1 : rough->couette[k];
+    const double factor = by_rough * relief.value;
+    const double factor_h = (rough == nullptr ? 0 : rough->couette_h[k] * relief.value) + by_rough * relief.slope;
     s.couette[k] = couette * factor;
     s.couette_u[k] = couette_u * factor;
     s.couette_h[k] = couette * (factor_h - factor / node.h);
@@ -139,7 +178,7 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap* rough,
   const Basis b = basis(i, j);
   const Stencil by_phi = slope_phi(grid, geometry_, i, j), by_z = slope_z(grid, geometry_, i, j);
   const double p_phi = slope(by_phi, nodes), p_z = slope(by_z, nodes);
-  const Shear s = shear_of(node, rough);
+  const Shear s = shear_of(node, rough, relief_.empty() ? ValueAndSlope{1, 0} : relief_[k]);
   const auto sheared = [&](double along_phi, double along_z) -> Vector6 {
     return along_phi * b.shear_tangential + along_z * b.shear_axial;
   };

@@ -7,6 +7,7 @@
 #include "hersey/core/spatial.h"
 #include "hersey/film/reynolds.h"
 #include "node.h"
+#include "flow_balance.h"
 #include "rough_gap.h"
 
 namespace hersey::film {
@@ -18,9 +19,8 @@ class FilmWrench {
   explicit FilmWrench(const FilmModel& model);
 
   /// Sums the tractions of all nodes; with `want_gradient` also their derivatives.
-  /// @param rough  of every node, or empty for smooth surfaces.
-  void evaluate(const std::vector<Node>& nodes, const RoughGaps& rough, const SurfaceMotion& motion,
-                bool want_gradient);
+  /// @param balance  whose nodes and faces have been evaluated.
+  void evaluate(const FlowBalance& balance, const SurfaceMotion& motion, bool want_gradient);
 
   [[nodiscard]] const Vector6& total() const { return total_; }
   [[nodiscard]] const Vector6& pressure() const { return pressure_; }
@@ -29,6 +29,9 @@ class FilmWrench {
 
   /// Boundary friction's power per contact pressure and area [m/s].
   [[nodiscard]] double friction_power_per_contact() const { return friction_.dot(slip_); }
+
+  /// Factor of Couette shear at a node, below 1 where features have depth [-].
+  [[nodiscard]] double relief_factor(int node) const { return relief_.empty() ? 1 : relief_[node].value; }
 
   /// d total / du at fixed surfaces, times du.
   [[nodiscard]] Vector6 along_u(const Eigen::Ref<const Eigen::VectorXd>& du) const { return by_u_ * du; }
@@ -51,8 +54,10 @@ class FilmWrench {
     Eigen::Vector2d couette, couette_u, couette_h;  ///< [Pa s/m] and slopes at given film thickness and at given u
     Eigen::Vector2d half_gap, half_gap_h;           ///< [m]
   };
-  [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap* rough);
+  [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap* rough, const ValueAndSlope& relief);
   void add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient);
+  void take_relief(const FlowBalance& balance);
+  void push_on_pocket_walls(const FlowBalance& balance, bool want_gradient);
   void cut_off(const std::vector<Node>& nodes, bool want_gradient);
   void set_speeds(const SurfaceMotion& motion);
 
@@ -61,6 +66,7 @@ class FilmWrench {
   Eigen::VectorXd cosine_, sine_;
   Vector6 total_, pressure_, shear_, asperity_;
   NormalForces normal_;
+  std::vector<ValueAndSlope> relief_;  ///< factor of Couette shear where features have depth [-, 1/m]; empty: 1
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_;
   Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z
   Eigen::Vector2d slip_;                 ///< that speed [m/s]

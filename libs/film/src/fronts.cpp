@@ -46,13 +46,14 @@ class Fronts {
     const FaceFlow& flow = balance_.flows()[f];
     const int other = face.a == node ? face.b : face.a;
     const double leaving = face.a == node ? flow.couette : -flow.couette;
-    sum.lack += leaving * (leaving >= 0 ? 1 : fill(other)) - flow.K * pressure(other);
+    const double coming = face.a == node ? -flow.carried(fill(other)).value : flow.carried(fill(other)).value;
+    sum.lack += (leaving >= 0 ? leaving : -coming) - flow.K * pressure(other);
     sum.slope += std::max(leaving, 0.0);
   }
 
   void relax(int i, int j) {
     const int node = grid_.index(i, j);
-    if (balance_.edge_row(j) || balance_.open_row(j) || balance_.supply_share(node) > 0) return;
+    if (balance_.edge_row(j) || balance_.open_row(j) || balance_.is_held(node)) return;
     const double storage_slope = balance_.nodes()[node].density * balance_.storage_by_content(node);
     Balance sum{balance_.storage(node) + storage_slope * (1 - balance_.nodes()[node].theta), storage_slope};
     add_face(node, balance_.face_after(i, j), sum);

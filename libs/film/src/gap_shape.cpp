@@ -1,6 +1,5 @@
 #include "hersey/film/gap_shape.h"
 
-#include "feature_cover.h"
 #include "grid_geometry.h"
 
 namespace hersey::film {
@@ -13,16 +12,6 @@ GapShape::GapShape(const FilmModel& model) : model_(model), geometry_(std::make_
       continue;
     }
     for (int k = 0; k < still_.size(); ++k) still_[k] += opening_at(profile, k, 0).value;
-  }
-  for (const SurfaceFeature& feature : model.features) {
-    if (feature.depth == 0) continue;
-    if (feature.surface == Surface::journal) {
-      turning_pockets_.push_back(feature);
-      continue;
-    }
-    covered_.clear();
-    cover_cells(model_, *geometry_, feature, 0, covered_);
-    for (const CoveredNode& node : covered_) still_[node.node] += feature.depth * node.share;
   }
 }
 
@@ -47,24 +36,11 @@ void GapShape::turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen
   }
 }
 
-void GapShape::turn_pockets(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first) {
-  for (auto* field : {&opening, &first}) field->setZero(still_.size());
-  for (const SurfaceFeature& pocket : turning_pockets_) {
-    covered_.clear();
-    cover_cells(model_, *geometry_, pocket, phi_journal, covered_);
-    for (const CoveredNode& node : covered_) {
-      opening[node.node] += pocket.depth * node.share;
-      first[node.node] += pocket.depth * node.share_phi;
-    }
-  }
-}
-
 Eigen::VectorXd gap_opening(const FilmModel& model, double phi_journal) {
   GapShape shape(model);
-  Eigen::VectorXd profiles, pockets, first, second;
+  Eigen::VectorXd profiles, first, second;
   shape.turn_profiles(phi_journal, profiles, first, second);
-  shape.turn_pockets(phi_journal, pockets, first);
-  return shape.still() + profiles + pockets;
+  return shape.still() + profiles;
 }
 
 }  // namespace hersey::film

@@ -6,6 +6,7 @@
 
 #include "film_wrench.h"
 #include "flow_balance.h"
+#include "thinnest_film.h"
 
 namespace hersey::film {
 namespace {
@@ -39,21 +40,6 @@ class PeakFinder {
     int node = 0;
     field.maxCoeff(&node);
     return refine(field, node / grid_.n_z, node % grid_.n_z);
-  }
-
-  // Every row is interpolated on its own: a tilted or bent film has its minimum on an edge, between two nodes.
-  [[nodiscard]] Peak smallest(const Eigen::VectorXd& field) const {
-    const Eigen::VectorXd mirrored = -field;
-    Peak best{field[0], 0, at_.z[0]};
-    for (int j = 0; j < grid_.n_z; ++j) {
-      int i = 0;
-      for (int k = 0; k < grid_.n_phi; ++k) {
-        if (field[grid_.index(k, j)] < field[grid_.index(i, j)]) i = k;
-      }
-      const Peak peak = refine(mirrored, i, j);
-      if (-peak.value < best.value) best = {-peak.value, peak.phi, peak.z};
-    }
-    return best;
   }
 
   /// Smallest value along z = 0, where the rows on both sides are joined by straight lines.
@@ -125,7 +111,9 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
 
 /// Dissipation (film.21, film.36): Couette share mu slip^2/h, more of it between rough surfaces, and Poiseuille
 /// K (p_a - p_b)^2, and boundary friction.
-void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, double friction, FilmObservables& o) {
+void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench,
+                   FilmObservables& o) {
+  const double friction = wrench.friction_power_per_contact();
   const double slip2_phi = std::pow(motion.u_journal - motion.u_shell, 2);
   const double slip2_z = std::pow(motion.w_journal - motion.w_shell, 2);
   o.sliding_speed = std::sqrt(slip2_phi + slip2_z);
@@ -134,14 +122,14 @@ void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, doub
     const Node& node = balance.nodes()[k];
     const double slip2 =
         rough.empty() ? slip2_phi + slip2_z : rough[k].couette[0] * slip2_phi + rough[k].couette[1] * slip2_z;
-    o.power_film += balance.area(k) * node.share * slip2 / (node.fluidity * node.h);
+    o.power_film += balance.area(k) * node.share * slip2 * wrench.relief_factor(k) / (node.fluidity * node.h);
     o.power_asperity += balance.area(k) * node.asperity * friction;
   }
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
     const Face& face = balance.faces()[f];
     const double drop = balance.nodes()[face.a].wall - balance.nodes()[face.b].wall;
     const FaceFlow& flow = balance.flows()[f];
-    o.power_film += flow.K / flow.density * drop * drop;
+    o.power_film += flow.K / flow.density * drop * drop + flow.recirculation;
   }
 }
 
@@ -182,26 +170,37 @@ FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, cons
   return fields_of(nodes);
 }
 
+Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal) {
+  const GridGeometry geometry(model);
+  PocketRelief relief(model, geometry);
+  relief.place(phi_journal, phi_journal, 0, 0);
+  Eigen::VectorXd depth = Eigen::VectorXd::Zero(model.grid.size());
+  for (const CoveredDepth& covered : relief.covered()) depth[covered.node] += covered.share * covered.depth;
+  return depth;
+}
+
 FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
                              const Eigen::Vector2d& e, const Eigen::VectorXd& u) {
   FlowBalance balance(model);
   balance.evaluate(motion, history, u);
   FilmWrench wrench(model);
-  wrench.evaluate(balance.nodes(), balance.rough_gaps(), motion, false);
+  wrench.evaluate(balance, motion, false);
   const FilmFields fields = fields_of(balance.nodes());
 
   FilmObservables o;
   o.flow_features.setZero(static_cast<Eigen::Index>(model.features.size()));
   const PeakFinder peaks(model, balance.geometry());
-  const Peak thinnest = peaks.smallest(fields.h), peak = peaks.largest(fields.p);
+  const Thinnest thinnest = thinnest_film(model, balance.geometry(), fields.h, motion.phi_journal);
+  const Peak peak = peaks.largest(fields.p);
   o.h_min = thinnest.value, o.h_min_phi = thinnest.phi, o.h_min_z = thinnest.z;
+  o.h_min_features = thinnest.in_features;
   o.h_min_centre = peaks.smallest_in_the_middle(fields.h);
   o.p_max = peak.value, o.p_max_phi = peak.phi, o.p_max_z = peak.z;
   o.p_max_node = fields.p.maxCoeff();
   observe_forces(wrench, e, o);
   o.normal_forces = wrench.normal().value;
   observe_oil(balance, motion, u, o);
-  observe_power(balance, motion, wrench.friction_power_per_contact(), o);
+  observe_power(balance, motion, wrench, o);
   return o;
 }
 

@@ -16,6 +16,9 @@ namespace {
 // What responses leave of their right-hand sides.
 constexpr double tight = 1e-10;
 
+// What is left of a step's defect of oil: it is no error, and comes with the next step's.
+constexpr double settling = 1e-6;
+
 // Right-hand sides that multigrid has not solved after so many iterations are left to the direct solver.
 constexpr int most_iterations = 80;
 
@@ -78,7 +81,7 @@ void Reynolds::Impl::set_up_multigrid() {
 // Sums over the surface are not needed on the way to a solution.
 const FilmWrench& Reynolds::Impl::summed_wrench() {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
-  if (!summed) wrench.evaluate(balance.nodes(), balance.rough_gaps(), speeds, true);
+  if (!summed) wrench.evaluate(balance, speeds, true);
   summed = true;
   return wrench;
 }
@@ -240,6 +243,34 @@ Vector6 Reynolds::wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) c
 void Reynolds::persist(Archive& archive) {
   impl_->lu.persist(archive);
   if (archive.restores()) impl_->linearised = impl_->factorised = impl_->set_up = false;
+}
+
+void Reynolds::take_stock(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
+                          OilOfStep& oil) {
+  Impl& m = *impl_;
+  m.balance.evaluate(motion, history, u);
+  m.balance.take_stock(oil);
+  m.linearised = m.summed = m.factorised = m.set_up = false;
+}
+
+// The factor of the last linearisation will do: what it does not lead through the film stays with the oil it belongs to,
+// and the next step sees it.
+void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
+                      OilOfStep& oil) {
+  Impl& m = *impl_;
+  m.balance.evaluate(motion, history, u);
+  m.rhs = -m.balance.residual();
+  m.balance.subtract_defect(m.rhs);
+  if (m.factorised) {
+    m.answer = m.rhs;
+    m.lu.solve({m.answer.data(), static_cast<std::size_t>(m.answer.size())});
+  } else {
+    m.balance.assemble_jacobian();
+    m.linearised = true, m.set_up = false;
+    m.solve(m.rhs, settling, m.answer);
+  }
+  m.balance.settle(m.answer, oil);
+  m.linearised = m.summed = m.factorised = m.set_up = false;
 }
 
 void Reynolds::residual_derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {

@@ -113,10 +113,20 @@ NodeRow Sor::row(int node) const {
     const double couette = is_a ? flow.couette : -flow.couette;  // out of this node
     r.K += flow.K;
     r.known -= flow.K * p_[other];
+    if (balance_.is_cut(static_cast<std::size_t>(f))) {
+      const FlowBalance::TowardsLine line = balance_.towards_line(node);
+      if (line.counts) {
+        r.known -= line.strip;
+        (line.from_node ? r.transport : r.known) += line.full;
+        continue;
+      }
+    }
     if (couette >= 0) {
-      r.transport += couette;
+      // Over pockets what leaves is not proportional to the fill: its share follows from the last sweep.
+      const double theta = std::max(theta_[node], 1e-6);
+      r.transport += (is_a ? 1 : -1) * flow.carried(theta).value / theta;
     } else {
-      r.known += couette * theta_[other];
+      r.known += (is_a ? 1 : -1) * flow.carried(theta_[other]).value;
     }
   }
   return r;
@@ -127,26 +137,27 @@ void Sor::relax(int i, int j) {
   const int node = balance_.model().grid.index(i, j);
   if (balance_.edge_row(j)) return place(node, balance_.edge_unknown(j), j);
 
-  // Beside the supply line the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
+  // Beside line and features the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
   const NodeRow r = row(node);
   const bool open = balance_.open_row(j);
-  const double chi = balance_.supply_share(node), tie = chi * balance_.supply_conductance(node);
-  const double full = (1 - chi) * (r.known + r.transport) - tie * balance_.supply_unknown(node);
-  const double conductance = (1 - chi) * (open ? balance_.conductance_scale() : r.K) + tie;
+  const double own = balance_.balance_share(node), tie = balance_.supply_conductance(node);
+  const double full = own * (r.known + r.transport) - tie * balance_.supply_unknown(node);
+  const double conductance = own * (open ? balance_.conductance_scale() : r.K) + tie;
   const double target = -full / conductance;
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
   if (u >= 0 || cavitation == Cavitation::guembel) return place(node, u, j);
 
+  const double drawn = tie * balance_.draws(node);
   // Cavitated: u is the slack of the row (film.12) or tells the fill fraction, which solves it.
   if (cavitation == Cavitation::reynolds) {
-    return place(node, std::min(0.0, -full / ((1 - chi) * balance_.conductance_scale() + tie)), j);
+    return place(node, std::min(0.0, -full / (own * balance_.conductance_scale() + drawn)), j);
   }
-  const double slope = (1 - chi) * r.transport / fill_ + tie;
+  const double slope = own * r.transport / fill_ + drawn;
   const double filling = slope > 0 ? std::min(0.0, -full / slope) : 0, ambient = balance_.ambient_unknown(j);
   if (!open || filling >= ambient) return place(node, filling, j);
   // Emptier than what lies outside: u is the inflow that keeps it as full (film.37).
   const double lack = full + slope * ambient;
-  place(node, std::min(ambient, ambient - lack / (balance_.conductance_scale() * (1 - chi) + tie)), j);
+  place(node, std::min(ambient, ambient - lack / (balance_.conductance_scale() * own + drawn)), j);
 }
 
 // With the flow, so that the fill fraction is carried around in one sweep.

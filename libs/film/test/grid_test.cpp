@@ -86,13 +86,15 @@ TEST_CASE("GradedGrid_MeetsTheLoadWithFewerNodes") {
   const auto error = [&](const Grid& grid) { return std::abs(load_of(grid, e) / exact - 1); };
   const double even_120 = error({120, 49});
   const double graded_60 = error(graded_grid(60, 49, {minimum}, {})),
-               graded_120 = error(graded_grid(120, 49, {minimum}, {}));
+               graded_120 = error(graded_grid(120, 49, {minimum}, {})),
+               graded_240 = error(graded_grid(240, 49, {minimum}, {}));
   CAPTURE(even_120);
   CAPTURE(graded_60);
   CAPTURE(graded_120);
+  CAPTURE(graded_240);
   CHECK(graded_60 < even_120);
   CHECK(graded_120 < 0.15 * even_120);
-  CHECK(graded_60 / graded_120 > 3);  // second order, at least nearly
+  CHECK(graded_120 / graded_240 > 3);  // second order, at least nearly; on 60 nodes the error changes its sign
 }
 
 }  // namespace

@@ -27,35 +27,24 @@ Journal seen_from(const Journal& ground, double omega_grid) {
 const Journal swinging{.e = {8e-6, -13e-6}, .e_rate = {0.002, 0.004}, .omega_shell = 90, .omega_journal = 250};
 
 TEST_CASE("FilmForces_DoNotDependOnTheFrame") {
-  std::array<double, 2> on_shell{}, on_journal{};
-  for (int k = 0; k < 2; ++k) {
-    const FilmModel m = k == 0 ? flooded(48, 13) : flooded(96, 25);
+  // Wedge and squeeze of a round journal are the same oil to round-off, on any grid.
+  for (const int n : {12, 48}) {
+    const FilmModel m = flooded(n, 13);
     const Vector6 ground = solve_cold(m, swinging).wrench;
-    const Vector6 shell = solve_cold(m, seen_from(swinging, swinging.omega_shell)).wrench;
-    const Vector6 journal = solve_cold(m, seen_from(swinging, swinging.omega_journal)).wrench;
-    on_shell[k] = (shell - ground).tail<3>().norm() / ground.tail<3>().norm();
-    on_journal[k] = (journal - ground).tail<3>().norm() / ground.tail<3>().norm();
+    for (const double omega : {swinging.omega_shell, swinging.omega_journal, 33.0}) {
+      const Vector6 turning_grid = solve_cold(m, seen_from(swinging, omega)).wrench;
+      CHECK((turning_grid - ground).tail<3>().norm() < 1e-10 * ground.tail<3>().norm());
+    }
   }
-  // Wedge against squeeze: the discretisation error differs, so it must vanish with order two.
-  CHECK(on_shell[1] < 1e-2);
-  CHECK(std::log2(on_shell[0] / on_shell[1]) == doctest::Approx(2).epsilon(0.025));
-  CHECK(std::log2(on_journal[0] / on_journal[1]) == doctest::Approx(2).epsilon(0.025));
 }
 
 TEST_CASE("CavitatedFilmForces_DoNotDependOnTheFrame") {
-  // With rupture the order is not clean; the difference must still shrink with the grid.
-  double coarse = 0;
-  for (const int n : {60, 240}) {
-    FilmModel m = flooded(n, 13);
-    m.cavitation = Cavitation::reynolds;
-    m.p_edge_left = m.p_edge_right = 0;
-    const Vector6 ground = solve_cold(m, swinging).wrench;
-    const Vector6 shell = solve_cold(m, seen_from(swinging, swinging.omega_shell)).wrench;
-    const double difference = (shell - ground).tail<3>().norm() / ground.tail<3>().norm();
-    CHECK(difference < 40.0 / (n * n));
-    if (n == 240) CHECK(difference < coarse / 8);
-    coarse = difference;
-  }
+  FilmModel m = flooded(60, 13);
+  m.cavitation = Cavitation::reynolds;
+  m.p_edge_left = m.p_edge_right = 0;
+  const Vector6 ground = solve_cold(m, swinging).wrench;
+  const Vector6 shell = solve_cold(m, seen_from(swinging, swinging.omega_shell)).wrench;
+  CHECK((shell - ground).tail<3>().norm() < 1e-8 * ground.tail<3>().norm());  // what Newton leaves
 }
 
 TEST_CASE("CarriedOil_DoesNotDependOnTheFrame") {

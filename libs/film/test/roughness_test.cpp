@@ -56,7 +56,9 @@ TEST_CASE("RoughSlider_MeetsTheIntegralWithOrderTwo") {
       SurfaceMotion motion = surfaces(m, {});
       motion.u_journal = U;
       for (int i = 0; i < all; ++i) {
-        motion.g.segment(m.grid.index(i, 0), 3).setConstant(i <= n ? gap(i * dx) : i <= n + grooves + 1 ? h0 : h1);
+        // The slider's own gap goes on into the grooves for as far as its ends see it.
+        const double g = i <= n + 2 ? gap(i * dx) : i == all - 1 ? gap(-dx) : h0;
+        motion.g.segment(m.grid.index(i, 0), 3).setConstant(g);
       }
       const SolvedFilm film = solve_cold(m, motion, {0, 0});
       REQUIRE(film.summary.converged);
@@ -160,8 +162,8 @@ TEST_CASE("RoughFilmForces_DoNotDependOnTheFrame") {
     const Vector6 turning_grid = solve_cold(m, journal).wrench;
     error[k] = (turning_grid - resting).norm() / resting.norm();
   }
-  CHECK(error[1] < 2e-3);
-  CHECK(std::log2(error[0] / error[1]) == doctest::Approx(2).epsilon(0.1));
+  // The mean gap is no linear function of the gap: what it is between nodes is seen to fourth order only.
+  CHECK(error[0] < 1e-5);
 }
 
 TEST_CASE("RoughTimeSteps_ConserveOil") {

@@ -36,6 +36,14 @@ struct BearingOptions {
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
 
+/// Oil in a film over a run: what is there, what has passed, and what nobody can explain (theory manual, film.59).
+struct OilOfRun {
+  double volume = 0;          ///< in the film [m^3]
+  double through_flow = 0;    ///< volume that has passed: the larger of what came in and what left, step by step [m^3]
+  double unexplained = 0;     ///< change of the volume since the start less what came in [m^3]
+  double step_error = 0;      ///< the last step's share of that [m^3]
+};
+
 /// What one bearing shows at an accepted state.
 struct BearingObservation {
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< journal axis at z = 0 in the bearing frame [m]
@@ -44,6 +52,7 @@ struct BearingObservation {
   double power_into_bodies = 0;  ///< of wrench and forces on shapes [W]; negative: the film takes power
   double speed = 0;              ///< journal's angular velocity about the bearing axis, relative to the shell [rad/s]
   film::FilmObservables film;
+  OilOfRun oil;
   int film_iterations = 0;  ///< film linearisations in the last step
   int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step
 };
@@ -91,6 +100,8 @@ class JournalBearing final : public mbd::TwoBodyForce {
   [[nodiscard]] double smallest_gap() const;
   [[nodiscard]] bool is_sensible() const;
   void fill_gap();
+  void close_step();
+  void show_oil(film::FilmObservables& film) const;
   void follow_surfaces();
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
   void evaluate_partitioned(mbd::ForceResponse& response);
@@ -126,6 +137,11 @@ class JournalBearing final : public mbd::TwoBodyForce {
   InterfaceIteration interface_;
   Eigen::VectorXd given_, given_start_;
   bool answered_ = false;
+
+  // Oil of the step last accepted, and over the run.
+  film::OilOfStep oil_;
+  OilOfRun oil_of_run_;
+  bool started_ = false;
 
   double internal_residual_ = 0;
   int iterations_ = 0, exchanges_ = 0;

@@ -14,12 +14,7 @@ class RigidSurfaces {
  public:
   explicit RigidSurfaces(const film::FilmModel& model);
 
-  /// A step of length `dt` [s] begins with the journal turned by `phi_journal` [rad]. Borders of the journal's pockets
-  /// may pass whole cells within a step: from now on the rate they give the gap is the mean one of the step, which
-  /// conserves oil. With dt = 0 it is the rate of the instant.
-  void begin_step(double phi_journal, double dt);
-
-  /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi), widened by profiles and pockets, its rate at fixed
+  /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi), widened by profiles, its rate at fixed
   /// grid points, the speeds, the place of the supply line and the journal's angle into `motion`.
   void place(const ParameterVector& parameters, film::SurfaceMotion& motion);
 
@@ -39,8 +34,8 @@ class RigidSurfaces {
   Eigen::VectorXd cosine_, sine_;  // of every node's angle
   Eigen::VectorXd z_;              // of every node
   std::array<film::MotionDirection, kParameterCount> directions_;
-  double dt_ = 0, smallest_gap_ = 0;
-  Eigen::VectorXd opening_, first_, second_, pockets_start_;
+  double smallest_gap_ = 0;
+  Eigen::VectorXd opening_, first_, second_;
 };
 
 // The same for a single use.

@@ -99,7 +99,8 @@ struct FilmModel {
 /// scale 6 mu0 fill_speed (R/c)^2 dphi and has no influence on the solution (film.6).
 [[nodiscard]] double fill_scale(const FilmModel& model);
 
-/// What the film sees of its two surfaces at one instant, in the frame of the grid. The grid may turn in any way: the
+/// What the film sees of its two surfaces at one instant, in the frame of the grid. The depth of features is no part of
+/// the gap: it comes with the model. The grid may turn in any way: the
 /// speeds are relative to it and `g_rate` is taken at its fixed points, which makes the equations frame-invariant.
 struct SurfaceMotion {
   Eigen::VectorXd g;       ///< gap of the undeformed surfaces at the nodes [m], shape (grid.size())
@@ -120,6 +121,10 @@ struct FilmHistory {
   Eigen::VectorXd theta;    ///< fill fraction at the start [-], shape (grid.size()); unused for dt = 0
   Eigen::VectorXd w;        ///< compliance deformation at the start [m]; empty: it rests (w' = 0); unused for dt = 0
   Eigen::VectorXd density;  ///< rho/rho0 at the start [-]; empty: 1; unused for dt = 0
+  /// Gap that held the film's oil over each control volume at the start, pockets apart [m]; empty: where the rate comes
+  /// from. theta density (gap + pockets) is then the oil that was there.
+  Eigen::VectorXd gap = {};
+  double phi_journal = 0;  ///< by which the journal had turned at the start [rad]; moves its pockets
 };
 
 }  // namespace hersey::film

@@ -9,10 +9,9 @@
 namespace hersey::film {
 
 struct GridGeometry;
-struct CoveredNode;
 
-/// What profiles and pockets add to the gap of two cylinders, node by node. Those of the journal that vary around it
-/// change the gap as it turns.
+/// What profiles add to the gap of two cylinders, node by node. Those of the journal that vary around it change the gap as
+/// it turns.
 class GapShape {
  public:
   explicit GapShape(const FilmModel& model);
@@ -24,17 +23,12 @@ class GapShape {
   [[nodiscard]] const Eigen::VectorXd& still() const { return still_; }
 
   [[nodiscard]] bool profiles_turn() const { return !turning_profiles_.empty(); }
-  [[nodiscard]] bool pockets_turn() const { return !turning_pockets_.empty(); }
-  [[nodiscard]] bool is_round() const { return !profiles_turn() && !pockets_turn() && still_.isZero(0); }
+  [[nodiscard]] bool is_round() const { return !profiles_turn() && still_.isZero(0); }
 
   /// The journal's profiles with the journal turned by `phi_journal` [rad]: opening [m] and its first and second
   /// derivative with that angle, shape (grid.size()) each.
   void turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
                      Eigen::VectorXd& second) const;
-
-  /// Likewise the journal's pockets: share of each node's cell they cover times their depth. It grows and falls
-  /// linearly as a border crosses a cell; the derivative jumps.
-  void turn_pockets(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first);
 
  private:
   [[nodiscard]] Opening opening_at(const Profile& profile, int node, double turned) const;
@@ -43,8 +37,6 @@ class GapShape {
   std::unique_ptr<GridGeometry> geometry_;
   Eigen::VectorXd still_;
   std::vector<Profile> turning_profiles_;
-  std::vector<SurfaceFeature> turning_pockets_;
-  std::vector<CoveredNode> covered_;
 };
 
 /// The sum of all openings with the journal turned by `phi_journal` [m], shape (grid.size()).

@@ -12,7 +12,8 @@ struct FilmFields {
   Eigen::VectorXd p;           ///< film pressure [Pa]
   Eigen::VectorXd theta;       ///< fill fraction [-]
   Eigen::VectorXd density;     ///< rho/rho0 [-]
-  Eigen::VectorXd h;           ///< film thickness, deformation included [m]
+  Eigen::VectorXd h;           ///< film thickness, deformation included, depth of features apart [m]
+  Eigen::VectorXd depth;       ///< mean depth of features over the node's control volume [m]; empty: none counted
   Eigen::VectorXd w;           ///< column deformation [m]
   Eigen::VectorXd p_asperity;  ///< asperity contact pressure [Pa]
   /// Radial displacement of the surfaces of elastic bodies against their frames, away from the bearing's axis [m];
@@ -24,7 +25,8 @@ struct FilmFields {
 /// those at the density rho0: masses over rho0.
 struct FilmObservables {
   double h_min = 0, h_min_phi = 0,
-         h_min_z = 0;       ///< smallest film thickness on the surface, edges included, and where [m, rad, m]
+         h_min_z = 0;       ///< smallest film thickness beside features with depth, edges included, and where [m, rad, m]
+  double h_min_features = 0;  ///< smallest thickness over features with depth, that included [m]; NaN without any
   double h_min_centre = 0;  ///< smallest film thickness at z = 0 [m]
   double p_max = 0, p_max_phi = 0, p_max_z = 0;  ///< interpolated peak of the film pressure and where [Pa, rad, m]
   double p_max_node = 0;                         ///< largest nodal pressure [Pa]
@@ -49,6 +51,10 @@ struct FilmObservables {
 
 /// Fields at the nodes from the unknown u.
 [[nodiscard]] FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u);
+
+/// Mean depth of features over the control volumes [m], shape (grid.size()), with the journal turned by `phi_journal`
+/// [rad].
+[[nodiscard]] Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal);
 
 /// `e` is the journal centre in the grid frame at z = 0 [m] (it enters the journal's torque about its own axis).
 [[nodiscard]] FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion,
