@@ -264,7 +264,7 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
 void JournalBearing::close_step() {
   const bool is_step = started_;
   if (is_step) {
-    reynolds_.settle(surfaces_, history_, u_, oil_);
+    film::close_step(reynolds_, surfaces_, history_, options_.film, u_, oil_);
   } else {
     reynolds_.take_stock(surfaces_, history_, u_, oil_);
     oil_of_run_ = {};

@@ -14,6 +14,9 @@
 namespace hersey::film {
 namespace {
 
+// Share of a control volume that may be left to the next one at the end of a step; more of it is worth a film of its own.
+constexpr double most_passed_on = 0.02;
+
 // What one Newton step may change where the law is strongly curved: the logarithm of the viscosity and the film
 // thickness of a compliant surface, relative to itself.
 constexpr double largest_change = 1.0;
@@ -179,6 +182,17 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
   summary.coarse_iterations = coarse_iterations;
   explain(reynolds.model(), u, options.rtol, summary);
   return summary;
+}
+
+void close_step(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                const FilmSolveOptions& options, const Eigen::VectorXd& u, OilOfStep& oil) {
+  reynolds.settle(motion, history, u, oil);
+  if (oil.passed_on <= most_passed_on) return;
+  FilmHistory by_gap = history;
+  by_gap.by_gap = true;
+  Eigen::VectorXd film = u;
+  if (!solve_film(reynolds, motion, by_gap, options, film).converged) return;
+  reynolds.settle(motion, by_gap, film, oil);
 }
 
 }  // namespace hersey::film

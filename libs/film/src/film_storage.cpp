@@ -29,6 +29,10 @@ void FlowBalance::evaluate_cell(int i, const SurfaceMotion& motion) {
     cell.depth_start = relief_.depth_start()[i];
   }
   if (dt_ == 0) return;
+  if (follows_gap_) {
+    cell.start = gap_start_[i], cell.start_slope = cell.start_excess = 0;
+    return;
+  }
   const double h = motion.g[i] - dt_ * motion.g_rate[i] + w_start_[i];
   const ValueAndSlope from = rough_law_ ? rough_law_->mean(h) : ValueAndSlope{h, 1};
   cell.start = from.value + excesses_[i] - dt_ * rate_excesses_[i];

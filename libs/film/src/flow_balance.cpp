@@ -135,6 +135,7 @@ void FlowBalance::take_history(const FilmHistory& history) {
   if (!liner_rests_) w_start_ = history.w;
   HERSEY_REQUIRE(history.gap.size() == 0 || history.gap.size() == size(), "gap at the start of shape (grid.size()) or empty");
   gap_start_ = history.gap;
+  follows_gap_ = history.by_gap && gap_start_.size() != 0;
 }
 
 void FlowBalance::take_motion(const SurfaceMotion& motion) {

@@ -238,6 +238,7 @@ class FlowBalance {
   [[nodiscard]] double storage_excess(int node) const;
   [[nodiscard]] double storage_g_rate(int node) const;
   [[nodiscard]] double storage_excess_rate(int node) const;
+  void pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const;
   [[nodiscard]] double start_of(int node) const;  ///< film's gap at the start of the step, pockets apart [m]
   [[nodiscard]] double oil_shown(int node, double content) const;  ///< per area, with a fill fraction of 0 to 1 [m]
   [[nodiscard]] double pocket_rate(int node) const;  ///< of its mean depth in a steady film [m/s]
@@ -277,6 +278,7 @@ class FlowBalance {
   std::vector<CoveredNode> covered_;
   bool liner_rests_ = false;  ///< the step starts with the deformation it ends with
   double phi_start_ = 0;
+  bool follows_gap_ = false;
   double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, half_slip_phi_ = 0, half_slip_z_ = 0, largest_throughput_ = 0;
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "flow_balance.h"
 
@@ -28,7 +29,7 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
   }
   take_stock(oil);
   const bool conserves = model_.cavitation == Cavitation::mass_conserving;
-  oil.volume = 0;
+  std::vector<char> takes_what_comes(static_cast<std::size_t>(size()), 0);
   for (int i = 0; i < size(); ++i) {
     const int j = i % grid.n_z;
     const double start = area_[i] * content_start_[i] * (start_of(i) + cells_[i].depth_start);
@@ -36,6 +37,7 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
     double out = open_row(j) ? slack(i) + slack_u(i) * du[i] : 0;
     // Held rows take what their state needs; the others have what is left to them.
     const bool given = is_held(i) || edge_row(j) || !conserves;
+    takes_what_comes[static_cast<std::size_t>(i)] = given ? 1 : 0;
     const double end = given ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
     const double coming = (end - start) / dt_ + leaving[i];
     if (edge_row(j)) out = lets_nothing_in(i) ? 0 : -coming;
@@ -43,7 +45,39 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
     if (is_held(i)) oil.flow_supply += coming + out;
     if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] += coming + out;
     oil.content[i] = end / whole;
-    oil.volume += area_[i] * oil_shown(i, oil.content[i]);
+  }
+  if (conserves) pass_on(takes_what_comes, oil);
+  oil.volume = 0;
+  for (int i = 0; i < size(); ++i) oil.volume += area_[i] * oil_shown(i, oil.content[i]);
+}
+
+// What a full control volume cannot hold, and what an empty one has not, goes on with the flow to the next that can: a
+// film in which pressure carries oil knows no delay. Lines and features take what comes.
+void FlowBalance::pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const {
+  const Grid& grid = model_.grid;
+  const bool forwards = speed_phi_ >= 0;
+  for (int j = 0; j < grid.n_z; ++j) {
+    double carry = 0;
+    int last = 0;
+    for (int k = 0; k < 2 * grid.n_phi; ++k) {
+      const int step = k % grid.n_phi, i = grid.index(forwards ? step : grid.n_phi - 1 - step, j);
+      if (takes_what_comes[static_cast<std::size_t>(i)] != 0) {
+        const double flow = carry / dt_;
+        if (is_held(i)) oil.flow_supply -= flow;
+        if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] -= flow;
+        if (!is_held(i)) (j == 0 ? oil.flow_left : oil.flow_right) += flow;
+        carry = 0;
+        continue;
+      }
+      const double whole = area_[i] * oil_gap(i), full = nodes_[i].density * whole;
+      const double there = oil.content[i] * whole + carry;
+      const double holds = u_[i] >= 0 ? full : std::clamp(there, 0.0, full);
+      carry = there - holds;
+      oil.content[i] = holds / whole;
+      oil.passed_on = std::max(oil.passed_on, std::abs(carry) / whole);
+      last = i;
+    }
+    oil.content[last] += carry / (area_[last] * oil_gap(last));
   }
 }
 

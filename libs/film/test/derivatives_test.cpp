@@ -98,6 +98,10 @@ std::vector<State> rough_states() {
   states.push_back(s);
   for (const bool transient : {false, true}) {
     s = rough_state(Cavitation::mass_conserving, true, transient);
+    s.motion.phi_supply = 1.5;  // within a cell, away from its middle
+    s.name = "line between nodes";
+    states.push_back(s);
+    s = rough_state(Cavitation::mass_conserving, true, transient);
     s.model.roughness = {FlowFactors::patir_cheng, {3e-6, 0.2}, {5e-6, 4}};  // from contact to full film
     s.name = std::string("flow factors") + (transient ? ", transient" : ", steady");
     states.push_back(s);
@@ -109,6 +113,50 @@ std::vector<State> rough_states() {
     s.name = "liner at rest";
     states.push_back(s);
   }
+  return states;
+}
+
+// Depth on both surfaces, one over the other in part. What pockets' walls take of the shear is no part of the tangent
+// (FilmWrench::push_on_pocket_walls): these states are not for the wrench.
+std::vector<State> states_with_pockets() {
+  std::vector<State> states;
+  for (const bool transient : {false, true}) {
+    for (const bool backwards : {false, true}) {
+      State s = rough_state(Cavitation::mass_conserving, true, transient);
+      s.model.features = {{.name = "shell's", .phi = 1.1, .z = 2e-3, .arc = 1.3, .length = 0.008, .is_fed = false, .depth = 3e-5},
+                          {.name = "journal's",
+                           .shape = FeatureShape::ellipse,
+                           .surface = Surface::journal,
+                           .phi = 2.1,
+                           .z = -1e-3,
+                           .arc = 1.2,
+                           .length = 0.011,
+                           .is_fed = false,
+                           .depth = 8e-5},
+                          {.name = "slot",
+                           .surface = Surface::journal,
+                           .phi = 4.6,
+                           .arc = 0.7,
+                           .length = 0.013,
+                           .is_fed = false,
+                           .depth = 2e-5}};
+      s.motion.u_shell = 0;
+      if (backwards) s.motion.u_journal *= -1;
+      s.history.phi_journal = -0.33;
+      s.name = std::string("pockets") + (transient ? ", transient" : ", steady") + (backwards ? ", backwards" : "");
+      states.push_back(s);
+      if (!transient) continue;
+      s.model.roughness = {FlowFactors::patir_cheng, {1e-6, 0.2}, {2e-6, 4}};
+      s.name += ", rough";
+      states.push_back(s);
+    }
+  }
+  return states;
+}
+
+std::vector<State> all_states() {
+  std::vector<State> states = rough_states();
+  for (const State& s : states_with_pockets()) states.push_back(s);
   return states;
 }
 
@@ -155,7 +203,7 @@ Eigen::VectorXd sparse_times(const FlowBalance& balance, const Eigen::VectorXd& 
 }
 
 TEST_CASE("FilmJacobian_MatchesFiniteDifference") {
-  for (const State& s : rough_states()) {
+  for (const State& s : all_states()) {
     CAPTURE(s.name);
     FlowBalance balance(s.model);
     const Eigen::VectorXd du = 1e-2 * s.u.cwiseAbs().cwiseProduct(Eigen::VectorXd::Random(s.u.size()));
@@ -172,7 +220,7 @@ TEST_CASE("FilmJacobian_MatchesFiniteDifference") {
 }
 
 TEST_CASE("ResidualAlongSurfaceChanges_MatchesFiniteDifference") {
-  for (const State& s : rough_states()) {
+  for (const State& s : all_states()) {
     CAPTURE(s.name);
     FlowBalance balance(s.model);
     for (const auto& [name, direction] : directions(s)) {

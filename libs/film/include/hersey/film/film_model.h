@@ -124,6 +124,7 @@ struct FilmHistory {
   /// Gap that held the film's oil over each control volume at the start, pockets apart [m]; empty: where the rate comes
   /// from. theta density (gap + pockets) is then the oil that was there.
   Eigen::VectorXd gap = {};
+  bool by_gap = false;     ///< a full film follows the change of the gap over the step instead of the rate (film.59)
   double phi_journal = 0;  ///< by which the journal had turned at the start [rad]; moves its pockets
 };
 
