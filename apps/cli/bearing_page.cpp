@@ -20,14 +20,13 @@ using study::BearingSolution;
 void add_fields(const BearingSolution& solution, PageSolution& page) {
   const film::FilmModel& model = solution.model;
   const bearing::SteadyState& state = solution.state;
-  const film::FilmFields fields =
-      film::film_fields(model, bearing::steady_surfaces(model, state.point, state.e), state.u);
+  const film::FilmFields fields = bearing::steady_fields(model, state);
   page.phi.resize(model.grid.n_phi);
   page.z.resize(model.grid.n_z);
   for (int i = 0; i < model.grid.n_phi; ++i) page.phi[i] = model.grid.phi(i);
   for (int j = 0; j < model.grid.n_z; ++j) page.z[j] = model.L * model.grid.z_over_L(j);
   page.pressure = fields.p;
-  page.thickness = fields.h;
+  page.thickness = fields.thickness();
   page.fill = fields.theta;
   page.asperity_pressure = fields.p_asperity;
 }

@@ -144,8 +144,8 @@ std::string bearing_csv(const std::vector<BearingSolution>& solutions) {
 std::string bearing_fields_csv(const BearingSolution& solution) {
   const film::FilmModel& model = solution.model;
   const bearing::SteadyState& state = solution.state;
-  const film::FilmFields fields =
-      film::film_fields(model, bearing::steady_surfaces(model, state.point, state.e), state.u);
+  const film::FilmFields fields = bearing::steady_fields(model, state);
+  const Eigen::VectorXd thickness = fields.thickness();
   std::string text =
       "angle [deg], z [mm], pressure [MPa], asperity pressure [MPa], film thickness [um], fill fraction\n";
   for (int i = 0; i < model.grid.n_phi; ++i) {
@@ -153,7 +153,7 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
       const int k = model.grid.index(i, j);
       text += fmt::format("{:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}\n",
                           180 / std::numbers::pi * model.grid.phi(i), 1e3 * model.L * model.grid.z_over_L(j),
-                          1e-6 * fields.p[k], 1e-6 * fields.p_asperity[k], 1e6 * fields.h[k], fields.theta[k]);
+                          1e-6 * fields.p[k], 1e-6 * fields.p_asperity[k], 1e6 * thickness[k], fields.theta[k]);
     }
   }
   return text;

@@ -317,9 +317,11 @@ void JournalBearing::show_oil(film::FilmObservables& film) const {
   if (oil_.flow_features.size() != film.flow_features.size() || observed_history_.dt == 0) return;
   film.flow_left = oil_.flow_left, film.flow_right = oil_.flow_right;
   film.flow_supply = oil_.flow_supply, film.flow_features = oil_.flow_features;
-  film.storage_rate = oil_.flow_supply - oil_.flow_left - oil_.flow_right + oil_of_run_.step_error / observed_history_.dt;
-  double scale = std::max({std::abs(oil_.flow_left), std::abs(oil_.flow_right), std::abs(oil_.flow_supply),
-                           std::abs(film.storage_rate), std::abs(observed_surfaces_.u_journal) * model().c * model().L});
+  film.storage_rate =
+      oil_.flow_supply - oil_.flow_left - oil_.flow_right + oil_of_run_.step_error / observed_history_.dt;
+  double scale =
+      std::max({std::abs(oil_.flow_left), std::abs(oil_.flow_right), std::abs(oil_.flow_supply),
+                std::abs(film.storage_rate), std::abs(observed_surfaces_.u_journal) * model().c * model().L});
   if (oil_.flow_features.size() > 0) scale = std::max(scale, oil_.flow_features.cwiseAbs().maxCoeff());
   film.mass_balance_error = scale > 0 ? std::abs(oil_of_run_.step_error) / (scale * observed_history_.dt) : 0;
 }

@@ -422,4 +422,11 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   return summary;
 }
 
+film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& state) {
+  const film::SurfaceMotion motion = steady_surfaces(model, state.point, state.e);
+  film::FilmFields fields = film::film_fields(model, motion, state.u);
+  fields.depth = film::mean_depth(model, motion.phi_journal);
+  return fields;
+}
+
 }  // namespace hersey::bearing

@@ -117,7 +117,8 @@ void FlowBalance::add_face(std::size_t f) {
   const Carried carried = flow.carried(upstream(f).theta);
   flow.q_density = unit * gap.cube * fluidity * drop + carried.value / flow.density;
   const double by_cube = flow.density * unit * fluidity * drop;
-  const double by_full = flow.density * face.width * carried.full, by_little = flow.density * face.width * carried.little;
+  const double by_full = flow.density * face.width * carried.full,
+               by_little = flow.density * face.width * carried.little;
   const bool single = flow.little == flow.couette;
   const double by_h = by_cube * gap.cube_h + by_full * gap.full_h + (single ? 0 : by_little * gap.little_h);
   const bool limited = is_limited(f);
@@ -165,7 +166,8 @@ std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speed
     const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
     const double step = axial(f) || !tube.in_journal ? 0 : tube.in_shell ? speeds.mean : speeds.journal;
     little += speeds.mean * cells_[flows_[f].couette >= 0 ? face.a : face.b].depth;
-    full += (speeds.mean - step) * (relief_.gap(tube, h).carry.value - h) + tube.swept_speed * speeds.journal / face.width;
+    full +=
+        (speeds.mean - step) * (relief_.gap(tube, h).carry.value - h) + tube.swept_speed * speeds.journal / face.width;
     if (flows_[f].little == flows_[f].couette) little = full;
   }
   return {face.width * full, face.width * little};

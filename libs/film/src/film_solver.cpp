@@ -14,7 +14,8 @@
 namespace hersey::film {
 namespace {
 
-// Share of a control volume that may be left to the next one at the end of a step; more of it is worth a film of its own.
+// Share of a control volume that may be left to the next one at the end of a step; more of it is worth a film of its
+// own.
 constexpr double most_passed_on = 0.02;
 
 // What one Newton step may change where the law is strongly curved: the logarithm of the viscosity and the film

@@ -66,8 +66,8 @@ double FlowBalance::storage_u(int i) const {
 double FlowBalance::storage_h(int i) const {
   const Cell& cell = cells_[i];
   if (dt_ > 0) {
-    return area_[i] *
-           (nodes_[i].content * cell.gap_h - (liner_rests_ ? content_start_[i] * cell.start_slope : 0)) / dt_;
+    return area_[i] * (nodes_[i].content * cell.gap_h - (liner_rests_ ? content_start_[i] * cell.start_slope : 0)) /
+           dt_;
   }
   if (rough_.empty()) return 0;
   return area_[i] * nodes_[i].content * (g_rate_[i] + rate_excesses_[i]) * rough_[i].mean_hh;

@@ -120,7 +120,8 @@ void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_grad
     const Basis at_a = basis(face.a / grid.n_z, face.a % grid.n_z), at_b = basis(face.b / grid.n_z, face.b % grid.n_z);
     const double sign = tube.in_shell ? 1 : -1;
     const Vector6 direction =
-        0.5 * sign * 0.5 * (axial ? at_a.shear_axial + at_b.shear_axial : at_a.shear_tangential + at_b.shear_tangential);
+        0.5 * sign * 0.5 *
+        (axial ? at_a.shear_axial + at_b.shear_axial : at_a.shear_tangential + at_b.shear_tangential);
     shear_ += flow.moment_of_drop * direction;
     if (!want_gradient) continue;
     by_u_.col(face.a) -= flow.moment_by_drop * balance.nodes()[face.a].wall_u * direction;

@@ -3,11 +3,11 @@
 #include <array>
 #include <vector>
 
+#include "flow_balance.h"
 #include "grid_geometry.h"
 #include "hersey/core/spatial.h"
 #include "hersey/film/reynolds.h"
 #include "node.h"
-#include "flow_balance.h"
 #include "rough_gap.h"
 
 namespace hersey::film {

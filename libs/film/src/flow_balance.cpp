@@ -133,7 +133,8 @@ void FlowBalance::take_history(const FilmHistory& history) {
     content_start_.array() *= history.density.array();
   }
   if (!liner_rests_) w_start_ = history.w;
-  HERSEY_REQUIRE(history.gap.size() == 0 || history.gap.size() == size(), "gap at the start of shape (grid.size()) or empty");
+  HERSEY_REQUIRE(history.gap.size() == 0 || history.gap.size() == size(),
+                 "gap at the start of shape (grid.size()) or empty");
   gap_start_ = history.gap;
   follows_gap_ = history.by_gap && gap_start_.size() != 0;
 }
@@ -294,7 +295,8 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     if (rate) dr[i] += storage_g_rate(i) * direction.g_rate[i] + storage_excess_rate(i) * direction_rate_excesses_[i];
   }
   if (relief_.has_pockets()) add_turning_pockets(direction, dr);
-  const bool speeds = direction.u_shell != 0 || direction.u_journal != 0 || direction.w_shell != 0 || direction.w_journal != 0;
+  const bool speeds =
+      direction.u_shell != 0 || direction.u_journal != 0 || direction.w_shell != 0 || direction.w_journal != 0;
   const bool turns = direction.phi_journal != 0 && relief_.has_pockets();
   for (std::size_t f = 0; (gap || speeds || turns) && f < faces_.size(); ++f) {
     const double q = flow_along(f, direction);

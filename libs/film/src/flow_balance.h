@@ -72,8 +72,8 @@ class FlowBalance {
 
   void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
 
-  /// Takes from a right-hand side what the rate at the end of the step brings into the rows beyond what the gap has gained
-  /// over the step (film.59).
+  /// Takes from a right-hand side what the rate at the end of the step brings into the rows beyond what the gap has
+  /// gained over the step (film.59).
   void subtract_defect(Eigen::VectorXd& rhs) const;
   /// Oil of the step whose state was last evaluated, with flows changed along `du`.
   void settle(const Eigen::VectorXd& du, OilOfStep& oil) const;
@@ -120,19 +120,19 @@ class FlowBalance {
   [[nodiscard]] double balance_share(int node) const;
   [[nodiscard]] double supply_conductance(int node) const;  ///< what ties u to the supply in that row [m^3/(Pa s)]
   [[nodiscard]] double supply_unknown(int node) const;      ///< u that the supply gives [Pa]
-  /// By how much of itself a u < 0, missing oil, draws on the supply [-]: wholly on line and features, not at all from the
-  /// next node.
+  /// By how much of itself a u < 0, missing oil, draws on the supply [-]: wholly on line and features, not at all from
+  /// the next node.
   [[nodiscard]] double draws(int node) const;
   /// What the surfaces carry from a node towards the supply line beside it.
   struct TowardsLine {
-    bool counts = false;      ///< whether the line has a part in the node's row
-    double full = 0;          ///< out of the node, of a full gap [m^3/s]
-    bool from_node = false;   ///< filled as the node is; else the line fills it
-    double strip = 0;         ///< squeezed beyond the middle of the way: the line's, not the node's [m^3/s]
+    bool counts = false;     ///< whether the line has a part in the node's row
+    double full = 0;         ///< out of the node, of a full gap [m^3/s]
+    bool from_node = false;  ///< filled as the node is; else the line fills it
+    double strip = 0;        ///< squeezed beyond the middle of the way: the line's, not the node's [m^3/s]
   };
   [[nodiscard]] TowardsLine towards_line(int node) const;
   [[nodiscard]] bool is_cut(std::size_t f) const;  ///< by the supply line
-  [[nodiscard]] double edge_unknown(int j) const;           ///< u on an edge [Pa]
+  [[nodiscard]] double edge_unknown(int j) const;  ///< u on an edge [Pa]
 
   [[nodiscard]] const std::vector<int>& column_start() const { return column_start_; }
   [[nodiscard]] const std::vector<int>& row_index() const { return row_index_; }
@@ -146,7 +146,8 @@ class FlowBalance {
 
  private:
   /// A node whose row the supply holds wholly or in part (film.13, film.25):
-  /// r = (1 - chi) (balance + slack) + tie (u - u_given); beside the line the balance is that up to the middle of the way.
+  /// r = (1 - chi) (balance + slack) + tie (u - u_given); beside the line the balance is that up to the middle of the
+  /// way.
   struct HeldNode {
     int node = 0;
     double chi = 0;          ///< share that the node's own balance loses [-]
@@ -155,7 +156,8 @@ class FlowBalance {
     int feature = -1;        ///< -1: the line
     double u = 0;            ///< given [Pa]
     int other = -1;          ///< line: the node on its other side
-    double near = 1, far = 0, bend = 0;  ///< line: weights by which h on the way to it follows from here, there and bend
+    double near = 1, far = 0,
+           bend = 0;  ///< line: weights by which h on the way to it follows from here, there and bend
     double near_line = 0, bend_line = 0;  ///< line: with phi_supply [1/rad]
     double conductance = 0;               ///< line: width/(12 length of the tube) [-]
     double way = 0;                       ///< line: to it, as a share of the tube [-]
@@ -169,18 +171,18 @@ class FlowBalance {
   /// Where a supply line cuts the tubes between two columns of nodes.
   struct Line {
     bool cuts = false;
-    int column = 0;      ///< the nodes before it
-    double share = 0;    ///< of the way to the next [-]
-    double by_phi = 0;   ///< with phi_supply [1/rad]
+    int column = 0;     ///< the nodes before it
+    double share = 0;   ///< of the way to the next [-]
+    double by_phi = 0;  ///< with phi_supply [1/rad]
   };
   /// Gap that a control volume holds oil in, with derivatives (film.58).
   struct Cell {
-    double gap = 0, gap_h = 1, gap_excess = 1;  ///< [m]
-    double depth = 0, depth_start = 0;          ///< mean depth of pockets [m]
+    double gap = 0, gap_h = 1, gap_excess = 1;            ///< [m]
+    double depth = 0, depth_start = 0;                    ///< mean depth of pockets [m]
     double start = 0, start_slope = 1, start_excess = 1;  ///< gap from which the rate leads to the present one [m]
   };
-  /// The gap between two nodes: what of it counts for flow along pressure and with the surfaces, with derivatives by the
-  /// thickness on the face, those at both nodes by themselves, and phi_journal.
+  /// The gap between two nodes: what of it counts for flow along pressure and with the surfaces, with derivatives by
+  /// the thickness on the face, those at both nodes by themselves, and phi_journal.
   struct FaceGap {
     double cube = 0, cube_h = 0, cube_journal = 0;
     std::array<double, 2> cube_at{};
@@ -241,7 +243,7 @@ class FlowBalance {
   void pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const;
   [[nodiscard]] double start_of(int node) const;  ///< film's gap at the start of the step, pockets apart [m]
   [[nodiscard]] double oil_shown(int node, double content) const;  ///< per area, with a fill fraction of 0 to 1 [m]
-  [[nodiscard]] double pocket_rate(int node) const;  ///< of its mean depth in a steady film [m/s]
+  [[nodiscard]] double pocket_rate(int node) const;                ///< of its mean depth in a steady film [m/s]
   [[nodiscard]] bool axial(std::size_t f) const { return f >= first_axial_face_; }
   /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
   [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : speed_phi_; }

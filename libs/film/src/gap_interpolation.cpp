@@ -30,7 +30,8 @@ std::array<double, 3> weights_in_cell(double before, double after, double back, 
 
 }  // namespace
 
-GapInterpolation::GapInterpolation(const Grid& grid, const GridGeometry& geometry) : n_phi_(grid.n_phi), n_z_(grid.n_z) {
+GapInterpolation::GapInterpolation(const Grid& grid, const GridGeometry& geometry)
+    : n_phi_(grid.n_phi), n_z_(grid.n_z) {
   const double R = geometry.dx.sum() / turn;
   const auto step = [&](int i) { return geometry.dx[(i + n_phi_) % n_phi_] / R; };
   for (int i = 0; i < n_phi_; ++i) {

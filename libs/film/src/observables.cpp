@@ -42,20 +42,6 @@ class PeakFinder {
     return refine(field, node / grid_.n_z, node % grid_.n_z);
   }
 
-  /// Smallest value along z = 0, where the rows on both sides are joined by straight lines.
-  [[nodiscard]] double smallest_in_the_middle(const Eigen::VectorXd& field) const {
-    int low = 0;
-    while (low + 2 < grid_.n_z && at_.z[low + 1] <= 0) ++low;
-    const double t = -at_.z[low] / at_.dz[low];
-    Eigen::VectorXd middle(grid_.n_phi);
-    for (int i = 0; i < grid_.n_phi; ++i) {
-      middle[i] = (1 - t) * field[grid_.index(i, low)] + t * field[grid_.index(i, low + 1)];
-    }
-    int i = 0;
-    middle.minCoeff(&i);
-    return middle[i] + around(i, [&](int k) { return middle[k]; }).rise;
-  }
-
  private:
   template <class Value>
   [[nodiscard]] Vertex around(int i, Value&& value) const {
@@ -193,8 +179,8 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
   const Thinnest thinnest = thinnest_film(model, balance.geometry(), fields.h, motion.phi_journal);
   const Peak peak = peaks.largest(fields.p);
   o.h_min = thinnest.value, o.h_min_phi = thinnest.phi, o.h_min_z = thinnest.z;
+  o.h_min_centre = thinnest.in_the_middle;
   o.h_min_features = thinnest.in_features;
-  o.h_min_centre = peaks.smallest_in_the_middle(fields.h);
   o.p_max = peak.value, o.p_max_phi = peak.phi, o.p_max_z = peak.z;
   o.p_max_node = fields.p.maxCoeff();
   observe_forces(wrench, e, o);

@@ -58,8 +58,7 @@ double swept_area(const SurfaceFeature& pocket, double R, double phi, double low
   const double first = std::min(from, from - turned), last = std::max(from, from - turned);
   const double sign = turned < 0 ? -1 : 1, half = 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
   if (pocket.shape == FeatureShape::rectangle) {
-    const double height =
-        std::max(0.0, std::min(high, pocket.z + half_length) - std::max(low, pocket.z - half_length));
+    const double height = std::max(0.0, std::min(high, pocket.z + half_length) - std::max(low, pocket.z - half_length));
     return sign * R * height * overlap(first, last, half);
   }
   double sum = 0;
@@ -251,8 +250,8 @@ TubeGap PocketRelief::gap(const PocketTube& tube, double h) const {
   return sum;
 }
 
-// What turns over the faces around the bearing: the mean of the step, so that together with what it does to the depth of
-// the control volumes a pocket brings no oil and takes none away.
+// What turns over the faces around the bearing: the mean of the step, so that together with what it does to the depth
+// of the control volumes a pocket brings no oil and takes none away.
 void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double speed) {
   if (!any_turns_) return;
   const Grid& grid = model_.grid;

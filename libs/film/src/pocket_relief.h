@@ -41,7 +41,8 @@ struct CoveredDepth {
 };
 
 /// The depth of a film's features over its grid. It is no part of the gap between the surfaces: that is smooth, depth
-/// steps. Fed features have the pressure of their supply and need no flow inside; all that their depth changes is shear.
+/// steps. Fed features have the pressure of their supply and need no flow inside; all that their depth changes is
+/// shear.
 class PocketRelief {
  public:
   PocketRelief(const FilmModel& model, const GridGeometry& geometry);

@@ -253,8 +253,8 @@ void Reynolds::take_stock(const SurfaceMotion& motion, const FilmHistory& histor
   m.linearised = m.summed = m.factorised = m.set_up = false;
 }
 
-// The factor of the last linearisation will do: what it does not lead through the film stays with the oil it belongs to,
-// and the next step sees it.
+// The factor of the last linearisation will do: what it does not lead through the film stays with the oil it belongs
+// to, and the next step sees it.
 void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
                       OilOfStep& oil) {
   Impl& m = *impl_;

@@ -154,8 +154,8 @@ bool FlowBalance::has_line_row(int node) const {
   return held != nullptr && held->other >= 0;
 }
 
-// A control volume ends in the middle of the way to the line. What the surfaces carry there leaves it, or comes from the
-// line, which fills the gap; what is squeezed between there and the face goes to the line.
+// A control volume ends in the middle of the way to the line. What the surfaces carry there leaves it, or comes from
+// the line, which fills the gap; what is squeezed between there and the face goes to the line.
 FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
   if (!has_line_row(node)) return {};
   const HeldNode& held = *held_at(node);
@@ -232,8 +232,8 @@ double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& 
          held.bend * speed_phi_ * direction_bends_[bend];
   }
   const double turn = direction.phi_supply;
-  q += turn * (held.near_line * (carried(held.node, speed_phi_, half_slip_phi_) -
-                                 carried(held.other, speed_phi_, half_slip_phi_)) +
+  q += turn * (held.near_line *
+                   (carried(held.node, speed_phi_, half_slip_phi_) - carried(held.other, speed_phi_, half_slip_phi_)) +
                held.bend_line * speed_phi_ * bends_[bend]);
   if (tube_of_[f] >= 0) {
     const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];

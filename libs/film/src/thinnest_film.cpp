@@ -45,9 +45,11 @@ class Search {
   }
 
   [[nodiscard]] Thinnest find() {
-    Thinnest best{std::numeric_limits<double>::infinity(), 0, 0, std::numeric_limits<double>::quiet_NaN()};
+    Thinnest best{.value = std::numeric_limits<double>::infinity(),
+                  .in_features = std::numeric_limits<double>::quiet_NaN()};
     for (int j = 0; j < grid_.n_z; ++j) search_row(j, best);
     for (const SurfaceFeature& feature : deep_) search_border(feature, best);
+    best.in_the_middle = in_the_middle();
     if (!deep_.empty()) best.in_features = in_features();
     return best;
   }
@@ -69,23 +71,22 @@ class Search {
       if (outside(i, j) && (lowest_node < 0 || value(i, j) < value(lowest_node, j))) lowest_node = i;
     }
     if (lowest_node < 0) return;
-    const Low around = between_nodes(
-        [&](int k) { return value(lowest_node + k, j); },
-        [&](int k) { return at_.dx[wrapped(lowest_node + (k < 0 ? k : k - 1))]; },
-        [&](int k) { return outside(lowest_node + k, j); });
+    const Low around = between_nodes([&](int k) { return value(lowest_node + k, j); },
+                                     [&](int k) { return at_.dx[wrapped(lowest_node + (k < 0 ? k : k - 1))]; },
+                                     [&](int k) { return outside(lowest_node + k, j); });
     const auto in_row = [&](int k) { return j + k >= 0 && j + k < grid_.n_z && outside(lowest_node, j + k); };
-    const Low along = between_nodes(
-        [&](int k) { return value(lowest_node, j + k); }, [&](int k) { return at_.dz[k < 0 ? j + k : j + k - 1]; },
-        in_row);
+    const Low along = between_nodes([&](int k) { return value(lowest_node, j + k); },
+                                    [&](int k) { return at_.dz[k < 0 ? j + k : j + k - 1]; }, in_row);
     const double here = value(lowest_node, j), both = around.value + along.value - here;
-    const Thinnest found{both > 0 ? both : here, std::fmod(at_.phi[lowest_node] + around.place / model_.R + turn, turn),
-                         at_.z[j] + along.place, best.in_features};
-    if (found.value < best.value) best = found;
+    const double found = both > 0 ? both : here;
+    if (found >= best.value) return;
+    best.value = found, best.z = at_.z[j] + along.place;
+    best.phi = std::fmod(at_.phi[lowest_node] + around.place / model_.R + turn, turn);
   }
 
   // Two parabolas reach between two nodes, one from either side. Where the film is smooth they agree; where it has a
-  // kink the one that dips less is believed. Values, lengths of intervals (k < 0: from node k to k + 1, else from k - 1 to
-  // k) and whether a node counts, all by place from the node.
+  // kink the one that dips less is believed. Values, lengths of intervals (k < 0: from node k to k + 1, else from k - 1
+  // to k) and whether a node counts, all by place from the node.
   template <class Value, class Length, class Counts>
   [[nodiscard]] static Low between_nodes(Value&& at, Length&& length, Counts&& counts) {
     const double here = at(0);
@@ -100,6 +101,24 @@ class Search {
     const Low second = lowest(here, a, at(way), b, at(2 * way), std::min(0.0, 0.5 * a), std::max(0.0, 0.5 * a));
     const Low& believed = first.value > second.value ? first : second;
     return believed.value > 0 && believed.value < here ? believed : node;
+  }
+
+  /// Along z = 0, where the rows on both sides are joined by straight lines.
+  [[nodiscard]] double in_the_middle() const {
+    int low = 0;
+    while (low + 2 < grid_.n_z && at_.z[low + 1] <= 0) ++low;
+    const double t = -at_.z[low] / at_.dz[low];
+    const auto middle = [&](int i) { return (1 - t) * value(i, low) + t * value(i, low + 1); };
+    const auto counts = [&](int i) { return (t == 1 || outside(i, low)) && (t == 0 || outside(i, low + 1)); };
+    int lowest_node = -1;
+    for (int i = 0; i < grid_.n_phi; ++i) {
+      if (counts(i) && (lowest_node < 0 || middle(i) < middle(lowest_node))) lowest_node = i;
+    }
+    if (lowest_node < 0) return std::numeric_limits<double>::quiet_NaN();
+    return between_nodes([&](int k) { return middle(lowest_node + k); },
+                         [&](int k) { return at_.dx[wrapped(lowest_node + (k < 0 ? k : k - 1))]; },
+                         [&](int k) { return counts(lowest_node + k); })
+        .value;
   }
 
   void search_border(const SurfaceFeature& f, Thinnest& best) const {

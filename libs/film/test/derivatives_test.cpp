@@ -123,23 +123,24 @@ std::vector<State> states_with_pockets() {
   for (const bool transient : {false, true}) {
     for (const bool backwards : {false, true}) {
       State s = rough_state(Cavitation::mass_conserving, true, transient);
-      s.model.features = {{.name = "shell's", .phi = 1.1, .z = 2e-3, .arc = 1.3, .length = 0.008, .is_fed = false, .depth = 3e-5},
-                          {.name = "journal's",
-                           .shape = FeatureShape::ellipse,
-                           .surface = Surface::journal,
-                           .phi = 2.1,
-                           .z = -1e-3,
-                           .arc = 1.2,
-                           .length = 0.011,
-                           .is_fed = false,
-                           .depth = 8e-5},
-                          {.name = "slot",
-                           .surface = Surface::journal,
-                           .phi = 4.6,
-                           .arc = 0.7,
-                           .length = 0.013,
-                           .is_fed = false,
-                           .depth = 2e-5}};
+      s.model.features = {
+          {.name = "shell's", .phi = 1.1, .z = 2e-3, .arc = 1.3, .length = 0.008, .is_fed = false, .depth = 3e-5},
+          {.name = "journal's",
+           .shape = FeatureShape::ellipse,
+           .surface = Surface::journal,
+           .phi = 2.1,
+           .z = -1e-3,
+           .arc = 1.2,
+           .length = 0.011,
+           .is_fed = false,
+           .depth = 8e-5},
+          {.name = "slot",
+           .surface = Surface::journal,
+           .phi = 4.6,
+           .arc = 0.7,
+           .length = 0.013,
+           .is_fed = false,
+           .depth = 2e-5}};
       s.motion.u_shell = 0;
       if (backwards) s.motion.u_journal *= -1;
       s.history.phi_journal = -0.33;

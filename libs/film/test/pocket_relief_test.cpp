@@ -1,3 +1,5 @@
+#include "pocket_relief.h"
+
 #include <doctest/doctest.h>
 
 #include <array>
@@ -6,7 +8,6 @@
 #include "film_cases.h"
 #include "flow_balance.h"
 #include "gap_interpolation.h"
-#include "pocket_relief.h"
 
 // Depth of features: volume, flow over their steps, and what the film beside them feels.
 namespace hersey::film {
@@ -60,8 +61,8 @@ TEST_CASE("PocketToTheEdge_IsDeepThere") {
   for (int i = 0; i < 40; ++i) CHECK(all_around[m.grid.index(i, 8)] == doctest::Approx(1e-4));
 }
 
-// In a full film at rest but for a journal with a pocket, concentric: the pocket's own volume turns with it and asks for
-// no oil. Nothing flows but round and round, whatever the step.
+// In a full film at rest but for a journal with a pocket, concentric: the pocket's own volume turns with it and asks
+// for no oil. Nothing flows but round and round, whatever the step.
 TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
   FilmModel m = graded();
   m.p_edge_left = m.p_edge_right = 1e5;
@@ -71,7 +72,8 @@ TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
     SurfaceMotion motion = surfaces(m, {.omega_shell = 200, .omega_journal = 200});
     motion.phi_journal = 2.9;
     FlowBalance balance(m);
-    const Eigen::VectorXd u = Eigen::VectorXd::Constant(m.grid.size(), 1e5), ones = Eigen::VectorXd::Ones(m.grid.size());
+    const Eigen::VectorXd u = Eigen::VectorXd::Constant(m.grid.size(), 1e5),
+                          ones = Eigen::VectorXd::Ones(m.grid.size());
     for (const double turned : {1e-3, 0.05, 0.4, 1.5}) {  // from within a cell to twice the pocket
       CAPTURE(turned);
       FilmHistory history{turned / 200, ones, 0 * ones};
@@ -135,15 +137,16 @@ TEST_CASE("FlowThroughPockets_ConvergesWithTheGrid") {
   }
 }
 
-// The film's smallest thickness is that of the land: the bearing's own where the narrowest place lies beside the pocket,
-// at the pocket's border where it would lie within.
+// The film's smallest thickness is that of the land: the bearing's own where the narrowest place lies beside the
+// pocket, at the pocket's border where it would lie within.
 TEST_CASE("SmallestFilm_IsThatOfTheLand") {
   for (const auto surface : {Surface::shell, Surface::journal}) {
     for (const int n_phi : {60, 61, 120}) {
       FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {n_phi, 13}};
       m.p_edge_left = m.p_edge_right = 1e6;
       const Journal journal = turning(m, 0.5, 100);  // narrowest at phi = pi: 15 um
-      m.features = {{.name = "pocket", .surface = surface, .phi = 1, .arc = 0.5, .length = 8e-3, .is_fed = false, .depth = 1e-4}};
+      m.features = {
+          {.name = "pocket", .surface = surface, .phi = 1, .arc = 0.5, .length = 8e-3, .is_fed = false, .depth = 1e-4}};
       CHECK(solve_cold(m, journal).observed.h_min == doctest::Approx(15e-6).epsilon(1e-4));
       m.features[0].phi = pi + 0.1, m.features[0].length = 0.02;
       const FilmObservables o = solve_cold(m, journal).observed;
@@ -162,7 +165,8 @@ TEST_CASE("GapThatTravels_TakesInWhatItGivesAway") {
     const double omega = 100;
     const Eigen::Vector2d e(9e-6, -14e-6);
     // Seen from the ground both surfaces turn at omega and the centre with them.
-    const Journal journal{.e = e, .e_rate = omega * Eigen::Vector2d(-e.y(), e.x()), .omega_shell = omega, .omega_journal = omega};
+    const Journal journal{
+        .e = e, .e_rate = omega * Eigen::Vector2d(-e.y(), e.x()), .omega_shell = omega, .omega_journal = omega};
     FlowBalance balance(m);
     balance.evaluate(surfaces(m, journal), {}, Eigen::VectorXd::Zero(grid.size()));
     CHECK(balance.balance().cwiseAbs().maxCoeff() < 1e-13 * omega * m.R * m.c * m.L);
@@ -233,7 +237,8 @@ TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {
     for (int k = 0; k < 4; ++k) {
       MotionDirection direction;
       Eigen::VectorXd field(grid.size());
-      for (int n = 0; n < grid.size(); ++n) field[n] = k % 2 == 0 ? -std::cos(grid.phi(n / grid.n_z)) : -std::sin(grid.phi(n / grid.n_z));
+      for (int n = 0; n < grid.size(); ++n)
+        field[n] = k % 2 == 0 ? -std::cos(grid.phi(n / grid.n_z)) : -std::sin(grid.phi(n / grid.n_z));
       (k < 2 ? direction.g : direction.g_rate) = field;
       Vector6 partial;
       reynolds.response(direction, du, partial);
@@ -243,7 +248,8 @@ TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {
     const double k = (K(0, 0) * C(1, 1) + K(1, 1) * C(0, 0) - K(0, 1) * C(1, 0) - K(1, 0) * C(0, 1)) / C.trace();
     return std::sqrt(((k - K(0, 0)) * (k - K(1, 1)) - K(0, 1) * K(1, 0)) / C.determinant()) / omega;
   };
-  for (const Grid& grid : {Grid{12, 5}, Grid{60, 13}}) CHECK(whirl_ratio(grid, 0) == doctest::Approx(0.5).epsilon(1e-10));
+  for (const Grid& grid : {Grid{12, 5}, Grid{60, 13}})
+    CHECK(whirl_ratio(grid, 0) == doctest::Approx(0.5).epsilon(1e-10));
   for (const double epsilon : {0.0, 0.3, 0.6}) {
     CAPTURE(epsilon);
     CHECK(whirl_ratio({60, 13}, epsilon) == doctest::Approx(whirl_ratio({240, 13}, epsilon)).epsilon(1e-4));
@@ -264,12 +270,13 @@ TEST_CASE("Oil_IsConservedAtAnyStep") {
     FilmHistory history{dt, Eigen::VectorXd::Ones(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
     OilOfStep oil;
     double volume = 0, passed = 0, worst = 0;
-    // Orbit with a radius that pulsates: gap and rate at the end of each step are exact, so that a step's rate is not the
-    // quotient of its gaps.
+    // Orbit with a radius that pulsates: gap and rate at the end of each step are exact, so that a step's rate is not
+    // the quotient of its gaps.
     const auto at = [&](double t) {
       const double r = m.c * (0.5 + 0.4 * std::sin(900 * t)), r_rate = m.c * 0.4 * 900 * std::cos(900 * t), a = 140 * t;
       const Eigen::Vector2d er(std::cos(a), std::sin(a)), ea(-er.y(), er.x());
-      SurfaceMotion motion = surfaces(m, {.e = r * er, .e_rate = r_rate * er + 140 * r * ea, .omega_journal = 300}, a + pi);
+      SurfaceMotion motion =
+          surfaces(m, {.e = r * er, .e_rate = r_rate * er + 140 * r * ea, .omega_journal = 300}, a + pi);
       motion.phi_journal = 300 * t;
       return motion;
     };
@@ -289,7 +296,8 @@ TEST_CASE("Oil_IsConservedAtAnyStep") {
       CHECK(fields.theta.minCoeff() >= 0);
       CHECK(oil.content.minCoeff() >= 0);
       CHECK(oil.content.maxCoeff() <= 1 + 1e-12);
-      history.theta = oil.content, history.w = fields.w, history.gap = oil.gap, history.phi_journal = motion.phi_journal;
+      history.theta = oil.content, history.w = fields.w, history.gap = oil.gap,
+      history.phi_journal = motion.phi_journal;
     }
     CHECK(worst < 1e-9 * passed / 40);
   }

@@ -11,9 +11,9 @@ namespace hersey::film {
 namespace {
 
 struct Slider {
-  double length = 0, U = 0, mu = 0;   ///< [m, m/s, Pa s]
-  double end_pressure = 0;            ///< at both ends [Pa]
-  std::function<double(double)> gap;  ///< [m] at x in [0, length]
+  double length = 0, U = 0, mu = 0;    ///< [m, m/s, Pa s]
+  double end_pressure = 0;             ///< at both ends [Pa]
+  std::function<double(double)> gap;   ///< [m] at x in [0, length]
   double from = 0, to = 0, depth = 0;  ///< a pocket of the slider that stands still [m]
 };
 

@@ -23,7 +23,7 @@ void CycleSums::take(double t, const bearing::BearingObservation& seen, const fi
               .contact = fields.p_asperity,
               .moft = {film.h_min, t, film.h_min_phi, film.h_min_z},
               .pofp = {film.p_max, t, film.p_max_phi, film.p_max_z},
-              .h = fields.h,
+              .h = fields.thickness(),
               .p = fields.p};
   if (is_begun_) integrate(t - cycle_.end, next);
   last_ = std::move(next);

@@ -1,6 +1,7 @@
 // What the results file keeps of bearings.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -52,10 +53,12 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   s.ratio = series("eccentricity_ratio", "1", "eccentricity over radial clearance");
   s.attitude = series("attitude", "rad", "angle between load and line of centres");
   s.tilt = series("tilt", "1", "slope of the journal's axis in the bearing frame", 2);
-  s.h_min = series("h_min", "m", "smallest film thickness on the surface, edges included");
+  s.h_min = series("h_min", "m", "smallest film thickness beside features with depth, edges included");
   s.h_min_phi = series("h_min_phi", "rad", "where: bearing angle");
   s.h_min_z = series("h_min_z", "m", "where: axial");
   s.h_min_centre = series("h_min_centre", "m", "smallest film thickness at z = 0");
+  if (std::any_of(film.features.begin(), film.features.end(), [](const auto& f) { return f.depth > 0; }))
+    s.h_min_features = series("h_min_features", "m", "smallest thickness over features with depth, that included");
   s.p_max = series("p_max", "Pa", "peak film pressure, interpolated");
   s.p_max_phi = series("p_max_phi", "rad", "where: bearing angle");
   s.p_max_z = series("p_max_z", "m", "where: axial");
@@ -71,16 +74,20 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   s.power_film = series("power_film", "W", "viscous dissipation in the film");
   s.power_asperity = series("power_asperity", "W", "boundary friction");
   s.power_into_bodies = series("power_into_bodies", "W", "film wrench times relative velocity (negative: taken)");
-  s.flow_left = series("flow_left", "m^3/s", "oil leaving over the edge z = -L/2");
-  s.flow_right = series("flow_right", "m^3/s", "oil leaving over the edge z = +L/2");
-  s.flow_supply = series("flow_supply", "m^3/s", "oil entering through the supply");
+  s.flow_left = series("flow_left", "m^3/s", "oil leaving over the edge z = -L/2, mean of the step");
+  s.flow_right = series("flow_right", "m^3/s", "oil leaving over the edge z = +L/2, mean of the step");
+  s.flow_supply = series("flow_supply", "m^3/s", "oil entering through the supply, mean of the step");
   for (const film::SurfaceFeature& feature : film.features) {
-    s.flow_features.push_back(
-        series(("flow_feature_" + feature.name).c_str(), "m^3/s", "oil entering through this feature"));
+    s.flow_features.push_back(series(("flow_feature_" + feature.name).c_str(), "m^3/s",
+                                     "oil entering through this feature, mean of the step"));
   }
-  s.storage_rate = series("storage_rate", "m^3/s", "rate of change of the oil volume in the film");
+  s.storage_rate = series("storage_rate", "m^3/s", "rate of change of the oil volume in the film, mean of the step");
   s.oil_volume = series("oil_volume", "m^3", "oil volume in the film");
-  s.mass_balance_error = series("mass_balance_error", "1", "|supply - edges - storage| over the largest flow");
+  s.mass_balance_error =
+      series("mass_balance_error", "1", "oil of the step that is neither stored nor has passed, over the largest flow");
+  s.oil_through_flow = series("oil_through_flow", "m^3", "oil that has passed the film since the start");
+  s.oil_unexplained =
+      series("oil_unexplained", "m^3", "growth of the oil volume since the start less what has come in");
   s.cavitated_share = series("cavitated_share", "1", "share of the area that is cavitated");
   s.film_iterations = series("film_iterations", "1", "film linearisations in the step");
   if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
@@ -102,7 +109,7 @@ void Recorder::declare_fields(const model::Bearing& bearing, BearingSeries& s) {
   const std::array<int, 2> shape{grid.n_phi, grid.n_z};
   s.field_time = writer_.series(path + "time", 1, "s", "time of the fields");
   s.pressure = writer_.field(path + "pressure", shape, "Pa", "film pressure");
-  s.thickness = writer_.field(path + "thickness", shape, "m", "film thickness");
+  s.thickness = writer_.field(path + "thickness", shape, "m", "film thickness, depth of features included");
   s.fill = writer_.field(path + "fill", shape, "1", "fill fraction");
   s.asperity_pressure = writer_.field(path + "asperity_pressure", shape, "Pa", "asperity contact pressure");
   const film::FilmFields start = machine_.bearings[bearings_.size()].bearing->fields();
@@ -123,6 +130,7 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
   s.h_min_phi.append(film.h_min_phi);
   s.h_min_z.append(film.h_min_z);
   s.h_min_centre.append(film.h_min_centre);
+  if (s.h_min_features) s.h_min_features->append(film.h_min_features);
   s.p_max.append(film.p_max);
   s.p_max_phi.append(film.p_max_phi);
   s.p_max_z.append(film.p_max_z);
@@ -147,6 +155,8 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
   s.storage_rate.append(film.storage_rate);
   s.oil_volume.append(film.oil_volume);
   s.mass_balance_error.append(film.mass_balance_error);
+  s.oil_through_flow.append(seen.oil.through_flow);
+  s.oil_unexplained.append(seen.oil.unexplained);
   s.cavitated_share.append(film.cavitated_share);
   s.film_iterations.append(seen.film_iterations);
   if (s.exchanges) s.exchanges->append(seen.exchanges);
@@ -156,8 +166,9 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
 void Recorder::write_around(std::size_t bearing) const {
   const film::FilmFields fields = machine_.bearings[bearing].bearing->fields();
   const film::Grid& grid = model_.bearings[bearing].film.grid;
+  const Eigen::VectorXd thickness = fields.thickness();
   using Map = Eigen::Map<const Eigen::MatrixXd>;
-  const Eigen::VectorXd h = Map(fields.h.data(), grid.n_z, grid.n_phi).colwise().minCoeff();
+  const Eigen::VectorXd h = Map(thickness.data(), grid.n_z, grid.n_phi).colwise().minCoeff();
   const Eigen::VectorXd p = Map(fields.p.data(), grid.n_z, grid.n_phi).colwise().maxCoeff();
   bearings_[bearing].h_min_around.append(h);
   bearings_[bearing].p_max_around.append(p);
@@ -168,7 +179,7 @@ void Recorder::write_fields(const StepRecord& step) {
     const film::FilmFields fields = machine_.bearings[i].bearing->fields();
     bearings_[i].field_time.append(step.mechanism.t);
     bearings_[i].pressure.append(fields.p);
-    bearings_[i].thickness.append(fields.h);
+    bearings_[i].thickness.append(fields.thickness());
     bearings_[i].fill.append(fields.theta);
     bearings_[i].asperity_pressure.append(fields.p_asperity);
     if (bearings_[i].shell_displacement) bearings_[i].shell_displacement->append(fields.d_shell);

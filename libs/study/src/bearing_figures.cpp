@@ -55,6 +55,8 @@ void add_state(const BearingSolution& s, Figures& figures) {
   figures.add("h_min_angle", "  at the angle", "deg", film.h_min_phi, kDegree);
   figures.add("h_min_z", "  at z", "mm", without_round_off(film.h_min_z, s.model.L), 1e-3);
   figures.add("h_min_centre", "minimum film thickness at mid-width", "um", film.h_min_centre, kMicro);
+  if (std::isfinite(film.h_min_features))
+    figures.add("h_min_features", "minimum thickness over features with depth", "um", film.h_min_features, kMicro);
   figures.add_with_error("p_max", "peak film pressure", "MPa", film.p_max, error.p_max, kMega);
   figures.add("p_max_angle", "  at the angle", "deg", film.p_max_phi, kDegree);
   figures.add("p_max_z", "  at z", "mm", without_round_off(film.p_max_z, s.model.L), 1e-3);

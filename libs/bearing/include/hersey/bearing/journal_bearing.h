@@ -38,10 +38,10 @@ struct BearingOptions {
 
 /// Oil in a film over a run: what is there, what has passed, and what nobody can explain (theory manual, film.59).
 struct OilOfRun {
-  double volume = 0;          ///< in the film [m^3]
-  double through_flow = 0;    ///< volume that has passed: the larger of what came in and what left, step by step [m^3]
-  double unexplained = 0;     ///< change of the volume since the start less what came in [m^3]
-  double step_error = 0;      ///< the last step's share of that [m^3]
+  double volume = 0;        ///< in the film [m^3]
+  double through_flow = 0;  ///< volume that has passed: the larger of what came in and what left, step by step [m^3]
+  double unexplained = 0;   ///< change of the volume since the start less what came in [m^3]
+  double step_error = 0;    ///< the last step's share of that [m^3]
 };
 
 /// What one bearing shows at an accepted state.

@@ -78,4 +78,7 @@ struct SteadyState {
 /// Where Ocvirk's short bearing (half film) of the same size carries the load of `point` [m].
 [[nodiscard]] Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoint& point);
 
+/// Fields of a film found, with the depth of its features.
+[[nodiscard]] film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& state);
+
 }  // namespace hersey::bearing

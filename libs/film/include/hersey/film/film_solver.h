@@ -35,8 +35,8 @@ struct FilmSolveSummary {
 [[nodiscard]] FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                           const FilmSolveOptions& options, Eigen::VectorXd& u);
 
-/// Oil of a step that has ended at `u`, by Reynolds::settle(); where the film has changed too much in the step for that,
-/// from a film of its own that follows the gap instead of its rate.
+/// Oil of a step that has ended at `u`, by Reynolds::settle(); where the film has changed too much in the step for
+/// that, from a film of its own that follows the gap instead of its rate.
 void close_step(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                 const FilmSolveOptions& options, const Eigen::VectorXd& u, OilOfStep& oil);
 

@@ -10,8 +10,8 @@ namespace hersey::film {
 
 struct GridGeometry;
 
-/// What profiles add to the gap of two cylinders, node by node. Those of the journal that vary around it change the gap as
-/// it turns.
+/// What profiles add to the gap of two cylinders, node by node. Those of the journal that vary around it change the gap
+/// as it turns.
 class GapShape {
  public:
   explicit GapShape(const FilmModel& model);

@@ -9,11 +9,13 @@ namespace hersey::film {
 
 /// Fields of a solved film at the nodes, shape (n_phi n_z) each.
 struct FilmFields {
-  Eigen::VectorXd p;           ///< film pressure [Pa]
-  Eigen::VectorXd theta;       ///< fill fraction [-]
-  Eigen::VectorXd density;     ///< rho/rho0 [-]
-  Eigen::VectorXd h;           ///< film thickness, deformation included, depth of features apart [m]
-  Eigen::VectorXd depth;       ///< mean depth of features over the node's control volume [m]; empty: none counted
+  Eigen::VectorXd p;        ///< film pressure [Pa]
+  Eigen::VectorXd theta;    ///< fill fraction [-]
+  Eigen::VectorXd density;  ///< rho/rho0 [-]
+  Eigen::VectorXd h;        ///< film thickness, deformation included, depth of features apart [m]
+  Eigen::VectorXd depth;    ///< mean depth of features over the node's control volume [m]; empty: none counted
+  /// Film thickness with the depth of features [m].
+  [[nodiscard]] Eigen::VectorXd thickness() const { return depth.size() == 0 ? h : Eigen::VectorXd(h + depth); }
   Eigen::VectorXd w;           ///< column deformation [m]
   Eigen::VectorXd p_asperity;  ///< asperity contact pressure [Pa]
   /// Radial displacement of the surfaces of elastic bodies against their frames, away from the bearing's axis [m];
@@ -25,9 +27,9 @@ struct FilmFields {
 /// those at the density rho0: masses over rho0.
 struct FilmObservables {
   double h_min = 0, h_min_phi = 0,
-         h_min_z = 0;       ///< smallest film thickness beside features with depth, edges included, and where [m, rad, m]
+         h_min_z = 0;  ///< smallest film thickness beside features with depth, edges included, and where [m, rad, m]
   double h_min_features = 0;  ///< smallest thickness over features with depth, that included [m]; NaN without any
-  double h_min_centre = 0;  ///< smallest film thickness at z = 0 [m]
+  double h_min_centre = 0;    ///< smallest film thickness at z = 0 [m]
   double p_max = 0, p_max_phi = 0, p_max_z = 0;  ///< interpolated peak of the film pressure and where [Pa, rad, m]
   double p_max_node = 0;                         ///< largest nodal pressure [Pa]
   Vector6 wrench_on_shell =

@@ -37,12 +37,12 @@ struct NormalForces {
   Eigen::VectorXd by_u, by_g;  ///< derivatives with the node's unknown [m^2] and gap [N/m]
 };
 
-/// The oil of one step: flows as means over it, with which what is in the film at its end is what was there at its start
-/// and what has come in since, to round-off (theory manual, film.59). Volumes are masses over rho0.
+/// The oil of one step: flows as means over it, with which what is in the film at its end is what was there at its
+/// start and what has come in since, to round-off (theory manual, film.59). Volumes are masses over rho0.
 struct OilOfStep {
   Eigen::VectorXd content;  ///< oil in each control volume over the volume itself, rho theta [-], shape (n)
   Eigen::VectorXd gap;      ///< that volume per area, without pockets [m], shape (n)
-  double volume = 0;         ///< in the film, every control volume counted as no emptier than empty, no fuller than full [m^3]
+  double volume = 0;  ///< in the film, every control volume counted as no emptier than empty, no fuller than full [m^3]
   double flow_left = 0, flow_right = 0;  ///< out over the edges [m^3/s]
   double flow_supply = 0;                ///< in through line and features [m^3/s]
   Eigen::VectorXd flow_features;         ///< in through each feature [m^3/s]
@@ -130,9 +130,9 @@ class Reynolds {
   /// The oil of a film at `u` with which a run starts: no step has led there, and no flow is told.
   void take_stock(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, OilOfStep& oil);
 
-  /// Closes a step of history.dt > 0 that has ended at `u`: forces belong to its end, where the gap opens at its exact rate;
-  /// flows are to bring what the gap has gained over the whole step. Their difference is led through the film along the
-  /// last linearisation. linearise() comes next.
+  /// Closes a step of history.dt > 0 that has ended at `u`: forces belong to its end, where the gap opens at its exact
+  /// rate; flows are to bring what the gap has gained over the whole step. Their difference is led through the film
+  /// along the last linearisation. linearise() comes next.
   void settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, OilOfStep& oil);
 
   /// dr/d(parameter) alone, for tests and un-condensed systems.

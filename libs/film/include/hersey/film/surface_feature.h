@@ -10,8 +10,8 @@ enum class FeatureShape { rectangle, ellipse };
 
 /// A hole, groove or pocket in one of the surfaces: a rectangle or an ellipse in phi x z, seen in the frame of that
 /// surface. One in the journal travels over the grid with SurfaceMotion::phi_journal. Where it is fed the film has its
-/// pressure. Its depth steps down from the surface and is no part of the gap: without a feed it is film like any other, only
-/// thicker, with one it holds the pressure of the supply and only thins the shear.
+/// pressure. Its depth steps down from the surface and is no part of the gap: without a feed it is film like any other,
+/// only thicker, with one it holds the pressure of the supply and only thins the shear.
 struct SurfaceFeature {
   std::string name;
   FeatureShape shape = FeatureShape::rectangle;
