@@ -83,10 +83,20 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) 
     gap.little_journal = speed * relief_.depth_by_journal()[from];
   }
   const double mu = 2 / (nodes_[face.a].fluidity + nodes_[face.b].fluidity), volume = face.width * face.length;
-  const double pull = 12 * mu * past * deep.excess * volume;
-  flow.recirculation = pull * past;
-  flow.moment_by_drop = face.width * (deep.carry.value - h);
-  flow.moment_of_drop = pull + flow.moment_by_drop * (nodes_[face.b].wall - nodes_[face.a].wall);
+  const double drop = nodes_[face.b].wall - nodes_[face.a].wall, drag = 12 * mu * volume;
+  flow.recirculation = drag * past * past * deep.excess.value;
+  FaceFlow::Moment& m = flow.moment;
+  m.drop = face.width * (deep.carry.value - h);
+  m.past = drag * deep.excess.value;
+  m.value = m.past * past + m.drop * drop;
+  m.h = drag * past * deep.excess.h + face.width * (deep.carry.h - 1) * drop;
+  m.fluidity = -mu * m.past * past;
+  m.journal = drag * past * deep.excess.journal + face.width * deep.carry.journal * drop;
+}
+
+std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
+  if (is_limited(f)) return {0.5 * least_share, 0};
+  return {0.5, axial(f) ? 0.0 : 1.0};
 }
 
 double FlowBalance::step_speed(std::size_t f, const PocketTube& tube) const {
@@ -121,12 +131,11 @@ void FlowBalance::add_face(std::size_t f) {
                by_little = flow.density * face.width * carried.little;
   const bool single = flow.little == flow.couette;
   const double by_h = by_cube * gap.cube_h + by_full * gap.full_h + (single ? 0 : by_little * gap.little_h);
-  const bool limited = is_limited(f);
-  const double share = limited ? 0.5 * least_share : 0.5;
+  const auto [share, by_bend] = thickness_shares(f);
   const double both = by_full + (single ? 0 : by_little);
   flow.q_h_a = share * by_h + by_cube * gap.cube_at[0] + both * gap.full_at[0];
   flow.q_h_b = share * by_h + by_cube * gap.cube_at[1] + both * gap.full_at[1];
-  flow.q_bend = limited || axial(f) ? 0 : by_h;
+  flow.q_bend = by_bend * by_h;
   flow.q_journal =
       by_cube * gap.cube_journal + by_full * gap.full_journal + (single ? 0 : by_little * gap.little_journal);
   const double poiseuille = flow.K * (a.p - b.p), entrained = flow.carried(upstream(f).theta).value;

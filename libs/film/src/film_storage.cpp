@@ -37,7 +37,7 @@ void FlowBalance::evaluate_cell(int i, const SurfaceMotion& motion) {
   const ValueAndSlope from = rough_law_ ? rough_law_->mean(h) : ValueAndSlope{h, 1};
   cell.start = from.value + excesses_[i] - dt_ * rate_excesses_[i];
   cell.start_slope = from.slope;
-  const double least = gap_start_.size() == 0 ? 0 : least_start * gap_start_[i];
+  const double least = !knows_gap_ ? 0 : least_start * gap_start_[i];
   if (cell.start < least) cell.start = least, cell.start_slope = cell.start_excess = 0;
 }
 

@@ -45,7 +45,8 @@ double slope(const Stencil& stencil, const std::vector<Node>& nodes) {
 
 }  // namespace
 
-FilmWrench::FilmWrench(const FilmModel& model) : model_(model), geometry_(model_) {
+FilmWrench::FilmWrench(const FilmModel& model)
+    : model_(model), geometry_(model_), interpolation_(model_.grid, geometry_) {
   cosine_ = geometry_.phi.array().cos();
   sine_ = geometry_.phi.array().sin();
 }
@@ -82,29 +83,33 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
   set_speeds(motion);
   pressure_.setZero(), shear_.setZero(), asperity_.setZero();
   for (Eigen::VectorXd* field : {&normal_.value, &normal_.by_u, &normal_.by_g}) field->resize(grid.size());
-  if (want_gradient) by_u_.setZero(6, grid.size()), by_g_.setZero(6, grid.size()), by_slip_.setZero();
+  if (want_gradient)
+    by_u_.setZero(6, grid.size()), by_g_.setZero(6, grid.size()), by_slip_.setZero(), by_journal_.setZero();
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
       add_node(nodes, rough.empty() ? nullptr : &rough[grid.index(i, j)], i, j, want_gradient);
     }
   }
   if (model_.cavitation == Cavitation::guembel) cut_off(nodes, want_gradient);
+  pushes_.clear();
   if (balance.relief().has_pockets()) push_on_pocket_walls(balance, want_gradient);
   total_ = pressure_ + shear_ + asperity_;
 }
 
 // Over a share of a control volume the gap is deeper: mu v/h counts there with the depth (film.62).
 void FilmWrench::take_relief(const FlowBalance& balance) {
-  relief_.clear();
+  relief_.clear(), relief_journal_.clear();
   if (balance.relief().is_empty()) return;
   relief_.assign(balance.nodes().size(), {1, 0});
+  relief_journal_.assign(balance.nodes().size(), 0);
   for (const CoveredDepth& covered : balance.relief().covered()) {
     const double h = balance.nodes()[covered.node].h, whole = h + covered.depth;
     relief_[covered.node].value -= covered.share * covered.depth / whole;
     relief_[covered.node].slope += covered.share * covered.depth / (whole * whole);
+    relief_journal_[covered.node] -= covered.share_journal * covered.depth / whole;
   }
-  for (ValueAndSlope& factor : relief_) {
-    if (factor.value < 0) factor = {0, 0};  // two features one over the other
+  for (std::size_t k = 0; k < relief_.size(); ++k) {
+    if (relief_[k].value < 0) relief_[k] = {0, 0}, relief_journal_[k] = 0;  // two features one over the other
   }
 }
 
@@ -112,21 +117,51 @@ void FilmWrench::take_relief(const FlowBalance& balance) {
 // walls, is half of the integral of d dp each, in the same direction on the surface that has the pocket (film.62).
 void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_gradient) {
   const Grid& grid = model_.grid;
+  pushes_.clear();
   for (const PocketTube& tube : balance.relief().tubes()) {
     const Face& face = balance.faces()[tube.face];
-    const FaceFlow& flow = balance.flows()[tube.face];
-    if (flow.moment_of_drop == 0 || tube.in_shell == tube.in_journal) continue;
+    const FaceFlow::Moment& moment = balance.flows()[tube.face].moment;
+    if (tube.in_shell == tube.in_journal) continue;
     const bool axial = tube.face >= static_cast<std::size_t>(grid.size());
     const Basis at_a = basis(face.a / grid.n_z, face.a % grid.n_z), at_b = basis(face.b / grid.n_z, face.b % grid.n_z);
     const double sign = tube.in_shell ? 1 : -1;
     const Vector6 direction =
-        0.5 * sign * 0.5 *
-        (axial ? at_a.shear_axial + at_b.shear_axial : at_a.shear_tangential + at_b.shear_tangential);
-    shear_ += flow.moment_of_drop * direction;
+        0.25 * sign *
+        (axial ? Vector6(at_a.shear_axial + at_b.shear_axial) : Vector6(at_a.shear_tangential + at_b.shear_tangential));
+    shear_ += moment.value * direction;
     if (!want_gradient) continue;
-    by_u_.col(face.a) -= flow.moment_by_drop * balance.nodes()[face.a].wall_u * direction;
-    by_u_.col(face.b) += flow.moment_by_drop * balance.nodes()[face.b].wall_u * direction;
+    const auto [by_node, by_bend] = balance.thickness_shares(tube.face);
+    for (const int k : {face.a, face.b}) {
+      const Node& node = balance.nodes()[k];
+      const double drop = k == face.a ? -moment.drop : moment.drop;
+      by_u_.col(k) +=
+          (by_node * moment.h * node.h_u + 0.5 * moment.fluidity * node.fluidity_u + drop * node.wall_u) * direction;
+      by_g_.col(k) += by_node * moment.h * node.h_g * direction;
+    }
+    by_journal_ += moment.journal * direction;
+    pushes_.push_back({tube.face, direction, by_bend * moment.h, moment.past, tube.in_journal});
   }
+}
+
+// What the gap between the nodes, and the speed past steps, change of that.
+Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
+  Vector6 sum = Vector6::Zero();
+  const Grid& grid = model_.grid;
+  for (const WallPush& push : pushes_) {
+    const bool axial = push.face >= static_cast<std::size_t>(grid.size());
+    const auto node = static_cast<int>(push.face);
+    double change = 0;
+    if (axial) {
+      change = push.by_past * 0.5 * (direction.w_shell + direction.w_journal);
+    } else {
+      change = push.by_past *
+               (0.5 * (direction.u_shell + direction.u_journal) - (push.in_journal ? direction.u_journal : 0));
+      if (direction.g.size() != 0)
+        change += push.by_bend * interpolation_.bend(direction.g, node / grid.n_z, node % grid.n_z);
+    }
+    sum += change * push.direction;
+  }
+  return sum;
 }
 
 FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap* rough, const ValueAndSlope& relief) {
@@ -204,6 +239,10 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap* rough,
     by_u_.col(by_phi.node[n]) -= area * s.half_gap[0] * by_phi.weight[n] * wall_phi * b.shear_tangential;
     by_u_.col(by_z.node[n]) -= area * s.half_gap[1] * by_z.weight[n] * wall_z * b.shear_axial;
   }
+  if (!relief_journal_.empty() && relief_journal_[k] != 0) {
+    by_journal_ +=
+        area * relief_journal_[k] / relief_[k].value * sheared(s.couette[0] * slip_[0], s.couette[1] * slip_[1]);
+  }
   by_slip_.col(0) += area * s.couette[0] * b.shear_tangential;
   by_slip_.col(1) += area * s.couette[1] * b.shear_axial;
   if (node.asperity == 0) return;
@@ -212,7 +251,7 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap* rough,
 
 Vector6 FilmWrench::along(const MotionDirection& direction) const {
   const Eigen::Vector2d slip(direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell);
-  Vector6 d = by_slip_ * slip;
+  Vector6 d = by_slip_ * slip + direction.phi_journal * by_journal_ + pushes_along(direction);
   if (direction.g.size() != 0) d += by_g_ * direction.g;
   return d;
 }

@@ -58,15 +58,27 @@ class FilmWrench {
   void add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient);
   void take_relief(const FlowBalance& balance);
   void push_on_pocket_walls(const FlowBalance& balance, bool want_gradient);
+  [[nodiscard]] Vector6 pushes_along(const MotionDirection& direction) const;
   void cut_off(const std::vector<Node>& nodes, bool want_gradient);
   void set_speeds(const SurfaceMotion& motion);
 
   FilmModel model_;
   GridGeometry geometry_;
+  GapInterpolation interpolation_;
   Eigen::VectorXd cosine_, sine_;
   Vector6 total_, pressure_, shear_, asperity_;
   NormalForces normal_;
-  std::vector<ValueAndSlope> relief_;  ///< factor of Couette shear where features have depth [-, 1/m]; empty: 1
+  /// What the walls of the pockets in a tube do as surfaces move.
+  struct WallPush {
+    std::size_t face = 0;
+    Vector6 direction;  ///< of a unit of FaceFlow::Moment
+    double by_bend = 0, by_past = 0;
+    bool in_journal = false;
+  };
+  std::vector<WallPush> pushes_;
+  Vector6 by_journal_;                  ///< with phi_journal, of pockets that turn
+  std::vector<double> relief_journal_;  ///< of the factor below [1/rad]
+  std::vector<ValueAndSlope> relief_;   ///< factor of Couette shear where features have depth [-, 1/m]; empty: 1
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_;
   Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z
   Eigen::Vector2d slip_;                 ///< that speed [m/s]

@@ -120,8 +120,8 @@ double FlowBalance::edge_unknown(int j) const {
 void FlowBalance::take_history(const FilmHistory& history) {
   HERSEY_REQUIRE(history.dt >= 0, "time runs forwards");
   dt_ = history.dt;
-  gap_start_.resize(0);
   phi_start_ = history.phi_journal;
+  knows_gap_ = false;
   if (dt_ == 0) return;
   liner_rests_ = history.w.size() == 0;
   HERSEY_REQUIRE(history.theta.size() == size() && (liner_rests_ || history.w.size() == size()),
@@ -136,7 +136,8 @@ void FlowBalance::take_history(const FilmHistory& history) {
   HERSEY_REQUIRE(history.gap.size() == 0 || history.gap.size() == size(),
                  "gap at the start of shape (grid.size()) or empty");
   gap_start_ = history.gap;
-  follows_gap_ = history.by_gap && gap_start_.size() != 0;
+  knows_gap_ = gap_start_.size() != 0;
+  follows_gap_ = history.by_gap && knows_gap_;
 }
 
 void FlowBalance::take_motion(const SurfaceMotion& motion) {

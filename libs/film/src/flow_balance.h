@@ -44,9 +44,13 @@ struct FaceFlow {
   double q_fluidity = 0;  ///< with the face's 1/mu
   double couette = 0;     ///< entrained flow of a full gap [m^3/s]
   double little = 0;      ///< entrained flow per fill fraction where there is little oil: pockets hold it back [m^3/s]
-  double recirculation = 0;   ///< power of the oil that turns in pockets under the tube [W]
-  double moment_by_drop = 0;  ///< with the drop of the walls' pressure [m^2]
-  double moment_of_drop = 0;  ///< what pockets add to the integral of h dp over the tube and its width [N]
+  double recirculation = 0;  ///< power of the oil that turns in pockets under the tube [W]
+  /// What pockets add to the integral of h dp over the tube and its width [N], with derivatives by the thickness on the
+  /// face, the mean of 1/mu, the drop of the walls' pressure, the speed past the pockets' steps and phi_journal.
+  struct Moment {
+    double value = 0, h = 0, fluidity = 0, drop = 0, past = 0, journal = 0;
+  };
+  Moment moment;
 
   [[nodiscard]] Carried carried(double theta) const;
 };
@@ -98,6 +102,8 @@ class FlowBalance {
   [[nodiscard]] double oil_gap(int node) const { return cells_[node].gap + cells_[node].depth; }
   /// Of it what belongs to the film, without pockets [m].
   [[nodiscard]] double film_gap(int node) const { return cells_[node].gap; }
+  /// Change of the thickness on face f with that at both its nodes, each, and with its bend [-].
+  [[nodiscard]] std::array<double, 2> thickness_shares(std::size_t f) const;
   [[nodiscard]] const PocketRelief& relief() const { return relief_; }
   [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }  ///< without fields
   [[nodiscard]] double largest_throughput() const { return largest_throughput_; }
@@ -280,7 +286,7 @@ class FlowBalance {
   std::vector<CoveredNode> covered_;
   bool liner_rests_ = false;  ///< the step starts with the deformation it ends with
   double phi_start_ = 0;
-  bool follows_gap_ = false;
+  bool knows_gap_ = false, follows_gap_ = false;
   double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, half_slip_phi_ = 0, half_slip_z_ = 0, largest_throughput_ = 0;
 };
 

@@ -51,6 +51,12 @@ void GapInterpolation::bends(const Eigen::VectorXd& field, Eigen::VectorXd& bend
   }
 }
 
+double GapInterpolation::bend(const Eigen::VectorXd& field, int i, int j) const {
+  const auto at = [&](int k) { return field[static_cast<Eigen::Index>((k + n_phi_) % n_phi_) * n_z_ + j]; };
+  const std::array<double, 4>& w = face_[i];
+  return w[0] * at(i - 1) + (w[1] - 0.5) * at(i) + (w[2] - 0.5) * at(i + 1) + w[3] * at(i + 2);
+}
+
 void GapInterpolation::excesses(const Eigen::VectorXd& field, Eigen::VectorXd& excesses) const {
   excesses.resize(field.size());
   const auto line = [&](int i) { return field.segment(static_cast<Eigen::Index>((i + n_phi_) % n_phi_) * n_z_, n_z_); };

@@ -22,6 +22,9 @@ class GapInterpolation {
   /// (grid.size()).
   void bends(const Eigen::VectorXd& field, Eigen::VectorXd& bends) const;
 
+  /// The same on the face after node (i, j) alone.
+  [[nodiscard]] double bend(const Eigen::VectorXd& field, int i, int j) const;
+
   /// By how much its mean over each control volume exceeds the value at the node: shape (grid.size()).
   void excesses(const Eigen::VectorXd& field, Eigen::VectorXd& excesses) const;
 

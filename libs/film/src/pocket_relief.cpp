@@ -95,7 +95,7 @@ void PocketRelief::place(double phi_journal, double phi_start, double dt, double
     for (const SurfaceFeature& feature : *features) {
       cells_.clear();
       cover_cells(model_, geometry_, feature, phi_journal, cells_);
-      for (const CoveredNode& cell : cells_) covered_.push_back({cell.node, cell.share, feature.depth});
+      for (const CoveredNode& cell : cells_) covered_.push_back({cell.node, cell.share, cell.share_phi, feature.depth});
     }
   }
   placed_ = true;
@@ -225,17 +225,18 @@ void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, doubl
 }
 
 TubeGap PocketRelief::gap(const PocketTube& tube, double h) const {
-  TubeGap sum{{}, {}, 0};
+  TubeGap sum;
   for (int s = tube.first_strip; s < tube.first_strip + tube.strips; ++s) {
     const Strip& strip = strips_[s];
     // I_1 to I_4 and what phi_journal does to I_2 and I_3.
     std::array<double, 5> I{};
-    double I2_journal = 0, I3_journal = 0;
+    double I1_journal = 0, I2_journal = 0, I3_journal = 0;
     for (int k = strip.first_segment; k < strip.first_segment + strip.segments; ++k) {
       const Segment& segment = segments_[k];
       const double x = 1 / (h + segment.depth), x2 = x * x;
       I[1] += segment.share * x, I[2] += segment.share * x2, I[3] += segment.share * x2 * x;
       I[4] += segment.share * x2 * x2;
+      I1_journal += segment.share_journal * x;
       I2_journal += segment.share_journal * x2, I3_journal += segment.share_journal * x2 * x;
     }
     const double cube = 1 / I[3], cube_h = 3 * I[4] * cube * cube, cube_journal = -I3_journal * cube * cube;
@@ -245,7 +246,11 @@ TubeGap PocketRelief::gap(const PocketTube& tube, double h) const {
     sum.cube.journal += strip.share_journal * cube + strip.share * cube_journal;
     sum.carry.value += strip.share * carry, sum.carry.h += strip.share * carry_h;
     sum.carry.journal += strip.share_journal * carry + strip.share * carry_journal;
-    sum.excess += strip.share * std::max(0.0, I[1] - I[2] * carry);
+    if (strip.segments == 1) continue;
+    const double excess = I[1] - I[2] * carry;
+    sum.excess.value += strip.share * excess, sum.excess.h += 3 * strip.share * (I[2] - carry * carry * I[4]);
+    sum.excess.journal +=
+        strip.share_journal * excess + strip.share * (I1_journal - 2 * carry * I2_journal + carry * carry * I3_journal);
   }
   return sum;
 }

@@ -17,9 +17,9 @@ struct ByGap {
 /// What a tube between two nodes is to the flow through it where pockets cover a part of it, per width (film.60,
 /// film.61): with the integrals I_n of 1/h^n over the tube's length, per length,
 struct TubeGap {
-  ByGap cube;     ///< 1/I_3, in place of h^3 [m^3]
-  ByGap carry;    ///< I_2/I_3, in place of h where surfaces carry oil past the pocket's steps [m]
-  double excess;  ///< I_1 - I_2^2/I_3: recirculation in the pockets, 0 without steps [1/m]
+  ByGap cube;    ///< 1/I_3, in place of h^3 [m^3]
+  ByGap carry;   ///< I_2/I_3, in place of h where surfaces carry oil past the pocket's steps [m]
+  ByGap excess;  ///< I_1 - I_2^2/I_3: recirculation in the pockets, 0 without steps [1/m]
 };
 
 /// A tube from one node to the next that pockets cover in part. It is cut into strips along the flow and these into
@@ -36,8 +36,9 @@ struct PocketTube {
 /// Depth under a node's control volume, share by share.
 struct CoveredDepth {
   int node = 0;
-  double share = 0;  ///< of the volume [-]
-  double depth = 0;  ///< [m]
+  double share = 0;          ///< of the volume [-]
+  double share_journal = 0;  ///< with phi_journal [1/rad]
+  double depth = 0;          ///< [m]
 };
 
 /// The depth of a film's features over its grid. It is no part of the gap between the surfaces: that is smooth, depth

@@ -6,7 +6,7 @@
 // Oil over a whole step (film.59).
 namespace hersey::film {
 
-double FlowBalance::start_of(int i) const { return gap_start_.size() == 0 ? cells_[i].start : gap_start_[i]; }
+double FlowBalance::start_of(int i) const { return !knows_gap_ ? cells_[i].start : gap_start_[i]; }
 
 void FlowBalance::subtract_defect(Eigen::VectorXd& rhs) const {
   for (int i = 0; i < size(); ++i) {
