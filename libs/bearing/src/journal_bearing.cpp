@@ -275,7 +275,7 @@ BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) co
   seen.e = k.e();
   seen.tilt = k.tilt();
   seen.speed = motion.V_AB_A[2];
-  seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.e, u_start_);
+  seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.e, u_start_, seen.tilt);
   seen.wrench_on_shell = seen.film.wrench_on_shell;
   seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
   if (deforming_->deform())

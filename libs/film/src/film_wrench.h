@@ -12,7 +12,7 @@
 namespace hersey::film {
 
 /// The film's wrench on the shell at the grid's origin, [moment; force] in grid axes, by origin, with its derivatives
-/// (theory manual, film.17 to film.20).
+/// (theory manual, film.17 to film.20, film.60).
 class FilmWrench {
  public:
   explicit FilmWrench(const FilmModel& model);
@@ -54,6 +54,7 @@ class FilmWrench {
   [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap* rough);
   void add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient);
   void cut_off(const std::vector<Node>& nodes, bool want_gradient);
+  void push_on_slopes(const std::vector<Node>& nodes, bool want_gradient);
   void set_speeds(const SurfaceMotion& motion);
 
   FilmModel model_;
@@ -61,7 +62,8 @@ class FilmWrench {
   Eigen::VectorXd cosine_, sine_;
   Vector6 total_, pressure_, shear_, asperity_;
   NormalForces normal_;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_, by_opening_;
+  Eigen::VectorXd opening_;              ///< how far the shell lies outside its cylinder [m]; empty: nowhere
   Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z
   Eigen::Vector2d slip_;                 ///< that speed [m/s]
   Eigen::Vector2d friction_;             ///< boundary friction per contact pressure on the shell [-]

@@ -22,6 +22,8 @@ class GapShape {
 
   /// Everything that stays where it is when the journal turns [m], shape (grid.size()).
   [[nodiscard]] const Eigen::VectorXd& still() const { return still_; }
+  /// The share of it that is cut out of the shell [m], same shape.
+  [[nodiscard]] const Eigen::VectorXd& of_shell() const { return of_shell_; }
 
   [[nodiscard]] bool profiles_turn() const { return !turning_profiles_.empty(); }
   [[nodiscard]] bool pockets_turn() const { return !turning_pockets_.empty(); }
@@ -41,7 +43,7 @@ class GapShape {
 
   FilmModel model_;
   std::unique_ptr<GridGeometry> geometry_;
-  Eigen::VectorXd still_;
+  Eigen::VectorXd still_, of_shell_;
   std::vector<Profile> turning_profiles_;
   std::vector<SurfaceFeature> turning_pockets_;
   std::vector<CoveredNode> covered_;
