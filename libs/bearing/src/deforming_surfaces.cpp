@@ -27,6 +27,7 @@ DeformingSurfaces::DeformingSurfaces(const film::FilmModel& model, std::shared_p
   if (journal_) turn_journal(0);
   for (Index a = 0; a < count; ++a) {
     directions_[static_cast<std::size_t>(a)].g = openings_.col(a);
+    directions_[static_cast<std::size_t>(a)].shell_share = a < shell_count() ? 1 : 0;
     directions_[static_cast<std::size_t>(count + a)].g_rate = openings_.col(a);
   }
 }
@@ -66,6 +67,8 @@ void DeformingSurfaces::place(const VectorXd& s, const VectorXd& s_rate, double 
   if (!deform()) return;
   if (journal_) turn_journal(phi);
   motion.g.noalias() += openings_ * s;
+  if (motion.shell_opening.size() == 0) motion.shell_opening.setZero(motion.g.size());
+  motion.shell_opening.noalias() += openings_.leftCols(shell_count()) * s.head(shell_count());
   motion.g_rate.noalias() += openings_ * s_rate;
   if (!journal_) return;
   const Index count = journal_->D.cols(), first = shell_count();

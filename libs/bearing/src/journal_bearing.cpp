@@ -299,7 +299,7 @@ BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) co
   seen.e = k.e();
   seen.tilt = k.tilt();
   seen.speed = motion.V_AB_A[2];
-  seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.e, u_start_);
+  seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.e, u_start_, seen.tilt);
   show_oil(seen.film);
   seen.oil = oil_of_run_;
   seen.wrench_on_shell = seen.film.wrench_on_shell;

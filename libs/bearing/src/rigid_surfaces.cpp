@@ -38,6 +38,7 @@ void RigidSurfaces::place(const ParameterVector& p, film::SurfaceMotion& motion)
              (p[kEy] + p[kTy] * z_.array()) * sine_.array();
   motion.g_rate = -(p[kExRate] + p[kTxRate] * z_.array()) * cosine_.array() -
                   (p[kEyRate] + p[kTyRate] * z_.array()) * sine_.array();
+  motion.shell_opening = shape_.of_shell();
   motion.u_shell = 0;
   motion.u_journal = p[kJournalSpeed];
   motion.w_shell = 0;

@@ -122,7 +122,7 @@ class Search {
     state.point = point_;
     state.e = e_;
     state.u = u_;
-    state.film = film::observe_film(model_, motion_, history_, e_, u_);
+    state.film = film::observe_film(model_, motion_, history_, e_, u_, point_.tilt);
     state.load = state.film.wrench_on_shell.segment<2>(3);
     state.coefficients = coefficients();
     return state;

@@ -56,6 +56,7 @@ CoarseFilm coarsened(const FilmModel& model, const SurfaceMotion& motion, const 
   coarse.u = to_coarse(u).unaryExpr([fill](double value) { return value < 0 ? fill * value : value; });
   coarse.motion.g = to_coarse(motion.g);
   coarse.motion.g_rate = to_coarse(motion.g_rate);
+  coarse.motion.shell_opening.resize(0);  // matters to forces alone
   if (history.dt == 0) return coarse;
   coarse.history.theta = to_coarse(history.theta);
   if (history.w.size() != 0) coarse.history.w = to_coarse(history.w);

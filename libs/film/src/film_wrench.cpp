@@ -83,8 +83,11 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
   set_speeds(motion);
   pressure_.setZero(), shear_.setZero(), asperity_.setZero();
   for (Eigen::VectorXd* field : {&normal_.value, &normal_.by_u, &normal_.by_g}) field->resize(grid.size());
-  if (want_gradient)
-    by_u_.setZero(6, grid.size()), by_g_.setZero(6, grid.size()), by_slip_.setZero(), by_journal_.setZero();
+  opening_ = motion.shell_opening;
+  if (want_gradient) {
+    for (auto* gradient : {&by_u_, &by_g_, &by_opening_}) gradient->setZero(6, grid.size());
+    by_slip_.setZero(), by_journal_.setZero();
+  }
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
       add_node(nodes, rough.empty() ? nullptr : &rough[grid.index(i, j)], i, j, want_gradient);
@@ -93,6 +96,7 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
   if (model_.cavitation == Cavitation::guembel) cut_off(nodes, want_gradient);
   pushes_.clear();
   if (balance.relief().has_pockets()) push_on_pocket_walls(balance, want_gradient);
+  if (opening_.size() != 0) push_on_slopes(nodes, want_gradient);
   total_ = pressure_ + shear_ + asperity_;
 }
 
@@ -206,6 +210,37 @@ void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
   }
 }
 
+// Pressure acts at right angles to the true surface, which leans where the shell's opening d changes: -p grad d beside
+// p e_r (film.66). Oil reaches around the edges, too, and with it the integral is that of d grad p: nothing from a
+// uniform pressure. Contact ends at the edges. Sums over the intervals between nodes give exactly nothing where p or d
+// is the same everywhere.
+void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradient) {
+  const Grid& grid = model_.grid;
+  // Adds to the entry `row` of the wrench what the interval from node a to node b gives, `arm` its width and lever.
+  const auto add = [&](int row, int a, int b, double arm) {
+    const Node &at_a = nodes[a], &at_b = nodes[b];
+    const double mean = 0.5 * arm * (opening_[a] + opening_[b]), fall = arm * (opening_[a] - opening_[b]);
+    const double rise = 0.5 * arm * (at_b.wall - at_a.wall), contact = 0.5 * arm * (at_a.asperity + at_b.asperity);
+    pressure_[row] += mean * (at_b.wall - at_a.wall);
+    asperity_[row] += 0.5 * fall * (at_a.asperity + at_b.asperity);
+    if (!want_gradient) return;
+    by_u_(row, a) += -mean * at_a.wall_u + 0.5 * fall * at_a.asperity_h * at_a.h_u;
+    by_u_(row, b) += mean * at_b.wall_u + 0.5 * fall * at_b.asperity_h * at_b.h_u;
+    by_g_(row, a) += 0.5 * fall * at_a.asperity_h * at_a.h_g;
+    by_g_(row, b) += 0.5 * fall * at_b.asperity_h * at_b.h_g;
+    by_opening_(row, a) += rise + contact;
+    by_opening_(row, b) += rise - contact;
+  };
+  constexpr int moment_z = 2, force_z = 5;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int node = grid.index(i, j), next = grid.index((i + 1) % grid.n_phi, j);
+      add(moment_z, node, next, model_.R * geometry_.weight_z[j]);
+      if (j + 1 < grid.n_z) add(force_z, node, node + 1, geometry_.weight_phi[i]);
+    }
+  }
+}
+
 void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient) {
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j);
@@ -253,6 +288,7 @@ Vector6 FilmWrench::along(const MotionDirection& direction) const {
   const Eigen::Vector2d slip(direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell);
   Vector6 d = by_slip_ * slip + direction.phi_journal * by_journal_ + pushes_along(direction);
   if (direction.g.size() != 0) d += by_g_ * direction.g;
+  if (direction.shell_share != 0 && opening_.size() != 0) d += direction.shell_share * (by_opening_ * direction.g);
   return d;
 }
 

@@ -13,7 +13,7 @@
 namespace hersey::film {
 
 /// The film's wrench on the shell at the grid's origin, [moment; force] in grid axes, by origin, with its derivatives
-/// (theory manual, film.17 to film.20).
+/// (theory manual, film.17 to film.20, film.66).
 class FilmWrench {
  public:
   explicit FilmWrench(const FilmModel& model);
@@ -60,6 +60,7 @@ class FilmWrench {
   void push_on_pocket_walls(const FlowBalance& balance, bool want_gradient);
   [[nodiscard]] Vector6 pushes_along(const MotionDirection& direction) const;
   void cut_off(const std::vector<Node>& nodes, bool want_gradient);
+  void push_on_slopes(const std::vector<Node>& nodes, bool want_gradient);
   void set_speeds(const SurfaceMotion& motion);
 
   FilmModel model_;
@@ -79,7 +80,8 @@ class FilmWrench {
   Vector6 by_journal_;                  ///< with phi_journal, of pockets that turn
   std::vector<double> relief_journal_;  ///< of the factor below [1/rad]
   std::vector<ValueAndSlope> relief_;   ///< factor of Couette shear where features have depth [-, 1/m]; empty: 1
-  Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_, by_opening_;
+  Eigen::VectorXd opening_;              ///< how far the shell lies outside its cylinder [m]; empty: nowhere
   Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z
   Eigen::Vector2d slip_;                 ///< that speed [m/s]
   Eigen::Vector2d friction_;             ///< boundary friction per contact pressure on the shell [-]

@@ -119,6 +119,7 @@ class FlowBalance {
   [[nodiscard]] double ambient_unknown(int j) const { return j == 0 ? ambient_left_ : ambient_right_; }
   [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
   [[nodiscard]] double supply(int node) const;   ///< oil entering from line or feature at this node [m^3/s]
+  [[nodiscard]] double power_of_tie(int node) const;  ///< dissipated between the node and what holds it [W]
   [[nodiscard]] int feature_at(int node) const;  ///< the feature that feeds this node; -1 for none
   /// Whether line or feature have a part in a node's row.
   [[nodiscard]] bool is_held(int node) const { return held_index_[node] >= 0; }

@@ -6,13 +6,16 @@ namespace hersey::film {
 
 GapShape::GapShape(const FilmModel& model) : model_(model), geometry_(std::make_unique<GridGeometry>(model)) {
   still_.setZero(model.grid.size());
+  of_shell_.setZero(model.grid.size());
   for (const Profile& profile : model.profiles) {
     if (profile.surface == Surface::journal && profile.varies_around()) {
       turning_profiles_.push_back(profile);
       continue;
     }
-    for (int k = 0; k < still_.size(); ++k) still_[k] += opening_at(profile, k, 0).value;
+    Eigen::VectorXd& opening = profile.surface == Surface::shell ? of_shell_ : still_;
+    for (int k = 0; k < opening.size(); ++k) opening[k] += opening_at(profile, k, 0).value;
   }
+  still_ += of_shell_;
 }
 
 GapShape::~GapShape() = default;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "film_power.h"
 #include "film_wrench.h"
 #include "flow_balance.h"
 #include "thinnest_film.h"
@@ -95,38 +96,16 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
-/// Dissipation (film.21, film.36): Couette share mu slip^2/h, more of it between rough surfaces, and Poiseuille
-/// K (p_a - p_b)^2, and boundary friction.
-void observe_power(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench,
-                   FilmObservables& o) {
-  const double friction = wrench.friction_power_per_contact();
-  const double slip2_phi = std::pow(motion.u_journal - motion.u_shell, 2);
-  const double slip2_z = std::pow(motion.w_journal - motion.w_shell, 2);
-  o.sliding_speed = std::sqrt(slip2_phi + slip2_z);
-  const RoughGaps& rough = balance.rough_gaps();
-  for (int k = 0; k < balance.size(); ++k) {
-    const Node& node = balance.nodes()[k];
-    const double slip2 =
-        rough.empty() ? slip2_phi + slip2_z : rough[k].couette[0] * slip2_phi + rough[k].couette[1] * slip2_z;
-    o.power_film += balance.area(k) * node.share * slip2 * wrench.relief_factor(k) / (node.fluidity * node.h);
-    o.power_asperity += balance.area(k) * node.asperity * friction;
-  }
-  for (std::size_t f = 0; f < balance.faces().size(); ++f) {
-    const Face& face = balance.faces()[f];
-    const double drop = balance.nodes()[face.a].wall - balance.nodes()[face.b].wall;
-    const FaceFlow& flow = balance.flows()[f];
-    o.power_film += flow.K / flow.density * drop * drop + flow.recirculation;
-  }
-}
-
-void observe_forces(const FilmWrench& wrench, const Eigen::Vector2d& e, FilmObservables& o) {
+void observe_forces(const FilmWrench& wrench, const Eigen::Vector2d& e, const Eigen::Vector2d& tilt,
+                    FilmObservables& o) {
   o.force_pressure = wrench.pressure().tail<3>();
   o.force_shear = wrench.shear().tail<3>();
   o.force_asperity = wrench.asperity().tail<3>();
-  // The journal feels the negative wrench; about its own axis at e that is -M_z + (e x F)_z.
+  // The journal feels the negative wrench; about its own axis through e along (t_x, t_y, 1) that is -M_z - t . M +
+  // (e x F)_z.
   const Vector6& on_shell = o.wrench_on_shell = wrench.total();
   o.torque_shell = on_shell[2];
-  o.torque_journal = -on_shell[2] + e.x() * on_shell[4] - e.y() * on_shell[3];
+  o.torque_journal = -on_shell[2] - tilt.dot(on_shell.head<2>()) + e.x() * on_shell[4] - e.y() * on_shell[3];
 }
 
 FilmFields fields_of(const std::vector<Node>& nodes) {
@@ -166,7 +145,7 @@ Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal) {
 }
 
 FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
-                             const Eigen::Vector2d& e, const Eigen::VectorXd& u) {
+                             const Eigen::Vector2d& e, const Eigen::VectorXd& u, const Eigen::Vector2d& tilt) {
   FlowBalance balance(model);
   balance.evaluate(motion, history, u);
   FilmWrench wrench(model);
@@ -183,10 +162,11 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
   o.h_min_features = thinnest.in_features;
   o.p_max = peak.value, o.p_max_phi = peak.phi, o.p_max_z = peak.z;
   o.p_max_node = fields.p.maxCoeff();
-  observe_forces(wrench, e, o);
+  observe_forces(wrench, e, tilt, o);
   o.normal_forces = wrench.normal().value;
   observe_oil(balance, motion, u, o);
-  observe_power(balance, motion, wrench, o);
+  o.sliding_speed = std::hypot(motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell);
+  add_powers(balance, motion, wrench, o);
   return o;
 }
 

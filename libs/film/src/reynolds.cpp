@@ -47,7 +47,7 @@ struct Reynolds::Impl {
   // force (six of the wrench, then on shapes) to the residual, or the increment and the answers to the directions.
   Eigen::MatrixXd residual_ds, adjoint, answers;
   Eigen::VectorXd increment;
-  SurfaceMotion speeds;  // without fields
+  SurfaceMotion speeds;  // without gap and rate
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
 };
 
@@ -152,6 +152,7 @@ void Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& history
   SurfaceMotion& speeds = impl_->speeds;
   speeds.u_shell = motion.u_shell, speeds.u_journal = motion.u_journal;
   speeds.w_shell = motion.w_shell, speeds.w_journal = motion.w_journal;
+  speeds.shell_opening = motion.shell_opening;
   impl_->linearised = true;
 }
 

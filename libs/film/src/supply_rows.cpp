@@ -38,6 +38,13 @@ ValueAndSlope FlowBalance::excess(const HeldNode& held) const {
   return {share * u - held.u, share};
 }
 
+double FlowBalance::power_of_tie(int node) const {
+  const HeldNode* held = held_at(node);
+  if (held == nullptr || held->chi == 1) return 0;
+  const double drop = nodes_[node].wall - model_.p_cav - held->u;
+  return tie(*held).k / (nodes_[node].density * (1 - held->chi)) * drop * drop;
+}
+
 int FlowBalance::feature_at(int node) const {
   const HeldNode* held = held_at(node);
   return held == nullptr ? -1 : held->feature;

@@ -49,6 +49,8 @@ State rough_state(Cavitation cavitation, bool all_laws, bool transient, const Gr
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> uniform(0.1, 1.0);
   const int n = s.model.grid.size();
+  s.motion.shell_opening.resize(n);  // as much as the gap itself
+  for (int i = 0; i < n; ++i) s.motion.shell_opening[i] = 20e-6 * uniform(generator);
   s.u.resize(n);
   const double P0 = fill_scale(s.model);
   for (int i = 0; i < n; ++i)
@@ -168,6 +170,7 @@ constexpr double tolerance = 1e3 * d * d + 10 * std::numeric_limits<double>::eps
 SurfaceMotion moved(const SurfaceMotion& motion, const MotionDirection& direction, double step) {
   SurfaceMotion m = motion;
   if (direction.g.size()) m.g += step * direction.g;
+  if (direction.shell_share != 0) m.shell_opening += step * direction.shell_share * direction.g;
   if (direction.g_rate.size()) m.g_rate += step * direction.g_rate;
   m.u_shell += step * direction.u_shell;
   m.u_journal += step * direction.u_journal;
@@ -183,6 +186,7 @@ std::vector<std::pair<std::string, MotionDirection>> directions(const State& s) 
   const Eigen::VectorXd random = Eigen::VectorXd::Random(s.model.grid.size());
   const double speed = s.model.R * 300;
   return {{"gap", {.g = 1e-6 * random, .g_rate = {}}},
+          {"gap by the shell's surface", {.g = 1e-6 * random, .g_rate = {}, .shell_share = 1}},
           {"gap rate", {.g = {}, .g_rate = 0.02 * random}},
           {"u_shell", {.g = {}, .g_rate = {}, .u_shell = speed}},
           {"u_journal", {.g = {}, .g_rate = {}, .u_journal = speed}},

@@ -62,19 +62,20 @@ struct SolvedFilm {
 };
 
 inline SolvedFilm solve_cold(const FilmModel& model, const SurfaceMotion& motion, const Eigen::Vector2d& e,
-                             const FilmSolveOptions& options = {}) {
+                             const FilmSolveOptions& options = {},
+                             const Eigen::Vector2d& tilt = Eigen::Vector2d::Zero()) {
   Reynolds reynolds(model);
   SolvedFilm film;
   film.u = Eigen::VectorXd::Zero(model.grid.size());
   film.summary = solve_film(reynolds, motion, {}, options, film.u);
   film.wrench = reynolds.wrench_on_shell();
   film.fields = film_fields(model, motion, film.u);
-  film.observed = observe_film(model, motion, {}, e, film.u);
+  film.observed = observe_film(model, motion, {}, e, film.u, tilt);
   return film;
 }
 
 inline SolvedFilm solve_cold(const FilmModel& model, const Journal& journal, const FilmSolveOptions& options = {}) {
-  return solve_cold(model, surfaces(model, journal), journal.e, options);
+  return solve_cold(model, surfaces(model, journal), journal.e, options, journal.tilt);
 }
 
 /// A table with one header line; lines starting with # are comments. Cells are text.

@@ -1,17 +1,20 @@
 #pragma once
 
+#include <cmath>
 #include <variant>
 
 #include "hersey/film/value_and_slope.h"
 
 namespace hersey::film {
 
-// Each law gives rho/rho0 and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa]. A new law is a
-// struct like these and its name in DensityLaw.
+// Each law gives rho/rho0 and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa], and the work
+// that brings a unit of volume (at rho0) to p, the integral of dp rho0/rho [Pa]. A new law is a struct like these and
+// its name in DensityLaw.
 
 /// rho = rho0.
 struct Incompressible {
   [[nodiscard]] ValueAndSlope ratio(double /*p*/) const { return {1, 0}; }
+  [[nodiscard]] double work(double p) const { return p; }
 };
 
 /// rho = rho0 (1 + rise p/(1 + saturation p)).
@@ -22,6 +25,10 @@ struct DowsonHigginson {
   [[nodiscard]] ValueAndSlope ratio(double p) const {
     const double d = 1 + saturation * p;
     return {1 + rise * p / d, rise / (d * d)};
+  }
+  [[nodiscard]] double work(double p) const {
+    const double sum = rise + saturation;
+    return sum > 0 ? (saturation * p + rise * std::log1p(sum * p) / sum) / sum : p;
   }
 };
 

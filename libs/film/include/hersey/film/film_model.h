@@ -31,6 +31,12 @@ struct Lubricant {
   return std::visit([&](const auto& law) { return law.ratio(p); }, oil.density_law);
 }
 
+/// Work per unit of volume at rho0 that brings oil from the cavitation pressure to one above it by p [Pa].
+[[nodiscard]] inline double oil_work(const Lubricant& oil, double p) {
+  if (p < 0) return p;
+  return std::visit([&](const auto& law) { return law.work(p); }, oil.density_law);
+}
+
 enum class Cavitation {
   guembel,          ///< full film solved, negative pressures dropped from the forces (half Sommerfeld)
   reynolds,         ///< p >= p_cav with dp/dn = 0 at rupture; mass is lost where the film re-forms
@@ -105,6 +111,9 @@ struct FilmModel {
 struct SurfaceMotion {
   Eigen::VectorXd g;       ///< gap of the undeformed surfaces at the nodes [m], shape (grid.size())
   Eigen::VectorXd g_rate;  ///< d g/dt at fixed grid points [m/s], same shape
+  /// How far the shell's surface lies outside its cylinder [m], same shape; empty: nowhere. Its share of what g differs
+  /// from a gap of two cylinders; the pressure on its slopes turns and pushes the shell (film.66).
+  Eigen::VectorXd shell_opening = {};
   double u_shell = 0;      ///< circumferential speed of the shell surface (y = 0) [m/s]
   double u_journal = 0;    ///< circumferential speed of the journal surface (y = h) [m/s]
   double w_shell = 0;      ///< axial speed of the shell surface [m/s]

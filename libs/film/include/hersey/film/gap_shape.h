@@ -21,6 +21,8 @@ class GapShape {
 
   /// Everything that stays where it is when the journal turns [m], shape (grid.size()).
   [[nodiscard]] const Eigen::VectorXd& still() const { return still_; }
+  /// The share of it that is cut out of the shell [m], same shape.
+  [[nodiscard]] const Eigen::VectorXd& of_shell() const { return of_shell_; }
 
   [[nodiscard]] bool profiles_turn() const { return !turning_profiles_.empty(); }
   [[nodiscard]] bool is_round() const { return !profiles_turn() && still_.isZero(0); }
@@ -35,7 +37,7 @@ class GapShape {
 
   FilmModel model_;
   std::unique_ptr<GridGeometry> geometry_;
-  Eigen::VectorXd still_;
+  Eigen::VectorXd still_, of_shell_;
   std::vector<Profile> turning_profiles_;
 };
 

@@ -41,11 +41,15 @@ struct FilmObservables {
   double sliding_speed = 0;                             ///< of the surfaces against each other [m/s], >= 0
   double power_film = 0;                                ///< viscous dissipation: Couette and Poiseuille [W]
   double power_asperity = 0;                            ///< boundary friction [W]
-  double flow_left = 0, flow_right = 0;                 ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]
-  double flow_supply = 0;                               ///< oil entering through supply line and features [m^3/s]
-  Eigen::VectorXd flow_features;                        ///< oil entering through each feature [m^3/s]
-  double storage_rate = 0;                              ///< rate of change of the oil volume in the film [m^3/s]
-  double oil_volume = 0;                                ///< integral of theta h [m^3]
+  double power_stored = 0;  ///< rate of the energy in liner, asperities and compressed oil, and work against p_cav [W]
+  double power_oil = 0;     ///< taken along by oil that leaves over the edges less what feeds bring [W]
+  /// All of the power that the bodies put into the film, by integrals over its fields (theory manual, film.67) [W].
+  [[nodiscard]] double power_taken() const { return power_film + power_asperity + power_stored + power_oil; }
+  double flow_left = 0, flow_right = 0;  ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]
+  double flow_supply = 0;                ///< oil entering through supply line and features [m^3/s]
+  Eigen::VectorXd flow_features;         ///< oil entering through each feature [m^3/s]
+  double storage_rate = 0;               ///< rate of change of the oil volume in the film [m^3/s]
+  double oil_volume = 0;                 ///< integral of theta h [m^3]
   double mass_balance_error = 0;  ///< |supply - left - right - storage| over the largest of the flows and U c L [-]
   double cavitated_share =
       0;  ///< share of the area with theta < 1 or (other models) p <= p_cav without film action [-]
@@ -58,9 +62,11 @@ struct FilmObservables {
 /// [rad].
 [[nodiscard]] Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal);
 
-/// `e` is the journal centre in the grid frame at z = 0 [m] (it enters the journal's torque about its own axis).
+/// The journal's axis, about which its torque is taken, pierces z = 0 at `e` [m] in the grid's frame with the slope
+/// `tilt` [-].
 [[nodiscard]] FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion,
                                            const FilmHistory& history, const Eigen::Vector2d& e,
-                                           const Eigen::VectorXd& u);
+                                           const Eigen::VectorXd& u,
+                                           const Eigen::Vector2d& tilt = Eigen::Vector2d::Zero());
 
 }  // namespace hersey::film
