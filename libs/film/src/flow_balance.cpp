@@ -222,7 +222,7 @@ void FlowBalance::take_history(const FilmHistory& history) {
   if (!liner_rests_) w_start_ = history.w;
 }
 
-void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
+FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
   const int n = size();
   HERSEY_REQUIRE(motion.g.size() == n && motion.g_rate.size() == n, "gap and rate of shape (grid.size())");
   HERSEY_REQUIRE(u.size() == n, "u of shape (grid.size())");
@@ -237,7 +237,7 @@ void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& histo
   speed_z_ = 0.5 * (motion.w_shell + motion.w_journal);
   half_slip_phi_ = 0.5 * (motion.u_shell - motion.u_journal);
   half_slip_z_ = 0.5 * (motion.w_shell - motion.w_journal);
-  evaluate_nodes(motion, u);
+  if (const FilmDomain domain = evaluate_nodes(motion, u); !domain.is_inside()) return domain;
   for (int i = 0; i < n; ++i) {
     balance_[i] = storage(i);
     throughput_[i] = std::max(std::abs(balance_[i]), std::abs(storage_g_rate(i) * g_rate_[i]));
@@ -245,17 +245,21 @@ void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& histo
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
   replace_boundary_rows();
   largest_throughput_ = throughput_.maxCoeff();
+  return {};
 }
 
-void FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+  if (const FilmDomain domain = judge_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
     nodes_[i] = law_.state(motion.g[i], u[i], i % model_.grid.n_z);
-    HERSEY_REQUIRE(nodes_[i].h > 0, "the film has closed at node " + std::to_string(i));
+    if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
+    if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;
     if (!rough_law_) continue;
     rough_[i] = rough_law_->state(nodes_[i].h);
     if (dt_ > 0) mean_start_[i] = rough_law_->mean(motion.g[i] - dt_ * motion.g_rate[i] + w_start_[i]);
   }
+  return {};
 }
 
 void FlowBalance::add_face(std::size_t f) {

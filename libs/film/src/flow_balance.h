@@ -7,6 +7,7 @@
 
 #include "feature_cover.h"
 #include "grid_geometry.h"
+#include "hersey/film/film_domain.h"
 #include "hersey/film/reynolds.h"
 #include "node.h"
 #include "rough_gap.h"
@@ -46,8 +47,8 @@ class FlowBalance {
   [[nodiscard]] const FilmModel& model() const { return model_; }
   [[nodiscard]] int size() const { return model_.grid.size(); }
 
-  /// Nodes, flows and residual at `u`.
-  void evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
+  /// Nodes, flows and residual at `u`. Outside the domain nothing of them is to be used.
+  FilmDomain evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
   /// Values of the Jacobian at the state of the last evaluate(), in the order of the pattern.
   void assemble_jacobian();
@@ -120,7 +121,7 @@ class FlowBalance {
   [[nodiscard]] const HeldNode* held_at(int node) const;
   [[nodiscard]] Tie tie(const HeldNode& held) const;
   void take_history(const FilmHistory& history);
-  void evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
+  [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
   void add_face(std::size_t f);
   void add_rough_face(std::size_t f);
   void add_flow(std::size_t f, double theta);

@@ -6,6 +6,7 @@
 
 #include "film_wrench.h"
 #include "flow_balance.h"
+#include "hersey/core/contract.h"
 
 namespace hersey::film {
 namespace {
@@ -185,7 +186,8 @@ FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, cons
 FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
                              const Eigen::Vector2d& e, const Eigen::VectorXd& u) {
   FlowBalance balance(model);
-  balance.evaluate(motion, history, u);
+  const FilmDomain domain = balance.evaluate(motion, history, u);
+  HERSEY_REQUIRE(domain.is_inside(), text(model, domain));
   FilmWrench wrench(model);
   wrench.evaluate(balance.nodes(), balance.rough_gaps(), motion, false);
   const FilmFields fields = fields_of(balance.nodes());
