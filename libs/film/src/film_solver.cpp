@@ -84,11 +84,10 @@ int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
 }
 
 // A steady film that lacks oil somewhere lacks a supply; one in a step has been asked for more than its gap holds.
-std::string why_empty(const FilmModel& model, int node, bool is_steady) {
+std::string why_empty(const FilmModel& model, const Eigen::VectorXd& u, int node, bool is_steady) {
   const std::string lack = fmt::format(
-      "the film is starved at {}: more oil leaves there than can come (its fill "
-      "fraction would be negative); ",
-      place_of_node(model, node));
+      "the film is starved at {}: more oil leaves there than can come (the fill fraction would be {:.2g}); ",
+      place_of_node(model, node), 1 + u[node] / fill_scale(model));
   if (!is_steady) return lack + "take a shorter step";
   const bool is_fed = model.supply.kind != SupplyKind::none || !model.features.empty();
   if (is_fed) return lack + "supply it there, at a higher pressure, or by `ambient_fill` at its edges";
@@ -106,7 +105,7 @@ void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, bool
   if (summary.converged && empty >= 0) {
     summary.converged = false;
     summary.worst_node = empty;
-    summary.message = why_empty(model, empty, is_steady);
+    summary.message = why_empty(model, u, empty, is_steady);
   } else if (summary.converged && starved(model, u)) {
     summary.message =
         "the film carries no pressure: nothing supplies it above the cavitation pressure; add a supply line, "
@@ -215,6 +214,17 @@ FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, 
   return summary;
 }
 
+// Streaks of oil that nothing feeds or drains may hold any amount, less than none included: once more from none there,
+// with a factorisation, which stays near where it begins.
+FilmSolveSummary fill_from_none(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                                const FilmSolveOptions& options, Eigen::VectorXd& u) {
+  u = u.cwiseMax(-fill_scale(reynolds.model()));
+  Reynolds direct(reynolds.model());
+  FilmSolveSummary summary = solve_by_newton(direct, motion, history, options, u);
+  if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
+  return summary;
+}
+
 }  // namespace
 
 FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
@@ -244,10 +254,8 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
   }
   summary.coarse_iterations = coarse_iterations;
   if (summary.converged && emptiest_node(reynolds.model(), u) >= 0) {
-    // Streaks of oil that nothing feeds or drains may hold any amount, less than none included: from none there.
-    u = u.cwiseMax(-fill_scale(reynolds.model()));
     const int before = summary.iterations;
-    summary = solve_here(reynolds, motion, history, options, u);
+    summary = fill_from_none(reynolds, motion, history, options, u);
     summary.iterations += before;
     summary.coarse_iterations = coarse_iterations;
   }

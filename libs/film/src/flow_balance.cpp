@@ -396,7 +396,9 @@ double FlowBalance::outflow(int node) const {
   if (!edge_row(j)) return 0;
   // A film that does not conserve oil lacks some wherever it is broken: the half volumes on an edge do not draw it in.
   const int inside = j == 0 ? node + 1 : node - 1;
-  const bool broken = model_.cavitation == Cavitation::reynolds && edge_unknown(j) == 0 && u_[inside] < 0;
+  // A groove at p_cav holds u = 0 to round-off, of either sign.
+  const double round_off = 1e-9 * fill_scale(model_);
+  const bool broken = model_.cavitation == Cavitation::reynolds && edge_unknown(j) == 0 && u_[inside] < round_off;
   return broken ? 0 : -balance_[node];
 }
 
