@@ -144,8 +144,10 @@ FilmDomain enter_domain(Reynolds& reynolds, const SurfaceMotion& motion, const F
   return reynolds.linearise(motion, history, u);
 }
 
+// `least` is the smallest unknown an iterate may have [Pa].
 FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
-                                 const FilmSolveOptions& options, Eigen::VectorXd& u) {
+                                 const FilmSolveOptions& options, Eigen::VectorXd& u,
+                                 double least = -std::numeric_limits<double>::infinity()) {
   FilmSolveSummary summary;
   const Eigen::VectorXd start = u;
   Eigen::VectorXd du(u.size()), before = u;
@@ -165,6 +167,7 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
     before = u;
     u += step_share(reynolds.model(), motion, u, du) * du;
     reynolds.let_fronts_follow(u);
+    u = u.cwiseMax(least);
   }
 }
 
@@ -214,13 +217,14 @@ FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, 
   return summary;
 }
 
-// Streaks of oil that nothing feeds or drains may hold any amount, less than none included: once more from none there,
-// with a factorisation, which stays near where it begins.
+// Streaks of oil that nothing feeds or drains may hold any amount, less than none included: once more from none there
+// and never below, with a factorisation, which stays near where it begins.
 FilmSolveSummary fill_from_none(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                 const FilmSolveOptions& options, Eigen::VectorXd& u) {
-  u = u.cwiseMax(-fill_scale(reynolds.model()));
+  const double none = -fill_scale(reynolds.model());
+  u = u.cwiseMax(none);
   Reynolds direct(reynolds.model());
-  FilmSolveSummary summary = solve_by_newton(direct, motion, history, options, u);
+  FilmSolveSummary summary = solve_by_newton(direct, motion, history, options, u, none);
   if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
   return summary;
 }
@@ -247,7 +251,7 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
     summary = solve_here(reynolds, motion, history, options, u);
     summary.iterations += before;
   }
-  if (!summary.converged && options.solver != FilmSolver::sor) {
+  if (!summary.converged && options.solver != FilmSolver::sor && options.max_iterations > patience) {
     const int before = summary.iterations;
     summary = rescue_by_sor(reynolds, motion, history, options, start, u);
     summary.iterations += before;

@@ -244,7 +244,10 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   }
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
   replace_boundary_rows();
-  largest_throughput_ = throughput_.maxCoeff();
+  // A film without oil has no throughput to measure by: a thousandth of what its surfaces would carry in a full gap.
+  const double carried =
+      model_.c * std::max(std::abs(speed_phi_) * geometry_.mean_dz, std::abs(speed_z_) * geometry_.mean_dx);
+  largest_throughput_ = std::max(throughput_.maxCoeff(), 1e-3 * carried);
   return {};
 }
 
