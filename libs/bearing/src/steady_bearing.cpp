@@ -36,8 +36,8 @@ constexpr double kForceFloor = 1e-6;
 // Positions tried on the way from the start to the bearing's centre, where the film at the start cannot be found.
 constexpr int kMostStarts = 5;
 
-// Share of the linearisations that the paths from the start may take; the rest is for the search from the inside out.
-constexpr double kShareOfPaths = 0.6;
+// Linearisations that the search from the inside out may take beside those of the paths from the start, as a share.
+constexpr double kShareOfSearch = 0.6;
 
 // The search from the inside out: turns until the force points along the load, the angle at which it does [rad], steps
 // outwards, and halvings of the last one.
@@ -95,9 +95,9 @@ class Search {
           "and no supply let no oil in, there is no other film";
       return summary_;
     }
-    budget_ = static_cast<int>(kShareOfPaths * options_.max_linearisations);
-    const bool found = together() || from_here() || raise_load();
     budget_ = options_.max_linearisations;
+    const bool found = together() || from_here() || raise_load();
+    budget_ = summary_.iterations + static_cast<int>(kShareOfSearch * options_.max_linearisations);
     if (!found && !from_inside_out()) {
       summary_.message = why_not();
       return summary_;
@@ -154,7 +154,7 @@ class Search {
   };
 
   [[nodiscard]] std::string why_not() const {
-    if (!limit_.why.empty() && limit_.force < point_.load->norm()) {
+    if (!limit_.why.empty() && 0 < limit_.force && limit_.force < point_.load->norm()) {
       return fmt::format(
           "no equilibrium: along this load of {:.4g} N the film bears at most about {:.4g} N, at eccentricity ratio "
           "{:.4f}; further out {}{}",
@@ -447,7 +447,7 @@ class Search {
       if (is_reached(bounds)) return true;
       look_at(0.5 * (bounds.inner + bounds.outer), bounds);
     }
-    if (bounds.outer == 0) limit_.why = "the surfaces all but touch";
+    if (bounds.outer == 0 && !is_tired()) limit_.why = "the surfaces all but touch";
     return is_reached(bounds);
   }
 

@@ -206,13 +206,12 @@ FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, 
   sweeps.rtol = std::max(options.rtol, rescue_rtol);
   sweeps.max_iterations = rescue_sweeps;
   Eigen::VectorXd near = start;
-  int iterations = 0;
-  start_on_coarser_grid(reynolds, motion, history, sweeps, iterations, near);
+  int swept = 0;  // sweeps are no iterations of Newton's method
+  start_on_coarser_grid(reynolds, motion, history, sweeps, swept, near);
   (void)solve_by_sor(reynolds, motion, history, sweeps, near);
   FilmSolveOptions briefly = options;
   briefly.max_iterations = std::min(options.max_iterations, patience);
-  FilmSolveSummary summary = solve_by_newton(reynolds, motion, history, briefly, near);
-  summary.iterations += iterations;
+  const FilmSolveSummary summary = solve_by_newton(reynolds, motion, history, briefly, near);
   u = near;
   return summary;
 }
