@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "exit_code.h"
+#include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/version.h"
 #include "hersey/results/error.h"
@@ -262,7 +263,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "hersey: {}\n", error.what());
     return cli::kWrongInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hersey: {}\n", error.what());
+    fmt::print(stderr, "hersey: {}\n", error_text(error));
     return cli::kFailed;
   }
 }

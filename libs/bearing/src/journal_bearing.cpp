@@ -16,9 +16,6 @@ namespace {
 // Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
 constexpr double kDirectionFloor = 1e-6;
 
-// exp(20) = 5e8: no oil, and far from overflow.
-constexpr double kLargestExponent = 20;
-
 // How many of the parameters act. The angles come last: that of the widest gap matters only where the supply follows
 // it, the journal's only where it carries features or a shape of its own.
 Eigen::Index acting_parameters(const film::FilmModel& model, bool journal_deforms) {
@@ -103,15 +100,16 @@ void JournalBearing::report_contact() {
   domain_error_ += tilt * model().L / 2 > model().c
                        ? fmt::format(", its axis {:.3g} deg off the bore's)", std::atan(tilt) * 180 / std::numbers::pi)
                        : ")";
+  if (model().asperities.model != film::AsperityModel::none) return;
+  domain_error_ += model().compliance > 0 ? "; where no film pressure parts them, as at the edges, only `asperities` do"
+                                          : "; smooth surfaces have nothing but the film between them: `asperities` "
+                                            "let them touch";
 }
 
-// Pressures from a linear prediction may lie beyond any that a viscosity law means; and where the undeformed surfaces
-// overlap, pressure alone holds them apart.
-bool JournalBearing::is_sensible() const {
-  const double largest = u_.maxCoeff();
-  if (!std::isfinite(largest) || film::log_viscosity_ratio(model().lubricant, largest).value > kLargestExponent)
-    return false;
-  return smallest_gap() > 0 || film::film_fields(model(), surfaces_, u_).h.minCoeff() > 0;
+// A film that closes where the undeformed surfaces overlap is a journal that touches.
+void JournalBearing::report(const film::FilmDomain& domain) {
+  if (domain.trouble == film::FilmDomain::Trouble::closed && smallest_gap() <= 0) return report_contact();
+  domain_error_ = film::text(model(), domain);
 }
 
 // The film of a freshly filled gap; its liner has yielded to it and rests.
@@ -123,9 +121,10 @@ void JournalBearing::fill_gap() {
   history_.gap.resize(0);
   history_.phi_journal = surfaces_.phi_journal;
   started_ = false;
-  if (!is_sensible()) return report_contact();
   const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
-  if (!summary.converged) domain_error_ = "no film at the start: " + summary.message;
+  if (summary.converged) return;
+  if (!summary.domain.is_inside()) return report(summary.domain);
+  domain_error_ = "no film at the start: " + summary.message;
 }
 
 void JournalBearing::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {
@@ -147,7 +146,15 @@ void JournalBearing::follow_surfaces() {
     if (angle < acting_) parameter_change_[angle] = std::remainder(parameter_change_[angle], 2 * std::numbers::pi);
   reynolds_.follow(parameter_change_, du_);
   u_ = u_linearised_ + du_;
-  if (!is_sensible()) u_ = u_linearised_;
+}
+
+// Pressures from a linear prediction may lie beyond any film: then the film stays as it was while the surfaces move.
+film::FilmDomain JournalBearing::linearise_film() {
+  follow_surfaces();
+  const film::FilmDomain domain = reynolds_.linearise(surfaces_, history_, u_);
+  if (domain.is_inside() || !linearised_) return domain;
+  u_ = u_linearised_;
+  return reynolds_.linearise(surfaces_, history_, u_);
 }
 
 // The journal takes the negative of the wrench that the shell takes.
@@ -200,9 +207,7 @@ void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tange
 }
 
 void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
-  follow_surfaces();
-  if (!is_sensible()) return report_contact();
-  reynolds_.linearise(surfaces_, history_, u_);
+  if (const film::FilmDomain domain = linearise_film(); !domain.is_inside()) return report(domain);
   internal_residual_ = reynolds_.relative_residual();
   parameters_linearised_ = parameters_;
   u_linearised_ = u_;
@@ -219,16 +224,16 @@ void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& 
 void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
   // The first surfaces of a step are a prediction, no answer to any wrench yet.
   if (answered_) {
-    if (!is_sensible()) return report_contact();
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
     iterations_ += summary.iterations;
     ++exchanges_;
+    if (!summary.domain.is_inside()) return report(summary.domain);
     if (!summary.converged) {
       domain_error_ = summary.message;
       return;
     }
     // One more Newton increment: the exchange would otherwise see the film's tolerance as a change of the wrench.
-    reynolds_.linearise(surfaces_, history_, u_);
+    if (const film::FilmDomain at = reynolds_.linearise(surfaces_, history_, u_); !at.is_inside()) return report(at);
     increment_film(response);
     u_ += du_;
     // Moments over the radius, so that all entries are forces of comparable size.

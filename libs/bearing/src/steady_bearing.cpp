@@ -17,12 +17,6 @@
 namespace hersey::bearing {
 namespace {
 
-// No film has such a pressure above that of cavitation [Pa]; its deformation would not be a finite number for long.
-constexpr double kLargestPressure = 1e11;
-
-// exp(20) = 5e8 times the viscosity: no oil, and far from overflow.
-constexpr double kLargestExponent = 20;
-
 // One Newton step may thin the film at a node to this share of itself, an elastic one may thicken it by this factor,
 // and turn the journal by this angle [rad].
 constexpr double kThinnest = 0.3, kThickest = 5, kLargestTurn = 0.3;
@@ -41,6 +35,17 @@ constexpr double kForceFloor = 1e-6;
 
 // Positions tried on the way from the start to the bearing's centre, where the film at the start cannot be found.
 constexpr int kMostStarts = 5;
+
+// Linearisations that the search from the inside out may take beside those of the paths from the start, as a share.
+constexpr double kShareOfSearch = 0.6;
+
+// The search from the inside out: turns until the force points along the load, the angle at which it does [rad], steps
+// outwards, and halvings of the last one.
+constexpr int kMostTurns = 8, kMostStepsOut = 16, kMostHalvings = 9;
+constexpr double kAligned = 0.02;
+
+// Beyond this turn the film at the last position is no start for the next [rad].
+constexpr double kFreshTurn = 0.2;
 
 using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
@@ -68,14 +73,12 @@ class Search {
   // The film at `e`, from the film there is.
   [[nodiscard]] bool film_at(const Eigen::Vector2d& e) {
     e_ = e;
+    if (!stands_inside()) return false;
     motion_ = steady_surfaces(model_, point_, e);
-    if (!is_sensible(u_)) u_.setZero();
-    if (!is_sensible(u_)) return false;
     const film::FilmSolveSummary solved = film::solve_film(reynolds_, motion_, history_, film_options_, u_);
     (options_.solver != film::FilmSolver::sor ? summary_.iterations : summary_.film_iterations) += solved.iterations;
     summary_.message = solved.message;
-    if (solved.converged) linearise();
-    return solved.converged;
+    return solved.converged && linearise();
   }
 
   [[nodiscard]] SteadySummary at_given_position() {
@@ -92,7 +95,10 @@ class Search {
           "and no supply let no oil in, there is no other film";
       return summary_;
     }
-    if (!together() && !from_here() && !raise_load()) {
+    budget_ = options_.max_linearisations;
+    const bool found = together() || from_here() || raise_load();
+    budget_ = summary_.iterations + static_cast<int>(kShareOfSearch * options_.max_linearisations);
+    if (!found && !from_inside_out()) {
       summary_.message = why_not();
       return summary_;
     }
@@ -129,7 +135,31 @@ class Search {
   }
 
  private:
+  // A position whose force points along the load.
+  struct Position {
+    double r = 0, angle = 0;  // from the bearing's centre [m, rad]
+    Eigen::VectorXd u;
+  };
+
+  // Of the search from the inside out: the load is too much at `inner`, and at `outer` it is not, or there is no film.
+  struct Bounds {
+    double angle = 0, inner = 0, outer = 0;
+    std::optional<Position> strong = {};  // the last one with more force than the load
+  };
+
+  // The largest force along the load that has been seen, where, and what is further out.
+  struct Limit {
+    double force = 0, r = 0;
+    std::string why;
+  };
+
   [[nodiscard]] std::string why_not() const {
+    if (!limit_.why.empty() && 0 < limit_.force && limit_.force < point_.load->norm()) {
+      return fmt::format(
+          "no equilibrium: along this load of {:.4g} N the film bears at most about {:.4g} N, at eccentricity ratio "
+          "{:.4f}; further out {}{}",
+          point_.load->norm(), limit_.force, limit_.r / model_.c, limit_.why, what_to_try());
+    }
     std::string text = fmt::format(
         "no equilibrium found in {} linearisations: force off by {:.2g} of the load at eccentricity ratio {:.4f}",
         summary_.iterations, summary_.force_error, e_.norm() / model_.c);
@@ -141,7 +171,14 @@ class Search {
     return model_.compliance > 0 ? text : text + "; more than the asperities of rigid surfaces bear: give a compliance";
   }
 
-  [[nodiscard]] bool is_tired() const { return summary_.iterations >= options_.max_linearisations; }
+  [[nodiscard]] std::string what_to_try() const {
+    const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
+    std::string text = is_smooth ? "; `asperities` would bear what the film does not" : "";
+    if (model_.compliance == 0) text += "; surfaces that give way (`compliance`) spread the pressure";
+    return text;
+  }
+
+  [[nodiscard]] bool is_tired() const { return summary_.iterations >= budget_; }
 
   [[nodiscard]] bool bears_nothing() const {
     const film::FilmFields fields = film::film_fields(model_, motion_, u_);
@@ -150,11 +187,12 @@ class Search {
            model_.asperities.model == film::AsperityModel::none;
   }
 
-  void linearise() {
-    reynolds_.linearise(motion_, history_, u_);
+  [[nodiscard]] bool linearise() {
+    if (!reynolds_.linearise(motion_, history_, u_).is_inside()) return false;
     reynolds_.newton_increment(du0_);
     force_ = (reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du0_)).segment<2>(3);
     ++summary_.iterations;
+    return true;
   }
 
   // Answers du and dW (total derivatives) to the first `count` directions; a supply at the widest gap follows e.
@@ -232,7 +270,7 @@ class Search {
   [[nodiscard]] bool keeps_film(const Step& step, double share) const {
     const film::SurfaceMotion motion = steady_surfaces(model_, point_, e_ + share * step.de);
     const Eigen::VectorXd u = u_ + share * step.du;
-    if (!has_sensible_pressure(u)) return false;
+    if (!film::judge_unknowns(model_, u).is_inside()) return false;
     const Eigen::VectorXd before = film::film_fields(model_, motion_, u_).h;
     const Eigen::VectorXd after = film::film_fields(model_, motion, u).h;
     if (!(after.array() >= kThinnest * before.array()).all()) return false;
@@ -243,15 +281,8 @@ class Search {
     return smallest_gap(model_, parameters_of(model_, point_, e));
   }
 
-  [[nodiscard]] bool has_sensible_pressure(const Eigen::VectorXd& u) const {
-    return u.allFinite() && u.maxCoeff() < kLargestPressure &&
-           film::log_viscosity_ratio(model_.lubricant, u.maxCoeff()).value <= kLargestExponent;
-  }
-
-  [[nodiscard]] bool is_sensible(const Eigen::VectorXd& u) const {
-    if (!has_sensible_pressure(u)) return false;
-    return gap_at(e_) > 0 || (model_.compliance > 0 && film::film_fields(model_, motion_, u).h.minCoeff() > 0);
-  }
+  // Whether the journal stands inside its bore, as far as a rigid one must.
+  [[nodiscard]] bool stands_inside() const { return model_.compliance > 0 || gap_at(e_) > 0; }
 
   // A supply at the widest gap turns with the position: after a large turn the film is another one.
   [[nodiscard]] bool turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
@@ -281,13 +312,11 @@ class Search {
       const Eigen::Vector2d from = e_;
       e_ += step.de;
       motion_ = steady_surfaces(model_, point_, e_);
-      const Eigen::VectorXd u = u_ + step.du;
-      if (is_sensible(u) && !turns_far(from, e_)) {
-        u_ = u;
-        linearise();
-      } else if (!film_at(e_)) {
-        return false;
-      }
+      const Eigen::VectorXd film = u_;
+      u_ += step.du;
+      if (stands_inside() && !turns_far(from, e_) && linearise()) continue;
+      u_ = film;
+      if (!film_at(e_)) return false;
     }
     return false;
   }
@@ -303,8 +332,7 @@ class Search {
       bool nearer = false;
       for (double share = 1; !nearer && share > 1e-4 && !is_tired(); share /= 2) {
         u_ = u + share * step.du;
-        motion_ = steady_surfaces(model_, point_, e + share * step.de);
-        if (!is_sensible(u_)) u_ = u;
+        if (!film::judge_unknowns(model_, u_).is_inside()) u_ = u;
         nearer = film_at(e + share * step.de) && distance_to(target) < distance;
       }
       if (!nearer) return false;
@@ -334,9 +362,10 @@ class Search {
     return size * (Eigen::Rotation2Dd(share * turn) * from);
   }
 
-  // From the force the film has at the start to the load, each equilibrium the start of the next (bearing.13).
-  [[nodiscard]] bool raise_load() {
-    if (!film_at_start()) return false;
+  [[nodiscard]] bool raise_load() { return film_at_start() && change_load(); }
+
+  // From the force the film has here to the load, each equilibrium the start of the next (bearing.13).
+  [[nodiscard]] bool change_load() {
     const Eigen::Vector2d from = force_;
     double reached = 0, step = 0.25;
     while (reached < 1 && !is_tired()) {
@@ -356,6 +385,84 @@ class Search {
     return reached >= 1;
   }
 
+  enum class Look { no_film, across, too_weak, strong };
+
+  // Turns the journal about the bearing's centre, at the distance at.r from it, until the force points along the load.
+  // A round bearing without features needs one turn: its force turns with it.
+  [[nodiscard]] Look turn_to_load(Position& at) {
+    const Eigen::Vector2d& W = *point_.load;
+    double turn = std::numbers::pi;
+    for (int k = 0; k < kMostTurns && !is_tired(); ++k) {
+      if (std::abs(turn) > kFreshTurn) u_.setZero();
+      if (!film_at(at.r * Eigen::Vector2d(std::cos(at.angle), std::sin(at.angle)))) return Look::no_film;
+      turn = std::atan2(force_.x() * W.y() - force_.y() * W.x(), force_.dot(W));
+      if (std::abs(turn) < kAligned) {
+        at.u = u_;
+        return force_.norm() < W.norm() ? Look::too_weak : Look::strong;
+      }
+      at.angle += turn;
+    }
+    return Look::across;
+  }
+
+  // Distances from the centre to look at: each halves what is left of the clearance; surfaces that give way overlap
+  // beyond it by up to a few times what the load deforms them.
+  [[nodiscard]] std::vector<double> distances() const {
+    const double room = std::max(0.1, 1 - 0.5 * model_.L * point_.tilt.norm() / model_.c) * model_.c;
+    const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
+    std::vector<double> result;
+    for (double gap = 0.5; gap > (is_smooth ? 1 : 0.1) * kTouching; gap /= 2) result.push_back((1 - gap) * room);
+    const double depth = model_.compliance * point_.load->norm() / (model_.R * model_.L);
+    for (double share = 0.25; depth > 0 && share <= 8; share *= 2) result.push_back(room + share * depth);
+    return result;
+  }
+
+  // One look further out, or half-way between the last two: moves one of the bounds, and keeps what has been borne.
+  void look_at(double r, Bounds& bounds) {
+    Position at{r, bounds.angle, {}};
+    const Look seen = turn_to_load(at);
+    if (seen == Look::across) return;
+    if (seen == Look::no_film) {
+      limit_.why = summary_.message;
+      bounds.outer = r;
+      return;
+    }
+    if (force_.norm() > limit_.force) limit_.force = force_.norm(), limit_.r = r;
+    bounds.angle = at.angle;
+    (seen == Look::strong ? bounds.outer : bounds.inner) = r;
+    if (seen == Look::strong) bounds.strong = at;
+  }
+
+  // The force of a film grows the further out the journal stands, without bound or up to where the film ends: outwards
+  // until it reaches the load, then halving the last step, then Newton (bearing.24). What has been seen on the way
+  // says, where the load is not found, what the film bears.
+  [[nodiscard]] bool from_inside_out() {
+    const Eigen::Vector2d start = ocvirk_position(model_, point_);
+    Bounds bounds{.angle = std::atan2(start.y(), start.x())};
+    for (const double r : distances()) {
+      if (bounds.outer > 0 || is_tired()) break;
+      look_at(r, bounds);
+    }
+    for (int k = 0; k < kMostHalvings && bounds.outer > 0 && !is_tired(); ++k) {
+      if (is_reached(bounds)) return true;
+      look_at(0.5 * (bounds.inner + bounds.outer), bounds);
+    }
+    if (bounds.outer == 0 && !is_tired()) limit_.why = "the surfaces all but touch";
+    return is_reached(bounds);
+  }
+
+  // Newton from the last position whose force exceeds the load, if that is near enough; from further away the load is
+  // lowered from its force.
+  [[nodiscard]] bool is_reached(const Bounds& bounds) {
+    if (!bounds.strong) return false;
+    const Position& from = *bounds.strong;
+    const auto back = [&] {
+      u_ = from.u;
+      return film_at(from.r * Eigen::Vector2d(std::cos(from.angle), std::sin(from.angle)));
+    };
+    return (back() && in_turn(*point_.load)) || (back() && change_load());
+  }
+
   const film::FilmModel& model_;
   const OperatingPoint& point_;
   const SteadyOptions& options_;
@@ -368,6 +475,8 @@ class Search {
   Eigen::VectorXd u_, du0_;
   Eigen::MatrixXd du_de_;
   SteadySummary summary_;
+  Limit limit_;
+  int budget_ = 0;  // of linearisations
 };
 
 }  // namespace

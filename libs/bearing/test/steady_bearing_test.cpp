@@ -327,6 +327,69 @@ TEST_CASE("FilmWithoutOil_IsToldSo") {
   CHECK_FALSE(summary.message.empty());
 }
 
+// Between two feeding grooves, Barus' oil in tension and a shell that turns faster than the journal: Newton's trials
+// pass through any pressure.
+TEST_CASE("TrialsThroughAbsurdPressures_EndInAnEquilibrium") {
+  film::FilmModel model{.R = 0.0203825, .L = 0.012418, .c = 3.4416e-5, .grid = {96, 13}};
+  model.lubricant = {.mu0 = 0.010513, .viscosity_law = film::Barus{2e-8}};
+  model.cavitation = film::Cavitation::guembel;
+  model.p_cav = -1e5;
+  for (const double angle : {1.617, -178.4})
+    model.features.push_back({.phi = angle * pi / 180, .arc = 15 * pi / 180, .length = 0.7 * model.L, .pressure = 5e5});
+  model.asperities = {film::AsperityModel::greenwood_tripp_fit, 8.591e-7, 3e-3, 57e9, 0.1};
+  OperatingPoint point = under_load(279.639, -14.72 * pi / 180, 65.666);
+  point.shell_speed = 87.4976;
+  const SteadyState state = solved(scaled_for(model, point), point);
+  CHECK((state.load - *point.load).norm() <= 1e-8 * 279.639);
+  CHECK(state.film.p_max < 1e9);
+}
+
+// The hole's pressure alone bears half the load; the rest comes from a wedge far out.
+TEST_CASE("LoadBeyondTheForceOfASupply_IsFoundFurtherOut") {
+  film::FilmModel model{.R = 0.0130955, .L = 0.03887, .c = 2.5039e-5, .grid = {60, 25}};
+  model.lubricant = {.mu0 = 0.0049463, .viscosity_law = film::Barus{3e-8}};
+  model.features.push_back({.shape = film::FeatureShape::ellipse,
+                            .phi = -102.4 * pi / 180,
+                            .arc = 0.0029384 / model.R,
+                            .length = 0.0058769,
+                            .pressure = 5e5});
+  const OperatingPoint point = under_load(204.634, -95.72 * pi / 180, 9.99075);
+  const SteadyState state = solved(scaled_for(model, point), point);
+  CHECK((state.load - *point.load).norm() <= 1e-8 * 204.634);
+  CHECK(state.e.norm() > 0.9 * model.c);
+}
+
+// Weibull: Barus' oil between rigid surfaces has no film where alpha times the isoviscous pressure reaches 1.
+TEST_CASE("LoadBeyondWeibullsLimit_IsToldWithWhatTheFilmBears") {
+  film::FilmModel model = flooded_film(60, 13);
+  model.lubricant.viscosity_law = film::Barus{1e-7};
+  SteadyState state;
+  const SteadySummary summary = solve_steady(model, under_load(1e5, 0.3, 100), {}, state);
+  CHECK_FALSE(summary.converged);
+  CAPTURE(summary.message);
+  CHECK(summary.message.find("the film bears at most about") != std::string::npos);
+  CHECK(summary.message.find("runs away with its viscosity") != std::string::npos);
+  // Nine tenths of what it says to bear is borne.
+  const std::string said = "at most about ";
+  const double borne = std::stod(summary.message.substr(summary.message.find(said) + said.size()));
+  CHECK(borne > 100);
+  CHECK(borne < 1e5);
+  (void)solved(model, under_load(0.9 * borne, 0.3, 100));
+}
+
+// No oil anywhere: the journal stands on its asperities, as it does at rest.
+TEST_CASE("StarvedRoughBearing_StandsOnItsAsperities") {
+  for (const film::FilmSolver solver : {film::FilmSolver::newton}) {
+    film::FilmModel model{.R = 0.0229425, .L = 0.026871, .c = 2.152e-5, .grid = {48, 25}};
+    model.lubricant = {.mu0 = 0.061603, .density_law = film::DowsonHigginson{}};
+    model.asperities = {film::AsperityModel::greenwood_tripp_exact, 1.3975e-7, 3e-3, 115e9, 0.1};
+    model.roughness = {film::FlowFactors::patir_cheng, {1.25e-7, 5}, {6.25e-8, 1}};
+    const OperatingPoint point = under_load(1137.74, 53.33 * pi / 180, 61.6263);
+    const SteadyState state = solved(scaled_for(model, point), point, {.solver = solver});
+    CHECK(state.film.force_asperity.norm() > 0.9 * 1137.74);
+  }
+}
+
 TEST_CASE("GridError_CoversTheErrorOfAFinerGrid") {
   const OperatingPoint point = under_load(5000, -pi / 2, 100);
   const film::FilmModel model = flooded_film(60, 13), fine = flooded_film(480, 97);

@@ -60,7 +60,8 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
       const Node& node = balance.nodes()[k];
       const double area = geometry.weight_phi[i] * geometry.weight_z[j];
       const double work = oil_work(model.lubricant, node.wall - model.p_cav);
-      o.power_film += area * couette(balance, wrench, motion, k) + around[j] * (poiseuille(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
+      o.power_film += area * couette(balance, wrench, motion, k) +
+                      around[j] * (poiseuille(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
       if (j + 1 < grid.n_z) o.power_film += axial[j] * poiseuille(balance, balance.face_above(i, j));
       o.power_asperity += area * node.asperity * friction;
       o.power_oil += work * (balance.outflow(k) - balance.supply(k));

@@ -22,11 +22,18 @@ constexpr double most_passed_on = 0.02;
 // thickness of a compliant surface, relative to itself.
 constexpr double largest_change = 1.0;
 
-// exp(20) = 5e8 times the viscosity: no oil, and far from overflow.
-constexpr double largest_exponent = 20;
+// One step may thin the film of a compliant surface to this share of itself.
+constexpr double thinnest = 0.3;
+
+// 2^-10 of a step that closes the film is none.
+constexpr int most_halvings = 10;
 
 // Iterations after which a front is taken to be far away.
 constexpr int patience = 12;
+
+// Where Newton's method has failed, SOR sweeps up to so many thousand times, to this residual, before it tries again.
+constexpr int rescue_sweeps = 5;
+constexpr double rescue_rtol = 1e-6;
 
 // Coarser grids are solved to this residual: what is left is far below their own error.
 constexpr double coarse_rtol = 1e-4;
@@ -34,8 +41,8 @@ constexpr double coarse_rtol = 1e-4;
 // Coarser grids with fewer nodes are factorised.
 constexpr int largest_direct = 4000;
 
-/// The share of the step du that keeps viscosity and film thickness within `largest_change` at every node. Only
-/// pressures count: switching a node between full and cavitated bends no law and is never held back.
+/// The share of the step du that keeps viscosity and film thickness within `largest_change` at every node, and the film
+/// open. Only pressures count: switching a node between full and cavitated bends no law and is never held back.
 double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u,
                   const Eigen::VectorXd& du) {
   const double C = model.compliance;
@@ -49,13 +56,10 @@ double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eig
     const double exponent = log_viscosity_ratio(oil, after.p).value - log_viscosity_ratio(oil, before.p).value;
     const double relative = std::max(std::abs(exponent), C * std::abs(after.p - before.p) / before.h);
     if (relative > largest_change) share = std::min(share, largest_change / relative);
+    const double thinning = 1 - after.h / before.h;
+    if (thinning > 1 - thinnest) share = std::min(share, (1 - thinnest) / thinning);
   }
   return share;
-}
-
-bool sensible_pressure(const FilmModel& model, const Eigen::VectorXd& u) {
-  const double largest = u.maxCoeff();
-  return std::isfinite(largest) && log_viscosity_ratio(model.lubricant, largest).value <= largest_exponent;
 }
 
 std::string where(const Grid& grid, int node) {
@@ -83,14 +87,29 @@ int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
   return emptiest;
 }
 
-void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, FilmSolveSummary& summary) {
+// A steady film that lacks oil somewhere lacks a supply; one in a step has been asked for more than its gap holds.
+std::string why_empty(const FilmModel& model, const Eigen::VectorXd& u, int node, bool is_steady) {
+  const std::string lack = fmt::format(
+      "the film is starved at {}: more oil leaves there than can come (the fill fraction would be {:.2g}); ",
+      place_of_node(model, node), 1 + u[node] / fill_scale(model));
+  if (!is_steady) return lack + "take a shorter step";
+  const bool is_fed = model.supply.kind != SupplyKind::none || !model.features.empty();
+  if (is_fed) return lack + "supply it there, at a higher pressure, or by `ambient_fill` at its edges";
+  return lack +
+         "nothing supplies it: add a supply line, a hole or groove, an edge pressure above that of cavitation, or "
+         "`ambient_fill` for edges that lie in oil";
+}
+
+void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, bool is_steady, FilmSolveSummary& summary) {
+  if (!summary.domain.is_inside()) {
+    summary.message = text(model, summary.domain);
+    return;
+  }
   const int empty = emptiest_node(model, u);
   if (summary.converged && empty >= 0) {
     summary.converged = false;
     summary.worst_node = empty;
-    summary.message =
-        fmt::format("the fill fraction is negative in {}: more oil leaves than can come; take a shorter step",
-                    where(model.grid, empty));
+    summary.message = why_empty(model, u, empty, is_steady);
   } else if (summary.converged && starved(model, u)) {
     summary.message =
         "the film carries no pressure: nothing supplies it above the cavitation pressure; add a supply line, "
@@ -111,26 +130,48 @@ double linear_tolerance(double rtol, double residual, double last_residual) {
   return std::clamp(0.1 * nearer * nearer, std::min(roughest, 0.1 * rtol / residual), roughest);
 }
 
+// Linearises at the end of a step: half of it, as often as it takes, where the film closes; where a pressure runs away
+// the Jacobian is all but singular, or a law of viscosity is, and one careful step from where it began may do.
+FilmDomain enter_domain(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                        const Eigen::VectorXd& before, Eigen::VectorXd& u) {
+  FilmDomain domain = reynolds.linearise(motion, history, u);
+  if (u == before) return domain;
+  for (int k = 0; domain.trouble == FilmDomain::Trouble::closed && k < most_halvings; ++k) {
+    u = 0.5 * (before + u);
+    domain = reynolds.linearise(motion, history, u);
+  }
+  if (domain.trouble != FilmDomain::Trouble::pressure) return domain;
+  Eigen::VectorXd du;
+  (void)reynolds.linearise(motion, history, before);
+  reynolds.cautious_increment(du);
+  u = before + step_share(reynolds.model(), motion, before, du) * du;
+  return reynolds.linearise(motion, history, u);
+}
+
+// `least` is the smallest unknown an iterate may have [Pa].
 FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
-                                 const FilmSolveOptions& options, Eigen::VectorXd& u) {
+                                 const FilmSolveOptions& options, Eigen::VectorXd& u,
+                                 double least = -std::numeric_limits<double>::infinity()) {
   FilmSolveSummary summary;
   const Eigen::VectorXd start = u;
-  Eigen::VectorXd du(u.size());
+  Eigen::VectorXd du(u.size()), before = u;
   double last = std::numeric_limits<double>::infinity();
   for (;; ++summary.iterations) {
-    reynolds.linearise(motion, history, u);
+    summary.domain = enter_domain(reynolds, motion, history, before, u);
+    if (!summary.domain.is_inside()) {
+      u = start;
+      return summary;
+    }
     summary.relative_residual = reynolds.relative_residual();
     summary.worst_node = reynolds.worst_node();
     summary.converged = summary.relative_residual <= options.rtol;
     if (summary.converged || summary.iterations == options.max_iterations) return summary;
     reynolds.newton_increment(du, linear_tolerance(options.rtol, summary.relative_residual, last));
     last = summary.relative_residual;
+    before = u;
     u += step_share(reynolds.model(), motion, u, du) * du;
     reynolds.let_fronts_follow(u);
-    if (!sensible_pressure(reynolds.model(), u)) {
-      u = start;
-      return summary;
-    }
+    u = u.cwiseMax(least);
   }
 }
 
@@ -160,11 +201,42 @@ bool start_on_coarser_grid(const Reynolds& reynolds, const SurfaceMotion& motion
   return true;
 }
 
+// Where steps of Newton's method cycle (a viscosity that rises by decades under a gap that jumps), sweeps with
+// viscosity and thickness held back do not: they lead near the answer, Newton the rest of the way.
+FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                               const FilmSolveOptions& options, const Eigen::VectorXd& start, Eigen::VectorXd& u) {
+  FilmSolveOptions sweeps = options;
+  sweeps.solver = FilmSolver::sor;
+  sweeps.rtol = std::max(options.rtol, rescue_rtol);
+  sweeps.max_iterations = rescue_sweeps;
+  Eigen::VectorXd near = start;
+  int swept = 0;  // sweeps are no iterations of Newton's method
+  start_on_coarser_grid(reynolds, motion, history, sweeps, swept, near);
+  (void)solve_by_sor(reynolds, motion, history, sweeps, near);
+  FilmSolveOptions briefly = options;
+  briefly.max_iterations = std::min(options.max_iterations, patience);
+  const FilmSolveSummary summary = solve_by_newton(reynolds, motion, history, briefly, near);
+  u = near;
+  return summary;
+}
+
+// Streaks of oil that nothing feeds or drains may hold any amount, less than none included: once more from none there
+// and never below, with a factorisation, which stays near where it begins.
+FilmSolveSummary fill_from_none(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                                const FilmSolveOptions& options, Eigen::VectorXd& u) {
+  const double none = -fill_scale(reynolds.model());
+  u = u.cwiseMax(none);
+  Reynolds direct(reynolds.model());
+  FilmSolveSummary summary = solve_by_newton(direct, motion, history, options, u, none);
+  if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
+  return summary;
+}
+
 }  // namespace
 
 FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                             const FilmSolveOptions& options, Eigen::VectorXd& u) {
-  const Eigen::VectorXd start = u;
+  Eigen::VectorXd start = u;
   FilmSolveSummary summary;
   int coarse_iterations = 0;
   const bool cold = u.isZero(0);
@@ -172,6 +244,8 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
     FilmSolveOptions briefly = options;
     if (options.solver != FilmSolver::sor) briefly.max_iterations = std::min(options.max_iterations, patience);
     summary = solve_here(reynolds, motion, history, briefly, u);
+    const bool is_no_film = summary.iterations == 0 && !summary.domain.is_inside();
+    if (is_no_film) start.setZero();
   }
   if (!summary.converged) {
     u = start;
@@ -180,8 +254,19 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
     summary = solve_here(reynolds, motion, history, options, u);
     summary.iterations += before;
   }
+  if (!summary.converged && options.solver != FilmSolver::sor && options.max_iterations > patience) {
+    const int before = summary.iterations;
+    summary = rescue_by_sor(reynolds, motion, history, options, start, u);
+    summary.iterations += before;
+  }
   summary.coarse_iterations = coarse_iterations;
-  explain(reynolds.model(), u, options.rtol, summary);
+  if (summary.converged && emptiest_node(reynolds.model(), u) >= 0) {
+    const int before = summary.iterations;
+    summary = fill_from_none(reynolds, motion, history, options, u);
+    summary.iterations += before;
+    summary.coarse_iterations = coarse_iterations;
+  }
+  explain(reynolds.model(), u, options.rtol, history.dt == 0, summary);
   return summary;
 }
 

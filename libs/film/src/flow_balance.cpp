@@ -162,14 +162,14 @@ void FlowBalance::take_motion(const SurfaceMotion& motion) {
   for (std::size_t t = 0; t < relief_.tubes().size(); ++t) tube_of_[relief_.tubes()[t].face] = static_cast<int>(t);
 }
 
-void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
+FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
   const int n = size();
   HERSEY_REQUIRE(u.size() == n, "u of shape (grid.size())");
   take_history(history);
   take_motion(motion);
   find_supply(motion);
   u_ = u;
-  evaluate_nodes(motion, u);
+  if (const FilmDomain domain = evaluate_nodes(motion, u); !domain.is_inside()) return domain;
   for (int i = 0; i < n; ++i) {
     evaluate_cell(i, motion);
     balance_[i] = storage(i);
@@ -177,16 +177,23 @@ void FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& histo
   }
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
   replace_boundary_rows();
-  largest_throughput_ = throughput_.maxCoeff();
+  // A film without oil has no throughput to measure by: a thousandth of what its surfaces would carry in a full gap.
+  const double carried =
+      model_.c * std::max(std::abs(speed_phi_) * geometry_.mean_dz, std::abs(speed_z_) * geometry_.mean_dx);
+  largest_throughput_ = std::max(throughput_.maxCoeff(), 1e-3 * carried);
+  return {};
 }
 
-void FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+  if (const FilmDomain domain = judge_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
     nodes_[i] = law_.state(motion.g[i], u[i], i % model_.grid.n_z);
-    HERSEY_REQUIRE(nodes_[i].h > 0, "the film has closed at node " + std::to_string(i));
+    if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
+    if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;
     if (rough_law_) rough_[i] = rough_law_->state(nodes_[i].h);
   }
+  return {};
 }
 
 // What a row carries beside its balance: in reynolds the slack of p >= p_cav, on an open edge the outflow or
@@ -206,7 +213,9 @@ double FlowBalance::slack_u(int node) const {
 // A film that does not conserve oil lacks some wherever it is broken: the half volumes on an edge do not draw it in.
 bool FlowBalance::lets_nothing_in(int node) const {
   const int j = node % model_.grid.n_z, inside = j == 0 ? node + 1 : node - 1;
-  return model_.cavitation == Cavitation::reynolds && edge_unknown(j) == 0 && u_[inside] < 0;
+  // A groove at p_cav holds u = 0 to round-off, of either sign.
+  const double round_off = 1e-9 * fill_scale(model_);
+  return model_.cavitation == Cavitation::reynolds && edge_unknown(j) == 0 && u_[inside] < round_off;
 }
 
 double FlowBalance::outflow(int node) const {

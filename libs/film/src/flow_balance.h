@@ -8,6 +8,7 @@
 #include "feature_cover.h"
 #include "gap_interpolation.h"
 #include "grid_geometry.h"
+#include "hersey/film/film_domain.h"
 #include "hersey/film/reynolds.h"
 #include "node.h"
 #include "pocket_relief.h"
@@ -68,8 +69,8 @@ class FlowBalance {
   [[nodiscard]] const FilmModel& model() const { return model_; }
   [[nodiscard]] int size() const { return model_.grid.size(); }
 
-  /// Nodes, flows and residual at `u`.
-  void evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
+  /// Nodes, flows and residual at `u`. Outside the domain nothing of them is to be used.
+  FilmDomain evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
   /// Values of the Jacobian at the state of the last evaluate(), in the order of the pattern.
   void assemble_jacobian();
@@ -117,10 +118,10 @@ class FlowBalance {
   [[nodiscard]] bool open_row(int j) const { return open_edge(model_, j); }  ///< an edge at p_cav
   /// u at which an edge at p_cav is as full as what lies outside; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int j) const { return j == 0 ? ambient_left_ : ambient_right_; }
-  [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
-  [[nodiscard]] double supply(int node) const;   ///< oil entering from line or feature at this node [m^3/s]
+  [[nodiscard]] double outflow(int node) const;       ///< oil leaving over the edge at this node [m^3/s]
+  [[nodiscard]] double supply(int node) const;        ///< oil entering from line or feature at this node [m^3/s]
   [[nodiscard]] double power_of_tie(int node) const;  ///< dissipated between the node and what holds it [W]
-  [[nodiscard]] int feature_at(int node) const;  ///< the feature that feeds this node; -1 for none
+  [[nodiscard]] int feature_at(int node) const;       ///< the feature that feeds this node; -1 for none
   /// Whether line or feature have a part in a node's row.
   [[nodiscard]] bool is_held(int node) const { return held_index_[node] >= 0; }
   /// Share of a node's own balance in its row: 1 away from line and features, 0 on them.
@@ -229,7 +230,7 @@ class FlowBalance {
   [[nodiscard]] Tie tie(const HeldNode& held) const;
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
-  void evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
+  [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
   void evaluate_cell(int node, const SurfaceMotion& motion);
   void add_face(std::size_t f);
   [[nodiscard]] FaceGap smooth_gap(std::size_t f, double h) const;

@@ -80,8 +80,13 @@ void NodeLaw::rheology(Node& node) const {
 
 void NodeLaw::film_thickness(double g, Node& node) const {
   const double C = model_.compliance;
-  // h - g - C (p + p_a(h)) = 0 is increasing and concave in h: Newton from its left side rises to the root.
+  // h - g - C (p + p_a(h)) = 0 is increasing and concave in h: Newton from its left side rises to the root. No root
+  // above zero is sought below it, where asperities would be squeezed beyond themselves.
   node.h = g + C * node.wall;
+  if (node.h < 0 && C > 0) {
+    contact(0, node);
+    if (node.h + C * node.asperity > 0) node.h = 0;
+  }
   contact(node.h, node);
   double slope = 1 - C * node.asperity_h;
   if (C > 0 && node.asperity > 0) {
@@ -102,7 +107,7 @@ void NodeLaw::film_thickness(double g, Node& node) const {
 void NodeLaw::contact(double h, Node& node) const {
   const Asperities& a = model_.asperities;
   if (a.model == AsperityModel::none) return;
-  const double H = h / a.sigma;
+  const double H = std::max(h, 0.0) / a.sigma;  // a film of h <= 0 is closed: what it bears is nobody's to say
   const ValueAndSlope F =
       a.model == AsperityModel::greenwood_tripp_fit ? greenwood_tripp_fit(H) : greenwood_tripp_exact(H);
   node.asperity = contact_scale_ * F.value;

@@ -7,6 +7,7 @@
 #include "film_power.h"
 #include "film_wrench.h"
 #include "flow_balance.h"
+#include "hersey/core/contract.h"
 #include "thinnest_film.h"
 
 namespace hersey::film {
@@ -147,7 +148,8 @@ Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal) {
 FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
                              const Eigen::Vector2d& e, const Eigen::VectorXd& u, const Eigen::Vector2d& tilt) {
   FlowBalance balance(model);
-  balance.evaluate(motion, history, u);
+  const FilmDomain domain = balance.evaluate(motion, history, u);
+  HERSEY_REQUIRE(domain.is_inside(), text(model, domain));
   FilmWrench wrench(model);
   wrench.evaluate(balance, motion, false);
   const FilmFields fields = fields_of(balance.nodes());

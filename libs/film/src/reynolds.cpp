@@ -1,5 +1,8 @@
 #include "hersey/film/reynolds.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -28,6 +31,9 @@ struct Reynolds::Impl {
   Impl(const FilmModel& model, LinearSolver chosen) : balance(model), wrench(model), linear(chosen) {}
 
   void factorise();
+  [[nodiscard]] bool is_finite() const;
+  void find_row_sizes();
+  [[nodiscard]] bool factorise_shifted(double share);
   [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
@@ -42,30 +48,53 @@ struct Reynolds::Impl {
   solver::SparseLu lu;
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
-  Eigen::VectorXd rhs, answer;
+  Eigen::VectorXd rhs, answer, row_size;
   // Of the last condensation, n rows each: residual's derivative with the directions; then either the answer of each
   // force (six of the wrench, then on shapes) to the residual, or the increment and the answers to the directions.
   Eigen::MatrixXd residual_ds, adjoint, answers;
-  Eigen::VectorXd increment;
+  Eigen::VectorXd condensed_residual, increment;
   SurfaceMotion speeds;  // without gap and rate
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
+  bool condensed = false;
 };
+
+bool Reynolds::Impl::is_finite() const {
+  const auto values = balance.values();
+  return balance.residual().allFinite() &&
+         std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+void Reynolds::Impl::find_row_sizes() {
+  row_size.setConstant(balance.size(), std::numeric_limits<double>::min());
+  for (std::size_t k = 0; k < balance.row_index().size(); ++k) {
+    double& size = row_size[balance.row_index()[k]];
+    size = std::max(size, std::abs(balance.values()[k]));
+  }
+}
+
+bool Reynolds::Impl::factorise_shifted(double share) {
+  shifted.assign(balance.values().begin(), balance.values().end());
+  for (int i = 0; i < balance.size(); ++i) shifted[balance.diagonal_slot(i)] += share * row_size[i];
+  ++counts.factorisations;
+  return lu.factorise(shifted);
+}
 
 // A film nobody supplies leaves its fill level open, one at rest its fill fraction: the Jacobian is singular. A shift
 // of the diagonal far below any conductance then picks a solution near the present state; the residual stays exact.
+// Trials far from any answer may have conductances far above or below the model's: there the shift grows with the rows,
+// up to a diagonal that outweighs them, which can always be factorised. It is a short step then.
 void Reynolds::Impl::factorise() {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
   if (factorised) return;
   if (lu.size() == 0) lu.analyse(balance.size(), balance.column_start(), balance.row_index());
   ++counts.factorisations;
   factorised = lu.factorise(balance.values());
-  for (double shift = 1e-9 * balance.conductance_scale(); !factorised; shift *= 100) {
-    shifted.assign(balance.values().begin(), balance.values().end());
-    for (int i = 0; i < balance.size(); ++i) shifted[balance.diagonal_slot(i)] += shift;
-    ++counts.factorisations;
-    factorised = lu.factorise(shifted);
-    HERSEY_REQUIRE(factorised || shift < balance.conductance_scale(), "the film's Jacobian is not finite");
-  }
+  if (factorised) return;
+  row_size.setConstant(balance.size(), balance.conductance_scale());
+  for (double share = 1e-9; !factorised && share < 1; share *= 100) factorised = factorise_shifted(share);
+  if (!factorised) find_row_sizes();
+  for (double share = 1e-9; !factorised && share < 1e4; share *= 100) factorised = factorise_shifted(share);
+  HERSEY_REQUIRE(factorised, "a matrix of finite numbers with a heavy diagonal has a factor");
 }
 
 void Reynolds::Impl::set_up_multigrid() {
@@ -145,15 +174,18 @@ int Reynolds::size() const { return impl_->balance.size(); }
 LinearSolver Reynolds::linear_solver() const { return impl_->linear; }
 const LinearSolverCounts& Reynolds::counts() const { return impl_->counts; }
 
-void Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
-  impl_->linearised = impl_->summed = impl_->factorised = impl_->set_up = false;
-  impl_->balance.evaluate(motion, history, u);
+FilmDomain Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
+  impl_->linearised = impl_->summed = false;
+  if (const FilmDomain domain = impl_->balance.evaluate(motion, history, u); !domain.is_inside()) return domain;
   impl_->balance.assemble_jacobian();
+  if (!impl_->is_finite()) return {FilmDomain::Trouble::not_finite, -1};
+  impl_->factorised = impl_->set_up = impl_->condensed = false;
   SurfaceMotion& speeds = impl_->speeds;
   speeds.u_shell = motion.u_shell, speeds.u_journal = motion.u_journal;
   speeds.w_shell = motion.w_shell, speeds.w_journal = motion.w_journal;
   speeds.shell_opening = motion.shell_opening;
   impl_->linearised = true;
+  return {};
 }
 
 const Eigen::VectorXd& Reynolds::residual() const { return impl_->balance.residual(); }
@@ -164,6 +196,17 @@ const Vector6& Reynolds::wrench_on_shell() const { return impl_->summed_wrench()
 void Reynolds::newton_increment(Eigen::VectorXd& du, double rtol) {
   impl_->rhs = -impl_->balance.residual();
   impl_->solve(impl_->rhs, rtol, du);
+}
+
+void Reynolds::cautious_increment(Eigen::VectorXd& du) {
+  Impl& m = *impl_;
+  HERSEY_REQUIRE(m.linearised, "linearise() comes first");
+  if (m.lu.size() == 0) m.lu.analyse(m.balance.size(), m.balance.column_start(), m.balance.row_index());
+  m.find_row_sizes();
+  m.factorised = false;  // as far as the Jacobian itself is asked for
+  if (!m.factorise_shifted(1e-3)) return newton_increment(du);
+  du = -m.balance.residual();
+  m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
 }
 
 void Reynolds::let_fronts_follow(Eigen::VectorXd& u) const { film::let_fronts_follow(impl_->balance, u); }
@@ -200,6 +243,8 @@ void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen
   Impl& m = *impl_;
   HERSEY_REQUIRE(openings.rows() == size(), "openings of shape (grid.size(), shapes)");
   const FilmWrench& now = m.summed_wrench();
+  m.condensed_residual = m.balance.residual();
+  m.condensed = true;
   m.residual_ds.resize(size(), static_cast<Eigen::Index>(directions.size()));
   film.wrench_ds.resize(6, m.residual_ds.cols());
   film.Q_ds.setZero(openings.cols(), m.residual_ds.cols());
@@ -226,9 +271,9 @@ const NormalForces& Reynolds::normal_forces() const { return impl_->summed_wrenc
 
 void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du) {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(m.linearised && ds.size() == m.residual_ds.cols(), "condense() comes first");
+  HERSEY_REQUIRE(m.condensed && ds.size() == m.residual_ds.cols(), "condense() comes first");
   if (m.linear == LinearSolver::direct) {
-    du = -m.balance.residual();
+    du = -m.condensed_residual;
     du.noalias() -= m.residual_ds * ds;
     m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
   } else {
@@ -243,13 +288,14 @@ Vector6 Reynolds::wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) c
 
 void Reynolds::persist(Archive& archive) {
   impl_->lu.persist(archive);
-  if (archive.restores()) impl_->linearised = impl_->factorised = impl_->set_up = false;
+  if (archive.restores()) impl_->linearised = impl_->factorised = impl_->set_up = impl_->condensed = false;
 }
 
 void Reynolds::take_stock(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
                           OilOfStep& oil) {
   Impl& m = *impl_;
-  m.balance.evaluate(motion, history, u);
+  const FilmDomain domain = m.balance.evaluate(motion, history, u);
+  HERSEY_REQUIRE(domain.is_inside(), text(m.balance.model(), domain));
   m.balance.take_stock(oil);
   m.linearised = m.summed = m.factorised = m.set_up = false;
 }
@@ -259,7 +305,8 @@ void Reynolds::take_stock(const SurfaceMotion& motion, const FilmHistory& histor
 void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
                       OilOfStep& oil) {
   Impl& m = *impl_;
-  m.balance.evaluate(motion, history, u);
+  const FilmDomain domain = m.balance.evaluate(motion, history, u);
+  HERSEY_REQUIRE(domain.is_inside(), text(m.balance.model(), domain));
   m.rhs = -m.balance.residual();
   m.balance.subtract_defect(m.rhs);
   if (m.factorised) {

@@ -13,6 +13,9 @@ namespace {
 
 constexpr int sweeps_per_update = 20;
 
+// 2^-30 of the way is where the sweeps began.
+constexpr int most_halvings = 30;
+
 /// A node's row with everything but its own unknown known: K p + transport theta + known = 0 [m^3/s].
 struct NodeRow {
   double K = 0;
@@ -35,7 +38,8 @@ class Sor {
  private:
   void start(const Eigen::VectorXd& u);
   void place(int node, double u, int j);
-  void update_coefficients(const Eigen::VectorXd& u);
+  [[nodiscard]] FilmDomain update_coefficients(const Eigen::VectorXd& u);
+  [[nodiscard]] FilmDomain enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u);
   void sweep();
   void relax(int i, int j);
   [[nodiscard]] NodeRow row(int node) const;
@@ -92,8 +96,8 @@ void Sor::place(int node, double u, int j) {
   theta_[node] = cavitation == Cavitation::mass_conserving ? 1 + std::min(std::max(u, ambient), 0.0) / fill_ : 1;
 }
 
-void Sor::update_coefficients(const Eigen::VectorXd& u) {
-  balance_.evaluate(motion_, history_, u);
+FilmDomain Sor::update_coefficients(const Eigen::VectorXd& u) {
+  if (const FilmDomain domain = balance_.evaluate(motion_, history_, u); !domain.is_inside()) return domain;
   storage_theta_.resize(u.size());
   storage_known_.resize(u.size());
   for (int i = 0; i < balance_.size(); ++i) {
@@ -101,6 +105,18 @@ void Sor::update_coefficients(const Eigen::VectorXd& u) {
     storage_theta_[i] = node.density * balance_.storage_by_content(i);
     storage_known_[i] = balance_.storage(i) - storage_theta_[i] * node.theta;
   }
+  return {};
+}
+
+// Sweeps with the coefficients of one film may end beyond any film: half-way back, as often as it takes.
+FilmDomain Sor::enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u) {
+  FilmDomain domain = update_coefficients(u);
+  for (int halvings = 0; !domain.is_inside() && halvings < most_halvings; ++halvings) {
+    u = 0.5 * (inside + u);
+    start(u);
+    domain = update_coefficients(u);
+  }
+  return domain;
 }
 
 NodeRow Sor::row(int node) const {
@@ -177,13 +193,15 @@ FilmSolveSummary Sor::solve(const FilmSolveOptions& options, Eigen::VectorXd& u)
   Eigen::VectorXd followed = u;  // where thickness and viscosity are taken
   start(u);
   for (;; summary.iterations += sweeps_per_update) {
-    update_coefficients(u);
+    summary.domain = enter_domain(followed, u);
+    if (!summary.domain.is_inside()) return summary;
     summary.relative_residual = balance_.relative_residual();
     summary.worst_node = balance_.worst_node();
     summary.converged = summary.relative_residual <= options.rtol;
     if (summary.converged || summary.iterations >= most) return summary;
     followed += following() * (u - followed);
-    if (followed != u) update_coefficients(followed);
+    if (followed != u) summary.domain = update_coefficients(followed);
+    if (!summary.domain.is_inside()) return summary;
     for (int s = 0; s < sweeps_per_update; ++s) sweep();
     u = u_;
   }
@@ -194,8 +212,10 @@ FilmSolveSummary Sor::solve(const FilmSolveOptions& options, Eigen::VectorXd& u)
 FilmSolveSummary solve_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                               const FilmSolveOptions& options, Eigen::VectorXd& u) {
   Sor sor(reynolds.model(), motion, history);
-  const FilmSolveSummary summary = sor.solve(options, u);
-  reynolds.linearise(motion, history, u);  // leaves the object at the answer, as Newton does
+  FilmSolveSummary summary = sor.solve(options, u);
+  // Leaves the object at the answer, as Newton does.
+  if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
+  summary.converged = summary.converged && summary.domain.is_inside();
   return summary;
 }
 

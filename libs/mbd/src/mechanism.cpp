@@ -220,6 +220,11 @@ void Mechanism::Implementation::floor_scales(Eigen::VectorXd& scale) const {
     largest = std::max(largest, scale[k]);
   }
   for (int k = tree.nv; k < nv; ++k) force = std::max(force, scale[k]);
+  // All rows of one unit may be next to nothing (forces through the only axis that turns): what is left is the
+  // round-off of the other unit's terms with the mechanism's arms.
+  constexpr double round_off = 1e-6;
+  torque = std::max(torque, round_off / fraction * force * tree.length);
+  force = std::max(force, round_off / fraction * torque / tree.length);
   for (int k = 0; k < tree.nv; ++k) {
     const bool linear = tree.links[tree.columns[k].link].motion == Motion::prismatic;
     scale[k] = std::max(scale[k], fraction * (linear ? force : torque));

@@ -8,6 +8,7 @@
 
 #include "checkpoint.h"
 #include "facing_surfaces.h"
+#include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/stopwatch.h"
 #include "hersey/model/build.h"
@@ -65,7 +66,7 @@ class Simulation {
     } catch (const results::WriteError& error) {
       fail(error.what());
     } catch (const std::exception& error) {
-      fail(fmt::format("t = {:.6g} s: {}", state_.t, error.what()));
+      fail(fmt::format("t = {:.6g} s: {}", state_.t, error_text(error)));
       finish(results::Status::failed);
     }
     summary_.t_end = state_.t;

@@ -99,6 +99,20 @@ MarchedStep StepMarch::follow_drives(solver::State& state, double target) const 
   return step;
 }
 
+// No step is short enough where longer ones before it have left velocities that no motion of the machine has.
+std::string StepMarch::advice(const solver::StepSummary& solution) const {
+  if (solution.status == solver::StepStatus::domain_error) return {};
+  const model::Simulation& plan = model_.simulation;
+  std::string text = fmt::format(
+      "; steps of {:.3g} s have led here: if they are too long for the motion, give a shorter `simulation.step`, or "
+      "`step: {{tolerance: 1e-4}}`, which chooses them",
+      plan.step);
+  if (plan.spectral_radius > 0.8)
+    text += fmt::format(", or a `spectral_radius` of 0.8 in place of {:.3g}, which damps their errors",
+                        plan.spectral_radius);
+  return text;
+}
+
 MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
   MarchedStep step;
   for (;;) {
@@ -111,8 +125,8 @@ MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
     ++rejected_;
     trial_ = step.dt / 2;
     if (trial_ < model_.simulation.smallest_step) {
-      step.trouble = fmt::format("t = {:.6g} s: no convergence with a step of {:.2g} s: {}", state.t, step.dt,
-                                 step.solution.message);
+      step.trouble = fmt::format("t = {:.6g} s: no convergence with a step of {:.2g} s: {}{}", state.t, step.dt,
+                                 step.solution.message, advice(step.solution));
       return step;
     }
   }

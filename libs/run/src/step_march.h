@@ -51,6 +51,7 @@ class StepMarch {
  private:
   [[nodiscard]] MarchedStep follow_drives(solver::State& state, double target) const;
   [[nodiscard]] MarchedStep take_fixed(solver::State& state, double target);
+  [[nodiscard]] std::string advice(const solver::StepSummary& solution) const;
   [[nodiscard]] MarchedStep take_controlled(solver::State& state, double target);
   [[nodiscard]] double unit_of_steps() const;
   void start_afresh(solver::State& state);

@@ -94,10 +94,45 @@ TEST_CASE("SmallestStepReached_FailsWithReasonAndKeepsResults") {
   CHECK(summary.status == Status::failed);
   CHECK(summary.message.find("no convergence with a step of") != std::string::npos);
   CHECK(summary.message.find("worst equation") != std::string::npos);
+  CHECK(summary.message.find("too long for the motion") != std::string::npos);
   const results::Reader reader(summary.results);
   CHECK(reader.text_attribute("/", "status") == "failed");
   CHECK(reader.text_attribute("/", "message") == summary.message);
   CHECK(reader.rows() >= 1);
+}
+
+// A spatial crank with steps so long that the velocities of its closed loop leave every motion it has.
+TEST_CASE("StepsTooLongForTheMotion_AreToldSo") {
+  const TemporaryDirectory scratch;
+  const std::string text = R"(hersey: 1
+gravity: 0 0 -9.81 m/s^2
+bodies:
+  ground: {frames: {A: {origin: 0 100 120 mm}}}
+  crank:
+    mass: 0.12 kg
+    centre_of_mass: 0 0 40 mm
+    inertia: {xx: 1e-4 kg.m^2, yy: 1e-4 kg.m^2, zz: 1e-4 kg.m^2}
+    frames: {B: {origin: 0 0 80 mm}}
+  rod:
+    mass: 0.5 kg
+    centre_of_mass: -150 0 0 mm
+    inertia: {xx: 4e-4 kg.m^2, yy: 4e-3 kg.m^2, zz: 4e-3 kg.m^2}
+    frames: {B: {origin: -300 0 0 mm}}
+  slider: {mass: 2 kg, inertia: {xx: 1e-4 kg.m^2, yy: 1e-4 kg.m^2, zz: 1e-4 kg.m^2}}
+joints:
+  A: {type: revolute, between: [ground.A, crank], axis: x, initial: {rotation: 0 deg, rotation_rate: 6 rad/s}}
+  slide: {type: prismatic, between: [ground, slider], axis: x}
+  C: {type: universal, between: [slider, rod], axis: z}
+  B: {type: spherical, between: [crank.B, rod.B]}
+simulation: {duration: 5 s, step: 5 ms, spectral_radius: 0.95}
+)";
+  const Summary summary = simulate(rig(text), {.results = scratch / "run.h5"});
+  if (summary.status == Status::completed) return;
+  CAPTURE(summary.message);
+  CHECK(summary.message.find("steps of 0.005 s have led here") != std::string::npos);
+  CHECK(summary.message.find("spectral_radius") != std::string::npos);
+  const Summary damped = simulate(rig(text, {"simulation.spectral_radius=0.8"}), {.results = scratch / "damped.h5"});
+  CHECK(damped.status == Status::completed);
 }
 
 TEST_CASE("HardStep_IsHalvedAndTheRunGoesOn") {

@@ -9,6 +9,7 @@
 #include <exception>
 #include <thread>
 
+#include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
@@ -127,7 +128,7 @@ void follow_neighbours(const std::string& path, const BearingStudyOptions& optio
       try {
         solve_one(path, options, &neighbour->state, again);
       } catch (const std::exception& error) {
-        again.error = error.what();
+        again.error = error_text(error);
       }
       if (!again.solved()) continue;
       again.from_neighbour = true;
@@ -189,7 +190,7 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
       try {
         solve_one(path, options, nullptr, solutions[i]);
       } catch (const std::exception& error) {
-        solutions[i].error = error.what();
+        solutions[i].error = error_text(error);
       }
     }
   };

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "hersey/core/error_text.h"
 #include "hersey/model/read.h"
 
 namespace hersey::study {
@@ -33,7 +34,7 @@ RunResult simulate_one(const std::string& path, const model::StudyRun& run, cons
   try {
     result.summary = run::simulate(model::read(path, run.overrides), run_options);
   } catch (const std::exception& error) {
-    result.error = error.what();
+    result.error = error_text(error);
   }
   return result;
 }

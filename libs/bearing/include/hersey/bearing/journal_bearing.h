@@ -98,11 +98,12 @@ class JournalBearing final : public mbd::TwoBodyForce {
   void feed(double t);
   void report_contact();
   [[nodiscard]] double smallest_gap() const;
-  [[nodiscard]] bool is_sensible() const;
+  void report(const film::FilmDomain& domain);
   void fill_gap();
   void close_step();
   void show_oil(film::FilmObservables& film) const;
   void follow_surfaces();
+  [[nodiscard]] film::FilmDomain linearise_film();
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
   void evaluate_partitioned(mbd::ForceResponse& response);
   void condense_film(mbd::ForceResponse& response);

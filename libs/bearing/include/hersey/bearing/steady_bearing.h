@@ -24,9 +24,10 @@ struct OperatingPoint {
 };
 
 struct SteadyOptions {
-  double rtol = 1e-10;                                 ///< on the film's relative residual, and on force over load, > 0
-  int max_iterations = 40;                             ///< of one Newton iteration on film and position
-  int max_linearisations = 1000;                       ///< of the film in all, after which the search ends; > 0
+  double rtol = 1e-10;      ///< on the film's relative residual, and on force over load, > 0
+  int max_iterations = 40;  ///< of one Newton iteration on film and position
+  int max_linearisations =
+      1000;  ///< of the film on paths from the start; the search from inside out adds 0.6 of it; > 0
   film::FilmSolver solver = film::FilmSolver::newton;  ///< of the film; `sor` solves it anew at every position
   std::optional<Eigen::Vector2d> start;  ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
   Eigen::VectorXd start_film = {};       ///< the film's unknowns there; empty: none known

@@ -20,9 +20,9 @@ struct Lubricant {
   DensityLaw density_law = {};  ///< rho(p)/rho0
 };
 
-/// ln(mu/mu0) and its slope [1/Pa] at a pressure above the cavitation pressure.
+/// ln(mu/mu0) and its slope [1/Pa] at a pressure above the cavitation pressure, saturated where no oil is meant.
 [[nodiscard]] inline ValueAndSlope log_viscosity_ratio(const Lubricant& oil, double p) {
-  return std::visit([&](const auto& law) { return law.log_ratio(p, oil.mu0); }, oil.viscosity_law);
+  return saturated(std::visit([&](const auto& law) { return law.log_ratio(p, oil.mu0); }, oil.viscosity_law));
 }
 
 /// rho/rho0 and its slope [1/Pa] at a pressure above the cavitation pressure; tension does not thin the oil.

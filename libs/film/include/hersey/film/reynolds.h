@@ -7,6 +7,7 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/core/spatial.h"
+#include "hersey/film/film_domain.h"
 #include "hersey/film/film_model.h"
 
 namespace hersey::film {
@@ -82,9 +83,10 @@ class Reynolds {
 
   /// Linearises about `u`. After it the members below refer to this state; the first of them that needs the factorised
   /// Jacobian factorises it. Where the Jacobian is singular (nothing fixes the fill level) a shift far below its
-  /// entries picks an answer near `u`.
-  /// @throws ContractError on a wrong shape or a gap <= 0.
-  void linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
+  /// entries picks an answer near `u`. Says where `u` and the surfaces lie outside the domain, and is then without a
+  /// linearisation.
+  /// @throws ContractError on a wrong shape.
+  FilmDomain linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
   [[nodiscard]] const Eigen::VectorXd& residual() const;  ///< [m^3/s], shape (n)
   [[nodiscard]] double relative_residual() const;         ///< max |residual| / largest throughput of a control volume
@@ -97,6 +99,10 @@ class Reynolds {
   /// du = -J^{-1} residual, the Newton increment of the film at fixed surfaces. `multigrid` leaves `rtol` of the
   /// residual.
   void newton_increment(Eigen::VectorXd& du, double rtol = 1e-10);
+
+  /// Likewise with a thousandth of each row's largest entry added to the Jacobian's diagonal: a bounded step where the
+  /// Jacobian is all but singular and its own increment runs away.
+  void cautious_increment(Eigen::VectorXd& du);
 
   /// Empties the nodes downstream of those that the step to `u` from the last linearisation has emptied, as far as they
   /// live on their oil: fronts then follow in one iteration instead of one per node.
@@ -122,7 +128,8 @@ class Reynolds {
   [[nodiscard]] const NormalForces& normal_forces() const;
 
   /// The film's share `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
-  /// (theory manual, bearing.8). Comes after `condense` and before the next `linearise`.
+  /// (theory manual, bearing.8). Comes after `condense` and before the next `linearise` inside the domain: a trial
+  /// outside leaves what it takes.
   void follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du);
 
   /// (d wrench_on_shell / du) du.

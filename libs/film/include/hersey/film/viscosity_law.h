@@ -39,6 +39,19 @@ struct Roelands {
   }
 };
 
+/// Logarithm of the largest viscosity ratio that a law may mean: exp(20) = 5e8 times the viscosity is no oil.
+inline constexpr double largest_log_viscosity = 20;
+
+/// A logarithm beyond +-largest_log_viscosity runs smoothly into a limit half as large again (film.64). No answer lies
+/// there, but trials on the way to one do: their viscosities stay finite, and slopes are those of the values.
+[[nodiscard]] inline ValueAndSlope saturated(const ValueAndSlope& log_ratio) {
+  constexpr double room = 0.5 * largest_log_viscosity;
+  const double beyond = std::abs(log_ratio.value) - largest_log_viscosity;
+  if (!(beyond > 0)) return log_ratio;
+  const double share = std::tanh(beyond / room);
+  return {std::copysign(largest_log_viscosity + room * share, log_ratio.value), (1 - share * share) * log_ratio.slope};
+}
+
 using ViscosityLaw = std::variant<ConstantViscosity, Barus, Roelands>;
 
 }  // namespace hersey::film
