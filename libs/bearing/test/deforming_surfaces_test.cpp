@@ -190,7 +190,7 @@ BearingObservation observed(JournalBearing& bearing, mbd::RelativeMotion motion)
   mbd::ForceResponse response;
   const double dt = std::exchange(motion.dt, 0.0);
   bearing.evaluate(motion, false, response);
-  REQUIRE(bearing.domain_error().empty());
+  REQUIRE(bearing.domain_error() == "");
   bearing.accept_step(motion);
   bearing.begin_step(motion, dt);
   motion.dt = dt;

@@ -64,7 +64,9 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
                       around[j] * (poiseuille(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
       if (j + 1 < grid.n_z) o.power_film += axial[j] * poiseuille(balance, balance.face_above(i, j));
       o.power_asperity += area * node.asperity * friction;
-      o.power_oil += work * (balance.outflow(k) - balance.supply(k));
+      // What the supply feeds comes at its own pressure: the way to the node dissipates (FlowBalance::power_of_tie).
+      if (balance.is_held(k)) o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
+      o.power_oil += work * balance.outflow(k);
       o.power_stored +=
           area * (work * balance.storage(k) / balance.area(k) - (node.wall + node.asperity) * motion.g_rate[k]);
     }

@@ -106,8 +106,8 @@ TEST_CASE("MechanicalPower_IsDissipated") {
     const double bodies = -force.dot(swinging.e_rate) + film.observed.torque_journal * swinging.omega_journal +
                           film.observed.torque_shell * swinging.omega_shell;
     // Pushing oil out against the edge pressure is no dissipation: a constant pressure does no net work here, as the
-    // volume under a moving round journal does not change.
-    CHECK(film.observed.power_oil + film.observed.power_stored == doctest::Approx(0).epsilon(1e-6));
+    // volume under a moving round journal does not change. Rates are means over control volumes there and nodal here.
+    CHECK(std::abs(film.observed.power_oil + film.observed.power_stored) < 2e-4 * film.observed.power_film);
     return std::abs(bodies + film.observed.power_film) / film.observed.power_film;
   };
   CHECK(error(ShearForce::full, 60, 13) < 3e-4);
