@@ -86,6 +86,19 @@ nlohmann::json json_of(const run::Work& work) {
   return document;
 }
 
+nlohmann::json json_of(const run::EnergySummary& energy) {
+  return {{"put_in", energy.put_in},
+          {"film_dissipation", energy.films},
+          {"boundary_friction", energy.boundary_friction},
+          {"contacts", energy.contacts},
+          {"dampers", energy.dampers},
+          {"oil", energy.oil},
+          {"film_storage", energy.film_storage},
+          {"stored", energy.stored},
+          {"unexplained", energy.unexplained()},
+          {"error", energy.error()}};
+}
+
 nlohmann::json json_of(const run::Summary& summary) {
   return {{"status", word(summary.status)},
           {"message", summary.message},
@@ -98,6 +111,7 @@ nlohmann::json json_of(const run::Summary& summary) {
           {"newton_iterations", summary.newton_iterations},
           {"worst_constraint_drift", summary.worst_constraint_drift},
           {"worst_power_balance", summary.worst_power_balance},
+          {"energy", json_of(summary.energy)},
           {"wall_time", summary.wall_time},
           {"work", json_of(summary.work)}};
 }

@@ -93,8 +93,8 @@ export class SystemView {
       run.children("/bearings").flatMap((bearing) => sizes(curve(run, `/bearings/${bearing}/mass_balance_error`, bearing.replaceAll("_", " "), plain))));
     const unit = run.dataset("/power/balance_error")?.unit ?? "1";
     const display = { factor: 1, unit: unit === "1" ? "" : unit };
-    this.add(body, "balance", "Power balance of the whole system: what drives, loads, losses and storage leave unexplained.", { label: "power-balance error", unit: display.unit, log: true },
-      sizes(curve(run, "/power/balance_error", "power balance", display)));
+    this.add(body, "balance", "Residual power of the equations of motion; and what drives, loads, losses and storage leave unexplained when films count by their own integrals instead of their forces.", { label: "power", unit: display.unit, log: true },
+      [...sizes(curve(run, "/power/balance_error", "equations of motion", display)), ...sizes(curve(run, "/power/unexplained", "unexplained", display))]);
     const cost = summaryTables(run, "computing", "Computing time");
     if (cost.length > 0) body.append(h("section", { class: "summary cost", "aria-label": "Computing time" }, ...cost));
   }
@@ -102,11 +102,12 @@ export class SystemView {
   private power(body: HTMLElement): void {
     const { run } = this;
     const all = (group: string, unit: string) =>
-      run.datasetNames(group).filter((name) => name !== "balance_error")
+      run.datasetNames(group).filter((name) => name !== "balance_error" && name !== "unexplained")
         .flatMap((name) => curve(run, `${group}/${name}`, name.replaceAll("_", " "), { factor: 1, unit }))
         .filter((c) => Array.from(c.y).some((v) => v !== 0));
     this.add(body, "power-terms", "Powers, positive where they feed the system.", { label: "power", unit: "W" }, all("/power", "W"));
     this.add(body, "energy", "Stored energy.", { label: "energy", unit: "J" }, all("/energy", "J"));
+    this.add(body, "energy-since-start", "Where the energy put in since the start has gone.", { label: "energy", unit: "J" }, all("/energy/since_start", "J"));
   }
 
   private joints(body: HTMLElement): void {

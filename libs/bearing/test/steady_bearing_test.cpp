@@ -341,5 +341,30 @@ TEST_CASE("GridError_CoversTheErrorOfAFinerGrid") {
   CHECK(error.p_max < 20 * p_error);
 }
 
+// Shear stress on the journal and nothing else turns a round journal about its own axis, whatever the bore is.
+TEST_CASE("TorqueInAnOvalBore_IsThatOfTheSurface") {
+  film::FilmModel model{.R = 0.03, .L = 0.02, .c = 40e-6, .grid = {120, 41}};
+  model.supply = {film::SupplyKind::fixed_angle, 2, 1e5};
+  model.profiles = {{film::Ovality{.amplitude = 15e-6, .angle = 0.3}, film::Surface::shell}};
+  OperatingPoint point{.journal_speed = 300, .load = Eigen::Vector2d(500, -2000), .tilt = {3e-4, -1e-4}};
+  SteadyState state;
+  REQUIRE(solve_steady(scaled_for(model, point), point, {}, state).converged);
+  const film::FilmFields fields =
+      film::film_fields(scaled_for(model, point), steady_surfaces(model, point, state.e), state.u);
+  const film::Grid& grid = model.grid;
+  const double dphi = 2 * std::numbers::pi / grid.n_phi, dz = model.L / (grid.n_z - 1);
+  double torque = 0;
+  for (int k = 0; k < grid.size(); ++k) {
+    const int i = k / grid.n_z, j = k % grid.n_z;
+    const double simpson = (j == 0 || j == grid.n_z - 1 ? 1 : j % 2 == 1 ? 4 : 2) / 3.0;
+    const double shear = fields.theta[k] * model.lubricant.mu0 * model.R * point.journal_speed / fields.h[k];
+    const double rise =
+        fields.p[grid.index((i + 1) % grid.n_phi, j)] - fields.p[grid.index((i + grid.n_phi - 1) % grid.n_phi, j)];
+    torque -= simpson * dz * model.R * (model.R * dphi * shear + 0.25 * fields.h[k] * rise);
+  }
+  CHECK(state.film.torque_journal == doctest::Approx(torque).epsilon(2e-3));
+  CHECK(-state.film.torque_journal * point.journal_speed == doctest::Approx(state.film.power_taken()).epsilon(2e-3));
+}
+
 }  // namespace
 }  // namespace hersey::bearing

@@ -6,7 +6,7 @@
 namespace hersey::film {
 
 /// Adds where the power that the bodies put into a film goes, by integrals over its fields (theory manual, film.21,
-/// film.61). They know nothing of the film's wrench, whose power has to be their sum.
+/// film.67). They know nothing of the film's wrench, whose power has to be their sum.
 /// @param friction  boundary friction's power per contact pressure and area [m/s].
 void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, double friction, FilmObservables& o);
 

@@ -137,7 +137,7 @@ void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
 }
 
 // Pressure acts at right angles to the true surface, which leans where the shell's opening d changes: -p grad d beside
-// p e_r (film.60). Oil reaches around the edges, too, and with it the integral is that of d grad p: nothing from a
+// p e_r (film.66). Oil reaches around the edges, too, and with it the integral is that of d grad p: nothing from a
 // uniform pressure. Contact ends at the edges. Sums over the intervals between nodes give exactly nothing where p or d
 // is the same everywhere.
 void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradient) {

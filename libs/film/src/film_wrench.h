@@ -12,7 +12,7 @@
 namespace hersey::film {
 
 /// The film's wrench on the shell at the grid's origin, [moment; force] in grid axes, by origin, with its derivatives
-/// (theory manual, film.17 to film.20, film.60).
+/// (theory manual, film.17 to film.20, film.66).
 class FilmWrench {
  public:
   explicit FilmWrench(const FilmModel& model);

@@ -53,6 +53,14 @@ Vector6 deformation(const Pose& X_AB) {
   return x;
 }
 
+/// B in xdot = B V.
+Matrix6 rates_of(const Vector6& x) {
+  Matrix6 B = Matrix6::Identity();
+  B.topLeftCorner<3, 3>() = RotationVector(x.head<3>()).map(-1);
+  B.bottomLeftCorner<3, 3>() = -skew(x.tail<3>());
+  return B;
+}
+
 }  // namespace
 
 Bushing::Bushing(const Matrix6& stiffness, const Matrix6& damping) : K_(stiffness), D_(damping) {
@@ -62,14 +70,12 @@ Bushing::Bushing(const Matrix6& stiffness, const Matrix6& damping) : K_(stiffnes
 
 void Bushing::evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) {
   const Vector6 x = deformation(motion.X_AB);
-  const Vector3 phi = x.head<3>(), r = x.tail<3>();
+  const Vector3 phi = x.head<3>();
   const Vector3 omega = motion.V_AB_A.head<3>();
   const RotationVector turn(phi);
   angle_ = phi.norm();
   // xdot = B V, and W = -B^T s with s = K x + D xdot.
-  Matrix6 B = Matrix6::Identity();
-  B.topLeftCorner<3, 3>() = turn.map(-1);
-  B.bottomLeftCorner<3, 3>() = -skew(r);
+  const Matrix6 B = rates_of(x);
   const Vector6 s = K_ * x + D_ * (B * motion.V_AB_A);
   response = ForceResponse{};
   response.W_B_A = -B.transpose() * s;
@@ -91,6 +97,11 @@ void Bushing::evaluate(const RelativeMotion& motion, bool want_tangent, ForceRes
 double Bushing::stored_energy(const RelativeMotion& motion) const {
   const Vector6 x = deformation(motion.X_AB);
   return 0.5 * x.dot(K_ * x);
+}
+
+double Bushing::lost_power(const RelativeMotion& motion) const {
+  const Vector6 rate = rates_of(deformation(motion.X_AB)) * motion.V_AB_A;
+  return rate.dot(D_ * rate);
 }
 
 std::string Bushing::domain_error() const {

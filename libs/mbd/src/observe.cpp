@@ -120,6 +120,7 @@ void Mechanism::Implementation::observe_efforts(const solver::State& state, Obse
     const double stretch = state.q[q_of(k)] - s.free_position;
     seen.spring_powers.push_back(-(s.stiffness * stretch + s.damping * state.v[k]) * state.v[k]);
     seen.spring_energy += 0.5 * s.stiffness * stretch * stretch;
+    seen.damper_power += s.damping * state.v[k] * state.v[k];
   }
   for (std::size_t i = 0; i < spec.coordinate_forces.size(); ++i) {
     const int k = coordinate_force_columns[i];
@@ -135,6 +136,7 @@ void Mechanism::Implementation::observe_efforts(const solver::State& state, Obse
     seen.force_wrenches.push_back(response.W_B_A);
     seen.force_powers.push_back(response.W_B_A.dot(relative.V_AB_A) + response.Q.dot(relative.s_rate));
     seen.spring_energy += spec.forces[i].force->stored_energy(relative);
+    seen.damper_power += spec.forces[i].force->lost_power(relative);
   }
 }
 

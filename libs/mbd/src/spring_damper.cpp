@@ -54,6 +54,14 @@ double SpringDamper::stored_energy(const RelativeMotion& motion) const {
   return 0.5 * stiffness_ * stretch * stretch;
 }
 
+double SpringDamper::lost_power(const RelativeMotion& motion) const {
+  const Vector3& r = motion.X_AB.r;
+  const double length = r.norm();
+  if (length == 0) return 0;
+  const double rate = r.dot(motion.V_AB_A.tail<3>()) / length;
+  return (damping_ * rate + (tension_ ? tension_->value({&length, 1}) : 0)) * rate;
+}
+
 std::string SpringDamper::domain_error() const {
   return collapsed_ ? "the ends meet, so its direction is undefined" : std::string();
 }

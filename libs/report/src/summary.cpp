@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -53,6 +54,7 @@ class Summary {
       last("minimum film thickness at the end", "h_min", 1e6, "µm");
       last("peak film pressure at the end", "p_max", 1e-6, "MPa");
       extreme("worst mass-balance error of the film", "mass_balance_error", largest_size, 1, "", false);
+      film_energy_error();
       cycle_rows();
     }
   }
@@ -148,9 +150,11 @@ class Summary {
     const std::string error = "power/balance_error";
     if (reader_.has(path_ + error)) {
       const std::string unit = reader_.info(path_ + error).unit;
-      extreme("worst power-balance error of the system", error, largest_size, 1, unit == "1" ? "" : unit, false);
+      extreme("largest residual power of the equations of motion", error, largest_size, 1, unit == "1" ? "" : unit,
+              false);
       relative_power_error();
     }
+    energy_rows();
     group_ = "computing";
     if (const double wall = reader_.number_attribute("/", "wall_time").value_or(0); wall > 0) {
       add("computing time", wall, "s");
@@ -243,6 +247,40 @@ class Summary {
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }
 
+  /// What the bodies put into a film by its forces, against what the film's integrals take.
+  void film_energy_error() {
+    const double lost = integral(values("power_film")) + integral(values("power_asperity"));
+    const std::vector<double> error = values("power_error");
+    if (error.empty() || lost <= 0) return;
+    add("unexplained energy of the film, share of what it dissipates", 100 * integral(error) / lost, "%");
+  }
+
+  /// Where the energy put in has gone by the end, each part from an integral of its own.
+  void energy_rows() {
+    const auto series = [&](const std::string& name) { return values("energy/since_start/" + name); };
+    const std::vector<double> put_in = series("put_in"), unexplained = series("unexplained");
+    std::vector<double> lost(put_in.size());
+    for (const char* part : {"film_dissipation", "boundary_friction", "contacts", "dampers"}) {
+      const std::vector<double> values = series(part);
+      if (values.size() != lost.size()) return;
+      std::transform(lost.begin(), lost.end(), values.begin(), lost.begin(), std::plus<>());
+    }
+    std::vector<double> stored(put_in.size());
+    for (const char* part : {"kinetic", "potential", "springs", "strain"}) {
+      const std::vector<double> all = values(std::string("energy/") + part);
+      for (std::size_t i = 0; i < std::min(all.size(), stored.size()); ++i) stored[i] += all[i] - all.front();
+    }
+    if (put_in.empty() || unexplained.size() != put_in.size()) return;
+    double largest = 0;
+    for (std::size_t i = 0; i < put_in.size(); ++i)
+      largest = std::max({largest, std::abs(put_in[i]), lost[i], std::abs(stored[i])});
+    add("energy put in by drives and loads", put_in.back(), "J");
+    add("energy dissipated", lost.back(), "J");
+    add("energy in bodies and springs, more than at the start", stored.back(), "J");
+    add("unexplained energy", unexplained.back(), "J");
+    if (largest > 0) add("the same, share of the largest energy", 100 * std::abs(unexplained.back()) / largest, "%");
+  }
+
   void relative_power_error() {
     const auto most = [&](const std::string& name) {
       double size = 0;
@@ -252,7 +290,7 @@ class Summary {
     };
     double largest_power = 0;
     for (const std::string& name : reader_.children("/power"))
-      if (name != "balance_error") largest_power = std::max(largest_power, most(name));
+      if (name != "balance_error" && name != "unexplained") largest_power = std::max(largest_power, most(name));
     if (largest_power > 0) add("the same, share of the largest power", most("balance_error") / largest_power, "");
   }
 

@@ -50,7 +50,7 @@ TEST_CASE("Means_AreOverTime") {
 
 TEST_CASE("WorstBalanceError_IsTheLargestInSize") {
   const auto rows = summary_of({});
-  const SummaryRow& row = find(rows, "worst power-balance error of the system");
+  const SummaryRow& row = find(rows, "largest residual power of the equations of motion");
   CHECK(row.value == -2e-6);
   CHECK(row.unit == "W");
   // The largest power of the run is 40 W, put in by the loads.

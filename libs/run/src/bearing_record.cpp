@@ -70,7 +70,10 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   s.torque_shell = series("torque_shell", "N.m", "friction torque on the shell about its own axis");
   s.power_film = series("power_film", "W", "viscous dissipation in the film");
   s.power_asperity = series("power_asperity", "W", "boundary friction");
+  s.power_stored = series("power_stored", "W", "rate of the energy in liner, asperities and compressed oil");
+  s.power_oil = series("power_oil", "W", "taken along by oil over the edges less what feeds bring");
   s.power_into_bodies = series("power_into_bodies", "W", "film wrench times relative velocity (negative: taken)");
+  s.power_error = series("power_error", "W", "put in by the bodies less dissipated, stored and carried out");
   s.flow_left = series("flow_left", "m^3/s", "oil leaving over the edge z = -L/2");
   s.flow_right = series("flow_right", "m^3/s", "oil leaving over the edge z = +L/2");
   s.flow_supply = series("flow_supply", "m^3/s", "oil entering through the supply");
@@ -137,7 +140,10 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
   s.torque_shell.append(film.torque_shell);
   s.power_film.append(film.power_film);
   s.power_asperity.append(film.power_asperity);
+  s.power_stored.append(film.power_stored);
+  s.power_oil.append(film.power_oil);
   s.power_into_bodies.append(seen.power_into_bodies);
+  s.power_error.append(-seen.power_into_bodies - film.power_taken());
   s.flow_left.append(film.flow_left);
   s.flow_right.append(film.flow_right);
   s.flow_supply.append(film.flow_supply);

@@ -29,6 +29,10 @@ void BearingExtremes::take(double t, double dt, double clearance, const bearing:
   summary_.max_force = std::max(summary_.max_force, seen.wrench_on_shell.tail<3>().norm());
   summary_.eccentricity_ratio = seen.e.norm() / clearance;
   summary_.worst_mass_balance = std::max(summary_.worst_mass_balance, film.mass_balance_error);
+  const double put_in = -seen.power_into_bodies, taken = film.power_taken();
+  summary_.energy_put_in += 0.5 * dt * (last_put_in_ + put_in);
+  summary_.energy_taken += 0.5 * dt * (last_taken_ + taken);
+  last_put_in_ = put_in, last_taken_ = taken;
   time_ += dt;
   energy_ += dt * (film.power_film + film.power_asperity);
   volume_ += dt * (film.flow_left + film.flow_right);
@@ -36,6 +40,7 @@ void BearingExtremes::take(double t, double dt, double clearance, const bearing:
 
 BearingSummary BearingExtremes::summary() const {
   BearingSummary summary = summary_;
+  if (energy_ > 0) summary.energy_error = (summary.energy_put_in - summary.energy_taken) / energy_;
   if (time_ > 0) {
     summary.mean_power = energy_ / time_;
     summary.mean_flow = volume_ / time_;
@@ -52,6 +57,8 @@ void BearingExtremes::persist(Archive& archive) {
   archive.io("max_force", s.max_force);
   archive.io("eccentricity_ratio", s.eccentricity_ratio);
   archive.io("worst_mass_balance", s.worst_mass_balance);
+  archive.io("energy_put_in", s.energy_put_in), archive.io("energy_taken", s.energy_taken);
+  archive.io("last_put_in", last_put_in_), archive.io("last_taken", last_taken_);
   archive.io("time", time_), archive.io("energy", energy_), archive.io("volume", volume_);
 }
 

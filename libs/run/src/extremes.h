@@ -18,6 +18,7 @@ class BearingExtremes {
  private:
   BearingSummary summary_;
   double time_ = 0, energy_ = 0, volume_ = 0;
+  double last_put_in_ = 0, last_taken_ = 0;  ///< powers of the last state [W]
 };
 
 }  // namespace hersey::run

@@ -14,14 +14,19 @@ struct PowerBalance {
   double gravity = 0;       ///< put in by gravity
   double springs = 0;       ///< given to the bodies by springs and dampers
   double contacts = 0;      ///< given to the bodies by contacts
-  double bearings = 0;      ///< given to the bodies by the films; negative: the films take it
+  double bearings = 0;      ///< given to the bodies by the films' forces; negative: the films take it
+  double films = 0;         ///< the same as the films' own integrals say: minus what they dissipate, store, carry out
   double elastic = 0;       ///< given back by flexible bodies: minus the rate of their strain energy, minus damping
   double kinetic_rate = 0;  ///< d(kinetic energy)/dt
-  /// drives + loads + gravity + springs + contacts + bearings + elastic - kinetic_rate: zero but for the tolerance of
-  /// the time step and the drift of the velocity constraints.
+  /// drives + loads + gravity + springs + contacts + bearings + elastic - kinetic_rate: the residual power of the
+  /// equations of motion, zero but for the tolerance of the time step and the drift of the velocity constraints,
+  /// whatever the forces are.
   [[nodiscard]] double error() const {
     return drives + loads + gravity + springs + contacts + bearings + elastic - kinetic_rate;
   }
+  /// The same with the films' own integrals in place of their forces' power: what a force that does not do the work of
+  /// its losses leaves unexplained.
+  [[nodiscard]] double unexplained() const { return error() - bearings + films; }
   /// The largest of the powers: what `error` is compared with.
   [[nodiscard]] double largest() const;
 };

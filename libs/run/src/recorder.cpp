@@ -156,10 +156,21 @@ void Recorder::declare_machine() {
         {writer_.series(path + "force_or_torque", 1, unit_on(force.coordinate), "effort on the joint coordinate"),
          writer_.series(path + "power", 1, "W", "power put into the machine")});
   }
+  const auto since_start = [&](const std::string& name, const char* what) {
+    return writer_.series("/energy/since_start/" + name, 1, "J", what);
+  };
   energy_ = {writer_.series("/energy/kinetic", 1, "J", "kinetic energy"),
              writer_.series("/energy/potential", 1, "J", "potential energy of gravity"),
              writer_.series("/energy/springs", 1, "J", "energy stored in springs and contacts"),
-             writer_.series("/energy/strain", 1, "J", "strain energy of flexible bodies")};
+             writer_.series("/energy/strain", 1, "J", "strain energy of flexible bodies"),
+             since_start("put_in", "put in by drives, motors, loads and pressures"),
+             since_start("film_dissipation", "dissipated by shear and flow in the films"),
+             since_start("boundary_friction", "dissipated by asperities in the films"),
+             since_start("contacts", "lost in contacts"),
+             since_start("dampers", "lost in dampers, joint friction and the material of flexible bodies"),
+             since_start("oil", "taken along by oil that leaves the films less what feeds bring"),
+             since_start("film_storage", "stored in liners, asperities and compressed oil"),
+             since_start("unexplained", "put in, and neither lost nor stored nor taken along")};
   power_ = {writer_.series("/power/drives", 1, "W", "put in by drives"),
             writer_.series("/power/loads", 1, "W", "put in by applied forces and torques"),
             writer_.series("/power/gravity", 1, "W", "put in by gravity"),
@@ -168,7 +179,10 @@ void Recorder::declare_machine() {
             writer_.series("/power/bearings", 1, "W", "given to the bodies by the films (negative: taken)"),
             writer_.series("/power/elastic", 1, "W", "given back by flexible bodies (negative: stored or dissipated)"),
             writer_.series("/power/kinetic_rate", 1, "W", "rate of change of the kinetic energy"),
-            writer_.series("/power/balance_error", 1, "W", "sum of all powers less the kinetic rate"),
+            writer_.series("/power/balance_error", 1, "W",
+                           "sum of all powers less the kinetic rate: residual of the equations of motion"),
+            writer_.series("/power/unexplained", 1, "W",
+                           "the same with what the films take by integrals of their own in place of bearings"),
             writer_.series("/power/film_friction", 1, "W", "viscous dissipation in all films"),
             writer_.series("/power/asperity_friction", 1, "W", "boundary friction in all films")};
 }
@@ -189,7 +203,7 @@ void Recorder::write_cycle(double t, double change) const {
   cycle_change_.append(change);
 }
 
-void Recorder::write_row(const StepRecord& step) {
+void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   const mbd::Observation& seen = step.mechanism;
   time_.append(seen.t);
   if (const auto& crank = model_.simulation.crank) {
@@ -234,6 +248,14 @@ void Recorder::write_row(const StepRecord& step) {
   energy_.kinetic.append(seen.kinetic_energy);
   energy_.potential.append(seen.potential_energy);
   energy_.springs.append(seen.spring_energy);
+  energy_.put_in.append(energy.put_in);
+  energy_.films.append(energy.films);
+  energy_.boundary_friction.append(energy.boundary_friction);
+  energy_.contacts.append(energy.contacts);
+  energy_.dampers.append(energy.dampers);
+  energy_.oil.append(energy.oil);
+  energy_.film_storage.append(energy.film_storage);
+  energy_.unexplained.append(energy.unexplained());
   write_flexible_bodies(seen);
   write_surface_loads(seen);
   write_beams(seen);
@@ -248,6 +270,7 @@ void Recorder::write_row(const StepRecord& step) {
   power_.elastic.append(power.elastic);
   power_.kinetic_rate.append(power.kinetic_rate);
   power_.balance_error.append(power.error());
+  power_.unexplained.append(power.unexplained());
   double film_friction = 0, asperity_friction = 0;
   for (std::size_t i = 0; i < bearings_.size(); ++i) {
     write_bearing(bearings_[i], step.bearings[i], model_.bearings[i].film.c);

@@ -39,7 +39,8 @@ class Recorder {
   /// @throws results::FileExists, results::WriteError.
   Recorder(const model::Model& model, const model::Machine& machine, const Options& options, bool resumes = false);
 
-  void write_row(const StepRecord& step);
+  /// @param energy  since the start of the run
+  void write_row(const StepRecord& step, const EnergySummary& energy);
   void write_fields(const StepRecord& step);
   /// What the bearings' maps and losses over a cycle are made of: every accepted step.
   void gather(const StepRecord& step) { cycles_.take(step.mechanism.t, step.bearings); }
@@ -85,16 +86,17 @@ class Recorder {
   };
   struct EnergySeries {
     results::Series kinetic, potential, springs, strain;
+    results::Series put_in, films, boundary_friction, contacts, dampers, oil, film_storage, unexplained;
   };
   struct PowerSeries {
     results::Series drives, loads, gravity, springs, contacts, bearings, elastic, kinetic_rate, balance_error,
-        film_friction, asperity_friction;
+        unexplained, film_friction, asperity_friction;
   };
   struct BearingSeries {
     results::Series eccentricity, ratio, attitude, tilt, h_min, h_min_phi, h_min_z, h_min_centre, p_max, p_max_phi,
         p_max_z, p_max_node, force, force_pressure, force_shear, force_asperity, moment, speed, torque_journal,
-        torque_shell, power_film, power_asperity, power_into_bodies, flow_left, flow_right, flow_supply, storage_rate,
-        oil_volume, mass_balance_error, cavitated_share, film_iterations;
+        torque_shell, power_film, power_asperity, power_stored, power_oil, power_into_bodies, power_error, flow_left,
+        flow_right, flow_supply, storage_rate, oil_volume, mass_balance_error, cavitated_share, film_iterations;
     std::vector<results::Series> flow_features;
     std::optional<results::Series> exchanges;  // of a partitioned coupling
     results::Series h_min_around, p_max_around;

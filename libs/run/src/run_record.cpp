@@ -13,7 +13,8 @@ RunRecord::RunRecord(const model::Model& model, const model::Machine& machine, c
       recorder_(model, machine, options, resumes),
       deformed_(model, machine, options.results),
       settling_(model),
-      cycles_(model) {
+      cycles_(model),
+      energy_(machine.mechanism->spec()) {
   for (const model::Bearing& bearing : model.bearings) extremes_.emplace_back(bearing.name);
 }
 
@@ -26,6 +27,7 @@ void RunRecord::take(const StepRecord& step) {
   largest_error_ = std::max(largest_error_, std::abs(step.power.error()));
   for (std::size_t i = 0; i < extremes_.size(); ++i)
     extremes_[i].take(t, step.dt, model_.bearings[i].film.c, step.bearings[i]);
+  energy_.take(step);
   settled_ = settling_.settled(step);
   recorder_.gather(step);
   if (cycles_.ends(t)) end_cycle(t);
@@ -59,7 +61,7 @@ double RunRecord::moft() const {
 void RunRecord::write(const StepRecord& step) {
   const double t = step.mechanism.t, slack = 1e-9 * model_.simulation.step;
   deformed_.write(t, t - model_.simulation.start, slack, step);
-  if (is_row_due(t, slack)) recorder_.write_row(step);
+  if (is_row_due(t, slack)) recorder_.write_row(step, energy_.sums());
   if (are_fields_due(t, slack)) recorder_.write_fields(step);
   recorder_.flush_if_due();
 }
@@ -89,6 +91,7 @@ void RunRecord::summarise(Summary& summary) const {
   summary.cycle_change = last_cycle_.value;
   summary.worst_constraint_drift = constraint_drift_;
   summary.worst_power_balance = largest_power_ > 0 ? largest_error_ / largest_power_ : 0;
+  summary.energy = energy_.sums();
   for (const BearingExtremes& bearing : extremes_) summary.bearings.push_back(bearing.summary());
 }
 
@@ -104,6 +107,10 @@ void RunRecord::persist(Archive& archive) {
   for (BearingExtremes& extremes : extremes_) {
     const Archive::Group group(archive, "extremes of " + extremes.name());
     extremes.persist(archive);
+  }
+  {
+    const Archive::Group energy(archive, "energy");
+    energy_.persist(archive);
   }
   archive.io("settled", settled_), archive.io("repeats", repeats_);
   settling_.persist(archive);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cycle_convergence.h"
+#include "energy_balance.h"
 #include "extremes.h"
 #include "flexible_record.h"
 #include "hersey/core/archive.h"
@@ -55,6 +56,7 @@ class RunRecord {
   SettlingTest settling_;
   CycleConvergence cycles_;
   std::vector<BearingExtremes> extremes_;
+  EnergyBalance energy_;
   int steps_ = 0, newton_iterations_ = 0;
   double constraint_drift_ = 0, largest_power_ = 0, largest_error_ = 0;
   CycleChange last_cycle_;

@@ -78,6 +78,12 @@ void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
   figures.add("torque_shell", "friction torque on the shell", "N.m", film.torque_shell);
   figures.add("power_film", "friction power, film", "W", film.power_film);
   figures.add("power_asperity", "friction power, asperities", "W", film.power_asperity);
+  // The bearing's axes rest: all power comes through the torques.
+  const double put_in =
+      -film.torque_journal * s.state.point.journal_speed - film.torque_shell * s.state.point.shell_speed;
+  figures.add("power_put_in", "power put in by the torques", "W", put_in);
+  if (film.power_taken() > 0)
+    figures.add("power_error", "  of it not explained by the film's integrals", "", put_in / film.power_taken() - 1);
   figures.add("asperity_share", "share of the load on asperities", "", n.asperity_share);
   figures.add("film_ratio", "film ratio h_min/sigma", "", n.film_ratio);
   figures.group("oil");

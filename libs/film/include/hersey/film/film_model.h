@@ -111,7 +111,7 @@ struct SurfaceMotion {
   Eigen::VectorXd g;       ///< gap of the undeformed surfaces at the nodes [m], shape (grid.size())
   Eigen::VectorXd g_rate;  ///< d g/dt at fixed grid points [m/s], same shape
   /// How far the shell's surface lies outside its cylinder [m], same shape; empty: nowhere. Its share of what g differs
-  /// from a gap of two cylinders; the pressure on its slopes turns and pushes the shell (film.60).
+  /// from a gap of two cylinders; the pressure on its slopes turns and pushes the shell (film.66).
   Eigen::VectorXd shell_opening = {};
   double u_shell = 0;      ///< circumferential speed of the shell surface (y = 0) [m/s]
   double u_journal = 0;    ///< circumferential speed of the journal surface (y = h) [m/s]

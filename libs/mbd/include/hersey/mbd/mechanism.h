@@ -60,6 +60,7 @@ struct Observation {
   double kinetic_energy = 0;    ///< [J], of elastic bodies too
   double potential_energy = 0;  ///< of gravity, zero at ground's origin [J]
   double spring_energy = 0;     ///< stored in springs on coordinates and in two-body forces [J]
+  double damper_power = 0;      ///< lost in dampers on coordinates and in two-body forces, TwoBodyForce::lost_power [W]
   double constraint_drift = 0;  ///< largest violation, redundant rows included, relative to size or radian
 };
 

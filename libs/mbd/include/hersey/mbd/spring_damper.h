@@ -23,6 +23,7 @@ class SpringDamper final : public TwoBodyForce {
 
   void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) override;
   [[nodiscard]] double stored_energy(const RelativeMotion& motion) const override;
+  [[nodiscard]] double lost_power(const RelativeMotion& motion) const override;
   [[nodiscard]] std::string domain_error() const override;
 
  private:

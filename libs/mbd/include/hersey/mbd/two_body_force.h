@@ -51,6 +51,10 @@ class TwoBodyForce {
   /// Energy stored [J]; 0 where the force stores none.
   [[nodiscard]] virtual double stored_energy(const RelativeMotion&) const { return 0; }
 
+  /// Power taken from the bodies that `stored_energy` does not hold: dissipated, as a rule [W]. Not from the wrench:
+  /// the balance of energy compares both. 0 for a force that shows its losses itself (films, contacts).
+  [[nodiscard]] virtual double lost_power(const RelativeMotion&) const { return 0; }
+
   // Condensed unknowns; see solver::Equations for when each is called.
   virtual void begin_step(const RelativeMotion& start, double dt) { (void)start, (void)dt; }
   virtual void accept_step(const RelativeMotion& end) { (void)end; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -45,6 +46,28 @@ struct BearingSummary {
   double mean_power = 0;                                  ///< mean friction power, film and asperities [W]
   double mean_flow = 0;                                   ///< mean oil flow over both edges [m^3/s]
   double worst_mass_balance = 0;                          ///< largest mass_balance_error of a step [-]
+  double energy_put_in = 0;                               ///< by the bodies, through the film's forces on them [J]
+  double energy_taken = 0;  ///< by shear, flow, friction, storage and oil, each an integral over the film [J]
+  double energy_error = 0;  ///< their difference over what the film dissipates [-]
+};
+
+/// Where the energy put into a machine has gone since the start of the run [J]. Each part is an integral of its own: of
+/// a film's shear, of its flows, of what dampers and contacts lose, of what is stored. What they do not explain tells
+/// of a force that does not do the work of its losses, of steps too long, or of the integrator's own damping.
+struct EnergySummary {
+  double put_in = 0;             ///< by drives, motors, loads and pressures
+  double films = 0;              ///< dissipated by shear and flow of the oil
+  double boundary_friction = 0;  ///< dissipated where asperities touch
+  double contacts = 0;           ///< lost in contacts of bodies
+  double dampers = 0;            ///< lost in dampers, joint friction and the material of flexible bodies
+  double oil = 0;                ///< taken along by oil that leaves the films less what feeds bring
+  double film_storage = 0;       ///< more in liners, asperities and compressed oil than at the start
+  double stored = 0;             ///< more kinetic, potential, spring and strain energy than at the start
+  double largest = 0;            ///< the largest that energy put in, lost or stored has been: what errors are shares of
+  [[nodiscard]] double lost() const { return films + boundary_friction + contacts + dampers; }
+  [[nodiscard]] double unexplained() const { return put_in - lost() - oil - film_storage - stored; }
+  /// |unexplained| over the largest [-].
+  [[nodiscard]] double error() const { return largest > 0 ? std::abs(unexplained()) / largest : 0; }
 };
 
 struct Summary {
@@ -58,7 +81,8 @@ struct Summary {
   int cycles = 0;                     ///< that ended, where the model asks for cycles
   double cycle_change = 0;            ///< of the last of them: CycleProgress::change
   double worst_constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares [-]
-  double worst_power_balance = 0;     ///< largest |power in - power out - energy rate| over the largest power [-]
+  double worst_power_balance = 0;     ///< largest residual power of the equations of motion over the largest power [-]
+  EnergySummary energy;               ///< where the energy went
   double wall_time = 0;               ///< [s]
   Work work;                          ///< where it went
   std::vector<BearingSummary> bearings;

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "hersey/core/archive.h"
+#include "hersey/mbd/mechanism.h"
+#include "hersey/run/simulate.h"
+#include "power_balance.h"
+
+namespace hersey::run {
+
+struct StepRecord;
+
+/// Where the energy put into a machine has gone since the start of a run, each part from an integral of its own (theory
+/// manual, bearing.24): none from the forces that the equations of motion know.
+class EnergyBalance {
+ public:
+  /// @param spec  of the machine's mechanism, which outlives this
+  explicit EnergyBalance(const mbd::MechanismSpec& spec) : spec_(spec) {}
+
+  /// The start, then every accepted step. Powers are integrated by the trapezoidal rule.
+  void take(const StepRecord& step);
+  [[nodiscard]] const EnergySummary& sums() const { return sums_; }
+  void persist(Archive& archive);
+
+ private:
+  /// Powers of an instant [W] and what is stored in bodies and springs [J].
+  struct Instant {
+    double put_in = 0, films = 0, boundary_friction = 0, oil = 0, film_storage = 0, contacts = 0, dampers = 0;
+    double stored = 0;
+  };
+  [[nodiscard]] Instant seen(const StepRecord& step) const;
+
+  const mbd::MechanismSpec& spec_;
+  EnergySummary sums_;
+  Instant last_;
+  double stored_at_start_ = 0;
+  bool is_begun_ = false;
+};
+
+}  // namespace hersey::run
