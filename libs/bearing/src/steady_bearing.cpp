@@ -27,6 +27,10 @@ constexpr double kSmallestLoadStep = 1e-3;
 // Iterations on film and position together without getting nearer by half, after which they are taken in turn.
 constexpr int kPatience = 6;
 
+// ln of the viscosity over that at rest from which on no film between rigid surfaces is an oil's. Of Weibull's
+// transformation alpha p = -ln(1 - alpha p_iso): 1 - alpha p_iso = 6e-6.
+constexpr double kSolid = 12;
+
 // A gap of this share of the clearance is none.
 constexpr double kTouching = 3e-3;
 
@@ -78,7 +82,17 @@ class Search {
     const film::FilmSolveSummary solved = film::solve_film(reynolds_, motion_, history_, film_options_, u_);
     (options_.solver != film::FilmSolver::sor ? summary_.iterations : summary_.film_iterations) += solved.iterations;
     summary_.message = solved.message;
-    return solved.converged && linearise();
+    return solved.converged && flows() && linearise();
+  }
+
+  // Between rigid surfaces an oil that stiffens has, beyond Weibull's limit, numerical answers in which it is a solid.
+  [[nodiscard]] bool flows() {
+    Eigen::Index node = 0;
+    const double p = u_.maxCoeff(&node);
+    if (model_.compliance > 0 || film::log_viscosity_ratio(model_.lubricant, p).value < kSolid) return true;
+    summary_.message =
+        film::text(model_, {.trouble = film::FilmDomain::Trouble::pressure, .node = static_cast<int>(node)});
+    return false;
   }
 
   [[nodiscard]] SteadySummary at_given_position() {
