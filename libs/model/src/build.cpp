@@ -156,7 +156,9 @@ class Builder {
   void add_flexible(const Body& body) {
     const std::vector<const DeformingSurface*> surfaces = surfaces_on(body);
     std::vector<BuiltSurface> kept;
-    BuiltFlexible built = build_flexible(body, surfaces, kept);
+    const bool is_let_go = model_.simulation.analysis == Analysis::dynamics &&
+                           model_.simulation.initial_deformation == InitialDeformation::none;
+    BuiltFlexible built = build_flexible(body, surfaces, is_let_go, kept);
     for (std::size_t i = 0; i < surfaces.size(); ++i) kept_[surfaces[i]] = kept[i];
     std::vector<std::string> names;
     for (std::size_t i = 1; i < body.frames.size(); ++i) names.push_back(body.frames[i].name);
