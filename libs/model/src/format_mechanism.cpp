@@ -125,7 +125,8 @@ TypePtr bodies_format() {
   const TypePtr body =
       object("a body",
              {
-                 optional("mass", quantity("kg", "5 kg", Range::not_negative()), "Mass."),
+                 optional("mass", quantity("kg", "5 kg", Range::not_negative()),
+                          "Mass; 0 where joints, drives, dampers or films hold the body."),
                  optional("flexible", flexible_format(),
                           "The body deforms: its mesh takes the place of mass, centre and inertia."),
                  optional("beam", beam_format(),
