@@ -32,7 +32,8 @@ struct Cost {
 template <class Watch>
 Cost run(Mechanism& mechanism, solver::State& state, double end, int steps, double spectral_radius, Watch watch) {
   Cost cost;
-  const solver::InitialiseSummary start = solver::initialise(mechanism, state, {.held = mechanism.given_coordinates()});
+  const solver::InitialiseSummary start = solver::initialise(
+      mechanism, state, {.held = mechanism.given_coordinates(), .held_rates = mechanism.given_rates()});
   if (!start.consistent()) {
     fmt::print("{}\n", start.message);
     return cost;

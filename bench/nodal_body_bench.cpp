@@ -63,7 +63,8 @@ Steps turn(const std::shared_ptr<mbd::ModalBody>& body, int steps) {
   b.add_load({.name = "push", .frame = ids.frames[1], .axes = mbd::LoadAxes::ground, .terms = {across}});
   const auto m = b.finalise();
   solver::State state = m->initial_state();
-  const auto start = solver::initialise(*m, state, {.held = m->given_coordinates(), .stiff = m->elastic_coordinates()});
+  const auto start = solver::initialise(
+      *m, state, {.held = m->given_coordinates(), .held_rates = m->given_rates(), .stiff = m->elastic_coordinates()});
   if (!start.consistent()) std::abort();
   solver::GeneralizedAlpha integrator;
   const auto step = [&] {

@@ -61,8 +61,8 @@ struct Rig {
     force = builder.add_force("big_end", builder.frame_of(rod), builder.frame_of(pin), bearing);
     mechanism = builder.finalise();
     state = mechanism->initial_state();
-    const solver::InitialiseSummary summary =
-        solver::initialise(*mechanism, state, {.held = mechanism->given_coordinates()});
+    const solver::InitialiseSummary summary = solver::initialise(
+        *mechanism, state, {.held = mechanism->given_coordinates(), .held_rates = mechanism->given_rates()});
     REQUIRE_MESSAGE(summary.consistent(), summary.message);
   }
 

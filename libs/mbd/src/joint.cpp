@@ -65,6 +65,11 @@ std::span<const Coordinate> coordinates_of(JointType type) {
   HERSEY_REQUIRE(false, "every joint type is listed");
 }
 
+std::string rate_name(const Coordinate& coordinate) {
+  if (coordinate.orientation) return "angular_velocity";
+  return coordinate.size == 3 ? "velocity" : std::string(coordinate.name) + "_rate";
+}
+
 int degrees_of_freedom(JointType type) {
   int n = 0;
   for (const Coordinate& c : coordinates_of(type)) n += c.size;

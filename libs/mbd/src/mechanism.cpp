@@ -388,6 +388,7 @@ std::string Mechanism::domain_error() const {
 State Mechanism::initial_state() const { return impl_->initial_state(); }
 
 std::vector<Mechanism::Index> Mechanism::given_coordinates() const { return impl_->given_coordinates(); }
+std::vector<Mechanism::Index> Mechanism::given_rates() const { return impl_->given_rates(); }
 
 std::vector<Mechanism::Index> Mechanism::elastic_coordinates() const { return impl_->elastic_coordinates(); }
 std::vector<Mechanism::Index> Mechanism::internal_coordinates() const { return impl_->internal_coordinates(); }

@@ -60,9 +60,13 @@ struct Mechanism::Implementation {
   [[nodiscard]] double initial_rate(const CoordinateRef& coordinate) const;
   [[nodiscard]] solver::State initial_state() const;
   [[nodiscard]] std::vector<Index> given_coordinates() const;
+  [[nodiscard]] std::vector<Index> given_rates() const;
+  template <class Choose>
+  [[nodiscard]] std::vector<Index> columns_where(Choose is_chosen) const;
   [[nodiscard]] std::vector<Index> elastic_coordinates() const;
   [[nodiscard]] std::vector<Index> internal_coordinates() const;
   [[nodiscard]] bool is_deformation(int joint) const;
+  [[nodiscard]] double largest_rate(const solver::State& start) const;
 
   // Redundant constraints
   std::vector<Redundancy> redundancies;

@@ -10,6 +10,8 @@
 
 namespace hersey::mbd {
 
+using solver::State;
+
 solver::State Mechanism::Implementation::initial_state() const {
   solver::State state;
   state.q.setZero(nq);
@@ -37,11 +39,77 @@ solver::State Mechanism::Implementation::initial_state() const {
 }
 
 std::vector<Mechanism::Index> Mechanism::Implementation::given_coordinates() const {
-  std::vector<Index> given;
-  for (const Link& link : tree.links)
-    if (link.joint >= 0 && !spec.joints[link.joint].initial.empty() && !is_deformation(link.joint))
-      for (int c = 0; c < link.columns; ++c) given.push_back(link.first_v + c);
-  return given;
+  return columns_where([](const JointSpec& joint, int value) { return joint.is_given(value); });
+}
+
+std::vector<Mechanism::Index> Mechanism::Implementation::given_rates() const {
+  return columns_where([](const JointSpec& joint, int value) { return joint.is_rate_given(value); });
+}
+
+/// Columns of the joints' values for which is_chosen(joint, value), those of deformations left out.
+template <class Choose>
+std::vector<Mechanism::Index> Mechanism::Implementation::columns_where(Choose is_chosen) const {
+  std::vector<Index> chosen;
+  for (const Link& link : tree.links) {
+    if (link.joint < 0 || is_deformation(link.joint) || !is_chosen(spec.joints[link.joint], link.value)) continue;
+    for (int c = 0; c < link.columns; ++c) chosen.push_back(link.first_v + c);
+  }
+  return chosen;
+}
+
+namespace {
+
+/// Of a coordinate's values: of an orientation the angle between both.
+double distance(const Coordinate& coordinate, bool is_rate, const std::vector<double>& a,
+                const std::vector<double>& b) {
+  if (coordinate.orientation && !is_rate)
+    return rotation_exp(Vector3::Map(a.data())).angularDistance(rotation_exp(Vector3::Map(b.data())));
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+}  // namespace
+
+std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
+  constexpr double round_off = 1e-10;
+  Implementation& m = *impl_;
+  m.motion.update(start);
+  Observation seen;
+  seen.joints.resize(m.spec.joints.size());
+  m.observe_joint_coordinates(start, seen);
+  const double fastest = m.largest_rate(start);
+  std::vector<ChangedStart> changes;
+  for (std::size_t j = 0; j < m.spec.joints.size(); ++j) {
+    const JointSpec& joint = m.spec.joints[j];
+    if (m.is_deformation(static_cast<int>(j))) continue;
+    for (const Coordinate& coordinate : coordinates_of(joint.type))
+      for (const bool is_rate : {false, true}) {
+        if (!(is_rate ? joint.is_rate_given(coordinate.offset) : joint.is_given(coordinate.offset))) continue;
+        const auto part = [&](const std::vector<double>& all) {
+          const auto first = all.begin() + coordinate.offset;
+          return std::vector<double>(first, first + coordinate.size);
+        };
+        ChangedStart change{{static_cast<int>(j)}, coordinate, is_rate, {}, {}, 0};
+        change.given = part(is_rate ? joint.initial_rate : joint.initial);
+        change.found = part(is_rate ? seen.joints[j].rate : seen.joints[j].position);
+        const double size = (coordinate.rotational ? 1.0 : m.tree.length) * (is_rate ? fastest : 1.0);
+        change.share = size > 0 ? distance(coordinate, is_rate, change.given, change.found) / size : 0;
+        if (change.share > round_off) changes.push_back(std::move(change));
+      }
+  }
+  return changes;
+}
+
+/// Of the rates given and of those at `start`, lengths over the mechanism's size [1/s].
+double Mechanism::Implementation::largest_rate(const State& start) const {
+  const State given = initial_state();
+  double largest = 0;
+  for (int k = 0; k < tree.nv; ++k) {
+    const double size = tree.links[tree.columns[k].link].motion == Motion::prismatic ? tree.length : 1.0;
+    largest = std::max({largest, std::abs(given.v[k]) / size, std::abs(start.v[k]) / size});
+  }
+  return largest;
 }
 
 bool Mechanism::Implementation::is_deformation(int joint) const {

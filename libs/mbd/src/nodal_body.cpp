@@ -28,6 +28,9 @@ constexpr double kMomentumShare = 1e-4;
 // that see little of these forces still have their round-off.
 constexpr double kNodalShare = 1e-4;
 
+// Square of the time within which nodes let go take up their acceleration [s^2]: no stiffness of a mesh acts so fast.
+constexpr double kInstant = 1e-24;
+
 // Columns of (flexible-bodies.18).
 constexpr Index kTurning = 3, kShapes = 12;
 
@@ -200,16 +203,23 @@ double NodalBody::unbalance(const ElasticMotion& motion) {
 
 /// Whether the nodes answer to this motion of the frames, or are only looked at where they are.
 bool NodalBody::follows(const ElasticMotion& motion) const {
-  return at_rest_ || (motion.stage.dt > 0 && motion.stage.k != 0);
+  return at_rest_ || is_let_go_ || (motion.stage.dt > 0 && motion.stage.k != 0);
+}
+
+/// The stage of the nodes' own equations: of statics at rest, of accelerations alone where they are let go.
+solver::Stage NodalBody::stage_of(const ElasticMotion& motion) const {
+  if (at_rest_) return solver::Stage{};
+  if (is_let_go_) return {.dt = 0, .k = kInstant, .c = 0, .m = 1, .dq = {}};
+  return motion.stage;
 }
 
 /// Solves the equations of the nodes for this motion of the frames, theory manual eq. (flexible-bodies.17).
 void NodalBody::settle(const ElasticMotion& motion) {
   const bool moves = follows(motion);
-  if (moves && !at_rest_) w_.predict(motion.stage);
+  if (moves && !at_rest_ && !is_let_go_) w_.predict(motion.stage);
   ModalBody::gather(motion, false);
   if (moves) {
-    iterate(motion, at_rest_ ? solver::Stage{} : motion.stage);
+    iterate(motion, stage_of(motion));
   } else if (strain_ == Strain::finite) {  // looked at, not moved
     update_fields();
     (void)elastic_forces();
@@ -220,6 +230,8 @@ void NodalBody::iterate(const ElasticMotion& motion, const solver::Stage& stage)
   // At rest nothing but the material resists, so that its present matrix is needed each time.
   const bool renews = strain_ == Strain::finite && at_rest_;
   const int most = renews ? kSolvesAtRest : kSolves;
+  solver::Stage moved = stage;
+  if (is_let_go_) moved.k = 0;  // accelerated, but still in place
   for (int solve = 0;; ++solve) {
     if (renews || (strain_ == Strain::finite && is_stale_)) refresh_stiffness(stage);
     internal_residual_ = unbalance(motion);
@@ -227,7 +239,7 @@ void NodalBody::iterate(const ElasticMotion& motion, const solver::Stage& stage)
     if (factor == nullptr) return;
     trouble_.clear();
     if (internal_residual_ <= kBalanced || solve == most) return;
-    w_.move(stage, factors_->solve(*factor, -r_));
+    w_.move(moved, factors_->solve(*factor, -r_));
   }
 }
 
@@ -250,14 +262,17 @@ void NodalBody::add_nodes(const ElasticMotion& motion, bool want_tangent) {
 }
 
 void NodalBody::begin_step(const ElasticMotion&, double dt) {
-  at_rest_ = dt == 0;
+  at_rest_ = dt == 0 && !lets_go_;
+  is_let_go_ = dt == 0 && lets_go_;
   is_stale_ = true;
   w_.begin_step();
   if (at_rest_) w_.start(w_.position());
+  if (is_let_go_) w_.start(VectorXd::Zero(body_.size()));
 }
 
 void NodalBody::accept_step(const ElasticMotion& end) {
-  if (at_rest_) settle(end);
+  if (at_rest_ || is_let_go_) settle(end);
+  if (!at_rest_ && !is_let_go_) lets_go_ = false;
   w_.accept();
 }
 
@@ -325,6 +340,8 @@ ElasticEnergy NodalBody::energy(const ElasticMotion& motion, const Vector3& grav
 void NodalBody::persist(Archive& archive) {
   w_.persist(archive);
   archive.io("at_rest", at_rest_);
+  archive.io("lets_go", lets_go_);
+  archive.io("is_let_go", is_let_go_);
   const Archive::Group group(archive, "factors");
   factors_->persist(archive);
 }

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 /// manual eq. (flexible-bodies.17) to (flexible-bodies.20).
 void NodalBody::condense(const ElasticMotion& motion) {
   Workspace& w = work();
-  const solver::Stage stage = at_rest_ ? solver::Stage{} : motion.stage;
+  const solver::Stage stage = stage_of(motion);
   const NodalFactor& factor = *factors_->of(stage, trouble_);
   const ElasticFrame& base = motion.frames[0];
   const Matrix3 spin = 2 * skew(Vector3(base.V.head<3>()));

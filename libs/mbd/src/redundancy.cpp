@@ -196,16 +196,27 @@ std::vector<int> redundant_rows(const Tree& tree, TreeMotion& motion, const solv
   VectorXd weight = VectorXd::Ones(tree.nv);
   for (Index k : held) weight[k] = 1e-3;
   LoopCloser loops(tree, motion);
+  std::mt19937 random(1);
+  const auto moved_by = [&](double reach) {
+    std::uniform_real_distribution<double> uniform(-reach, reach);
+    VectorXd aside(tree.nv);
+    for (double& x : aside) x = uniform(random);
+    return aside;
+  };
   solver::State state = guess;
-  if (!loops.close(state, weight)) return {};
+  bool closed = loops.close(state, weight);
+  // From a rough guess the way may end short: others begin beside it, with what the user gave as it is.
+  constexpr int attempts = 12;
+  for (int i = 0; i < attempts && !closed; ++i) {
+    state = guess;
+    loops.move(state, (weight.array() < 1).select(0.0, moved_by(1)));
+    closed = loops.close(state, weight);
+  }
+  if (!closed) return {};
   loops.evaluate(state);
   RowMatrix G = loops.jacobian();
   // In a singular position rows depend on each other for an instant; a step aside they do not.
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> uniform(-0.03, 0.03);
-  VectorXd aside(tree.nv);
-  for (double& x : aside) x = uniform(random);
-  loops.move(state, aside);
+  loops.move(state, moved_by(0.03));
   if (loops.close(state, VectorXd::Ones(tree.nv))) {
     loops.evaluate(state);
     G = loops.jacobian();

@@ -109,6 +109,8 @@ class TreeBuilder {
     for (std::size_t j = 0; j < spec_.joints.size(); ++j)
       if (read_[j]) cross(static_cast<int>(j), body, queue);
     for (std::size_t j = 0; j < spec_.joints.size(); ++j)
+      if (spec_.joints[j].has_given()) cross(static_cast<int>(j), body, queue);
+    for (std::size_t j = 0; j < spec_.joints.size(); ++j)
       if (!spec_.joints[j].initial.empty()) cross(static_cast<int>(j), body, queue);
   }
 
@@ -208,8 +210,14 @@ class TreeBuilder {
     }
   }
 
-  /// Joint j closes a loop. If something reads its coordinates it becomes a chain from its inboard frame to a massless
-  /// link welded to its outboard frame, so that the coordinates exist.
+  /// A deformation has its initial values from the body, not from the user.
+  [[nodiscard]] bool starts_as_given(int j) const {
+    const bool deforms = std::find(spec_.deforming.begin(), spec_.deforming.end(), JointId{j}) != spec_.deforming.end();
+    return spec_.joints[j].has_given() && !deforms;
+  }
+
+  /// Joint j closes a loop. If something reads its coordinates, or they start as given, it becomes a chain from its
+  /// inboard frame to a massless link welded to its outboard frame, so that the coordinates exist.
   void close(int j) {
     const JointSpec& joint = spec_.joints[j];
     Closure closure;
@@ -217,7 +225,7 @@ class TreeBuilder {
     closure.pair.a = tree_.frames[joint.inboard.index];
     closure.pair.b = tree_.frames[joint.outboard.index];
     // A screw's constraint counts turns, which poses do not show.
-    if (read_[j] || joint.type == JointType::screw) {
+    if (read_[j] || starts_as_given(j) || joint.type == JointType::screw) {
       closure.pair.a = add_chain(j, -1, elements_of(joint.type, joint.axis, joint.lead), false, closure.pair.a);
       closure.rows = constraint_rows(JointType::fixed, joint.axis);
     } else {

@@ -99,7 +99,8 @@ struct Tree {
 };
 
 /// Chooses the spanning tree (breadth first from ground, in order of declaration; joints whose coordinates are driven,
-/// sprung, read by loads or given initially come first) and lays out coordinates and constraints.
+/// sprung, read by loads or given initially come first, then those with a guess) and lays out coordinates and
+/// constraints.
 [[nodiscard]] Tree build_tree(const MechanismSpec& spec);
 
 /// The scalar column of a joint coordinate.

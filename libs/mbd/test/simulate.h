@@ -13,8 +13,10 @@ namespace hersey::mbd::test {
 /// A consistent start, given coordinates held.
 inline solver::State start(Mechanism& mechanism) {
   solver::State state = mechanism.initial_state();
-  const solver::InitialiseSummary summary = solver::initialise(
-      mechanism, state, {.held = mechanism.given_coordinates(), .stiff = mechanism.elastic_coordinates()});
+  const solver::InitialiseSummary summary = solver::initialise(mechanism, state,
+                                                               {.held = mechanism.given_coordinates(),
+                                                                .held_rates = mechanism.given_rates(),
+                                                                .stiff = mechanism.elastic_coordinates()});
   INFO(summary.message);
   REQUIRE(summary.consistent());
   return state;

@@ -156,7 +156,9 @@ class Builder {
   void add_flexible(const Body& body) {
     const std::vector<const DeformingSurface*> surfaces = surfaces_on(body);
     std::vector<BuiltSurface> kept;
-    BuiltFlexible built = build_flexible(body, surfaces, kept);
+    const bool is_let_go = model_.simulation.analysis == Analysis::dynamics &&
+                           model_.simulation.initial_deformation == InitialDeformation::none;
+    BuiltFlexible built = build_flexible(body, surfaces, is_let_go, kept);
     for (std::size_t i = 0; i < surfaces.size(); ++i) kept_[surfaces[i]] = kept[i];
     std::vector<std::string> names;
     for (std::size_t i = 1; i < body.frames.size(); ++i) names.push_back(body.frames[i].name);
@@ -191,33 +193,45 @@ class Builder {
 
   [[nodiscard]] mbd::FrameId frame(const FrameName& name) const { return frames_.at({name.body, name.frame}); }
 
-  // Writes the given initial values (or rates) into the joint's list; empty if none is given.
-  static std::vector<double> initial_values(const Joint& joint, bool rates) {
-    const mbd::JointType type = joint_type(joint.type);
+  // Values of all of a joint's coordinates (or their rates), and which of them are not given; empty if none is known.
+  struct StartingValues {
     std::vector<double> values;
-    for (const InitialValue& given : joint.initial) {
-      for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type)) {
-        const std::string name(coordinate.name);
-        const bool is_rate = given.coordinate == name + "_rate" ||
-                             (name == "orientation" && given.coordinate == "angular_velocity") ||
-                             (name == "position" && given.coordinate == "velocity");
-        if (rates ? !is_rate : given.coordinate != name) continue;
-        values.resize(static_cast<std::size_t>(mbd::degrees_of_freedom(type)), 0.0);
-        std::copy(given.value.begin(), given.value.end(), values.begin() + coordinate.offset);
-      }
+    std::vector<bool> loose;
+
+    void take(const InitialValue& known, const mbd::Coordinate& coordinate, int count, bool is_given) {
+      values.resize(static_cast<std::size_t>(count), 0.0);
+      loose.resize(static_cast<std::size_t>(count), true);
+      std::copy(known.value.begin(), known.value.end(), values.begin() + coordinate.offset);
+      std::fill_n(loose.begin() + coordinate.offset, coordinate.size, !is_given);
     }
-    return values;
+  };
+
+  static StartingValues starting_values(const Joint& joint, bool rates) {
+    const mbd::JointType type = joint_type(joint.type);
+    const int count = mbd::degrees_of_freedom(type);
+    StartingValues known;
+    for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type)) {
+      const std::string name(rates ? mbd::rate_name(coordinate) : coordinate.name);
+      for (const InitialValue& value : joint.guess)
+        if (value.coordinate == name) known.take(value, coordinate, count, false);
+      for (const InitialValue& value : joint.initial)
+        if (value.coordinate == name) known.take(value, coordinate, count, true);
+    }
+    return known;
   }
 
   void add_joint(const Joint& joint) {
+    StartingValues position = starting_values(joint, false), rate = starting_values(joint, true);
     const mbd::JointId id = mechanism_.add_joint({.name = joint.name,
                                                   .type = joint_type(joint.type),
                                                   .inboard = frame(joint.inboard),
                                                   .outboard = frame(joint.outboard),
                                                   .axis = joint.axis,
                                                   .lead = joint.lead,
-                                                  .initial = initial_values(joint, false),
-                                                  .initial_rate = initial_values(joint, true)});
+                                                  .initial = std::move(position.values),
+                                                  .initial_rate = std::move(rate.values),
+                                                  .loose = std::move(position.loose),
+                                                  .loose_rate = std::move(rate.loose)});
     joints_[joint.name] = {id, joint_type(joint.type)};
   }
 
@@ -363,8 +377,9 @@ class Builder {
   [[nodiscard]] double initial_value(const CoordinateName& name) const {
     for (const Joint& joint : model_.joints) {
       if (joint.name != name.joint) continue;
-      for (const InitialValue& given : joint.initial)
-        if (given.coordinate == name.coordinate) return given.value.front();
+      for (const std::vector<InitialValue>* values : {&joint.initial, &joint.guess})
+        for (const InitialValue& value : *values)
+          if (value.coordinate == name.coordinate) return value.value.front();
     }
     return 0;
   }

@@ -70,7 +70,7 @@ fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh,
 
 }  // namespace
 
-BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces,
+BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces, bool is_let_go,
                              std::vector<BuiltSurface>& kept) {
   HERSEY_REQUIRE(body.flexible && body.flexible->mesh, "the reader checks meshes");
   const Flexible& flexible = *body.flexible;
@@ -86,10 +86,13 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
     kept.push_back({body.name, surfaces[i]->surface->functions.around(), surfaces[i]->surface->functions.along(),
                     static_cast<int>(shapes.film_modes[i].compliance.size()), shapes.film_modes[i].lost});
   mbd::ModalBodyData data = mbd::modal_data(shapes, flexible.damping, &built.shapes);
-  if (flexible.nodal)
-    built.body = std::make_shared<mbd::NodalBody>(std::move(*mesh), shapes, flexible.damping, flexible.strain);
-  else
+  if (flexible.nodal) {
+    auto nodal = std::make_shared<mbd::NodalBody>(std::move(*mesh), shapes, flexible.damping, flexible.strain);
+    if (is_let_go) nodal->start_undeformed();
+    built.body = std::move(nodal);
+  } else {
     built.body = std::make_shared<mbd::ModalBody>(std::move(data));
+  }
   for (const double omega : shapes.internal_omega) built.frequencies.push_back(omega / (2 * std::numbers::pi));
   return built;
 }

@@ -46,9 +46,32 @@ Key between_format() {
 Key axis_key(const std::string& meaning) { return defaulted("axis", axis_format(), "z", meaning); }
 
 Key initial_format(std::vector<Key> coordinates) {
-  return defaulted("initial", object("initial values of coordinates", std::move(coordinates)), "{}",
-                   "Where the joint starts. A guess will do where loops decide: they are closed with the least change, "
-                   "of values left out (0) first.");
+  return defaulted(
+      "initial", object("initial values of coordinates", std::move(coordinates)), "{}",
+      "Where the joint starts, and how fast. Values given are kept; those left out start from 0 and move where loops, "
+      "drives and couplings ask for it. Values that do not fit together are moved by the least that makes them fit, "
+      "and "
+      "told, if that is at most 1e-3 (rad, of the machine's size, of the largest rate); otherwise refused.");
+}
+
+Key guess_format(std::vector<Key> coordinates) {
+  return defaulted(
+      "guess", object("guesses of coordinates", std::move(coordinates)), "{}",
+      "Where the search for coordinates that `initial` leaves open begins: chooses among the ways in which "
+      "a loop can close. Not kept.");
+}
+
+Key angle_guess(const std::string& name) {
+  return optional(name, quantity("rad", "30 deg"), "Angle near the start.", "0");
+}
+Key shift_guess(const std::string& name) {
+  return optional(name, quantity("m", "0.1 mm"), "Displacement near the start.", "0");
+}
+Key orientation_guess() {
+  return optional("orientation", vector("rad", "0 0 30 deg"), "Rotation vector near the start.", "0");
+}
+Key position_guess() {
+  return optional("position", vector("m", "0 0.01 0 mm"), "Position near the start, inboard axes.", "0");
 }
 
 Key angle_key(const std::string& name) { return optional(name, quantity("rad", "30 deg"), "Angle at the start.", "0"); }
@@ -102,7 +125,8 @@ TypePtr bodies_format() {
   const TypePtr body =
       object("a body",
              {
-                 optional("mass", quantity("kg", "5 kg", Range::not_negative()), "Mass."),
+                 optional("mass", quantity("kg", "5 kg", Range::not_negative()),
+                          "Mass; 0 where joints, drives, dampers or films hold the body."),
                  optional("flexible", flexible_format(),
                           "The body deforms: its mesh takes the place of mass, centre and inertia."),
                  optional("beam", beam_format(),
@@ -134,31 +158,41 @@ TypePtr joints_format() {
                   {"fixed", "no motion", {}},
                   {"revolute",
                    "rotation about an axis; coordinate `rotation`",
-                   {about, initial_format({angle_key("rotation"), angle_rate_key("rotation_rate")})}},
+                   {about, initial_format({angle_key("rotation"), angle_rate_key("rotation_rate")}),
+                    guess_format({angle_guess("rotation")})}},
                   {"prismatic",
                    "sliding along an axis; coordinate `translation`",
-                   {along, initial_format({shift_key("translation"), shift_rate_key("translation_rate")})}},
+                   {along, initial_format({shift_key("translation"), shift_rate_key("translation_rate")}),
+                    guess_format({shift_guess("translation")})}},
                   {"cylindrical",
                    "sliding along and rotation about one axis; coordinates `translation`, `rotation`",
-                   {both, initial_format({shift_key("translation"), angle_key("rotation"),
-                                          shift_rate_key("translation_rate"), angle_rate_key("rotation_rate")})}},
+                   {both,
+                    initial_format({shift_key("translation"), angle_key("rotation"), shift_rate_key("translation_rate"),
+                                    angle_rate_key("rotation_rate")}),
+                    guess_format({shift_guess("translation"), angle_guess("rotation")})}},
                   {"spherical",
                    "a ball; coordinate `orientation` (a rotation vector)",
-                   {initial_format(orientation_keys())}},
+                   {initial_format(orientation_keys()), guess_format({orientation_guess()})}},
                   {"planar",
                    "motion in a plane; coordinates `x`, `y`, `rotation`",
-                   {normal, initial_format(planar_keys())}},
+                   {normal, initial_format(planar_keys()),
+                    guess_format({shift_guess("x"), shift_guess("y"), angle_guess("rotation")})}},
                   {"universal",
                    "a cross (Cardan) joint between shafts along `axis`: the cross turns about the first of the two "
                    "axes normal to it in the inboard frame (x for z, y for x, z for y) and about the second in the "
                    "outboard frame; coordinates `rotation_1`, `rotation_2`",
-                   {shaft, initial_format({angle_key("rotation_1"), angle_key("rotation_2"),
-                                           angle_rate_key("rotation_1_rate"), angle_rate_key("rotation_2_rate")})}},
+                   {shaft,
+                    initial_format({angle_key("rotation_1"), angle_key("rotation_2"), angle_rate_key("rotation_1_rate"),
+                                    angle_rate_key("rotation_2_rate")}),
+                    guess_format({angle_guess("rotation_1"), angle_guess("rotation_2")})}},
                   {"screw",
                    "rotation about an axis with travel along it; coordinate `rotation`",
                    {thread, required("lead", quantity("m", "5 mm"), "Travel per turn, right-handed where positive."),
-                    initial_format({angle_key("rotation"), angle_rate_key("rotation_rate")})}},
-                  {"free", "all six motions; coordinates `position`, `orientation`", {initial_format(free_keys())}},
+                    initial_format({angle_key("rotation"), angle_rate_key("rotation_rate")}),
+                    guess_format({angle_guess("rotation")})}},
+                  {"free",
+                   "all six motions; coordinates `position`, `orientation`",
+                   {initial_format(free_keys()), guess_format({position_guess(), orientation_guess()})}},
               }));
 }
 

@@ -90,7 +90,7 @@ TypePtr simulation_format() {
                             "as the forces of the start hold it; frames, and journals with them, are shifted by what "
                             "the body gives way"}}),
                    "How bodies that deform start, in `dynamics`.",
-                   "`internal` where a film presses on a surface that deforms, otherwise `none`"),
+                   "`internal` where a film presses on a surface that deforms or a body is `nodal`, otherwise `none`"),
           defaulted("spectral_radius", number("0.8", {.low = 0, .high = 1}), "0.8",
                     "Damping of the fastest vibrations by generalized-alpha: 1 none, 0 all within a step."),
           defaulted("tolerance", number("1e-8", fraction), "1e-8",

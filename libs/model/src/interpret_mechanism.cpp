@@ -1,4 +1,5 @@
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <map>
 
 #include "hersey/core/spelling.h"
@@ -52,6 +53,30 @@ const std::map<std::string, JointType>& joint_types() {
       {"screw", JointType::screw},
   };
   return types;
+}
+
+/// The coordinates that the mapping `key` of a joint gives values.
+std::vector<InitialValue> initial_values(const Value& joint, const std::string& key) {
+  std::vector<InitialValue> values;
+  for (const auto& [coordinate, given] : section(joint, key)) {
+    std::vector<double> numbers = given.numbers;
+    if (numbers.empty()) numbers = {given.number};
+    values.push_back({coordinate, std::move(numbers), given.key_position});
+  }
+  return values;
+}
+
+/// A coordinate is known, or it is guessed.
+void require_guesses_of_others(Context& context, const Value& value, const Joint& joint) {
+  for (const InitialValue& guess : joint.guess) {
+    const bool is_given = std::any_of(joint.initial.begin(), joint.initial.end(), [&](const InitialValue& initial) {
+      return initial.coordinate == guess.coordinate;
+    });
+    if (!is_given) continue;
+    context.fault_at_key(*value.find("guess")->find(guess.coordinate),
+                         "a guess of " + guess.coordinate + ", which `initial` gives",
+                         "coordinates that `initial` leaves open", "keep one of the two");
+  }
 }
 
 }  // namespace
@@ -122,11 +147,9 @@ void interpret_joints(Context& context) {
         context.fault(*lead, "a lead of 0", "a travel per turn", "a revolute joint has none");
       }
     }
-    for (const auto& [coordinate, initial] : section(value, "initial")) {
-      std::vector<double> numbers = initial.numbers;
-      if (numbers.empty()) numbers = {initial.number};
-      joint.initial.push_back({coordinate, std::move(numbers), initial.key_position});
-    }
+    joint.initial = initial_values(value, "initial");
+    joint.guess = initial_values(value, "guess");
+    require_guesses_of_others(context, value, joint);
     context.model.joints.push_back(std::move(joint));
   }
 }

@@ -264,8 +264,10 @@ InitialDeformation initial_deformation_of(const Model& model, const Value& simul
            : value->text == "internal" ? InitialDeformation::internal
                                        : InitialDeformation::none;
   const auto deforms = [](const Bearing& bearing) { return bearing.shell_surface || bearing.journal_surface; };
-  return std::any_of(model.bearings.begin(), model.bearings.end(), deforms) ? InitialDeformation::internal
-                                                                            : InitialDeformation::none;
+  const auto is_nodal = [](const Body& body) { return body.flexible && body.flexible->nodal; };
+  const bool rests = std::any_of(model.bearings.begin(), model.bearings.end(), deforms) ||
+                     std::any_of(model.bodies.begin(), model.bodies.end(), is_nodal);
+  return rests ? InitialDeformation::internal : InitialDeformation::none;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/assumptions.h"
 #include "redundancies.h"
+#include "start_changes.h"
 #include "work_record.h"
 
 namespace hersey::run {
@@ -46,14 +47,15 @@ std::filesystem::path unfinished_file(const std::filesystem::path& results) {
   return path;
 }
 
-Recorder::Recorder(const model::Model& model, const model::Machine& machine, const Options& options, bool resumes)
+Recorder::Recorder(const model::Model& model, const model::Machine& machine, const solver::State& start,
+                   const Options& options, bool resumes)
     : model_(model),
       machine_(machine),
       writer_(resumes ? unfinished_file(options.results) : options.results,
               {.overwrite = resumes || options.overwrite}),
       cycles_(model, machine, writer_) {
   hide_inner_nodes();
-  declare_run(options);
+  declare_run(start, options);
   declare_machine();
   declare_flexible_bodies();
   declare_surface_loads();
@@ -66,7 +68,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
   writer_.flush();
 }
 
-void Recorder::declare_run(const Options& options) {
+void Recorder::declare_run(const solver::State& start, const Options& options) {
   const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
   writer_.attribute("/", "hersey_version", version());
   writer_.attribute("/", "title", model_.title);
@@ -84,6 +86,7 @@ void Recorder::declare_run(const Options& options) {
   writer_.text("/model", model_.resolved_text, "model file of this run, overrides noted");
   std::vector<std::pair<std::string, std::string>> texts = assumptions(model_);
   for (auto& text : film_surface_rows(model_, machine_)) texts.push_back(std::move(text));
+  for (auto& text : start_rows(model_, *machine_.mechanism, start)) texts.push_back(std::move(text));
   for (auto& text : redundancies(*machine_.mechanism)) texts.push_back(std::move(text));
   writer_.text_table("/assumptions", texts, "what decides the results: name, text");
 

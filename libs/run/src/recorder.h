@@ -35,9 +35,11 @@ struct StepRecord {
 /// Puts steps into the results file (layout: docs/results-file.md).
 class Recorder {
  public:
+  /// @param start    what the run starts from, to tell where that is not what the model gives
   /// @param resumes  the file is written under another name, to take the place of `options.results` in `persist`
   /// @throws results::FileExists, results::WriteError.
-  Recorder(const model::Model& model, const model::Machine& machine, const Options& options, bool resumes = false);
+  Recorder(const model::Model& model, const model::Machine& machine, const solver::State& start, const Options& options,
+           bool resumes = false);
 
   /// @param energy  since the start of the run
   void write_row(const StepRecord& step, const EnergySummary& energy);
@@ -118,7 +120,7 @@ class Recorder {
   void declare_flexible_modes();
   void write_flexible_mode(const solver::State& state, const Eigen::VectorXcd& shape);
   [[nodiscard]] Eigen::VectorXd body_increments(const solver::State& state, const Eigen::VectorXd& shape) const;
-  void declare_run(const Options& options);
+  void declare_run(const solver::State& start, const Options& options);
   void declare_machine();
   void declare_flexible_bodies();
   void write_flexible_bodies(const mbd::Observation& seen);

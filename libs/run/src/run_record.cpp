@@ -7,10 +7,11 @@
 
 namespace hersey::run {
 
-RunRecord::RunRecord(const model::Model& model, const model::Machine& machine, const Options& options, bool resumes)
+RunRecord::RunRecord(const model::Model& model, const model::Machine& machine, const solver::State& start,
+                     const Options& options, bool resumes)
     : model_(model),
       options_(options),
-      recorder_(model, machine, options, resumes),
+      recorder_(model, machine, start, options, resumes),
       deformed_(model, machine, options.results),
       settling_(model),
       cycles_(model),

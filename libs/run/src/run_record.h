@@ -21,9 +21,10 @@ namespace hersey::run {
 /// extremes for the summary. Says when a run has settled or repeats itself.
 class RunRecord {
  public:
-  /// @param resumes  Recorder
+  /// @param start, resumes  Recorder
   /// @throws as Recorder
-  RunRecord(const model::Model& model, const model::Machine& machine, const Options& options, bool resumes);
+  RunRecord(const model::Model& model, const model::Machine& machine, const solver::State& start,
+            const Options& options, bool resumes);
 
   /// The start of the run, then every accepted step.
   void take(const StepRecord& step);

@@ -21,6 +21,7 @@
 #include "redundancies.h"
 #include "run_record.h"
 #include "start.h"
+#include "start_changes.h"
 #include "step_march.h"
 #include "work_record.h"
 
@@ -49,7 +50,7 @@ class Simulation {
         kinds_(force_kinds(machine_)),
         march_(model, machine_),
         work_(model, machine_, march_.integrator()),
-        record_(model, machine_, options, checkpoint.has_value()),
+        record_(model, machine_, state_, options, checkpoint.has_value()),
         checkpoints_(model.simulation) {
     summary_.results = options.results;
     record_.declare_cost(work_.work());
@@ -303,8 +304,9 @@ Summary resume(const model::Model& model, const Options& options) {
 std::vector<Fault> check(const model::Model& model) {
   if (model.is_of_bearings_alone()) return {};
   model::Machine machine = model::build(model);
-  (void)starting_state(model, machine);
-  std::vector<Fault> warnings = redundancy_warnings(model, *machine.mechanism);
+  const solver::State start = starting_state(model, machine);
+  std::vector<Fault> warnings = start_warnings(model, *machine.mechanism, start);
+  for (Fault& warning : redundancy_warnings(model, *machine.mechanism)) warnings.push_back(std::move(warning));
   for (Fault& warning : offset_warnings(model)) warnings.push_back(std::move(warning));
   return warnings;
 }

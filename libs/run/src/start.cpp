@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +14,7 @@
 #include "hersey/solver/initialise.h"
 #include "hersey/solver/kinematics.h"
 #include "hersey/solver/static_deformation.h"
+#include "start_changes.h"
 
 namespace hersey::run {
 namespace {
@@ -48,23 +47,9 @@ Fault fault_at(const model::Model& model, const std::string& row, std::string fo
   return {std::move(position), path, std::move(found), std::move(expected), std::move(suggestion)};
 }
 
-// "joint right, closing position" -> "joint right is still 12.3 mm apart".
-std::string gap_text(const solver::OpenConstraint& open) {
-  const std::string what = open.name.substr(0, open.name.find(','));
-  if (open.name.ends_with("position")) return fmt::format("{} is {:.4g} mm apart", what, 1e3 * open.size);
-  if (open.name.ends_with("orientation")) {
-    const double degrees = std::asin(std::min(open.size, 1.0)) * 180 / std::numbers::pi;
-    return fmt::format("{} is {:.4g} deg out of line", what, degrees);
-  }
-  return fmt::format("{} is {:.4g} (rad or m) off", what, open.size);
-}
-
 std::vector<Fault> faults_of_open_loop(const model::Model& model, const solver::InitialiseSummary& summary) {
-  std::vector<std::string> gaps;
-  gaps.reserve(summary.open.size());
-  for (const solver::OpenConstraint& open : summary.open) gaps.push_back(gap_text(open));
   return {fault_at(model, summary.open.front().name,
-                   fmt::format("a mechanism that cannot be assembled: at its closest, {}", fmt::join(gaps, ", ")),
+                   "a mechanism that cannot be assembled: at its closest, " + gaps_text(summary.open),
                    "initial values and lengths with which every loop closes",
                    "check the frames and `initial` values along the loop, and the drives in it")};
 }
@@ -83,7 +68,7 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
   }
   for (const std::string& row : summary.undetermined) {
     faults.push_back(fault_at(model, row, "singular mechanism: nothing determines the motion of " + row,
-                              "mass, inertia, a joint or a drive for every coordinate",
+                              "mass, inertia, a joint, a drive, a damper or a film for every coordinate",
                               "give the bodies behind it mass and inertia, or hold it with a drive"));
   }
   if (!faults.empty()) return faults;
@@ -153,9 +138,11 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   state.t = model.simulation.start;
   solver::InitialiseOptions options;
   options.held = machine.mechanism->given_coordinates();
+  options.held_rates = machine.mechanism->given_rates();
   options.stiff = machine.mechanism->elastic_coordinates();
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
   if (!summary.consistent()) throw InputError(faults_of(model, summary));
+  require_given_start(model, *machine.mechanism, state, summary);
   require_clearance(model, machine, state);
   deform(model, machine, options, state);
   if (model.simulation.analysis == model::Analysis::kinematics) require_prescribed_motion(model, machine, state);

@@ -67,14 +67,20 @@ TEST_CASE("RoughGuess_IsAssembledWithTheGivenCoordinateHeld") {
   }
 }
 
-TEST_CASE("GivenCoordinate_MovesWhereNothingElseCan") {
+TEST_CASE("GivenCoordinateOutOfReach_IsRefusedWithTheNearest") {
   // At 0.8 m the crank must point to the other side to within what coupler and rocker reach: 0.9 m; 180 deg is beyond.
-  const model::Model model = rig(four_bar("0.8", "180"));
-  model::Machine machine = model::build(model);
-  const solver::State state = starting_state(model, machine);
-  const mbd::Observation seen = machine.mechanism->observe(state);
-  const Vector3 gap = seen.bodies[2].X_WF * Vector3(0.5, 0, 0) - seen.bodies[3].X_WF * Vector3(0.4, 0, 0);
-  CHECK(gap.norm() < 1e-11);
+  try {
+    check(rig(four_bar("0.8", "180")));
+    FAIL("the loop closed");
+  } catch (const InputError& error) {
+    const Fault& fault = error.faults().front();
+    CAPTURE(fault.text());
+    CHECK(fault.path == "joints.a.initial.rotation");
+    CHECK(fault.position.line > 0);
+    CHECK(fault.found.find("180 deg") != std::string::npos);
+    CHECK(fault.found.find("joint right is 200 mm apart") != std::string::npos);
+    CHECK(fault.expected.find("the nearest found has") != std::string::npos);
+  }
 }
 
 }  // namespace

@@ -63,7 +63,10 @@ Eigen::VectorXd after(const char* form, int steps) {
   const model::Machine machine = model::build(model);
   mbd::Mechanism& m = *machine.mechanism;
   solver::State state = m.initial_state();
-  REQUIRE(solver::initialise(m, state, {.held = m.given_coordinates(), .stiff = m.elastic_coordinates()}).consistent());
+  REQUIRE(
+      solver::initialise(
+          m, state, {.held = m.given_coordinates(), .held_rates = m.given_rates(), .stiff = m.elastic_coordinates()})
+          .consistent());
   solver::GeneralizedAlpha integrator({.spectral_radius = model.simulation.spectral_radius});
   for (int i = 0; i < steps; ++i) {
     const solver::StepSummary step = integrator.step(m, state, 1e-5);

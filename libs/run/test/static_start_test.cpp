@@ -52,6 +52,35 @@ TEST_CASE("HeldBar_StartsAtRestUnderItsWeight") {
   CHECK(*std::max_element(let_go.begin(), let_go.end()) == doctest::Approx(4 * at_rest).epsilon(0.1));
 }
 
+// A displacement of every node, or four modes: both are let go undeformed where that is asked for.
+TEST_CASE("NodalBar_IsLetGoWhereItIsAskedFor") {
+  const std::string modal = pendulum("  clamp: {type: fixed, between: [ground, bar.root]}\n");
+  std::string nodal = modal;
+  nodal.replace(nodal.find("modes: 4"), 8, "form: nodal");
+  const std::vector<double> let_go = strain_energy(nodal, "none");
+  CHECK(let_go.front() == 0);
+  const std::vector<double> held = strain_energy(nodal, "internal");
+  CHECK(held.front() > 0);
+  const double highest = *std::max_element(let_go.begin(), let_go.end());
+  CHECK(highest == doctest::Approx(4 * held.front()).epsilon(0.1));
+  // The same swing as by modes, from the first step on.
+  const std::vector<double> by_modes = strain_energy(modal, "none");
+  REQUIRE(by_modes.size() == let_go.size());
+  for (std::size_t i = 0; i < let_go.size(); ++i) CHECK(std::abs(let_go[i] - by_modes[i]) < 0.05 * highest);
+}
+
+// Not told otherwise it starts as its forces hold it.
+TEST_CASE("NodalBar_StartsInItsStaticAnswerByDefault") {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 4);
+  std::string text = pendulum("  clamp: {type: fixed, between: [ground, bar.root]}\n");
+  CHECK(model::read_text(text, (folder / "model.yaml").string()).simulation.initial_deformation ==
+        model::InitialDeformation::none);
+  text.replace(text.find("modes: 4"), 8, "form: nodal");
+  CHECK(model::read_text(text, (folder / "model.yaml").string()).simulation.initial_deformation ==
+        model::InitialDeformation::internal);
+}
+
 // Its rigid rotation depends on the constraints, as do two of its deformations.
 TEST_CASE("BarInALoop_StartsAtRestUnderItsWeight") {
   const std::string loop =

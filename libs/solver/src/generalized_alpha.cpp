@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "fast_motions.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/stopwatch.h"
@@ -45,10 +47,12 @@ struct GeneralizedAlpha::Workspace {
   VectorXd error;         ///< estimate of the step's local error of position
   VectorXd across;        ///< the part of it across the constraints
   VectorXd drift;         ///< smoothed `across`/dt^3 of the accepted steps; empty where it was not estimated
-  VectorXd v_start;       ///< velocity the step starts from
-  std::string trouble;    ///< why the last assembly was outside the domain, empty if inside
+  SettledStart start;   ///< of the step: the state's own motion, or what is left of it when fast motions have died out
+  VectorXd v_start;     ///< velocity the step starts from
+  std::string trouble;  ///< why the last assembly was outside the domain, empty if inside
 
-  void predict(const State& state, double dt);
+  void choose_start(Equations& equations, const State& state, double dt);
+  void predict(double dt);
   void place(Equations& equations, const State& state, const VectorXd& at);
   bool assemble(Equations& equations, const GeneralizedAlphaOptions& options);
   void measure(Equations& equations, double rtol);
@@ -60,16 +64,26 @@ struct GeneralizedAlpha::Workspace {
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
 };
 
+/// Theory manual eq. (integrator.6), and (integrator.20) where the step does not resolve how the motion starts.
+void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State& state, double dt) {
+  start = {VectorXd::Zero(state.v.size()), state.v, state.vdot};
+  if (!stage.fresh) return;
+  if (std::optional<SettledStart> settled = settle_fast_motions(equations, state, dt)) start = std::move(*settled);
+  a = start.vdot;
+  last_dt = dt;
+  equations.begin_step(state, dt);
+}
+
 /// The step with a_{n+1} = a_n: dq, v and vdot that belong together.
-void GeneralizedAlpha::Workspace::predict(const State& state, double dt) {
+void GeneralizedAlpha::Workspace::predict(double dt) {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
-  a_n = state.vdot + (dt / last_dt) * (a - state.vdot);
-  v_start = state.v;
+  a_n = start.vdot + (dt / last_dt) * (a - start.vdot);
+  v_start = start.v;
   // Theory manual eq. (integrator.14): velocities across the constraints are offset by an error that goes as dt^2.
   if (drift.size() > 0 && dt != last_dt) v_start += (dt * dt - last_dt * last_dt) * drift;
-  dq_predicted = dt * v_start + (0.5 * dt * dt) * a_n;
+  dq_predicted = start.offset + dt * v_start + (0.5 * dt * dt) * a_n;
   v_predicted = v_start + dt * a_n;
-  vdot_predicted = (a_n - alpha_f * state.vdot) / (1 - alpha_f);
+  vdot_predicted = (a_n - alpha_f * start.vdot) / (1 - alpha_f);
   stage.dt = dt;
   stage.parameters = parameters;
   stage.k = 1;
@@ -240,15 +254,13 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   Workspace& w = *work_;
   StepSummary summary;
   if (!w.started) {
-    // Theory manual eq. (integrator.6). Starting from zero would cost an order.
-    w.a = state.vdot;
-    w.last_dt = dt;
     w.drift.resize(0);
     w.started = true;
     w.stage.fresh = true;
   }
   equations.begin_step(state, dt);
-  w.predict(state, dt);
+  w.choose_start(equations, state, dt);
+  w.predict(dt);
 
   const auto fail = [&](StepStatus status, const std::string& why) {
     summary.status = status;

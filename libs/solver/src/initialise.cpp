@@ -10,6 +10,7 @@
 #include "assemble_positions.h"
 #include "hersey/core/contract.h"
 #include "kkt.h"
+#include "massless.h"
 
 namespace hersey::solver {
 namespace {
@@ -18,18 +19,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Equations::Index;
 
-/// Weights of a minimum-norm increment: held components move only if nothing else can.
-VectorXd mobilities(Index nv, const InitialiseOptions& options) {
-  VectorXd weight = VectorXd::Ones(nv);
-  const auto weigh = [&](const std::vector<Index>& components, double mobility) {
-    for (Index k : components) {
-      HERSEY_REQUIRE(0 <= k && k < nv, "a held component exists");
-      weight[k] = mobility;
-    }
-  };
-  weigh(options.held, 1e-7);
-  weigh(options.stiff, 1e-10);
-  return weight;
+/// How readily held components move where they have to, relative to the free ones. Small enough that the free ones do
+/// all that they can, large enough that what is left is solved beyond the tolerance of the constraints.
+constexpr double kReluctance = 1e-3;
+
+/// Sets the mobility of `components`.
+void weigh(const std::vector<Index>& components, double mobility, VectorXd& weight) {
+  for (const Index k : components) {
+    HERSEY_REQUIRE(0 <= k && k < weight.size(), "a held component exists");
+    weight[k] = mobility;
+  }
 }
 
 std::vector<std::string> names_of(const Equations& equations, const std::vector<Index>& rows, Index offset) {
@@ -59,45 +58,90 @@ std::vector<OpenConstraint> open_constraints(Equations& equations, const State& 
   return open;
 }
 
-/// Closes the constraints: first with what is held at rest, then with everything free but what is stiff, each also from
-/// a disturbed guess; at last with that free too. Leaves the state where it ended, or at the closest configuration
-/// found.
-void assemble_positions(Equations& equations, State& state, const InitialiseOptions& options,
-                        InitialiseSummary& summary) {
-  const State guess = state;
-  State closest = state;
-  double least = std::numeric_limits<double>::infinity();
-  const auto attempt = [&](bool hold, bool stiff, bool disturbed) {
-    VectorXd mobility = VectorXd::Ones(equations.nv());
-    if (hold)
-      for (const Index k : options.held) mobility[k] = 0;
-    if (stiff)
-      for (const Index k : options.stiff) mobility[k] = 0;
-    state = guess;
-    if (disturbed) disturb(equations, state, mobility);
-    const ClosureResult result = close_constraints(equations, state, mobility, options);
-    summary.iterations += result.iterations;
-    if (result.residual < least) {
-      least = result.residual;
-      closest = state;
+/// Closes the constraints: with what is held at rest if that can be, otherwise from the closest configuration so found
+/// by the least change of what is held; at last with everything free. Each time what is stiff moves only if nothing
+/// else does it, and where the way there ends short, another is tried from a disturbed guess.
+class Assembly {
+ public:
+  Assembly(Equations& equations, State& state, const InitialiseOptions& options, InitialiseSummary& summary)
+      : equations_(equations), state_(state), options_(options), summary_(summary), guess_(state), closest_(state) {}
+
+  void run() {
+    if (close_with_held_at_rest()) return;
+    summary_.conflict = open_constraints(equations_, closest_);
+    const bool closed = attempt(closest_, mobility(kReluctance, 0)) || attempt(guess_, mobility(1, 0)) ||
+                        attempt(disturbed(mobility(1, 0)), mobility(1, 0)) ||
+                        (!options_.stiff.empty() && attempt(guess_, mobility(kReluctance, 1)));
+    if (!closed) fail();
+  }
+
+ private:
+  [[nodiscard]] VectorXd mobility(double held, double stiff) const {
+    VectorXd weight = VectorXd::Ones(equations_.nv());
+    weigh(options_.held, held, weight);
+    weigh(options_.stiff, stiff, weight);
+    return weight;
+  }
+
+  [[nodiscard]] State disturbed(const VectorXd& mobility) const {
+    State aside = guess_;
+    disturb(equations_, aside, mobility);
+    return aside;
+  }
+
+  bool close_with_held_at_rest() {
+    const VectorXd at_rest = mobility(0, 0);
+    return attempt(guess_, at_rest) || attempt(disturbed(at_rest), at_rest);
+  }
+
+  /// Leaves the state where it ends.
+  bool attempt(const State& from, const VectorXd& mobility) {
+    state_ = from;
+    const ClosureResult result = close_constraints(equations_, state_, mobility, options_);
+    summary_.iterations += result.iterations;
+    if (result.residual < summary_.residual) {
+      summary_.residual = result.residual;
+      closest_ = state_;
     }
     return result.closed;
-  };
-  bool closed = attempt(true, true, false) || attempt(true, true, true) || attempt(false, true, false) ||
-                attempt(false, true, true);
-  if (!closed && !options.stiff.empty()) closed = attempt(false, false, false);
-  if (!closed) state = closest;
-  summary.residual = least;
-  if (closed) return;
-  summary.status = InitialiseStatus::cannot_assemble;
-  summary.open = open_constraints(equations, state);
-  std::vector<std::string> gaps;
-  gaps.reserve(summary.open.size());
-  for (const OpenConstraint& open : summary.open) gaps.push_back(fmt::format("{} by {:.4g}", open.name, open.size));
-  summary.message = fmt::format(
-      "the mechanism cannot be assembled; where it comes closest these are open: {}; check the geometry, the initial "
-      "values and the drives they belong to",
-      fmt::join(gaps, "; "));
+  }
+
+  void fail() {
+    state_ = closest_;
+    summary_.status = InitialiseStatus::cannot_assemble;
+    summary_.open = open_constraints(equations_, state_);
+    std::vector<std::string> gaps;
+    gaps.reserve(summary_.open.size());
+    for (const OpenConstraint& open : summary_.open) gaps.push_back(fmt::format("{} by {:.4g}", open.name, open.size));
+    summary_.message = fmt::format(
+        "the mechanism cannot be assembled; where it comes closest these are open: {}; check the geometry, the initial "
+        "values and the drives they belong to",
+        fmt::join(gaps, "; "));
+  }
+
+  Equations& equations_;
+  State& state_;
+  const InitialiseOptions& options_;
+  InitialiseSummary& summary_;
+  State guess_, closest_;
+};
+
+/// Velocities that the constraints allow: with the smallest change of the free ones, in units of position_scales(), and
+/// of those given only where these cannot do it.
+void project_velocities(Equations& equations, State& state, const InitialiseOptions& options) {
+  if (equations.nlambda() == 0) return;
+  VectorXd weight = VectorXd::Ones(equations.nv());
+  weigh(options.held_rates, 1e-7, weight);
+  weigh(options.stiff, 1e-10, weight);
+  weight = weight.cwiseProduct(equations.position_scales());
+  VectorXd velocity, gamma, phi, row_scale;
+  Equations::SparseMatrix G;
+  equations.constraints(state, phi, row_scale, &G);
+  // Weights so far apart cost digits, which the second pass returns.
+  for (int pass = 0; pass < 2; ++pass) {
+    equations.constraint_rates(state, velocity, gamma);
+    state.v += smallest_increment(G, velocity, weight);
+  }
 }
 
 /// Says which constraints repeat others, looked at in the assembled state or, where there is none, away from special
@@ -126,6 +170,45 @@ bool report_redundancy(Equations& equations, const State& state, bool assembled,
   return true;
 }
 
+void outside_domain(const State& state, const std::string& trouble, InitialiseSummary& summary) {
+  summary.status = InitialiseStatus::domain_error;
+  summary.message = fmt::format("at the start, t = {:.6g} s: {}", state.t, trouble);
+}
+
+/// Accelerations and multipliers of `trial`, and the velocities of motions that have no inertia; false, with the
+/// reason, where they are not determined.
+bool find_accelerations(Equations& equations, State& trial, InitialiseSummary& summary) {
+  const Index nv = equations.nv();
+  VectorXd h, velocity, gamma;
+  Equations::SparseMatrix S;
+  const auto assembled = [&] {
+    equations.begin_step(trial, 0);
+    const std::string trouble = assemble_forces(equations, trial, 0, h, S);
+    if (!trouble.empty()) outside_domain(trial, trouble, summary);
+    equations.constraint_rates(trial, velocity, gamma);
+    return trouble.empty();
+  };
+  if (!assembled()) return false;
+  AccelerationSolution solution = solve_kkt(S, nv, h, gamma);
+  if (!solution.undetermined.empty()) {
+    const MasslessSummary balance = balance_massless(equations, trial, massless_motions(S, nv));
+    if (!balance.message.empty()) outside_domain(trial, balance.message, summary);
+    if (!balance.undetermined.empty()) {
+      summary.status = InitialiseStatus::undetermined;
+      summary.undetermined = names_of(equations, balance.undetermined, 0);
+      summary.message = fmt::format(
+          "nothing determines the motion of: {}. Give the bodies there mass and inertia, "
+          "or hold the motion by a joint, a drive, a damper or a film",
+          fmt::join(summary.undetermined, "; "));
+    }
+    if (!balance.balanced() || !assembled()) return false;
+    solution = solve_kkt_but_massless(S, nv, h, gamma);
+  }
+  trial.vdot = std::move(solution.vdot);
+  trial.lambda = std::move(solution.lambda);
+  return true;
+}
+
 }  // namespace
 
 InitialiseSummary initialise(Equations& equations, State& state, const InitialiseOptions& options) {
@@ -136,39 +219,14 @@ InitialiseSummary initialise(Equations& equations, State& state, const Initialis
   State trial = state;
   trial.vdot.setZero(nv);
   trial.lambda.setZero(nlambda);
-  const VectorXd weight = mobilities(nv, options);
-
-  assemble_positions(equations, trial, options, summary);
+  summary.residual = std::numeric_limits<double>::infinity();
+  Assembly(equations, trial, options, summary).run();
   // Conflicting constraints are redundant ones, and that is the better message.
   if (report_redundancy(equations, trial, summary.consistent(), summary) || !summary.consistent()) return summary;
 
-  VectorXd velocity, gamma, phi, scale;
-  Equations::SparseMatrix G;
-  equations.constraints(trial, phi, scale, &G);
-  equations.constraint_rates(trial, velocity, gamma);
-  if (nlambda > 0) trial.v += smallest_increment(G, velocity, weight);
+  project_velocities(equations, trial, options);
 
-  equations.begin_step(trial, 0);
-  VectorXd h;
-  Equations::SparseMatrix S;
-  if (std::string trouble = assemble_forces(equations, trial, 0, h, S); !trouble.empty()) {
-    summary.status = InitialiseStatus::domain_error;
-    summary.message = fmt::format("at the start, t = {:.6g} s: {}", trial.t, trouble);
-    return summary;
-  }
-  equations.constraint_rates(trial, velocity, gamma);
-  AccelerationSolution solution = solve_kkt(S, nv, h, gamma);
-  if (!solution.undetermined.empty()) {
-    summary.status = InitialiseStatus::undetermined;
-    summary.undetermined = names_of(equations, solution.undetermined, 0);
-    summary.message = fmt::format(
-        "nothing determines the acceleration of: {}. Give the bodies there mass and inertia, "
-        "or hold the motion by a joint or a drive",
-        fmt::join(summary.undetermined, "; "));
-    return summary;
-  }
-  trial.vdot = std::move(solution.vdot);
-  trial.lambda = std::move(solution.lambda);
+  if (!find_accelerations(equations, trial, summary)) return summary;
   state = std::move(trial);
   equations.accept_step(state);
   return summary;
@@ -180,7 +238,8 @@ bool solve_accelerations(Equations& equations, State& state, double dt) {
   if (!assemble_forces(equations, state, dt, h, S).empty()) return false;
   equations.constraint_rates(state, velocity, gamma);
   AccelerationSolution solution = solve_kkt(S, equations.nv(), h, gamma);
-  if (!solution.undetermined.empty()) return false;
+  // Motions without inertia stay in balance.
+  if (!solution.undetermined.empty()) solution = solve_kkt_but_massless(S, equations.nv(), h, gamma);
   state.vdot = std::move(solution.vdot);
   state.lambda = std::move(solution.lambda);
   return true;

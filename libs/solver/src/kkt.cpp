@@ -18,6 +18,8 @@ using Eigen::VectorXd;
 
 // Dependencies of exact geometry show up at round-off; ill-conditioned but independent rows stay well above this.
 constexpr double kRankThreshold = 1e-10;
+// Inertia of a motion relative to those of the coordinates in it: below, it has none.
+constexpr double kNoInertia = 1e-12;
 
 MatrixXd normalised_rows(const MatrixXd& G) {
   MatrixXd scaled = G;
@@ -69,7 +71,7 @@ class NullSpaceSolver {
   [[nodiscard]] std::vector<Index> undetermined() const {
     std::set<Index> components;
     for (Index i = 0; i < free_.cols(); ++i) {
-      if (inertia_.eigenvalues()[i] > 1e-12) continue;
+      if (inertia_.eigenvalues()[i] > kNoInertia) continue;
       const VectorXd motion = (free_ * inertia_.eigenvectors().col(i)).cwiseAbs();
       for (Index k = 0; k < motion.size(); ++k)
         if (motion[k] > 0.1 * motion.maxCoeff()) components.insert(k);
@@ -77,6 +79,14 @@ class NullSpaceSolver {
     return {components.begin(), components.end()};
   }
 
+  /// Free motions that have no inertia, a column each.
+  [[nodiscard]] MatrixXd massless() const {
+    const Index n = free_.cols() > 0 ? (inertia_.eigenvalues().array() <= kNoInertia).count() : 0;
+    if (n == 0) return MatrixXd(s_.size(), 0);
+    return s_.asDiagonal() * (free_ * inertia_.eigenvectors().leftCols(n));  // eigenvalues ascend
+  }
+
+  /// Motions without inertia get no acceleration.
   void solve(const VectorXd& a, const VectorXd& b, VectorXd& x, VectorXd& l) const {
     const Index constraints = held_.cols();
     VectorXd y = VectorXd::Zero(s_.size());
@@ -87,7 +97,9 @@ class NullSpaceSolver {
     const VectorXd a_s = s_.asDiagonal() * a;
     if (free_.cols() > 0) {
       const VectorXd modal = inertia_.eigenvectors().transpose() * (free_.transpose() * (a_s - M_s_ * y));
-      y += free_ * (inertia_.eigenvectors() * modal.cwiseQuotient(inertia_.eigenvalues()));
+      const VectorXd given = modal.cwiseQuotient(inertia_.eigenvalues());
+      y +=
+          free_ * (inertia_.eigenvectors() * (inertia_.eigenvalues().array() > kNoInertia).select(given, 0.0).matrix());
     }
     x = s_.asDiagonal() * y;
     l = VectorXd::Zero(constraints);
@@ -143,19 +155,14 @@ class SparseKkt {
   bool sound_ = false;
 };
 
-/// Puts the constraint Jacobian, which a stage with k = 0 leaves out, into the lower left of S.
-void fill_jacobian(Equations& equations, const State& state, Equations::SparseMatrix& S) {
-  const Index nv = equations.nv();
-  if (equations.nlambda() == 0) return;
-  VectorXd phi, scale;
-  Equations::SparseMatrix G;
-  equations.constraints(state, phi, scale, &G);
+}  // namespace
+
+void fill_jacobian(const Equations::SparseMatrix& G, Index nv, Equations::SparseMatrix& S) {
+  if (G.rows() == 0) return;
   for (Index column = 0; column < nv; ++column)
     for (Equations::SparseMatrix::InnerIterator entry(G, column); entry; ++entry)
       S.coeffRef(nv + entry.row(), column) = entry.value();
 }
-
-}  // namespace
 
 RankAnalysis analyse_rank(const MatrixXd& G) {
   RankAnalysis analysis;
@@ -227,11 +234,11 @@ AccelerationSolution solve_kkt(const Equations::SparseMatrix& S, Index nv, const
                    gamma);
 }
 
-AccelerationSolution solve_kkt(const MatrixXd& M, const MatrixXd& G, const VectorXd& h, const VectorXd& gamma) {
-  const NullSpaceSolver solver(M, G);
+namespace {
+
+AccelerationSolution solve_refined(const NullSpaceSolver& solver, const MatrixXd& M, const MatrixXd& G,
+                                   const VectorXd& h, const VectorXd& gamma) {
   AccelerationSolution solution;
-  solution.undetermined = solver.undetermined();
-  if (!solution.undetermined.empty()) return solution;
   solver.solve(-h, -gamma, solution.vdot, solution.lambda);
   // One refinement returns the digits that inertias of very different size cost.
   VectorXd dv, dl;
@@ -239,6 +246,39 @@ AccelerationSolution solve_kkt(const MatrixXd& M, const MatrixXd& G, const Vecto
   solution.vdot += dv;
   solution.lambda += dl;
   return solution;
+}
+
+struct Blocks {
+  MatrixXd M, G;
+};
+
+Blocks blocks_of(const Equations::SparseMatrix& S, Index nv) {
+  const MatrixXd dense(S);
+  return {dense.topLeftCorner(nv, nv), dense.bottomLeftCorner(S.rows() - nv, nv)};
+}
+
+}  // namespace
+
+AccelerationSolution solve_kkt(const MatrixXd& M, const MatrixXd& G, const VectorXd& h, const VectorXd& gamma) {
+  const NullSpaceSolver solver(M, G);
+  AccelerationSolution solution;
+  solution.undetermined = solver.undetermined();
+  return solution.undetermined.empty() ? solve_refined(solver, M, G, h, gamma) : solution;
+}
+
+MatrixXd massless_motions(const Equations::SparseMatrix& S, Index nv) {
+  const Blocks blocks = blocks_of(S, nv);
+  return NullSpaceSolver(blocks.M, blocks.G).massless();
+}
+
+AccelerationSolution solve_kkt_but_massless(const Equations::SparseMatrix& S, Index nv, const VectorXd& h,
+                                            const VectorXd& gamma) {
+  const Blocks blocks = blocks_of(S, nv);
+  return solve_refined(NullSpaceSolver(blocks.M, blocks.G), blocks.M, blocks.G, h, gamma);
+}
+
+bool solve_bordered(const Equations::SparseMatrix& S, Index nv, const VectorXd& b, VectorXd& x) {
+  return SparseKkt(S, nv).solve(b, x);
 }
 
 std::string assemble_forces(Equations& equations, const State& state, double dt, VectorXd& h,
@@ -257,7 +297,12 @@ std::string assemble_forces(Equations& equations, const State& state, double dt,
     if (!residual.allFinite()) return "the forces are not numbers";
     if (equations.internal_residual() > internal_rtol) continue;
     h = residual.head(nv);
-    fill_jacobian(equations, at_rest, S);
+    if (equations.nlambda() > 0) {
+      VectorXd phi, sizes;
+      Equations::SparseMatrix G;
+      equations.constraints(at_rest, phi, sizes, &G);
+      fill_jacobian(G, nv, S);
+    }
     return {};
   }
   return fmt::format("{} is not solved in {} iterations (relative residual {:.2g})",

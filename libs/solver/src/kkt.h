@@ -29,6 +29,20 @@ struct AccelerationSolution {
 [[nodiscard]] AccelerationSolution solve_kkt(const Equations::SparseMatrix& S, Eigen::Index nv,
                                              const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
 
+/// Solves S x = b for S as above with any sparse upper left block; false where that leaves more than round-off.
+[[nodiscard]] bool solve_bordered(const Equations::SparseMatrix& S, Eigen::Index nv, const Eigen::VectorXd& b,
+                                  Eigen::VectorXd& x);
+
+/// Puts the constraint Jacobian G, which a stage with k = 0 leaves out, into the lower left of S.
+void fill_jacobian(const Equations::SparseMatrix& G, Eigen::Index nv, Equations::SparseMatrix& S);
+
+/// Motions that the constraints allow and no inertia resists, a column each: S as in solve_kkt. @cost O(n^3)
+[[nodiscard]] Eigen::MatrixXd massless_motions(const Equations::SparseMatrix& S, Eigen::Index nv);
+
+/// As solve_kkt, with accelerations of massless motions left at zero. @pre the forces along these vanish
+[[nodiscard]] AccelerationSolution solve_kkt_but_massless(const Equations::SparseMatrix& S, Eigen::Index nv,
+                                                          const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
+
 /// Whether the rows of G are independent, by sparse QR: cheap; `analyse_rank` tells which are not.
 [[nodiscard]] bool has_full_rank(const Equations::SparseMatrix& G);
 

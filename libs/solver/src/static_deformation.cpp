@@ -32,9 +32,11 @@ struct Unknowns {
 /// Free rigid motions are chosen to depend before given ones, deformations only where nothing else can.
 Unknowns choose_unknowns(Equations& equations, const State& state, const InitialiseOptions& options) {
   const Index nv = equations.nv(), nlambda = equations.nlambda();
-  VectorXd preference = equations.position_scales();
+  const VectorXd scales = equations.position_scales();
+  VectorXd preference = scales;
   std::vector<bool> elastic(static_cast<std::size_t>(nv), false), depends = elastic;
-  for (const Index k : options.held) preference[k] *= 1e-3;
+  for (const std::vector<Index>* given : {&options.held, &options.held_rates})
+    for (const Index k : *given) preference[k] = std::min(preference[k], 1e-3 * scales[k]);
   for (const Index k : options.stiff) {
     preference[k] *= 1e-6;
     elastic[static_cast<std::size_t>(k)] = true;

@@ -61,6 +61,12 @@ TEST_CASE("LinearEquations_TakeOneIterationAndHooksInOrder") {
   test::OneCoordinate e = oscillator(3);
   State s = e.at(1, 0);
   GeneralizedAlpha integrator({.spectral_radius = 1});
+  // The first step also looks for motions that damping ends within it: two evaluations, and another beginning.
+  REQUIRE(integrator.step(e, s, 0.1).converged());
+  CHECK(e.begun == 2);
+  CHECK(e.accepted == 1);
+  CHECK(e.assembled == 4);
+  e.begun = e.accepted = e.assembled = 0;
   const StepSummary summary = integrator.step(e, s, 0.1);
   CHECK(summary.converged());
   CHECK(summary.iterations == 1);
@@ -69,7 +75,7 @@ TEST_CASE("LinearEquations_TakeOneIterationAndHooksInOrder") {
   CHECK(e.begun == 1);
   CHECK(e.accepted == 1);
   CHECK(e.assembled == 2);
-  CHECK(s.t == doctest::Approx(0.1));
+  CHECK(s.t == doctest::Approx(0.2));
 }
 
 TEST_CASE("ClosedGap_ShortensTheIncrementAndGoesOn") {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Coordinate {
 /// universal: rotation_1 about t1 of the inboard frame (see joint_axes), rotation_2 about t2 of the outboard frame;
 /// screw: rotation.
 [[nodiscard]] std::span<const Coordinate> coordinates_of(JointType type);
+
+/// What a coordinate's rate is called: rotation_rate; velocity of a position, angular_velocity of an orientation.
+[[nodiscard]] std::string rate_name(const Coordinate& coordinate);
 
 /// Number of values (and of degrees of freedom) of a joint type, 0..6.
 [[nodiscard]] int degrees_of_freedom(JointType type);

@@ -35,6 +35,15 @@ struct Redundancy {
   int orientations = 0;       ///< and on orientations
 };
 
+/// A value of a joint at the start that could not be the one given.
+struct ChangedStart {
+  JointId joint;
+  Coordinate coordinate;
+  bool is_rate = false;
+  std::vector<double> given, found;  ///< SI
+  double share = 0;  ///< of the change: in rad or of the mechanism's size; of a rate, relative to the largest one
+};
+
 /// What an elastic body shows.
 struct ElasticObservation {
   ElasticEnergy energy;
@@ -107,6 +116,9 @@ class Mechanism final : public solver::Equations {
   /// Velocity components whose initial position the user gave: InitialiseOptions::held.
   [[nodiscard]] std::vector<Index> given_coordinates() const;
 
+  /// Velocity components that the user gave a value at the start: InitialiseOptions::held_rates.
+  [[nodiscard]] std::vector<Index> given_rates() const;
+
   /// Velocity components that deform elastic bodies: InitialiseOptions::stiff.
   [[nodiscard]] std::vector<Index> elastic_coordinates() const;
 
@@ -115,6 +127,9 @@ class Mechanism final : public solver::Equations {
 
   /// Everything about `state`. Two-body forces are those of the last accepted step, which must have ended in `state`.
   [[nodiscard]] Observation observe(const solver::State& state);
+
+  /// What the user gave for the start and `start` does not have, beyond round-off, in order of declaration.
+  [[nodiscard]] std::vector<ChangedStart> changed_values(const solver::State& start);
 
   /// Motion of one frame.
   [[nodiscard]] FrameMotion frame_motion(const solver::State& state, FrameId frame);

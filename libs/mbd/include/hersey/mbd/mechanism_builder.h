@@ -57,6 +57,23 @@ struct JointSpec {
   std::vector<double>
       initial;  ///< values in the order of coordinates_of(type); empty: zero, and free to move in assembly
   std::vector<double> initial_rate;  ///< the same for their rates
+  std::vector<bool> loose;           ///< per value: `initial` is a guess, free to move; empty: none is
+  std::vector<bool> loose_rate;      ///< the same for their rates
+
+  /// Whether value `i` starts where `initial` says.
+  [[nodiscard]] bool is_given(int i) const { return is_in(initial, loose, i); }
+  [[nodiscard]] bool is_rate_given(int i) const { return is_in(initial_rate, loose_rate, i); }
+  /// Whether any value or rate does.
+  [[nodiscard]] bool has_given() const {
+    for (int i = 0; i < degrees_of_freedom(type); ++i)
+      if (is_given(i) || is_rate_given(i)) return true;
+    return false;
+  }
+
+ private:
+  static bool is_in(const std::vector<double>& values, const std::vector<bool>& loose, int i) {
+    return !values.empty() && (loose.empty() || !loose[static_cast<std::size_t>(i)]);
+  }
 };
 
 /// A scalar joint coordinate: place `value` in the joint's list of values.

@@ -38,7 +38,7 @@ enum class Strain {
 /// stiffer. The matrix is then that of the state each step starts from, factorised anew for each.
 ///
 /// At the start w is the static answer to the forces of inertia and weight of the start, at rest against the axes: as
-/// if the motion had gone on like this before.
+/// if the motion had gone on like this before. After `start_undeformed` it is zero and is let go there.
 class NodalBody final : public ModalBody {
  public:
   /// @param body     the whole mesh
@@ -49,6 +49,9 @@ class NodalBody final : public ModalBody {
   NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping,
             Strain strain = Strain::small);
   ~NodalBody() override;
+
+  /// Instants (steps of length 0) until the first step is accepted see w = w' = 0, and w'' as the forces there make it.
+  void start_undeformed() { lets_go_ = true; }
 
   void add_load(const NodalLoad& load) override;
   void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) override;
@@ -78,6 +81,7 @@ class NodalBody final : public ModalBody {
   [[nodiscard]] const Eigen::MatrixXd& Psi() const { return data().displacements; }
   [[nodiscard]] Eigen::Matrix3Xd loads_on_nodes(const ElasticMotion& motion) const;
   [[nodiscard]] bool follows(const ElasticMotion& motion) const;
+  [[nodiscard]] solver::Stage stage_of(const ElasticMotion& motion) const;
   void settle(const ElasticMotion& motion);
   void iterate(const ElasticMotion& motion, const solver::Stage& stage);
   void update_fields();
@@ -112,7 +116,9 @@ class NodalBody final : public ModalBody {
   fem::FiniteStrain finite_;   ///< at the last displacement looked at
   Eigen::VectorXd r_, sizes_;  ///< forces on the nodes that nothing balances, and sizes of the terms in them
   bool at_rest_ = true;
-  bool is_stale_ = true;  ///< finite strains: the matrix is not of this step
+  bool lets_go_ = false;    ///< the motion is still to start, from w = 0
+  bool is_let_go_ = false;  ///< what is evaluated is the instant of that start
+  bool is_stale_ = true;    ///< finite strains: the matrix is not of this step
   double internal_residual_ = 0;
   std::string trouble_;
 };

@@ -126,7 +126,8 @@ struct Joint {
   FrameName inboard, outboard;
   Vector3 axis = Vector3::UnitZ();    ///< unit vector in the inboard frame; planar: normal of the plane
   double lead = 0;                    ///< of a screw: travel per turn [m], not 0
-  std::vector<InitialValue> initial;  ///< only those given; the others start from 0
+  std::vector<InitialValue> initial;  ///< only those given, and kept
+  std::vector<InitialValue> guess;    ///< of positions, where the assembly begins to look; the others from 0
   SourcePosition position;
 };
 

@@ -122,7 +122,8 @@ struct Options {
 [[nodiscard]] std::filesystem::path checkpoint_file(const std::filesystem::path& results);
 
 /// Builds `model` and finds its starting state, as `simulate` does first, and writes nothing.
-/// @returns what the user should know though the model runs: redundant constraints and how they are treated.
+/// @returns what the user should know though the model runs: initial values that had to move, redundant constraints and
+///          how they are treated.
 /// @throws InputError as `simulate`.
 std::vector<Fault> check(const model::Model& model);
 

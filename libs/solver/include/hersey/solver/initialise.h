@@ -10,8 +10,11 @@ namespace hersey::solver {
 struct InitialiseOptions {
   double rtol = 1e-12;       ///< constraint residual relative to the lengths it compares
   int max_iterations = 100;  ///< iterations of the assembly, from each guess
-  /// Velocity components the assembly should leave as they are if the constraints allow it: what the user prescribed.
+  /// Velocity components whose positions stay as they are if the constraints allow it: what the user prescribed. Where
+  /// they do not, these change as little as closes them.
   std::vector<Equations::Index> held;
+  /// The same for velocities: a prescribed position says nothing about its rate.
+  std::vector<Equations::Index> held_rates;
   /// Those that should move only if even freeing the held ones does not close the constraints: deformations.
   std::vector<Equations::Index> stiff;
 };
@@ -30,8 +33,9 @@ struct InitialiseSummary {
   int iterations = 0;                     ///< of the position assembly
   double residual = 0;                    ///< largest constraint residual relative to its scale
   std::vector<std::string> redundant;     ///< rows that constrain a motion constrained already, by name
-  std::vector<std::string> undetermined;  ///< velocity components whose acceleration nothing determines, by name
+  std::vector<std::string> undetermined;  ///< velocity components whose motion nothing determines, by name
   std::vector<OpenConstraint> open;       ///< at the closest configuration found, the widest first
+  std::vector<OpenConstraint> conflict;   ///< the same with the held positions at rest; empty where these could stay
   std::string message;                    ///< empty when consistent
 
   [[nodiscard]] bool consistent() const { return status == InitialiseStatus::consistent; }
@@ -46,9 +50,11 @@ struct InitialiseSummary {
 /// theory manual eq. (integrator.9). Ends with begin_step / accept_step of zero length, so that condensed unknowns hold
 /// their instantaneous solution.
 ///
-/// Held components stay where they are if the others can close the constraints. Constraints that say the same thing
+/// Held components stay as they are if the others can close the constraints; otherwise they change by the least, in
+/// units of position_scales(), from the closest configuration that they allow. Constraints that say the same thing
 /// twice, and coordinates without inertia that nothing holds, are reported by name; so is what stays open where the
-/// constraints cannot be met.
+/// constraints cannot be met. Motions without inertia that damping holds, a journal without mass in its film, get the
+/// velocity at which the forces along them vanish (integrator.21), and no acceleration.
 /// @cost sparse factorisations; O(n^3) once, n = nv + nlambda, only where something is wrong and has to be named.
 [[nodiscard]] InitialiseSummary initialise(Equations& equations, State& state, const InitialiseOptions& options = {});
 

@@ -1,0 +1,117 @@
+#include "fast_motions.h"
+
+#include <array>
+#include <cmath>
+
+#include "kkt.h"
+
+namespace hersey::solver {
+namespace {
+
+using Eigen::VectorXd;
+using Index = Equations::Index;
+
+// Of the terms that a row balances. The combination below magnifies what is left about a hundred times.
+constexpr double kTolerance = 1e-10;
+constexpr int kMaxIterations = 30, kMaxHalvings = 8;
+
+// A motion that damping changes by less within the step is one that the step resolves.
+constexpr double kResolved = 0.05;
+// Accelerations below this share of the largest are round-off.
+constexpr double kFloor = 1e-6;
+
+// w^2 (15 - 40 w + 45 w^2 - 24 w^3 + 5 w^4), theory manual eq. (integrator.20): the share of implicit Euler step k.
+constexpr std::array<double, 6> kShares{0, 15, -40, 45, -24, 5};
+
+/// Implicit Euler steps of the velocities alone.
+class VelocitySteps {
+ public:
+  VelocitySteps(Equations& equations, const State& start, double dt)
+      : equations_(equations), nv_(equations.nv()), dt_(dt), trial_(start) {
+    VectorXd phi, scale, velocity;
+    equations.constraints(start, phi, scale, &G_);
+    equations.constraint_rates(start, velocity, bias_);
+  }
+
+  /// Finds the acceleration with which a step of length `span` from velocity v ends; false where there is none.
+  bool solve(const VectorXd& v, double span) {
+    if (!evaluate(v, span)) return false;
+    for (int iteration = 0; worst_ > kTolerance; ++iteration) {
+      if (iteration == kMaxIterations || !advance(v, span)) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] const VectorXd& vdot() const { return trial_.vdot; }
+  [[nodiscard]] const VectorXd& v() const { return trial_.v; }
+
+ private:
+  bool evaluate(const VectorXd& v, double span) {
+    trial_.v = v + span * trial_.vdot;
+    equations_.assemble(trial_, {.dt = dt_, .k = 0, .c = span, .m = 1, .dq = {}}, residual_, scale_, &matrix_);
+    if (!equations_.domain_error().empty() || !residual_.allFinite()) return false;
+    fill_jacobian(G_, nv_, matrix_);
+    residual_.tail(bias_.size()) = G_ * trial_.vdot + bias_;
+    scale_.tail(bias_.size()) = G_.cwiseAbs() * trial_.vdot.cwiseAbs() + bias_.cwiseAbs();
+    worst_ = equations_.internal_residual();
+    for (Index i = 0; i < residual_.size(); ++i)
+      if (residual_[i] != 0) worst_ = std::max(worst_, std::abs(residual_[i]) / scale_[i]);
+    return true;
+  }
+
+  /// Newton's increment, halved until the equations accept it.
+  bool advance(const VectorXd& v, double span) {
+    VectorXd x;
+    if (!solve_bordered(matrix_, nv_, -residual_, x)) return false;
+    const VectorXd vdot = trial_.vdot, lambda = trial_.lambda;
+    double length = 1;
+    for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, length /= 2) {
+      trial_.vdot = vdot + length * x.head(nv_);
+      trial_.lambda = lambda + length * x.tail(bias_.size());
+      if (evaluate(v, span)) return true;
+    }
+    return false;
+  }
+
+  Equations& equations_;
+  Index nv_;
+  double dt_;
+  State trial_;
+  Equations::SparseMatrix G_, matrix_;
+  VectorXd bias_, residual_, scale_;
+  double worst_ = 0;
+};
+
+/// Whether damping changes some acceleration noticeably within the step.
+bool differs(const VectorXd& damped, const VectorXd& undamped, const VectorXd& reach) {
+  const VectorXd size = undamped.cwiseAbs().cwiseMax(damped.cwiseAbs()).cwiseQuotient(reach);
+  const double least = kFloor * (size.size() > 0 ? size.maxCoeff() : 0);
+  for (Index k = 0; k < size.size(); ++k)
+    if (size[k] > least && std::abs(damped[k] - undamped[k]) > kResolved * size[k] * reach[k]) return true;
+  return false;
+}
+
+}  // namespace
+
+std::optional<SettledStart> settle_fast_motions(Equations& equations, const State& state, double dt) {
+  VelocitySteps steps(equations, state, dt);
+  // Without inertia a motion has no acceleration but the one it takes up here.
+  const VectorXd instant = steps.solve(state.v, 0) ? steps.vdot() : state.vdot;
+  if (!steps.solve(state.v, dt)) return std::nullopt;
+  if (!differs(steps.vdot(), instant, equations.position_scales())) return std::nullopt;
+
+  // What the equations at hand give for the instant of the start may differ from vdot where condensed unknowns follow.
+  SettledStart settled{VectorXd::Zero(state.v.size()), VectorXd::Zero(state.v.size()), state.vdot - instant};
+  VectorXd v = state.v, way = VectorXd::Zero(v.size());
+  for (std::size_t k = 0; k < kShares.size(); ++k) {
+    if (k > 0 && !steps.solve(v, dt)) return std::nullopt;
+    v = steps.v();
+    way += dt * v;
+    settled.offset += kShares[k] * way;
+    settled.v += kShares[k] * v;
+    settled.vdot += kShares[k] * steps.vdot();
+  }
+  return settled;
+}
+
+}  // namespace hersey::solver
