@@ -124,7 +124,7 @@ void print(const Mesh& mesh, const MeshQuality& quality) {
   if (quality.mass)
     fmt::print("mass      {:.6g} kg\n", *quality.mass);
   else
-    fmt::print("mass      unknown: no density in the file (--density)\n");
+    fmt::print("mass      unknown: the file does not say the density of every element (--density)\n");
   for (const fem::MeshMaterial& material : mesh.materials) fmt::print("{}", material_text(material));
   fmt::print("\n{}\n{}", quality_text(quality), sets_text(mesh));
 }
@@ -141,11 +141,12 @@ void write_picture(const Mesh& mesh, const std::filesystem::path& path) {
 }  // namespace
 
 int mesh_command(const MeshArguments& arguments) {
-  std::vector<Fault> warnings;
-  const Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings);
+  std::vector<Fault> warnings, material_faults;
+  const Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings, &material_faults);
   MeshQuality quality = fem::quality_of(mesh);
   if (!arguments.density.empty()) quality.mass = in_si("--density", arguments.density, "kg/m^3") * quality.volume;
   for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
+  warnings.insert(warnings.end(), material_faults.begin(), material_faults.end());
   const std::vector<Fault> faults = fem::faults_of(quality, arguments.file);
   if (!arguments.vtu.empty()) write_picture(mesh, arguments.vtu);
   if (arguments.json) {

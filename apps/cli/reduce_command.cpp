@@ -91,12 +91,16 @@ std::vector<fem::SolidMaterial> materials_of(const Mesh& mesh, const ReduceArgum
   return materials;
 }
 
-fem::ElasticBody body_of(Mesh mesh, const ReduceArguments& arguments) {
+fem::ElasticBody body_of(Mesh mesh, const ReduceArguments& arguments, const std::vector<Fault>& material_faults) {
   if (arguments.stiffness.empty() != arguments.mass.empty())
     fail("--stiffness, --mass", "one without the other", "both matrices, or a material");
   if (!arguments.stiffness.empty())
     return fem::import_body(std::move(mesh), fem::read_matrix_market(arguments.stiffness),
                             fem::read_matrix_market(arguments.mass), arguments.stiffness.string());
+  const bool has_moduli =
+      !arguments.orthotropic.empty() || (!arguments.youngs_modulus.empty() && !arguments.poisson_ratio.empty());
+  const bool is_of_file = !has_moduli || arguments.density.empty();
+  if (is_of_file && !material_faults.empty()) throw InputError(material_faults);
   std::vector<fem::SolidMaterial> materials = materials_of(mesh, arguments);
   return fem::assemble(std::move(mesh), std::move(materials));
 }
@@ -167,8 +171,8 @@ void print(const fem::ElasticBody& body, const fem::ReducedBody& reduced, const 
 int reduce_command(const ReduceArguments& arguments) {
   if (std::filesystem::exists(arguments.output) && !arguments.force)
     fail("--output", fmt::format("{} exists", arguments.output.string()), "a new file", "use --force to replace it");
-  std::vector<Fault> warnings;
-  Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings);
+  std::vector<Fault> warnings, material_faults;
+  Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings, &material_faults);
   const fem::MeshQuality quality = fem::quality_of(mesh);
   for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
   warn(warnings);
@@ -176,7 +180,7 @@ int reduce_command(const ReduceArguments& arguments) {
   if (!faults.empty()) throw InputError(faults);
   std::vector<fem::InterfaceFrame> frames;
   for (const std::string& text : arguments.frames) frames.push_back(frame_of(mesh, text));
-  const fem::ElasticBody body = body_of(std::move(mesh), arguments);
+  const fem::ElasticBody body = body_of(std::move(mesh), arguments, material_faults);
   const fem::Reduction reduction = fem::reduce(body, frames, options_of(body.mesh, arguments));
   if (!reduction.ok) throw std::runtime_error(reduction.message);
   fem::write_reduced_body(arguments.output, reduction.body);

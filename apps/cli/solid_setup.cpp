@@ -105,13 +105,16 @@ Eigen::VectorXd pressure_of(const fem::Mesh& mesh, const std::string& name, cons
 }  // namespace
 
 fem::ElasticBody solid_of(const SolidArguments& arguments, bool needs_mass) {
-  std::vector<Fault> warnings;
-  fem::Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings);
+  std::vector<Fault> warnings, material_faults;
+  fem::Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings, &material_faults);
   const fem::MeshQuality quality = fem::quality_of(mesh);
   if (std::vector<Fault> faults = fem::faults_of(quality, arguments.file); !faults.empty())
     throw InputError(std::move(faults));
   for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
   warn(warnings);
+  const bool is_of_file = (arguments.orthotropic.empty() && (arguments.young.empty() || arguments.poisson.empty())) ||
+                          (needs_mass && arguments.density.empty());
+  if (is_of_file && !material_faults.empty()) throw InputError(material_faults);
   std::vector<fem::MeshMaterial> of_file = mesh.materials;
   if (of_file.empty()) of_file.emplace_back();
   require_constants(arguments, of_file, needs_mass);

@@ -236,6 +236,29 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, WRONG_INPUT)
         self.assertIn("--length-unit", run.stderr)
 
+    def test_material_that_the_mesh_file_lacks_is_told_with_both_names(self):
+        mesh = os.path.join(self._folder.name, "dangling.inp")
+        with open(mesh, "w", encoding="utf-8") as file:
+            file.write("*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=all\n1,1,2,3,4\n"
+                       "*NSET,NSET=floor\n1,2,3\n"
+                       "*MATERIAL,NAME=Alu\n*DENSITY\n2700\n*ELASTIC\n7e10,0.3\n"
+                       "*MATERIAL,NAME=Steel\n*DENSITY\n7850\n*ELASTIC\n2.1e11,0.3\n"
+                       "*SOLID SECTION,ELSET=all,MATERIAL=STELL\n")
+        told = f"{mesh}:20: the section of 'all' names the material 'STELL', which the file does not define"
+        run = hersey("mesh", mesh)
+        self.assertEqual(run.returncode, 0)
+        self.assertIn(told, run.stderr)
+        self.assertIn("mass      unknown", run.stdout)
+        run = hersey("modes", mesh, "--hold", "floor", "--count", "1")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn(told, run.stderr)
+        run = hersey("reduce", mesh, "--frame", "floor", "--output", os.path.join(self._folder.name, "dangling.h5"))
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn(told, run.stderr)
+        # What the command line says of the material stands above the file.
+        constants = ("--youngs-modulus", "210GPa", "--poisson-ratio", "0.3", "--density", "7850kg/m^3")
+        self.assertEqual(hersey("modes", mesh, "--hold", "floor", "--count", "1", *constants).returncode, 0)
+
     def test_fault_names_file_line_column_and_the_nearest_key(self):
         path = self.model_with("radial_clearance", "radial_clearence")
         for command in (["check", path], ["run", path, "--output", self.out]):

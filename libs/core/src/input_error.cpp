@@ -16,7 +16,8 @@ std::string join(const std::vector<Fault>& faults) {
 std::string Fault::text() const {
   std::string text;
   if (!position.file.empty()) text += position.file + ":";
-  if (position.line > 0) text += std::to_string(position.line) + ":" + std::to_string(position.column) + ":";
+  if (position.line > 0) text += std::to_string(position.line) + ":";
+  if (position.line > 0 && position.column > 0) text += std::to_string(position.column) + ":";
   if (!text.empty()) text += " ";
   if (!path.empty()) text += path + ": ";
   text += found;

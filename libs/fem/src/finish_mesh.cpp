@@ -1,16 +1,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <unordered_map>
 
 #include "hersey/fem/skin.h"
 #include "label_index.h"
+#include "mesh_materials.h"
 #include "raw_mesh.h"
 
 namespace hersey::fem {
 namespace {
 
+constexpr double kFarthest = 1e9;        // [m]: squares and cubes of lengths stay far from overflow
 constexpr std::size_t kMostFaults = 10;  // of one sort; the rest is the same mistake
 
 struct FaceKeyHash {
@@ -46,7 +49,7 @@ class Finisher {
     check_elements();
     add_node_sets();
     add_element_sets();
-    assign_materials();
+    assign_materials(raw_, marks_of_, mesh_);
     add_surfaces();
     add_marked();
     name_nodes();
@@ -108,11 +111,7 @@ class Finisher {
   }
 
   void add_fault(Place place, std::string found) {
-    faults_.push_back({{raw_.files[static_cast<std::size_t>(place.file)], place.line, 0},
-                       "",
-                       std::move(found),
-                       "elements of distinct nodes of the file",
-                       ""});
+    faults_.push_back(raw_.fault(place, std::move(found), "elements of distinct nodes of the file"));
   }
 
   void drop_unused_nodes() {
@@ -133,7 +132,7 @@ class Finisher {
     if (dropped.empty()) return;
     const std::size_t told = std::min<std::size_t>(dropped.size(), 5);
     raw_.warn(
-        {0, 0},
+        raw_.node_places[static_cast<std::size_t>(node_index_.find(dropped.front()))],
         fmt::format("{} {} part of no element: {}{}", dropped.size(), dropped.size() == 1 ? "node is" : "nodes are",
                     fmt::join(dropped.begin(), dropped.begin() + static_cast<std::ptrdiff_t>(told), ", "),
                     told < dropped.size() ? ", ..." : ""),
@@ -155,6 +154,20 @@ class Finisher {
       if (first == e || raw_.elements[e].continues_another) continue;
       raw_.fail(raw_.elements[e].place,
                 fmt::format("element {} stands in line {} already", labels[e], raw_.elements[first].place.line),
+                "each element once");
+    }
+    check_marks();
+  }
+
+  // A mark of a label that stands elsewhere would never be found by it.
+  void check_marks() const {
+    for (std::size_t m = 0; m < raw_.marks.size(); ++m) {
+      const RawMark& mark = raw_.marks[m];
+      const RawMark& first = mark_at(mark_index_.find(mark.label));
+      const int element = element_index_->find(mark.label);
+      if (element < 0 && (&first == &mark || first.nodes == mark.nodes)) continue;
+      const Place other = element < 0 ? first.place : raw_.elements[static_cast<std::size_t>(element)].place;
+      raw_.fail(mark.place, fmt::format("element {} stands in line {} already", mark.label, other.line),
                 "each element once");
     }
   }
@@ -257,19 +270,6 @@ class Finisher {
     else if (is_empty)
       raw_.warn(place, fmt::format("set '{}' has no {} of the mesh", name, what), fmt::format("{}s of the mesh", what),
                 "nothing can be fixed to it");
-  }
-
-  void assign_materials() {
-    mesh_.materials = raw_.materials;
-    for (std::size_t e = 0; e < mesh_.elements.size(); ++e) mesh_.elements[e].material = raw_.elements[e].material;
-    for (const auto& [set, material] : raw_.section_materials) {
-      const auto elements = mesh_.element_sets.find(set);
-      const auto found = std::find_if(mesh_.materials.begin(), mesh_.materials.end(),
-                                      [&name = material](const MeshMaterial& m) { return m.name == name; });
-      if (elements == mesh_.element_sets.end() || found == mesh_.materials.end()) continue;
-      for (const int e : elements->second)
-        mesh_.elements[static_cast<std::size_t>(e)].material = static_cast<int>(found - mesh_.materials.begin());
-    }
   }
 
   void add_surfaces() {
@@ -388,11 +388,24 @@ class Finisher {
 
   // Newton, second and the file's length make the file's stress N/L^2 and its density N s^2/L^4.
   void scale() {
-    for (Vector3& r : mesh_.nodes) r *= length_unit_;
+    for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
+      mesh_.nodes[n] *= length_unit_;
+      if (mesh_.nodes[n].lpNorm<Eigen::Infinity>() < kFarthest) continue;
+      const int raw = node_index_.find(mesh_.node_labels[n]);
+      raw_.fail(raw_.node_places[static_cast<std::size_t>(raw)],
+                fmt::format("node {} at {:.3g} m", mesh_.node_labels[n], mesh_.nodes[n].lpNorm<Eigen::Infinity>()),
+                fmt::format("coordinates below {:.0g} m", kFarthest));
+    }
     const double area = length_unit_ * length_unit_;
-    for (MeshMaterial& material : mesh_.materials) {
+    for (std::size_t m = 0; m < mesh_.materials.size(); ++m) {
+      MeshMaterial& material = mesh_.materials[m];
       if (material.youngs_modulus) *material.youngs_modulus /= area;
       if (material.density) *material.density /= area * area;
+      const bool is_finite =
+          std::isfinite(material.youngs_modulus.value_or(0)) && std::isfinite(material.density.value_or(0));
+      if (!is_finite)
+        raw_.fail(raw_.material_places[m], fmt::format("material '{}' with constants that overflow", material.name),
+                  "constants in the consistent system of the length unit, newton and second");
     }
   }
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <utility>
 
+#include "abaqus_keywords.h"
 #include "mesh_readers.h"
 #include "mesh_text.h"
 
@@ -57,6 +59,7 @@ class AbaqusReader {
 
   RawMesh read(std::string_view text, const std::string& name) {
     read_file(text, name, 0);
+    tell_of_passed_over();
     return std::move(raw_);
   }
 
@@ -83,16 +86,31 @@ class AbaqusReader {
     LineScanner lines(text);
     LineScanner* const outer_lines = std::exchange(lines_, &lines);
     const int outer_file = std::exchange(file_, static_cast<int>(raw_.files.size()));
+    const std::string_view outer_last = std::exchange(last_line_, {});
     raw_.files.push_back(name);
     std::string_view line;
-    while (lines.next(line)) {
+    while (next_line(line)) {
       if (is_blank(line)) continue;
       if (!is_keyword(line)) fail(fmt::format("'{}'", trimmed(line).substr(0, 40)), "a keyword, such as *NODE");
       current_ = keyword(line);
       read_block(depth);
     }
+    if (!lines.ends_with_line()) tell_of_last_line();
     lines_ = outer_lines;
     file_ = outer_file;
+    last_line_ = outer_last;
+  }
+
+  void tell_of_last_line() {
+    if (is_blank(last_line_) || upper(trimmed(last_line_)).starts_with("*END")) return;
+    raw_.warn(here(), fmt::format("a last line that does not end: '{}'", trimmed(last_line_).substr(0, 40)),
+              "an end of line behind the last number", "the file may be cut short: compare it with its source");
+  }
+
+  bool next_line(std::string_view& line) {
+    const bool is_there = lines_->next(line);
+    if (is_there) last_line_ = line;
+    return is_there;
   }
 
   static bool is_blank(std::string_view line) {
@@ -104,14 +122,15 @@ class AbaqusReader {
   // "*ELEMENT, TYPE=C3D10, ELSET=EALL"; a comma at the end continues on the next line.
   Keyword keyword(std::string_view line) {
     std::string whole(trimmed(line));
-    const Place place = here();
-    while (whole.ends_with(',') && lines_->next(line)) whole += trimmed(line);
-    split_at_commas(whole, parts_);
     Keyword result;
-    result.place = place;
-    if (parts_.empty()) return result;
-    result.name = upper(parts_.front().substr(1));
+    result.place = here();
+    result.name = upper(std::string_view(whole).substr(1, whole.find(',') - 1));
     std::erase_if(result.name, [](char c) { return c == ' ' || c == '\t'; });
+    while (whole.ends_with(',') && next_line(line)) {
+      if (parameters_of(result.name) != nullptr) require_parameters(line);
+      whole += trimmed(line);
+    }
+    split_at_commas(whole, parts_);
     for (std::size_t k = 1; k < parts_.size(); ++k) {
       const std::size_t equals = parts_[k].find('=');
       std::string_view value = equals == std::string_view::npos ? "" : trimmed(parts_[k].substr(equals + 1));
@@ -121,10 +140,20 @@ class AbaqusReader {
     return result;
   }
 
+  // Data behind a keyword's line that ends in a comma would be taken for its parameters.
+  void require_parameters(std::string_view line) {
+    split_at_commas(line, parts_);
+    static const std::set<std::string_view> without_value = {"GENERATE", "UNSORTED", "INTERNAL"};
+    for (const std::string_view part : parts_)
+      if (part.find('=') == std::string_view::npos && !without_value.contains(upper(part)))
+        fail(fmt::format("'{}' after a keyword's line that ends in a comma", part.substr(0, 40)),
+             "a parameter, NAME=value", "remove the comma at the end of the keyword's line");
+  }
+
   // The next line of data of this keyword, split at commas into parts_; false when there is none.
   bool data() {
     std::string_view line;
-    while (lines_->next(line)) {
+    while (next_line(line)) {
       if (is_blank(line)) continue;
       if (is_keyword(line)) {
         lines_->back();
@@ -140,6 +169,7 @@ class AbaqusReader {
     const std::string& name = current_.name;
     if ((name == "NODE" || name == "ELEMENT") && current_.has("INPUT"))
       fail(fmt::format("*{} with INPUT", name), "its lines in this file, or *INCLUDE");
+    check_parameters();
     if (name == "NODE")
       read_nodes();
     else if (name == "ELEMENT")
@@ -168,26 +198,55 @@ class AbaqusReader {
   // The rest of a block: data this reader has no use for.
   void skip_data() {
     std::string_view line;
-    while (lines_->next(line)) {
+    while (next_line(line)) {
       if (is_blank(line) || !is_keyword(line)) continue;
       lines_->back();
       return;
     }
   }
 
+  void check_parameters() {
+    const std::set<std::string_view>* const known = parameters_of(current_.name);
+    if (known == nullptr) return;
+    for (const auto& [name, value] : current_.parameters) {
+      if (known->contains(name)) continue;
+      // A range read as a list, or a set made of another one's nodes, is another set.
+      if (current_.name == "NSET" || current_.name == "ELSET" || current_.name == "NODE" || current_.name == "ELEMENT")
+        raw_.fail(current_.place, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
+                  fmt::format("the parameters {}", fmt::join(*known, ", ")));
+      raw_.warn(current_.place, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
+                fmt::format("the parameters {}", fmt::join(*known, ", ")), "it is passed over");
+    }
+  }
+
   void check_other(const std::string& name) {
-    static constexpr std::array<std::string_view, 8> generating = {"NGEN",  "NFILL",  "NCOPY",  "NMAP",
-                                                                   "ELGEN", "ELCOPY", "SYSTEM", "NODALTHICKNESSGEN"};
-    if (std::find(generating.begin(), generating.end(), name) != generating.end())
+    if (changes_the_mesh(name))
       raw_.fail(current_.place, fmt::format("*{}", name), "nodes and elements written out, each on its line",
                 "let the program that made the file write its mesh out");
     if (name == "PART" && parts_seen_++ > 0)
       raw_.fail(current_.place, "a second *PART", "one body in one file",
                 "write each part to a file of its own, or all without parts and assemblies");
-    if (name != "INSTANCE") return;
+    if (name == "STEP") is_in_step_ = true;
+    if (name == "INSTANCE") return read_instance();
+    if (is_in_step_ || concerns_no_mesh(name)) return;
+    PassedOver& passed = passed_over_[name];
+    if (passed.count++ == 0) passed.place = current_.place;
+  }
+
+  void read_instance() {
+    if (instances_seen_++ > 0)
+      raw_.fail(current_.place, "a second *INSTANCE", "one body in one file",
+                "write each instance to a file of its own, or all without parts and assemblies");
     if (data())
       raw_.warn(current_.place, "an *INSTANCE with a position", "the part in its own axes",
                 "the position is left out; place the body in the model file");
+  }
+
+  void tell_of_passed_over() {
+    for (const auto& [name, passed] : passed_over_)
+      raw_.warn(passed.place, fmt::format("{} *{}", passed.count, name.substr(0, 40)),
+                "nodes, elements, sets, surfaces, sections, elastic constants and densities",
+                "passed over: what it says of the body is not in the mesh");
   }
 
   long integer(std::string_view text) const {
@@ -262,7 +321,7 @@ class AbaqusReader {
 
   void add_element(const AbaqusType& type, long label, const std::vector<long>& nodes, Place place) {
     if (type.role == Role::solid) raw_.add_element(type.type, label, nodes, place);
-    if (type.role == Role::mark) raw_.add_mark(label, nodes, type.corners);
+    if (type.role == Role::mark) raw_.add_mark(label, nodes, type.corners, place);
     if (type.role != Role::beam) return;
     raw_.add_element(type.type, label, std::span(nodes).first(2), place);
     if (type.nodes < 3) return;
@@ -323,9 +382,9 @@ class AbaqusReader {
   }
 
   void add_material() {
-    MeshMaterial material;
-    material.name = spelled(current_.value("NAME"));
-    raw_.materials.push_back(std::move(material));
+    const std::string name = current_.value("NAME");
+    if (name.empty()) raw_.fail(current_.place, "*MATERIAL without NAME", "NAME=name");
+    raw_.add_material(spelled(name), current_.place);
   }
 
   MeshMaterial& material() {
@@ -336,6 +395,7 @@ class AbaqusReader {
 
   void read_elastic() {
     MeshMaterial& target = material();
+    if (target.youngs_modulus) refuse_second();
     const std::string type = current_.value("TYPE");
     if (!type.empty() && !equal_ignoring_case(type, "ISO") && !equal_ignoring_case(type, "ISOTROPIC"))
       return raw_.warn(current_.place, fmt::format("*ELASTIC of type {}", type), "an isotropic material",
@@ -346,18 +406,34 @@ class AbaqusReader {
     if (!(*target.youngs_modulus > 0) || !(*target.poisson_ratio > -1 && *target.poisson_ratio < 0.5))
       fail(fmt::format("Young's modulus {}, Poisson's ratio {}", *target.youngs_modulus, *target.poisson_ratio),
            "a modulus > 0 and a ratio between -1 and 0.5");
+    tell_of_further_lines();
   }
 
   void read_density() {
     MeshMaterial& target = material();
+    if (target.density) refuse_second();
     if (!data()) fail("*DENSITY without a number", "a density");
     target.density = number(parts_[0]);
     if (!(*target.density > 0)) fail(fmt::format("density {}", *target.density), "a density > 0");
+    tell_of_further_lines();
   }
 
+  [[noreturn]] void refuse_second() {
+    raw_.fail(current_.place, fmt::format("a second *{} of material '{}'", current_.name, material().name),
+              "each constant once");
+  }
+
+  void tell_of_further_lines() {
+    if (data())
+      raw_.warn(here(), fmt::format("a second line of *{} of material '{}'", current_.name, material().name),
+                "constants that do not depend on temperature", "the first line is taken");
+  }
+
+  // The material of a section that names none is told where its elements would need it.
   void read_section() {
     const std::string set = current_.value("ELSET"), name = current_.value("MATERIAL");
-    if (!set.empty() && !name.empty()) raw_.section_materials[spelled(set)] = spelled(name);
+    if (set.empty()) raw_.fail(current_.place, fmt::format("*{} without ELSET", current_.name), "ELSET=name");
+    raw_.sections.push_back({current_.place, spelled(set), name.empty() ? name : spelled(name)});
   }
 
   void read_include(int depth) {
@@ -372,7 +448,14 @@ class AbaqusReader {
   const IncludeLoader& include_;
   LineScanner* lines_ = nullptr;
   int file_ = 0;
-  int parts_seen_ = 0;
+  int parts_seen_ = 0, instances_seen_ = 0;
+  bool is_in_step_ = false;
+  std::string_view last_line_;
+  struct PassedOver {
+    Place place;  ///< of the first
+    int count = 0;
+  };
+  std::map<std::string, PassedOver> passed_over_;
   Keyword current_;
   std::vector<std::string_view> parts_;
   std::map<std::string, std::string> spellings_;

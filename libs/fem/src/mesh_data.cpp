@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -59,7 +61,7 @@ void read_elements(const Hdf5File& file, Mesh& mesh) {
   constexpr std::size_t solids = static_cast<std::size_t>(ElementType::beam2);
   const Integers types = read_within(file, "mesh/element_types", 0, solids);
   const Integers labels = file.read_integers("mesh/element_labels");
-  const Integers materials = file.read_integers("mesh/element_materials");
+  const Integers materials = read_within(file, "mesh/element_materials", -1, std::numeric_limits<int>::max());
   const Integers nodes = read_within(file, "mesh/connectivity", 0, mesh.nodes.size());
   require(labels.size() == types.size() && materials.size() == types.size(),
           "data sets 'mesh/element_types', 'element_labels' and 'element_materials' differ in length");
@@ -101,10 +103,13 @@ void read_materials(const Hdf5File& file, ReducedBody& body) {
   const std::vector<double> density = file.read_numbers("materials/density");
   require(D.cols() == 6 && D.rows() == 6 * static_cast<Eigen::Index>(density.size()) && D.allFinite(),
           "data set 'materials/D' is not six rows of six finite numbers for each of 'materials/density'");
+  for (const double rho : density)
+    require(std::isfinite(rho) && rho >= 0,
+            "data set 'materials/density' has a density that is negative or not finite");
   for (std::size_t m = 0; m < density.size(); ++m)
     body.materials.push_back({D.middleRows<6>(6 * static_cast<Eigen::Index>(m)), density[m]});
   for (const Element& element : body.mesh.elements)
-    require(element.material < static_cast<int>(density.size()),
+    require(element.material >= -1 && element.material < static_cast<int>(density.size()),
             fmt::format("element {} has a material that is not in 'materials'", element.label));
 }
 

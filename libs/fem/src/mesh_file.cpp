@@ -53,7 +53,8 @@ std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-Mesh read_mesh(const std::filesystem::path& path, double length_unit, std::vector<Fault>* warnings) {
+Mesh read_mesh(const std::filesystem::path& path, double length_unit, std::vector<Fault>* warnings,
+               std::vector<Fault>* material_faults) {
   const std::optional<MeshFormat> format = mesh_format_of(path);
   const SourcePosition position{path.string(), 0, 0};
   if (!format)
@@ -62,15 +63,17 @@ Mesh read_mesh(const std::filesystem::path& path, double length_unit, std::vecto
   const std::optional<std::string> text = content_of(path);
   if (!text) throw InputError(Fault{position, "", "no file that can be read", "a mesh file", "check its path"});
   const auto include = [&path](const std::string& name) { return content_of(path.parent_path() / name); };
-  return parse_mesh(*text, *format, path.string(), length_unit, warnings, include);
+  return parse_mesh(*text, *format, path.string(), length_unit, warnings, include, material_faults);
 }
 
 Mesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name, double length_unit,
-                std::vector<Fault>* warnings, const IncludeLoader& include) {
+                std::vector<Fault>* warnings, const IncludeLoader& include, std::vector<Fault>* material_faults) {
   HERSEY_REQUIRE(length_unit > 0, "a unit of length");
   RawMesh raw = read_raw(text, format, name, include);
   Mesh mesh = finished(raw, length_unit);
   if (warnings != nullptr) warnings->insert(warnings->end(), raw.warnings.begin(), raw.warnings.end());
+  if (material_faults != nullptr)
+    material_faults->insert(material_faults->end(), raw.material_faults.begin(), raw.material_faults.end());
   return mesh;
 }
 

@@ -62,7 +62,7 @@ class GmshReader {
       else if (line == "$Elements")
         is_old_ ? read_elements_2() : read_elements_4();
       else if (line.front() == '$')
-        skip_section(line);
+        pass_over(line);
       else
         fail(fmt::format("'{}'", line.substr(0, 40)), "a section, such as $Nodes");
     }
@@ -124,6 +124,19 @@ class GmshReader {
       break;
     }
     fail(fmt::format("'{}'", line.substr(0, 40)), std::string(name));
+  }
+
+  // Fields, comments and periodicity say nothing of the mesh; of other sections nobody knows.
+  void pass_over(std::string_view begin) {
+    static constexpr std::array<std::string_view, 6> harmless = {
+        "$Comments", "$Periodic", "$NodeData", "$ElementData", "$ElementNodeData", "$InterpolationScheme"};
+    if (begin == "$PartitionedEntities")
+      fail(std::string(begin), "a mesh that is not partitioned",
+           "save it with Mesh.PartitionSplitMeshFiles = 0 and one partition");
+    if (std::find(harmless.begin(), harmless.end(), begin) == harmless.end())
+      raw_.warn(here(), fmt::format("a section {}", begin.substr(0, 40)), "nodes, elements and physical groups",
+                "it is passed over");
+    skip_section(begin);
   }
 
   void skip_section(std::string_view begin) {
@@ -266,7 +279,7 @@ class GmshReader {
     if (type.solid)
       label = add_solid(*type.solid, label, used, groups);
     else
-      raw_.add_mark(label, used, type.dimension == 2 ? type.corners : 0);
+      raw_.add_mark(label, used, type.dimension == 2 ? type.corners : 0, here());
     if (type.dimension == 1) curve_places_.push_back(here());
     for (const long group : groups)
       raw_.element_sets[group_name(type.dimension, std::abs(group))].labels.push_back({label, label, 1});

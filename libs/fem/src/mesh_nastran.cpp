@@ -1,19 +1,23 @@
 // Entries as in the quick reference guide of MSC Nastran (2012): GRID, CTETRA, CHEXA, CPENTA, CBAR, CBEAM, MAT1,
-// PSOLID, PBAR, PBARL, PBEAM, PBEAML, SET1, SET3, and SET of the case control section.
+// PSOLID, PBAR, PBARL, PBEAM, PBEAML, GRDSET, PARAM, SET1, SET3, and SET of the case control section.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <set>
+#include <cmath>
 #include <utility>
 
 #include "mesh_readers.h"
 #include "nastran_cards.h"
+#include "nastran_entries.h"
 
 namespace hersey::fem {
 namespace {
 
 constexpr int kDeepestInclude = 8;
+constexpr double kSameModulus = 0.01;  // of G and E / (2 (1 + nu)), from which on Nastran warns too
+constexpr const char* kBasicSystem = "the basic system, 0 or empty";
+constexpr const char* kWriteBasic = "let the program that made the file write all points in basic coordinates";
 
 /// A solid's entry: its shapes of first and second order, and the place in Nastran's numbering of each node in ours.
 struct NastranSolid {
@@ -48,9 +52,11 @@ class NastranReader {
   explicit NastranReader(const IncludeLoader& include) : include_(include) {}
 
   RawMesh read(std::string_view text, const std::string& name) {
-    read_file(text, name, 0, upper(text).find("BEGIN BULK") != std::string::npos);
-    for (const auto& [kind, count] : left_out_)
-      raw_.warn({0, 0}, fmt::format("{} {}", count, kind), "grid points, solids and beams",
+    read_file(text, name, 0, begins_with_case_control(text));
+    check_default_system();
+    scale_densities();
+    for (const auto& [kind, left] : left_out_)
+      raw_.warn(left.place, fmt::format("{} {}", left.count, kind.substr(0, 8)), "grid points, solids and beams",
                 "left out of the mesh; write masses, springs and couplings in the model file");
     return std::move(raw_);
   }
@@ -68,13 +74,29 @@ class NastranReader {
     if (begins_with_case_control) read_case_control(lines);
     NastranCards cards(lines);
     NastranCard card;
-    while (cards.next(card) && card.name != "ENDDATA") {
+    while (!has_ended_ && cards.next(card)) {
       if (card.name.starts_with("INCLUDE"))
         read_include(card, text, depth);
       else
         read_card(card);
     }
+    if (depth == 0 && !has_ended_)
+      raw_.warn({file_, lines.number()}, "no ENDDATA at the end", "ENDDATA behind the last entry",
+                "the file may be cut short: compare it with its source");
     file_ = outer;
+  }
+
+  static bool begins_with_case_control(std::string_view text) {
+    LineScanner lines(text);
+    std::string_view line;
+    while (lines.next(line))
+      if (is_begin_bulk(line)) return true;
+    return false;
+  }
+
+  static bool is_begin_bulk(std::string_view line) {
+    const std::string word = upper(trimmed(line.substr(0, line.find('$'))).substr(0, 20));
+    return word.starts_with("BEGIN") && trimmed(std::string_view(word).substr(5)).starts_with("BULK");
   }
 
   // Up to BEGIN BULK: "SET 4 = 1 THRU 10, 15", continued after a comma.
@@ -83,7 +105,10 @@ class NastranReader {
     while (lines.next(line)) {
       line = trimmed(line.substr(0, line.find('$')));
       const std::string word = upper(line.substr(0, 10));
-      if (word.starts_with("BEGIN BULK")) return;
+      if (is_begin_bulk(line)) return;
+      if (word.starts_with("INCLUDE"))
+        raw_.warn({file_, lines.number()}, "INCLUDE before BEGIN BULK", "INCLUDE in the bulk data",
+                  "passed over: sets of the case control section that it holds are not in the mesh");
       if (!word.starts_with("SET ") || line.find('=') == std::string_view::npos) continue;
       NastranCard card;
       card.line = lines.number();
@@ -123,6 +148,7 @@ class NastranReader {
   }
 
   void read_card(const NastranCard& card) {
+    if (!concerns_no_bulk(card.name)) require_sound(card);
     if (card.name == "GRID") return read_grid(card);
     if (solids().contains(card.name)) return read_solid(card);
     if (card.name == "CBAR" || card.name == "CBEAM") return read_beam(card);
@@ -136,13 +162,49 @@ class NastranReader {
     check_other(card);
   }
 
+  void require_sound(const NastranCard& card) const {
+    if (card.mistake.empty()) return;
+    raw_.fail({file_, card.line_of_mistake}, fmt::format("{} ({})", card.mistake, card.name.substr(0, 8)),
+              "an entry's lines one after the other, eight fields of data in each (four where they are large)",
+              "let the program that made the file write it anew");
+  }
+
   void check_other(const NastranCard& card) {
-    static const std::set<std::string_view> unknown_solids = {"CPYRAM", "CPYRA", "CTETRAR", "CBEND", "CBEAM3"};
-    static const std::set<std::string_view> left_out = {"RBE1", "RBE2",  "RBE3",   "RBAR",   "CONM1", "CONM2",
-                                                        "CROD", "CBUSH", "CELAS1", "CELAS2", "CTUBE", "CDAMP1"};
-    if (unknown_solids.contains(card.name))
-      fail(card, card.name, "CTETRA, CPENTA, CHEXA, CBAR or CBEAM", "mesh the body with these");
-    if (left_out.contains(card.name)) ++left_out_[card.name];
+    if (card.name == "ENDDATA") has_ended_ = true;
+    if (card.name == "GRDSET") return read_default_system(card);
+    if (card.name == "PARAM" && equal_ignoring_case(card.field(0), "WTMASS")) read_mass_factor(card);
+    if (changes_the_bulk(card.name))
+      fail(card, card.name.substr(0, 20), "GRID, CTETRA, CPENTA, CHEXA, CBAR or CBEAM, each written out",
+           "mesh the body with these");
+    if (is_other_material(card.name)) return read_other_material(card);
+    if (concerns_no_bulk(card.name)) return;
+    LeftOut& left = left_out_[card.name];
+    if (left.count++ == 0) left.place = {file_, card.line};
+  }
+
+  // It may stand behind the grid points it concerns: they are checked at the end.
+  void read_default_system(const NastranCard& card) {
+    default_system_ = card.field(1).empty() ? 0 : integer(card, card.field(1));
+    default_place_ = {file_, card.line};
+  }
+
+  void check_default_system() const {
+    if (default_system_ == 0 || !first_default_) return;
+    raw_.fail(default_place_,
+              fmt::format("GRDSET puts grid points in the coordinate system {}, the first in line {}", default_system_,
+                          first_default_->line),
+              kBasicSystem, kWriteBasic);
+  }
+
+  // PARAM,WTMASS turns densities of weight into densities of mass.
+  void read_mass_factor(const NastranCard& card) {
+    mass_factor_ = number(card, card.field(1));
+    if (!(mass_factor_ > 0)) fail(card, fmt::format("WTMASS = {}", mass_factor_), "a factor > 0");
+  }
+
+  void scale_densities() {
+    for (MeshMaterial& material : raw_.materials)
+      if (material.density) *material.density *= mass_factor_;
   }
 
   long integer(const NastranCard& card, std::string_view text) const {
@@ -163,8 +225,8 @@ class NastranReader {
   void read_grid(const NastranCard& card) {
     const std::string_view system = card.field(1);
     if (!system.empty() && integer(card, system) != 0)
-      fail(card, fmt::format("a grid point in the coordinate system {}", system), "the basic system, 0 or empty",
-           "let the program that made the file write all points in basic coordinates");
+      fail(card, fmt::format("a grid point in the coordinate system {}", system), kBasicSystem, kWriteBasic);
+    if (system.empty() && !first_default_) first_default_ = {file_, card.line};
     raw_.add_node(integer(card, card.field(0)),
                   {number(card, card.field(2)), number(card, card.field(3)), number(card, card.field(4))},
                   {file_, card.line});
@@ -216,29 +278,59 @@ class NastranReader {
     std::array<long, 4> nodes{};
     for (std::size_t c = 0; c < static_cast<std::size_t>(corners); ++c) nodes[c] = integer(card, card.field(2 + c));
     const long label = integer(card, card.field(0));
-    raw_.add_mark(label, std::span<const long>(nodes.data(), static_cast<std::size_t>(corners)), corners);
+    raw_.add_mark(label, std::span<const long>(nodes.data(), static_cast<std::size_t>(corners)), corners,
+                  {file_, card.line});
     add_to_property(card, label);
   }
 
   // MID, E, G, nu, rho; of E, G and nu one may be empty.
   void read_material(const NastranCard& card) {
-    MeshMaterial material;
-    material.name = fmt::format("mid_{}", integer(card, card.field(0)));
-    const double E = number(card, card.field(1)), G = number(card, card.field(2));
+    const double E = number(card, card.field(1)), G = number(card, card.field(2)), rho = number(card, card.field(4));
     const bool has_nu = !card.field(3).empty();
     const double nu = has_nu ? number(card, card.field(3)) : G > 0 && E > 0 ? E / (2 * G) - 1 : 0;
     const double modulus = E > 0 ? E : 2 * G * (1 + nu);
     if (!(modulus > 0) || !(nu > -1 && nu < 0.5))
       fail(card, fmt::format("MAT1 with E = {}, nu = {}", modulus, nu), "E > 0 and nu between -1 and 0.5");
+    if (!(rho >= 0)) fail(card, fmt::format("MAT1 with the density {}", rho), "a density >= 0");
+    const Place place{file_, card.line};
+    MeshMaterial& material = raw_.add_material(material_name(card, 0), place);
     material.youngs_modulus = modulus;
     material.poisson_ratio = nu;
-    if (const double rho = number(card, card.field(4)); rho > 0) material.density = rho;
-    raw_.materials.push_back(std::move(material));
+    if (rho > 0) material.density = rho;
+    const double G_isotropic = modulus / (2 * (1 + nu));
+    if (G > 0 && std::abs(G - G_isotropic) > kSameModulus * G_isotropic)
+      raw_.warn(place, fmt::format("MAT1 with E = {}, G = {}, nu = {}", modulus, G, nu), "G = E / (2 (1 + nu))",
+                "G is left out");
+    if (!has_nu && !(E > 0 && G > 0))
+      raw_.warn(place, "MAT1 with one elastic constant", "two of E, G and nu", "nu is taken as 0");
+    if (number(card, card.field(7)) != 0)
+      raw_.warn(place, "MAT1 with structural damping GE", "E, G, nu and the density",
+                "it is left out; give the body's damping in the model file");
+  }
+
+  // Its elements have no elastic constants then, which is told where they are needed.
+  void read_other_material(const NastranCard& card) {
+    const Place place{file_, card.line};
+    raw_.add_material(material_name(card, 0), place);
+    raw_.warn(place, card.name, "MAT1, an isotropic material", "give the body's material in the model file");
+  }
+
+  std::string material_name(const NastranCard& card, std::size_t field) const {
+    return fmt::format("mid_{}", integer(card, card.field(field)));
   }
 
   void read_property(const NastranCard& card) {
-    raw_.section_materials[fmt::format("pid_{}", integer(card, card.field(0)))] =
-        fmt::format("mid_{}", integer(card, card.field(1)));
+    if (card.name == "PSOLID" && equal_ignoring_case(card.field(6), "PFLUID"))
+      fail(card, "PSOLID of a fluid", "solids alone");
+    RawSection section{{file_, card.line},
+                       fmt::format("pid_{}", integer(card, card.field(0))),
+                       card.field(1).empty() ? "" : material_name(card, 1),
+                       true};
+    const auto [first, is_new] = properties_.try_emplace(section.element_set, card.line);
+    if (!is_new)
+      fail(card, fmt::format("property {} stands in line {} already", card.field(0), first->second),
+           "each property once");
+    raw_.sections.push_back(std::move(section));
   }
 
   static std::vector<std::string_view> members(const NastranCard& card, std::size_t from) {
@@ -268,7 +360,17 @@ class NastranReader {
 
   const IncludeLoader& include_;
   int file_ = 0;
-  std::map<std::string, int> left_out_;
+  bool has_ended_ = false;  ///< by ENDDATA
+  double mass_factor_ = 1;  ///< PARAM,WTMASS
+  long default_system_ = 0;
+  Place default_place_;
+  std::optional<Place> first_default_;     ///< of the first grid point without a system of its own
+  std::map<std::string, int> properties_;  ///< line of each by its name
+  struct LeftOut {
+    Place place;  ///< of the first
+    int count = 0;
+  };
+  std::map<std::string, LeftOut> left_out_;
   RawMesh raw_;
 };
 

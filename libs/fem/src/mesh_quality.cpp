@@ -9,6 +9,7 @@
 
 #include "hersey/fem/quadrature.h"
 #include "hersey/fem/shape_functions.h"
+#include "hersey/fem/skin.h"
 #include "hersey/fem/solid_element.h"
 
 namespace hersey::fem {
@@ -128,6 +129,41 @@ void find_repeated(const Mesh& mesh, MeshQuality& quality) {
       quality.repeated.emplace_back(corners[k - 1].second, corners[k].second);
 }
 
+bool is_quadratic(ElementType type) {
+  return type == ElementType::tet10 || type == ElementType::wedge15 || type == ElementType::hex20;
+}
+
+/// A face's midside nodes, ascending; -1 where it has none.
+std::array<int, 4> midside_nodes(const Mesh& mesh, ElementFace face) {
+  const std::vector<int> nodes = nodes_of(mesh, face);
+  std::array<int, 4> midside{-1, -1, -1, -1};
+  if (is_quadratic(mesh.elements[static_cast<std::size_t>(face.element)].type))
+    std::copy(nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2), nodes.end(), midside.begin());
+  std::sort(midside.begin(), midside.end());
+  return midside;
+}
+
+// Elements that share a face's corners but not its midside nodes come apart, or into each other, between the corners.
+void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
+  const auto curves = [](const Element& element) { return is_quadratic(element.type); };
+  if (std::none_of(mesh.elements.begin(), mesh.elements.end(), curves)) return;
+  struct Side {
+    FaceKey corners;
+    std::array<int, 4> midside;
+    long label;
+  };
+  std::vector<Side> sides;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
+    const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+    for (int f = 0; f < face_count(element.type); ++f)
+      sides.push_back({face_key(mesh, {e, f}), midside_nodes(mesh, {e, f}), element.label});
+  }
+  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.corners < b.corners; });
+  for (std::size_t k = 1; k < sides.size(); ++k)
+    if (sides[k].corners == sides[k - 1].corners && sides[k].midside != sides[k - 1].midside)
+      quality.mismatched.emplace_back(sides[k - 1].label, sides[k].label);
+}
+
 // Nodes in the same cell of a fine grid; two that a cell's boundary parts are missed, which only costs a warning.
 void find_touching(const Mesh& mesh, MeshQuality& quality) {
   const double cell = kTouching * quality.size();
@@ -213,6 +249,7 @@ MeshQuality quality_of(const Mesh& mesh) {
   }
   add_elements(mesh, quality);
   find_repeated(mesh, quality);
+  find_mismatched(mesh, quality);
   find_touching(mesh, quality);
   find_parts(mesh, quality);
   return quality;
@@ -259,6 +296,11 @@ std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& fi
   if (!quality.touching.empty())
     warnings.push_back(fault(file, fmt::format("nodes on each other: {}", listed(quality.touching)),
                              "one node where elements are to hang together", "merge them unless the gap is meant"));
+  if (!quality.mismatched.empty())
+    warnings.push_back(fault(
+        file, fmt::format("elements whose common face has not the same midside nodes: {}", listed(quality.mismatched)),
+        "elements of one order, and one midside node on an edge that elements share",
+        "they hang together by the corners alone: mesh them anew in one order, or merge the nodes"));
   for (const auto& [type, of_type] : quality.types)
     if (of_type.smallest_shape < kFlat && type != ElementType::beam2)
       warnings.push_back(fault(

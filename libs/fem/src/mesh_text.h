@@ -16,6 +16,8 @@ class LineScanner {
   void back() { at_ = start_, --number_; }
   [[nodiscard]] int number() const { return number_; }
   [[nodiscard]] std::size_t bytes_left() const { return text_.size() - at_; }
+  /// Whether the last line ends as lines do; where it does not, the text may have been cut in it.
+  [[nodiscard]] bool ends_with_line() const { return text_.empty() || text_.back() == '\n'; }
 
  private:
   std::string_view text_;

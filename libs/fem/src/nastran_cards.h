@@ -15,6 +15,9 @@ struct NastranCard {
   std::string name;
   std::vector<std::string_view> fields;
   int line = 0;
+  /// What is wrong with its lines: a continuation that belongs to another entry, or fields behind the tenth.
+  std::string mistake;
+  int line_of_mistake = 0;
 
   /// Field `place`, counted from 0; empty where there is none.
   [[nodiscard]] std::string_view field(std::size_t place) const {
@@ -33,8 +36,10 @@ class NastranCards {
  private:
   bool next_line(std::string_view& line);
   std::string_view without_tabs(std::string_view line);
+  void add_line(std::string_view line, NastranCard& card);
 
   LineScanner& lines_;
+  std::string_view mark_;             ///< by which the line read last names its continuation; often empty
   std::deque<std::string> expanded_;  ///< lines of this entry whose tabs were replaced
 };
 

@@ -1,20 +1,10 @@
 #include "raw_mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace hersey::fem {
-namespace {
-
-Fault fault(const RawMesh& raw, Place place, std::string found, std::string expected, std::string suggestion) {
-  return {{raw.files[static_cast<std::size_t>(place.file)], place.line, 0},
-          "",
-          std::move(found),
-          std::move(expected),
-          std::move(suggestion)};
-}
-
-}  // namespace
-
 void RawMesh::add_node(long label, const Vector3& r, Place place) {
   nodes.push_back(r);
   node_labels.push_back(label);
@@ -31,21 +21,40 @@ void RawMesh::add_element(ElementType type, long label, std::span<const long> el
   connectivity.insert(connectivity.end(), element_nodes.begin(), element_nodes.end());
 }
 
-void RawMesh::add_mark(long label, std::span<const long> mark_nodes, int corner_count) {
+void RawMesh::add_mark(long label, std::span<const long> mark_nodes, int corner_count, Place place) {
   RawMark mark;
   mark.label = label;
+  mark.place = place;
   mark.node_count = static_cast<int>(mark_nodes.size());
   mark.corner_count = corner_count;
   std::copy(mark_nodes.begin(), mark_nodes.end(), mark.nodes.begin());
   marks.push_back(mark);
 }
 
+MeshMaterial& RawMesh::add_material(const std::string& name, Place place) {
+  for (std::size_t m = 0; m < materials.size(); ++m)
+    if (materials[m].name == name)
+      fail(place, fmt::format("material '{}' stands in line {} already", name, material_places[m].line),
+           "each material once");
+  material_places.push_back(place);
+  materials.emplace_back().name = name;
+  return materials.back();
+}
+
+Fault RawMesh::fault(Place place, std::string found, std::string expected, std::string suggestion) const {
+  return {{files[static_cast<std::size_t>(place.file)], place.line, 0},
+          "",
+          std::move(found),
+          std::move(expected),
+          std::move(suggestion)};
+}
+
 void RawMesh::warn(Place place, std::string found, std::string expected, std::string suggestion) {
-  warnings.push_back(fault(*this, place, std::move(found), std::move(expected), std::move(suggestion)));
+  warnings.push_back(fault(place, std::move(found), std::move(expected), std::move(suggestion)));
 }
 
 void RawMesh::fail(Place place, std::string found, std::string expected, std::string suggestion) const {
-  throw InputError(fault(*this, place, std::move(found), std::move(expected), std::move(suggestion)));
+  throw InputError(fault(place, std::move(found), std::move(expected), std::move(suggestion)));
 }
 
 }  // namespace hersey::fem

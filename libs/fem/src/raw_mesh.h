@@ -47,6 +47,7 @@ struct RawElement {
 /// An element of surface, line or point shape: it marks the nodes, and of a surface the faces, that its sets name.
 struct RawMark {
   long label = 0;
+  Place place;
   std::array<long, 9> nodes{};  ///< corners first
   int node_count = 0;
   int corner_count = 0;
@@ -60,6 +61,13 @@ struct RawSurfacePart {
   int face = -1;            ///< -1: those that lie outside
 };
 
+/// A section of the file: the elements of a set are of a material, both by their names.
+struct RawSection {
+  Place place;
+  std::string element_set, material;
+  bool may_be_unused = false;  ///< no mistake where no element belongs to it
+};
+
 /// What a reader finds in a file, by the file's labels and in the file's units; `finished` makes a Mesh of it.
 struct RawMesh {
   std::vector<std::string> files;
@@ -70,22 +78,28 @@ struct RawMesh {
   std::vector<long> connectivity;
   std::vector<RawMark> marks;  ///< their labels are those of no element; element sets may hold them
   std::vector<MeshMaterial> materials;
+  std::vector<Place> material_places;
   std::map<std::string, RawSet> node_sets, element_sets;
   std::map<std::string, std::vector<RawSurfacePart>> surfaces;
-  std::map<std::string, std::string> section_materials;  ///< material's name by element set
+  std::vector<RawSection> sections;
   std::vector<Fault> warnings;
+  std::vector<Fault> material_faults;  ///< why elements have no material, or more than one
 
   void add_node(long label, const Vector3& r, Place place);
   /// @param nodes labels in Abaqus' order
   void add_element(ElementType type, long label, std::span<const long> nodes, Place place);
   /// @param nodes labels, corners first
-  void add_mark(long label, std::span<const long> nodes, int corner_count);
+  void add_mark(long label, std::span<const long> nodes, int corner_count, Place place);
+  /// @throws InputError where there is one of that name already
+  MeshMaterial& add_material(const std::string& name, Place place);
+  [[nodiscard]] Fault fault(Place place, std::string found, std::string expected, std::string suggestion = {}) const;
   void warn(Place place, std::string found, std::string expected, std::string suggestion = {});
   /// Throws InputError for this place.
   [[noreturn]] void fail(Place place, std::string found, std::string expected, std::string suggestion = {}) const;
 };
 
-/// Resolves labels, drops nodes that no element uses, matches surfaces with faces, scales to metres and SI.
+/// Resolves labels, drops nodes that no element uses, matches surfaces with faces, gives elements the materials of
+/// their sections, scales to metres and SI.
 /// @throws InputError for nodes that are missing or given twice, elements given twice, a file without elements.
 [[nodiscard]] Mesh finished(RawMesh& raw, double length_unit);
 

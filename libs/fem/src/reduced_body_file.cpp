@@ -2,17 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "hdf5_file.h"
 #include "hersey/core/input_error.h"
+#include "hersey/core/sealed_file.h"
 #include "mesh_data.h"
 
 namespace hersey::fem {
 namespace {
 
 constexpr const char* kFormat = "hersey reduced body 1";
+constexpr double kDefinite = 1e-6;   // of the largest eigenvalue: rigid motions store no energy, but for round-off
 constexpr double kSymmetric = 1e-9;  // of the largest entry: other programs write fewer figures
 
 std::string frame_path(std::size_t place, const char* what) { return fmt::format("frames/{}/{}", place, what); }
@@ -64,6 +67,25 @@ Eigen::MatrixXd symmetric(const Hdf5File& file, const char* name, Eigen::Index s
   return values;
 }
 
+/// No motion has a negative energy: eigenvalues >= 0 but for round-off, of the matrix scaled to a unit diagonal.
+void require_no_negative_energy(const Eigen::MatrixXd& values, const char* name) {
+  const Eigen::VectorXd diagonal = values.diagonal();
+  const double largest = diagonal.maxCoeff();
+  require(diagonal.minCoeff() >= -kDefinite * largest && largest > 0,
+          fmt::format("data set '{}' has a diagonal that is negative or nothing at all", name));
+  const Eigen::VectorXd scale = diagonal.cwiseMax(kDefinite * largest).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * (0.5 * (values + values.transpose())) * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+  const bool is_definite = solver.info() == Eigen::Success &&
+                           solver.eigenvalues()[0] >= -kDefinite * solver.eigenvalues()[values.rows() - 1];
+  require(is_definite, fmt::format("data set '{}' gives some motion a negative energy", name));
+}
+
+void require_finite(const std::vector<double>& values, const std::string& what) {
+  const bool all = std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+  require(all, fmt::format("{} has a number that is not finite", what));
+}
+
 Eigen::SparseMatrix<double> read_mass(const Hdf5File& file, Eigen::Index nodes) {
   const std::vector<long long> rows = file.read_integers("mass/rows"), columns = file.read_integers("mass/columns");
   const std::vector<double> values = file.read_numbers("mass/values");
@@ -93,6 +115,7 @@ InterfaceFrame read_frame(const Hdf5File& file, std::size_t place, std::size_t n
   frame.connection = connection == "rigid" ? Connection::rigid : Connection::average;
   const std::vector<double> origin = file.read_numbers(frame_path(place, "origin"));
   require(origin.size() == 3, fmt::format("the origin of frame '{}' has no three numbers", frame.name));
+  require_finite(origin, fmt::format("the origin of frame '{}'", frame.name));
   frame.origin = Vector3(origin[0], origin[1], origin[2]);
   for (const long long node : file.read_integers(frame_path(place, "nodes"))) {
     require(node >= 0 && static_cast<std::size_t>(node) < nodes,
@@ -102,11 +125,13 @@ InterfaceFrame read_frame(const Hdf5File& file, std::size_t place, std::size_t n
   if (file.has(frame_path(place, "weights"))) frame.weights = file.read_numbers(frame_path(place, "weights"));
   require(frame.weights.empty() || frame.weights.size() == frame.nodes.size(),
           fmt::format("frame '{}' has {} weights for {} nodes", frame.name, frame.weights.size(), frame.nodes.size()));
+  require_finite(frame.weights, fmt::format("a weight of frame '{}'", frame.name));
   return frame;
 }
 
 Eigen::VectorXd read_vector(const Hdf5File& file, const char* name) {
   const std::vector<double> values = file.read_numbers(name);
+  require_finite(values, fmt::format("data set '{}'", name));
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
@@ -123,6 +148,8 @@ ReducedBody read_body(const Hdf5File& file) {
           fmt::format("data set 'Phi' is not {} rows of finite numbers, three for each node", 3 * nodes.rows()));
   body.K = symmetric(file, "K", body.size());
   body.M = symmetric(file, "M", body.size());
+  if (body.size() > 6) require_no_negative_energy(body.K, "K");  // a single frame without modes: round-off alone
+  require_no_negative_energy(body.M, "M");
   body.m = read_mass(file, nodes.rows());
   for (std::size_t f = 0; file.has(fmt::format("frames/{}", f)); ++f)
     body.frames.push_back(read_frame(file, f, body.nodes.size()));
@@ -132,6 +159,8 @@ ReducedBody read_body(const Hdf5File& file) {
   require(body.internal_omega.size() == body.size() - body.internal_first(),
           fmt::format("data set 'internal_omega' has {} numbers for {} internal coordinates",
                       body.internal_omega.size(), body.size() - body.internal_first()));
+  require(body.internal_omega.size() == 0 || body.internal_omega.minCoeff() > 0,
+          "data set 'internal_omega' has a frequency that is not > 0");
   if (file.has("energy_missed")) body.energy_missed = read_vector(file, "energy_missed");
   read_mesh_data(file, body);
   return body;
@@ -156,6 +185,7 @@ void write_reduced_body(const std::filesystem::path& path, const ReducedBody& bo
       file.write("energy_missed", numbers_of(body.energy_missed));
       write_mesh_data(file, body);
     }
+    seal_file(unfinished);
     std::filesystem::rename(unfinished, path);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", path.string(), error.what()));
@@ -164,6 +194,8 @@ void write_reduced_body(const std::filesystem::path& path, const ReducedBody& bo
 
 ReducedBody read_reduced_body(const std::filesystem::path& path) {
   try {
+    // Before HDF5 sees it: the library trusts what it reads of a file's structure.
+    require(check_seal(path) != Seal::broken, "has changed since it was written: its checksum is another");
     return read_body(Hdf5File::open(path));
   } catch (const std::runtime_error& error) {
     throw InputError(

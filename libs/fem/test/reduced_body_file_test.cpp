@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "hdf5_file.h"
 #include "hersey/core/input_error.h"
@@ -122,6 +124,45 @@ TEST_CASE("SpoiledReducedBodies_AreToldByTheirDataSet") {
   CHECK(fault_after([](ReducedBody& b) { b.mesh.elements[1].material = 1; }) ==
         "element 2 has a material that is not in 'materials'");
   CHECK(fault_after([](ReducedBody& b) { b.m *= 0.0; }) == "'mass' adds up to nothing");
+  CHECK(fault_after([](ReducedBody& b) { b.M(14, 14) *= -1; }) ==
+        "data set 'M' has a diagonal that is negative or nothing at all");
+  CHECK(fault_after([](ReducedBody& b) { b.M(0, 14) = b.M(14, 0) = 2 * std::sqrt(b.M(0, 0) * b.M(14, 14)); }) ==
+        "data set 'M' gives some motion a negative energy");
+  CHECK(fault_after([](ReducedBody& b) { b.K(0, 6) = b.K(6, 0) = 2 * std::sqrt(b.K(0, 0) * b.K(6, 6)); }) ==
+        "data set 'K' gives some motion a negative energy");
+  CHECK(fault_after([](ReducedBody& b) { b.frames[0].origin.x() = std::nan(""); }) ==
+        "the origin of frame 'left' has a number that is not finite");
+  CHECK(fault_after([](ReducedBody& b) { b.internal_omega[0] = -1; }) ==
+        "data set 'internal_omega' has a frequency that is not > 0");
+  CHECK(fault_after([](ReducedBody& b) { b.materials[0].density = std::nan(""); }) ==
+        "data set 'materials/density' has a density that is negative or not finite");
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_CASE("ABitThatFlipsInAReducedBody_IsToldOrHarmless") {
+  const TemporaryDirectory folder;
+  const ReducedBody body = reduced();
+  write_reduced_body(folder / "rod.h5", body);
+  const std::string good = bytes_of(folder / "rod.h5");
+  int told = 0, tried = 0;
+  for (std::size_t bit = 5; bit < 8 * good.size(); bit += 997, ++tried) {
+    std::string turned = good;
+    turned[bit / 8] = static_cast<char>(turned[bit / 8] ^ (1 << (bit % 8)));
+    std::ofstream(folder / "turned.h5", std::ios::binary) << turned;
+    try {
+      const ReducedBody back = read_reduced_body(folder / "turned.h5");
+      CHECK(back.K == body.K);  // the bit is one of the seal
+      CHECK(back.Phi == body.Phi);
+    } catch (const InputError& error) {
+      CHECK(error.faults().at(0).found == "has changed since it was written: its checksum is another");
+      ++told;
+    }
+  }
+  CHECK(told >= tried - 1);  // the seal is 46 bytes, less than a step
 }
 
 TEST_CASE("FilesThatAreNoReducedBody_AreTold") {

@@ -7,12 +7,32 @@
 
 namespace hersey::model {
 
+namespace {
+
+/// A fault of a file that `at` names: the file and the line in it become part of what was found.
+Fault at_value(const Value& at, const Fault& fault) {
+  std::string place = fault.position.file;
+  if (fault.position.line > 0) place += ":" + std::to_string(fault.position.line);
+  return {at.position, at.path, place.empty() ? fault.found : place + ": " + fault.found, fault.expected,
+          fault.suggestion};
+}
+
+}  // namespace
+
 void Context::fault(const Value& at, std::string found, std::string expected, std::string suggestion) {
   faults.push_back({at.position, at.path, std::move(found), std::move(expected), std::move(suggestion)});
 }
 
 void Context::fault_at_key(const Value& at, std::string found, std::string expected, std::string suggestion) {
   faults.push_back({at.key_position, at.path, std::move(found), std::move(expected), std::move(suggestion)});
+}
+
+void Context::faults_in_file(const Value& at, const std::vector<Fault>& faults_of_file) {
+  for (const Fault& fault : faults_of_file) faults.push_back(at_value(at, fault));
+}
+
+void Context::warnings_in_file(const Value& at, const std::vector<Fault>& warnings_of_file) {
+  for (const Fault& warning : warnings_of_file) model.warnings.push_back(at_value(at, warning));
 }
 
 bool Context::has_fault_in(const std::string& path) const {

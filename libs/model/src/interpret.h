@@ -24,6 +24,10 @@ struct Context {
   [[nodiscard]] bool has_fault_in(const std::string& path) const;
   /// Reports a fault at the key that opens a value.
   void fault_at_key(const Value& at, std::string found, std::string expected, std::string suggestion = {});
+  /// Reports faults of a file that the value `at` names, with their places in that file.
+  void faults_in_file(const Value& at, const std::vector<Fault>& faults_of_file);
+  /// The same for what can be computed but is hardly meant: Model::warnings.
+  void warnings_in_file(const Value& at, const std::vector<Fault>& warnings_of_file);
 };
 
 // Members of a mapping by key; zero, empty or null where missing or broken.

@@ -5,6 +5,7 @@
 
 #include "hersey/core/spelling.h"
 #include "hersey/fem/mesh_file.h"
+#include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduced_body_file.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/skin.h"
@@ -92,8 +93,7 @@ class FlexibleReader {
       flexible.mesh = {body, &body->mesh};
       flexible.reduced = std::move(body);
     } catch (const InputError& error) {
-      for (const Fault& fault : error.faults())
-        context_.fault(file, fault.position.file + ": " + fault.found, fault.expected, fault.suggestion);
+      context_.faults_in_file(file, error.faults());
     }
   }
 
@@ -132,16 +132,16 @@ class FlexibleReader {
     if (file == nullptr || file->broken || unit == nullptr || unit->broken) return std::nullopt;
     const auto path = referenced_file(context_, file->text);
     try {
-      fem::Mesh mesh = fem::read_mesh(path, unit->number);
+      std::vector<Fault> warnings;
+      fem::Mesh mesh = fem::read_mesh(path, unit->number, &warnings, &material_faults_);
       check_elements(mesh, *file);
+      const fem::MeshQuality quality = fem::quality_of(mesh);
+      context_.faults_in_file(*file, fem::faults_of(quality, path.string()));
+      context_.warnings_in_file(*file, warnings);
+      context_.warnings_in_file(*file, fem::warnings_of(quality, path.string()));
       return mesh;
     } catch (const InputError& error) {
-      for (const Fault& fault : error.faults()) {
-        std::string found = fault.found;
-        if (!fault.position.file.empty())
-          found = fault.position.file + ":" + std::to_string(fault.position.line) + ": " + found;
-        context_.fault(*file, found, fault.expected, fault.suggestion);
-      }
+      context_.faults_in_file(*file, error.faults());
       return std::nullopt;
     }
   }
@@ -192,10 +192,13 @@ class FlexibleReader {
     }
     std::vector<fem::SolidMaterial> materials;
     const Value& at = *value.find("mesh");
+    if (!material_faults_.empty()) {
+      context_.faults_in_file(at, material_faults_);
+      return materials;
+    }
     std::set<int> used;
     for (const fem::Element& element : mesh.elements) used.insert(element.material);
-    const bool none = used.count(-1) > 0;
-    if (none && mesh.materials.empty()) {
+    if (mesh.materials.empty()) {
       context_.fault_at_key(value, "a mesh without materials", "a `material`, or a mesh file whose elements have one",
                             "add `material: {youngs_modulus: ..., poisson_ratio: ..., density: ...}`");
       return materials;
@@ -203,7 +206,7 @@ class FlexibleReader {
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
       const fem::MeshMaterial& m = mesh.materials[i];
       const bool complete = m.youngs_modulus && m.poisson_ratio && m.density;
-      if (!complete && (used.count(static_cast<int>(i)) > 0 || (none && i == 0)))
+      if (!complete && used.count(static_cast<int>(i)) > 0)
         context_.fault(at, "material '" + m.name + "' of the mesh file without " + missing_of(m),
                        "Young's modulus, Poisson's ratio and density", "complete it there, or give `material` here");
       const double nu = m.poisson_ratio.value_or(0);
@@ -272,7 +275,8 @@ class FlexibleReader {
 
   Context& context_;
   const Value& body_;
-  std::map<int, std::string> owners_;  ///< frames by the nodes they stand on
+  std::vector<Fault> material_faults_;  ///< of the mesh file
+  std::map<int, std::string> owners_;   ///< frames by the nodes they stand on
 };
 
 /// Nodes stand for a mesh that a rigid body does not have.

@@ -69,6 +69,13 @@ class ShapeReader {
       context_.fault(file, path.string() + ": " + stl.fault, "a surface as STL, text or binary");
       return std::nullopt;
     }
+    if (stl.flat > 0)
+      context_.warnings_in_file(
+          file, {{{path.string(), 0, 0},
+                  "",
+                  std::to_string(stl.flat) + " of " + std::to_string(stl.facets) + " triangles without area",
+                  "triangles of some area",
+                  "they are left out"}});
     for (Vector3& corner : stl.mesh.corners) corner *= unit;
     return std::move(stl.mesh);
   }
@@ -76,7 +83,9 @@ class ShapeReader {
   // The outer surface of a mesh of solids.
   std::optional<mbd::TriangleMesh> skin_of(const Value& file, const std::filesystem::path& path, double unit) {
     try {
-      const fem::Mesh mesh = fem::read_mesh(path, unit);
+      std::vector<Fault> warnings;
+      const fem::Mesh mesh = fem::read_mesh(path, unit, &warnings);
+      context_.warnings_in_file(file, warnings);
       const fem::Skin skin = fem::skin(mesh);
       if (skin.triangles.empty()) {
         context_.fault(file, path.string() + ": a mesh of beams", "a mesh of solids");

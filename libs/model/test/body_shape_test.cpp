@@ -96,9 +96,53 @@ TEST_CASE("StlFiles_AreReadAsTextAndBinary") {
   CHECK(same.fault.empty());
   CHECK(same.mesh.corners == text.mesh.corners);
   CHECK(same.mesh.triangles == text.mesh.triangles);
-  CHECK(parse_stl("").fault == "no triangles");
-  CHECK(parse_stl("solid x\nouter loop\nvertex 0 0\n").fault == "line 3: 'vertex 0 0' is no corner of a triangle");
-  CHECK(parse_stl(binary(text.mesh).substr(0, 200)).fault == "no triangles");
+}
+
+TEST_CASE("StlFiles_CutShortOrOfSomethingElse_AreFaults") {
+  const auto fault = [](const std::string& content) { return parse_stl(content).fault; };
+  CHECK(fault("") == "an empty file");
+  CHECK(fault("solid x\nendsolid x\n") == "no triangles");
+  CHECK(fault("<html>") == "neither text nor binary STL");
+  CHECK(fault("solid x\nouter loop\nvertex 0 0\n") == "line 3: 'vertex 0 0' is no corner of a triangle");
+  // Cut behind a whole facet: no word of it is missing but the last.
+  CHECK(fault(tetrahedron.substr(0, tetrahedron.find("facet normal 1 1 1"))) ==
+        "line 22: the end of the file without endsolid: it is cut short");
+  const std::string bytes = binary(parse_stl(tetrahedron).mesh);
+  CHECK(fault(bytes.substr(0, 234)) ==
+        "a binary file of 234 bytes, but its 4 facets take 284: it is cut short, or no STL");
+  CHECK(fault(bytes + "x").starts_with("a binary file of 285 bytes"));
+  std::string named = bytes.substr(0, 234);
+  named.replace(0, 6, std::string("solid") + std::string(1, '\0'));
+  CHECK(fault(named).starts_with("a binary file of 234 bytes"));
+}
+
+TEST_CASE("StlFiles_WithFacetsThatAreNoTriangles_AreFaults") {
+  const auto loop = [](const std::string& inside) {
+    return parse_stl("solid x\nfacet normal 0 0 1\nouter loop\n" + inside + "endloop\nendfacet\nendsolid\n").fault;
+  };
+  const std::string three = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  CHECK(loop(three).empty());
+  CHECK(loop("VERTEX 0 0 0\nvertex +1 0 0\nvertex 0 1e0 0\n").empty());
+  CHECK(loop(three + "vertex 1 1 0\n") == "line 7: 'vertex 1 1 0' is no corner of a triangle");
+  CHECK(loop("vertex 0 0 0\nvertex 1 0 0\n") == "line 6: 'endloop' after a facet that is no triangle");
+  CHECK(loop("vertex 0 0 0\nvertex 1 0 0\nvertex 0 nan 0\n") == "line 6: 'vertex 0 nan 0' is no corner of a triangle");
+  CHECK(loop("vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0 9\n").starts_with("line 6"));
+  CHECK(loop("vertex 0 0 0\nvertex 1 0 0\nvertex 0 1e200 0\n").starts_with("line 6"));
+  CHECK(loop("vertx 0 0 0\n") == "line 4: 'vertx 0 0 0' where STL has no such word");
+}
+
+TEST_CASE("StlTrianglesWithoutArea_AreLeftOut_AndThatIsTold") {
+  const TemporaryDirectory folder;
+  std::string content = tetrahedron;
+  content.insert(content.find("endsolid"),
+                 "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 2 0 0\nendloop\nendfacet\n");
+  std::ofstream(folder / "t.stl") << content;
+  std::ofstream(folder / "m.yaml") << with_shapes("      t: {shape: mesh, file: t.stl, unit: 1 cm}\n");
+  const Model model = read((folder / "m.yaml").string());
+  CHECK(std::get<std::shared_ptr<const mbd::TriangleMesh>>(shape(model, 0).geometry)->triangles.size() == 4);
+  REQUIRE(model.warnings.size() == 1);
+  CHECK(model.warnings[0].path == "bodies.rod.shapes.t.file");
+  CHECK(model.warnings[0].found.find("t.stl: 1 of 5 triangles without area") != std::string::npos);
 }
 
 TEST_CASE("Mesh_IsScaledAndShifted") {

@@ -48,7 +48,7 @@ simulation: {duration: 1 ms, step: 0.1 ms}
 
 /// The mesh stands where the model file would: in the working directory.
 struct MeshFile {
-  MeshFile() { std::ofstream("flexible_test_bar.inp") << kMesh; }
+  explicit MeshFile(const std::string& more = "") { std::ofstream("flexible_test_bar.inp") << kMesh << more; }
   ~MeshFile() { std::filesystem::remove("flexible_test_bar.inp"); }
   MeshFile(const MeshFile&) = delete;
   MeshFile& operator=(const MeshFile&) = delete;
@@ -92,6 +92,40 @@ TEST_CASE("FlexibleBody_FaultsNameWhatIsThere") {
                  "`centre_of_mass` of a flexible body"));
   CHECK(contains(faults_of(edited(good_model, "{origin: 0 50 0 mm,", "{nodes: left, origin: 0 50 0 mm,")),
                  "`nodes` of a frame on a rigid body"));
+}
+
+const std::string kMaterial = "      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}\n";
+const std::string kMaterials =
+    "*MATERIAL, NAME=Alu\n*DENSITY\n2.7E-9\n*ELASTIC\n70000, 0.3\n"
+    "*MATERIAL, NAME=Steel\n*DENSITY\n7.85E-9\n*ELASTIC\n210000, 0.3\n";
+
+TEST_CASE("MaterialOfTheMeshFile_IsThatOfTheSection_OrAFaultWithBothNames") {
+  const std::string machine = edited(kMachine, kMaterial, "");
+  {
+    const MeshFile file(kMaterials + "*SOLID SECTION, ELSET=all, MATERIAL=Steel\n");
+    CHECK(build(read_text(machine, "m.yaml")).flexibles[0].body->mass() == doctest::Approx(7850e-6).epsilon(1e-12));
+  }
+  const MeshFile file(kMaterials + "*SOLID SECTION, ELSET=all, MATERIAL=STELL\n");
+  const std::string faults = faults_of(machine);
+  CHECK(contains(faults, "bodies.bar.flexible.mesh: "));
+  CHECK(contains(faults,
+                 "flexible_test_bar.inp:28: the section of 'all' names the material 'STELL', which the file does "
+                 "not define; expected a material of the file: Alu or Steel; did you mean 'Steel'?"));
+  CHECK(faults_of(kMachine) == "no fault");  // a material of its own: the file's do not matter
+}
+
+TEST_CASE("WhatAMeshFileSaysBesides_IsAWarningOfTheModel") {
+  const MeshFile file("*NODE\n99, 5, 5, 5\n*TIE, NAME=t\nall, all\n");
+  const Model model = read_text(kMachine, "m.yaml");
+  REQUIRE(model.warnings.size() == 2);
+  CHECK(contains(model.warnings[0].text(), "bodies.bar.flexible.mesh: "));
+  CHECK(contains(model.warnings[0].found, "flexible_test_bar.inp:20: 1 *TIE"));
+  CHECK(contains(model.warnings[1].found, "flexible_test_bar.inp:19: 1 node is part of no element: 99"));
+}
+
+TEST_CASE("AMeshUnfitForComputing_IsAFaultOfTheModel") {
+  const MeshFile file("*NODE\n11,20,0,0\n12,30,0,0\n13,20,10,0\n14,20,0,10\n*ELEMENT, TYPE=C3D4\n2,11,12,13,14\n");
+  CHECK(contains(faults_of(kMachine), "2 parts that share no node"));
 }
 
 TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreTold") {

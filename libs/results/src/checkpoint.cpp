@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "hdf5_handle.h"
+#include "hersey/core/sealed_file.h"
 
 namespace hersey::results {
 namespace {
@@ -80,7 +82,7 @@ class File {
   [[nodiscard]] bool is_open() const { return fd_ >= 0; }
   [[nodiscard]] bool sync() const { return ::fsync(fd_) == 0 || errno == EINVAL; }
 
-  [[nodiscard]] bool write(const std::vector<char>& bytes) const {
+  [[nodiscard]] bool write(std::span<const char> bytes) const {
     std::size_t done = 0;
     while (done < bytes.size()) {
       const ssize_t n = ::write(fd_, bytes.data() + done, bytes.size() - done);
@@ -100,6 +102,9 @@ class Contents {
  public:
   explicit Contents(const std::filesystem::path& path) : path_(path) {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such checkpoint");
+    // Before HDF5 sees it: the library trusts what it reads of a file's structure.
+    if (const Seal seal = check_seal(path); seal != Seal::intact)
+      fail(seal == Seal::broken ? "damaged: it has changed since it was written" : "not a checkpoint, or cut short");
     file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
     if (!file_.valid() || H5Lexists(file_.get(), "format", H5P_DEFAULT) <= 0 || text("format") != kFormat)
       fail("not a checkpoint");
@@ -171,13 +176,14 @@ void write_checkpoint(const std::filesystem::path& path, const Archive::Content&
   for (const auto& [name, text] : content.texts) image.add("texts/" + name, text);
   const std::vector<char> bytes = image.bytes();
 
+  const std::string seal = seal_of(bytes);
   std::filesystem::path unfinished = path;
   unfinished += ".new";
   const auto fail = [&] {
     throw WriteError(path, std::string("cannot write the checkpoint: ") + std::strerror(errno));
   };
   const File file(unfinished, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.is_open() || !file.write(bytes) || !file.sync()) fail();
+  if (!file.is_open() || !file.write(bytes) || !file.write(seal) || !file.sync()) fail();
   if (::rename(unfinished.c_str(), path.c_str()) != 0) fail();
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (const File parent(folder, O_RDONLY | O_DIRECTORY); !parent.is_open() || !parent.sync()) fail();

@@ -7,11 +7,13 @@
 #include <map>
 
 #include "hdf5_handle.h"
+#include "hersey/core/sealed_file.h"
 
 namespace hersey::results {
 namespace {
 
 constexpr int newest_format = 1;
+constexpr int deepest_group = 32;
 
 std::string absolute(std::string_view path) {
   return path.starts_with('/') ? std::string(path) : "/" + std::string(path);
@@ -68,6 +70,8 @@ struct Reader::Impl {
 
   void open() {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such file");
+    // Before HDF5 sees it: the library trusts what it reads of a file's structure.
+    if (check_seal(path) == Seal::broken) fail("damaged: it has changed since it was written");
     file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
     if (!file.valid()) fail("not a readable HDF5 file");
   }
@@ -124,6 +128,7 @@ struct Reader::Impl {
 
   /// Notes all groups and datasets below `group`, and how many rows are complete.
   void survey(const std::string& group) {
+    if (std::count(group.begin(), group.end(), '/') > deepest_group) fail("damaged: groups within groups without end");
     groups.push_back(group);
     const Handle parent(H5Gopen2(file.get(), group.c_str(), H5P_DEFAULT));
     std::vector<std::string> names;

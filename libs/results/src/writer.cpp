@@ -11,6 +11,7 @@
 
 #include "hdf5_handle.h"
 #include "hersey/core/contract.h"
+#include "hersey/core/sealed_file.h"
 #include "hersey/results/reader.h"
 #include "reserving_driver.h"
 
@@ -412,7 +413,13 @@ void Writer::finish(Status status, std::string_view message) {
     }
   }
   impl_->close();
-  if (!failed_before) impl_->require(true, {});
+  if (failed_before) return;
+  impl_->require(true, {});
+  try {
+    seal_file(impl_->path);
+  } catch (const std::runtime_error&) {
+    // All is there: without its seal the file is read as that of a run that was killed.
+  }
 }
 
 const std::filesystem::path& Writer::path() const { return impl_->path; }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
@@ -52,6 +53,21 @@ TEST_CASE("NoCheckpoint_IsTold") {
   Writer(scratch / "results.h5").finish(Status::completed);
   CHECK_THROWS_AS(read_checkpoint(scratch / "results.h5"), ReadError);
   CHECK_THROWS_AS(write_checkpoint(scratch / "nowhere" / "run.checkpoint", some()), WriteError);
+}
+
+TEST_CASE("ABitThatFlipsInACheckpoint_IsTold") {
+  const TemporaryDirectory scratch;
+  write_checkpoint(scratch / "run.checkpoint", some());
+  std::ifstream file(scratch / "run.checkpoint", std::ios::binary);
+  const std::string good{std::istreambuf_iterator<char>(file), {}};
+  for (std::size_t bit = 3; bit < 8 * good.size(); bit += 211) {
+    std::string turned = good;
+    turned[bit / 8] = static_cast<char>(turned[bit / 8] ^ (1 << (bit % 8)));
+    std::ofstream(scratch / "turned", std::ios::binary) << turned;
+    CHECK_THROWS_AS(read_checkpoint(scratch / "turned"), ReadError);
+  }
+  std::ofstream(scratch / "cut", std::ios::binary) << good.substr(0, good.size() / 2);
+  CHECK_THROWS_AS(read_checkpoint(scratch / "cut"), ReadError);
 }
 
 struct Run {

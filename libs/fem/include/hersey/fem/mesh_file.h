@@ -28,12 +28,16 @@ using IncludeLoader = std::function<std::optional<std::string>(const std::string
 /// @param length_unit metres in one unit of the file (0.001 for millimetres). Materials are taken to be in the
 ///   consistent system of that length, newton and second: with millimetres MPa and t/mm^3.
 /// @param warnings what the file says and this reader leaves out is added here; nullptr: dropped.
+/// @param material_faults why elements have no material, or more than one, is added here: sections of materials or sets
+///   that the file does not define, elements without a section. For whoever computes with the materials of the file;
+///   nullptr: dropped.
 /// @throws InputError with file and line: what was found, what is allowed.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, double length_unit,
-                             std::vector<Fault>* warnings = nullptr);
+                             std::vector<Fault>* warnings = nullptr, std::vector<Fault>* material_faults = nullptr);
 
 /// The same from the text of a file called `name` in messages.
 [[nodiscard]] Mesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name, double length_unit,
-                              std::vector<Fault>* warnings = nullptr, const IncludeLoader& include = {});
+                              std::vector<Fault>* warnings = nullptr, const IncludeLoader& include = {},
+                              std::vector<Fault>* material_faults = nullptr);
 
 }  // namespace hersey::fem

@@ -26,10 +26,11 @@ struct MeshQuality {
   double volume = 0;                                         ///< of the solids [m^3]
   std::optional<double> mass;  ///< [kg]; none unless every solid has a density in the mesh file
   std::map<ElementType, ElementQuality> types;
-  std::vector<long> folded;                     ///< labels of solids with a Jacobian that is not positive
-  std::vector<std::pair<long, long>> repeated;  ///< labels of elements on the same corners
-  std::vector<std::pair<long, long>> touching;  ///< labels of nodes at the same place, 1e-6 of the box
-  std::vector<std::pair<long, int>> parts;      ///< unconnected parts: label of an element of each, its elements
+  std::vector<long> folded;                       ///< labels of solids with a Jacobian that is not positive
+  std::vector<std::pair<long, long>> repeated;    ///< labels of elements on the same corners
+  std::vector<std::pair<long, long>> mismatched;  ///< labels of elements whose common face has other midside nodes
+  std::vector<std::pair<long, long>> touching;    ///< labels of nodes at the same place, 1e-6 of the box
+  std::vector<std::pair<long, int>> parts;        ///< unconnected parts: label of an element of each, its elements
   [[nodiscard]] double size() const { return (upper - lower).norm(); }
 };
 
@@ -48,7 +49,7 @@ struct MeshQuality {
 [[nodiscard]] std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file);
 
 /// What hardly is meant: a body of more than 10 m or a tonne or less than 0.1 mm (a wrong unit of length), nodes that
-/// lie on each other unconnected, very flat elements.
+/// lie on each other unconnected, very flat elements, faces that hang together by their corners alone.
 [[nodiscard]] std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& file);
 
 }  // namespace hersey::fem
