@@ -18,13 +18,14 @@ constexpr const char* kFormat = "hersey-checkpoint";
 constexpr double kVersion = 1;
 constexpr std::size_t kMemoryStep = std::size_t{1} << 20;
 
-/// HDF5 file in memory: what goes to the disk is written in one piece.
+/// HDF5 file in memory: what goes to the disk is written in one piece. HDF5 tells files in memory apart by their names
+/// and has each open once only, so every one has the name of its own checkpoint. Lives within one session.
 class Image {
  public:
   explicit Image(const std::filesystem::path& path) : path_(path) {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
     H5Pset_fapl_core(access.get(), kMemoryStep, false);
-    file_ = Handle(H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+    file_ = Handle(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
     parents_ = Handle(H5Pcreate(H5P_LINK_CREATE));
     H5Pset_create_intermediate_group(parents_.get(), 1);
     require(file_.valid());
@@ -160,17 +161,20 @@ class Contents {
   Handle file_;
 };
 
-}  // namespace
-
-void write_checkpoint(const std::filesystem::path& path, const Archive::Content& content) {
-  const Quiet quiet;
+std::vector<char> image_of(const std::filesystem::path& path, const Archive::Content& content) {
+  const Hdf5Session session;
   Image image(path);
   image.add("format", std::string(kFormat));
   image.add("format_version", Archive::Numbers{{}, {kVersion}});
   for (const auto& [name, numbers] : content.numbers) image.add("numbers/" + name, numbers);
   for (const auto& [name, text] : content.texts) image.add("texts/" + name, text);
-  const std::vector<char> bytes = image.bytes();
+  return image.bytes();
+}
 
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const Archive::Content& content) {
+  const std::vector<char> bytes = image_of(path, content);
   std::filesystem::path unfinished = path;
   unfinished += ".new";
   const auto fail = [&] {
@@ -184,7 +188,7 @@ void write_checkpoint(const std::filesystem::path& path, const Archive::Content&
 }
 
 Archive::Content read_checkpoint(const std::filesystem::path& path) {
-  const Quiet quiet;
+  const Hdf5Session session;
   const Contents contents(path);
   Archive::Content content;
   for (const char* group : {"numbers", "texts"})

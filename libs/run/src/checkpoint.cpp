@@ -105,7 +105,8 @@ void require_identity(const Archive::Content& stored, const model::Model& model,
 
 bool is_complete(const model::Model& model, const std::filesystem::path& results) {
   const results::Reader reader(results);
-  require_same_text(reader.has("/model") ? reader.text("/model") : "", model);
+  if (!reader.has("/model")) return false;  // killed before it was written: nothing that could be of another model
+  require_same_text(reader.text("/model"), model);
   return reader.text_attribute("/", "status") == results::to_string(results::Status::completed);
 }
 
