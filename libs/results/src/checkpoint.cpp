@@ -161,6 +161,9 @@ class Contents {
   Handle file_;
 };
 
+/// Where a checkpoint is written until it is whole.
+std::filesystem::path unfinished(std::filesystem::path path) { return path += ".new"; }
+
 std::vector<char> image_of(const std::filesystem::path& path, const Archive::Content& content) {
   const Hdf5Session session;
   Image image(path);
@@ -175,16 +178,20 @@ std::vector<char> image_of(const std::filesystem::path& path, const Archive::Con
 
 void write_checkpoint(const std::filesystem::path& path, const Archive::Content& content) {
   const std::vector<char> bytes = image_of(path, content);
-  std::filesystem::path unfinished = path;
-  unfinished += ".new";
   const auto fail = [&] {
     throw WriteError(path, std::string("cannot write the checkpoint: ") + std::strerror(errno));
   };
-  const File file(unfinished, O_WRONLY | O_CREAT | O_TRUNC);
+  const File file(unfinished(path), O_WRONLY | O_CREAT | O_TRUNC);
   if (!file.is_open() || !file.write(bytes) || !file.sync()) fail();
-  if (::rename(unfinished.c_str(), path.c_str()) != 0) fail();
+  if (::rename(unfinished(path).c_str(), path.c_str()) != 0) fail();
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (const File parent(folder, O_RDONLY | O_DIRECTORY); !parent.is_open() || !parent.sync()) fail();
+}
+
+void remove_checkpoint(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  std::filesystem::remove(unfinished(path), ignored);
 }
 
 Archive::Content read_checkpoint(const std::filesystem::path& path) {

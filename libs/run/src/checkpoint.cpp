@@ -11,6 +11,7 @@
 
 #include "hersey/core/input_error.h"
 #include "hersey/core/version.h"
+#include "hersey/results/checkpoint.h"
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/run/simulate.h"
@@ -117,10 +118,7 @@ bool has_results(const std::filesystem::path& results) {
   return std::any_of(first.begin(), first.end(), [](char byte) { return byte != 0; });
 }
 
-void discard_checkpoint(const std::filesystem::path& results) {
-  std::error_code ignored;
-  std::filesystem::remove(checkpoint_file(results), ignored);
-}
+void discard_checkpoint(const std::filesystem::path& results) { results::remove_checkpoint(checkpoint_file(results)); }
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& results) {
   std::filesystem::path path = results;

@@ -296,6 +296,18 @@ TEST_CASE("KilledBeforeItsModelWasWritten_BeginsAnew") {
   CHECK(results::Reader(results).text("/model") == kSmallRig);
 }
 
+TEST_CASE("CompleteRun_LeavesNoPieceOfACheckpoint") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5";
+  REQUIRE(run_for(rig(), results, 5, false).status == Status::stopped);
+  std::ofstream(checkpoint_file(results).string() + ".new") << "as far as it came";  // killed while it wrote another
+  REQUIRE(simulate(rig(), {.results = results, .resume = true}).status == Status::completed);
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(results.parent_path()))
+    left.push_back(entry.path().filename().string());
+  CHECK(left == std::vector<std::string>{"run.h5"});
+}
+
 TEST_CASE("ResultsAppear_WithTheirModel") {
   const TemporaryDirectory scratch;
   const std::filesystem::path results = scratch / "run.h5";
