@@ -514,7 +514,7 @@ class CommandLine(unittest.TestCase):
                          sorted([*map(os.path.basename, together), "report.html"]))
 
     def test_parallel_study_goes_on_after_interrupts_and_kills(self):
-        path = self.study("100 ms", "5 ms")
+        path = self.study("60 ms", "5 ms")
         whole, parts = os.path.join(self.out, "whole"), os.path.join(self.out, "parts")
         self.assertEqual(hersey("run", path, "--output", whole, "--jobs", "1").returncode, OK)
         arguments = ["run", path, "--output", parts, "--jobs", "4"]
