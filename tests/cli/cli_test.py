@@ -27,7 +27,7 @@ OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 def hersey(*arguments, **options):
     """Runs the program to its end and returns the finished process with its output as text."""
-    return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, timeout=120,
+    return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, timeout=600,
                           stdin=subprocess.DEVNULL, **options)
 
 

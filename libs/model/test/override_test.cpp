@@ -128,7 +128,7 @@ TEST_CASE("FormulasThatDoNotFit_AreTold") {
     return faults_of(with_force_in_x(force, "  a: \"" + a + "\"\n"));
   };
   CHECK(faults("\"2*${a}\"", "3 mm") ==
-        "m.yaml:20:38: forces.push.components.0: a length (mm) (from parameter a in line 4); expected a force, such as "
+        "m.yaml:20:47: forces.push.components.0: a length (mm) (from parameter a in line 4); expected a force, such as "
         "500 N");
   CHECK(faults("\"${a}+1 s\"", "3 N").find("(from parameter a in line 4)") != std::string::npos);
   CHECK(faults("{expression: \"2*${a}*t\", unit: N}", "500 N").find("parameters in expressions are bare numbers") !=
