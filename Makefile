@@ -1,5 +1,5 @@
 # Everything from a bare checkout: each target installs what it needs (scripts/setup), configures, builds and runs.
-# Logs: build/log/. Settings: JOBS=n, PRESET=release|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test), TIME=n (fuzz).
+# Logs: build/log/. Settings: JOBS=n, PRESET=release|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test, fuzz), TIME=n (fuzz).
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
@@ -35,11 +35,11 @@ validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
 
-fuzz:  ## feeds the readers of models and meshes with mutated files for TIME=60, address and undefined-behaviour checks on
+fuzz:  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some)
 	@scripts/setup build fuzz
 	@$(MAKE) --no-print-directory PRESET=fuzz build/fuzz/build.ninja
-	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target model_read_fuzz fem_mesh_gmsh_fuzz fem_mesh_abaqus_fuzz fem_mesh_nastran_fuzz -j $(JOBS)
-	@scripts/fuzz build/fuzz $(TIME)
+	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target fuzzers -j $(JOBS)
+	@scripts/fuzz build/fuzz $(TIME) '$(FILTER)'
 
 web:  ## rebuilds the report's front end (needs Node; the C++ build does not)
 	@scripts/web build

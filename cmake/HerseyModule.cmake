@@ -3,7 +3,7 @@
 # A module is libs/<name>: one static library with its own include root. It sees the headers of the modules it names
 # and of those below them, and no others, so an include that runs up or sideways does not compile.
 # Its tests, libs/<name>/test/*_test.cpp, become one executable, each case one test of ctest. With HERSEY_FUZZ each of
-# libs/<name>/fuzz/*_fuzz.cpp becomes the fuzzer <name>_<file>.
+# libs/<name>/fuzz/*_fuzz.cpp becomes the fuzzer <name>_<file>; the target `fuzzers` builds all of them.
 
 # One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers.
 add_library(hersey_pch OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
@@ -16,6 +16,10 @@ if(BUILD_TESTING)
   add_library(hersey_test_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/main.cpp)
   target_include_directories(hersey_test_main PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/support)
   target_link_libraries(hersey_test_main PUBLIC doctest::doctest $<BUILD_INTERFACE:hersey_options>)
+endif()
+
+if(HERSEY_FUZZ)
+  add_custom_target(fuzzers)
 endif()
 
 set_property(GLOBAL PROPERTY HERSEY_MODULES "")
@@ -53,8 +57,10 @@ function(hersey_module name)
     foreach(source ${fuzzers})
       cmake_path(GET source STEM fuzzer)
       add_executable(${name}_${fuzzer} ${source})
-      target_link_libraries(${name}_${fuzzer} PRIVATE hersey_${name} hersey_options)
+      target_include_directories(${name}_${fuzzer} PRIVATE ${dir}/src)
+      target_link_libraries(${name}_${fuzzer} PRIVATE hersey_${name} hersey_options ${M_PRIVATE})
       target_link_options(${name}_${fuzzer} PRIVATE -fsanitize=fuzzer)
+      add_dependencies(fuzzers ${name}_${fuzzer})
     endforeach()
   endif()
 

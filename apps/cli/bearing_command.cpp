@@ -16,6 +16,8 @@
 #include "hersey/core/input_error.h"
 #include "hersey/model/read.h"
 #include "hersey/results/error.h"
+#include "output_file.h"
+#include "standard_streams.h"
 
 namespace hersey::cli {
 namespace {
@@ -161,6 +163,8 @@ std::vector<Fault> warnings_of_surfaces(const model::Model& model, const std::st
 int bearing_command(const BearingArguments& arguments) {
   const std::vector<model::StudyRun> runs = runs_of(arguments, plan_of(arguments));
   const model::Model model = model::read(arguments.model, runs.front().overrides);
+  require_separate({{"--csv", arguments.csv}, {"--fields", arguments.fields}, {"--report", arguments.report}},
+                   files_of(model));
   warn(model.warnings);
   warn(warnings_of_surfaces(model, arguments.bearing));
   if (!arguments.fields.empty() && runs.size() > 1) {
@@ -174,7 +178,7 @@ int bearing_command(const BearingArguments& arguments) {
   for (const study::BearingSolution& solution : solutions) {
     if (solution.solved()) continue;
     all_solved = false;
-    fmt::print(stderr, "hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.error);
+    say("hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.error);
   }
   if (!arguments.csv.empty()) write_file(arguments.csv, bearing_csv(solutions));
   if (!arguments.fields.empty() && all_solved) write_file(arguments.fields, bearing_fields_csv(solutions.front()));

@@ -9,6 +9,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/version.h"
 #include "hersey/results/error.h"
+#include "standard_streams.h"
 
 namespace hersey::cli {
 namespace {
@@ -251,19 +252,21 @@ int dispatch(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace hersey;
   try {
-    return cli::dispatch(argc, argv);
+    cli::open_standard_streams();
+    const int code = cli::dispatch(argc, argv);
+    return cli::finish_standard_output() || code != cli::kOk ? code : static_cast<int>(cli::kFailed);
   } catch (const InputError& error) {
-    for (const Fault& fault : error.faults()) fmt::print(stderr, "{}\n", fault.text());
-    if (error.faults().size() > 1) fmt::print(stderr, "hersey: {} faults\n", error.faults().size());
+    for (const Fault& fault : error.faults()) cli::say("{}\n", fault.text());
+    if (error.faults().size() > 1) cli::say("hersey: {} faults\n", error.faults().size());
     return cli::kWrongInput;
   } catch (const results::FileExists& error) {
-    fmt::print(stderr, "hersey: {}; use --force to replace it or --output to write elsewhere\n", error.what());
+    cli::say("hersey: {}; use --force to replace it or --output to write elsewhere\n", error.what());
     return cli::kWrongInput;
   } catch (const results::ReadError& error) {
-    fmt::print(stderr, "hersey: {}\n", error.what());
+    cli::say("hersey: {}\n", error.what());
     return cli::kWrongInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hersey: {}\n", error_text(error));
+    cli::say("hersey: {}\n", error_text(error));
     return cli::kFailed;
   }
 }

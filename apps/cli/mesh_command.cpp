@@ -11,6 +11,7 @@
 #include "hersey/fem/skin.h"
 #include "hersey/fem/vtu_file.h"
 #include "option_value.h"
+#include "output_file.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -141,6 +142,7 @@ void write_picture(const Mesh& mesh, const std::filesystem::path& path) {
 }  // namespace
 
 int mesh_command(const MeshArguments& arguments) {
+  require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
   std::vector<Fault> warnings, material_faults;
   const Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings, &material_faults);
   MeshQuality quality = fem::quality_of(mesh);

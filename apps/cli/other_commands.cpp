@@ -11,6 +11,8 @@
 #include "hersey/model/study.h"
 #include "hersey/report/report.h"
 #include "hersey/run/simulate.h"
+#include "output_file.h"
+#include "standard_streams.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -35,7 +37,7 @@ std::string contents(const model::Model& model, std::size_t runs) {
 }  // namespace
 
 void warn(const std::vector<Fault>& warnings) {
-  for (const Fault& warning : warnings) fmt::print(stderr, "warning: {}\n", warning.text());
+  for (const Fault& warning : warnings) say("warning: {}\n", warning.text());
 }
 
 int check_command(const CheckArguments& arguments) {
@@ -66,6 +68,7 @@ int check_command(const CheckArguments& arguments) {
 int report_command(const ReportArguments& arguments) {
   const std::filesystem::path page =
       arguments.output.empty() ? arguments.results.front().parent_path() / "report.html" : arguments.output;
+  require_separate({{"--output", page}}, arguments.results);
   report::write_html(arguments.results, page);
   if (arguments.json) {
     fmt::print("{}\n", report::summary_json(arguments.results));

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "standard_streams.h"
+
 namespace hersey::cli {
 namespace {
 
@@ -45,19 +47,19 @@ void ProgressBar::show(const std::string& label, const run::Progress& progress) 
   const double share = span > 0 ? std::clamp((progress.t - progress.t_start) / span, 0.0, 1.0) : 1.0;
   const std::string text = (label.empty() ? "" : label + "  ") + figures(progress, share);
   if (!terminal_) {
-    fmt::print(stderr, "{}\n", text);
+    say("{}\n", text);
     return;
   }
   const std::size_t room = width_ > text.size() + 5 ? width_ - text.size() - 5 : 0;
   const auto full = static_cast<std::size_t>(std::lround(share * static_cast<double>(room)));
-  fmt::print(stderr, "\r\033[K[{}{}] {}", std::string(full, '#'), std::string(room - full, '.'), text);
+  say("\r\033[K[{}{}] {}", std::string(full, '#'), std::string(room - full, '.'), text);
   std::fflush(stderr);
   drawn_ = true;
 }
 
 void ProgressBar::clear() {
   if (!drawn_) return;
-  fmt::print(stderr, "\r\033[K");
+  say("\r\033[K");
   std::fflush(stderr);
   drawn_ = false;
 }

@@ -18,6 +18,7 @@
 #include "hersey/fem/surface_loads.h"
 #include "option_value.h"
 #include "orthotropic_option.h"
+#include "output_file.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -169,6 +170,10 @@ void print(const fem::ElasticBody& body, const fem::ReducedBody& reduced, const 
 }  // namespace
 
 int reduce_command(const ReduceArguments& arguments) {
+  std::vector<std::filesystem::path> inputs{arguments.file};
+  for (const std::filesystem::path& matrix : {arguments.stiffness, arguments.mass})
+    if (!matrix.empty()) inputs.push_back(matrix);
+  require_separate({{"--output", arguments.output}}, inputs);
   if (std::filesystem::exists(arguments.output) && !arguments.force)
     fail("--output", fmt::format("{} exists", arguments.output.string()), "a new file", "use --force to replace it");
   std::vector<Fault> warnings, material_faults;

@@ -15,7 +15,9 @@
 #include "hersey/run/simulate.h"
 #include "hersey/study/study.h"
 #include "interrupt.h"
+#include "output_file.h"
 #include "progress_bar.h"
+#include "standard_streams.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -36,6 +38,16 @@ void refuse_existing(const Paths& files, bool force) {
   for (const std::filesystem::path& file : files) {
     if (std::filesystem::exists(file)) throw results::FileExists(file);
   }
+}
+
+/// All that a run may write must be none of what the model reads.
+void require_own_files(const model::Model& model, const std::filesystem::path& folder, const Paths& results) {
+  std::vector<OutputFile> outputs{{"--output", folder / "report.html"}};
+  for (const std::filesystem::path& file : results) {
+    outputs.push_back({"--output", file});
+    outputs.push_back({"--output", run::checkpoint_file(file)});
+  }
+  require_separate(outputs, files_of(model));
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -125,7 +137,7 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
     report::write_html(files, page);
     rows = report::summary_table(files);
   } catch (const results::FileError& error) {
-    fmt::print(stderr, "hersey: no report: {}\n", error.what());
+    say("hersey: no report: {}\n", error.what());
     code = std::max(code, static_cast<int>(kFailed));
   }
   if (arguments.json) {
@@ -143,21 +155,21 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
 
 void tell(const run::CycleProgress& cycle) {
   if (std::isfinite(cycle.change)) {
-    fmt::print(stderr, "cycle {}: {:.2g} % ({})\n", cycle.number, 100 * cycle.change, cycle.largest);
+    say("cycle {}: {:.2g} % ({})\n", cycle.number, 100 * cycle.change, cycle.largest);
   } else {
-    fmt::print(stderr, "cycle {}\n", cycle.number);
+    say("cycle {}\n", cycle.number);
   }
 }
 
 void tell(const std::string& label, const run::Summary& summary) {
   const std::string name = label.empty() ? "" : label + ": ";
-  if (!summary.warning.empty()) fmt::print(stderr, "hersey: {}{}\n", name, summary.warning);
+  if (!summary.warning.empty()) say("hersey: {}{}\n", name, summary.warning);
   if (summary.status != run::Status::completed) {
-    fmt::print(stderr, "hersey: {}{}\n", name, summary.message);
+    say("hersey: {}{}\n", name, summary.message);
     if (summary.steps > 0)
-      fmt::print(stderr, "hersey: results up to t = {:.6g} s are in {}\n", summary.t_results, summary.results.string());
+      say("hersey: results up to t = {:.6g} s are in {}\n", summary.t_results, summary.results.string());
     if (summary.status == run::Status::stopped && std::filesystem::exists(run::checkpoint_file(summary.results)))
-      fmt::print(stderr, "hersey: {}the same command with --resume goes on from there\n", name);
+      say("hersey: {}the same command with --resume goes on from there\n", name);
   } else {
     const std::string rejected =
         summary.rejected_steps > 0 ? fmt::format(" ({} more rejected)", summary.rejected_steps) : "";
@@ -167,8 +179,8 @@ void tell(const std::string& label, const run::Summary& summary) {
             ? fmt::format(", {:.3g} ms per step, Newton iterations {:g} (median)",
                           1e3 * summary.work.stepping / summary.steps, summary.work.newton_iterations.median)
             : "";
-    fmt::print(stderr, "{}{} steps{} in {:.2f} s{}{}{}\n", name, summary.steps, rejected, summary.wall_time, cost,
-               summary.message.empty() ? "" : ", ", summary.message);
+    say("{}{} steps{} in {:.2f} s{}{}{}\n", name, summary.steps, rejected, summary.wall_time, cost,
+        summary.message.empty() ? "" : ", ", summary.message);
   }
 }
 
@@ -180,8 +192,8 @@ std::string text_of(const run::PerStep& figures) {
 void tell_work(const run::Summary& summary) {
   const run::Work& work = summary.work;
   if (summary.steps == 0 || work.stepping <= 0) return;
-  fmt::print(stderr, "{:.3g} ms per step after {:.2f} s of start-up; Newton iterations per step: {}\n",
-             1e3 * work.stepping / summary.steps, work.start_up, text_of(work.newton_iterations));
+  say("{:.3g} ms per step after {:.2f} s of start-up; Newton iterations per step: {}\n",
+      1e3 * work.stepping / summary.steps, work.start_up, text_of(work.newton_iterations));
   std::vector<run::WorkPart> parts = work.parts;
   std::stable_sort(parts.begin(), parts.end(),
                    [](const run::WorkPart& a, const run::WorkPart& b) { return a.seconds > b.seconds; });
@@ -190,12 +202,12 @@ void tell_work(const run::Summary& summary) {
     const double percent = 100 * part.seconds / work.stepping;
     if (percent >= 0.1) shares += fmt::format("{}{} {:.1f} %", shares.empty() ? "" : ", ", part.name, percent);
   }
-  fmt::print(stderr, "share of time: {}\n", shares);
+  say("share of time: {}\n", shares);
   for (const run::CouplingWork& coupling : work.couplings) {
     const std::string exchanges =
         coupling.exchanges.most > 0 ? fmt::format("exchanges per step: {}; ", text_of(coupling.exchanges)) : "";
-    fmt::print(stderr, "bearing {}: {}; {}film iterations per step: {}\n", coupling.bearing, coupling.scheme, exchanges,
-               text_of(coupling.film_iterations));
+    say("bearing {}: {}; {}film iterations per step: {}\n", coupling.bearing, coupling.scheme, exchanges,
+        text_of(coupling.film_iterations));
   }
 }
 
@@ -206,6 +218,7 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   options.overwrite = arguments.force;
   options.resume = arguments.resume;
   options.stop = &catch_interrupts();
+  require_own_files(model, folder, {options.results});
   refuse_existing({options.results}, arguments.force || arguments.resume);
   ProgressBar bar;
   options.on_progress = [&](const run::Progress& progress) { bar.show("", progress); };
@@ -222,7 +235,7 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   return close(arguments, folder, {options.results}, {summary}, exit_code(summary.status));
 }
 
-int run_all(const RunArguments& arguments, const std::filesystem::path& folder,
+int run_all(const RunArguments& arguments, const model::Model& model, const std::filesystem::path& folder,
             const std::vector<model::StudyRun>& runs) {
   study::Options options;
   options.directory = folder;
@@ -232,6 +245,7 @@ int run_all(const RunArguments& arguments, const std::filesystem::path& folder,
   options.stop = &catch_interrupts();
   Paths planned;
   for (const model::StudyRun& run : runs) planned.push_back(study::results_file(options, run));
+  require_own_files(model, folder, planned);
   refuse_existing(planned, arguments.force || arguments.resume);
   make_folder(folder);
 
@@ -247,7 +261,7 @@ int run_all(const RunArguments& arguments, const std::filesystem::path& folder,
     if (result.error.empty()) {
       tell(label, result.summary);
     } else {
-      fmt::print(stderr, "hersey: {}: {}\n", label, result.error);
+      say("hersey: {}: {}\n", label, result.error);
     }
   };
   const std::vector<study::RunResult> results = study::simulate_all(arguments.model, runs, options);
@@ -281,7 +295,7 @@ int run_command(const RunArguments& arguments) {
   const std::vector<model::StudyRun> runs = model::expand_study(arguments.model, arguments.overrides);
   // A study with every parameter fixed by --set is a single run.
   const bool varies = !runs.empty() && !runs.front().values.empty();
-  return varies ? run_all(arguments, folder, runs) : run_one(arguments, folder);
+  return varies ? run_all(arguments, model, folder, runs) : run_one(arguments, folder);
 }
 
 }  // namespace hersey::cli

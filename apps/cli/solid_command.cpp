@@ -9,7 +9,9 @@
 #include "hersey/fem/stress.h"
 #include "hersey/fem/vibration.h"
 #include "hersey/fem/vtu_file.h"
+#include "output_file.h"
 #include "solid_setup.h"
+#include "standard_streams.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -19,7 +21,7 @@ constexpr double megapascal = 1e6, millimetre = 1e-3;
 
 /// What went wrong in the numbers, on stderr.
 int fail(const std::string& message) {
-  fmt::print(stderr, "hersey: {}\n", message);
+  say("hersey: {}\n", message);
   return kFailed;
 }
 
@@ -90,6 +92,7 @@ void print_stress(const fem::ElasticBody& body, const StressResult& r) {
 }  // namespace
 
 int modes_command(const SolidArguments& arguments) {
+  require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
   const fem::ElasticBody body = solid_of(arguments, true);
   const fem::Vibration modes = fem::natural_modes(body, held_of(arguments, body.mesh), {.count = arguments.count});
   if (!modes.ok) return fail(modes.message);
@@ -111,6 +114,7 @@ int modes_command(const SolidArguments& arguments) {
 }
 
 int stress_command(const SolidArguments& arguments) {
+  require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
   const fem::ElasticBody body = solid_of(arguments, !arguments.gravity.empty());
   const Eigen::VectorXd f = loads_of(arguments, body);
   std::vector<fem::Support> supports;

@@ -7,6 +7,7 @@ import os
 import random
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -26,7 +27,7 @@ OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 def hersey(*arguments, **options):
     """Runs the program to its end and returns the finished process with its output as text."""
-    return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, timeout=120,
+    return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, timeout=600,
                           stdin=subprocess.DEVNULL, **options)
 
 
@@ -515,6 +516,173 @@ class CommandLine(unittest.TestCase):
         for name in expected:
             self.assertTrue(expected[name] == found[name], f"seed {seed}: {name} differs")
         self.assertEqual(sorted(os.listdir(parts)), ["report.html", "results.h5"])
+
+    def study(self, duration, every):
+        """A study of four loads whose runs last `duration` and write a checkpoint `every` so often."""
+        path = self.model_with('  duration: "${duration}"\n', f"  duration: {duration}\n  checkpoint: {{every: {every}}}\n")
+        with open(path, "a", encoding="utf-8") as file:
+            file.write("study:\n  parameters: {load: [100 N, 200 N, 300 N, 400 N]}\n")
+        return path
+
+    def test_parallel_study_loses_no_run_and_no_checkpoint(self):
+        path = self.study("30 ms", "1 ms")
+        for jobs in ("1", "4"):
+            run = hersey("run", path, "--output", os.path.join(self.out, jobs), "--jobs", jobs)
+            self.assertEqual(run.returncode, OK, run.stderr)
+        alone, together = (sorted(glob.glob(os.path.join(self.out, jobs, "*.h5"))) for jobs in ("1", "4"))
+        self.assertEqual(len(together), 4)
+        for one, other in zip(alone, together):
+            self.assertEqual(self.datasets(one), self.datasets(other), other)
+        self.assertEqual(sorted(os.listdir(os.path.join(self.out, "4"))),
+                         sorted([*map(os.path.basename, together), "report.html"]))
+
+    def test_parallel_study_goes_on_after_interrupts_and_kills(self):
+        path = self.study("60 ms", "5 ms")
+        whole, parts = os.path.join(self.out, "whole"), os.path.join(self.out, "parts")
+        self.assertEqual(hersey("run", path, "--output", whole, "--jobs", "1").returncode, OK)
+        arguments = ["run", path, "--output", parts, "--jobs", "4"]
+        for stop in (signal.SIGINT, signal.SIGKILL, signal.SIGINT, signal.SIGTERM):
+            with subprocess.Popen([HERSEY, *arguments, "--resume"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                  stdin=subprocess.DEVNULL, text=True) as process:
+                try:
+                    process.wait(timeout=0.3)
+                except subprocess.TimeoutExpired:
+                    process.send_signal(stop)
+                _, errors = process.communicate(timeout=60)
+            self.assertIn(process.returncode, (OK, INTERRUPTED, -stop), errors)  # -stop: before the first run began
+            self.assertNotIn("cannot write", errors)
+            if process.returncode == INTERRUPTED:  # every run that is not complete can go on
+                for results in glob.glob(os.path.join(parts, "*.h5")):
+                    with h5py.File(results) as file:
+                        status = file.attrs["status"]
+                    self.assertEqual(os.path.exists(results[:-3] + ".checkpoint"), status == "stopped", results)
+        run = hersey(*arguments, "--resume")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        for results in glob.glob(os.path.join(whole, "*.h5")):
+            self.assertEqual(self.datasets(results), self.datasets(results.replace(whole, parts)), results)
+
+    def test_run_killed_in_its_first_instant_begins_anew(self):
+        path = os.path.join(self.out, "results.h5")
+        arguments = ["run", MODEL, "--output", self.out, "--set", "duration=50 ms"]
+        for cut in (False, True):
+            with subprocess.Popen([HERSEY, *arguments, "--force"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                  stdin=subprocess.DEVNULL) as process:
+                while not self.results() and process.poll() is None:
+                    pass
+                process.kill()
+            with h5py.File(path, "r+" if cut else "r") as file:
+                self.assertIn("model", file, "results appear with their model")
+                if cut:  # a file that an earlier version was killed over
+                    del file["model"]
+            run = hersey(*arguments, "--resume")
+            self.assertEqual(run.returncode, OK, run.stderr)
+            self.assertIn("began anew", run.stderr)
+            with h5py.File(path) as file:
+                self.assertAlmostEqual(file["time"][-1], 0.05, delta=1e-9)
+            os.remove(path)
+
+    def test_closed_standard_streams_leave_results_alone(self):
+        self.assertEqual(hersey("run", MODEL, "--output", self.out).returncode, OK)
+        expected = self.datasets(os.path.join(self.out, "results.h5"))
+        for closed in ((0,), (1,), (2,), (1, 2), (0, 1, 2)):
+            out = os.path.join(self.out, "-".join(map(str, closed)))
+
+            def close(descriptors=closed):
+                for descriptor in descriptors:
+                    os.close(descriptor)
+
+            with subprocess.Popen([HERSEY, "run", MODEL, "--output", out], preexec_fn=close) as process:
+                self.assertEqual(process.wait(timeout=60), OK, closed)
+            self.assertEqual(self.datasets(os.path.join(out, "results.h5")), expected, closed)
+            with open(os.path.join(out, "results.h5"), "rb") as file:
+                self.assertNotIn(b"steps in", file.read(), closed)
+
+    def test_reader_of_messages_that_goes_away_does_not_end_a_run(self):
+        path = self.model_with('  duration: "${duration}"\n  step: 0.1 ms',
+                               "  cycle: {period: 5 ms, until_converged: 0, most: 40}\n  step: 0.1 ms")
+        read, write = os.pipe()
+        with subprocess.Popen([HERSEY, "run", path, "--output", self.out], stdout=subprocess.DEVNULL, stderr=write,
+                              stdin=subprocess.DEVNULL) as process:
+            os.close(write)
+            os.close(read)
+            self.assertEqual(process.wait(timeout=60), OK)
+        with h5py.File(os.path.join(self.out, "results.h5")) as file:
+            self.assertEqual(file.attrs["status"], "completed")
+
+    def test_output_that_cannot_be_written_is_told(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            run = subprocess.run([HERSEY, "schema"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(run.returncode, FAILED)
+        self.assertIn("No space left", run.stderr)
+
+    def test_no_command_writes_over_what_it_reads(self):
+        def content(path):
+            with open(path, "rb") as file:
+                return file.read()
+
+        folder = self._folder.name
+        self.assertEqual(hersey("run", MODEL, "--output", self.out).returncode, OK)
+        results = os.path.join(self.out, "results.h5")
+        block = os.path.join(folder, "block.msh")
+        shutil.copy(os.path.join(HERE, "../../libs/fem/test/data/block_22.msh"), block)
+        alone = os.path.join(folder, "alone.yaml")
+        shutil.copy(ALONE, alone)
+        model = os.path.join(folder, "r/report.html")  # a model that is called as a run's report is
+        os.makedirs(os.path.dirname(model))
+        shutil.copy(MODEL, model)
+        solid = ["--length-unit", "mm", "--youngs-modulus", "1 GPa", "--poisson-ratio", "0.3", "--density", "1000 kg/m^3"]
+        commands = [
+            (results, "--output", ["report", results]),
+            (block, "--vtu", ["mesh", block]),
+            (block, "--vtu", ["modes", block, *solid]),
+            (block, "--vtu", ["stress", block, *solid]),
+            (block, "--output", ["reduce", block, *solid, "--frame", "floor", "--force"]),
+            (alone, "--csv", ["bearing", alone]),
+            (alone, "--fields", ["bearing", alone]),
+            (alone, "--report", ["bearing", alone]),
+        ]
+        for file, option, command in commands:
+            before = content(file)
+            symbolic, hard = os.path.join(folder, "symbolic"), os.path.join(folder, "hard")
+            os.symlink(file, symbolic)
+            os.link(file, hard)
+            for name in (file, os.path.relpath(file), symbolic, hard):
+                run = hersey(*command, option, name)
+                self.assertEqual(run.returncode, WRONG_INPUT, (command, name, run.stderr))
+                self.assertIn(option, run.stderr)
+                self.assertIn("expected a file of its own", run.stderr)
+                self.assertEqual(content(file), before, (command, name))
+            os.remove(symbolic)
+            os.remove(hard)
+        before = content(model)
+        run = hersey("run", model, "--output", os.path.dirname(model), "--force")
+        self.assertEqual(run.returncode, WRONG_INPUT, run.stderr)
+        self.assertEqual(content(model), before)
+        both = os.path.join(folder, "both")
+        run = hersey("bearing", alone, "--csv", both, "--report", both)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("written by --csv too", run.stderr)
+
+    def test_compared_runs_stand_under_their_own_names(self):
+        runs = {name: os.path.join(self.out, name) for name in ("thin", "wide")}
+        for (name, folder), clearance in zip(runs.items(), ("40um", "80um")):
+            self.assertEqual(hersey("run", MODEL, "--output", folder, "--set",
+                                    f"bearings.main.radial_clearance={clearance}").returncode, OK, name)
+        files = [os.path.join(folder, "results.h5") for folder in runs.values()]
+        page = os.path.join(self.out, "compared.html")
+        summaries = {}
+        for name, file in zip(runs, files):
+            summaries[name] = {(row["group"], row["name"]): row["value"]
+                               for row in json.loads(hersey("report", file, "--output", page, "--json").stdout)}
+        key = ("main", "minimum film thickness at the end")
+        self.assertNotEqual(summaries["thin"][key], summaries["wide"][key])
+        rows = json.loads(hersey("report", *files, "--output", page, "--json").stdout)
+        for name in runs:
+            self.assertEqual({(row["group"], row["name"]): row["value"] for row in rows if row["run"] == name},
+                             summaries[name])
+        table = hersey("report", *files, "--output", page).stdout
+        for name in runs:
+            self.assertRegex(table, rf"(?m)^ +{name} +main .*\b{summaries[name][key]:.4g}")
 
     def test_resume_of_another_model_is_refused(self):
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],

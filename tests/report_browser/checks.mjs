@@ -254,6 +254,31 @@ export const studyReport = {
   },
 };
 
+/** Reports of runs that no study has made, in files of one name. */
+export const comparisonReport = {
+  "compared runs stand under their own names, with their own numbers": async (page) => {
+    const rows = page.locator(".comparison tbody tr");
+    const names = await rows.locator("td:first-child").allInnerTexts();
+    assert.equal(new Set(names).size, names.length, `a run stands twice: ${names.join(", ")}`);
+    assert.ok(names.length > 1 && !names.includes("results"), `runs without names of their own: ${names.join(", ")}`);
+    const numbers = await rows.locator("td.number:nth-last-child(5)").allInnerTexts();
+    assert.equal(new Set(numbers).size, names.length, `runs with one number: ${numbers.join(", ")}`);
+    const curves = await page.locator('[data-figure="study-midplane"] .legend-entry').allInnerTexts();
+    assert.deepEqual(curves.map((text) => text.trim().split("\n")[0]), names, "the curves have other names");
+    assert.deepEqual(await page.locator(".detail select option").allInnerTexts(), names, "the runs to choose from have other names");
+  },
+
+  "each run can be shown": async (page) => {
+    for (const row of await page.locator(".comparison tbody tr").all()) {
+      await row.locator("button").click();
+      await frame(page);
+      assert.equal(await page.locator(".comparison tr.chosen").count(), 1, "the table marks several runs");
+      const name = await row.locator("td").first().innerText();
+      assert.equal(await page.locator(".detail select option:checked").innerText(), name);
+    }
+  },
+};
+
 /** Reports of a machine with several bearings. */
 export const machineReport = {
   "assumptions name each topic once, and bearings where they differ": async (page) => {

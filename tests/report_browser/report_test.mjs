@@ -4,7 +4,7 @@ import { existsSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { bearingReport, everyReport, machineReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
+import { bearingReport, everyReport, comparisonReport, machineReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
 
 const flags = [
   "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -66,6 +66,7 @@ async function testReport(browser, file) {
   if (!opened) return;
   const { page, complaints } = opened;
   const isStudy = (await page.locator(".study").count()) > 0;
+  const isComparison = isStudy && (await page.locator(".study h2").first().innerText()).includes("compared");
   const isBearing = (await page.locator(".solution").count()) > 0;
   const isModes = (await page.locator(".mode-player").count()) > 0;
   const isMachine = (await page.locator(".assumptions .owners").count()) > 0;
@@ -75,7 +76,7 @@ async function testReport(browser, file) {
       ? { ...(isStudy ? sweepReport : {}), ...bearingReport }
       : isMachine
         ? machineReport
-        : { ...(isStudy ? studyReport : {}), ...everyReport };
+        : { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : {}), ...everyReport };
   for (const [name, test] of Object.entries(tests)) await check(name, () => test(page));
   await check("nothing on the console and nothing over the network", async () => {
     if (complaints.length > 0) throw new Error(complaints.join("\n"));

@@ -21,6 +21,8 @@ type Attribute = string | number | string[];
 
 export interface RunText {
   file: string;
+  /** By file or folder; no other run of the report has it. */
+  name: string;
   rows: number;
   series_stride: number;
   field_stride: number;
@@ -109,6 +111,9 @@ export class Run {
 
   get file(): string {
     return this.text.file;
+  }
+  get name(): string {
+    return this.text.name;
   }
   get rows(): number {
     return this.text.rows;
@@ -213,7 +218,7 @@ export interface Report {
 
 /** A run that has fields only, of one instant. */
 export function fieldsOnly(datasets: Record<string, DatasetText>): Run {
-  return new Run({ file: "", rows: 1, series_stride: 1, field_stride: 1, around_stride: 1, attributes: {}, datasets, assumptions: [], summary: [] });
+  return new Run({ file: "", name: "", rows: 1, series_stride: 1, field_stride: 1, around_stride: 1, attributes: {}, datasets, assumptions: [], summary: [] });
 }
 
 /** Reads the data element of the page. */

@@ -14,12 +14,12 @@ const statusText: Record<string, string> = {
 
 export function header(report: Report): HTMLElement {
   const first = report.runs[0]!;
-  const title = report.title || first.attribute("/", "title") || first.file;
+  const title = report.title || sharedTitle(report.runs);
   document.title = `${title} · hersey`;
   const description = first.attribute("/", "description");
   const count = report.runs.length;
   const facts = [
-    count > 1 ? runCount(report) : first.file,
+    count > 1 ? runCount(report) : first.name,
     `hersey ${first.attribute("/", "hersey_version")}`.trim(),
     date(first.attribute("/", "created")),
   ].filter((text) => text);
@@ -30,6 +30,15 @@ export function header(report: Report): HTMLElement {
     description ? h("p", { class: "lead" }, description) : null,
     h("p", { class: "facts" }, facts.join(" · "), ...(count === 1 ? [" ", status(first)] : [])),
   );
+}
+
+/** The title of all runs; where they differ, the runs by their names. */
+function sharedTitle(runs: Run[]): string {
+  const titles = new Set(runs.map((run) => run.attribute("/", "title")));
+  const [title] = titles;
+  if (titles.size === 1 && title) return title;
+  const names = runs.map((run) => run.name);
+  return names.length <= 4 ? names.join(", ") : `${names.slice(0, 3).join(", ")} and ${names.length - 3} more`;
 }
 
 function runCount(report: Report): string {

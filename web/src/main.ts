@@ -26,18 +26,35 @@ function showStudy(page: HTMLElement, report: Report): void {
     study.highlight(run);
     if (scroll) detail.scrollIntoView({ behavior: "smooth" });
   };
-  page.append(...[header(report), sharedAssumptions(report.runs), study.element, detail].filter((e) => e !== null));
+  page.append(...[header(report), sharedAssumptions(study), study.element, detail].filter((e) => e !== null));
   show(study.runs[study.runs.length - 1]!, false);
+}
+
+function assumed(run: Run, name: string): string {
+  return run.assumptions.find(([other]) => other === name)?.[1] ?? "not stated";
 }
 
 /** What the runs of a study assume under one name, each text once. */
 function texts(runs: Run[], name: string): string[] {
-  return [...new Set(runs.map((run) => run.assumptions.find(([other]) => other === name)?.[1] ?? "not stated"))];
+  return [...new Set(runs.map((run) => assumed(run, name)))];
 }
 
-/** The assumptions of a study: where runs differ, what they differ between. */
-function sharedAssumptions(runs: Run[]): HTMLElement | null {
-  return assumptions(runs[0]!.assumptions.map(([name]) => [name, texts(runs, name).join(" | ")]));
+const mostNames = 4;
+
+/** The assumptions of a study: where runs differ, which run assumes what. */
+function sharedAssumptions(study: StudyView): HTMLElement | null {
+  const runs = study.runs;
+  const who = (name: string, text: string) => {
+    const labels = runs.filter((run) => assumed(run, name) === text).map((run) => study.label(run));
+    return labels.length <= mostNames ? labels.join(", ") : `${labels.length} runs`;
+  };
+  const names = [...new Set(runs.flatMap((run) => run.assumptions.map(([name]) => name)))];
+  return assumptions(
+    names.map((name) => {
+      const all = texts(runs, name);
+      return [name, all.length === 1 ? all[0]! : all.map((text) => `${text} (${who(name, text)})`).join(" | ")];
+    }),
+  );
 }
 
 /** What one run of a study assumes differently from another. */

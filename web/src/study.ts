@@ -13,19 +13,27 @@ export interface Combination {
 /** The parameter whose values name the study's variants: they need no name before them. */
 const variant = "variant";
 
+/** Stands for a parameter where runs are compared that belong to no study: its values are their names. */
+const byName = "run";
+
 export class Study {
   readonly runs: Run[];
   readonly parameters: string[];
   readonly combinations: Combination[];
+  /** Runs beside each other that no study has made: each goes by its name. */
+  readonly isComparison: boolean;
+  /** Parameters of the model that differ between the runs of a comparison. */
+  readonly differing: string[];
 
   private readonly given: Run[];
 
   constructor(report: Report) {
     this.given = report.runs;
-    const first = report.runs[0]!;
-    const named = first.list("/", "study_parameters");
-    this.parameters = named.length > 0 ? named : varying(report.runs);
-    this.runs = [...report.runs].sort((a, b) => this.compare(a, b));
+    const named = report.runs[0]!.list("/", "study_parameters");
+    this.isComparison = !areOneStudy(report.runs, named);
+    this.parameters = this.isComparison ? [byName] : named;
+    this.differing = this.isComparison ? varying(report.runs) : [];
+    this.runs = this.isComparison ? report.runs : [...report.runs].sort((a, b) => this.compare(a, b));
     const groups = new Map<string, Run[]>();
     for (const run of this.runs) {
       const label = this.otherValues(run);
@@ -36,10 +44,11 @@ export class Study {
 
   /** The first parameter: the abscissa. */
   get abscissa(): string {
-    return this.parameters[0] ?? "run";
+    return this.parameters[0]!;
   }
 
   value(run: Run, parameter: string): string {
+    if (this.isComparison && parameter === byName) return run.name;
     const value = run.parameters()[parameter];
     return value === undefined ? "" : tidy(String(value));
   }
@@ -47,11 +56,12 @@ export class Study {
   /** What tells one run from the others. */
   label(run: Run): string {
     const values = this.parameters.map((p) => this.value(run, p)).filter((v) => v);
-    return values.length > 0 ? values.join(", ") : run.file.replace(/\.h5$/, "");
+    return values.length > 0 ? values.join(", ") : run.name;
   }
 
   /** The first parameter's values as numbers in one unit, or null if they are not such. */
   numbers(): { unit: string; of: (run: Run) => number } | null {
+    if (this.isComparison) return null;
     const parsed = this.runs.map((run) => quantity(this.value(run, this.abscissa)));
     const unit = parsed[0]?.unit ?? "";
     if (parsed.some((p) => p === null || p.unit !== unit)) return null;
@@ -78,9 +88,17 @@ export class Study {
   }
 }
 
-/** Parameters that differ between files whose study is not named. */
+/** Whether a study has made these runs: they vary the same parameters, and no two have the same values. */
+function areOneStudy(runs: Run[], parameters: string[]): boolean {
+  if (parameters.length === 0) return false;
+  const sameParameters = runs.every((run) => run.list("/", "study_parameters").join("\n") === parameters.join("\n"));
+  const values = runs.map((run) => parameters.map((p) => String(run.parameters()[p])).join("\n"));
+  return sameParameters && new Set(values).size === runs.length;
+}
+
+/** Parameters that differ between runs. */
 function varying(runs: Run[]): string[] {
-  const names = Object.keys(runs[0]!.parameters());
+  const names = [...new Set(runs.flatMap((run) => Object.keys(run.parameters())))];
   return names.filter((name) => new Set(runs.map((run) => String(run.parameters()[name]))).size > 1);
 }
 

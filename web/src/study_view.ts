@@ -52,7 +52,7 @@ export class StudyView {
   /** Shows which run the detailed view is about. */
   highlight(run: Run): void {
     this.element.querySelectorAll<HTMLElement>("tr[data-run]").forEach((row) => {
-      const chosen = row.dataset["run"] === run.file;
+      const chosen = row.dataset["run"] === run.name;
       row.classList.toggle("chosen", chosen);
       row.querySelector("button")?.setAttribute("aria-pressed", chosen ? "true" : "false");
     });
@@ -69,9 +69,14 @@ export class StudyView {
           }))
         : h("div", {});
     const figures = h("div", { class: "figures" }, ...this.midplaneFigures(), ...this.endFigures());
-    this.element.replaceChildren(h("h2", {}, `Study over ${this.study.parameters.map((p) => p.replaceAll("_", " ")).join(" and ") || "runs"}`), controls, figures, this.table());
-    const run = this.study.runs.find((r) => r.file === chosen);
+    this.element.replaceChildren(h("h2", {}, this.heading()), controls, figures, this.table());
+    const run = this.study.runs.find((r) => r.name === chosen);
     if (run) this.highlight(run);
+  }
+
+  private heading(): string {
+    if (this.study.isComparison) return `${this.study.runs.length} runs compared`;
+    return `Study over ${this.study.parameters.map((p) => p.replaceAll("_", " ")).join(" and ")}`;
   }
 
   /** One figure per combination: a curve per value of the first parameter, all at the end of the run. */
@@ -114,8 +119,8 @@ export class StudyView {
   private endFigures(): HTMLElement[] {
     const { study } = this;
     const numbers = study.numbers();
-    const texts = [...new Set(study.runs.map((run) => study.value(run, study.abscissa) || run.file))];
-    const place = (run: Run) => (numbers ? numbers.of(run) : texts.indexOf(study.value(run, study.abscissa) || run.file));
+    const texts = [...new Set(study.runs.map((run) => study.value(run, study.abscissa) || run.name))];
+    const place = (run: Run) => (numbers ? numbers.of(run) : texts.indexOf(study.value(run, study.abscissa) || run.name));
     const x = [...new Set(study.runs.map(place))].sort((a, b) => a - b);
     return endValues.flatMap((end) => {
       const curves: Curve[] = study.combinations.map(({ label, runs }) => ({
@@ -164,16 +169,17 @@ export class StudyView {
     ];
     if (study.runs.some((run) => run.attribute("/", "status") !== "completed"))
       columns.push(["status", "how the run ended", statusName]);
+    const told = [...study.parameters, ...study.differing];
     const head = [
-      ...study.parameters.map((p) => h("th", { scope: "col" }, p.replaceAll("_", " "))),
+      ...told.map((p) => h("th", { scope: "col" }, p.replaceAll("_", " "))),
       ...columns.map(([short, long]) => h("th", { scope: "col", class: "number", title: long }, short)),
       h("th", { scope: "col" }, h("span", { class: "visually-hidden" }, "Detail")),
     ];
     const rows = study.runs.map((run) =>
       h(
         "tr",
-        { "data-run": run.file },
-        ...study.parameters.map((p) => h("td", {}, study.value(run, p))),
+        { "data-run": run.name },
+        ...told.map((p) => h("td", {}, study.value(run, p))),
         ...columns.map(([, , value]) => h("td", { class: "number" }, value(run))),
         h("td", {}, h("button", { type: "button", class: "quiet", "aria-label": `Show ${study.label(run)} in detail`, click: () => this.select(run) }, "Show")),
       ),

@@ -112,6 +112,19 @@ std::string name_of(const UnitSystem& system, const ut_unit* unit, const std::st
   return "a quantity in " + text;
 }
 
+/// A unit as a factor: known, and zero where its quantity is.
+Unit factor_unit(const UnitSystem& system, const std::string& text) {
+  Unit unit = text.empty() ? system.parse("1") : system.parse_written(text);
+  if (!unit) throw QuantityError("unknown unit " + quoted(text), "a unit such as mm or N/mm^2");
+  std::array<char, 256> buffer{};
+  const int length = ut_format(unit.get(), buffer.data(), buffer.size(), UT_ASCII | UT_DEFINITION);
+  const bool is_plain =
+      length >= 0 && length < static_cast<int>(buffer.size()) &&
+      std::string_view(buffer.data(), static_cast<std::size_t>(length)).find_first_of("@(") == std::string_view::npos;
+  if (!is_plain) throw QuantityError(quoted(text) + " in arithmetic", "a unit whose zero is zero, such as K for degC");
+  return unit;
+}
+
 double converted(const ut_unit* from, const ut_unit* to, double number) {
   cv_converter* converter = ut_get_converter(const_cast<ut_unit*>(from), const_cast<ut_unit*>(to));
   HERSEY_REQUIRE(converter != nullptr, "units that measure the same convert");
@@ -289,6 +302,62 @@ double convert(const Quantity& quantity, const std::string& unit) {
     throw QuantityError(name_of(system, from.get(), quantity.unit), name_of(system, to.get(), unit));
   }
   return converted(from.get(), to.get(), quantity.number);
+}
+
+namespace {
+
+/// `number` in `unit`, in base units with their text.
+Quantity in_base_units(const UnitSystem& system, double number, const Unit& unit) {
+  if (!unit) throw QuantityError("units that do not multiply", "units such as mm or N/mm^2");
+  const std::string base = base_units(unit.get());
+  const Unit target = system.parse(base.empty() ? "1" : base);
+  if (!target || ut_are_convertible(unit.get(), target.get()) == 0) {
+    throw QuantityError("a unit beyond measure", "units such as mm or N/mm^2");
+  }
+  return {converted(unit.get(), target.get(), number), base};
+}
+
+}  // namespace
+
+Quantity sum(const Quantity& a, const Quantity& b) {
+  const auto is_bare_zero = [](const Quantity& q) { return q.number == 0 && q.unit.empty(); };
+  if (is_bare_zero(a)) return b;
+  if (is_bare_zero(b)) return a;
+  {
+    const std::lock_guard guard(UnitSystem::lock());
+    for (const Quantity* q : {&a, &b}) (void)factor_unit(UnitSystem::instance(), q->unit);
+  }
+  return {a.number + convert(b, a.unit), a.unit};
+}
+
+Quantity product(const Quantity& a, const Quantity& b) {
+  const std::lock_guard guard(UnitSystem::lock());
+  const UnitSystem& system = UnitSystem::instance();
+  const Unit unit_a = factor_unit(system, a.unit), unit_b = factor_unit(system, b.unit);
+  if (a.unit.empty() || b.unit.empty()) return {a.number * b.number, a.unit + b.unit};
+  return in_base_units(system, a.number * b.number, Unit(ut_multiply(unit_a.get(), unit_b.get())));
+}
+
+Quantity quotient(const Quantity& a, const Quantity& b) {
+  const std::lock_guard guard(UnitSystem::lock());
+  const UnitSystem& system = UnitSystem::instance();
+  const Unit unit_a = factor_unit(system, a.unit), unit_b = factor_unit(system, b.unit);
+  if (b.unit.empty()) return {a.number / b.number, a.unit};
+  if (a.unit == b.unit) return {a.number / b.number, ""};
+  return in_base_units(system, a.number / b.number, Unit(ut_divide(unit_a.get(), unit_b.get())));
+}
+
+Quantity power(const Quantity& base, double exponent) {
+  if (base.unit.empty()) return {std::pow(base.number, exponent), ""};
+  constexpr double highest = 9;
+  if (exponent != std::round(exponent) || std::abs(exponent) > highest) {
+    throw QuantityError("the power " + std::to_string(exponent) + " of a quantity in " + base.unit,
+                        "an integer from -9 to 9 as its exponent");
+  }
+  const std::lock_guard guard(UnitSystem::lock());
+  const UnitSystem& system = UnitSystem::instance();
+  const Unit unit = factor_unit(system, base.unit);
+  return in_base_units(system, std::pow(base.number, exponent), Unit(ut_raise(unit.get(), static_cast<int>(exponent))));
 }
 
 }  // namespace hersey

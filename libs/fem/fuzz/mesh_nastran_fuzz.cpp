@@ -1,4 +1,5 @@
 // libFuzzer target of the reader of the format its name tells.
+// seeds: libs/fem/test/data/*.bdf
 #include "fuzz_mesh.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -38,20 +38,23 @@ void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 }  // namespace
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path) {
+  Lock lock(hdf5_lock());
   be_quiet();
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (file < 0) throw std::runtime_error("cannot be written");
-  return Hdf5File(file);
+  return {std::move(lock), file};
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
+  Lock lock(hdf5_lock());
   be_quiet();
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) throw std::runtime_error("is no HDF5 file that can be read");
-  return Hdf5File(file);
+  return {std::move(lock), file};
 }
 
-Hdf5File::Hdf5File(Hdf5File&& other) noexcept : file_(std::exchange(other.file_, H5I_INVALID_HID)) {}
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : lock_(std::move(other.lock_)), file_(std::exchange(other.file_, H5I_INVALID_HID)) {}
 
 Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Idec_ref(file_);

@@ -4,13 +4,17 @@
 
 #include <Eigen/Dense>
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <vector>
+
+#include "hersey/core/hdf5_lock.h"
 
 namespace hersey::fem {
 
 /// An open HDF5 file with the few kinds of data a body has. Data sets are named by their path, "frames/0/origin";
 /// groups on the way are made. Nothing is printed: what fails throws std::runtime_error with the data set's name.
+/// While it lives, its thread alone uses HDF5.
 class Hdf5File {
  public:
   static Hdf5File create(const std::filesystem::path& path);
@@ -34,11 +38,14 @@ class Hdf5File {
   [[nodiscard]] std::string read_text(const std::string& name) const;
 
  private:
-  explicit Hdf5File(hid_t file) : file_(file) {}
+  using Lock = std::unique_lock<std::recursive_mutex>;
+
+  Hdf5File(Lock lock, hid_t file) : lock_(std::move(lock)), file_(file) {}
   void write(const std::string& name, hid_t stored, hid_t type, const std::vector<hsize_t>& shape, const void* values);
   [[nodiscard]] std::vector<hsize_t> shape_of(const std::string& name) const;
   void read(const std::string& name, hid_t type, void* values) const;
 
+  Lock lock_;  // released after the file is closed
   hid_t file_;
 };
 

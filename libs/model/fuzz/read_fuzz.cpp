@@ -1,4 +1,5 @@
 // libFuzzer target: whatever the bytes, the reader either returns a model or throws InputError.
+// seeds: examples/paper_big_end examples/slider_crank tests/cli
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "hersey/core/quantity_formula.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
 
@@ -79,6 +80,7 @@ class Checker {
     }
     if (node.kind != Node::Kind::scalar) return fault(value, description_of(node), type.expectation());
     value.text = node.text;
+    value.formula = node.formula;
     switch (type.kind) {
       case Kind::integer:
         return check_integer(node, value);
@@ -94,14 +96,26 @@ class Checker {
   }
 
   void check_integer(const Node& node, Value& value) {
+    const std::optional<double> number = integer_of(node);
+    if (!number || !value.type->range.contains(*number)) {
+      return fault(value, description_of(node), value.type->expectation());
+    }
+    value.number = *number;
+  }
+
+  static std::optional<double> integer_of(const Node& node) {
     long number = 0;
     const char* end = node.text.data() + node.text.size();
     const auto result = std::from_chars(node.text.data(), end, number);
-    const bool is_integer = result.ec == std::errc{} && result.ptr == end;
-    if (!is_integer || !value.type->range.contains(static_cast<double>(number))) {
-      return fault(value, description_of(node), value.type->expectation());
+    if (node.formula.empty() && result.ec == std::errc{} && result.ptr == end) return static_cast<double>(number);
+    if (node.origin.empty()) return std::nullopt;
+    try {
+      const Quantity computed = evaluate_formula(node.formula.empty() ? node.text : node.formula);
+      const bool is_integer = computed.unit.empty() && computed.number == std::round(computed.number);
+      return is_integer ? std::optional(computed.number) : std::nullopt;
+    } catch (const QuantityError&) {
+      return std::nullopt;
     }
-    value.number = static_cast<double>(number);
   }
 
   void check_choice(const Node& node, Value& value) {
@@ -129,7 +143,7 @@ class Checker {
     if (std::find(names.begin(), names.end(), node.text) != names.end()) return;
     value.text.clear();
     try {
-      value.numbers = parse_in_first_fitting_unit(node.text, type, value.unit);
+      value.numbers = parse_in_first_fitting_unit(node, type, value.unit);
     } catch (const QuantityError& error) {
       // The origin tells the user of ${load} where the text at fault stands.
       const std::string from = node.origin.empty() ? "" : " (from " + node.origin + ")";
@@ -145,19 +159,47 @@ class Checker {
   }
 
   /// The first unit of the type that the text fits; a text that fits none gets the error about the first.
-  static std::vector<double> parse_in_first_fitting_unit(const std::string& text, const Type& type, std::string& unit) {
+  static std::vector<double> parse_in_first_fitting_unit(const Node& node, const Type& type, std::string& unit) {
     std::optional<QuantityError> first_error;
     for (const std::string& candidate : type.units) {
       try {
-        std::vector<double> numbers = parse_quantities(text, candidate, type.count);
-        const bool is_bare_zero = type.units.size() > 1 && split_quantity(text).unit.empty();
-        unit = is_bare_zero ? "" : candidate;
+        std::vector<double> numbers = numbers_in(candidate, node, type.count);
+        unit = type.units.size() > 1 && is_bare(node) ? "" : candidate;
         return numbers;
       } catch (const QuantityError& error) {
         if (!first_error) first_error = error;
       }
     }
     throw *first_error;
+  }
+
+  /// Written out, or computed where a parameter stands; "${number} ${unit}" is no formula and read as text.
+  static std::vector<double> numbers_in(const std::string& unit, const Node& node, int count) {
+    const auto computed = [&](const std::string& formula) {
+      std::vector<double> numbers;
+      for (const Quantity& part : evaluate_formulas(formula, count)) numbers.push_back(convert_to_si(part, unit));
+      return numbers;
+    };
+    const bool is_formula = !node.formula.empty();
+    try {
+      return is_formula ? computed(node.formula) : parse_quantities(node.text, unit, count);
+    } catch (const QuantityError& error) {
+      if (is_formula ? !node.is_pasted : node.origin.empty()) throw;
+      try {
+        return is_formula ? parse_quantities(node.text, unit, count) : computed(node.text);
+      } catch (const QuantityError&) {
+        throw error;
+      }
+    }
+  }
+
+  /// A bare number, which of several units has none.
+  static bool is_bare(const Node& node) {
+    try {
+      return (node.formula.empty() ? split_quantity(node.text) : evaluate_formula(node.formula)).unit.empty();
+    } catch (const QuantityError&) {
+      return false;
+    }
   }
 
   void check_quantity_list(const Node& node, Value& value) {

@@ -24,6 +24,7 @@ struct Value {
   std::vector<double> numbers;  ///< quantity with count > 1
   std::string unit;             ///< SI unit the quantity was found to have; empty for a bare 0 of several units
   std::string text;             ///< text, scalar, choice, reference, word of a quantity, tag of a variant
+  std::string formula;          ///< as in Node; for expressions and for scales
   int text_offset = -1;         ///< as in Node
   std::size_t alternative = 0;  ///< any_of: which one; its value is `members.front()`
   std::vector<Member> members;  ///< object, named, variant by key; list by index

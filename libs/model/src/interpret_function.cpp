@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "hersey/core/expression.h"
+#include "hersey/core/quantity_formula.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/table_function.h"
 #include "hersey/core/units.h"
@@ -59,7 +60,8 @@ class FunctionReader {
     const Value* unit = content.find("unit");
     if (expression.broken || unit == nullptr || unit->broken) return;
     const std::optional<double> scale = unit_factor(context_, *unit, unit->text, si_unit_);
-    const std::vector<std::string> names = variables_of(expression.text);
+    const std::string& text = formula_of(expression);
+    const std::vector<std::string> names = variables_of(text);
     std::vector<Variable> variables;
     for (const std::string& name : names) {
       const std::optional<Variable> variable = variable_called(name);
@@ -67,7 +69,7 @@ class FunctionReader {
       variables.push_back(*variable);
     }
     try {
-      function_.value = std::make_shared<ExpressionFunction>(expression.text, names, scale.value_or(1));
+      function_.value = std::make_shared<ExpressionFunction>(text, names, scale.value_or(1));
       function_.variables = std::move(variables);
     } catch (const ExpressionError& error) {
       report_in_expression(expression, error.position, error.what(), "an expression such as 100*sin(2*pi*50*t)", "");
@@ -76,28 +78,39 @@ class FunctionReader {
     check_value_at_start(expression);
   }
 
+  /// With parameters in parentheses where they are part of it.
+  static const std::string& formula_of(const Value& expression) {
+    return expression.formula.empty() ? expression.text : expression.formula;
+  }
+
   void report_in_expression(const Value& expression, int offset, const std::string& found, std::string expected,
                             std::string suggestion) {
     Fault fault{expression.position, expression.path, found, std::move(expected), std::move(suggestion)};
     if (expression.text_offset >= 0) {
       fault.position.column += expression.text_offset + offset;
     } else {
-      fault.found += " in '" + expression.text + "'";
+      fault.found += " in '" + formula_of(expression) + "'";
     }
     context_.faults.push_back(std::move(fault));
   }
 
   void report_unknown_name(const Value& expression, const std::string& name) {
-    const auto at = expression.text.find(name);
-    const auto after = expression.text.find_first_not_of(' ', at + name.size());
-    const bool is_call = after != std::string::npos && expression.text[after] == '(';
+    const std::string& text = formula_of(expression);
+    const auto at = text.find(name);
+    const auto before = text.find_last_not_of(' ', at > 0 ? at - 1 : 0);
+    const auto after = text.find_first_not_of(' ', at + name.size());
+    const bool is_call = after != std::string::npos && text[after] == '(';
+    const bool is_unit = expression.text_offset < 0 && at > 0 && before != std::string::npos &&
+                         (text[before] == '.' || ('0' <= text[before] && text[before] <= '9'));
     static const std::vector<std::string> functions = {"sin",   "cos",  "tan",  "asin", "acos", "atan",
                                                        "atan2", "sinh", "cosh", "tanh", "exp",  "ln",
                                                        "log10", "sqrt", "abs",  "sign", "min",  "max"};
     const std::vector<std::string> known = is_call ? functions : variable_names();
     report_in_expression(expression, static_cast<int>(at),
                          std::string("unknown ") + (is_call ? "function '" : "name '") + name + "'", one_of(known),
-                         did_you_mean(name, known));
+                         is_unit ? "parameters in expressions are bare numbers; one divided by its unit is: half: "
+                                   "\"${load}/2 N\""
+                                 : did_you_mean(name, known));
   }
 
   /// An expression of time alone must have a value when the run starts.
@@ -110,7 +123,8 @@ class FunctionReader {
     const std::vector<double> x(function_.variables.size(), start);
     const double value = function_.value->value(x);
     if (!std::isfinite(value)) {
-      context_.fault(expression, "'" + expression.text + "', which is " + std::to_string(value) + " at the start",
+      context_.fault(expression,
+                     "'" + formula_of(expression) + "', which is " + std::to_string(value) + " at the start",
                      "a finite value");
     }
   }
@@ -245,7 +259,7 @@ class FunctionReader {
     const Value& scale_value = *content.find("scale");
     Quantity scale;
     try {
-      scale = split_quantity(scale_value.text);
+      scale = scale_value.formula.empty() ? split_quantity(scale_value.text) : evaluate_formula(scale_value.formula);
     } catch (const QuantityError& error) {
       context_.fault(scale_value, error.found, scale_value.type->expectation(), error.suggestion);
       return false;

@@ -1,10 +1,13 @@
 #include "overrides.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <map>
 #include <optional>
 
+#include "hersey/core/quantity_formula.h"
 #include "hersey/core/spelling.h"
 
 namespace hersey::model {
@@ -55,12 +58,63 @@ void apply_along_path(Node& root, const Override& change, std::vector<Fault>& fa
   *node = change.value;
 }
 
+constexpr std::size_t kLongest = 65536;  // characters of a value: ten parameters of each other are a gigabyte
+
+/// A scalar's text while parameters are put into it.
+class Pieces {
+ public:
+  explicit Pieces(const std::string& given)
+      : is_alone_(given.starts_with("${") && given.find('}') + 1 == given.size()) {}
+
+  void add(const std::string& own) {
+    if (own.empty()) return;
+    const bool follows = parameters_ > 0 && was_parameter_;
+    is_pasted_ = is_pasted_ && own.find_first_of("+-*/^()") == std::string::npos && !(follows && is_digit(own.front()));
+    text_ += own;
+    formula_ += own;
+    was_parameter_ = false;
+  }
+
+  void add(const Node& parameter) {
+    // A digit beside a parameter would become one of its digits.
+    is_pasted_ = is_pasted_ && (text_.empty() || !is_digit(text_.back()) || !begins_number(parameter.text));
+    alone_ = parameter.formula;
+    alone_is_pasted_ = parameter.is_pasted;
+    text_ += parameter.text;
+    formula_ += "(" + (parameter.formula.empty() ? parameter.text : parameter.formula) + ")";
+    was_parameter_ = true;
+    ++parameters_;
+  }
+
+  [[nodiscard]] std::size_t length() const { return formula_.size(); }
+
+  void put_into(Node& node) const {
+    node.text = text_;
+    if (parameters_ == 0) return;
+    node.formula = is_alone_ ? alone_ : formula_;
+    node.is_pasted = is_alone_ ? alone_is_pasted_ : is_pasted_;
+  }
+
+ private:
+  static bool is_digit(char c) { return ('0' <= c && c <= '9') || c == '.'; }
+  static bool begins_number(const std::string& text) {
+    return !text.empty() && (is_digit(text.front()) || text.front() == '+' || text.front() == '-');
+  }
+
+  std::string text_, formula_, alone_;
+  bool is_alone_ = false, is_pasted_ = true, alone_is_pasted_ = false, was_parameter_ = false;
+  int parameters_ = 0;
+};
+
 /// One pass over a document that replaces ${name}.
 class Substitution {
  public:
   explicit Substitution(std::vector<Fault>& faults) : faults_(faults) {}
 
-  void define(const std::string& name, const Node& value) { parameters_[name] = value; }
+  void define(const std::string& name, Node& value) {
+    if (!value.formula.empty()) work_out(value);
+    parameters_[name] = value;
+  }
 
   void visit(Node& node, const std::string& path) {
     if (node.kind == Node::Kind::scalar) substitute(node, path);
@@ -69,37 +123,49 @@ class Substitution {
   }
 
  private:
+  // A parameter derived from others stands for its value.
+  static void work_out(Node& value) {
+    try {
+      const Quantity result = evaluate_formula(value.formula);
+      value.formula = fmt::format("{}{}{}", result.number, result.unit.empty() ? "" : " ", result.unit);
+    } catch (const QuantityError&) {
+      // A word, an expression of time, a vector; or a fault, which is told where it is used.
+    }
+  }
+
+  // As text every parameter is pasted in place; as formula it stands in parentheses, so that signs and operators around
+  // it mean what they mean in arithmetic. Which of both counts depends on what the key expects.
   void substitute(Node& node, const std::string& path) {
-    std::string& text = node.text;
-    for (auto start = text.find("${"); start != std::string::npos; start = text.find("${", start)) {
-      const auto end = text.find('}', start);
+    const std::string given = node.text;
+    if (given.find("${") == std::string::npos) return;
+    Pieces pieces(given);
+    for (std::size_t at = 0; at < given.size();) {
+      const auto start = given.find("${", at);
+      pieces.add(given.substr(at, start - at));
+      if (start == std::string::npos) break;
+      const auto end = given.find('}', start);
       if (end == std::string::npos) {
-        faults_.push_back({node.position, path, "'" + text + "'", "a closing } after ${", ""});
+        faults_.push_back({node.position, path, "'" + given + "'", "a closing } after ${", ""});
         node.reported = true;
         return;
       }
-      const std::string name = text.substr(start + 2, end - start - 2);
+      const std::string name = given.substr(start + 2, end - start - 2);
       const auto parameter = parameters_.find(name);
       if (parameter == parameters_.end()) {
         report_unknown(node, path, name);
         return;
       }
       note_origin(node, name, parameter->second.position);
-      start = replace(text, start, end + 1, parameter->second.text);
+      pieces.add(parameter->second);
+      if (pieces.length() > kLongest) {
+        faults_.push_back({node.position, path, "a value that parameters make longer than 65536 characters",
+                           "parameters that do not multiply each other", ""});
+        node.reported = true;
+        return;
+      }
+      at = end + 1;
     }
-  }
-
-  /// Returns where the replacement ends. Of two signs, as in "-${load}" with load = -5 N, one is left.
-  static std::size_t replace(std::string& text, std::size_t start, std::size_t end, std::string value) {
-    const bool negated = start > 0 && text[start - 1] == '-';
-    if (negated && value.starts_with('-')) {
-      value.erase(0, 1);
-      text.replace(start - 1, end - start + 1, value);
-      return start - 1 + value.size();
-    }
-    if (negated && value.starts_with('+')) value.erase(0, 1);
-    text.replace(start, end - start, value);
-    return start + value.size();
+    pieces.put_into(node);
   }
 
   static void note_origin(Node& node, const std::string& name, const SourcePosition& position) {

@@ -19,7 +19,7 @@ std::vector<Parameter> parameters_of(const Node& root) {
   const Node* section = root.find("parameters");
   if (section == nullptr) return parameters;
   for (const Entry& entry : section->entries) {
-    parameters.push_back({entry.key, entry.value.text, entry.value.position});
+    parameters.push_back({entry.key, written(entry.value), entry.value.position});
   }
   return parameters;
 }

@@ -49,9 +49,28 @@ they leave open whether turns or radians are meant. Everything is converted to S
 
 **Names** are letters, digits and `_`, beginning with a letter. A frame is `body` (the body's own) or `body.frame`.
 
-**Parameters** stand at the top and are used as `${name}` anywhere below, with a minus sign if need be: `"-${load}"`.
-Inside braces and brackets they must be quoted. `--set load=800N` replaces a parameter for one run, and
-`--set bearings.main.grid.axial=25` any other value by its key path.
+**Parameters** stand at the top and are used as `${name}` anywhere below. Inside braces and brackets they must be
+quoted. `--set load=800N` replaces a parameter for one run, and `--set bearings.main.grid.axial=25` any other value by its
+key path.
+
+Where a quantity, a whole number or an expression is expected, a parameter stands in parentheses: `+ - * / ^`, signs and
+`pi` around it mean what they mean in arithmetic, and units are worked out with the numbers. With `a: -3`, `${a}^2` is 9,
+`-${a}` is 3 and `2-${a}*1` is 5; `${a} mm` is -3 mm. A parameter may be derived from those above it:
+
+```yaml
+parameters:
+  diameter: 50 mm
+  relative_clearance: 1e-3
+  clearance: "${relative_clearance}*${diameter}/2"     # 25 um
+  pressure: 2 MPa
+  load: "${pressure}*${diameter}*20 mm"                # 2000 N
+  amplitude: "${load}/1 N"                             # 2000, a bare number: for {expression: "${amplitude}*t", unit: N}
+```
+
+Quantities are added where they measure the same. A bare number stands in an expression, a quantity only after it has been
+divided by its unit. The radian counts: an angular velocity times a radius becomes a velocity by `/1 rad`. Degrees Celsius
+are no factors and no summands; kelvins are. In a row, `0 -${load} 2*${load}`, a formula has no spaces. Text (titles, names of
+files, words) takes a parameter as it is written.
 )md";
 
 /// What stands before the tables of functions.

@@ -208,12 +208,16 @@ Node* Node::find(const std::string& key) {
   return nullptr;
 }
 
+const std::string& written(const Node& node) {
+  return node.formula.empty() || node.is_pasted ? node.text : node.formula;
+}
+
 std::string description_of(const Node& node) {
   switch (node.kind) {
     case Node::Kind::null:
       return "nothing";
     case Node::Kind::scalar:
-      return "'" + node.text + "'" + (node.origin.empty() ? "" : " (from " + node.origin + ")");
+      return "'" + written(node) + "'" + (node.origin.empty() ? "" : " (from " + node.origin + ")");
     case Node::Kind::sequence:
       return "a list";
     case Node::Kind::mapping:

@@ -16,6 +16,8 @@ struct Node {
   Kind kind = Kind::null;
   SourcePosition position = {};
   std::string text = {};       ///< of a scalar, after `${parameter}` substitution
+  std::string formula = {};    ///< the same with every parameter in parentheses; empty where none stands beside others
+  bool is_pasted = false;      ///< no operator stands around the parameters: `text` may be read as it is
   int text_offset = 0;         ///< columns from `position` to the first letter of `text`; -1 where they do not map
   std::string origin = {};     ///< where a substituted text comes from, "parameter load, model.yaml:5:9"; or empty
   bool reported = false;       ///< a fault has been reported: nothing more to say about it
@@ -33,6 +35,9 @@ struct Entry {
   SourcePosition position;  ///< of the key
   Node value;
 };
+
+/// The scalar as the user may recognise it: with parameters in parentheses where they are part of a formula.
+[[nodiscard]] const std::string& written(const Node& node);
 
 /// "a mapping", "a list", "nothing", or the scalar in quotes with its origin.
 [[nodiscard]] std::string description_of(const Node& node);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "hersey/core/units.h"
 #include "hersey/model/read.h"
@@ -62,6 +63,15 @@ StudyRun run_of(const std::vector<StudyParameter>& parameters, std::size_t index
   return run;
 }
 
+/// "5 m" and "5 µm" have one slug, and results must not: later ones get a number.
+void tell_slugs_apart(std::vector<StudyRun>& runs) {
+  std::set<std::string> taken;
+  for (StudyRun& run : runs) {
+    const std::string slug = run.slug;
+    for (int number = 2; !taken.insert(run.slug).second; ++number) run.slug = slug + "-" + std::to_string(number);
+  }
+}
+
 /// Reads the model once with each single value of the study; its faults point at the study's lines.
 void check_values(const std::string& path, const std::vector<std::string>& overrides,
                   const std::vector<StudyParameter>& parameters) {
@@ -95,6 +105,7 @@ std::vector<StudyRun> expand_parameters(const std::string& path, const std::vect
   check_values(path, overrides, parameters);
   std::vector<StudyRun> runs;
   for (std::size_t i = 0; i < count; ++i) runs.push_back(run_of(parameters, i, overrides));
+  tell_slugs_apart(runs);
   return runs;
 }
 

@@ -1,3 +1,6 @@
+#include <limits>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include "model_text.h"
@@ -58,6 +61,85 @@ TEST_CASE("ParametersInsideVectors_KeepTheirUnit") {
   const std::string text = edited(edited(good_model, "  load: 500 N", "  load: 500 N\n  g: 981 cm/s^2"),
                                   "bodies:", "gravity: 0 -${g} 0 m/s^2\nbodies:");
   CHECK((read_text(text, "m.yaml").gravity - Vector3(0, -9.81, 0)).norm() < 1e-15);
+}
+
+/// The model with a force in x written so, and parameters above the others.
+std::string with_force_in_x(const std::string& force, const std::string& parameters) {
+  return edited(edited(good_model, "  load: 500 N", parameters + "  load: 500 N"), "[0 N, \"-${load}\"",
+                "[" + force + ", \"-${load}\"");
+}
+
+double force_in_x(const std::string& force, const std::string& parameters, double t = 0) {
+  const Model model = read_text(with_force_in_x(force, parameters), "m.yaml");
+  const Function& function = model.forces[0].load.functions[0];
+  const std::vector<double> x(function.variables.size(), t);
+  return function.value->value(x);
+}
+
+TEST_CASE("ParametersInExpressions_StandInParentheses") {
+  const auto value = [](const std::string& expression, const std::string& a, double t = 0) {
+    return force_in_x("{expression: \"" + expression + "\", unit: N}", "  a: \"" + a + "\"\n", t);
+  };
+  CHECK(value("2-${a}*1", "-3") == 5);
+  CHECK(value("10-${a}^2", "-3") == 1);
+  CHECK(value("${a}^2", "-3") == 9);
+  CHECK(value("6/${a}", "1+2") == 2);
+  CHECK(value("-${a}", "-3") == 3);
+  CHECK(value("-${a}", "+3") == -3);
+  CHECK(value("2*${a}", "t-1", 3) == 4);
+  CHECK(value("${a}", "1+2") == 3);
+}
+
+TEST_CASE("ParametersInQuantities_FollowArithmetic") {
+  const auto value = [](const std::string& quantity, const std::string& a) {
+    return force_in_x("\"" + quantity + "\"", "  a: \"" + a + "\"\n");
+  };
+  CHECK(value("${a} N", "3") == 3);
+  CHECK(value("${a} kN", "1+2") == 3000);
+  CHECK(value("-${a}", "-3 N") == 3);
+  CHECK(value("-${a}", "3 N") == -3);
+  CHECK(value("10 N-${a}", "-3 N") == 13);
+  CHECK(value("6 N/${a}", "1+2") == 2);
+  CHECK(value("2*${a}", "1 N + 2 N") == 6);
+  CHECK(value("${a}", "1 N + 2 N") == 3);
+  CHECK(value("${a}^2*1 N", "-3") == 9);
+  CHECK(value("5 ${a}", "kN") == 5000);
+}
+
+TEST_CASE("DerivedParameters_CarryTheirUnits") {
+  const std::string parameters =
+      "  D: 50 mm\n  psi: 1e-3\n  c: \"${psi}*${D}/2\"\n  area: \"pi/4*${D}^2\"\n  p: 2 MPa\n  push: \"${p}*${area}\"\n"
+      "  strength: \"${push}/1 N\"\n  nodes: 12\n  twice: \"2*${nodes}\"\n";
+  const double push = 2e6 * std::numbers::pi / 4 * 0.0025, eps = std::numeric_limits<double>::epsilon();
+  CHECK(force_in_x("\"-${push}\"", parameters) == doctest::Approx(-push).epsilon(16 * eps));
+  // Divided by its unit it is a number, and stands in expressions.
+  CHECK(force_in_x("{expression: \"${strength}*t\", unit: N}", parameters, 2) ==
+        doctest::Approx(2 * push).epsilon(16 * eps));
+  const Model model =
+      read_text(with_force_in_x("0 N", parameters), "m.yaml",
+                {"bearings.big_end.radial_clearance=${c}", "bearings.big_end.grid.circumferential=${twice}"});
+  CHECK(model.bearings[0].film.c == doctest::Approx(25e-6).epsilon(8 * eps));
+  CHECK(model.bearings[0].film.grid.n_phi == 24);
+  CHECK(model.parameters[2].text == "0.025 mm");
+}
+
+TEST_CASE("FormulasThatDoNotFit_AreTold") {
+  const auto faults = [](const std::string& force, const std::string& a) {
+    return faults_of(with_force_in_x(force, "  a: \"" + a + "\"\n"));
+  };
+  CHECK(faults("\"2*${a}\"", "3 mm") ==
+        "m.yaml:20:47: forces.push.components.0: a length (mm) (from parameter a in line 4); expected a force, such as "
+        "500 N");
+  CHECK(faults("\"${a}+1 s\"", "3 N").find("(from parameter a in line 4)") != std::string::npos);
+  CHECK(faults("{expression: \"2*${a}*t\", unit: N}", "500 N").find("parameters in expressions are bare numbers") !=
+        std::string::npos);
+  // A number beside a parameter is no number with it.
+  CHECK(faults("\"2${a} N\"", "3") != "");
+  std::string doubling = "  a0: 1\n";
+  for (int i = 1; i < 40; ++i)
+    doubling +=
+        "  a" + std::to_string(i) + ": \"${a" + std::to_string(i - 1) + "} x ${a" + std::to_string(i - 1) + "}\"\n";
+  CHECK(faults_of(with_force_in_x("\"${a39}\"", doubling)).find("longer than 65536") != std::string::npos);
 }
 
 TEST_CASE("FaultyOverrides_AreNamed") {

@@ -31,6 +31,15 @@ const std::string study = R"(study:
     bearings.big_end.radial_clearance: [34 um, 0.068 mm]
 )";
 
+TEST_CASE("ValuesOfOneSlug_GetFilesOfTheirOwn") {
+  const StudyFile file(good_model + "study: {parameters: {load: [5 N, 5 µN, 6 N]}}\n");
+  const std::vector<StudyRun> runs = expand_study(file.path());
+  REQUIRE(runs.size() == 3);
+  CHECK(runs[0].slug == "load_5_N");
+  CHECK(runs[1].slug == "load_5_N-2");
+  CHECK(runs[2].slug == "load_6_N");
+}
+
 TEST_CASE("Study_IsEveryCombination") {
   const StudyFile file(good_model + study);
   const std::vector<StudyRun> runs = expand_study(file.path(), {"speed=2000 rpm"});

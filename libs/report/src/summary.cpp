@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "run_names.h"
+
 namespace hersey::report {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 /// Builds the rows of one file; every method adds a row if the file has the numbers for it.
 class Summary {
  public:
-  explicit Summary(const Reader& reader) : reader_(reader), run_(reader.path().stem().string()) {
+  Summary(const Reader& reader, std::string name) : reader_(reader), run_(std::move(name)) {
     if (reader.has("/time")) time_ = reader.read("/time").values;
     if (reader.has("/crank_angle")) crank_angle_ = reader.read("/crank_angle").values;
   }
@@ -396,12 +398,15 @@ class Summary {
 
 }  // namespace
 
-std::vector<SummaryRow> summarise(const Reader& reader) { return Summary(reader).rows(); }
+std::vector<SummaryRow> summarise(const Reader& reader, const std::string& name) {
+  return Summary(reader, name).rows();
+}
 
 std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& results) {
   std::vector<SummaryRow> rows;
-  for (const auto& path : results) {
-    const std::vector<SummaryRow> more = summarise(Reader(path));
+  const std::vector<std::string> names = run_names(results);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const std::vector<SummaryRow> more = summarise(Reader(results[i]), names[i]);
     rows.insert(rows.end(), more.begin(), more.end());
   }
   return rows;

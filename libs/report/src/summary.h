@@ -7,7 +7,7 @@
 
 namespace hersey::report {
 
-/// The summary of one run; rows whose dataset the file lacks are left out.
-[[nodiscard]] std::vector<SummaryRow> summarise(const results::Reader& reader);
+/// The summary of the run called `name`; rows whose dataset the file lacks are left out.
+[[nodiscard]] std::vector<SummaryRow> summarise(const results::Reader& reader, const std::string& name);
 
 }  // namespace hersey::report

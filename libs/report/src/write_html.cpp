@@ -5,6 +5,7 @@
 #include "hersey/report/report.h"
 #include "page_file.h"
 #include "run_data.h"
+#include "run_names.h"
 #include "summary.h"
 
 namespace hersey::report {
@@ -19,11 +20,13 @@ json page_data(const std::vector<std::filesystem::path>& results, const ReportOp
                       options.field_bytes / results.size()};
   json data;
   data["runs"] = json::array();
-  for (const auto& path : results) {
-    const results::Reader reader(path);
+  const std::vector<std::string> names = run_names(results);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const results::Reader reader(results[i]);
     json run = run_data(reader, budget);
+    run["name"] = names[i];
     run["summary"] = json::array();
-    for (const SummaryRow& row : summarise(reader))
+    for (const SummaryRow& row : summarise(reader, names[i]))
       run["summary"].push_back(
           {{"group", row.group}, {"name", row.name}, {"value", row.value}, {"unit", row.unit}, {"where", row.where}});
     data["runs"].push_back(std::move(run));

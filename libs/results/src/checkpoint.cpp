@@ -20,13 +20,14 @@ constexpr const char* kFormat = "hersey-checkpoint";
 constexpr double kVersion = 1;
 constexpr std::size_t kMemoryStep = std::size_t{1} << 20;
 
-/// HDF5 file in memory: what goes to the disk is written in one piece.
+/// HDF5 file in memory: what goes to the disk is written in one piece. HDF5 tells files in memory apart by their names
+/// and has each open once only, so every one has the name of its own checkpoint. Lives within one session.
 class Image {
  public:
   explicit Image(const std::filesystem::path& path) : path_(path) {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
     H5Pset_fapl_core(access.get(), kMemoryStep, false);
-    file_ = Handle(H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+    file_ = Handle(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
     parents_ = Handle(H5Pcreate(H5P_LINK_CREATE));
     H5Pset_create_intermediate_group(parents_.get(), 1);
     require(file_.valid());
@@ -165,32 +166,42 @@ class Contents {
   Handle file_;
 };
 
-}  // namespace
+/// Where a checkpoint is written until it is whole.
+std::filesystem::path unfinished(std::filesystem::path path) { return path += ".new"; }
 
-void write_checkpoint(const std::filesystem::path& path, const Archive::Content& content) {
-  const Quiet quiet;
+std::vector<char> image_of(const std::filesystem::path& path, const Archive::Content& content) {
+  const Hdf5Session session;
   Image image(path);
   image.add("format", std::string(kFormat));
   image.add("format_version", Archive::Numbers{{}, {kVersion}});
   for (const auto& [name, numbers] : content.numbers) image.add("numbers/" + name, numbers);
   for (const auto& [name, text] : content.texts) image.add("texts/" + name, text);
-  const std::vector<char> bytes = image.bytes();
+  return image.bytes();
+}
 
-  const std::string seal = seal_of(bytes);
-  std::filesystem::path unfinished = path;
-  unfinished += ".new";
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const Archive::Content& content) {
+  const std::vector<char> bytes = image_of(path, content);
   const auto fail = [&] {
     throw WriteError(path, std::string("cannot write the checkpoint: ") + std::strerror(errno));
   };
-  const File file(unfinished, O_WRONLY | O_CREAT | O_TRUNC);
+  const std::string seal = seal_of(bytes);
+  const File file(unfinished(path), O_WRONLY | O_CREAT | O_TRUNC);
   if (!file.is_open() || !file.write(bytes) || !file.write(seal) || !file.sync()) fail();
-  if (::rename(unfinished.c_str(), path.c_str()) != 0) fail();
+  if (::rename(unfinished(path).c_str(), path.c_str()) != 0) fail();
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (const File parent(folder, O_RDONLY | O_DIRECTORY); !parent.is_open() || !parent.sync()) fail();
 }
 
+void remove_checkpoint(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  std::filesystem::remove(unfinished(path), ignored);
+}
+
 Archive::Content read_checkpoint(const std::filesystem::path& path) {
-  const Quiet quiet;
+  const Hdf5Session session;
   const Contents contents(path);
   Archive::Content content;
   for (const char* group : {"numbers", "texts"})

@@ -2,7 +2,10 @@
 
 #include <hdf5.h>
 
+#include <mutex>
 #include <utility>
+
+#include "hersey/core/hdf5_lock.h"
 
 namespace hersey::results {
 
@@ -29,6 +32,7 @@ class Handle {
   /// @returns false if HDF5 could not close the object in order.
   bool reset() {
     if (id_ < 0) return true;
+    const std::scoped_lock lock(hdf5_lock());
     const hid_t id = std::exchange(id_, H5I_INVALID_HID);
     return H5Idec_ref(id) >= 0;
   }
@@ -37,18 +41,20 @@ class Handle {
   hid_t id_ = H5I_INVALID_HID;
 };
 
-/// While it lives, HDF5 prints no error stacks in this thread: failures are told by exceptions, once.
-class Quiet {
+/// Opens a stretch of calls of HDF5: while it lives this thread alone uses the library, and no error stacks are
+/// printed, for failures are told by exceptions, once.
+class Hdf5Session {
  public:
-  Quiet() {
+  Hdf5Session() : lock_(hdf5_lock()) {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  Hdf5Session(const Hdf5Session&) = delete;
+  Hdf5Session& operator=(const Hdf5Session&) = delete;
+  ~Hdf5Session() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 
  private:
+  std::scoped_lock<std::recursive_mutex> lock_;
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };

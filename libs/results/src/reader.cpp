@@ -166,7 +166,7 @@ struct Reader::Impl {
 };
 
 Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->path = std::move(path);
   impl_->open();
   if (text_attribute("/", "format") != "hersey-results") impl_->fail("HDF5, but not a results file of hersey");
@@ -180,7 +180,7 @@ Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
 Reader::~Reader() = default;
 
 bool Reader::has(std::string_view path) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   return impl_->exists(absolute(path));
 }
 
@@ -189,7 +189,7 @@ const std::vector<std::string>& Reader::groups() const { return impl_->groups; }
 const std::vector<std::string>& Reader::datasets() const { return impl_->datasets; }
 
 std::vector<std::string> Reader::children(std::string_view group) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   std::vector<std::string> names;
   const std::string name = absolute(group);
   if (!impl_->exists(name)) return names;
@@ -199,7 +199,7 @@ std::vector<std::string> Reader::children(std::string_view group) const {
 }
 
 std::vector<std::string> Reader::attributes(std::string_view object) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   std::vector<std::string> names;
   const std::string name = absolute(object);
   if (!impl_->exists(name)) return names;
@@ -209,7 +209,7 @@ std::vector<std::string> Reader::attributes(std::string_view object) const {
 }
 
 std::optional<std::string> Reader::text_attribute(std::string_view object, std::string_view name) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   const Handle attribute = impl_->attribute(object, name);
   if (!attribute.valid()) return std::nullopt;
   const Handle space(H5Aget_space(attribute.get()));
@@ -219,7 +219,7 @@ std::optional<std::string> Reader::text_attribute(std::string_view object, std::
 }
 
 std::optional<double> Reader::number_attribute(std::string_view object, std::string_view name) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   const Handle attribute = impl_->attribute(object, name);
   if (!attribute.valid()) return std::nullopt;
   const Handle type(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
@@ -231,13 +231,13 @@ std::optional<double> Reader::number_attribute(std::string_view object, std::str
 }
 
 std::vector<std::string> Reader::list_attribute(std::string_view object, std::string_view name) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   const Handle attribute = impl_->attribute(object, name);
   return attribute.valid() ? impl_->texts(attribute.get()) : std::vector<std::string>{};
 }
 
 DatasetInfo Reader::info(std::string_view path) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   const std::string name = absolute(path);
   const Handle dataset = impl_->dataset(name);
   const Handle space(H5Dget_space(dataset.get()));
@@ -247,7 +247,7 @@ DatasetInfo Reader::info(std::string_view path) const {
 Array Reader::read(std::string_view path) const { return read_rows(path, 0, std::numeric_limits<std::size_t>::max()); }
 
 Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t count, std::size_t stride) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   const std::string name = absolute(path);
   const Handle dataset = impl_->dataset(name);
   const Handle type(H5Dget_type(dataset.get())), space(H5Dget_space(dataset.get()));
@@ -275,7 +275,7 @@ Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t co
 }
 
 std::string Reader::text(std::string_view path) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   const std::string name = absolute(path);
   std::vector<std::string> texts = impl_->dataset_texts(name);
   if (texts.size() != 1) impl_->fail(name + " is not a single text");
@@ -283,7 +283,7 @@ std::string Reader::text(std::string_view path) const {
 }
 
 std::vector<std::pair<std::string, std::string>> Reader::text_table(std::string_view path) const {
-  const Quiet quiet;
+  const Hdf5Session session;
   std::vector<std::string> texts = impl_->dataset_texts(absolute(path));
   std::vector<std::pair<std::string, std::string>> rows;
   for (std::size_t i = 0; i + 1 < texts.size(); i += 2) rows.emplace_back(std::move(texts[i]), std::move(texts[i + 1]));

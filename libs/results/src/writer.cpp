@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
 
@@ -208,6 +209,15 @@ struct Writer::Impl {
     last_flush = Clock::now();
   }
 
+  /// Puts what is flushed onto the disk.
+  void sync() {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool synced = fd >= 0 && (::fsync(fd) == 0 || errno == EINVAL);
+    const std::string reason = std::strerror(errno);
+    if (fd >= 0) ::close(fd);
+    require(synced, reason);
+  }
+
   void close() {
     growing.clear();
     const bool good = file.reset();
@@ -215,8 +225,9 @@ struct Writer::Impl {
   }
 };
 
-Writer::Writer(std::filesystem::path path, Options options) : impl_(std::make_unique<Impl>()) {
-  const Quiet quiet;
+Writer::Writer(std::filesystem::path path, Options options) {
+  const Hdf5Session session;
+  impl_ = std::make_unique<Impl>();
   impl_->path = std::move(path);
   impl_->options = options;
   impl_->open();
@@ -237,27 +248,27 @@ Writer::~Writer() {
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, std::string_view text) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   impl_->set_text(impl_->open_or_make(absolute(object)).get(), name, text);
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, double value) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   const Handle target = impl_->open_or_make(absolute(object));
   impl_->set_attribute(target.get(), name, H5T_NATIVE_DOUBLE, impl_->scalar.get(), &value);
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, int value) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   const Handle target = impl_->open_or_make(absolute(object));
   impl_->set_attribute(target.get(), name, H5T_NATIVE_INT, impl_->scalar.get(), &value);
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, const std::vector<std::string>& texts) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   std::vector<const char*> pointers;
   pointers.reserve(texts.size());
@@ -269,7 +280,7 @@ void Writer::attribute(std::string_view object, std::string_view name, const std
 }
 
 void Writer::text(std::string_view path, std::string_view content, std::string_view description) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   const Handle dataset =
       impl_->make_dataset(path, impl_->text.get(), impl_->scalar.get(), H5P_DEFAULT, H5P_DEFAULT, "1", description);
@@ -281,7 +292,7 @@ void Writer::text(std::string_view path, std::string_view content, std::string_v
 
 void Writer::text_table(std::string_view path, const std::vector<std::pair<std::string, std::string>>& rows,
                         std::string_view description) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   std::vector<const char*> pointers;
   for (const auto& [name, content] : rows) pointers.insert(pointers.end(), {name.c_str(), content.c_str()});
@@ -296,7 +307,7 @@ void Writer::text_table(std::string_view path, const std::vector<std::pair<std::
 
 void Writer::constant(std::string_view path, std::span<const double> values, std::string_view unit,
                       std::string_view description) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(!values.empty(), "a constant has numbers");
   const hsize_t n = values.size();
@@ -309,7 +320,7 @@ void Writer::constant(std::string_view path, std::span<const double> values, std
 
 Series Writer::series(std::string_view path, int columns, std::string_view unit, std::string_view description,
                       Precision precision) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(columns >= 1, "a row has numbers");
   std::vector<hsize_t> row;
@@ -319,7 +330,7 @@ Series Writer::series(std::string_view path, int columns, std::string_view unit,
 
 Series Writer::field(std::string_view path, std::array<int, 2> shape, std::string_view unit,
                      std::string_view description) {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(shape[0] >= 1 && shape[1] >= 1, "a row has numbers");
   const std::vector<hsize_t> row{static_cast<hsize_t>(shape[0]), static_cast<hsize_t>(shape[1])};
@@ -335,7 +346,7 @@ void Series::append(std::span<const double> row) const {
                  fmt::format("a row of {} numbers was given, {} are due", row.size(), entry.width));
   entry.waiting.insert(entry.waiting.end(), row.begin(), row.end());
   if (entry.waiting.size() < waiting_numbers) return;
-  const Quiet quiet;
+  const Hdf5Session session;
   impl.drain(entry);
 }
 
@@ -346,12 +357,7 @@ std::size_t Series::width() const {
 
 std::vector<std::pair<std::string, std::size_t>> Writer::rows() {
   flush();
-  const Quiet quiet;
-  const int fd = ::open(impl_->path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool synced = fd >= 0 && (::fsync(fd) == 0 || errno == EINVAL);
-  const std::string reason = std::strerror(errno);
-  if (fd >= 0) ::close(fd);
-  impl_->require(synced, reason);
+  impl_->sync();
   std::vector<std::pair<std::string, std::size_t>> rows;
   rows.reserve(impl_->growing.size());
   for (const Growing& entry : impl_->growing) rows.emplace_back(entry.name, entry.shape[0]);
@@ -371,22 +377,33 @@ void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::stri
       Array part = from.read_rows(name, first, size);
       if (part.values.size() != size * entry.width) throw ReadError(from.path(), "it lacks rows of " + name);
       entry.waiting = std::move(part.values);
-      const Quiet quiet;
+      const Hdf5Session session;
       impl_->drain(entry);
     }
   }
   flush();
 }
 
-void Writer::rename(const std::filesystem::path& path) {
+void Writer::rename(const std::filesystem::path& path, bool replace) {
   impl_->require_open();
-  const bool renamed = ::rename(impl_->path.c_str(), path.c_str()) == 0;
+  impl_->sync();
+  bool renamed = false;
+  if (replace) {
+    renamed = ::rename(impl_->path.c_str(), path.c_str()) == 0;
+  } else {
+    renamed = ::renameat2(AT_FDCWD, impl_->path.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0;
+    if (!renamed && errno == EEXIST) throw FileExists(path);
+    if (!renamed && errno == EINVAL) {  // a file system without this flag
+      if (std::filesystem::exists(path)) throw FileExists(path);
+      renamed = ::rename(impl_->path.c_str(), path.c_str()) == 0;
+    }
+  }
   impl_->require(renamed, std::strerror(errno));
   impl_->path = path;
 }
 
 void Writer::flush() {
-  const Quiet quiet;
+  const Hdf5Session session;
   impl_->require_open();
   impl_->flush();
 }
@@ -398,7 +415,7 @@ void Writer::flush_if_due() {
 
 void Writer::finish(Status status, std::string_view message) {
   if (!impl_->file.valid()) return;
-  const Quiet quiet;
+  const Hdf5Session session;
   const bool failed_before = impl_->status.failed;
   if (!failed_before) {
     try {

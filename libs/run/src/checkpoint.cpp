@@ -11,6 +11,7 @@
 
 #include "hersey/core/input_error.h"
 #include "hersey/core/version.h"
+#include "hersey/results/checkpoint.h"
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/run/simulate.h"
@@ -105,7 +106,8 @@ void require_identity(const Archive::Content& stored, const model::Model& model,
 
 bool is_complete(const model::Model& model, const std::filesystem::path& results) {
   const results::Reader reader(results);
-  require_same_text(reader.has("/model") ? reader.text("/model") : "", model);
+  if (!reader.has("/model")) return false;  // killed before it was written: nothing that could be of another model
+  require_same_text(reader.text("/model"), model);
   return reader.text_attribute("/", "status") == results::to_string(results::Status::completed);
 }
 
@@ -116,10 +118,7 @@ bool has_results(const std::filesystem::path& results) {
   return std::any_of(first.begin(), first.end(), [](char byte) { return byte != 0; });
 }
 
-void discard_checkpoint(const std::filesystem::path& results) {
-  std::error_code ignored;
-  std::filesystem::remove(checkpoint_file(results), ignored);
-}
+void discard_checkpoint(const std::filesystem::path& results) { results::remove_checkpoint(checkpoint_file(results)); }
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& results) {
   std::filesystem::path path = results;

@@ -43,16 +43,27 @@ bool is_rotational(const mbd::JointSpec& joint, int value) {
 
 std::filesystem::path unfinished_file(const std::filesystem::path& results) {
   std::filesystem::path path = results;
-  path += ".resuming";
+  path += ".unfinished";
   return path;
 }
+
+namespace {
+
+/// The file to write. Results appear under their own name when all that is written before the first step is in them,
+/// so that whoever finds them finds the model; until then those that they replace stay.
+std::filesystem::path new_file(const Options& options, bool resumes) {
+  if (!resumes && !options.overwrite && std::filesystem::exists(options.results))
+    throw results::FileExists(options.results);
+  return unfinished_file(options.results);
+}
+
+}  // namespace
 
 Recorder::Recorder(const model::Model& model, const model::Machine& machine, const solver::State& start,
                    const Options& options, bool resumes)
     : model_(model),
       machine_(machine),
-      writer_(resumes ? unfinished_file(options.results) : options.results,
-              {.overwrite = resumes || options.overwrite}),
+      writer_(new_file(options, resumes), {.overwrite = true}),
       cycles_(model, machine, writer_) {
   hide_inner_nodes();
   declare_run(start, options);
@@ -66,6 +77,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
   write_geometry(model, machine.mechanism->spec(), hidden_joints_, writer_);
   if (model.simulation.analysis == model::Analysis::modes) declare_modes();
   writer_.flush();
+  if (!resumes) writer_.rename(options.results, options.overwrite);
 }
 
 void Recorder::declare_run(const solver::State& start, const Options& options) {

@@ -264,17 +264,21 @@ class Simulation {
   Summary summary_;
 };
 
-Summary resume_from(Archive::Content checkpoint, const model::Model& model, const Options& options) {
-  std::string warning;
-  require_identity(checkpoint, model, checkpoint_file(options.results), warning);
-  Summary summary;
+// What could not begin leaves nothing behind.
+Summary simulate_from(std::optional<Archive::Content> checkpoint, const model::Model& model, const Options& options) {
   try {
-    summary = Simulation(model, options, std::move(checkpoint)).run();
+    return Simulation(model, options, std::move(checkpoint)).run();
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(unfinished_file(options.results), ignored);
     throw;
   }
+}
+
+Summary resume_from(Archive::Content checkpoint, const model::Model& model, const Options& options) {
+  std::string warning;
+  require_identity(checkpoint, model, checkpoint_file(options.results), warning);
+  Summary summary = simulate_from(std::move(checkpoint), model, options);
   summary.warning = warning;
   return summary;
 }
@@ -322,7 +326,7 @@ Summary simulate(const model::Model& model, const Options& options) {
   if (options.resume) return resume(model, options);
   // A checkpoint of results that are about to be replaced.
   if (options.overwrite || !std::filesystem::exists(options.results)) discard_checkpoint(options.results);
-  return Simulation(model, options, std::nullopt).run();
+  return simulate_from(std::nullopt, model, options);
 }
 
 }  // namespace hersey::run

@@ -10,6 +10,7 @@
 #include "hersey/model/read.h"
 #include "hersey/results/checkpoint.h"
 #include "hersey/results/reader.h"
+#include "hersey/results/writer.h"
 #include "hersey/run/simulate.h"
 #include "small_bar.h"
 #include "small_rig.h"
@@ -265,7 +266,7 @@ TEST_CASE("DamagedFiles_AreTold") {
   CHECK_THROWS_WITH_AS(resume(), doctest::Contains("it lacks rows of "), results::ReadError);
   std::ofstream(checkpoint) << "nonsense";
   CHECK_THROWS_WITH_AS(resume(), doctest::Contains("not a checkpoint"), results::ReadError);
-  CHECK_FALSE(std::filesystem::exists(results.string() + ".resuming"));
+  CHECK_FALSE(std::filesystem::exists(results.string() + ".unfinished"));
 
   // What was there is still good.
   results::write_checkpoint(checkpoint, good);
@@ -283,6 +284,45 @@ TEST_CASE("OtherProgramVersion_IsAWarning") {
   const Summary summary = simulate(rig(), {.results = results, .resume = true});
   CHECK(summary.status == Status::completed);
   CHECK(summary.warning.find("was written by hersey 0.0.1") != std::string::npos);
+}
+
+TEST_CASE("KilledBeforeItsModelWasWritten_BeginsAnew") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5";
+  results::Writer(results, {}).finish(results::Status::running);  // as far as a program came that was killed then
+  const Summary summary = simulate(rig(), {.results = results, .resume = true});
+  CHECK(summary.status == Status::completed);
+  CHECK(summary.warning.find("began anew") != std::string::npos);
+  CHECK(results::Reader(results).text("/model") == kSmallRig);
+}
+
+TEST_CASE("CompleteRun_LeavesNoPieceOfACheckpoint") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5";
+  REQUIRE(run_for(rig(), results, 5, false).status == Status::stopped);
+  std::ofstream(checkpoint_file(results).string() + ".new") << "as far as it came";  // killed while it wrote another
+  REQUIRE(simulate(rig(), {.results = results, .resume = true}).status == Status::completed);
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(results.parent_path()))
+    left.push_back(entry.path().filename().string());
+  CHECK(left == std::vector<std::string>{"run.h5"});
+}
+
+TEST_CASE("ResultsAppear_WithTheirModel") {
+  const TemporaryDirectory scratch;
+  const std::filesystem::path results = scratch / "run.h5";
+  std::ofstream(results) << "those of before";
+  CHECK_THROWS_AS((void)simulate(rig(), {.results = results}), results::FileExists);
+  CHECK_FALSE(std::filesystem::exists(results.string() + ".unfinished"));
+  CHECK(std::filesystem::file_size(results) == 15);
+  Options options{.results = results, .overwrite = true};
+  bool is_there = false;
+  options.on_progress = [&](const Progress&) {
+    is_there = is_there || results::Reader(results).has("/model");
+    CHECK_FALSE(std::filesystem::exists(results.string() + ".unfinished"));
+  };
+  REQUIRE(simulate(rig(), options).status == Status::completed);
+  CHECK(is_there);
 }
 
 TEST_CASE("NothingToGoOnFrom_BeginsAnewOrIsDone") {

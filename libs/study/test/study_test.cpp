@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -47,6 +48,35 @@ TEST_CASE("RunsAtTheSameTime_GiveTheNumbersOfRunsAlone") {
     CHECK(together[i].summary.bearings[0].eccentricity_ratio == alone.bearings[0].eccentricity_ratio);
     const results::Reader reader(together[i].summary.results);
     CHECK(reader.list_attribute("/", "study_parameters").size() == 2);
+  }
+}
+
+TEST_CASE("RunsAtTheSameTime_WriteTheirCheckpoints") {
+  const StudyFolder folder;
+  std::vector<model::StudyRun> runs = model::expand_study(folder.model(), {"simulation.checkpoint={every: 0.1 ms}"});
+  REQUIRE(runs.size() == 4);
+  // Interrupted together in the middle: each leaves a checkpoint, from which it goes on.
+  std::atomic<bool> stop = false;
+  Options options{.directory = folder.path(), .threads = 4, .stop = &stop};
+  options.on_progress = [&](std::size_t, const run::Progress& progress) { stop = stop || progress.t > 1e-3; };
+  for (const RunResult& result : simulate_all(folder.model(), runs, options)) {
+    CAPTURE(result.error + result.summary.message);
+    CHECK(result.error.empty());
+    CHECK(result.summary.status == run::Status::stopped);
+    CHECK(std::filesystem::exists(run::checkpoint_file(result.summary.results)));
+  }
+  options.resume = true;
+  options.stop = nullptr;
+  const auto resumed = simulate_all(folder.model(), runs, options);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    CAPTURE(runs[i].label);
+    REQUIRE(resumed[i].error.empty());
+    const std::filesystem::path alone = folder.path() / ("alone" + std::to_string(i) + ".h5");
+    REQUIRE(run::simulate(model::read(folder.model(), runs[i].overrides), {.results = alone}).status ==
+            run::Status::completed);
+    const results::Reader one(alone), other(resumed[i].summary.results);
+    for (const char* name : {"/time", "/bearings/main/h_min", "/bearings/main/p_max", "/bodies/shaft/position"})
+      CHECK(one.read(name).values == other.read(name).values);
   }
 }
 

@@ -9,7 +9,7 @@ namespace hersey::report {
 
 /// One line of the closing table: a number in the units engineers use, and where or when it occurred.
 struct SummaryRow {
-  std::string run;    ///< name of the results file without extension
+  std::string run;    ///< by file or folder, different for each run of a table
   std::string group;  ///< name of a bearing, "contact NAME", "modes", "cycles", "run" or "computing"
   std::string name;   ///< e.g. "minimum film thickness (MOFT)"
   double value = 0;   ///< in `unit`

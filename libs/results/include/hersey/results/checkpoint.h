@@ -13,6 +13,9 @@ namespace hersey::results {
 /// @throws WriteError. @verified_by checkpoint_test.cpp
 void write_checkpoint(const std::filesystem::path& path, const Archive::Content& content);
 
+/// Removes a checkpoint, if there is one, and what a program killed while it wrote one has left of it.
+void remove_checkpoint(const std::filesystem::path& path);
+
 /// @throws ReadError if the file is missing or not a checkpoint that this version understands.
 [[nodiscard]] Archive::Content read_checkpoint(const std::filesystem::path& path);
 

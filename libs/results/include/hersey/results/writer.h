@@ -119,8 +119,9 @@ class Writer {
   /// @throws ReadError where that file has fewer rows, or other series.
   void copy_rows(const Reader& from, const std::vector<std::pair<std::string, std::size_t>>& rows);
 
-  /// Renames the file, which goes on growing; a file of that name is replaced.
-  void rename(const std::filesystem::path& path);
+  /// Puts what is flushed onto the disk and renames the file, which goes on growing.
+  /// @throws FileExists if there is a file of that name that is not to be replaced.
+  void rename(const std::filesystem::path& path, bool replace = true);
 
   void flush();  ///< puts all rows so far into the file
   void

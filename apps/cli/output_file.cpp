@@ -1,0 +1,47 @@
+#include "output_file.h"
+
+#include <map>
+
+#include "hersey/core/input_error.h"
+
+namespace hersey::cli {
+namespace {
+
+/// The place of a file, links followed, that need not be there yet.
+std::filesystem::path place_of(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::path place = std::filesystem::weakly_canonical(file, error);
+  return error ? file : place;
+}
+
+}  // namespace
+
+void require_separate(const std::vector<OutputFile>& outputs, const std::vector<std::filesystem::path>& inputs) {
+  std::vector<Fault> faults;
+  std::map<std::filesystem::path, std::string> written;
+  for (const auto& [option, path] : outputs) {
+    std::error_code missing;
+    const std::filesystem::file_status status = std::filesystem::status(path, missing);
+    const bool is_device = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+    if (path.empty() || is_device) continue;  // /dev/null takes everything
+    const auto refuse = [&, &option = option, &path = path](const std::string& other) {
+      faults.push_back({{"", 0, 0}, option, "'" + path.string() + "', which is " + other, "a file of its own", ""});
+    };
+    for (const std::filesystem::path& input : inputs) {
+      // By its number on the disk: hard links are one file at two places.
+      if (std::filesystem::equivalent(path, input, missing)) refuse("read as '" + input.string() + "'");
+    }
+    const auto [other, is_new] = written.try_emplace(place_of(path), option);
+    if (!is_new) refuse("written by " + other->second + " too");
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+std::vector<std::filesystem::path> files_of(const model::Model& model) {
+  const std::filesystem::path file = model.file;
+  std::vector<std::filesystem::path> files{file};
+  for (const auto& [name, digest] : model.files) files.push_back(file.parent_path() / name);
+  return files;
+}
+
+}  // namespace hersey::cli

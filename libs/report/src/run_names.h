@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hersey::report {
+
+/// What to call the runs of these results files: each by its file, or by its folder where the file has the name that
+/// every run's has (results.h5); with as many folders before it as tell it from the others, "monday/rigid" and
+/// "tuesday/rigid". A file that is given twice gets a number.
+/// @returns a name each, all of them different.
+[[nodiscard]] std::vector<std::string> run_names(const std::vector<std::filesystem::path>& results);
+
+}  // namespace hersey::report
