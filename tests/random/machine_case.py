@@ -1,0 +1,2 @@
+def examine(program, rng, folder):
+    return "answer", "", [], {}
