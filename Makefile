@@ -35,11 +35,12 @@ validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
 
-fuzz:  ## feeds the readers of models and meshes with mutated files for TIME=60, address and undefined-behaviour checks on
-	@scripts/setup build fuzz
+fuzz: program  ## feeds the readers of models and meshes with mutated files for TIME=60 and the program with random models for as long
+	@scripts/setup build fuzz test
 	@$(MAKE) --no-print-directory PRESET=fuzz build/fuzz/build.ninja
 	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target model_read_fuzz fem_mesh_gmsh_fuzz fem_mesh_abaqus_fuzz fem_mesh_nastran_fuzz -j $(JOBS)
 	@scripts/fuzz build/fuzz $(TIME)
+	@tests/random/random_models.py $(BUILD)/hersey --time $(TIME) --jobs $(JOBS) --output build/random-models
 
 web:  ## rebuilds the report's front end (needs Node; the C++ build does not)
 	@scripts/web build

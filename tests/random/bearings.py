@@ -356,9 +356,23 @@ def random_bearing(rng, grids, is_plain=False):
         if law:
             b.viscosity_law = (law, rounded(log_uniform(rng, 1e-9, 2e-8)) if law == "barus" else rounded(rng.uniform(0.3, 0.7)))
         b.is_compressible = rng.random() < 0.2
+    if rng.random() < 0.9:
+        share_one_pressure(b)
     if is_starved(b):
         b.supply = ("widest_gap", rounded(max(b.p_cav, 0) + 1e5))
     return b
+
+
+def share_one_pressure(b):
+    """One oil gallery feeds line and features: places of different pressures that overlap have an unlimited flow."""
+    fed = [f for f in b.features if f.pressure is not None]
+    if not fed:
+        return
+    pressure = b.supply[1] if b.supply else fed[0].pressure
+    for f in fed:
+        f.pressure = pressure
+        if f.length > 0.9 * b.L and pressure not in b.p_edge:
+            f.length, f.z = rounded(0.8 * b.L), 0.0
 
 
 def reservoirs_touch(b):

@@ -99,9 +99,9 @@ def refine(case, coarse, runs, found):
     # a bearing's own flow and load, where those at hand are nothing
     flow = 0.02 * abs(case.journal_speed) * b.R * b.c * b.L
     load = 1e-3 * max(abs(finest.p).max(), 1e3) * b.R * b.L
-    figures = [("load", load), ("power_film", 0.0)]
+    figures = [("load", load)]
     if not reservoirs_touch(b):
-        figures += [("side_flow", flow), ("flow_supply", flow)]
+        figures += [("power_film", 0.0), ("side_flow", flow), ("flow_supply", flow)]
     for key, floor in figures:
         values = [answer[key] for answer in (coarse, fine, finest)]
         first, second = abs(values[1] - values[0]), abs(values[2] - values[1])
