@@ -75,6 +75,7 @@ def compare(machine, one, ending, other, label, invariant, symmetry, found):
     for name, b in machine.named_bearings().items():
         rows, others = one.films[name].rows, other.films[name].rows
         power, flow = rows["power_film"].max(), max(np.abs(rows[k]).max() for k in ("flow_left", "flow_right", "flow_supply"))
+        flow = max(flow, 1e-6 * abs(machine.speed) * b.R * b.c * b.L)
         scales = {"h_min": b.c, "p_max": rows["p_max"].max(), "power_film": power, "flow_left": flow, "flow_right": flow,
                   "flow_supply": flow, "oil_volume": rows["oil_volume"].max()}
         swapped = {"flow_left": "flow_right", "flow_right": "flow_left"} if symmetry.flip_z else {}

@@ -271,9 +271,10 @@ class Powers:
         highest = float((mu / np.maximum(h, 1e-9)).mean()) * slip**2
         self.error += sum(highest * border_area(g, b, f) for g in b.features if g.depth > 0)
         self.told, self.asperity = r["power_film"][row], r["power_asperity"][row]
-        # The wrench on the shell times the journal's velocity against it is what the bodies put in.
-        force, moment = r["force"][row], r["moment"][row]
-        self.mechanical = float(force[:2] @ motion.e_rate[row] + moment[2] * motion.speed[row])
+        # The wrench on the shell times the journal's velocity against it, both at the bearing's origin, is what the bodies put in.
+        force, moment, e = r["force"][row], r["moment"][row], motion.e[row]
+        velocity = motion.e_rate[row] + motion.speed[row] * np.array([e[1], -e[0]])
+        self.mechanical = float(force[:2] @ velocity + moment[2] * motion.speed[row])
         self.pumped = pumped(b, r, row)
         self.stored, self.stored_error = storage(b, results, f, k, row, motion)
 
