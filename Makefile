@@ -9,7 +9,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help program demo test bench validate fuzz web web-check web-test docs format lint install clean
+.PHONY: help program demo test bench validate fuzz random-models web web-check web-test docs format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -35,12 +35,11 @@ validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
 
-fuzz: program  ## feeds the readers of models and meshes with mutated files for TIME=60 and the program with random models for as long
-	@scripts/setup build fuzz test
+fuzz:  ## feeds the readers of models and meshes with mutated files for TIME=60, address and undefined-behaviour checks on
+	@scripts/setup build fuzz
 	@$(MAKE) --no-print-directory PRESET=fuzz build/fuzz/build.ninja
 	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target model_read_fuzz fem_mesh_gmsh_fuzz fem_mesh_abaqus_fuzz fem_mesh_nastran_fuzz -j $(JOBS)
 	@scripts/fuzz build/fuzz $(TIME)
-	@tests/random/random_models.py $(BUILD)/hersey --time $(TIME) --jobs $(JOBS) --output build/random-models
 
 web:  ## rebuilds the report's front end (needs Node; the C++ build does not)
 	@scripts/web build
@@ -70,6 +69,12 @@ install: program  ## installs program, libraries and headers below PREFIX
 
 clean:  ## removes everything built
 	@rm -rf build
+
+random-models: program  ## tries as many random models as TIME=60 allows, every invariant checked; part of fuzz (SEED=n: the same again)
+	@scripts/setup test
+	@tests/random/random_models.py $(BUILD)/hersey --time $(TIME) --jobs $(JOBS) $(if $(SEED),--seed $(SEED)) --output build/random-models
+
+fuzz: random-models
 
 # Configured once; afterwards the build itself notices changed CMake files.
 $(BUILD)/build.ninja: CMakePresets.json

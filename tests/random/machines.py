@@ -155,9 +155,9 @@ def random_numerics(rng, speed, steps):
 
 def random_coupling(rng):
     kind = rng.random()
-    if kind < 0.7:
+    if kind < 0.85:
         return None
-    return {"scheme": "partitioned", "acceleration": rng.choice(["quasi_newton", "quasi_newton", "aitken"])}
+    return {"scheme": "partitioned", "acceleration": rng.choice(["quasi_newton"] * 4 + ["aitken"])}
 
 
 def machine_bearing(rng, speed):
@@ -193,7 +193,7 @@ def random_rotor(rng):
     return Rotor(mass, (rounded(mass * (2 * width) ** 2), zz), speed, heights, films, loads, gravity,
                  (rounded(far * math.cos(at)), rounded(far * math.sin(at))),
                  (rounded(rate * rng.uniform(-1, 1)), rounded(rate * rng.uniform(-1, 1))),
-                 rounded(rng.uniform(-PI, PI)), random_numerics(rng, speed, rng.choice([20, 30, 40])))
+                 rounded(rng.uniform(-PI, PI)), random_numerics(rng, speed, rng.choice([10, 15, 25])))
 
 
 def soften(b, pressure):
@@ -318,7 +318,7 @@ def random_slider_crank(rng):
     for b in (big_end, main):
         if b:
             soften(b, 10 * size / (2 * b.R * b.L))
-    numerics = random_numerics(rng, speed, rng.choice([20, 30, 40]))
+    numerics = random_numerics(rng, speed, rng.choice([10, 15, 25]))
     if not main and numerics.kind == "time" and rng.random() < 0.5:
         numerics.kind = "angle"
     gravity = (0.0, -9.81) if rng.random() < 0.5 else (0.0, 0.0)
