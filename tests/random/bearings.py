@@ -112,6 +112,7 @@ class Bearing:
     shear_force: str = "full"
     refine: list = field(default_factory=list)
     solver: str = "newton"
+    pressures: str = "gauge"
     coupling: dict | None = None
 
     # -- what it is in a model file
@@ -150,7 +151,7 @@ class Bearing:
         if self.column:
             entry["compliance"] = {"model": "column", "composite_modulus": f"{number(1e-9 * self.column[0])} GPa",
                                    "length": mm(self.column[1])}
-        for key, default in (("cavitated_shear", "film_share"), ("shear_force", "full"), ("solver", "newton")):
+        for key, default in (("cavitated_shear", "film_share"), ("shear_force", "full"), ("solver", "newton"), ("pressures", "gauge")):
             if getattr(self, key) != default:
                 entry[key] = getattr(self, key)
         if self.coupling:
@@ -314,7 +315,8 @@ def add_profiles(rng, b):
 
 def add_feed(rng, b):
     """Pressures at cavitation, edges and supply so that oil can come in, sometimes by the edges alone."""
-    b.p_cav = rng.choice([0.0, 0.0, -5e4, 2e4])
+    b.pressures = rng.choice(["gauge"] * 7 + ["absolute"])
+    b.p_cav = rng.choice([0.0, 0.0, -5e4, 2e4]) if b.pressures == "gauge" else rng.choice([0.0, 1.01325e5])
     edge = b.p_cav if rng.random() < 0.4 else b.p_cav + rounded(rng.uniform(1e4, 3e5))
     b.p_edge = (edge, edge) if rng.random() < 0.7 else (edge, b.p_cav + rounded(rng.uniform(0, 2e5)))
     if rng.random() < 0.3 and b.cavitation == "mass_conserving" and min(b.p_edge) <= b.p_cav:
