@@ -173,6 +173,19 @@ class Bearing:
             gap = gap + profile.opening(phi, z, self.L, turn)
         return gap
 
+    def oil_gap(self, h, land, phi, z, turn=0.0):
+        """The gap whose oil counts as the film's: what fills the depth of a fed feature is the supply's."""
+        fed = np.zeros(h.shape, bool)
+        for f in self.features:
+            if f.pressure is not None and f.depth > 0:
+                fed |= f.covers(phi, z, turn)
+        return np.where(fed, land, h)
+
+    def fed_pressures(self):
+        """Of edges, line and features [Pa]."""
+        line = [self.supply[1]] if self.supply else []
+        return [*self.p_edge, *line, *(f.pressure for f in self.features if f.pressure is not None)]
+
     def deepest(self):
         return sum(f.depth for f in self.features)
 
@@ -282,7 +295,7 @@ def random_feature(rng, b, name):
     depth = rng.choice([0.0, rng.uniform(0.2, 3) * b.c, log_uniform(rng, 5e-5, 1e-3)])
     if not is_fed and depth == 0:
         depth = rng.uniform(0.2, 3) * b.c
-    pressure = rounded(max(b.p_cav, 0) + log_uniform(rng, 1e4, 5e5)) if is_fed else None
+    pressure = max(b.p_cav, 0) + rounded(log_uniform(rng, 1e4, 5e5)) if is_fed else None
     on = rng.choice(["shell", "shell", "journal"])
     return Feature(name, kind, on, rounded(rng.uniform(-PI, PI)), rounded(z), rounded(arc) if arc < 2 * PI else 2 * PI,
                    rounded(length) if length < b.L else b.L, pressure, rounded(depth))
@@ -324,7 +337,7 @@ def add_feed(rng, b):
         b.ambient = tuple(rounded(rng.random(), 2) if p <= b.p_cav else 1.0 for p in b.p_edge)
     if rng.random() < 0.55:
         line = "widest_gap" if rng.random() < 0.5 else rounded(rng.uniform(-PI, PI))
-        b.supply = (line, rounded(max(b.p_cav, 0) + rng.choice([0.0, rng.uniform(1e4, 5e5)])))
+        b.supply = (line, max(b.p_cav, 0) + rounded(rng.choice([0.0, rng.uniform(1e4, 5e5)])))
 
 
 def add_surfaces(rng, b):
@@ -361,7 +374,7 @@ def random_bearing(rng, grids, is_plain=False):
     if rng.random() < 0.9:
         share_one_pressure(b)
     if is_starved(b):
-        b.supply = ("widest_gap", rounded(max(b.p_cav, 0) + 1e5))
+        b.supply = ("widest_gap", max(b.p_cav, 0) + 1e5)
     return b
 
 

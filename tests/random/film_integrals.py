@@ -70,36 +70,28 @@ def force(pressure, R, phi, z):
     return along_x, along_y
 
 
-def couette_power(share_mu, h, slip, R, phi, z):
-    """Dissipation by shear: share mu slip^2/h."""
-    return integral(lambda f, *at: mean(f[0] / f[1]) * slip**2, [share_mu, h], R, phi, z)
+def couette_power(shares, mu, h, slip, R, phi, z):
+    """Dissipation by shear: share mu slip^2/h, for a share between two bounds."""
+    least, most = (integral(lambda f, *at: mean(f[0] / f[1]) * slip**2, [share * mu, h], R, phi, z) for share in shares)
+    return Estimate((least.value + most.value) / 2, most.error + (most.value - least.value) / 2)
 
 
 def poiseuille_power(p, mu, h, R, phi, z):
-    """Dissipation by the flow that pressure drives: h^3/(12 mu) |grad p|^2."""
+    """Dissipation by the flow that pressure drives: h^3/(12 mu) |grad p|^2.
 
-    def cells(f, R, phi, z):
+    Where a cell is deep on one side the pressure falls on the other: it counts with its smallest conductance, and once more as error.
+    """
+
+    def parts(f, R, phi, z):
         around, along = slopes(f[0], R, phi, z)
         conductance = f[2] ** 3 / (12 * f[1])
         lowest, highest = np.minimum.reduce(_corners(conductance)), np.maximum.reduce(_corners(conductance))
-        # where a cell is deep on one side the pressure falls on the other
-        return np.where(highest > 8 * lowest, lowest, mean(conductance)) * (around**2 + along**2)
+        is_step = highest > 8 * lowest
+        return np.where(is_step, lowest, mean(conductance)) * (around**2 + along**2), is_step
 
-    return integral(cells, [p, mu, h], R, phi, z)
-
-
-def couette_torque(share_mu, h, slip, R, phi, z):
-    """Moment of the shear by sliding alone on the slower surface's side: share mu slip/h R."""
-    return integral(lambda f, *at: mean(f[0] / f[1]) * slip * R, [share_mu, h], R, phi, z)
-
-
-def pressure_torque(p, h, R, phi, z):
-    """Moment of h/2 dp/dx about the axis: what drags the journal back and the shell along."""
-
-    def cells(f, R, phi, z):
-        return 0.5 * mean(f[1]) * slopes(f[0], R, phi, z)[0] * R
-
-    return integral(cells, [p, h], R, phi, z)
+    whole = integral(lambda f, *at: parts(f, *at)[0], [p, mu, h], R, phi, z)
+    steps = integral(lambda f, *at: np.multiply(*parts(f, *at)), [p, mu, h], R, phi, z)
+    return Estimate(whole.value, whole.error + steps.value)
 
 
 def dip(field):

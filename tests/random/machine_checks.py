@@ -75,8 +75,8 @@ def check(machine, results):
     check_start(machine, results, found)
     for name, bearing in machine.named_bearings().items():
         check_film(bearing, results.films[name], name, found)
-        check_oil(bearing, results, results.films[name], name, found)
         motion = relative_motion(machine, results, name)
+        check_oil(bearing, results, results.films[name], motion, name, found)
         check_gaps(bearing, results, results.films[name], motion, name, found)
         check_power(bearing, results, results.films[name], motion, name, found)
     check_momentum(machine, results, found)
@@ -192,12 +192,15 @@ def check_gaps(b, results, f, motion, name, found):
             return
 
 
+def land_of(b, f, k, row, motion):
+    """Gap without features, with what a column yields."""
+    yielded = (f.p[k] + f.p_asperity[k]) * (b.column[1] / b.column[0] if b.column else 0.0)
+    return b.land(motion.e[row], (0, 0), f.phi[:, None], f.z[None, :], motion.turn[row]) + yielded
+
+
 def check_gap(b, f, k, row, motion, name, found):
     """The stored gap is that of the positions, and h_min that of the gap."""
-    p = f.p[k] + f.p_asperity[k]
-    yielded = p * (b.column[1] / b.column[0] if b.column else 0.0)
-    turn = motion.turn[row]
-    land = b.land(motion.e[row], (0, 0), f.phi[:, None], f.z[None, :], turn) + yielded
+    land, turn = land_of(b, f, k, row, motion), motion.turn[row]
     # (bearing.2) is of first order in e/R
     round_off = 1e-9 * (b.c + np.abs(f.h[k]).max()) + 2 * b.c**2 / b.R
     away = ~covered(b, f, turn, 0.5)
@@ -217,7 +220,7 @@ def check_gap(b, f, k, row, motion, name, found):
 # -- oil
 
 
-def check_oil(b, results, f, name, found):
+def check_oil(b, results, f, motion, name, found):
     """Volume at the end = volume at the start + what came in: at every step and over the run."""
     if b.cavitation != "mass_conserving":
         return
@@ -237,7 +240,8 @@ def check_oil(b, results, f, name, found):
     if b.roughness:
         return
     for k, row in rows_of_fields(results, f):
-        own = film.volume(f.theta[k] * f.h[k] * film_laws.density(b, f.p[k]), b.R, f.phi, f.z)
+        gap = b.oil_gap(f.h[k], land_of(b, f, k, row, motion), f.phi[:, None], f.z[None, :], motion.turn[row])
+        own = film.volume(f.theta[k] * gap * film_laws.density(b, f.p[k]), b.R, f.phi, f.z)
         step = sum(feature.depth * border_area(feature, b, f) for feature in b.features)
         off = abs(own.value - volume[row]) - (own.error + step + 1e-6 * own.value)
         if off > 0:
@@ -263,8 +267,7 @@ class Powers:
         at = (b.R, f.phi, f.z)
         slip = b.R * motion.speed[row]
         mu = film_laws.viscosity(b, p)
-        share = film_laws.shear_share(b, Snapshot(p, theta))
-        couette = film.couette_power(share * mu, h, slip, *at)
+        couette = film.couette_power(film_laws.shear_shares(b, p, theta), mu, h, slip, *at)
         poiseuille = film.poiseuille_power(p, mu, h, *at)
         self.own = couette.value + poiseuille.value
         self.error = 1.5 * (couette.error + poiseuille.error) + 1e-3 * self.own
@@ -277,11 +280,6 @@ class Powers:
         self.mechanical = float(force[:2] @ velocity + moment[2] * motion.speed[row])
         self.pumped = pumped(b, r, row)
         self.stored, self.stored_error = storage(b, results, f, k, row, motion)
-
-
-class Snapshot:
-    def __init__(self, p, theta):
-        self.p, self.theta = p, theta
 
 
 def pumped(b, r, row):
@@ -307,7 +305,8 @@ def storage(b, results, f, k, row, motion):
     difference = -((motion.e[row] - motion.e[row - 1])[0] * np.cos(phi) + (motion.e[row] - motion.e[row - 1])[1] * np.sin(phi)) / dt
     at = (b.R, f.phi, f.z)
     gained = film.volume(over * filled, *at)
-    spread = film.volume(np.abs(over) * np.abs(opening - difference), *at)
+    highest = max([p - b.p_cav for p in b.fed_pressures()] + [0.0])
+    spread = film.volume((np.abs(over) + highest) * np.abs(opening - difference), *at)
     whole = film.volume(np.abs(over * opening), *at)
     return gained.value, gained.error + spread.value + 0.01 * whole.value + whole.error
 

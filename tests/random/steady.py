@@ -258,7 +258,9 @@ def check_oil(case, a, found):
                     f"m^3/s: in {a['flow_supply']:.6g}, out {out:.6g}")
     density = film_laws.density(b, a.p)
     if not b.roughness:
-        own = film.volume(a.theta * a.h * density, b.R, a.phi, a.z)
+        land = b.land(a.position(b.c), case.tilt, a.phi[:, None], a.z[None, :], case.journal_angle) + column_yield(b, a)
+        gap = b.oil_gap(a.h, land, a.phi[:, None], a.z[None, :], case.journal_angle)
+        own = film.volume(a.theta * gap * density, b.R, a.phi, a.z)
         # a step in depth lies somewhere in a cell
         step = sum(f.depth * border_area(f, b, a) for f in b.features)
         found.bound("oil volume", abs(own.value - a["oil_volume"]), own.error + step + 1e-6 * own.value,
@@ -291,8 +293,7 @@ def check_power(case, a, found):
     mu = film_laws.viscosity(b, a.p)
     if b.roughness:
         return  # flow factors would have to be repeated
-    share = film_laws.shear_share(b, a)
-    couette = film.couette_power(share * mu, a.h, slip, b.R, a.phi, a.z)
+    couette = film.couette_power(film_laws.shear_shares(b, a.p, a.theta), mu, a.h, slip, b.R, a.phi, a.z)
     poiseuille = film.poiseuille_power(a.p, mu, a.h, b.R, a.phi, a.z)
     own, told = couette.value + poiseuille.value, a["power_film"]
     # The edge of a cavitated region is resolved to a cell: the estimate sees that. A step of depth lies somewhere in a cell.
