@@ -9,7 +9,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help program demo test bench validate fuzz web web-check web-test docs format lint install clean
+.PHONY: help program demo test bench validate fuzz random-models web web-check web-test docs format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -69,6 +69,12 @@ install: program  ## installs program, libraries and headers below PREFIX
 
 clean:  ## removes everything built
 	@rm -rf build
+
+random-models: program  ## tries as many random models as TIME=60 allows, every invariant checked; part of fuzz (SEED=n: the same again)
+	@scripts/setup test
+	@tests/random/random_models.py $(BUILD)/hersey --time $(TIME) --jobs $(JOBS) $(if $(SEED),--seed $(SEED)) --output build/random-models
+
+fuzz: random-models
 
 # Configured once; afterwards the build itself notices changed CMake files.
 $(BUILD)/build.ninja: CMakePresets.json

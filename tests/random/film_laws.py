@@ -1,0 +1,36 @@
+"""Laws of the oil by their published formulas, at the nodes of a field."""
+
+import math
+
+import numpy as np
+
+
+def viscosity(b, p):
+    """mu(p), p counted from the cavitation pressure (film.23)."""
+    over = np.maximum(p - b.p_cav, 0)
+    if not b.viscosity_law:
+        return b.mu + 0 * p
+    law, value = b.viscosity_law
+    if law == "barus":
+        return b.mu * np.exp(value * over)
+    return b.mu * np.exp((math.log(b.mu) + 9.67) * ((1 + over / 196.2e6) ** value - 1))
+
+
+def density(b, p):
+    """rho/rho0 (film.24)."""
+    over = np.maximum(p - b.p_cav, 0)
+    return 1 + 0.6e-9 * over / (1 + 1.7e-9 * over) if b.is_compressible else 1 + 0 * p
+
+
+def shear_shares(b, p, theta):
+    """Share of the gap under Couette shear: the least and the most that can be meant."""
+    if b.cavitated_shear == "full":
+        return (1 + 0 * p,) * 2
+    if b.cavitation == "mass_conserving":
+        return (np.clip(theta, 0, 1),) * 2
+    # No fill fraction: sheared is what has pressure, and up to a cell around it.
+    full = p > b.p_cav
+    wide = full | np.roll(full, 1, 0) | np.roll(full, -1, 0)
+    wide[:, 1:] |= full[:, :-1]
+    wide[:, :-1] |= full[:, 1:]
+    return full.astype(float), wide.astype(float)

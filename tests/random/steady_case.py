@@ -1,0 +1,111 @@
+"""One random steady bearing: solved, checked, and solved again in other ways that must give the same."""
+
+import os
+
+import program as hersey
+import steady
+from bearings import PI, reservoirs_touch
+from findings import Findings
+from program import write
+
+# Solvers stop at a residual of 1e-8 of the largest flow through a node's volume, the search at 1e-8 of the load. Thin films
+# amplify both by 1/(1 - epsilon)^2.
+SAME = 1e-5
+
+# What symmetries and solvers share beyond that: nothing. What a finer grid may change: see `refinement`.
+
+
+class Runs:
+    """Solves variants of a case and remembers the model of each."""
+
+    def __init__(self, program, folder):
+        self.program, self.folder, self.models = program, folder, {}
+
+    def solve(self, case, label):
+        """(ending, answer or None)"""
+        text = case.text()
+        self.models[label] = text
+        model, fields = (os.path.join(self.folder, label + end) for end in (".yaml", ".csv"))
+        write(model, text)
+        ending = hersey.run(self.program, "bearing", model, "--json", "--no-grid-error", "--jobs", "1", "--fields", fields)
+        if ending.kind != "answer":
+            return ending, None
+        document = ending.document
+        document = (document.get("solutions") or [{}])[0]
+        if not document.get("figures"):
+            return hersey.Ending("crash", "exit code 0 without figures"), None
+        return ending, steady.Answer(document, fields)
+
+
+def tolerance(case, answer):
+    """Relative to the scale of each figure: a thin film amplifies what the solver leaves."""
+    thin = max(answer["h_min"], 1e-3 * case.bearing.c) / case.bearing.c
+    return SAME * max(1.0, (0.2 / thin) ** 2)
+
+
+def examine(program, rng, folder):
+    """(ending, text, findings, models) of one case."""
+    case = steady.random_steady(rng)
+    runs = Runs(program, folder)
+    ending, answer = runs.solve(case, "model")
+    if answer is None:
+        return ending.kind, ending.text, [], runs.models
+    found = Findings(steady.check(case, answer))
+    failed = {"model"} if found else set()
+    for label, invariant, variant, options in variants(case, rng):
+        other_ending, other = runs.solve(variant, label)
+        before = len(found)
+        if other_ending.kind in ("hangs", "assertion", "crash", "refused"):
+            found.append((invariant, f"{label}: {other_ending.kind}: {other_ending.text}"))
+        elif other is not None:
+            off = steady.differences(case, answer, other, tolerance(case, answer), **options)
+            found.require(invariant, not off, f"{label}: {'; '.join(off)}")
+        elif invariant != "one answer of all solvers":
+            found.append((invariant, f"{label}: no answer: {other_ending.text}"))
+        if len(found) > before:
+            failed |= {"model", label}
+    if refine(case, answer, runs, found):
+        failed |= {"model", "fine", "finest"}
+    return "answer", "", list(found), {k: v for k, v in runs.models.items() if k in failed}
+
+
+def variants(case, rng):
+    """The same case by other solvers and under its symmetries."""
+    for solver in ("multigrid", "sor"):
+        yield solver, "one answer of all solvers", case.with_solver(solver), {}
+    yield "mirrored_z", "mirror z", case.mirrored_z(), {"is_mirrored_z": True}
+    # refined grids begin at phi = 0 and are no mirror images of themselves
+    if not any(place["towards"] != "edges" for place in case.bearing.refine):
+        yield "mirrored_phi", "mirror phi", case.mirrored_phi(), {"is_mirrored_phi": True}
+        turn = rng.randrange(1, case.bearing.n_phi) * 2 * PI / case.bearing.n_phi
+        yield "turned", "turned by whole cells", case.turned(turn), {"turn": turn}
+    if len(case.bearing.features) > 1 or len(case.bearing.profiles) > 1:
+        yield "reordered", "order of features", case.reordered(), {}
+
+
+def refine(case, coarse, runs, found):
+    """Load and flow converge: from grid to twice as fine grid the difference falls, or is small already.
+
+    First order is what a border within a cell leaves; two grids may see a border differently, hence a share of the figure
+    itself on top.
+    """
+    if case.load or case.bearing.refine:
+        return False
+    _, fine = runs.solve(case.on_grid(2), "fine")
+    _, finest = runs.solve(case.on_grid(4), "finest") if fine else (None, None)
+    if not finest:
+        return False
+    b, bad = case.bearing, []
+    # a bearing's own flow and load, where those at hand are nothing
+    flow = 0.02 * abs(case.journal_speed) * b.R * b.c * b.L
+    load = 1e-3 * max(abs(finest.p).max(), 1e3) * b.R * b.L
+    figures = [("load", load)]
+    if not reservoirs_touch(b):
+        figures += [("power_film", 0.0), ("side_flow", flow), ("flow_supply", flow)]
+    for key, floor in figures:
+        values = [answer[key] for answer in (coarse, fine, finest)]
+        first, second = abs(values[1] - values[0]), abs(values[2] - values[1])
+        if second > max(0.75 * first, 0.05 * abs(values[2])) + floor:
+            bad.append(f"{key} {values[0]:.6g}, {values[1]:.6g}, {values[2]:.6g}")
+    found.require("refinement", not bad, "; ".join(bad))
+    return bool(bad)
