@@ -15,7 +15,7 @@ namespace hersey::fem {
 namespace {
 
 constexpr const char* kFormat = "hersey reduced body 1";
-constexpr double kDefinite = 1e-6;   // of the largest eigenvalue: rigid motions store no energy, but for round-off
+constexpr double kDefinite = 1e-6;   // of the largest eigenvalue: other programs write fewer figures
 constexpr double kSymmetric = 1e-9;  // of the largest entry: other programs write fewer figures
 
 std::string frame_path(std::size_t place, const char* what) { return fmt::format("frames/{}/{}", place, what); }
@@ -148,13 +148,15 @@ ReducedBody read_body(const Hdf5File& file) {
           fmt::format("data set 'Phi' is not {} rows of finite numbers, three for each node", 3 * nodes.rows()));
   body.K = symmetric(file, "K", body.size());
   body.M = symmetric(file, "M", body.size());
-  if (body.size() > 6) require_no_negative_energy(body.K, "K");  // a single frame without modes: round-off alone
   require_no_negative_energy(body.M, "M");
   body.m = read_mass(file, nodes.rows());
   for (std::size_t f = 0; file.has(fmt::format("frames/{}", f)); ++f)
     body.frames.push_back(read_frame(file, f, body.nodes.size()));
   require(body.internal_first() <= body.size(), fmt::format("{} frames need {} columns of Phi, which has {}",
                                                             body.frames.size(), body.internal_first(), body.size()));
+  // With all frames held: rigid motions store nothing but round-off, which may be negative.
+  const Eigen::Index internal = body.size() - body.internal_first();
+  if (internal > 0) require_no_negative_energy(body.K.bottomRightCorner(internal, internal), "K");
   body.internal_omega = read_vector(file, "internal_omega");
   require(body.internal_omega.size() == body.size() - body.internal_first(),
           fmt::format("data set 'internal_omega' has {} numbers for {} internal coordinates",
