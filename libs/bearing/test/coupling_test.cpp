@@ -144,7 +144,7 @@ TEST_CASE("StepIsSecondOrderInTime_FullFilm") {
   film.supply.kind = film::SupplyKind::none;
   const auto position = [&](int n) {
     Rig rig(film, 300, {.initial_dt = 1e-4});
-    rig.march(4e-3 / n, n, 1e-11);
+    rig.march(4e-3 / n, n, 1e-10);  // round-off of the film's forces begins at some 1e-11
     CHECK(rig.observe().film.cavitated_share == 0);
     return rig.observe().e;
   };

@@ -38,10 +38,16 @@ class PeakFinder {
  public:
   PeakFinder(const FilmModel& model, const GridGeometry& geometry) : R_(model.R), grid_(model.grid), at_(geometry) {}
 
-  [[nodiscard]] Peak largest(const Eigen::VectorXd& field) const {
+  /// Beside what holds a pressure the field has a kink: there the node's own value is the peak.
+  template <class HasKink>
+  [[nodiscard]] Peak largest(const Eigen::VectorXd& field, HasKink&& has_kink) const {
     int node = 0;
     field.maxCoeff(&node);
-    return refine(field, node / grid_.n_z, node % grid_.n_z);
+    const int i = node / grid_.n_z, j = node % grid_.n_z, n = grid_.n_phi;
+    bool kink = has_kink(node) || has_kink(grid_.index((i + 1) % n, j)) || has_kink(grid_.index((i + n - 1) % n, j));
+    if (j > 0) kink = kink || has_kink(node - 1);
+    if (j + 1 < grid_.n_z) kink = kink || has_kink(node + 1);
+    return kink ? Peak{field[node], at_.phi[i], at_.z[j]} : refine(field, i, j);
   }
 
  private:
@@ -158,7 +164,7 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
   o.flow_features.setZero(static_cast<Eigen::Index>(model.features.size()));
   const PeakFinder peaks(model, balance.geometry());
   const Thinnest thinnest = thinnest_film(model, balance.geometry(), fields.h, motion.phi_journal);
-  const Peak peak = peaks.largest(fields.p);
+  const Peak peak = peaks.largest(fields.p, [&](int node) { return balance.feature_at(node) >= 0; });
   o.h_min = thinnest.value, o.h_min_phi = thinnest.phi, o.h_min_z = thinnest.z;
   o.h_min_centre = thinnest.in_the_middle;
   o.h_min_features = thinnest.in_features;

@@ -114,7 +114,7 @@ class Search {
     for (int i = 0; i < grid_.n_phi; ++i) {
       if (counts(i) && (lowest_node < 0 || middle(i) < middle(lowest_node))) lowest_node = i;
     }
-    if (lowest_node < 0) return std::numeric_limits<double>::quiet_NaN();
+    if (lowest_node < 0) return in_features();  // a groove all around
     return between_nodes([&](int k) { return middle(lowest_node + k); },
                          [&](int k) { return at_.dx[wrapped(lowest_node + (k < 0 ? k : k - 1))]; },
                          [&](int k) { return counts(lowest_node + k); })

@@ -375,6 +375,12 @@ std::string Mechanism::name_of_internal_residual() const {
   return name;
 }
 
+bool Mechanism::has_whole_tangent() const {
+  bool whole = true;
+  for (const auto& f : impl_->spec.forces) whole = whole && f.force->has_tangent();
+  return whole;
+}
+
 std::string Mechanism::domain_error() const {
   if (!impl_->came_apart.empty()) return impl_->came_apart;
   for (const auto& f : impl_->spec.forces)

@@ -160,7 +160,7 @@ TEST_CASE("JournalOnABeam_MovesWithItsNode") {
       CHECK(std::abs(right[2 * row + axis] - node[width * row + last + axis]) < 1e-10);
       size = std::max(size, std::abs(right[2 * row + axis]));
     }
-  CHECK(size > 1e-6);
+  CHECK(size > 0.5e-6);
   CHECK(std::abs(fall[3 * (rows - 1) + 1]) > 0.1);
 }
 

@@ -94,6 +94,7 @@ bool differs(const VectorXd& damped, const VectorXd& undamped, const VectorXd& r
 }  // namespace
 
 std::optional<SettledStart> settle_fast_motions(Equations& equations, const State& state, double dt) {
+  if (!equations.has_whole_tangent()) return std::nullopt;
   VelocitySteps steps(equations, state, dt);
   // Without inertia a motion has no acceleration but the one it takes up here.
   const VectorXd instant = steps.solve(state.v, 0) ? steps.vdot() : state.vdot;

@@ -82,6 +82,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   void begin_step(const mbd::RelativeMotion& start, double dt) override;
   void accept_step(const mbd::RelativeMotion& end) override;
   [[nodiscard]] bool is_costly() const override { return true; }
+  [[nodiscard]] bool has_tangent() const override { return options_.coupling == Coupling::monolithic; }
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override;
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }

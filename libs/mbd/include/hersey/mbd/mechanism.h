@@ -108,6 +108,7 @@ class Mechanism final : public solver::Equations {
   [[nodiscard]] double internal_residual() const override;
   [[nodiscard]] std::string name_of_internal_residual() const override;
   [[nodiscard]] std::string domain_error() const override;
+  [[nodiscard]] bool has_whole_tangent() const override;
   void persist(Archive& archive) override;
 
   /// The state the joints' initial values describe, at t = 0; not yet consistent: see solver::initialise.

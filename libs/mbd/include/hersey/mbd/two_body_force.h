@@ -48,6 +48,9 @@ class TwoBodyForce {
   /// Whether an evaluation takes long enough to have a thread of its own.
   [[nodiscard]] virtual bool is_costly() const { return false; }
 
+  /// Whether `evaluate` gives the derivatives of what it returns; a partitioned coupling does not.
+  [[nodiscard]] virtual bool has_tangent() const { return true; }
+
   /// Energy stored [J]; 0 where the force stores none.
   [[nodiscard]] virtual double stored_energy(const RelativeMotion&) const { return 0; }
 

@@ -82,6 +82,9 @@ class Equations {
   /// Name of the condensed equation behind `internal_residual`.
   [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
 
+  /// Whether the tangent is that of all forces: a partitioned coupling leaves some out and iterates on them.
+  [[nodiscard]] virtual bool has_whole_tangent() const { return true; }
+
   /// A state outside the domain of the equations, e.g. "bearing big_end: gap closed (-1.2 um at ...)"; empty if inside.
   /// The integrator asks after each `assemble` and shortens the Newton increment where it is not empty.
   [[nodiscard]] virtual std::string domain_error() const { return {}; }
