@@ -194,15 +194,18 @@ inline std::unique_ptr<Mechanism> nasty_mechanism(bool membranes = true) {
     return b.add_frame({.name = "f", .body = id, .X_BF = pose(rotation, r)});
   };
   const auto join = [&](const char* name, JointType type, FrameId i, FrameId o, const Vector3& axis = {0, 0, 1},
-                        std::vector<double> initial = {}, std::vector<double> rate = {}) {
+                        const std::vector<double>& initial = {}, const std::vector<double>& rate = {}) {
     return b.add_joint({.name = name,
                         .type = type,
                         .inboard = i,
                         .outboard = o,
                         .axis = axis,
-                        .initial = std::move(initial),
-                        .initial_rate = std::move(rate)});
+                        .initial = initial,
+                        .initial_rate = rate,
+                        .loose = std::vector<bool>(initial.size(), true),
+                        .loose_rate = std::vector<bool>(rate.size(), true)});
   };
+  // Every start is a guess: as they stand they do not close the loops.
   const JointId pivot = join("pivot", JointType::revolute, at(b.ground(), {0.2, 0.1, 0}, {0.1, 0.2, 0.3}),
                              at(arm, {0, 0.3, 0.1}, {0.05, 0, 0}), {1, 2, 2}, {0.4}, {1.1});
   const JointId rail = join("rail", JointType::cylindrical, at(arm, {0, 0, 0.4}, {0.4, 0, 0.1}),
@@ -228,7 +231,9 @@ inline std::unique_ptr<Mechanism> nasty_mechanism(bool membranes = true) {
                                        .axis = {0, 1, 1},
                                        .lead = 0.4,
                                        .initial = {0.7},
-                                       .initial_rate = {-0.8}});
+                                       .initial_rate = {-0.8},
+                                       .loose = {true},
+                                       .loose_rate = {true}});
   join("drift", JointType::free, b.frame_of(b.ground()), at(drifter, {0, 0.1, 0}, {0.1, 0, 0}), {0, 0, 1},
        {0.2, 0.1, 0.3, -0.2, 0.1, 0.3}, {0.3, 0.1, -0.2, 0.2, 0.4, -0.3});
   join("cardan_loop", JointType::universal, at(nut, {0.1, 0, 0}, {0, 0.2, 0}), at(drifter, {0, 0.1, 0}, {0.1, 0.1, 0}),

@@ -42,6 +42,12 @@ class VelocitySteps {
     return true;
   }
 
+  /// The next solution is sought from no acceleration.
+  void begin_at_rest(const State& start) {
+    trial_.vdot.setZero();
+    trial_.lambda = start.lambda;
+  }
+
   [[nodiscard]] const VectorXd& vdot() const { return trial_.vdot; }
   [[nodiscard]] const VectorXd& v() const { return trial_.v; }
 
@@ -98,7 +104,12 @@ std::optional<SettledStart> settle_fast_motions(Equations& equations, const Stat
   VelocitySteps steps(equations, state, dt);
   // Without inertia a motion has no acceleration but the one it takes up here.
   const VectorXd instant = steps.solve(state.v, 0) ? steps.vdot() : state.vdot;
-  if (!steps.solve(state.v, dt)) return std::nullopt;
+  if (!steps.solve(state.v, dt)) {
+    // Force over mass carried through the step is as far off as the mass is light: Newton's way back through damping
+    // that grows with speed takes iterations for each power of ten. The velocity of the start is nearer then.
+    steps.begin_at_rest(state);
+    if (!steps.solve(state.v, dt)) return std::nullopt;
+  }
   if (!differs(steps.vdot(), instant, equations.position_scales())) return std::nullopt;
 
   // What the equations at hand give for the instant of the start may differ from vdot where condensed unknowns follow.

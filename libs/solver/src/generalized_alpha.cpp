@@ -66,7 +66,10 @@ struct GeneralizedAlpha::Workspace {
 
 /// Theory manual eq. (integrator.6), and (integrator.20) where the step does not resolve how the motion starts.
 void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State& state, double dt) {
-  start = {VectorXd::Zero(state.v.size()), state.v, state.vdot};
+  // Member by member, into what the last step took from the heap.
+  start.offset.setZero(state.v.size());
+  start.v = state.v;
+  start.vdot = state.vdot;
   if (!stage.fresh) return;
   if (std::optional<SettledStart> settled = settle_fast_motions(equations, state, dt)) start = std::move(*settled);
   a = start.vdot;
