@@ -448,7 +448,7 @@ class Search {
   }
 
   // The force of a film grows the further out the journal stands, without bound or up to where the film ends: outwards
-  // until it reaches the load, then halving the last step, then Newton (bearing.24). What has been seen on the way
+  // until it reaches the load, then halving the last step, then Newton (bearing.25). What has been seen on the way
   // says, where the load is not found, what the film bears.
   [[nodiscard]] bool from_inside_out() {
     const Eigen::Vector2d start = ocvirk_position(model_, point_);
