@@ -682,7 +682,7 @@ class CommandLine(unittest.TestCase):
                              summaries[name])
         table = hersey("report", *files, "--output", page).stdout
         for name in runs:
-            self.assertRegex(table, rf"(?m)^ +{name} +main .*\b{summaries[name][key]:.4g}")
+            self.assertRegex(table, rf"(?m)^ +{name} +main .*\b{summaries[name][key]:.5g}")
 
     def test_resume_of_another_model_is_refused(self):
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],

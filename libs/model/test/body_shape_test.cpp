@@ -140,9 +140,13 @@ TEST_CASE("StlTrianglesWithoutArea_AreLeftOut_AndThatIsTold") {
   std::ofstream(folder / "m.yaml") << with_shapes("      t: {shape: mesh, file: t.stl, unit: 1 cm}\n");
   const Model model = read((folder / "m.yaml").string());
   CHECK(std::get<std::shared_ptr<const mbd::TriangleMesh>>(shape(model, 0).geometry)->triangles.size() == 4);
-  REQUIRE(model.warnings.size() == 1);
-  CHECK(model.warnings[0].path == "bodies.rod.shapes.t.file");
-  CHECK(model.warnings[0].found.find("t.stl: 1 of 5 triangles without area") != std::string::npos);
+  // The bearing of the model around it starves, of which it warns, too.
+  std::vector<Fault> of_shape;
+  for (const Fault& warning : model.warnings)
+    if (warning.path.starts_with("bodies.")) of_shape.push_back(warning);
+  REQUIRE(of_shape.size() == 1);
+  CHECK(of_shape[0].path == "bodies.rod.shapes.t.file");
+  CHECK(of_shape[0].found.find("t.stl: 1 of 5 triangles without area") != std::string::npos);
 }
 
 TEST_CASE("Mesh_IsScaledAndShifted") {
