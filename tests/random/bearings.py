@@ -186,6 +186,11 @@ class Bearing:
         line = [self.supply[1]] if self.supply else []
         return [*self.p_edge, *line, *(f.pressure for f in self.features if f.pressure is not None)]
 
+    def middle_is_open(self, turn=0.0):
+        """Whether there is land at half width."""
+        phi = np.linspace(0, 2 * PI, 721)
+        return not all(any(f.depth > 0 and f.covers(at, 0.0, turn) for f in self.features) for at in phi)
+
     def deepest(self):
         return sum(f.depth for f in self.features)
 
@@ -401,6 +406,11 @@ def reservoirs_touch(b):
     if any(f.on != g.on for f in fed for g in fed):
         return True
     return bool(b.supply) and any(f.pressure != b.supply[1] for f in fed)
+
+
+def corner_power(b, pumped):
+    """What is dissipated within one cell where places of different pressures touch, which no sum over cells sees [W]."""
+    return 0.5 * abs(pumped) if reservoirs_touch(b) else 0.0
 
 
 def is_starved(b):
