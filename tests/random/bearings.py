@@ -48,7 +48,7 @@ class Feature:
         else:
             if self.arc < 2 * PI:
                 entry["arc"] = deg(self.arc)
-            if self.length < L:
+            if self.length < L or self.kind == "circumferential_groove":
                 entry["length"] = mm(self.length)
         if self.pressure is not None:
             entry["pressure"] = bar(self.pressure)
