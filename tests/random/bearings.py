@@ -48,7 +48,7 @@ class Feature:
         else:
             if self.arc < 2 * PI:
                 entry["arc"] = deg(self.arc)
-            if self.length < L:
+            if self.length < L or self.kind == "circumferential_groove":
                 entry["length"] = mm(self.length)
         if self.pressure is not None:
             entry["pressure"] = bar(self.pressure)
@@ -185,6 +185,11 @@ class Bearing:
         """Of edges, line and features [Pa]."""
         line = [self.supply[1]] if self.supply else []
         return [*self.p_edge, *line, *(f.pressure for f in self.features if f.pressure is not None)]
+
+    def middle_is_open(self, turn=0.0):
+        """Whether there is land at half width."""
+        phi = np.linspace(0, 2 * PI, 721)
+        return not all(any(f.depth > 0 and f.covers(at, 0.0, turn) for f in self.features) for at in phi)
 
     def deepest(self):
         return sum(f.depth for f in self.features)
@@ -401,6 +406,11 @@ def reservoirs_touch(b):
     if any(f.on != g.on for f in fed for g in fed):
         return True
     return bool(b.supply) and any(f.pressure != b.supply[1] for f in fed)
+
+
+def corner_power(b, pumped):
+    """What is dissipated within one cell where places of different pressures touch, which no sum over cells sees [W]."""
+    return 0.5 * abs(pumped) if reservoirs_touch(b) else 0.0
 
 
 def is_starved(b):
