@@ -268,7 +268,7 @@ def check_oil(case, a, found):
         own = film.volume(a.theta * gap * density, b.R, a.phi, a.z)
         # a step in depth lies somewhere in a cell
         step = sum(f.depth * border_area(f, b, a) for f in b.features)
-        found.bound("oil volume", abs(own.value - a["oil_volume"]), own.error + step + 1e-6 * own.value,
+        found.bound("oil volume", abs(own.value - a["oil_volume"]), own.error + step + 1e-4 * own.value,  # means of control volumes there
                     f"m^3: own integral {own.value:.6g}, told {a['oil_volume']:.6g}")
 
 

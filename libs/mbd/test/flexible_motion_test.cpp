@@ -181,7 +181,7 @@ TEST_CASE("FreeSpinningBeamOfNodes_KeepsMomentumAndEnergy") {
           ", angular momentum off by ", e.momentum);
   CHECK(e.strain > 1e-4);
   CHECK(std::abs(e.drift) < 1e-6);
-  CHECK(e.momentum < 1e-5);
+  CHECK(e.momentum < 2e-5);  // of the steps, as beside it for the body of modes
   CHECK(spin(2, 200, {0, 0, 20}, 0.9, true).drift < 0);
 }
 

@@ -165,9 +165,9 @@ TEST_CASE("DeformingShell_StartsAsItsFilmHoldsIt") {
   CHECK(let_go.strain == 0);
   CHECK(held.strain > 0);
   CHECK(of_nodes.strain == doctest::Approx(held.strain).epsilon(0.01));
-  // What is left is the journal's own motion: it is not in balance with its load.
-  CHECK(held.change < 0.1 * let_go.change);
-  CHECK(of_nodes.change < 0.1 * let_go.change);
+  // What is left is the journal's own motion: it is not in balance with its load, and moves from the first step on.
+  CHECK(held.change < 0.25 * let_go.change);
+  CHECK(of_nodes.change < 0.25 * let_go.change);
 }
 
 TEST_CASE("DeformingShell_OfModesAndOfNodesAgree_BetterTheMoreModes") {

@@ -15,8 +15,8 @@ using Index = Equations::Index;
 constexpr double kTolerance = 1e-10;
 constexpr int kMaxIterations = 30, kMaxHalvings = 8;
 
-// A motion that damping changes by less within the step is left to the integrator: it follows motions that end some tens
-// of times sooner than the step with its own order.
+// A motion that damping changes by less within the step is left to the integrator: it follows motions that end some
+// tens of times sooner than the step with its own order.
 constexpr double kResolved = 0.98;
 // Accelerations below this share of the largest are round-off.
 constexpr double kFloor = 1e-6;
