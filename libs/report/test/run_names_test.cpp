@@ -8,10 +8,10 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST_CASE("Runs_AreNamedByFileOrFolder") {
-  CHECK(run_names({"/work/a/results.h5", "/work/b/results.h5"}) == Names{"a", "b"});
-  CHECK(run_names({"/work/s/load_100_N.h5", "/work/s/load_200_N.h5"}) == Names{"load_100_N", "load_200_N"});
-  CHECK(run_names({"/work/rigid/results.h5", "/work/old.h5"}) == Names{"rigid", "old"});
-  CHECK(run_names({"/work/rigid/results.h5"}) == Names{"rigid"});
+  CHECK(run_names({"/runs/a/results.h5", "/runs/b/results.h5"}) == Names{"a", "b"});
+  CHECK(run_names({"/runs/s/load_100_N.h5", "/runs/s/load_200_N.h5"}) == Names{"load_100_N", "load_200_N"});
+  CHECK(run_names({"/runs/rigid/results.h5", "/runs/old.h5"}) == Names{"rigid", "old"});
+  CHECK(run_names({"/runs/rigid/results.h5"}) == Names{"rigid"});
   CHECK(run_names({"/results.h5"}) == Names{"results"});
 }
 
