@@ -70,6 +70,10 @@ class Steady:
         tilt = (c * self.tilt[0] - s * self.tilt[1], s * self.tilt[0] + c * self.tilt[1])
         return self._with(self.bearing.turned(angle), load=turn(self.load), position=turn(self.position), tilt=tilt)
 
+    def slope(self):
+        """Of the journal's axis, whose tilt is given as an angle [-]."""
+        return tuple(math.tan(angle) for angle in self.tilt)
+
     def reordered(self):
         return self._with(self.bearing.reordered())
 
@@ -202,7 +206,7 @@ def features_near(b, a, turn, cells, only_deep=True):
 def check_gap(case, a, found):
     b, turn = case.bearing, case.journal_angle
     yielded = column_yield(b, a)
-    land = b.land(a.position(b.c), case.tilt, a.phi[:, None], a.z[None, :], turn) + yielded
+    land = b.land(a.position(b.c), case.slope(), a.phi[:, None], a.z[None, :], turn) + yielded
     round_off = DIGITS * (np.abs(a.h).max() + np.abs(yielded).max()) + 1e-9 * b.c
     away = ~features_near(b, a, turn, 0.5)
     off = np.abs(a.h - land)[away]
@@ -263,7 +267,7 @@ def check_oil(case, a, found):
                     f"m^3/s: in {a['flow_supply']:.6g}, out {out:.6g}")
     density = film_laws.density(b, a.p)
     if not b.roughness:
-        land = b.land(a.position(b.c), case.tilt, a.phi[:, None], a.z[None, :], case.journal_angle) + column_yield(b, a)
+        land = b.land(a.position(b.c), case.slope(), a.phi[:, None], a.z[None, :], case.journal_angle) + column_yield(b, a)
         gap = b.oil_gap(a.h, land, a.phi[:, None], a.z[None, :], case.journal_angle)
         own = film.volume(a.theta * gap * density, b.R, a.phi, a.z)
         # a step in depth lies somewhere in a cell
@@ -343,6 +347,13 @@ def pumping(b, a):
 # -- two answers
 
 
+def overlap(case):
+    """Whether fed features of shell and journal lie over each other at this moment of the turn: what each feeds is then a convention."""
+    phi, z = np.linspace(0, 2 * PI, 361)[:, None], np.linspace(-0.5, 0.5, 41)[None, :] * case.bearing.L
+    fed = [f.covers(phi, z, case.journal_angle) for f in case.bearing.features if f.pressure is not None]
+    return any((a & b).any() for k, a in enumerate(fed) for b in fed[:k])
+
+
 def differences(case, one, other, tolerance, is_mirrored_z=False, is_mirrored_phi=False, turn=0.0):
     """Differences of `other`'s figures from those of `one` under a symmetry, each by its own scale."""
     found = []
@@ -353,7 +364,7 @@ def differences(case, one, other, tolerance, is_mirrored_z=False, is_mirrored_ph
               "oil_volume": one["oil_volume"], "eccentricity_ratio": 1.0}
     flow = max([abs(one[key]) for key in one.values if key.startswith("flow_")] + [1e-3 * omega * b.R * b.c * b.L])
     for key in one.values:
-        if key.startswith(("flow_", "side_flow")):
+        if key.startswith(("flow_", "side_flow")) and not (key.startswith("flow_feature_") and overlap(case)):
             scales[key] = flow
         if key.startswith("torque_"):
             scales[key] = max(abs(one["torque_journal"]), abs(one["torque_shell"]), one["load"] * b.c)
