@@ -161,8 +161,7 @@ class Finisher {
 
   // A mark of a label that stands elsewhere would never be found by it.
   void check_marks() const {
-    for (std::size_t m = 0; m < raw_.marks.size(); ++m) {
-      const RawMark& mark = raw_.marks[m];
+    for (const RawMark& mark : raw_.marks) {
       const RawMark& first = mark_at(mark_index_.find(mark.label));
       const int element = element_index_->find(mark.label);
       if (element < 0 && (&first == &mark || first.nodes == mark.nodes)) continue;

@@ -101,7 +101,9 @@ void FlowBalance::hold(const HeldNode& held) {
 // K/t at a share t of the way; the row counts t times, so that a line on a node is a given pressure there.
 void FlowBalance::hold_line(double phi) {
   const Grid& grid = model_.grid;
-  const auto [i, t] = geometry_.place_of(phi);
+  const auto place = geometry_.place_of(phi);
+  const int i = place.node;
+  const double t = place.share;
   const int next = (i + 1) % grid.n_phi;
   line_ = {true, i, t, model_.R / geometry_.dx[i]};
   const double u = model_.supply.pressure - model_.p_cav;

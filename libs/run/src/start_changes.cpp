@@ -36,6 +36,7 @@ std::string text_of(const mbd::ChangedStart& change, const std::vector<double>& 
   }
   const int digits = difference > 0 && size > 0 ? static_cast<int>(std::ceil(std::log10(size / difference))) + 3 : 6;
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double value : values)
     texts.push_back(fmt::format("{:.{}g}", display.factor * value, std::clamp(digits, 6, 15)));
   return fmt::format("{} {}", fmt::join(texts, " "), display.unit);
