@@ -35,11 +35,12 @@ validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
 
-fuzz:  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some)
-	@scripts/setup build fuzz
+fuzz: program  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some)
+	@scripts/setup build test fuzz
 	@$(MAKE) --no-print-directory PRESET=fuzz build/fuzz/build.ninja
 	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target fuzzers -j $(JOBS)
-	@scripts/fuzz build/fuzz $(TIME) '$(FILTER)'
+	@status=0; scripts/fuzz build/fuzz $(TIME) '$(FILTER)' || status=1; \
+	  $(MAKE) --no-print-directory random-models || status=1; exit $$status
 
 web:  ## rebuilds the report's front end (needs Node; the C++ build does not)
 	@scripts/web build
@@ -73,8 +74,6 @@ clean:  ## removes everything built
 random-models: program  ## tries as many random models as TIME=60 allows, every invariant checked; part of fuzz (SEED=n: the same again)
 	@scripts/setup test
 	@tests/random/random_models.py $(BUILD)/hersey --time $(TIME) --jobs $(JOBS) $(if $(SEED),--seed $(SEED)) --output build/random-models
-
-fuzz: random-models
 
 # Configured once; afterwards the build itself notices changed CMake files.
 $(BUILD)/build.ninja: CMakePresets.json

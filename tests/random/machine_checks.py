@@ -123,7 +123,7 @@ def check_film(b, f, name, found):
     if b.cavitation == "mass_conserving":
         both = np.minimum((f.p - b.p_cav) / scale, 1 - f.theta).max()
         # Pressure belongs to the end of a step, fill to the step as a whole: a front may lie a node further on (film.59).
-        found.bound("full or at p_cav", both, 0.05, f": {name}: a node is neither")
+        found.bound("full or at p_cav", both, 1e-9, f": {name}: a node is neither")
     h_min = f.rows["h_min"]
     found.require("h_min > 0", h_min.min() > 0, f"{name}: h_min = {1e6 * h_min.min():.4g} um")
     for name_of_power in ("power_film", "power_asperity"):
@@ -274,7 +274,8 @@ class Powers:
         couette = film.couette_power(film_laws.shear_shares(b, p, theta), mu, h, slip, *at)
         poiseuille = film.poiseuille_power(p, mu, h, *at)
         self.own = couette.value + poiseuille.value
-        self.error = 1.5 * (couette.error + poiseuille.error) + 1e-3 * self.own
+        # Pressure has kinks within cells at lines and fed features, which both grids miss: more than their difference.
+        self.error = (1.5 * couette.error + 2 * poiseuille.error) + 1e-3 * self.own
         highest = float((mu / np.maximum(h, 1e-9)).mean()) * slip**2
         self.error += sum(highest * border_area(g, b, f) for g in b.features if g.depth > 0)
         self.told, self.asperity = r["power_film"][row], r["power_asperity"][row]

@@ -16,6 +16,9 @@ namespace {
 // Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
 constexpr double kDirectionFloor = 1e-6;
 
+// Share of a control volume that may be left to the next one at the end of a step.
+constexpr double kMostPassedOn = 0.02;
+
 // How many of the parameters act. The angles come last: that of the widest gap matters only where the supply follows
 // it, the journal's only where it carries features or a shape of its own.
 Eigen::Index acting_parameters(const film::FilmModel& model, bool journal_deforms) {
@@ -189,6 +192,7 @@ void JournalBearing::increment_film(mbd::ForceResponse& response) {
 
 void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
   response.set_zero(deforming_->amplitudes());
+  settled_ = false;
   place(motion);
   if (!domain_error_.empty()) return;
   if (motion.dt == 0) {
@@ -224,7 +228,9 @@ void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& 
 void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
   // The first surfaces of a step are a prediction, no answer to any wrench yet.
   if (answered_) {
-    const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
+    film::FilmSolveOptions briefly = options_.film;
+    briefly.insists = false;
+    const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, briefly, u_);
     iterations_ += summary.iterations;
     ++exchanges_;
     if (!summary.domain.is_inside()) return report(summary.domain);
@@ -252,6 +258,25 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
   response.Q = given_.tail(deforming_->amplitudes());
 }
 
+bool JournalBearing::step_stands() {
+  if (!started_) return true;
+  settle();
+  if (oil_.passed_on <= kMostPassedOn || history_.by_gap) return true;
+  history_.by_gap = true;
+  Eigen::VectorXd film = u_;
+  const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, film);
+  if (summary.converged) u_ = film;
+  iterations_ += summary.iterations;
+  return false;
+}
+
+// Takes the linearisation of the film for it.
+void JournalBearing::settle() {
+  reynolds_.settle(surfaces_, history_, u_, oil_);
+  settled_ = true;
+  linearised_ = false;
+}
+
 void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   place(end);
   observed_surfaces_ = surfaces_;
@@ -269,7 +294,7 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
 void JournalBearing::close_step() {
   const bool is_step = started_;
   if (is_step) {
-    film::close_step(reynolds_, surfaces_, history_, options_.film, u_, oil_);
+    if (!settled_) settle();
   } else {
     reynolds_.take_stock(surfaces_, history_, u_, oil_);
     oil_of_run_ = {};

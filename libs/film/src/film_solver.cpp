@@ -14,10 +14,6 @@
 namespace hersey::film {
 namespace {
 
-// Share of a control volume that may be left to the next one at the end of a step; more of it is worth a film of its
-// own.
-constexpr double most_passed_on = 0.02;
-
 // What one Newton step may change where the law is strongly curved: the logarithm of the viscosity and the film
 // thickness of a compliant surface, relative to itself.
 constexpr double largest_change = 1.0;
@@ -254,7 +250,7 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
     summary = solve_here(reynolds, motion, history, options, u);
     summary.iterations += before;
   }
-  if (!summary.converged && options.solver != FilmSolver::sor && options.max_iterations > patience) {
+  if (!summary.converged && options.insists && options.solver != FilmSolver::sor && options.max_iterations > patience) {
     const int before = summary.iterations;
     summary = rescue_by_sor(reynolds, motion, history, options, start, u);
     summary.iterations += before;
@@ -268,17 +264,6 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
   }
   explain(reynolds.model(), u, options.rtol, history.dt == 0, summary);
   return summary;
-}
-
-void close_step(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
-                const FilmSolveOptions& options, const Eigen::VectorXd& u, OilOfStep& oil) {
-  reynolds.settle(motion, history, u, oil);
-  if (oil.passed_on <= most_passed_on) return;
-  FilmHistory by_gap = history;
-  by_gap.by_gap = true;
-  Eigen::VectorXd film = u;
-  if (!solve_film(reynolds, motion, by_gap, options, film).converged) return;
-  reynolds.settle(motion, by_gap, film, oil);
 }
 
 }  // namespace hersey::film

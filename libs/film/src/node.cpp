@@ -9,9 +9,22 @@
 namespace hersey::film {
 namespace {
 
-// Without a fill fraction of their own, guembel and reynolds fade Couette shear out over this part of the fill scale,
-// so that the friction has no jump where a node cavitates.
-constexpr double shear_fade = 1e-3;
+// Without a fill fraction of their own, guembel and reynolds fade Couette shear out over a small range of u < 0, so that
+// the friction has no jump where a node cavitates: guembel over this part of the pressure scale; reynolds, whose u < 0 is
+// missing oil, over this part of what a gap that widens by c in a radian would miss.
+constexpr double fade_of_pressure = 1e-3, fade_of_slack = 1e-2;
+
+// -u where the film of `reynolds` misses all that a gap widening by c in a radian asks for at the fill speed (film.12).
+double slack_scale(const FilmModel& model) {
+  const double dphi = 2 * std::numbers::pi / model.grid.n_phi;
+  const double slenderness = model.R * dphi * (model.grid.n_z - 1) / model.L;
+  return fill_scale(model) * dphi / (1 + slenderness * slenderness);
+}
+
+double shear_fade(const FilmModel& model) {
+  return model.cavitation == Cavitation::reynolds ? fade_of_slack * slack_scale(model)
+                                                  : fade_of_pressure * fill_scale(model);
+}
 
 }  // namespace
 
@@ -33,6 +46,7 @@ double ambient_fill(const FilmModel& model, int j) {
 NodeLaw::NodeLaw(const FilmModel& model)
     : model_(model),
       fill_scale_(fill_scale(model)),
+      shear_fade_(shear_fade(model)),
       contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus) {}
 
 Node NodeLaw::state(double g, double u, int j) const {
@@ -62,8 +76,8 @@ void NodeLaw::pressure_and_fill(double u, int j, Node& node) const {
     node.share = node.theta;
     node.share_u = node.theta_u;
   } else {
-    node.share = std::max(0.0, 1 + u / (shear_fade * fill_scale_));
-    node.share_u = node.share > 0 ? 1 / (shear_fade * fill_scale_) : 0;
+    node.share = std::max(0.0, 1 + u / shear_fade_);
+    node.share_u = node.share > 0 ? 1 / shear_fade_ : 0;
   }
 }
 

@@ -42,7 +42,7 @@ class NodeLaw {
   void contact(double h, Node& node) const;
 
   const FilmModel& model_;
-  double fill_scale_;
+  double fill_scale_, shear_fade_;
   double contact_scale_;
 };
 

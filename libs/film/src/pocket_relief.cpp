@@ -88,7 +88,8 @@ void PocketRelief::add_cells(const SurfaceFeature& feature, double phi_journal, 
 }
 
 void PocketRelief::place(double phi_journal, double phi_start, double dt, double speed) {
-  if (is_empty() || (placed_ && !any_turns_)) return;
+  const Placement asked{phi_journal, phi_start, dt, dt > 0 ? 0 : speed};
+  if (is_empty() || (placed_ && (!any_turns_ || *placed_ == asked))) return;
   const int n = model_.grid.size();
   covered_.clear();
   for (const auto* features : {&pockets_, &fed_}) {
@@ -98,7 +99,7 @@ void PocketRelief::place(double phi_journal, double phi_start, double dt, double
       for (const CoveredNode& cell : cells_) covered_.push_back({cell.node, cell.share, cell.share_phi, feature.depth});
     }
   }
-  placed_ = true;
+  placed_ = asked;
   if (pockets_.empty()) return;
   for (auto* field : {&depth_, &depth_start_, &depth_journal_}) field->setZero(n);
   for (const SurfaceFeature& pocket : pockets_) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "feature_cover.h"
@@ -75,6 +76,11 @@ class PocketRelief {
   };
   /// A feature's extent seen from a tube: across and along the flow, with the rate at which it turns.
   struct Extent;
+  /// What `place` was last asked for.
+  struct Placement {
+    double phi_journal = 0, phi_start = 0, dt = 0, speed = 0;
+    bool operator==(const Placement&) const = default;
+  };
 
   void place_tubes(double phi_journal);
   void add_tube(std::size_t face, const std::vector<Extent>& extents, double across, double width, double along,
@@ -87,7 +93,8 @@ class PocketRelief {
   const FilmModel& model_;
   const GridGeometry& geometry_;
   std::vector<SurfaceFeature> pockets_, fed_;
-  bool any_turns_ = false, placed_ = false;
+  bool any_turns_ = false;
+  std::optional<Placement> placed_;
   std::vector<PocketTube> tubes_;
   std::vector<Strip> strips_;
   std::vector<Segment> segments_;

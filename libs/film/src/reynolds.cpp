@@ -19,8 +19,9 @@ namespace {
 // What responses leave of their right-hand sides.
 constexpr double tight = 1e-10;
 
-// What is left of a step's defect of oil: it is no error, and comes with the next step's.
-constexpr double settling = 1e-6;
+// What one solution leaves of a step's defect of oil, and what refinement leaves.
+constexpr double settling = 1e-6, refined_to = 1e-10;
+constexpr int most_refinements = 5;
 
 // Right-hand sides that multigrid has not solved after so many iterations are left to the direct solver.
 constexpr int most_iterations = 80;
@@ -39,6 +40,8 @@ struct Reynolds::Impl {
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void set_up_multigrid();
+  void solve_for_settling();
+  void subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   const FilmWrench& summed_wrench();
 
   FlowBalance balance;
@@ -48,7 +51,7 @@ struct Reynolds::Impl {
   solver::SparseLu lu;
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
-  Eigen::VectorXd rhs, answer, row_size;
+  Eigen::VectorXd rhs, answer, row_size, rest, correction;
   // Of the last condensation, n rows each: residual's derivative with the directions; then either the answer of each
   // force (six of the wrench, then on shapes) to the residual, or the increment and the answers to the directions.
   Eigen::MatrixXd residual_ds, adjoint, answers;
@@ -300,8 +303,34 @@ void Reynolds::take_stock(const SurfaceMotion& motion, const FilmHistory& histor
   m.linearised = m.summed = m.factorised = m.set_up = false;
 }
 
-// The factor of the last linearisation will do: what it does not lead through the film stays with the oil it belongs
-// to, and the next step sees it.
+// The factor of the last linearisation leads the defect nearly where it belongs, refinement the rest of the way.
+void Reynolds::Impl::solve_for_settling() {
+  linearised = true, set_up = false;
+  const double enough = refined_to * rhs.cwiseAbs().maxCoeff();
+  solve(rhs, settling, answer);
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < most_refinements; ++k) {
+    rest = rhs;
+    subtract_product(answer, rest);
+    const double size = rest.cwiseAbs().maxCoeff();
+    if (size <= enough) return;
+    if (!(size < 0.5 * last)) {  // too old a factor
+      factorised = false;
+      factorise();
+      return solve(rhs, settling, answer);
+    }
+    last = size;
+    solve(rest, settling, correction);
+    answer += correction;
+  }
+}
+
+void Reynolds::Impl::subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  for (Eigen::Index column = 0; column < x.size(); ++column)
+    for (auto k = balance.column_start()[column]; k < balance.column_start()[column + 1]; ++k)
+      y[balance.row_index()[k]] -= balance.values()[k] * x[column];
+}
+
 void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
                       OilOfStep& oil) {
   Impl& m = *impl_;
@@ -309,14 +338,8 @@ void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, c
   HERSEY_REQUIRE(domain.is_inside(), text(m.balance.model(), domain));
   m.rhs = -m.balance.residual();
   m.balance.subtract_defect(m.rhs);
-  if (m.factorised) {
-    m.answer = m.rhs;
-    m.lu.solve({m.answer.data(), static_cast<std::size_t>(m.answer.size())});
-  } else {
-    m.balance.assemble_jacobian();
-    m.linearised = true, m.set_up = false;
-    m.solve(m.rhs, settling, m.answer);
-  }
+  m.balance.assemble_jacobian();
+  m.solve_for_settling();
   m.balance.settle(m.answer, oil);
   m.linearised = m.summed = m.factorised = m.set_up = false;
 }

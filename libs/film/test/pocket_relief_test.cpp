@@ -286,7 +286,13 @@ TEST_CASE("Oil_IsConservedAtAnyStep") {
       if (step == 0) {
         reynolds.take_stock(motion, history, u, oil);
       } else {
-        close_step(reynolds, motion, history, {}, u, oil);
+        reynolds.settle(motion, history, u, oil);
+        if (oil.passed_on > 0.02) {
+          history.by_gap = true;
+          REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+          reynolds.settle(motion, history, u, oil);
+          history.by_gap = false;
+        }
         const double in = dt * (oil.flow_supply - oil.flow_left - oil.flow_right);
         worst = std::max(worst, std::abs(oil.volume - volume - in));
         passed += dt * std::max(std::abs(oil.flow_supply), std::abs(oil.flow_left + oil.flow_right));

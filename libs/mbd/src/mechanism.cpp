@@ -328,6 +328,17 @@ void Mechanism::begin_step(const State& start, double dt) {
   }
 }
 
+bool Mechanism::step_stands() {
+  Implementation& m = *impl_;
+  const Stopwatch all(m.timing.total), forces(m.timing.forces);
+  bool stands = true;
+  for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
+    const Stopwatch one(m.timing.force[i]);
+    stands = m.spec.forces[i].force->step_stands() && stands;
+  }
+  return stands;
+}
+
 void Mechanism::accept_step(const State& end) {
   Implementation& m = *impl_;
   const Stopwatch all(m.timing.total);

@@ -273,7 +273,11 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     return summary;
   };
   if (!w.enter_domain(equations, state, options_)) return fail(StepStatus::domain_error, w.trouble);
-  while (w.worst > 1) {
+  while (w.worst > 1 || !equations.step_stands()) {
+    if (w.worst <= 1) {
+      if (!w.assemble(equations, options_)) return fail(StepStatus::domain_error, w.trouble);
+      continue;
+    }
     if (summary.iterations == options_.max_iterations)
       return fail(StepStatus::no_convergence,
                   fmt::format("no convergence in {} iterations; worst equation: {}, {:.3g} times its tolerance",

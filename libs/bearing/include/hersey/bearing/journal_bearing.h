@@ -80,6 +80,9 @@ class JournalBearing final : public mbd::TwoBodyForce {
   /// of options.initial_dt, so that a node is full or just emptying.
   void evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) override;
   void begin_step(const mbd::RelativeMotion& start, double dt) override;
+  /// False where the oil that has come in over the step fills another film than the one found: that follows the change
+  /// of the gap over the step instead of its rate (theory manual, film.59).
+  [[nodiscard]] bool step_stands() override;
   void accept_step(const mbd::RelativeMotion& end) override;
   [[nodiscard]] bool is_costly() const override { return true; }
   [[nodiscard]] bool has_tangent() const override { return options_.coupling == Coupling::monolithic; }
@@ -101,6 +104,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   [[nodiscard]] double smallest_gap() const;
   void report(const film::FilmDomain& domain);
   void fill_gap();
+  void settle();
   void close_step();
   void show_oil(film::FilmObservables& film) const;
   void follow_surfaces();
@@ -144,6 +148,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   film::OilOfStep oil_;
   OilOfRun oil_of_run_;
   bool started_ = false;
+  bool settled_ = false;  // oil_ belongs to the film evaluated last
 
   double internal_residual_ = 0;
   int iterations_ = 0, exchanges_ = 0;

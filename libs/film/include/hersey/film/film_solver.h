@@ -13,6 +13,7 @@ struct FilmSolveOptions {
   FilmSolver solver = FilmSolver::newton;
   double rtol = 1e-10;      ///< on Reynolds::relative_residual, > 0
   int max_iterations = 50;  ///< Newton iterations, or thousands of SOR sweeps
+  bool insists = true;      ///< where Newton's method cycles, SOR sweeps go on; a step in time may rather be shortened
 };
 
 /// The linear solver a film wants from its Reynolds object.
@@ -36,10 +37,5 @@ struct FilmSolveSummary {
 /// linear systems are solved as `reynolds` was made to (linear_solver_of).
 [[nodiscard]] FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                           const FilmSolveOptions& options, Eigen::VectorXd& u);
-
-/// Oil of a step that has ended at `u`, by Reynolds::settle(); where the film has changed too much in the step for
-/// that, from a film of its own that follows the gap instead of its rate.
-void close_step(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
-                const FilmSolveOptions& options, const Eigen::VectorXd& u, OilOfStep& oil);
 
 }  // namespace hersey::film

@@ -48,7 +48,8 @@ struct OilOfStep {
   double flow_left = 0, flow_right = 0;  ///< out over the edges [m^3/s]
   double flow_supply = 0;                ///< in through line and features [m^3/s]
   Eigen::VectorXd flow_features;         ///< in through each feature [m^3/s]
-  double passed_on = 0;  ///< largest share of a control volume that the linear way through the film left over [-]
+  /// Largest share of a control volume that the linear way through the film left over [-]; 1 where some found no place.
+  double passed_on = 0;
 };
 
 /// Forces of a film whose unknowns are eliminated, and their derivatives with directions in which the surfaces move.

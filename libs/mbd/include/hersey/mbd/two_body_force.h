@@ -60,6 +60,7 @@ class TwoBodyForce {
 
   // Condensed unknowns; see solver::Equations for when each is called.
   virtual void begin_step(const RelativeMotion& start, double dt) { (void)start, (void)dt; }
+  [[nodiscard]] virtual bool step_stands() { return true; }
   virtual void accept_step(const RelativeMotion& end) { (void)end; }
   [[nodiscard]] virtual double internal_residual() const { return 0; }
   [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }

@@ -73,6 +73,11 @@ class Equations {
   /// A step from `start` over `dt` begins (again): condensed unknowns return to their state at `start`.
   virtual void begin_step(const State& start, double dt) = 0;
 
+  /// Whether the step may end where `assemble` was called last and Newton's method found it solved. False: what belongs
+  /// to the whole of the step changes the equations (a film whose oil the step's end does not account for), and they
+  /// are to be solved once more from there; asked again afterwards.
+  [[nodiscard]] virtual bool step_stands() { return true; }
+
   /// The step ended in `end`: condensed unknowns keep what they have.
   virtual void accept_step(const State& end) = 0;
 
