@@ -113,6 +113,11 @@ class Rotor:
     def _ordered(self, entries):
         return dict(list(entries.items())[::self.order])
 
+    def on_grid(self, factor):
+        m = copy.deepcopy(self)
+        m.bearings = [b.on_grid(factor) for b in self.bearings]
+        return m
+
     def mirrored_z(self):
         m = copy.deepcopy(self)
         m.bearings = [b.mirrored_z() for b in self.bearings]
@@ -281,6 +286,12 @@ class SliderCrank:
 
     def _ordered(self, entries):
         return dict(list(entries.items())[::self.order])
+
+    def on_grid(self, factor):
+        m = copy.deepcopy(self)
+        m.big_end = self.big_end.on_grid(factor)
+        m.main = self.main.on_grid(factor) if self.main else None
+        return m
 
     def mirrored_z(self):
         m = copy.deepcopy(self)
