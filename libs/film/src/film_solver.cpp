@@ -197,8 +197,20 @@ bool start_on_coarser_grid(const Reynolds& reynolds, const SurfaceMotion& motion
   return true;
 }
 
+// Sweeps to the end, which arrive where Newton's method cycles around the answer: slower, but an answer.
+FilmSolveSummary sweep_on(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                          const FilmSolveOptions& options, Eigen::VectorXd& u) {
+  FilmSolveOptions sweeps = options;
+  sweeps.solver = FilmSolver::sor;
+  FilmSolveSummary summary = solve_by_sor(reynolds, motion, history, sweeps, u);
+  if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
+  summary.iterations = 0;  // of Newton's method
+  return summary;
+}
+
 // Where steps of Newton's method cycle (a viscosity that rises by decades under a gap that jumps), sweeps with
-// viscosity and thickness held back do not: they lead near the answer, Newton the rest of the way.
+// viscosity and thickness held back do not: they lead near the answer, Newton the rest of the way. Where it cycles
+// around the answer itself, sweeps go there, too.
 FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                const FilmSolveOptions& options, const Eigen::VectorXd& start, Eigen::VectorXd& u) {
   FilmSolveOptions sweeps = options;
@@ -211,8 +223,12 @@ FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, 
   (void)solve_by_sor(reynolds, motion, history, sweeps, near);
   FilmSolveOptions briefly = options;
   briefly.max_iterations = std::min(options.max_iterations, patience);
-  const FilmSolveSummary summary = solve_by_newton(reynolds, motion, history, briefly, near);
   u = near;
+  FilmSolveSummary summary = solve_by_newton(reynolds, motion, history, briefly, u);
+  if (summary.converged) return summary;
+  u = near;
+  summary = sweep_on(reynolds, motion, history, options, u);
+  summary.iterations = briefly.max_iterations;
   return summary;
 }
 
@@ -223,7 +239,14 @@ FilmSolveSummary fill_from_none(Reynolds& reynolds, const SurfaceMotion& motion,
   const double none = -fill_scale(reynolds.model());
   u = u.cwiseMax(none);
   Reynolds direct(reynolds.model());
+  const Eigen::VectorXd start = u;
   FilmSolveSummary summary = solve_by_newton(direct, motion, history, options, u, none);
+  if (!summary.converged && options.insists) {
+    const int before = summary.iterations;
+    u = start;
+    summary = sweep_on(reynolds, motion, history, options, u);
+    summary.iterations = before;
+  }
   if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
   return summary;
 }
