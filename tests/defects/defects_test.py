@@ -190,6 +190,29 @@ class Defects(unittest.TestCase):
         self.assertGreater(strain["none"][-1], 0)
         self.assertGreater(strain["static"][0], 0)
 
+    # -- films and mechanisms that solvers did not find
+
+    def test_films_that_solvers_did_not_find(self):
+        for solver in ("newton", "multigrid"):
+            with self.subTest(solver=solver):
+                figures, _ = self.bearing("deep_groove_barus", "--set", "bearings.main.solver=" + solver)
+                reference, _ = self.bearing("deep_groove_barus", "--set", "bearings.main.solver=sor")
+                self.assertAlmostEqual(figures["side_flow"] / reference["side_flow"], 1, delta=1e-6)
+                results, _ = self.run_model("compressible_slider.yaml", "bearings.main.solver=" + solver)
+                b = results["bearings/main"]
+                self.assertLess(b["h_min"][-1], 25.5e-6)
+                self.assertGreater(b["p_max"][-1], 10e5)
+
+    def test_squeeze_without_any_torque(self):
+        results, _ = self.run_model("planar_squeeze.yaml")
+        self.assertAlmostEqual(float(results["bearings/main/eccentricity_ratio"][-1]), 0.94, delta=1e-6)
+
+    def test_a_starved_steady_film_is_not_asked_for_a_shorter_step(self):
+        for solver in ("newton", "multigrid", "sor"):
+            done = hersey("bearing", os.path.join(HERE, "starved.yaml"), "--set", "bearings.main.solver=" + solver)
+            self.assertIn("a film that starves", done.stderr)
+            self.assertNotIn("shorter step", done.stderr)
+
     # -- 13: messages
 
     def test_films_far_from_any_answer_end_in_words_of_the_model(self):

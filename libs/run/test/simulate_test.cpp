@@ -138,8 +138,8 @@ simulation: {duration: 5 s, step: 5 ms, spectral_radius: 0.95}
 TEST_CASE("HardStep_IsHalvedAndTheRunGoesOn") {
   // A quarter turn at once takes eight iterations and more: with seven it is halved until they do.
   const TemporaryDirectory scratch;
-  const model::Model model = rig(rig_with("step: 2 deg", "step: 90 deg"),
-                                 {"load=5000 N", "duration=10 ms", "simulation.max_iterations=7"});
+  const model::Model model =
+      rig(rig_with("step: 2 deg", "step: 90 deg"), {"load=5000 N", "duration=10 ms", "simulation.max_iterations=7"});
   const Summary summary = simulate(model, {.results = scratch / "run.h5"});
   INFO(summary.message);
   CHECK(summary.status == Status::completed);
