@@ -34,6 +34,22 @@ std::string contents(const model::Model& model, std::size_t runs) {
                      runs == 1 ? "run" : "runs");
 }
 
+/// Of the model and of its start.
+std::vector<Fault> warnings_of(const model::Model& model) {
+  std::vector<Fault> warnings = model.warnings;
+  for (Fault& warning : run::check(model)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+/// Runs of a study share most of what there is to say.
+void add_new(const std::vector<Fault>& more, std::vector<Fault>& warnings) {
+  for (const Fault& warning : more) {
+    const bool known = std::any_of(warnings.begin(), warnings.end(),
+                                   [&](const Fault& other) { return other.text() == warning.text(); });
+    if (!known) warnings.push_back(warning);
+  }
+}
+
 }  // namespace
 
 void warn(const std::vector<Fault>& warnings) {
@@ -45,14 +61,12 @@ int check_command(const CheckArguments& arguments) {
       {"model", arguments.model}, {"faults", nlohmann::json::array()}, {"warnings", nlohmann::json::array()}};
   try {
     const model::Model model = model::read(arguments.model, arguments.overrides);
-    const std::vector<Fault> redundancies = run::check(model);
     const std::vector<model::StudyRun> runs = model::expand_study(arguments.model, arguments.overrides);
-    for (const model::StudyRun& run : runs) (void)run::check(model::read(arguments.model, run.overrides));
-    for (const std::vector<Fault>& warnings : {model.warnings, redundancies})
-      for (const Fault& warning : warnings) document["warnings"].push_back(json_of(warning));
+    std::vector<Fault> warnings = warnings_of(model);
+    for (const model::StudyRun& run : runs) add_new(warnings_of(model::read(arguments.model, run.overrides)), warnings);
+    for (const Fault& warning : warnings) document["warnings"].push_back(json_of(warning));
     if (!arguments.json) {
-      warn(model.warnings);
-      warn(redundancies);
+      warn(warnings);
       fmt::print("{}: good ({})\n", arguments.model, contents(model, std::max<std::size_t>(runs.size(), 1)));
     }
   } catch (const InputError& error) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "commands.h"
 #include "exit_code.h"
@@ -235,6 +236,13 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   return close(arguments, folder, {options.results}, {summary}, exit_code(summary.status));
 }
 
+/// What several runs of a study share is told with the first of them.
+void tell_once(const std::string& run, const std::vector<Fault>& warnings, std::set<std::string>& told) {
+  for (const Fault& warning : warnings) {
+    if (const std::string text = warning.text(); told.insert(text).second) say("warning: {}: {}\n", run, text);
+  }
+}
+
 int run_all(const RunArguments& arguments, const model::Model& model, const std::filesystem::path& folder,
             const std::vector<model::StudyRun>& runs) {
   study::Options options;
@@ -251,6 +259,12 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
 
   ProgressBar bar;
   std::size_t finished = 0;
+  std::set<std::string> told;
+  for (const Fault& warning : model.warnings) told.insert(warning.text());
+  options.on_warnings = [&](std::size_t i, const std::vector<Fault>& warnings) {
+    bar.clear();
+    tell_once(runs[i].label, warnings, told);
+  };
   options.on_progress = [&](std::size_t i, const run::Progress& progress) {
     bar.show(fmt::format("{}/{} {}", finished, runs.size(), runs[i].label), progress);
   };

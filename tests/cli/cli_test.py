@@ -461,6 +461,35 @@ class CommandLine(unittest.TestCase):
             self.assertGreater(len(file["time"]), 1)
             self.assertEqual(len(file["time"]), len(file["bearings/main/h_min"]))
 
+    def test_interrupt_that_comes_twice_at_once_is_one(self):
+        # A terminal signals a program and the wrapper that started it, which passes the signal on. Steps are long here.
+        for pause in (0.01, 0.1):
+            out = os.path.join(self.out, str(pause))
+            with subprocess.Popen([HERSEY, "run", MODEL, "--output", out, "--set", "duration=1000 s", "--set",
+                                   "bearings.main.grid={circumferential: 120, axial: 25}"], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True) as process:
+                deadline = time.monotonic() + 60
+                while not self.results() and process.poll() is None and time.monotonic() < deadline:
+                    time.sleep(0.05)
+                process.send_signal(signal.SIGINT)
+                time.sleep(pause)
+                process.send_signal(signal.SIGINT)
+                _, errors = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, INTERRUPTED, (pause, errors))
+            self.assertTrue(os.path.exists(os.path.join(out, "results.checkpoint")), (pause, errors))
+            shutil.rmtree(out)
+
+    def test_second_interrupt_ends_a_run_at_once(self):
+        with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s", "--set",
+                               "bearings.main.grid={circumferential: 1000, axial: 101}"], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL) as process:
+            time.sleep(1)  # a start that takes many seconds
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.5)
+            self.assertIsNone(process.poll())
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(timeout=60), -signal.SIGINT)
+
     def test_killed_run_leaves_what_it_had_flushed(self):
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
@@ -701,6 +730,21 @@ class CommandLine(unittest.TestCase):
         self.assertIn("line 1 was '# --set duration=1000 s' and is '# --set duration=2000 s'", run.stderr)
         self.assertEqual(before, self.datasets(self.results()[0]))
         self.assertEqual(hersey("run", MODEL, "--output", self.out, "--resume", "--force").returncode, WRONG_INPUT)
+
+    def test_study_warns_as_single_runs_do(self):
+        path = self.model_with("simulation:", "study: {parameters: {load: [50 N, 100 N]}}\nsimulation:")
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        old = "initial: {rotation_rate: 3000 rpm}}"
+        self.assertIn(old, text)
+        for study in (True, False):  # a drive turns what is asked to rest: the start moves, and says so
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text.replace(old, "initial: {rotation_rate: 3000.5 rpm}}"))
+            single = [] if study else ["--set", "load=50 N"]
+            run = hersey("run", path, "--output", os.path.join(self.out, str(study)), "--jobs", "2", *single)
+            self.assertEqual(run.returncode, OK, run.stderr)
+            self.assertEqual(run.stderr.count("rad/s given, "), 1, run.stderr)
+        self.assertIn("rad/s given, ", hersey("check", path).stderr)
 
     def test_resumed_study_runs_what_is_missing(self):
         path = self.model_with("simulation:", "study: {parameters: {load: [50 N, 100 N]}}\nsimulation:")

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <variant>
 #include <vector>
 
 #include "hersey/bearing/rigid_surfaces.h"
@@ -77,12 +78,34 @@ class Search {
   // The film at `e`, from the film there is.
   [[nodiscard]] bool film_at(const Eigen::Vector2d& e) {
     e_ = e;
+    is_unsolved_ = false;
     if (!stands_inside()) return false;
     motion_ = steady_surfaces(model_, point_, e);
-    const film::FilmSolveSummary solved = film::solve_film(reynolds_, motion_, history_, film_options_, u_);
+    film::FilmSolveSummary solved = film::solve_film(reynolds_, motion_, history_, film_options_, u_);
     (options_.solver != film::FilmSolver::sor ? summary_.iterations : summary_.film_iterations) += solved.iterations;
+    if (!solved.converged && options_.solver == film::FilmSolver::multigrid) solved = solve_by_factorisation();
     summary_.message = solved.message;
+    is_unsolved_ = is_unsolved(solved);
     return solved.converged && flows() && linearise();
+  }
+
+  // Where linear systems are too hard for multigrid: what a film bears is no matter of the solver.
+  [[nodiscard]] film::FilmSolveSummary solve_by_factorisation() {
+    film::Reynolds direct(model_);
+    film::FilmSolveOptions options = film_options_;
+    options.solver = film::FilmSolver::newton;
+    u_.setZero();
+    const film::FilmSolveSummary solved = film::solve_film(direct, motion_, history_, options, u_);
+    summary_.iterations += solved.iterations;
+    return solved;
+  }
+
+  // Whether a solver has not arrived. A film that closes, starves or has an oil that stiffens without bound is none.
+  [[nodiscard]] bool is_unsolved(const film::FilmSolveSummary& solved) const {
+    using Trouble = film::FilmDomain::Trouble;
+    if (solved.domain.is_inside()) return solved.relative_residual > film_options_.rtol;
+    const bool stiffens = !std::holds_alternative<film::ConstantViscosity>(model_.lubricant.viscosity_law);
+    return solved.domain.trouble != Trouble::closed && !(solved.domain.trouble == Trouble::pressure && stiffens);
   }
 
   // Between rigid surfaces an oil that stiffens has, beyond Weibull's limit, numerical answers in which it is a solid.
@@ -161,14 +184,16 @@ class Search {
     std::optional<Position> strong = {};  // the last one with more force than the load
   };
 
-  // The largest force along the load that has been seen, where, and what is further out.
+  // The largest force along the load that has been seen, where, and what is further out: no film, or none found.
   struct Limit {
     double force = 0, r = 0;
     std::string why;
+    bool is_unsolved = false;
   };
 
   [[nodiscard]] std::string why_not() const {
     if (!limit_.why.empty() && 0 < limit_.force && limit_.force < point_.load->norm()) {
+      if (limit_.is_unsolved) return not_found_further_out();
       return fmt::format(
           "no equilibrium: along this load of {:.4g} N the film bears at most about {:.4g} N, at eccentricity ratio "
           "{:.4f}; further out {}{}",
@@ -183,6 +208,15 @@ class Search {
       return text + "; the surfaces touch at the edges, where no film pressure parts them: give asperities";
     if (is_smooth) return text + "; the film would be thinner than any surface is smooth: give asperities";
     return model_.compliance > 0 ? text : text + "; more than the asperities of rigid surfaces bear: give a compliance";
+  }
+
+  // That a solver does not arrive says nothing of what the film bears.
+  [[nodiscard]] std::string not_found_further_out() const {
+    const bool is_sor = options_.solver == film::FilmSolver::sor;
+    return fmt::format(
+        "no equilibrium found: along this load of {:.4g} N the film bears {:.4g} N at eccentricity ratio {:.4f} and "
+        "perhaps more; further out the solver does not find it ({}); `solver: {}` may",
+        point_.load->norm(), limit_.force, limit_.r / model_.c, limit_.why, is_sor ? "newton" : "sor");
   }
 
   [[nodiscard]] std::string what_to_try() const {
@@ -438,6 +472,7 @@ class Search {
     if (seen == Look::across) return;
     if (seen == Look::no_film) {
       limit_.why = summary_.message;
+      limit_.is_unsolved = is_unsolved_;
       bounds.outer = r;
       return;
     }
@@ -490,7 +525,8 @@ class Search {
   Eigen::MatrixXd du_de_;
   SteadySummary summary_;
   Limit limit_;
-  int budget_ = 0;  // of linearisations
+  bool is_unsolved_ = false;  // the solver has not found the film last sought
+  int budget_ = 0;            // of linearisations
 };
 
 }  // namespace

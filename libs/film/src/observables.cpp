@@ -38,16 +38,17 @@ class PeakFinder {
  public:
   PeakFinder(const FilmModel& model, const GridGeometry& geometry) : R_(model.R), grid_(model.grid), at_(geometry) {}
 
-  /// Beside what holds a pressure the field has a kink: there the node's own value is the peak.
-  template <class HasKink>
-  [[nodiscard]] Peak largest(const Eigen::VectorXd& field, HasKink&& has_kink) const {
+  /// The field's largest value, by parabolas where it is smooth from the node to all its neighbours; else the node's
+  /// own. @param is_smooth whether the field has no kink between two nodes
+  template <class IsSmooth>
+  [[nodiscard]] Peak largest(const Eigen::VectorXd& field, IsSmooth&& is_smooth) const {
     int node = 0;
     field.maxCoeff(&node);
     const int i = node / grid_.n_z, j = node % grid_.n_z, n = grid_.n_phi;
-    bool kink = has_kink(node) || has_kink(grid_.index((i + 1) % n, j)) || has_kink(grid_.index((i + n - 1) % n, j));
-    if (j > 0) kink = kink || has_kink(node - 1);
-    if (j + 1 < grid_.n_z) kink = kink || has_kink(node + 1);
-    return kink ? Peak{field[node], at_.phi[i], at_.z[j]} : refine(field, i, j);
+    bool smooth = is_smooth(node, grid_.index((i + 1) % n, j)) && is_smooth(node, grid_.index((i + n - 1) % n, j));
+    if (j > 0) smooth = smooth && is_smooth(node, node - 1);
+    if (j + 1 < grid_.n_z) smooth = smooth && is_smooth(node, node + 1);
+    return smooth ? refine(field, i, j) : Peak{field[node], at_.phi[i], at_.z[j]};
   }
 
  private:
@@ -72,6 +73,24 @@ class PeakFinder {
   const Grid& grid_;
   const GridGeometry& at_;
 };
+
+/// Whether the pressure has no kink between two nodes: neither a supply line nor a feature holds one of them, and no
+/// border of a pocket lies between.
+bool is_smooth(const FlowBalance& balance, int a, int b) {
+  if (balance.is_held(a) || balance.is_held(b)) return false;
+  const Eigen::VectorXd& depth = balance.relief().depth();
+  return depth.size() == 0 || std::abs(depth[a] - depth[b]) <= 1e-9 * balance.model().c;
+}
+
+/// The largest pressure. A supply line has its own along its whole way, between nodes too.
+Peak largest_pressure_of(const FlowBalance& balance, const Eigen::VectorXd& p, double phi_supply) {
+  const FilmModel& model = balance.model();
+  const Peak peak =
+      PeakFinder(model, balance.geometry()).largest(p, [&](int a, int b) { return is_smooth(balance, a, b); });
+  if (model.supply.kind == SupplyKind::none || model.supply.pressure <= peak.value) return peak;
+  const double turn = 2 * std::numbers::pi;
+  return {model.supply.pressure, phi_supply - turn * std::floor(phi_supply / turn), 0};
+}
 
 /// Flows over the boundaries, storage and volume (film.22).
 void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const Eigen::VectorXd& u,
@@ -162,9 +181,8 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
 
   FilmObservables o;
   o.flow_features.setZero(static_cast<Eigen::Index>(model.features.size()));
-  const PeakFinder peaks(model, balance.geometry());
   const Thinnest thinnest = thinnest_film(model, balance.geometry(), fields.h, motion.phi_journal);
-  const Peak peak = peaks.largest(fields.p, [&](int node) { return balance.feature_at(node) >= 0; });
+  const Peak peak = largest_pressure_of(balance, fields.p, motion.phi_supply);
   o.h_min = thinnest.value, o.h_min_phi = thinnest.phi, o.h_min_z = thinnest.z;
   o.h_min_centre = thinnest.in_the_middle;
   o.h_min_features = thinnest.in_features;

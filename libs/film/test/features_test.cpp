@@ -97,6 +97,49 @@ TEST_CASE("HoleSweptOverAUniformFilm_GivesASmoothForce") {
   }
 }
 
+// Where a line or a groove holds the largest pressure of a film, nothing is above it: a parabola through the nodes
+// beside it would be, by an eighth, as the pressure falls off on both sides of a kink. Mirrored films have the same.
+TEST_CASE("PeakBesideWhatHoldsAPressure_IsThatPressure") {
+  const auto peak = [](int n_phi, double phi, bool is_line, double omega) {
+    FilmModel m{.R = 0.025, .L = 0.025, .c = 50e-6, .grid = {n_phi, 13}};
+    m.lubricant.mu0 = 0.01;
+    if (is_line) {
+      m.supply = {SupplyKind::fixed_angle, phi, 1.5e5};
+    } else {
+      m.features = {{.name = "groove", .phi = phi, .arc = 0.4, .length = 0.012, .pressure = 1.5e5}};
+    }
+    const Journal journal = turning(m, 0.5, omega);
+    const SolvedFilm film = solve_cold(m, surfaces(m, journal, phi), journal.e);
+    REQUIRE(film.summary.converged);
+    return film.observed;
+  };
+  for (const bool is_line : {true, false}) {
+    CAPTURE(is_line);
+    for (const int n_phi : {60, 61, 240}) {
+      CAPTURE(n_phi);
+      for (const double degrees : {120.0, 121.5, 124.0, 151.0}) {
+        CAPTURE(degrees);
+        const double phi = degrees * pi / 180;
+        const FilmObservables one = peak(n_phi, phi, is_line, 30), mirrored = peak(n_phi, -phi, is_line, -30);
+        CHECK(one.p_max == doctest::Approx(1.5e5).epsilon(1e-12));
+        CHECK(mirrored.p_max == doctest::Approx(one.p_max).epsilon(1e-12));
+        if (is_line) CHECK(one.p_max_phi == doctest::Approx(phi).epsilon(1e-12));
+      }
+    }
+  }
+}
+
+// At the step of a pocket the pressure has a kink as well: the node's own value is told, not that of a parabola beyond.
+TEST_CASE("PeakAtThePocketsStep_IsNotExtrapolated") {
+  FilmModel m{.R = 0.025, .L = 0.025, .c = 50e-6, .grid = {60, 13}};
+  m.lubricant.mu0 = 0.01;
+  m.p_edge_left = m.p_edge_right = 1e6;
+  m.features = {{.name = "pocket", .phi = 2, .arc = 0.63, .length = 0.015, .is_fed = false, .depth = 60e-6}};
+  const FilmObservables o = solve_cold(m, turning(m, 0, 100)).observed;
+  CHECK(o.p_max > 1.001e6);
+  CHECK(o.p_max == o.p_max_node);
+}
+
 double sommerfeld(const FilmModel& m, double omega, double W) {
   return m.lubricant.mu0 * omega / (2 * pi) * std::pow(m.R / m.c, 2) * m.L * 2 * m.R / W;
 }

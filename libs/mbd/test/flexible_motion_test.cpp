@@ -181,7 +181,12 @@ TEST_CASE("FreeSpinningBeamOfNodes_KeepsMomentumAndEnergy") {
           ", angular momentum off by ", e.momentum);
   CHECK(e.strain > 1e-4);
   CHECK(std::abs(e.drift) < 1e-6);
-  CHECK(e.momentum < 2e-5);  // of the steps, as beside it for the body of modes
+  // Let go undeformed it vibrates, and its momentum errs by the steps' order as that of modes does: with half of them a
+  // quarter is left, which is below what a body that starts in its static answer has with these.
+  const SpinErrors fine = spin(5, 400, {0, 0, 20}, 1.0, true);
+  MESSAGE("at half the step angular momentum is off by ", fine.momentum, ", energy swings by ", fine.energy);
+  CHECK(e.momentum / fine.momentum > 3.5);
+  CHECK(fine.momentum < 5e-6);
   CHECK(spin(2, 200, {0, 0, 20}, 0.9, true).drift < 0);
 }
 

@@ -15,9 +15,11 @@ TypePtr features_format() {
       defaulted("angle", quantity("rad", "90 deg"), "0 deg",
                 "Its middle, from the x-axis of that surface's frame towards y."),
       defaulted("z", quantity("m", "0 mm"), "0 mm", "Its middle along the axis, from the middle of the bearing."),
-      optional("pressure", function_format({"Pa"}, "2 bar"),
-               "Supply pressure; a function of time or of the rotation of `simulation.crank`.",
-               "not fed: a pocket of the given depth"),
+      optional(
+          "pressure", function_format({"Pa"}, "2 bar"),
+          "Supply pressure; a function of time or of the rotation of `simulation.crank`. Where feeds touch, a supply "
+          "line or an edge included, they need one pressure: what flows between two depends on the grid.",
+          "not fed: a pocket of the given depth"),
       defaulted("depth", quantity("m", "0.5 mm", Range::not_negative()), "0 mm",
                 "By how much it widens the gap, and its friction falls; 0 leaves the gap as it is."),
   };

@@ -73,6 +73,8 @@ class SurfaceReader {
       read_feed(value, film_.features.back());
       check_place(value, film_.features.back());
       check_overlap(value);
+      check_line(value);
+      warn_of_open_edge(value);
     }
   }
 
@@ -142,18 +144,80 @@ class SurfaceReader {
     }
   }
 
-  /// Two fed features of one surface that overlap must have one pressure. Those of two surfaces may pass each other.
+  [[nodiscard]] bool has_pressure(std::size_t feature, double pressure) const {
+    return bearing_.feature_pressures[feature].is_constant() && film_.features[feature].pressure == pressure;
+  }
+
+  /// Two fed features of one surface that overlap must have one pressure: no film lies between them. Those of two
+  /// surfaces may meet as the journal turns.
   void check_overlap(const Value& value) {
-    const film::SurfaceFeature& last = film_.features.back();
-    for (std::size_t k = 0; k + 1 < film_.features.size(); ++k) {
+    const std::size_t last = film_.features.size() - 1;
+    const film::SurfaceFeature& feature = film_.features[last];
+    for (std::size_t k = 0; k < last && feature.is_fed; ++k) {
       const film::SurfaceFeature& other = film_.features[k];
-      const bool overlap = last.is_fed && other.is_fed && other.surface == last.surface && film::overlap(last, other);
-      const bool same = bearing_.feature_pressures[k].is_constant() &&
-                        bearing_.feature_pressures.back().is_constant() && other.pressure == last.pressure;
-      if (!overlap || same) continue;
-      context_.fault_at_key(value, "overlaps '" + other.name + "', which has another pressure",
-                            "the same constant pressure, or room between them");
+      if (!other.is_fed || (has_pressure(k, feature.pressure) && has_pressure(last, other.pressure))) continue;
+      const std::string name = fmt::format("'{}' ({})", other.name, place_of(*section_value("features", other.name)));
+      if (other.surface == feature.surface) {
+        if (film::overlap(feature, other))
+          context_.fault_at_key(value, "overlaps " + name + ", which has another pressure",
+                                "the same constant pressure, or room between them");
+      } else if (std::abs(feature.z - other.z) < 0.5 * (feature.length + other.length)) {
+        warn_at_key(value, "passes over " + name + ", which has another pressure, as the journal turns");
+      }
     }
+  }
+
+  /// A supply line goes from edge to edge: fixed in the shell it crosses what lies there, else what it passes over.
+  void check_line(const Value& value) {
+    const std::size_t last = film_.features.size() - 1;
+    const film::SurfaceFeature& feature = film_.features[last];
+    const Value* supply = value_.find("supply");
+    if (film_.supply.kind == film::SupplyKind::none || !feature.is_fed || has_pressure(last, film_.supply.pressure) ||
+        supply->broken)
+      return;
+    const std::string line = fmt::format("the supply line ({})", place_of(*supply));
+    const bool is_fixed = film_.supply.kind == film::SupplyKind::fixed_angle;
+    if (!is_fixed || feature.surface == film::Surface::journal) {
+      warn_at_key(value,
+                  fmt::format("{} {}, which has another pressure", is_fixed ? "passes over" : "may lie under", line));
+    } else if (film::contains(feature, film_.supply.phi, feature.z)) {
+      context_.fault_at_key(value, "lies on " + line + ", which has another pressure",
+                            "the same constant pressure, or another angle");
+    }
+  }
+
+  /// Where places of different pressures touch, the flow between them has no limit as the grid is refined.
+  void warn_at_key(const Value& value, std::string found) {
+    context_.model.warnings.push_back({value.key_position, value.path, std::move(found),
+                                       "the same constant pressure, or that they never meet",
+                                       "while they do, the flow from one to the other depends on the grid"});
+  }
+
+  void warn_of_open_edge(const Value& value) {
+    const std::size_t last = film_.features.size() - 1;
+    const film::SurfaceFeature& feature = film_.features[last];
+    if (!feature.is_fed || film_.edges != film::EdgeKind::pressure || film_.L <= 0) return;
+    const auto meets = [&](double side, double p_edge) {
+      return side * feature.z + 0.5 * feature.length > 0.5 * film_.L * (1 - 1e-9) && !has_pressure(last, p_edge);
+    };
+    if (!meets(-1, film_.p_edge_left) && !meets(1, film_.p_edge_right)) return;
+    context_.model.warnings.push_back(
+        {value.key_position, value.path, "it is open to an edge that has another pressure",
+         fmt::format(
+             "a `length` that ends before the edge, below {:.4g} mm, or the feature's pressure as edge_pressure",
+             1e3 * film_.L),
+         "the flow from it over that edge depends on the grid and grows as that is refined"});
+  }
+
+  [[nodiscard]] const Value* section_value(const std::string& name, const std::string& member) const {
+    for (const auto& [key, value] : section(value_, name)) {
+      if (key == member) return &value;
+    }
+    return nullptr;
+  }
+
+  [[nodiscard]] static std::string place_of(const Value& value) {
+    return fmt::format("{}:{}", value.key_position.file, value.key_position.line);
   }
 
   void read_shape() {

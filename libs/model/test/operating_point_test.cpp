@@ -63,6 +63,69 @@ TEST_CASE("StarvedFilm_IsWarnedOf") {
                   .empty());
 }
 
+const std::string line_at_ten = "    supply: {line: 10 deg, pressure: 2 bar}\n";
+const std::string line_at_widest = "    supply: {line: widest_gap, pressure: 2 bar}\n";
+
+std::string with_feeds(const std::string& feeds) {
+  return edited(bearing_alone, "    lubricant: oil\n", "    lubricant: oil\n" + feeds);
+}
+
+std::string groove(const std::string& name, const std::string& more) {
+  return "      " + name + ": {shape: axial_groove, arc: 30 deg, length: 5 mm, " + more + "}\n";
+}
+
+// Places at two pressures that touch: what flows between them has no limit as the grid is refined.
+TEST_CASE("SupplyLineThroughAGroove_OfAnotherPressureIsAFault") {
+  const auto faults = [](const std::string& line, const std::string& more) {
+    return faults_of(with_feeds(line + "    features:\n" + groove("feed", more)));
+  };
+  CHECK(faults(line_at_ten, "pressure: 1 bar") ==
+        "m.yaml:12:7: bearings.main.features.feed: lies on the supply line (m.yaml:10), which has another pressure; "
+        "expected the same constant pressure, or another angle");
+  CHECK(faults(line_at_ten, "pressure: {expression: \"2 + t\", unit: bar}").find("lies on the supply line") !=
+        std::string::npos);
+  for (const char* good : {"pressure: 2 bar", "angle: 30 deg, pressure: 1 bar", "depth: 1 mm"}) {
+    CAPTURE(good);
+    CHECK_NOTHROW(read_text(with_feeds(line_at_ten + "    features:\n" + groove("feed", good)), "m.yaml"));
+  }
+}
+
+TEST_CASE("ReservoirsThatMeetAsTheJournalTurns_AreWarnedOf") {
+  const auto warnings = [](const std::string& feeds) { return warnings_of(with_feeds(feeds)); };
+  const std::string one = groove("one", "pressure: 1 bar");
+  CHECK(warnings(line_at_widest + "    features:\n" + one) ==
+        "m.yaml:12:7: bearings.main.features.one: may lie under the supply line (m.yaml:10), which has another "
+        "pressure; expected the same constant pressure, or that they never meet; while they do, the flow from one to "
+        "the other depends on the grid\n");
+  CHECK(warnings(line_at_ten + "    features:\n" + groove("one", "angle: 90 deg, on: journal, pressure: 1 bar"))
+            .find("passes over the supply line (m.yaml:10)") != std::string::npos);
+  CHECK(warnings("    features:\n" + one + groove("two", "angle: 180 deg, on: journal, pressure: 2 bar"))
+            .find("m.yaml:12:7: bearings.main.features.two: passes over 'one' (m.yaml:11), which has another pressure, "
+                  "as the journal turns") == 0);
+  for (const std::string& good : {groove("two", "angle: 180 deg, on: journal, pressure: 1 bar"),
+                                  groove("two", "angle: 180 deg, on: journal, z: 5 mm, pressure: 2 bar"),
+                                  groove("two", "on: journal, depth: 1 mm")})
+    CHECK(warnings("    features:\n" + groove("one", "pressure: 1 bar") + good).find("passes over") ==
+          std::string::npos);
+}
+
+TEST_CASE("GrooveOpenToAnEdgeOfAnotherPressure_IsWarnedOf") {
+  const auto warnings = [](const std::string& edges, const std::string& more) {
+    return warnings_of(
+        with_feeds(edges + "    features:\n      feed: {shape: axial_groove, arc: 30 deg, " + more + "}\n"));
+  };
+  CHECK(warnings("", "pressure: 1 bar") ==
+        "m.yaml:11:7: bearings.main.features.feed: it is open to an edge that has another pressure; expected a "
+        "`length` that ends before the edge, below 15 mm, or the feature's pressure as edge_pressure; the flow from it "
+        "over that edge depends on the grid and grows as that is refined\n");
+  CHECK(warnings("    edge_pressure: {left: 1 bar, right: 0 bar}\n", "z: -2.5 mm, length: 10 mm, pressure: 1 bar")
+            .empty());
+  CHECK_FALSE(warnings("    edge_pressure: {left: 1 bar, right: 0 bar}\n", "z: 2.5 mm, length: 10 mm, pressure: 1 bar")
+                  .empty());
+  CHECK(warnings("    edge_pressure: 1 bar\n", "pressure: 1 bar").empty());
+  CHECK(warnings("", "length: 14 mm, pressure: 1 bar").empty());
+}
+
 TEST_CASE("UnphysicalOil_IsWarnedOf") {
   const std::string fed = edited(bearing_alone, "lubricant: oil", "lubricant: oil\n    supply: {line: widest_gap}");
   CHECK(warnings_of(fed).empty());

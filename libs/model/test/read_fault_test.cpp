@@ -266,11 +266,10 @@ TEST_CASE("FeaturesThatCannotBe_AreReported") {
   CHECK(faults("      a: {shape: hole, diameter: 1e-12 mm, pressure: 0 Pa}\n") ==
         "m.yaml:31:7: bearings.big_end.features.a: fewer than 3 nodes of the 60 x 13 grid across it; expected a larger "
         "one of it");
-  CHECK(
-      faults("      a: {shape: hole, diameter: 5 mm, pressure: 1 bar}\n"
-             "      b: {shape: axial_groove, angle: 10 deg, arc: 20 deg, pressure: 2 bar}\n") ==
-      "m.yaml:32:7: bearings.big_end.features.b: overlaps 'a', which has another pressure; expected the same constant "
-      "pressure, or room between them");
+  CHECK(faults("      a: {shape: hole, diameter: 5 mm, pressure: 1 bar}\n"
+               "      b: {shape: axial_groove, angle: 10 deg, arc: 20 deg, pressure: 2 bar}\n") ==
+        "m.yaml:32:7: bearings.big_end.features.b: overlaps 'a' (m.yaml:31), which has another pressure; expected the "
+        "same constant pressure, or room between them");
   CHECK(faults("      a: {shape: hole, diameter: 5 mm, pressure: -1 bar}\n")
             .starts_with(
                 "m.yaml:31:50: bearings.big_end.features.a.pressure: -100000 Pa, below the cavitation pressure"));

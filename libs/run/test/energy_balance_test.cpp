@@ -49,8 +49,10 @@ TEST_CASE("EnergyOfDampers_IsWhatTheyTake") {
   REQUIRE(fine.status == Status::completed);
   CHECK(fine.energy.dampers > 0.2);
   CHECK(fine.energy.stored < 0);
-  CHECK(fine.energy.error() < 5e-5);                         // (omega dt)^2/12 of the block's fastest motion
-  CHECK(fine.energy.error() < 0.3 * coarse.energy.error());  // trapezoidal rule and integrator: order two
+  // Trapezoidal rule and integrator are of order two, (omega dt)^2/12 of the block's fastest motion, some 160 rad/s:
+  // 2e-5. What two steps extrapolate to is nothing.
+  CHECK(fine.energy.error() < 0.3 * coarse.energy.error());
+  CHECK(std::abs(4 * fine.energy.error() - coarse.energy.error()) / 3 < 1e-7);
   const results::Reader reader(folder / "r.h5");
   CHECK(reader.read("/energy/since_start/dampers").values.back() == fine.energy.dampers);
   CHECK(reader.read("/energy/since_start/unexplained").values.back() == fine.energy.unexplained());

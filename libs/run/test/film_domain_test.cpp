@@ -43,6 +43,7 @@ bearings:
 simulation: {duration: 4.08 ms, step: 0.68 ms}
 )");
   CHECK_MESSAGE(summary.status == Status::completed, summary.message);
+  CHECK(summary.rejected_steps > 0);  // some trial was outside the domain
 }
 
 TEST_CASE("TensionInAStiffeningOil_DoesNotOverflow") {

@@ -4,6 +4,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "hersey/core/error_text.h"
 #include "hersey/model/read.h"
@@ -32,7 +33,14 @@ RunResult simulate_one(const std::string& path, const model::StudyRun& run, cons
     options.on_progress(index, progress);
   };
   try {
-    result.summary = run::simulate(model::read(path, run.overrides), run_options);
+    const model::Model model = model::read(path, run.overrides);
+    if (options.on_warnings) {
+      std::vector<Fault> warnings = model.warnings;
+      for (Fault& warning : run::check(model)) warnings.push_back(std::move(warning));
+      const std::scoped_lock lock(queue.speak);
+      options.on_warnings(index, warnings);
+    }
+    result.summary = run::simulate(model, run_options);
   } catch (const std::exception& error) {
     result.error = error_text(error);
   }

@@ -26,6 +26,8 @@ struct Options {
   int threads = 0;      ///< runs at the same time; 0: one per core
   /// Called from the run's own thread, one call at a time.
   std::function<void(std::size_t run, const run::Progress&)> on_progress;
+  /// Before a run begins: what its model and its start should make the user know (model::Model::warnings, run::check).
+  std::function<void(std::size_t run, const std::vector<Fault>&)> on_warnings;
   std::function<void(std::size_t run, const RunResult&)> on_finished;
   const std::atomic<bool>* stop = nullptr;
 };

@@ -1,0 +1,237 @@
+#!/usr/bin/python3
+"""Models that once gave a wrong number, or no words for it: each with what should come out, from formulas or from the
+stored fields alone. docs/decisions/0012-why-no-test-saw-it.md says which fault each is of."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+HERSEY = os.path.abspath(sys.argv.pop(1))
+HERE = os.path.dirname(os.path.abspath(__file__))
+EXAMPLES = os.path.join(HERE, "../../examples")
+
+# Words of the program's checks of itself, which mean nothing to a user.
+INTERNAL = ("does not hold", "is not finite", ".cpp", ".h:", "internal error", "linearis", "Jacobian")
+
+
+def hersey(*arguments):
+    return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL,
+                          check=False)
+
+
+class Defects(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="hersey-defects-")
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def bearing(self, name, *arguments):
+        """Figures of a bearing by itself and, node by node, its film thickness [um]."""
+        fields = os.path.join(self.folder, "fields.csv")
+        done = hersey("bearing", os.path.join(HERE, name + ".yaml"), "--no-grid-error", "--json", "--fields", fields,
+                      *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        figures = json.loads(done.stdout)["solutions"][0]["figures"]
+        return {key: f["value"] for key, f in figures.items()}, np.genfromtxt(fields, delimiter=",", skip_header=1)[:, 4]
+
+    def run_model(self, path, *settings):
+        """Results of a run that completes, open, and what it has said."""
+        out = os.path.join(self.folder, "out")
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        done = hersey("run", os.path.join(HERE, path), "--output", out, "--force", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        results = h5py.File(os.path.join(out, "results.h5"))
+        self.addCleanup(results.close)
+        return results, done.stderr
+
+    # -- 1: the smallest film
+
+    def test_thickness_beside_depth_is_that_of_the_land(self):
+        for name, expected in (("hole", 23.75), ("hole_by_grid", 23.75), ("groove", 50), ("arc_groove", 26),
+                               ("pocket", 2.5)):
+            for grid in ((), ("120", "25"), ("61", "12")):
+                settings = [f"bearings.main.grid.{key}={n}" for key, n in zip(("circumferential", "axial"), grid)]
+                arguments = [word for setting in settings for word in ("--set", setting)]
+                with self.subTest(name=name, grid=grid):
+                    figures, thickness = self.bearing("thickness_beside_" + name, *arguments)
+                    self.assertAlmostEqual(figures["h_min"] / expected, 1, delta=2e-4)
+                    self.assertLessEqual(figures["h_min"], thickness.min() * (1 + 1e-6))
+
+    def test_thickness_beside_a_pocket_in_a_run(self):
+        results, _ = self.run_model("thickness_beside_pocket_run.yaml")
+        expected = 25e-6 - math.hypot(3.52e-6, 22.2e-6)
+        self.assertAlmostEqual(results["bearings/main/h_min"][-1] / expected, 1, delta=2e-3)
+
+    def test_thickness_of_a_liner_that_gives_way(self):
+        results, _ = self.run_model("thickness_column.yaml")
+        b = results["bearings/ma"]
+        rows = np.searchsorted(results["time"][:], b["fields/time"][:] * (1 - 1e-12))
+        least = b["fields/thickness"][:].min(axis=(1, 2))
+        self.assertTrue((b["h_min"][:] > 0).all())
+        self.assertTrue((b["h_min"][:][rows] <= least * (1 + 1e-9)).all())
+        # A smooth gap dips between two nodes of 48 by no more than an eighth of its second difference.
+        self.assertTrue((b["h_min"][:][rows] > 0.5 * least).all())
+
+    # -- 2 and 14: flow
+
+    def test_side_flow_does_not_depend_on_the_depth_of_a_fed_groove(self):
+        flow = {}
+        for grid in ("60 13", "120 33", "240 65"):
+            around, along = grid.split()
+            for depth in ("5 mm", "0 mm"):
+                figures, _ = self.bearing("fed_groove_leaks", "--set", f"bearings.b.grid.circumferential={around}",
+                                          "--set", f"bearings.b.grid.axial={along}",
+                                          "--set", f"bearings.b.features.groove.depth={depth}")
+                flow[grid, depth] = figures["side_flow"]
+            self.assertAlmostEqual(flow[grid, "5 mm"] / flow[grid, "0 mm"], 1, delta=1e-9)
+        # 94,200 mm3/s by a program that shares nothing with this one.
+        self.assertAlmostEqual(flow["240 65", "5 mm"] / 94200, 1, delta=0.005)
+        self.assertLess(abs(flow["120 33", "5 mm"] / 94200 - 1), abs(flow["60 13", "5 mm"] / 94200 - 1))
+
+    def test_supply_line_between_nodes_acts_as_on_one(self):
+        on_node, _ = self.bearing("supply_line_off_node", "--eccentricity-angle", "0deg")
+        for share in (0.25, 0.5, 0.75):
+            between, _ = self.bearing("supply_line_off_node", "--eccentricity-angle", f"{3 * share}deg")
+            for key in ("load", "side_flow"):
+                self.assertAlmostEqual(between[key] / on_node[key], 1, delta=0.003)
+
+    # -- 3: torque
+
+    def test_torque_of_a_bore_that_bends_is_that_of_the_fields(self):
+        results, _ = self.run_model(
+            os.path.join(EXAMPLES, "flexible_big_end/model.yaml"), "variant=mesh", "load=-2500N",
+            "bearings.big_end.asperities=none", "simulation.duration=720deg", "simulation.step=30deg",
+            "output.fields_every=720deg", "bearings.big_end.shell_surface={faces: big_end, modes: 12}")
+        b = results["bearings/big_end"]
+        phi, z = b["fields/phi"][:], b["fields/z"][:]
+        p, h, fill = (b["fields/" + key][-1] for key in ("pressure", "thickness", "fill"))
+        R, slip = 0.0225, 3570 * math.pi / 30 * 0.0225
+        simpson = np.ones(len(z))
+        simpson[1:-1:2], simpson[2:-1:2] = 4, 2
+
+        def integral(field):
+            return field.sum(0) @ simpson * (z[1] - z[0]) / 3 * (phi[1] - phi[0]) * R**2
+
+        rise = (np.roll(p, -1, 0) - np.roll(p, 1, 0)) / (2 * (phi[1] - phi[0]) * R)
+        torque = integral(0.015 * np.exp(1.28e-10 * p) * slip * fill / h + h / 2 * rise)
+        self.assertAlmostEqual(-b["torque_journal"][-1] / torque, 1, delta=5e-4)
+        # The moment of the pressure on the slopes of the bore, once left out, is more than that.
+        slopes = (np.roll(b["fields/shell_displacement"][-1], -1, 0) -
+                  np.roll(b["fields/shell_displacement"][-1], 1, 0)) / (2 * (phi[1] - phi[0]) * R)
+        self.assertGreater(abs(integral(p * slopes)), 10 * 5e-4 * torque)
+
+    # -- 4: oil
+
+    def check_fill_and_oil(self, results, name):
+        b = results["bearings/" + name]
+        fill = b["fields/fill"][:]
+        self.assertGreaterEqual(fill.min(), 0)
+        self.assertLessEqual(fill.max(), 1)
+        self.assertGreaterEqual(b["power_film"][:].min(), 0)
+        through = b["oil_through_flow"][-1]
+        self.assertGreater(through, 0)
+        self.assertLess(np.abs(b["oil_unexplained"][:]).max(), 1e-6 * through)
+
+    def test_fill_stays_between_none_and_full(self):
+        for name, bearing in (("negative_fill", "main"), ("negative_fill_no_depth", "ma")):
+            with self.subTest(name=name):
+                results, _ = self.run_model(name + ".yaml")
+                self.check_fill_and_oil(results, bearing)
+                self.assertEqual(results.attrs["status"], "completed")
+
+    def test_oil_of_a_cycle_is_explained_at_any_step(self):
+        for step in ("1 deg", "2 deg", "4 deg"):
+            with self.subTest(step=step):
+                results, _ = self.run_model(
+                    os.path.join(EXAMPLES, "slider_crank/model.yaml"), "simulation.step=" + step,
+                    "bearings.big_end.grid={circumferential: 36, axial: 7}", "output.fields_every=20 deg")
+                self.assertGreater(results["crank_angle"][-1] - results["crank_angle"][0], 12.5)
+                self.check_fill_and_oil(results, "big_end")
+
+    # -- 5 and 6: start
+
+    def test_start_moves_by_the_least_and_is_told(self):
+        results, said = self.run_model("start_changed.yaml")
+        crank = results["joints/main/coordinates"][0]
+        self.assertAlmostEqual(math.degrees(float(crank.ravel()[0])), 45, delta=0.001)
+        self.assertIn("joints.main.initial.rotation: 45 deg given, 44.999", said)
+        self.assertIn("joints.bore.initial.translation: 594.72 mm given, 594.68", said)
+
+    def test_given_rate_is_kept(self):
+        results, said = self.run_model("start_rate_changed.yaml", "simulation.duration=10 ms")
+        self.assertAlmostEqual(float(results["joints/A/rates"][0].ravel()[0]), 6, delta=1e-9)
+        self.assertNotIn("given", said)
+
+    def test_light_journal_arrives_when_its_load_drives_it_there(self):
+        arrived = {}
+        for step in ("0.1 ms", "0.4 ms"):
+            results, _ = self.run_model("light_journal.yaml", "simulation.step=" + step)
+            ratio = results["bearings/main/eccentricity_ratio"][:].ravel()
+            self.assertTrue((np.diff(ratio) > 0).all())
+            arrived[step] = np.interp(0.9, ratio, results["time"][:])
+        self.assertAlmostEqual(arrived["0.1 ms"], 52.1e-3, delta=0.3e-3)
+        self.assertAlmostEqual(arrived["0.4 ms"] / arrived["0.1 ms"], 1, delta=1e-3)
+
+    # -- 9: nodal bodies let go
+
+    def test_nodal_body_is_let_go_undeformed_where_asked(self):
+        strain = {}
+        for asked in ("none", "static"):
+            results, _ = self.run_model("nodal_initial_deformation_none.yaml", "simulation.initial_deformation=" + asked)
+            strain[asked] = results["energy/strain"][:]
+        self.assertEqual(strain["none"][0], 0)
+        self.assertGreater(strain["none"][-1], 0)
+        self.assertGreater(strain["static"][0], 0)
+
+    # -- films and mechanisms that solvers did not find
+
+    def test_films_that_solvers_did_not_find(self):
+        for solver in ("newton", "multigrid"):
+            with self.subTest(solver=solver):
+                figures, _ = self.bearing("deep_groove_barus", "--set", "bearings.main.solver=" + solver)
+                reference, _ = self.bearing("deep_groove_barus", "--set", "bearings.main.solver=sor")
+                self.assertAlmostEqual(figures["side_flow"] / reference["side_flow"], 1, delta=1e-6)
+                results, _ = self.run_model("compressible_slider.yaml", "bearings.main.solver=" + solver)
+                b = results["bearings/main"]
+                self.assertLess(b["h_min"][-1], 25.5e-6)
+                self.assertGreater(b["p_max"][-1], 10e5)
+
+    def test_squeeze_without_any_torque(self):
+        results, _ = self.run_model("planar_squeeze.yaml")
+        self.assertAlmostEqual(float(results["bearings/main/eccentricity_ratio"][-1]), 0.94, delta=1e-6)
+
+    def test_a_starved_steady_film_is_not_asked_for_a_shorter_step(self):
+        for solver in ("newton", "multigrid", "sor"):
+            done = hersey("bearing", os.path.join(HERE, "starved.yaml"), "--set", "bearings.main.solver=" + solver)
+            self.assertIn("a film that starves", done.stderr)
+            self.assertNotIn("shorter step", done.stderr)
+
+    # -- 13: messages
+
+    def test_films_far_from_any_answer_end_in_words_of_the_model(self):
+        for name, command in (("assertion_shown", "bearing"), ("jacobian_not_finite_ends_small", "run")):
+            with self.subTest(name=name):
+                output = ["--output", os.path.join(self.folder, name)] if command == "run" else ["--no-grid-error"]
+                done = hersey(command, os.path.join(HERE, name + ".yaml"), *output)
+                self.assertIn(done.returncode, (0, 1), done.stderr)
+                for word in INTERNAL:
+                    self.assertNotIn(word, done.stderr)
+                if done.returncode:
+                    self.assertRegex(done.stderr, r"bearing \w+: ")
+
+    def test_solver_that_does_not_arrive_tells_no_limit_of_the_film(self):
+        for solver in ("newton", "multigrid", "sor"):
+            with self.subTest(solver=solver):
+                figures, _ = self.bearing("assertion_shown_multigrid", "--set", "bearings.main.solver=" + solver)
+                self.assertAlmostEqual(figures["load"], 1137.74, delta=0.01)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
