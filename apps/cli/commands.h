@@ -15,7 +15,8 @@ struct RunArguments {
   bool force = false;
   bool resume = false;
   bool json = false;
-  int jobs = 0;
+  int jobs = 0;     ///< 0: one per thread
+  int threads = 0;  ///< 0: one per processor
 };
 
 /// `hersey run`: simulates a model, or every run of its study, writes results and report, prints the closing table.
@@ -49,7 +50,8 @@ struct BearingArguments {
   std::filesystem::path csv, fields, report;  ///< files to write; empty: none
   bool json = false;
   bool no_grid_error = false;
-  int jobs = 0;
+  int jobs = 0;     ///< 0: one per thread
+  int threads = 0;  ///< 0: one per processor
 };
 
 /// `hersey bearing`: equilibrium or load of one bearing by itself, once or over sweeps. @returns an ExitCode.

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 
 #include "commands.h"
 #include "exit_code.h"
+#include "hersey/core/blas_threads.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
+#include "hersey/core/task_pool.h"
 #include "hersey/core/version.h"
 #include "hersey/results/error.h"
 #include "standard_streams.h"
@@ -44,6 +47,13 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void add_threads(CLI::App& command, int& threads) {
+  command
+      .add_option("--threads", threads,
+                  "Threads at work at the same time, which change no result (default: one per processor it may use)")
+      ->check(CLI::PositiveNumber);
+}
+
 CLI::App* add_bearing_command(CLI::App& app, BearingArguments& bearing) {
   CLI::App* command = app.add_subcommand(
       "bearing",
@@ -74,8 +84,9 @@ CLI::App* add_bearing_command(CLI::App& app, BearingArguments& bearing) {
       ->type_name("FILE");
   command->add_flag("--json", bearing.json, "Print every figure as JSON");
   command->add_flag("--no-grid-error", bearing.no_grid_error, "Leave out the estimate of the grid's error");
-  command->add_option("--jobs", bearing.jobs, "Solutions at the same time (default: one per core)")
+  command->add_option("--jobs", bearing.jobs, "Solutions at the same time (default: one per processor)")
       ->check(CLI::PositiveNumber);
+  add_threads(*command, bearing.threads);
   return command;
 }
 
@@ -197,9 +208,9 @@ int dispatch(int argc, char** argv) {
                  "Go on where a run was interrupted, from its last checkpoint; of a study, finish what is missing")
       ->excludes(force);
   run_app->add_flag("--json", run.json, "Print the closing table as JSON");
-  run_app->add_option("--jobs", run.jobs, "Runs of a study at the same time (default: one per core)")
+  run_app->add_option("--jobs", run.jobs, "Runs of a study at the same time (default: one per processor)")
       ->check(CLI::PositiveNumber);
-
+  add_threads(*run_app, run.threads);
   CheckArguments check;
   CLI::App* check_app = app.add_subcommand("check", "Report everything that can be found wrong without simulating");
   check_app->add_option("MODEL", check.model, "Model file")->required();
@@ -235,6 +246,7 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kOk : kWrongInput;
   }
+  if (const int threads = std::max(run.threads, bearing.threads); threads > 0) TaskPool::shared().set_threads(threads);
   if (*run_app) return run_command(run);
   if (*check_app) return check_command(check);
   if (*report_app) return report_command(report);
@@ -253,6 +265,7 @@ int main(int argc, char** argv) {
   using namespace hersey;
   try {
     cli::open_standard_streams();
+    use_one_blas_thread();
     const int code = cli::dispatch(argc, argv);
     return cli::finish_standard_output() || code != cli::kOk ? code : static_cast<int>(cli::kFailed);
   } catch (const InputError& error) {

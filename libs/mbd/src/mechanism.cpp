@@ -151,6 +151,13 @@ ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const E
   return response;
 }
 
+/// Lengths that positional rows compare. What a cut brings together are places in ground, whose round-off is that of
+/// their distance from its origin.
+double Mechanism::Implementation::closure_length(const Closure& closure, const Pose& X_WA) const {
+  return closure.first_row < 6 * static_cast<int>(tree.cuts.size()) ? std::max(tree.length, X_WA.r.norm())
+                                                                    : tree.length;
+}
+
 void Mechanism::Implementation::add_closures(Assembly& assembly, const State& state) const {
   for (const Closure& closure : tree.closures) {
     const Pose X_WA = motion.pose(closure.pair.a);
@@ -160,7 +167,7 @@ void Mechanism::Implementation::add_closures(Assembly& assembly, const State& st
       const ConstraintRow& row = closure.rows[i];
       const int at = nv + closure.first_row + static_cast<int>(i);
       const bool positional = row.kind == ConstraintRow::Kind::position;
-      assembly.add_residual(at, row.value(X_AB), positional ? tree.length : 1.0);
+      assembly.add_residual(at, row.value(X_AB), positional ? closure_length(closure, X_WA) : 1.0);
       if (!assembly.tangent) continue;
       const Vector6 w = force_transform(X_WA) * row.wrench(X_AB);
       for (const SignedColumn& col : closure.pair.columns) {
@@ -245,7 +252,7 @@ void Mechanism::constraints(const State& state, Eigen::VectorXd& phi, Eigen::Vec
       const ConstraintRow& row = closure.rows[i];
       const Index at = closure.first_row + static_cast<Index>(i);
       phi[at] = row.value(X_AB);
-      if (row.kind == ConstraintRow::Kind::position) scale[at] = m.tree.length;
+      if (row.kind == ConstraintRow::Kind::position) scale[at] = m.closure_length(closure, X_WA);
       if (!jacobian) continue;
       const Vector6 w = force_transform(X_WA) * row.wrench(X_AB);
       for (const SignedColumn& col : closure.pair.columns)
@@ -321,11 +328,8 @@ void Mechanism::begin_step(const State& start, double dt) {
   m.motion.update(start);
   m.read_elastic_bodies(start);
   m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.body().begin_step(elastic.motion(), dt); });
-  const Stopwatch forces(m.timing.forces);
-  for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
-    const Stopwatch one(m.timing.force[i]);
-    m.spec.forces[i].force->begin_step(m.relative_motion(i, start.t), dt);
-  }
+  const auto begin = [&](std::size_t i) { m.spec.forces[i].force->begin_step(m.relative_motion(i, start.t), dt); };
+  m.for_each_force(std::cref(begin));
 }
 
 bool Mechanism::step_stands() {
@@ -357,13 +361,12 @@ void Mechanism::accept_step(const State& end) {
   m.hand_out_shape_forces(m.responses);
   m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.body().accept_step(elastic.motion()); });
   m.accepted.resize(m.spec.forces.size());
-  const Stopwatch forces(m.timing.forces);
-  for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
-    const Stopwatch one(m.timing.force[i]);
+  const auto accept = [&](std::size_t i) {
     m.spec.forces[i].force->accept_step(m.relative_motion(i, end.t));
     m.accepted[i].W_B_A = m.responses[i].W_B_A;
     m.accepted[i].Q = m.responses[i].Q;
-  }
+  };
+  m.for_each_force(std::cref(accept));
 }
 
 double Mechanism::internal_residual() const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "assembly.h"
@@ -9,6 +11,7 @@
 #include "hersey/core/stopwatch.h"
 #include "hersey/mbd/mechanism.h"
 #include "load.h"
+#include "shared_reactions.h"
 #include "tree.h"
 #include "tree_motion.h"
 
@@ -43,11 +46,11 @@ struct Mechanism::Implementation {
   struct Sides {
     int a = -1, b = -1;
   };
-  std::vector<Sides> sides;               ///< of each two-body force
-  std::vector<std::size_t> costly;        ///< two-body forces with a thread of their own
-  std::vector<char> seen_deforming;       ///< of each elastic body: some force sees it deform
-  std::vector<RelativeMotion> relatives;  ///< of the two-body forces at the last assembly
-  std::vector<ForceResponse> responses;   ///< the same
+  std::vector<Sides> sides;                ///< of each two-body force
+  std::vector<std::size_t> costly, cheap;  ///< two-body forces worth a thread each, and the others
+  std::vector<char> seen_deforming;        ///< of each elastic body: some force sees it deform
+  std::vector<RelativeMotion> relatives;   ///< of the two-body forces at the last assembly
+  std::vector<ForceResponse> responses;    ///< the same
   MechanismTiming timing;
   std::vector<ForceResponse> accepted;  ///< at the last accepted step, wrenches and forces alone; empty before
 
@@ -59,6 +62,7 @@ struct Mechanism::Implementation {
   [[nodiscard]] double initial_value(const CoordinateRef& coordinate) const;
   [[nodiscard]] double initial_rate(const CoordinateRef& coordinate) const;
   [[nodiscard]] solver::State initial_state() const;
+  void place_cut_bodies(solver::State& state) const;
   [[nodiscard]] std::vector<Index> given_coordinates() const;
   [[nodiscard]] std::vector<Index> given_rates() const;
   template <class Choose>
@@ -70,6 +74,7 @@ struct Mechanism::Implementation {
 
   // Redundant constraints
   std::vector<Redundancy> redundancies;
+  std::optional<SharedReactions> shared_reactions;  ///< where there are any
   std::string came_apart;  ///< which joint's dropped rows do not hold any more; empty as long as all do
   void release_redundant_rows();
   [[nodiscard]] double opening_of(const Closure& closure) const;
@@ -94,7 +99,9 @@ struct Mechanism::Implementation {
   void evaluate_two_body_forces(const Assembly& assembly, const solver::State& state);
   void hand_out_shape_forces(const std::vector<ForceResponse>& of_forces);
   void add_two_body_forces(Assembly& assembly) const;
+  void for_each_force(const std::function<void(std::size_t)>& act);
   void add_closures(Assembly& assembly, const solver::State& state) const;
+  [[nodiscard]] double closure_length(const Closure& closure, const Pose& X_WA) const;
   void add_coordinate_springs(Assembly& assembly, const solver::State& state) const;
   void add_coordinate_forces(Assembly& assembly, const solver::State& state) const;
   void add_couplings(Assembly& assembly, const solver::State& state) const;

@@ -35,7 +35,35 @@ solver::State Mechanism::Implementation::initial_state() const {
       if (moving) state.v[link.first_v] = joint->initial_rate[link.value];
     }
   }
+  place_cut_bodies(state);
   return state;
+}
+
+/// Bodies beyond a cut start where the coordinates of the joints put them: the cuts are closed from the outset.
+void Mechanism::Implementation::place_cut_bodies(solver::State& state) const {
+  TreeMotion at(tree, spec.gravity);
+  const auto follow = [&](int link) {
+    std::vector<int> path;
+    for (int l = link; l > 0; l = tree.links[l].parent) path.push_back(l);
+    std::reverse(path.begin(), path.end());
+    at.update(state, path);
+  };
+  for (const Cut& cut : tree.cuts) {
+    const Pair& pair = tree.closures[tree.joints[cut.joint].closure].pair;
+    const Attachment &near = cut.reversed ? pair.b : pair.a, &far = cut.reversed ? pair.a : pair.b;
+    const int body = tree.bodies[cut.body].link;  // its own free joint: three translations and a ball
+    follow(near.link);
+    follow(far.link);
+    const Pose X_WB = at.pose(near) * at.pose(far).inverse();
+    const Link& ball = tree.links[body];
+    const int first_q = ball.first_q - 3, first_v = ball.first_v - 3;
+    const Eigen::Quaterniond R(X_WB.R);
+    state.q.segment<7>(first_q) << X_WB.r, R.w(), R.x(), R.y(), R.z();
+    follow(far.link);
+    const Vector6 V = at.V(near.link) - at.V(far.link);
+    const Vector3 omega = V.head<3>();
+    state.v.segment<6>(first_v) << V.tail<3>() + omega.cross(X_WB.r), X_WB.R.transpose() * omega;
+  }
 }
 
 std::vector<Mechanism::Index> Mechanism::Implementation::given_coordinates() const {
@@ -151,6 +179,9 @@ void Mechanism::Implementation::release_redundant_rows() {
     redundancy.loop.push_back({closure.joint});
     redundancies.push_back(std::move(redundancy));
   }
+  std::vector<int> redundant;
+  for (const Redundancy& redundancy : redundancies) redundant.push_back(redundancy.joint.index);
+  shared_reactions.emplace(spec, tree, redundant);
 }
 
 double Mechanism::Implementation::opening_of(const Closure& closure) const {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "mechanism_impl.h"
-#include "shared_reactions.h"
 
 namespace hersey::mbd {
 namespace {
@@ -210,7 +209,7 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
     });
   for (std::size_t j = 0; j < spec.joints.size(); ++j)
     if (tree.joints[j].reversed) through[j] = -through[j];  // of the inboard on the outboard body
-  if (!redundancies.empty()) share_reactions(spec, tree, motion, through);
+  if (shared_reactions) shared_reactions->share(spec, tree, motion, through);
   for (std::size_t j = 0; j < spec.joints.size(); ++j) {
     const Pose X_WI = motion.pose(tree.frames[spec.joints[j].inboard.index]);
     const Vector6 W = convert_wrench(X_WI, through[j]);

@@ -58,6 +58,14 @@ class TreeBuilder {
     placed_.assign(n, false);
     used_.assign(spec.joints.size(), false);
     read_.assign(spec.joints.size(), false);
+    deforms_.assign(spec.joints.size(), false);
+    for (const JointId j : spec.deforming) deforms_[j.index] = true;
+    at_body_.resize(n);
+    for (std::size_t j = 0; j < spec.joints.size(); ++j) {
+      const int inboard = body_of(spec.joints[j].inboard), outboard = body_of(spec.joints[j].outboard);
+      at_body_[inboard].push_back(static_cast<int>(j));
+      if (outboard != inboard) at_body_[outboard].push_back(static_cast<int>(j));
+    }
     collect_read_coordinates();
   }
 
@@ -70,6 +78,8 @@ class TreeBuilder {
       grow_from(static_cast<int>(b));
     }
     place_frames();
+    // First of all constraints, each has coordinates of its own: none of them is ever found redundant.
+    for (const Cut& cut : tree_.cuts) close(cut.joint);
     for (std::size_t j = 0; j < spec_.joints.size(); ++j)
       if (!used_[j]) close(static_cast<int>(j));
     lay_out();
@@ -99,19 +109,19 @@ class TreeBuilder {
     while (!queue.empty()) {
       const int body = queue.front();
       queue.pop_front();
-      for (std::size_t j = 0; j < spec_.joints.size(); ++j) cross(static_cast<int>(j), body, queue);
+      for (const int j : at_body_[body]) cross(j, body, queue);
     }
   }
 
   /// Queues `body` and at once everything that joints of interest connect to it, so that those joints are in the tree.
   void absorb(int body, std::deque<int>& queue) {
     queue.push_back(body);
-    for (std::size_t j = 0; j < spec_.joints.size(); ++j)
-      if (read_[j]) cross(static_cast<int>(j), body, queue);
-    for (std::size_t j = 0; j < spec_.joints.size(); ++j)
-      if (spec_.joints[j].has_given()) cross(static_cast<int>(j), body, queue);
-    for (std::size_t j = 0; j < spec_.joints.size(); ++j)
-      if (!spec_.joints[j].initial.empty()) cross(static_cast<int>(j), body, queue);
+    for (const int j : at_body_[body])
+      if (read_[j]) cross(j, body, queue);
+    for (const int j : at_body_[body])
+      if (spec_.joints[j].has_given()) cross(j, body, queue);
+    for (const int j : at_body_[body])
+      if (!spec_.joints[j].initial.empty()) cross(j, body, queue);
   }
 
   /// Takes joint j into the tree if it leads from `body` to a body not yet placed.
@@ -123,9 +133,20 @@ class TreeBuilder {
     const int next = reversed ? inboard : outboard;
     if (placed_[next]) return;
     used_[j] = true;
-    add_joint(j, reversed);
-    place(next, body);
+    if (is_cut(j, body)) {
+      tree_.cuts.push_back({j, next, reversed});
+      add_free_body(next);
+    } else {
+      add_joint(j, reversed);
+      place(next, body);
+    }
     absorb(next, queue);
+  }
+
+  /// Whether the path from ground would grow too long beyond `body`. Deformations stay with their bodies.
+  [[nodiscard]] bool is_cut(int j, int body) const {
+    const int more = degrees_of_freedom(spec_.joints[j].type);
+    return !deforms_[j] && depth_[tree_.bodies[body].link] + more > spec_.longest_path;
   }
 
   void place(int body, int parent) {
@@ -174,6 +195,7 @@ class TreeBuilder {
         where->value_component[e.value + c] = c;
       }
       tree_.links.push_back(link);
+      depth_.push_back(depth_[link.parent] + link.columns);
       base = {index, Pose{}};
     }
     return base;
@@ -211,13 +233,11 @@ class TreeBuilder {
   }
 
   /// A deformation has its initial values from the body, not from the user.
-  [[nodiscard]] bool starts_as_given(int j) const {
-    const bool deforms = std::find(spec_.deforming.begin(), spec_.deforming.end(), JointId{j}) != spec_.deforming.end();
-    return spec_.joints[j].has_given() && !deforms;
-  }
+  [[nodiscard]] bool starts_as_given(int j) const { return spec_.joints[j].has_given() && !deforms_[j]; }
 
-  /// Joint j closes a loop. If something reads its coordinates, or they start as given, it becomes a chain from its
-  /// inboard frame to a massless link welded to its outboard frame, so that the coordinates exist.
+  /// Joint j closes a loop, or a cut. If something reads its coordinates, they start as given, or count turns as those
+  /// of a cut do, it becomes a chain from its inboard frame to a massless link welded to its outboard frame, so that
+  /// the coordinates exist.
   void close(int j) {
     const JointSpec& joint = spec_.joints[j];
     Closure closure;
@@ -225,7 +245,7 @@ class TreeBuilder {
     closure.pair.a = tree_.frames[joint.inboard.index];
     closure.pair.b = tree_.frames[joint.outboard.index];
     // A screw's constraint counts turns, which poses do not show.
-    if (read_[j] || starts_as_given(j) || joint.type == JointType::screw) {
+    if (used_[j] || read_[j] || starts_as_given(j) || joint.type == JointType::screw) {
       closure.pair.a = add_chain(j, -1, elements_of(joint.type, joint.axis, joint.lead), false, closure.pair.a);
       closure.rows = constraint_rows(JointType::fixed, joint.axis);
     } else {
@@ -241,7 +261,7 @@ class TreeBuilder {
   void lay_out() {
     const std::size_t n = tree_.links.size();
     tree_.path.resize(n);
-    tree_.is_above.assign(n, std::vector<char>(n, 0));
+    number_subtrees();
     for (std::size_t l = 0; l < n; ++l) {
       Link& link = tree_.links[l];
       link.first_q = tree_.nq;
@@ -253,7 +273,6 @@ class TreeBuilder {
         tree_.path[l].push_back(static_cast<int>(tree_.columns.size()));
         tree_.columns.push_back({static_cast<int>(l), c});
       }
-      for (int up = static_cast<int>(l); up >= 0; up = tree_.links[up].parent) tree_.is_above[up][l] = 1;
     }
     for (Closure& closure : tree_.closures) find_columns(closure.pair);
     for (const MechanismSpec::Force& f : spec_.forces) {
@@ -270,6 +289,24 @@ class TreeBuilder {
     if (length > 0) tree_.length = length;
   }
 
+  /// Numbers links so that those of a subtree follow each other.
+  void number_subtrees() {
+    const std::size_t n = tree_.links.size();
+    std::vector<int> size(n, 1), next(n, 0);
+    for (std::size_t l = n; l-- > 1;) size[tree_.links[l].parent] += size[l];
+    tree_.enter.assign(n, 0);
+    tree_.leave.assign(n, static_cast<int>(n));
+    for (std::size_t l = 0; l < n; ++l) {
+      if (l > 0) {
+        int& free = next[tree_.links[l].parent];
+        tree_.enter[l] = free;
+        free += size[l];
+      }
+      tree_.leave[l] = tree_.enter[l] + size[l];
+      next[l] = tree_.enter[l] + 1;
+    }
+  }
+
   void find_columns(Pair& pair) const {
     for (int k : tree_.path[pair.a.link])
       if (!tree_.moves(k, pair.b.link)) pair.columns.push_back({k, -1.0});
@@ -279,9 +316,12 @@ class TreeBuilder {
 
   const MechanismSpec& spec_;
   Tree tree_;
-  std::vector<bool> placed_;  ///< bodies
-  std::vector<bool> used_;    ///< joints in the tree
-  std::vector<bool> read_;    ///< joints whose coordinates something needs
+  std::vector<bool> placed_;               ///< bodies
+  std::vector<bool> used_;                 ///< joints in the tree
+  std::vector<bool> read_;                 ///< joints whose coordinates something needs
+  std::vector<bool> deforms_;              ///< joints inside elastic bodies
+  std::vector<std::vector<int>> at_body_;  ///< joints of each body, in order of declaration
+  std::vector<int> depth_{0};              ///< of each link: columns that move it
 };
 
 }  // namespace

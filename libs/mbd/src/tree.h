@@ -67,6 +67,14 @@ struct Closure {
   std::vector<ConstraintRow> dropped;  ///< rows that follow from the others, see redundancy.h
 };
 
+/// A joint at which a long path from ground is cut: the body beyond it has coordinates of its own, and the joint closes
+/// the cut.
+struct Cut {
+  int joint = 0;
+  int body = 0;           ///< the body beyond the joint, seen from where the path began
+  bool reversed = false;  ///< it is the inboard one
+};
+
 /// Where a user's joint went.
 struct JointPlace {
   std::vector<int> value_link;       ///< link of each value; empty for a plain closing joint
@@ -84,23 +92,27 @@ struct Tree {
   std::vector<Attachment> frames;
   std::vector<Closure> closures;
   std::vector<JointPlace> joints;
-  std::vector<int> body_order;              ///< bodies from ground outwards, ground excluded
-  std::vector<int> body_parent;             ///< the body each hangs on, -1 for ground
-  std::vector<std::vector<int>> path;       ///< per link: columns that move it, from ground outwards
-  std::vector<std::vector<char>> is_above;  ///< [link][other]: link carries other, or is it
-  std::vector<Pair> forces;                 ///< of the two-body forces
+  std::vector<int> body_order;         ///< bodies from ground outwards, ground excluded
+  std::vector<int> body_parent;        ///< the body each hangs on, -1 for ground
+  std::vector<std::vector<int>> path;  ///< per link: columns that move it, from ground outwards
+  std::vector<Cut> cuts;               ///< from ground outwards
+  std::vector<int> enter, leave;       ///< per link: numbers of the links it carries, itself the first
+  std::vector<Pair> forces;            ///< of the two-body forces
   int nq = 0;
   int nv = 0;
   int nclosure = 0;   ///< constraint rows of all closures
   double length = 1;  ///< size of the mechanism [m]: scale of positional constraints
 
   /// Whether column k moves link l.
-  [[nodiscard]] bool moves(int k, int l) const { return is_above[columns[k].link][l] != 0; }
+  [[nodiscard]] bool moves(int k, int l) const {
+    const int link = columns[k].link;
+    return enter[link] <= enter[l] && enter[l] < leave[link];
+  }
 };
 
 /// Chooses the spanning tree (breadth first from ground, in order of declaration; joints whose coordinates are driven,
 /// sprung, read by loads or given initially come first, then those with a guess) and lays out coordinates and
-/// constraints.
+/// constraints. Paths longer than MechanismSpec::longest_path are cut (theory manual, section "Long chains").
 [[nodiscard]] Tree build_tree(const MechanismSpec& spec);
 
 /// The scalar column of a joint coordinate.

@@ -29,6 +29,14 @@ class TreeMotion {
     update_accelerations(state);
   }
 
+  /// Poses and velocities of these links alone, given from ground outwards.
+  void update(const solver::State& state, const std::vector<int>& links) {
+    for (const int l : links) {
+      place(l, state);
+      move(l, state);
+    }
+  }
+
   [[nodiscard]] const Pose& X(int link) const { return X_[link]; }
   [[nodiscard]] const Vector6& V(int link) const { return V_[link]; }
   [[nodiscard]] const Vector6& A(int link) const { return A_[link]; }
@@ -40,6 +48,9 @@ class TreeMotion {
   [[nodiscard]] RelativeMotion relative(const Pair& pair) const;
 
  private:
+  void place(int l, const solver::State& state);
+  void move(int l, const solver::State& state);
+
   const Tree& tree_;
   std::vector<Pose> X_;
   std::vector<Vector6> V_, A_, J_;

@@ -1,10 +1,9 @@
 // Forces between two bodies, which may see the bodies deform: theory manual, sections on two-body forces and on
 // surfaces that deform.
 #include <algorithm>
-#include <future>
-#include <thread>
 
 #include "hersey/core/stopwatch.h"
+#include "hersey/core/task_pool.h"
 #include "mechanism_impl.h"
 #include "surface_force.h"
 
@@ -34,9 +33,8 @@ void Mechanism::Implementation::place_surfaces() {
   };
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
     sides.push_back({place(spec.forces[i].surfaces.a), place(spec.forces[i].surfaces.b)});
-    if (spec.forces[i].force->is_costly() && std::thread::hardware_concurrency() > 1) costly.push_back(i);
+    (spec.forces[i].force->is_costly() ? costly : cheap).push_back(i);
   }
-  if (costly.size() == 1) costly.clear();
 }
 
 /// With the shapes of elastic bodies as last found.
@@ -66,28 +64,32 @@ void Mechanism::Implementation::read_elastic_bodies(const solver::State& state) 
   }
 }
 
-/// Costly ones side by side; each writes to its own response, so that their order does not matter.
+/// Costly ones side by side; each writes to its own response, so that their order does not matter. Given by std::cref,
+/// `act` takes nothing from the heap.
+void Mechanism::Implementation::for_each_force(const std::function<void(std::size_t)>& act) {
+  const Stopwatch all(timing.forces);
+  const auto timed = [&](std::size_t i) {
+    const Stopwatch one(timing.force[i]);
+    act(i);
+  };
+  for (const std::size_t i : cheap) timed(i);
+  TaskPool::shared().run(costly.size(), [&](std::size_t c) { timed(costly[c]); });
+}
+
 void Mechanism::Implementation::evaluate_two_body_forces(const Assembly& assembly, const solver::State& state) {
   const bool want_tangent = assembly.tangent != nullptr;
   for (std::size_t i = 0; i < elastics.size(); ++i) {
     const Stopwatch one(timing.elastic[i]);
     if (seen_deforming[i] != 0) elastics[i].find_shapes(assembly);
   }
-  const Stopwatch all(timing.forces);
-  const auto evaluate = [&](std::size_t i) {
-    const Stopwatch one(timing.force[i]);
-    spec.forces[i].force->evaluate(relatives[i], want_tangent, responses[i]);
-  };
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
     relatives[i] = relative_motion(i, state.t);
     relatives[i].dt = assembly.stage.dt;
   }
-  std::vector<std::future<void>> running;
-  for (std::size_t c = 1; c < costly.size(); ++c)
-    running.push_back(std::async(std::launch::async, evaluate, costly[c]));
-  for (std::size_t i = 0; i < spec.forces.size(); ++i)
-    if (std::find(costly.begin() + (costly.empty() ? 0 : 1), costly.end(), i) == costly.end()) evaluate(i);
-  for (std::future<void>& one : running) one.get();
+  const auto evaluate = [&](std::size_t i) {
+    spec.forces[i].force->evaluate(relatives[i], want_tangent, responses[i]);
+  };
+  for_each_force(std::cref(evaluate));
   hand_out_shape_forces(responses);
 }
 

@@ -29,6 +29,34 @@ inline std::unique_ptr<Mechanism> simple_pendulum() {
   return b.finalise();
 }
 
+/// How joint i of `chain` starts.
+inline double chain_angle(int i) { return i == 0 ? -0.3 : 0.05 * std::sin(0.7 * i); }
+
+/// A hanging chain of rods of 0.1 m and 0.1 kg on hinges, the first of them swinging at 1 rad/s, cut wherever more than
+/// `longest_path` coordinates move a rod.
+/// @param reversed  each rod is the inboard body of its joint
+inline std::unique_ptr<Mechanism> chain(int links, int longest_path, bool reversed = false) {
+  MechanismBuilder b;
+  b.set_gravity({0, -9.81, 0});
+  b.cut_paths(longest_path);
+  FrameId end = b.frame_of(b.ground());
+  for (int i = 0; i < links; ++i) {
+    const std::string name = "rod" + std::to_string(i);
+    const BodyId rod = b.add_body(
+        {.name = name, .mass = 0.1, .com = {0, -0.05, 0}, .inertia = Vector3(1e-4, 1e-5, 1e-4).asDiagonal()});
+    const double sign = reversed ? -1 : 1;
+    b.add_joint({.name = "hinge" + std::to_string(i),
+                 .type = JointType::revolute,
+                 .inboard = reversed ? b.frame_of(rod) : end,
+                 .outboard = reversed ? end : b.frame_of(rod),
+                 .axis = Vector3(0, 0, sign),
+                 .initial = {chain_angle(i)},
+                 .initial_rate = {i == 0 ? 1.0 : 0.0}});
+    end = b.add_frame({.name = "end", .body = rod, .X_BF = {Matrix3::Identity(), {0, -0.1, 0}}});
+  }
+  return b.finalise();
+}
+
 /// A02: N four-bar loops of uniform rods of 1 m and 1 kg, cranks upright, the first coupler point at 1 m/s. Cylindrical
 /// and spherical coupler joints close each loop in space without redundancy.
 /// With `hinges` all joints are revolute, and three constraints of each loop redundant.

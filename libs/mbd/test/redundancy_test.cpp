@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "benchmark_mechanisms.h"
 #include "simulate.h"
 #include "test_mechanisms.h"
 
@@ -111,6 +112,27 @@ TEST_CASE("ToggleStart_IsNotTakenForRedundancy") {
                .outboard = b.frame_of(piston)});
   const auto m = b.finalise();
   CHECK(m->nv() - m->nlambda() == 1);
+}
+
+TEST_CASE("ReactionsOfALadder_AreTheSmallest") {
+  // Three constraints of each loop of hinges are redundant; a loop that has none stands beside it.
+  const auto ladder = test::four_bars(3, true);
+  solver::State state = test::start(*ladder);
+  test::run(*ladder, state, 0.1, 50);
+  const Observation seen = ladder->observe(state);
+  // Every rod of the ladder moves in its plane and nothing pushes it out: reactions of smallest norm have no part
+  // there.
+  for (const JointObservation& joint : seen.joints) {
+    CHECK(std::abs(joint.force.z()) < 1e-8);
+    CHECK(joint.torque.norm() < 1e-8);
+  }
+  // In the plane they are unique: those of the same ladder with joints that leave nothing redundant.
+  const auto plain = test::four_bars(3, false);
+  solver::State same = test::start(*plain);
+  test::run(*plain, same, 0.1, 50);
+  const Observation expected = plain->observe(same);
+  for (std::size_t j = 0; j < seen.joints.size(); ++j)
+    CHECK(seen.joints[j].force.norm() == doctest::Approx(expected.joints[j].force.norm()).epsilon(1e-5));
 }
 
 TEST_CASE("TwoHinges_ShareTheDoorsWeight") {

@@ -109,6 +109,7 @@ class Builder {
 
   Machine build() {
     mechanism_.set_gravity(model_.gravity);
+    if (model_.simulation.spectral_radius < 1) mechanism_.cut_paths();
     add_frames(model_.ground, mbd::MechanismBuilder::ground());
     for (const Body& body : model_.bodies) {
       if (body.flexible) {

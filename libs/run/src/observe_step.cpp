@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hersey/core/task_pool.h"
 #include "hersey/mbd/mechanism.h"
 
 namespace hersey::run {
@@ -42,10 +43,12 @@ StepRecord observe_step(const model::Machine& machine, const solver::State& stat
   record.mechanism = mechanism.observe(state);
   // The mechanism's own figure also looks at rows left out as redundant.
   record.constraint_drift = std::max(constraint_drift(mechanism, state), record.mechanism.constraint_drift);
-  for (const model::BuiltBearing& bearing : machine.bearings) {
+  for (const model::BuiltBearing& bearing : machine.bearings)
     record.journal_motions.push_back(mechanism.relative_motion(state, bearing.force));
-    record.bearings.push_back(bearing.bearing->observe(record.journal_motions.back()));
-  }
+  record.bearings.resize(machine.bearings.size());
+  TaskPool::shared().run(machine.bearings.size(), [&](std::size_t i) {
+    record.bearings[i] = machine.bearings[i].bearing->observe(record.journal_motions[i]);
+  });
   for (const model::BuiltContact& contact : machine.contacts) {
     const mbd::RelativeMotion motion = mechanism.relative_motion(state, contact.force);
     const Pose& X_WA = record.mechanism.bodies[static_cast<std::size_t>(contact.first.index)].X_WF;

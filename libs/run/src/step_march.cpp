@@ -25,15 +25,6 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
   return options;
 }
 
-// The multiples of simulation.step, and the end of the run.
-std::vector<double> equal_instants(const model::Simulation& plan) {
-  const int intervals = std::max(1, static_cast<int>(std::ceil(plan.duration / plan.step - 1e-9)));
-  std::vector<double> instants;
-  for (int k = 1; k < intervals; ++k) instants.push_back(plan.start + k * plan.step);
-  instants.push_back(plan.start + plan.duration);
-  return instants;
-}
-
 }  // namespace
 
 StepMarch::StepMarch(const model::Model& model, model::Machine& machine)
@@ -42,11 +33,12 @@ StepMarch::StepMarch(const model::Model& model, model::Machine& machine)
 void StepMarch::plan(const solver::State& state, const mbd::Observation& start) {
   const auto& limits = model_.simulation.error_control;
   if (!limits || model_.simulation.analysis == model::Analysis::kinematics) {
-    targets_ = equal_instants(model_.simulation);
+    const model::Simulation& run = model_.simulation;
+    targets_ = TargetInstants::equal(run.start, run.duration, run.step);
     return;
   }
   bends_ = kinks(model_, machine_.mechanism->spec(), start);
-  targets_ = instants_to_hit(model_, bends_);
+  targets_ = TargetInstants(instants_to_hit(model_, bends_));
   control_.emplace(
       solver::StepControlOptions{.smallest = limits->smallest, .largest = limits->largest, .unit = unit_of_steps()},
       first_step(*machine_.mechanism, state, *limits));

@@ -11,6 +11,7 @@
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/step_control.h"
 #include "step_error.h"
+#include "target_instants.h"
 
 namespace hersey::run {
 
@@ -60,7 +61,8 @@ class StepMarch {
   model::Machine& machine_;
   solver::GeneralizedAlpha integrator_;
   StepError step_error_;
-  std::vector<double> bends_, targets_;                     ///< the former under error control
+  std::vector<double> bends_;  ///< under error control
+  TargetInstants targets_;
   std::optional<solver::StepControl> control_;              ///< under error control
   std::size_t reached_ = 0;                                 ///< how many of the targets
   bool at_bend_ = false;                                    ///< the next step starts where a table bends

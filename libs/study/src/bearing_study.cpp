@@ -12,6 +12,7 @@
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
+#include "hersey/core/task_pool.h"
 #include "hersey/core/units.h"
 #include "hersey/model/read.h"
 
@@ -185,6 +186,7 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
   std::vector<BearingSolution> solutions(runs.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
+    const TaskPool::OwnThread one(TaskPool::shared());
     for (std::size_t i = next++; i < runs.size(); i = next++) {
       solutions[i].run = runs[i];
       try {
@@ -199,8 +201,7 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
     const model::Model model = model::read(path, runs.front().overrides);
     (void)operating_point_of(bearing_called(model, options.bearing));
   }
-  const std::size_t wanted =
-      options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
+  const auto wanted = static_cast<std::size_t>(options.threads > 0 ? options.threads : TaskPool::shared().threads());
   std::vector<std::jthread> threads;
   for (std::size_t i = 1; i < std::min(std::max<std::size_t>(wanted, 1), runs.size()); ++i) threads.emplace_back(work);
   work();

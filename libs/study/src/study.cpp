@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hersey/core/error_text.h"
+#include "hersey/core/task_pool.h"
 #include "hersey/model/read.h"
 
 namespace hersey::study {
@@ -58,14 +59,14 @@ std::vector<RunResult> simulate_all(const std::string& path, const std::vector<m
   std::vector<RunResult> results(runs.size());
   Queue queue;
   const auto work = [&] {
+    const TaskPool::OwnThread one(TaskPool::shared());
     for (std::size_t i = queue.next++; i < runs.size(); i = queue.next++) {
       results[i] = simulate_one(path, runs[i], options, i, queue);
       const std::scoped_lock lock(queue.speak);
       if (options.on_finished) options.on_finished(i, results[i]);
     }
   };
-  const std::size_t wanted =
-      options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
+  const auto wanted = static_cast<std::size_t>(options.threads > 0 ? options.threads : TaskPool::shared().threads());
   std::vector<std::jthread> threads;
   for (std::size_t i = 1; i < std::min(std::max<std::size_t>(wanted, 1), runs.size()); ++i) threads.emplace_back(work);
   work();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -178,6 +179,7 @@ struct MechanismSpec {
   };
   std::vector<Elastic> elastics;
   std::vector<JointId> deforming;  ///< free joints of elastic bodies, whose coordinates are deformations
+  int longest_path = std::numeric_limits<int>::max();  ///< see MechanismBuilder::cut_paths
 };
 
 /// Where a flexible body went in a mechanism.
@@ -212,6 +214,11 @@ class MechanismBuilder {
   MechanismBuilder();
 
   void set_gravity(const Vector3& gravity) { spec_.gravity = gravity; }
+
+  /// Cuts chains of bodies wherever more than `longest` velocity components move one of them: the body beyond gets
+  /// coordinates of its own, and the joint becomes a constraint. The work of a step then grows in proportion to the
+  /// length of a chain, else with its cube. For integrators with a spectral radius below 1, as all constraints.
+  void cut_paths(int longest = 24) { spec_.longest_path = longest; }
   [[nodiscard]] static BodyId ground() { return {0}; }
   [[nodiscard]] FrameId frame_of(BodyId body) const;  ///< the body's own frame
 

@@ -1,0 +1,20 @@
+#include "hersey/core/blas_threads.h"
+
+// Of the BLAS and the OpenMP that the program happens to be linked with; null if it is another one.
+extern "C" {
+__attribute__((weak)) void openblas_set_num_threads(int threads);
+__attribute__((weak)) void MKL_Set_Num_Threads(int threads);
+__attribute__((weak)) void bli_thread_set_num_threads(long threads);
+__attribute__((weak)) void omp_set_num_threads(int threads);
+}
+
+namespace hersey {
+
+void use_one_blas_thread() {
+  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+  if (MKL_Set_Num_Threads != nullptr) MKL_Set_Num_Threads(1);
+  if (bli_thread_set_num_threads != nullptr) bli_thread_set_num_threads(1);
+  if (omp_set_num_threads != nullptr) omp_set_num_threads(1);
+}
+
+}  // namespace hersey

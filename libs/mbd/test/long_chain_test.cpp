@@ -1,0 +1,77 @@
+// Chains of many bodies, which are cut so that the work of a step grows in proportion to their length.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "benchmark_mechanisms.h"
+#include "hersey/solver/generalized_alpha.h"
+#include "hersey/solver/initialise.h"
+
+namespace hersey::mbd {
+namespace {
+
+constexpr int uncut = std::numeric_limits<int>::max();
+
+void step_to(Mechanism& mechanism, solver::State& state, double end, int steps) {
+  REQUIRE(solver::initialise(mechanism, state,
+                             {.held = mechanism.given_coordinates(), .held_rates = mechanism.given_rates()})
+              .consistent());
+  solver::GeneralizedAlpha integrator({.spectral_radius = 0.9});
+  for (int i = 1; i <= steps; ++i) REQUIRE(integrator.step(mechanism, state, end * i / steps - state.t).converged());
+}
+
+TEST_CASE("LongChain_CutOrNot_MovesTheSameWay") {
+  for (const bool reversed : {false, true}) {
+    const auto whole = test::chain(30, uncut, reversed), parts = test::chain(30, 12, reversed);
+    CHECK(whole->nlambda() == 0);
+    CHECK(parts->nlambda() == 6 * 3);
+    CHECK(parts->nv() - parts->nlambda() == 30);
+    CHECK(parts->redundancies().empty());
+    solver::State a = whole->initial_state(), b = parts->initial_state();
+    step_to(*whole, a, 0.2, 400);
+    step_to(*parts, b, 0.2, 400);
+    const Observation seen = parts->observe(b), expected = whole->observe(a);
+    CHECK(seen.constraint_drift < 1e-10);
+    for (std::size_t i = 0; i < seen.bodies.size(); ++i) {
+      CHECK((seen.bodies[i].X_WF.r - expected.bodies[i].X_WF.r).norm() < 1e-6);
+      CHECK((seen.bodies[i].v - expected.bodies[i].v).norm() < 1e-4);
+    }
+    for (std::size_t j = 0; j < seen.joints.size(); ++j) {
+      CHECK(seen.joints[j].position[0] == doctest::Approx(expected.joints[j].position[0]).epsilon(1e-4));
+      CHECK((seen.joints[j].force - expected.joints[j].force).norm() < 1e-2 * (1 + expected.joints[j].force.norm()));
+    }
+  }
+}
+
+TEST_CASE("LongChain_StartsWhereItsJointsSay") {
+  const auto parts = test::chain(30, 12, false);
+  const solver::State start = parts->initial_state();
+  const Observation seen = parts->observe(start);
+  CHECK(seen.constraint_drift < 1e-12);
+  solver::State state = start;
+  REQUIRE(solver::initialise(*parts, state, {.held = parts->given_coordinates(), .held_rates = parts->given_rates()})
+              .consistent());
+  CHECK((state.q - start.q).norm() < 1e-12);
+  CHECK((state.v - start.v).norm() < 1e-10);
+  for (std::size_t j = 0; j < seen.joints.size(); ++j)
+    CHECK(seen.joints[j].position[0] == doctest::Approx(test::chain_angle(static_cast<int>(j))));
+}
+
+TEST_CASE("LongChain_TheMatrixGrowsInProportionToItsLength") {
+  const auto entries = [](int links) {
+    const auto mechanism = test::chain(links, 24, false);
+    const solver::State state = mechanism->initial_state();
+    Eigen::VectorXd residual, scale;
+    solver::Equations::SparseMatrix tangent;
+    solver::Stage stage;
+    stage.dq.setZero(mechanism->nv());
+    mechanism->assemble(state, stage, residual, scale, &tangent);
+    return static_cast<double>(tangent.nonZeros());
+  };
+  const double few = entries(240), many = entries(960);
+  CHECK(many / few == doctest::Approx(4).epsilon(0.05));
+  CHECK(many < 100 * 960);
+}
+
+}  // namespace
+}  // namespace hersey::mbd
