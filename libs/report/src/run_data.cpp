@@ -15,6 +15,9 @@ using results::Reader;
 bool is_field(const DatasetInfo& info) { return info.grows && info.shape.size() == 3; }
 bool in_fields(const std::string& path) { return path.find("/fields/") != std::string::npos; }
 
+/// Maps over angle and time: many numbers a row, of which a picture shows some hundred rows.
+bool is_around(const std::string& path) { return path.ends_with("_around"); }
+
 json attributes_of(const Reader& reader, const std::string& object) {
   json attributes = json::object();
   for (const std::string& name : reader.attributes(object)) {
@@ -42,11 +45,21 @@ std::size_t field_stride(const Reader& reader, std::size_t budget) {
   return std::min(longest, stride_for(bytes, std::max<std::size_t>(budget, 1)));
 }
 
+/// Rows of the time series to show so that all of them fit into the budget.
+std::size_t shown_rows(const Reader& reader, const Budget& budget) {
+  constexpr std::size_t fewest = 100;
+  std::size_t width = 0;
+  for (const std::string& path : reader.datasets()) {
+    const DatasetInfo info = reader.info(path);
+    if (!info.grows || in_fields(path) || is_around(path)) continue;
+    width += info.shape.size() > 1 ? info.shape[1] : 1;
+  }
+  const std::size_t fit = budget.series_bytes / (sizeof(float) * std::max<std::size_t>(width, 1));
+  return std::min(budget.series_rows, std::max(fewest, fit));
+}
+
 /// Time and angle grow large and are subtracted from each other: they keep double precision.
 bool needs_double(const std::string& path) { return path.ends_with("/time") || path.ends_with("/crank_angle"); }
-
-/// Maps over angle and time: many numbers a row, of which a picture shows some hundred rows.
-bool is_around(const std::string& path) { return path.ends_with("_around"); }
 
 json dataset(const Reader& reader, const std::string& path, const DatasetInfo& info, std::size_t stride) {
   const std::size_t rows = info.shape.empty() ? 0 : info.shape[0];
@@ -66,7 +79,7 @@ json dataset(const Reader& reader, const std::string& path, const DatasetInfo& i
 }  // namespace
 
 json run_data(const Reader& reader, const Budget& budget) {
-  const std::size_t series_stride = stride_for(reader.rows(), budget.series_rows);
+  const std::size_t series_stride = stride_for(reader.rows(), shown_rows(reader, budget));
   const std::size_t instants_stride = field_stride(reader, budget.field_bytes);
   const std::size_t shown = (reader.rows() + series_stride - 1) / series_stride;
   const std::size_t most_around = std::clamp<std::size_t>(budget.series_rows / 10, 90, 360);
@@ -88,6 +101,7 @@ json run_data(const Reader& reader, const Budget& budget) {
       run["assumptions"] = reader.text_table(path);
     } else {
       const DatasetInfo info = reader.info(path);
+      if (info.is_text) continue;
       const std::size_t of_series = is_around(path) ? around_stride * series_stride : series_stride;
       const std::size_t stride = !info.grows ? 1 : in_fields(path) ? instants_stride : of_series;
       run["datasets"][path] = dataset(reader, path, info, stride);

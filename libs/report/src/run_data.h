@@ -8,8 +8,9 @@ namespace hersey::report {
 
 /// How much of one results file goes into the page.
 struct Budget {
-  std::size_t series_rows;  ///< most rows of the time series, > 0
-  std::size_t field_bytes;  ///< most bytes of all fields together; at least one instant is kept
+  std::size_t series_rows;   ///< most rows of the time series, > 0
+  std::size_t field_bytes;   ///< most bytes of all fields together; at least one instant is kept
+  std::size_t series_bytes;  ///< most bytes of all time series together; at least a hundred rows are kept
 };
 
 /// One results file as the page reads it (web/src/data.ts): attributes and datasets by path, numbers in base64.

@@ -17,7 +17,7 @@ constexpr std::size_t fewest_series_rows = 300;  // still a smooth curve on a sc
 
 json page_data(const std::vector<std::filesystem::path>& results, const ReportOptions& options) {
   const Budget budget{std::max(fewest_series_rows, options.series_rows / results.size()),
-                      options.field_bytes / results.size()};
+                      options.field_bytes / results.size(), options.series_bytes / results.size()};
   json data;
   data["runs"] = json::array();
   const std::vector<std::string> names = run_names(results);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <unordered_set>
 
+#include "dimension_scales.h"
 #include "hdf5_handle.h"
 #include "hersey/core/sealed_file.h"
 
@@ -17,13 +19,6 @@ constexpr int deepest_group = 32;
 
 std::string absolute(std::string_view path) {
   return path.starts_with('/') ? std::string(path) : "/" + std::string(path);
-}
-
-/// The group whose datasets grow together with this one: the nearest group named `fields`, else the root.
-std::string growth_group(const std::string& path) {
-  const std::string marker = "/fields/";
-  const auto at = path.rfind(marker);
-  return at == std::string::npos ? "/" : path.substr(0, at + marker.size() - 1);
 }
 
 std::vector<std::size_t> shape_of(hid_t space) {
@@ -64,6 +59,7 @@ struct Reader::Impl {
   std::filesystem::path path;
   Handle file;
   std::vector<std::string> groups, datasets;
+  std::unordered_set<std::string> known;             // of them all
   std::map<std::string, std::size_t> complete_rows;  // per growth group
 
   [[noreturn]] void fail(const std::string& reason) const { throw ReadError(path, reason); }
@@ -72,11 +68,14 @@ struct Reader::Impl {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such file");
     // Before HDF5 sees it: the library trusts what it reads of a file's structure.
     if (check_seal(path) == Seal::broken) fail("damaged: it has changed since it was written");
-    file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS));
+    keep_metadata(access.get());
+    file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));
     if (!file.valid()) fail("not a readable HDF5 file");
   }
 
   [[nodiscard]] bool exists(const std::string& name) const {
+    if (known.contains(name)) return true;
     if (name == "/") return true;
     for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
       if (H5Lexists(file.get(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
@@ -130,19 +129,38 @@ struct Reader::Impl {
   void survey(const std::string& group) {
     if (std::count(group.begin(), group.end(), '/') > deepest_group) fail("damaged: groups within groups without end");
     groups.push_back(group);
+    known.insert(group);
     const Handle parent(H5Gopen2(file.get(), group.c_str(), H5P_DEFAULT));
     std::vector<std::string> names;
     H5Literate(parent.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_link, &names);
     for (const std::string& name : names) {
       const std::string child = (group == "/" ? "" : group) + "/" + name;
-      const Handle object(H5Oopen(file.get(), child.c_str(), H5P_DEFAULT));
+      const Handle object(H5Oopen(parent.get(), name.c_str(), H5P_DEFAULT));
       const H5I_type_t kind = H5Iget_type(object.get());
       if (kind == H5I_GROUP) survey(child);
-      if (kind == H5I_DATASET) {
+      if (kind == H5I_DATASET && !is_further_name(child, object.get())) {
         datasets.push_back(child);
+        known.insert(child);
         count_rows(child, object.get());
       }
     }
+  }
+
+  /// Whether it is a link to a dimension scale that has another name, too.
+  [[nodiscard]] bool is_further_name(const std::string& name, hid_t object) const {
+    H5O_info_t about{};
+    if (H5Oget_info2(object, &about, H5O_INFO_BASIC) < 0 || about.rc < 2) return false;
+    const std::optional<std::string> first = fixed_text(object, scale_path);
+    return first && *first != name;
+  }
+
+  [[nodiscard]] static std::optional<std::string> fixed_text(hid_t object, const char* name) {
+    if (H5Aexists(object, name) <= 0) return std::nullopt;
+    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT)), type(H5Aget_type(attribute.get()));
+    if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0) return std::nullopt;
+    std::string text(H5Tget_size(type.get()), '\0');
+    if (H5Aread(attribute.get(), type.get(), text.data()) < 0) return std::nullopt;
+    return text.substr(0, text.find('\0'));
   }
 
   void count_rows(const std::string& name, hid_t object) {
@@ -154,13 +172,25 @@ struct Reader::Impl {
     entry->second = std::min(entry->second, rows);
   }
 
-  [[nodiscard]] DatasetInfo info(const std::string& name, const Handle& space, const Reader& reader) const {
+  [[nodiscard]] std::optional<std::string> text_of(hid_t object, const char* name) const {
+    if (H5Aexists(object, name) <= 0) return std::nullopt;
+    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT));
+    std::vector<std::string> all = texts(attribute.get());
+    if (all.size() != 1) return std::nullopt;
+    return std::move(all[0]);
+  }
+
+  [[nodiscard]] DatasetInfo info(const std::string& name, const Handle& dataset, const Handle& space) const {
     DatasetInfo info;
     info.shape = shape_of(space.get());
     info.grows = grows(space.get());
     if (info.grows && info.shape[0] > 0) info.shape[0] = std::min(info.shape[0], complete_rows.at(growth_group(name)));
-    info.unit = reader.text_attribute(name, "units").value_or("1");
-    info.description = reader.text_attribute(name, "description").value_or("");
+    const Handle type(H5Dget_type(dataset.get()));
+    info.is_text = H5Tget_class(type.get()) == H5T_STRING;
+    info.unit = text_of(dataset.get(), "units").value_or("1");
+    info.description = text_of(dataset.get(), "long_name").value_or("");
+    if (info.description.empty())
+      info.description = text_of(dataset.get(), "description").value_or("");  // of earlier versions
     return info;
   }
 };
@@ -241,7 +271,7 @@ DatasetInfo Reader::info(std::string_view path) const {
   const std::string name = absolute(path);
   const Handle dataset = impl_->dataset(name);
   const Handle space(H5Dget_space(dataset.get()));
-  return impl_->info(name, space, *this);
+  return impl_->info(name, dataset, space);
 }
 
 Array Reader::read(std::string_view path) const { return read_rows(path, 0, std::numeric_limits<std::size_t>::max()); }
@@ -253,7 +283,7 @@ Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t co
   const Handle type(H5Dget_type(dataset.get())), space(H5Dget_space(dataset.get()));
   const H5T_class_t kind = H5Tget_class(type.get());
   if (kind != H5T_FLOAT && kind != H5T_INTEGER) impl_->fail(name + " does not hold numbers");
-  Array array{impl_->info(name, space, *this), {}};
+  Array array{impl_->info(name, dataset, space), {}};
   if (array.info.shape.empty()) impl_->fail(name + " has no rows");
   stride = std::max<std::size_t>(stride, 1);
   const std::size_t rows = array.info.shape[0];

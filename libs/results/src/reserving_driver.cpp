@@ -37,10 +37,10 @@ struct File {
   H5FD_t base;
   int fd;
   DriverStatus* status;
-  haddr_t eoa;       // end of the space HDF5 has taken
-  haddr_t reserved;  // end of the space the disk has promised
-  std::map<haddr_t, Piece> waiting;
-  std::set<haddr_t> index_nodes;  // addresses of B-tree nodes that are in the file
+  haddr_t eoa;                       // end of the space HDF5 has taken
+  haddr_t reserved;                  // end of the space the disk has promised
+  std::map<haddr_t, Piece> waiting;  // without overlaps
+  std::set<haddr_t> index_nodes;     // addresses of B-tree nodes that are in the file
 };
 
 File& self(H5FD_t* file) { return *reinterpret_cast<File*>(file); }
@@ -126,12 +126,42 @@ haddr_t place(H5FD_t* base, H5FD_mem_t type, hid_t, hsize_t size) {
 
 haddr_t get_eof(const H5FD_t* file, H5FD_mem_t) { return self(file).reserved; }
 
+haddr_t end_of(const std::pair<const haddr_t, Piece>& entry) { return entry.first + entry.second.bytes.size(); }
+
+/// The first waiting piece that ends beyond `address`.
+std::map<haddr_t, Piece>::iterator first_beyond(File& file, haddr_t address) {
+  auto next = file.waiting.upper_bound(address);
+  if (next == file.waiting.begin()) return next;
+  const auto before = std::prev(next);
+  return end_of(*before) > address ? before : next;
+}
+
 /// What waits is newer than what is in the file.
-void overlay(const File& file, haddr_t address, std::size_t size, char* buffer) {
-  for (const auto& [start, piece] : file.waiting) {
-    const haddr_t from = std::max(start, address), to = std::min(start + piece.bytes.size(), address + size);
-    if (from < to) std::memcpy(buffer + (from - address), piece.bytes.data() + (from - start), to - from);
+void overlay(File& file, haddr_t address, std::size_t size, char* buffer) {
+  for (auto at = first_beyond(file, address); at != file.waiting.end() && at->first < address + size; ++at) {
+    const auto& [start, piece] = *at;
+    const haddr_t from = std::max(start, address), to = std::min(end_of(*at), address + size);
+    std::memcpy(buffer + (from - address), piece.bytes.data() + (from - start), to - from);
   }
+}
+
+/// A piece takes the place of what waits there; of older ones the parts beside it stay.
+void put(File& file, haddr_t address, Piece piece) {
+  const haddr_t end = address + piece.bytes.size();
+  for (auto at = first_beyond(file, address); at != file.waiting.end() && at->first < end;) {
+    const haddr_t start = at->first, old_end = end_of(*at);
+    if (old_end > end) {
+      const auto tail = at->second.bytes.begin() + static_cast<std::ptrdiff_t>(end - start);
+      file.waiting.emplace(end, Piece{at->second.type, {tail, at->second.bytes.end()}});
+    }
+    if (start < address) {
+      at->second.bytes.resize(address - start);
+      ++at;
+    } else {
+      at = file.waiting.erase(at);
+    }
+  }
+  file.waiting.insert_or_assign(address, std::move(piece));
 }
 
 herr_t read_bytes(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {
@@ -168,7 +198,7 @@ herr_t write_bytes(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::s
   if (type == H5FD_MEM_DRAW)
     write_now(file, address, from, size);
   else
-    file.waiting.insert_or_assign(address, Piece{type, std::vector<char>(from, from + size)});
+    put(file, address, Piece{type, std::vector<char>(from, from + size)});
   return 0;
 }
 

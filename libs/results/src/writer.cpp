@@ -9,7 +9,12 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <unordered_set>
 
+#include "dimension_scales.h"
 #include "hdf5_handle.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/sealed_file.h"
@@ -21,8 +26,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t chunk_numbers = 256;            // 2 KiB: rewritten at most once a flush while it fills
-constexpr std::size_t waiting_numbers = 1u << 20;     // rows waiting in memory before they go to HDF5's own buffers
+constexpr std::size_t chunk_numbers = 256;         // 2 KiB: rewritten at most once a flush while it fills
+constexpr std::size_t large_chunk_numbers = 1024;  // of series of many rows
+constexpr std::size_t waiting_numbers = 1u << 20;  // of one series: then they go to HDF5's own buffers
+constexpr std::size_t all_waiting_numbers = 1u
+                                            << 25;  // of all series: then there is a flush, however short ago the last
+constexpr double flush_share = 0.03;                // of the time of a run, which flushes take at most
 constexpr std::size_t chunk_cache_bytes = 64u << 10;  // per dataset; only the last chunk is ever touched again
 
 /// One growing dataset and its rows that are not in the file yet.
@@ -81,8 +90,16 @@ struct Writer::Impl {
   Handle text = text_type();
   Handle scalar{H5Screate(H5S_SCALAR)};
   Handle file;
+  std::optional<DimensionScales> scales;
   std::vector<Growing> growing;
+  std::size_t waiting = 0;                // numbers in all series
+  std::unordered_set<std::string> names;  // of groups and datasets made so far
+  std::string parent_name = "/";          // of the group opened last
+  Handle parent;
+  std::map<std::vector<hsize_t>, Handle> creations;  // property lists of datasets by the shape of their chunks
+  std::map<std::size_t, Handle> accesses;            // and by the room in memory for chunks
   Clock::time_point last_flush = Clock::now();
+  double flush_cost = 0;  // of the last one [s]
 
   void open() {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
@@ -91,8 +108,10 @@ struct Writer::Impl {
       ::close(fd);
       throw WriteError(path, "HDF5 refuses the file driver");
     }
+    keep_metadata(access.get());
     file = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
     require(file.valid(), "HDF5 cannot create the file");
+    scales.emplace(file.get());
   }
 
   /// Turns a failed call or a failed driver into the one exception the caller sees.
@@ -110,15 +129,14 @@ struct Writer::Impl {
   }
 
   Handle open_or_make(const std::string& object) {
-    if (object == "/") return Handle(H5Oopen(file.get(), "/", H5P_DEFAULT));
-    make_groups(object);
+    if (object != "/") make_groups(object);
     return Handle(H5Oopen(file.get(), object.c_str(), H5P_DEFAULT));
   }
 
   void make_groups(const std::string& group) {
     for (std::size_t end = group.find('/', 1);; end = group.find('/', end + 1)) {
       const std::string part = group.substr(0, end);
-      if (H5Lexists(file.get(), part.c_str(), H5P_DEFAULT) <= 0) {
+      if (names.insert(part).second) {
         const Handle made(H5Gcreate2(file.get(), part.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
         require(made.valid(), "HDF5 cannot create group " + part);
       }
@@ -155,17 +173,116 @@ struct Writer::Impl {
   Handle make_dataset(std::string_view path_, hid_t type, hid_t space, hid_t creation, hid_t access,
                       std::string_view unit, std::string_view description) {
     const std::string name = absolute(path_);
-    if (const auto slash = name.rfind('/'); slash > 0) make_groups(name.substr(0, slash));
-    HERSEY_REQUIRE(H5Lexists(file.get(), name.c_str(), H5P_DEFAULT) <= 0, name + " is declared twice");
-    Handle dataset(H5Dcreate2(file.get(), name.c_str(), type, space, H5P_DEFAULT, creation, access));
+    const auto slash = name.rfind('/');
+    open_group(slash > 0 ? name.substr(0, slash) : "/");
+    HERSEY_REQUIRE(names.insert(name).second, name + " is declared twice");
+    Handle dataset(H5Dcreate2(parent.get(), name.c_str() + slash + 1, type, space, H5P_DEFAULT, creation, access));
     require(dataset.valid(), "HDF5 cannot create dataset " + name);
-    set_text(dataset.get(), "units", unit);
-    set_text(dataset.get(), "description", description);
+    new_text(dataset.get(), "units", unit);
+    new_text(dataset.get(), "long_name", description);
     return dataset;
   }
 
+  /// Datasets of a group are mostly made one after the other.
+  void open_group(const std::string& name) {
+    if (parent.valid() && parent_name == name) return;
+    if (name != "/") make_groups(name);
+    parent = Handle(H5Gopen2(file.get(), name.c_str(), H5P_DEFAULT));
+    parent_name = name;
+    require(parent.valid(), "HDF5 cannot open group " + name);
+  }
+
+  /// Of an object that has no such attribute yet.
+  void new_text(hid_t object, const char* name, std::string_view value) {
+    const std::string copy(value);
+    const char* pointer = copy.c_str();
+    const Handle attribute(H5Acreate2(object, name, text.get(), scalar.get(), H5P_DEFAULT, H5P_DEFAULT));
+    require(attribute.valid() && H5Awrite(attribute.get(), text.get(), &pointer) >= 0,
+            std::string("HDF5 cannot write attribute ") + name);
+  }
+
+  hid_t creation_of(const std::vector<hsize_t>& chunk) {
+    Handle& list = creations[chunk];
+    if (list.valid()) return list.get();
+    list = Handle(H5Pcreate(H5P_DATASET_CREATE));
+    H5Pset_chunk(list.get(), static_cast<int>(chunk.size()), chunk.data());
+    return list.get();
+  }
+
+  hid_t access_of(std::size_t row_bytes) {
+    const std::size_t bytes = std::max(chunk_cache_bytes, 2 * row_bytes);
+    Handle& list = accesses[bytes];
+    if (list.valid()) return list.get();
+    list = Handle(H5Pcreate(H5P_DATASET_ACCESS));
+    H5Pset_chunk_cache(list.get(), 31, bytes, 1.0);
+    return list.get();
+  }
+
+  /// Chunks of a run of many rows are larger: making a chunk costs more than filling it.
+  [[nodiscard]] std::size_t chunk_rows(std::size_t width) const {
+    const std::size_t least = chunk_numbers / width, most = large_chunk_numbers / width;
+    return std::max<std::size_t>(1, std::clamp(options.rows / 4, least, most));
+  }
+
+  void make_scale(const Handle& dataset, const std::string& name) {
+    require(scales->make_scale(dataset.get(), name), "HDF5 cannot make " + name + " a dimension");
+  }
+
+  void name_dimensions(const Handle& dataset, const std::string& name, const std::vector<std::string>& dimensions) {
+    require(scales->attach(dataset.get(), name, dimensions), "HDF5 cannot name the dimensions of " + name);
+  }
+
+  /// A dimension of that name, which counts where it was not there before.
+  std::string numbers(const std::string& name, std::size_t count, std::string_view description) {
+    if (scales->has(name)) return name;
+    std::vector<double> values(count);
+    std::iota(values.begin(), values.end(), 0.0);
+    write_constant(name, values, "1", description);
+    return name;
+  }
+
+  /// The dimension of `count` columns: as asked for, or that of a vector's components.
+  std::string columns(const std::string& name, std::size_t count, std::string_view asked) {
+    if (asked == xyz || (asked.empty() && count == 3)) return letters(std::string(xyz), "xyz");
+    if (asked.empty() && count == 2) return letters("/xy", "xy");
+    if (asked.empty() && count == 4) return letters("/wxyz", "wxyz");
+    const std::string scale = asked.empty() ? name + "_column" : absolute(asked);
+    return numbers(scale, count, "place, counted from 0");
+  }
+
+  std::string letters(const std::string& name, std::string_view axes) {
+    std::vector<std::string> texts;
+    for (const char axis : axes) texts.emplace_back(1, axis);
+    if (!scales->has(name)) write_labels(name, texts, "components of vectors");
+    return name;
+  }
+
+  void write_labels(const std::string& name, const std::vector<std::string>& texts, std::string_view description) {
+    std::vector<const char*> pointers;
+    for (const std::string& one : texts) pointers.push_back(one.c_str());
+    const hsize_t n = texts.size();
+    const Handle space(H5Screate_simple(1, &n, nullptr));
+    const Handle dataset = make_dataset(name, text.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, "1", description);
+    require(H5Dwrite(dataset.get(), text.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0,
+            "HDF5 cannot write text");
+    make_scale(dataset, name);
+  }
+
+  void write_constant(const std::string& name, std::span<const double> values, std::string_view unit,
+                      std::string_view description, std::string_view dimension = {}) {
+    const hsize_t n = values.size();
+    const Handle space(H5Screate_simple(1, &n, nullptr));
+    const Handle dataset = make_dataset(name, H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT, unit, description);
+    require(H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
+            "HDF5 cannot write a constant");
+    if (dimension.empty())
+      make_scale(dataset, name);
+    else
+      name_dimensions(dataset, name, {columns(name, n, dimension)});
+  }
+
   std::size_t make_growing(std::string_view name, const std::vector<hsize_t>& row_shape, std::string_view unit,
-                           std::string_view description, Precision precision = Precision::float64) {
+                           std::string_view description, Precision precision, std::vector<std::string> dimensions) {
     Growing entry{absolute(name), {}, {0}, 1, {}};
     for (const hsize_t n : row_shape) {
       HERSEY_REQUIRE(n > 0, "a row has numbers");
@@ -174,14 +291,18 @@ struct Writer::Impl {
     }
     std::vector<hsize_t> largest = entry.shape, chunk = entry.shape;
     largest[0] = H5S_UNLIMITED;
-    chunk[0] = std::max<hsize_t>(1, chunk_numbers / entry.width);
+    chunk[0] = chunk_rows(entry.width);
     const int rank = static_cast<int>(entry.shape.size());
     const Handle space(H5Screate_simple(rank, entry.shape.data(), largest.data()));
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE)), access(H5Pcreate(H5P_DATASET_ACCESS));
-    H5Pset_chunk(creation.get(), rank, chunk.data());
-    H5Pset_chunk_cache(access.get(), 31, std::max(chunk_cache_bytes, 2 * 8 * entry.width), 1.0);
     const hid_t type = precision == Precision::float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-    entry.dataset = make_dataset(name, type, space.get(), creation.get(), access.get(), unit, description);
+    entry.dataset =
+        make_dataset(name, type, space.get(), creation_of(chunk), access_of(8 * entry.width), unit, description);
+    const std::string rows = scales->of_rows(entry.name);
+    if (rows == entry.name && row_shape.empty()) make_scale(entry.dataset, rows);
+    if (scales->has(rows) && rows != entry.name) {
+      dimensions.insert(dimensions.begin(), rows);
+      name_dimensions(entry.dataset, entry.name, dimensions);
+    }
     growing.push_back(std::move(entry));
     return growing.size() - 1;
   }
@@ -199,14 +320,24 @@ struct Writer::Impl {
     good = good && H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
     good = good && H5Dwrite(entry.dataset.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT,
                             entry.waiting.data()) >= 0;
+    waiting -= entry.waiting.size();
     entry.waiting.clear();
     require(good, "HDF5 cannot add rows");
   }
 
   void flush() {
+    const Clock::time_point began = Clock::now();
     for (Growing& entry : growing) drain(entry);
     require(H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0, "HDF5 cannot flush");
     last_flush = Clock::now();
+    // A flush of few rows does not tell what the next one will cost.
+    flush_cost = std::max(std::chrono::duration<double>(last_flush - began).count(), 0.5 * flush_cost);
+  }
+
+  [[nodiscard]] bool is_flush_due() const {
+    if (waiting >= all_waiting_numbers || options.flush_interval == 0) return true;
+    const std::chrono::duration<double> since = Clock::now() - last_flush;
+    return since.count() >= std::max(options.flush_interval, flush_cost / flush_share);
   }
 
   /// Puts what is flushed onto the disk.
@@ -220,6 +351,7 @@ struct Writer::Impl {
 
   void close() {
     growing.clear();
+    parent.reset();
     const bool good = file.reset();
     if (!good && !status.failed) status = {true, "HDF5 cannot close the file"};
   }
@@ -301,40 +433,56 @@ void Writer::text_table(std::string_view path, const std::vector<std::pair<std::
   const Handle dataset =
       impl_->make_dataset(path, impl_->text.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, "1", description);
   if (rows.empty()) return;
+  const std::string name = absolute(path);
+  impl_->name_dimensions(dataset, name,
+                         {impl_->numbers(name + "_row", rows.size(), "row of " + name + ", counted from 0"),
+                          impl_->numbers(name + "_column", 2, "0: name; 1: text")});
   impl_->require(H5Dwrite(dataset.get(), impl_->text.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0,
                  "HDF5 cannot write a table");
 }
 
 void Writer::constant(std::string_view path, std::span<const double> values, std::string_view unit,
-                      std::string_view description) {
+                      std::string_view description, std::string_view dimension) {
   const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(!values.empty(), "a constant has numbers");
-  const hsize_t n = values.size();
-  const Handle space(H5Screate_simple(1, &n, nullptr));
-  const Handle dataset =
-      impl_->make_dataset(path, H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT, unit, description);
-  impl_->require(H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
-                 "HDF5 cannot write a constant");
+  impl_->write_constant(absolute(path), values, unit, description, dimension);
+}
+
+void Writer::labels(std::string_view path, const std::vector<std::string>& names, std::string_view description) {
+  const Hdf5Session session;
+  impl_->require_open();
+  HERSEY_REQUIRE(!names.empty(), "labels are of something");
+  impl_->write_labels(absolute(path), names, description);
 }
 
 Series Writer::series(std::string_view path, int columns, std::string_view unit, std::string_view description,
-                      Precision precision) {
+                      Precision precision, std::string_view dimension) {
   const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(columns >= 1, "a row has numbers");
   std::vector<hsize_t> row;
-  if (columns > 1) row.push_back(static_cast<hsize_t>(columns));
-  return {this, impl_->make_growing(path, row, unit, description, precision)};
+  std::vector<std::string> dimensions;
+  if (columns > 1) {
+    row.push_back(static_cast<hsize_t>(columns));
+    dimensions.push_back(impl_->columns(absolute(path), row.back(), dimension));
+  }
+  return {this, impl_->make_growing(path, row, unit, description, precision, std::move(dimensions))};
 }
 
 Series Writer::field(std::string_view path, std::array<int, 2> shape, std::string_view unit,
-                     std::string_view description) {
+                     std::string_view description, const std::array<std::string, 2>& dimensions) {
   const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(shape[0] >= 1 && shape[1] >= 1, "a row has numbers");
   const std::vector<hsize_t> row{static_cast<hsize_t>(shape[0]), static_cast<hsize_t>(shape[1])};
-  return {this, impl_->make_growing(path, row, unit, description)};
+  const std::string name = absolute(path);
+  const std::array<const char*, 2> which{"_row", "_column"};
+  std::vector<std::string> scales;
+  for (std::size_t i = 0; i < 2; ++i)
+    scales.push_back(impl_->numbers(dimensions[i].empty() ? name + which[i] : absolute(dimensions[i]), row[i],
+                                    "place, counted from 0"));
+  return {this, impl_->make_growing(path, row, unit, description, Precision::float64, std::move(scales))};
 }
 
 void Series::append(std::span<const double> row) const {
@@ -345,6 +493,7 @@ void Series::append(std::span<const double> row) const {
   HERSEY_REQUIRE(row.size() == entry.width,
                  fmt::format("a row of {} numbers was given, {} are due", row.size(), entry.width));
   entry.waiting.insert(entry.waiting.end(), row.begin(), row.end());
+  impl.waiting += row.size();
   if (entry.waiting.size() < waiting_numbers) return;
   const Hdf5Session session;
   impl.drain(entry);
@@ -377,6 +526,7 @@ void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::stri
       Array part = from.read_rows(name, first, size);
       if (part.values.size() != size * entry.width) throw ReadError(from.path(), "it lacks rows of " + name);
       entry.waiting = std::move(part.values);
+      impl_->waiting += entry.waiting.size();
       const Hdf5Session session;
       impl_->drain(entry);
     }
@@ -409,8 +559,7 @@ void Writer::flush() {
 }
 
 void Writer::flush_if_due() {
-  const std::chrono::duration<double> since = Clock::now() - impl_->last_flush;
-  if (since.count() >= impl_->options.flush_interval) flush();
+  if (impl_->is_flush_due()) flush();
 }
 
 void Writer::finish(Status status, std::string_view message) {

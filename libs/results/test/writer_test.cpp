@@ -13,6 +13,60 @@
 namespace hersey::results {
 namespace {
 
+/// System calls of this process that read, so far.
+long read_calls() {
+  std::ifstream counts("/proc/self/io");
+  std::string name;
+  for (long value = 0; counts >> name >> value;)
+    if (name == "syscr:") return value;
+  return -1;
+}
+
+TEST_CASE("Flush_ReadsNothingBack") {
+  const TemporaryDirectory directory;
+  Writer writer(directory / "run.h5", {.flush_interval = 0});
+  const Series time = writer.series("/time", 1, "s", "time");
+  std::vector<Series> many;
+  for (int i = 0; i < 2500; ++i)
+    many.push_back(writer.series("/bodies/body" + std::to_string(i) + "/position", 3, "m", "place"));
+  writer.flush();
+  REQUIRE(read_calls() >= 0);
+  const long before = read_calls();
+  for (int row = 0; row < 200; ++row) {
+    time.append(row);
+    for (const Series& one : many) one.append({1.0, 2.0, 3.0 * row});
+    if (row % 50 == 49) writer.flush();
+  }
+  // Reading the counts themselves takes a few.
+  CHECK(read_calls() - before < 20);
+}
+
+TEST_CASE("Dimensions_AreScalesWithOneName") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5";
+  {
+    Writer writer(path);
+    writer.constant("/a/fields/phi", std::vector<double>{0, 1}, "rad", "angle");
+    const Series time = writer.series("/time", 1, "s", "time");
+    const Series force = writer.series("/a/force", 3, "N", "force");
+    const Series around = writer.series("/a/around", 2, "m", "thickness", Precision::float64, "/a/fields/phi");
+    const Series mixed = writer.series("/a/mixed", 3, "SI", "three things", Precision::float64, "/a/thing");
+    time.append(0);
+    force.append({1, 2, 3});
+    around.append({1, 2});
+    mixed.append({1, 2, 3});
+    writer.finish(Status::completed);
+  }
+  const Reader reader(path);
+  // Links to scales in the groups that use them are no datasets of their own.
+  CHECK(reader.datasets() ==
+        std::vector<std::string>{"/a/around", "/a/fields/phi", "/a/force", "/a/mixed", "/a/thing", "/time", "/xyz"});
+  CHECK(reader.has("/a/time"));
+  CHECK(reader.has("/a/phi"));
+  CHECK(reader.info("/xyz").is_text);
+  CHECK(reader.read("/a/thing").values == std::vector<double>{0, 1, 2});
+}
+
 TEST_CASE("WhatIsWritten_IsReadBackExactly") {
   const TemporaryDirectory directory;
   const auto path = directory / "run.h5";
@@ -56,7 +110,7 @@ TEST_CASE("WhatIsWritten_IsReadBackExactly") {
   CHECK(reader.text("/model") == "hersey: 1\ntitle: Kurbelzapfen µ\n");
   CHECK(reader.text_table("/assumptions")[1] == std::pair<std::string, std::string>{"supply", "none"});
   CHECK(reader.groups() == std::vector<std::string>{"/", "/bearings", "/bearings/big_end", "/bearings/big_end/fields"});
-  CHECK(reader.datasets().size() == 7);
+  CHECK(reader.datasets().size() == 12);  // five of them name rows and columns
   CHECK(reader.info("/time").grows);
   CHECK_FALSE(reader.info("/bearings/big_end/fields/phi").grows);
   CHECK(reader.children("/bearings") == std::vector<std::string>{"big_end"});

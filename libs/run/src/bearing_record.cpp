@@ -18,20 +18,6 @@ double attitude(const bearing::BearingObservation& seen) {
   return std::abs(std::atan2(cross, load.dot(seen.e)));
 }
 
-std::vector<double> angles(const film::Grid& grid) {
-  std::vector<double> phi(static_cast<std::size_t>(grid.n_phi));
-  for (int i = 0; i < grid.n_phi; ++i) phi[static_cast<std::size_t>(i)] = grid.phi(i);
-  return phi;
-}
-
-std::vector<double> heights(const film::FilmModel& film) {
-  std::vector<double> z(static_cast<std::size_t>(film.grid.n_z));
-  for (int j = 0; j < film.grid.n_z; ++j) {
-    z[static_cast<std::size_t>(j)] = film.L * film.grid.z_over_L(j);
-  }
-  return z;
-}
-
 }  // namespace
 
 Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing) {
@@ -96,7 +82,8 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
     s.exchanges = series("exchanges", "1", "wrenches that film and bodies exchanged in the step");
   const auto around = [&](const char* name, const char* unit, const char* description) {
-    return writer_.series(path + name, film.grid.n_phi, unit, description, results::Precision::float32);
+    return writer_.series(path + name, film.grid.n_phi, unit, description, results::Precision::float32,
+                          path + "fields/phi");
   };
   s.h_min_around = around("h_min_around", "m", "smallest film thickness over the width at each angle of fields/phi");
   s.p_max_around = around("p_max_around", "Pa", "largest film pressure over the width at each angle of fields/phi");
@@ -107,17 +94,16 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
 void Recorder::declare_fields(const model::Bearing& bearing, BearingSeries& s) {
   const std::string path = "/bearings/" + bearing.name + "/fields/";
   const film::Grid& grid = bearing.film.grid;
-  writer_.constant(path + "phi", angles(grid), "rad", "bearing angle of the nodes");
-  writer_.constant(path + "z", heights(bearing.film), "m", "axial position of the nodes");
   const std::array<int, 2> shape{grid.n_phi, grid.n_z};
+  const std::array<std::string, 2> nodes{path + "phi", path + "z"};
   s.field_time = writer_.series(path + "time", 1, "s", "time of the fields");
-  s.pressure = writer_.field(path + "pressure", shape, "Pa", "film pressure");
-  s.thickness = writer_.field(path + "thickness", shape, "m", "film thickness, depth of features included");
-  s.fill = writer_.field(path + "fill", shape, "1", "fill fraction");
-  s.asperity_pressure = writer_.field(path + "asperity_pressure", shape, "Pa", "asperity contact pressure");
+  s.pressure = writer_.field(path + "pressure", shape, "Pa", "film pressure", nodes);
+  s.thickness = writer_.field(path + "thickness", shape, "m", "film thickness, depth of features included", nodes);
+  s.fill = writer_.field(path + "fill", shape, "1", "fill fraction", nodes);
+  s.asperity_pressure = writer_.field(path + "asperity_pressure", shape, "Pa", "asperity contact pressure", nodes);
   const film::FilmFields start = machine_.bearings[bearings_.size()].bearing->fields();
   const auto displacement = [&](const char* name, const char* whose) {
-    return writer_.field(path + name, shape, "m", fmt::format("radial displacement of the {}, outward", whose));
+    return writer_.field(path + name, shape, "m", fmt::format("radial displacement of the {}, outward", whose), nodes);
   };
   if (start.d_shell.size() > 0) s.shell_displacement = displacement("shell_displacement", "shell's surface");
   if (start.d_journal.size() > 0) s.journal_displacement = displacement("journal_displacement", "journal's surface");

@@ -3,6 +3,8 @@
 #include <array>
 #include <string>
 
+#include "film_nodes.h"
+
 namespace hersey::run {
 namespace {
 
@@ -28,6 +30,7 @@ CycleMaps::CycleMaps(const model::Model& model, const model::Machine& machine, r
 
 // A group called fields counts its rows by itself: cycles are no instants.
 CycleMaps::BearingSeries CycleMaps::declare(const model::Bearing& bearing, results::Writer& writer) {
+  write_film_nodes(bearing, writer);
   const std::string path = "/bearings/" + bearing.name + "/cycles/fields/";
   const auto series = [&](const std::string& name, const char* unit, const std::string& description) {
     return writer.series(path + name, 1, unit, description);
@@ -39,8 +42,10 @@ CycleMaps::BearingSeries CycleMaps::declare(const model::Bearing& bearing, resul
                          .z = series(name + "_z", "m", "where: axial")};
   };
   const std::array<int, 2> shape{bearing.film.grid.n_phi, bearing.film.grid.n_z};
+  const std::string fields = "/bearings/" + bearing.name + "/fields/";
+  const std::array<std::string, 2> nodes{fields + "phi", fields + "z"};
   const auto map = [&](const char* name, const char* unit, const char* description) {
-    return writer.field(path + name, shape, unit, description);
+    return writer.field(path + name, shape, unit, description, nodes);
   };
   return {.begin = series("begin", "s", "time at the beginning of the cycle"),
           .end = series("end", "s", "time at its end"),

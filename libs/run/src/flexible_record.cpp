@@ -46,7 +46,8 @@ void Recorder::declare_flexible_bodies() {
                           writer_.series(path + "dissipation", 1, "W", "power lost to the material's damping"),
                           shapes > 0 ? writer_.series(path + "amplitudes", shapes, "SI",
                                                       "of the shapes: [rotation; displacement] of each frame but the "
-                                                      "first against it, then vibrations with all frames held [m]")
+                                                      "first against it, then vibrations with all frames held [m]",
+                                                      results::Precision::float64, path + "shape")
                                      : results::Series{}});
     if (shapes > 0 && !flexible.mesh->elements.empty()) {
       writer_.constant(path + "shapes/mesh/deformation", deformation_of_skin(flexible), "SI",
@@ -78,9 +79,10 @@ void Recorder::declare_flexible_modes() {
   for (const model::BuiltFlexible& flexible : machine_.flexibles) {
     const auto shapes = static_cast<int>(flexible.shapes.cols());
     const std::string path = "/modes/fields/" + flexible.name + "_amplitudes_";
-    modes_.amplitudes_real.push_back(
-        writer_.series(path + "real", shapes, "SI", "mode shape in the body's amplitudes"));
-    modes_.amplitudes_imaginary.push_back(writer_.series(path + "imaginary", shapes, "SI", "the same, imaginary part"));
+    modes_.amplitudes_real.push_back(writer_.series(path + "real", shapes, "SI", "mode shape in the body's amplitudes",
+                                                    results::Precision::float64, path + "shape"));
+    modes_.amplitudes_imaginary.push_back(writer_.series(path + "imaginary", shapes, "SI", "the same, imaginary part",
+                                                         results::Precision::float64, path + "shape"));
   }
 }
 

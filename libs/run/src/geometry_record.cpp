@@ -30,7 +30,7 @@ class ShapeWriter {
   void operator()(const mbd::HalfSpace& s) const {
     kind("half_space");
     point("point", s.point, "a point of the plane");
-    writer_.constant(group_ + "/normal", {s.normal.data(), 3}, "1", "points out of it");
+    writer_.constant(group_ + "/normal", {s.normal.data(), 3}, "1", "points out of it", results::Writer::xyz);
   }
   void operator()(const std::shared_ptr<const mbd::TriangleMesh>& s) const {
     kind("mesh");
@@ -46,7 +46,7 @@ class ShapeWriter {
  private:
   void kind(const char* name) const { writer_.attribute(group_, "shape", name); }
   void point(const char* name, const Vector3& r, const char* description) const {
-    writer_.constant(group_ + "/" + name, {r.data(), 3}, "m", description);
+    writer_.constant(group_ + "/" + name, {r.data(), 3}, "m", description, results::Writer::xyz);
   }
   void length(const char* name, double value) const { writer_.constant(group_ + "/" + name, {&value, 1}, "m", name); }
   void bar(const char* name, const Vector3& from, const Vector3& to, double radius) const {
@@ -76,7 +76,8 @@ void write_link(const mbd::MechanismSpec& spec, const std::string& group, mbd::F
   const auto end = [&](const std::string& which, mbd::FrameId id) {
     const mbd::FrameSpec& f = frame(spec, id);
     writer.attribute(group, which, spec.bodies[static_cast<std::size_t>(f.body.index)].name);
-    writer.constant(group + "/" + which + "_origin", {f.X_BF.r.data(), 3}, "m", "place in the body " + which);
+    writer.constant(group + "/" + which + "_origin", {f.X_BF.r.data(), 3}, "m", "place in the body " + which,
+                    results::Writer::xyz);
   };
   end("inboard", a);
   end("outboard", b);
@@ -99,7 +100,8 @@ std::pair<double, Vector3> mass_of_elastic(const mbd::MechanismSpec& spec, const
 
 void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, const std::vector<bool>& hidden_joints,
                     results::Writer& writer) {
-  writer.constant("/ground/gravity", {spec.gravity.data(), 3}, "m/s^2", "acceleration of gravity");
+  writer.constant("/ground/gravity", {spec.gravity.data(), 3}, "m/s^2", "acceleration of gravity",
+                  results::Writer::xyz);
   write_shapes(model.ground, "/ground", writer);
   for (const model::Body& body : model.bodies) {
     const std::string group = "/bodies/" + body.name;
@@ -107,7 +109,7 @@ void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, c
     Vector3 centre = body.centre_of_mass;
     if (body.flexible || body.beam) std::tie(mass, centre) = mass_of_elastic(spec, body.name);
     writer.attribute(group, "mass", mass);
-    writer.constant(group + "/centre_of_mass", {centre.data(), 3}, "m", "in the body");
+    writer.constant(group + "/centre_of_mass", {centre.data(), 3}, "m", "in the body", results::Writer::xyz);
     write_shapes(body, group, writer);
   }
   for (std::size_t j = 0; j < spec.joints.size(); ++j) {
@@ -117,7 +119,7 @@ void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, c
     writer.attribute(group, "type", std::string(mbd::name_of(joint.type)));
     write_link(spec, group, joint.inboard, joint.outboard, writer);
     const Vector3 axis = frame(spec, joint.inboard).X_BF.R * joint.axis.normalized();
-    writer.constant(group + "/axis", {axis.data(), 3}, "1", "in the axes of the inboard body");
+    writer.constant(group + "/axis", {axis.data(), 3}, "1", "in the axes of the inboard body", results::Writer::xyz);
   }
   for (const mbd::MechanismSpec::Force& force : spec.forces) {
     // Films and contacts are named as they are in messages, "bearing big_end".
@@ -126,7 +128,8 @@ void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, c
       if (force.name.starts_with(kind + " ")) group = "/" + kind + "s/" + force.name.substr(kind.size() + 1);
     write_link(spec, group, force.a, force.b, writer);
     const Vector3 axis = frame(spec, force.a).X_BF.R.col(2);
-    writer.constant(group + "/axis", {axis.data(), 3}, "1", "z-axis of the inboard frame, in its body's axes");
+    writer.constant(group + "/axis", {axis.data(), 3}, "1", "z-axis of the inboard frame, in its body's axes",
+                    results::Writer::xyz);
   }
 }
 

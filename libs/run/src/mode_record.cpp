@@ -6,21 +6,24 @@ namespace hersey::run {
 void Recorder::declare_modes() {
   // Modes are no instants: a group called fields counts its rows by itself.
   const std::string path = "/modes/fields/";
-  const auto series = [&](const char* name, const char* unit, const char* description, int columns = 1) {
-    return writer_.series(path + name, columns, unit, description);
+  const auto series = [&](const char* name, const char* unit, const char* description, int columns = 1,
+                          std::string_view dimension = {}) {
+    return writer_.series(path + name, columns, unit, description, results::Precision::float64, dimension);
   };
   const auto nv = static_cast<int>(machine_.mechanism->nv());
-  modes_ = {.frequency = series("frequency", "Hz", "natural frequency |s|/(2 pi), one row per mode"),
-            .damped_frequency = series("damped_frequency", "Hz", "frequency of the damped motion, Im s/(2 pi)"),
-            .damping_ratio = series("damping_ratio", "1", "-Re s/|s|; negative: the motion grows"),
-            .real = series("eigenvalue_real", "1/s", "real part of the eigenvalue s"),
-            .imaginary = series("eigenvalue_imaginary", "1/s", "imaginary part of the eigenvalue s"),
-            .shape_real = series("shape_real", "1", "mode shape, real part: increments of the coordinates", nv),
-            .shape_imaginary = series("shape_imaginary", "1", "mode shape, imaginary part", nv),
-            .body_real = series("body_real", "1", "mode shape, real part: small rotation and displacement of each body",
-                                6 * static_cast<int>(bodies_.size())),
-            .body_imaginary =
-                series("body_imaginary", "1", "the same, imaginary part", 6 * static_cast<int>(bodies_.size()))};
+  const std::string coordinate = path + "coordinate", body = path + "body_component";
+  modes_ = {
+      .frequency = series("frequency", "Hz", "natural frequency |s|/(2 pi), one row per mode"),
+      .damped_frequency = series("damped_frequency", "Hz", "frequency of the damped motion, Im s/(2 pi)"),
+      .damping_ratio = series("damping_ratio", "1", "-Re s/|s|; negative: the motion grows"),
+      .real = series("eigenvalue_real", "1/s", "real part of the eigenvalue s"),
+      .imaginary = series("eigenvalue_imaginary", "1/s", "imaginary part of the eigenvalue s"),
+      .shape_real = series("shape_real", "1", "mode shape, real part: increments of the coordinates", nv, coordinate),
+      .shape_imaginary = series("shape_imaginary", "1", "mode shape, imaginary part", nv, coordinate),
+      .body_real = series("body_real", "1", "mode shape, real part: small rotation and displacement of each body",
+                          6 * static_cast<int>(bodies_.size()), body),
+      .body_imaginary =
+          series("body_imaginary", "1", "the same, imaginary part", 6 * static_cast<int>(bodies_.size()), body)};
   std::vector<std::string> names;
   names.reserve(static_cast<std::size_t>(nv));
   for (int k = 0; k < nv; ++k) names.push_back(machine_.mechanism->name_of_row(k));

@@ -49,6 +49,14 @@ std::filesystem::path unfinished_file(const std::filesystem::path& results) {
 
 namespace {
 
+/// Of a fixed step or an interval of output.
+std::size_t expected_rows(const model::Model& model) {
+  const double interval =
+      model.output.interval > 0 ? model.output.interval : model.simulation.step * model.output.every;
+  const double rows = interval > 0 ? model.simulation.duration / interval : 0;
+  return rows < 1e9 ? static_cast<std::size_t>(std::max(rows, 0.0)) : 0;
+}
+
 /// The file to write. Results appear under their own name when all that is written before the first step is in them,
 /// so that whoever finds them finds the model; until then those that they replace stay.
 std::filesystem::path new_file(const Options& options, bool resumes) {
@@ -63,7 +71,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
                    const Options& options, bool resumes)
     : model_(model),
       machine_(machine),
-      writer_(new_file(options, resumes), {.overwrite = true}),
+      writer_(new_file(options, resumes), {.overwrite = true, .rows = expected_rows(model)}),
       cycles_(model, machine, writer_) {
   hide_inner_nodes();
   declare_run(start, options);
@@ -141,10 +149,13 @@ void Recorder::declare_machine() {
     JointSeries series;
     if (n > 0) {
       const bool mixed = n > 1, rotational = is_rotational(joint, 0);
+      const std::string names = path + "coordinate";
+      if (mixed) writer_.labels(names, coordinate_names(joint.type), "joint coordinates");
       series.coordinates = writer_.series(path + "coordinates", n, mixed ? "SI" : (rotational ? "rad" : "m"),
-                                          "joint coordinates, names in the joint's attribute coordinate_names");
+                                          "joint coordinates, names in the joint's attribute coordinate_names",
+                                          results::Precision::float64, names);
       series.rates = writer_.series(path + "rates", n, mixed ? "SI" : (rotational ? "rad/s" : "m/s"),
-                                    "rates of the joint coordinates");
+                                    "rates of the joint coordinates", results::Precision::float64, names);
       writer_.attribute("/joints/" + joint.name, "coordinate_names", coordinate_names(joint.type));
     }
     series.force = writer_.series(path + "reaction_force", 3, "N", "on the outboard body, inboard frame's axes");

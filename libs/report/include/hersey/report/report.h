@@ -28,7 +28,8 @@ struct SummaryRow {
 struct ReportOptions {
   std::string title;               ///< empty: the first file's title
   std::size_t series_rows = 4000;  ///< most rows of a time series shown per run; more are thinned evenly
-  std::size_t field_bytes = std::size_t{24} << 20;  ///< most bytes for all stored fields together; else fewer instants
+  std::size_t field_bytes = std::size_t{24} << 20;   ///< most bytes for all stored fields together; else fewer instants
+  std::size_t series_bytes = std::size_t{32} << 20;  ///< most bytes for all time series together; else fewer rows
 };
 
 /// Writes one HTML file that shows a run, or several as a study: no network, no other file, any browser.

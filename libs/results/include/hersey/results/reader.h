@@ -16,7 +16,8 @@ namespace hersey::results {
 /// What a dataset is, without its numbers.
 struct DatasetInfo {
   std::vector<std::size_t> shape;
-  bool grows = false;  ///< one entry of the first dimension per stored instant
+  bool grows = false;    ///< one entry of the first dimension per stored instant
+  bool is_text = false;  ///< names of a dimension, not numbers
   std::string unit;
   std::string description;
 };

@@ -29,6 +29,7 @@ enum class Status {
 struct WriterOptions {
   bool overwrite = false;       ///< replace an existing file instead of throwing FileExists
   double flush_interval = 0.5;  ///< shortest time between two writes by flush_if_due() [s], >= 0
+  std::size_t rows = 0;         ///< expected of the series, as far as known
 };
 
 /// How numbers of a series are stored.
@@ -62,6 +63,10 @@ class Series {
 };
 
 /// Writes one results file (HDF5; layout in docs/results-file.md) while the run goes on.
+///
+/// Every dataset has its unit and a description, and names its dimensions by HDF5 dimension scales, which stand in its
+/// group (links to one and the same dataset): h5netcdf and xarray show them. The scales' own lists of the datasets that
+/// use them, which grow with the number of series, are left out.
 ///
 /// Groups on the way to a dataset or attribute are made as needed. Declare all series before the first flush: the file
 /// then keeps its structure and only grows. Rows wait in memory; a flush puts all of them into the file together, after
@@ -101,16 +106,28 @@ class Writer {
                   std::string_view description);
 
   /// A fixed one-dimensional dataset, such as the angles of a grid.
+  /// @param dimension  as in `series`; empty: it is a dimension itself, which series and fields may name
   void constant(std::string_view path, std::span<const double> values, std::string_view unit,
-                std::string_view description);
+                std::string_view description, std::string_view dimension = {});
 
-  /// A growing dataset, shape [n] for columns = 1, else [n, columns]. `unit` in SI, "1" for a pure number.
+  /// The dimension along x, y and z.
+  static constexpr std::string_view xyz = "/xyz";
+
+  /// A fixed list of names, which is a dimension: what the columns of a series are.
+  void labels(std::string_view path, const std::vector<std::string>& names, std::string_view description);
+
+  /// A growing dataset, shape [n] for columns = 1, else [n, columns]. `unit` in SI, "1" for a pure number. The first
+  /// series of those that grow together is the dimension of the others' rows, as /time is.
+  /// @param dimension  path of the constant or labels that tell what the columns are; made as their numbers where there
+  ///                   is none; empty: x, y or x, y, z or a quaternion's w, x, y, z
   [[nodiscard]] Series series(std::string_view path, int columns, std::string_view unit, std::string_view description,
-                              Precision precision = Precision::float64);
+                              Precision precision = Precision::float64, std::string_view dimension = {});
 
   /// A growing dataset of shape [n, rows, cols]; a row is row-major, index i cols + j.
+  /// @param dimensions  paths of the constants that tell what rows and columns are; empty: their numbers under a name
+  ///                    made from the field's
   [[nodiscard]] Series field(std::string_view path, std::array<int, 2> shape, std::string_view unit,
-                             std::string_view description);
+                             std::string_view description, const std::array<std::string, 2>& dimensions = {});
 
   /// How many rows each series has; they are flushed, and put onto the disk.
   [[nodiscard]] std::vector<std::pair<std::string, std::size_t>> rows();

@@ -1,0 +1,169 @@
+#!/usr/bin/python3
+"""The results file as other programs see it: units, names, dimensions, xarray, the reference page, equal bits."""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+HERSEY = os.path.abspath(sys.argv.pop(1))
+SOURCE = os.path.abspath(sys.argv.pop(1))
+PAGE = os.path.join(SOURCE, "docs/results-file.md")
+
+# Short runs that hold every kind of part: rigid and flexible bodies, beams, films, contacts, cycles, modes.
+ENGINE = ["--set", "simulation.cycle.period=4deg", "--set", "simulation.cycle.most=1", "--set",
+          "simulation.cycle.until_converged=0"]
+RUNS = {
+    "engine": ENGINE,
+    "four_bar": ["--set", "simulation.duration=10ms"],
+    "ball_drop": ["--set", "simulation.duration=10ms"],
+    "spinning_rod": ["--set", "simulation.duration=20ms"],
+    "flexible_slider_crank": ["--set", "simulation.duration=1ms"],
+}
+_folder = tempfile.TemporaryDirectory(prefix="hersey-results-")
+_files = {}
+
+
+def run(example, name, *arguments, **environment):
+    """Runs an example, as `name`, and returns its results file."""
+    out = os.path.join(_folder.name, name)
+    done = subprocess.run([HERSEY, "run", os.path.join(SOURCE, "examples", example, "model.yaml"), "--output", out,
+                           "--force", *arguments], capture_output=True, text=True, timeout=600, check=False,
+                          env={**os.environ, **environment})
+    if done.returncode != 0:
+        raise RuntimeError(f"{example}: {done.stderr}")
+    return os.path.join(out, "results.h5")
+
+
+def results(example):
+    if example not in _files:
+        _files[example] = run(example, example, *RUNS[example])
+    return _files[example]
+
+
+def datasets(file):
+    """Path of each dataset under the name it was made with, and the dataset."""
+    found = {}
+
+    def visit(group):
+        for name, item in group.items():
+            path = f"{group.name.rstrip('/')}/{name}"
+            if isinstance(item, h5py.Group):
+                visit(item)
+            elif item.attrs.get("path", path.encode()).decode() == path:
+                found[path] = item
+
+    visit(file)
+    return found
+
+
+class ResultsFile(unittest.TestCase):
+    def test_every_dataset_has_unit_and_long_name(self):
+        for example in RUNS:
+            with h5py.File(results(example)) as file:
+                for path, data in datasets(file).items():
+                    with self.subTest(example=example, dataset=path):
+                        self.assertTrue(data.attrs.get("units"))
+                        self.assertTrue(data.attrs.get("long_name"))
+
+    def test_every_dimension_is_a_named_scale_of_its_group(self):
+        for example in RUNS:
+            with h5py.File(results(example)) as file:
+                for path, data in datasets(file).items():
+                    if data.attrs.get("CLASS") == b"DIMENSION_SCALE" or data.shape == ():
+                        continue
+                    for axis, dimension in enumerate(data.dims):
+                        with self.subTest(example=example, dataset=path, axis=axis):
+                            self.assertEqual(len(dimension), 1)
+                            scale = dimension[0]
+                            self.assertEqual(scale.shape, (data.shape[axis],))
+                            name = scale.attrs["NAME"].decode()
+                            self.assertEqual(data.parent[name], scale)
+
+    def test_films_open_in_xarray(self):
+        import xarray
+
+        file = results("engine")
+        with h5py.File(file) as content:
+            bearing = next(iter(content["bearings"]))
+        with xarray.open_dataset(file, group=f"bearings/{bearing}", engine="h5netcdf") as film:
+            self.assertEqual(film["h_min"].dims, ("time",))
+            self.assertEqual(film["force"].dims, ("time", "xyz"))
+            self.assertEqual(film["h_min_around"].dims, ("time", "phi"))
+            self.assertIn("time", film.coords)
+            self.assertEqual(film["h_min"].attrs["units"], "m")
+            self.assertEqual(float(film["force"].sel(xyz="x")[0]), float(film["force"][0, 0]))
+        with xarray.open_dataset(file, group=f"bearings/{bearing}/fields", engine="h5netcdf") as fields:
+            self.assertEqual(fields["pressure"].dims, ("time", "phi", "z"))
+            self.assertEqual(fields["z"].attrs["units"], "m")
+
+    def test_every_group_opens_in_xarray(self):
+        import xarray
+
+        for example in RUNS:
+            file, groups = results(example), []
+            with h5py.File(file) as content:
+                content.visititems(lambda name, item: groups.append(name) if isinstance(item, h5py.Group) else None)
+            for group in ["/", *groups]:
+                with self.subTest(example=example, group=group):
+                    with xarray.open_dataset(file, group=group, engine="h5netcdf") as opened:
+                        opened.load()
+                        self.assertFalse([name for name in opened.dims if name.startswith("phony")])
+
+    def test_the_reference_page_lists_every_dataset(self):
+        patterns = documented()
+        for example in RUNS:
+            with h5py.File(results(example)) as file:
+                for path in datasets(file):
+                    with self.subTest(example=example, dataset=path):
+                        self.assertTrue(any(re.fullmatch(pattern, path) for pattern in patterns), path)
+
+    def test_results_are_the_same_for_any_number_of_threads(self):
+        files = [run("engine", f"threads{n}", *ENGINE, "--threads", str(n))
+                 for n in (1, 2, 5)]
+        self.assert_same_bits(files)
+
+    def test_results_are_the_same_for_any_number_of_blas_threads(self):
+        files = [run("flexible_slider_crank", f"blas{n}", *RUNS["flexible_slider_crank"], OPENBLAS_NUM_THREADS=str(n),
+                     OMP_NUM_THREADS=str(n)) for n in (1, 2, 3)]
+        self.assert_same_bits(files)
+
+    def assert_same_bits(self, files):
+        with h5py.File(files[0]) as first:
+            expected = datasets(first)
+            for other in files[1:]:
+                with h5py.File(other) as file:
+                    self.assertEqual(set(datasets(file)), set(expected))
+                    for path, data in datasets(file).items():
+                        if h5py.check_string_dtype(data.dtype) is None:
+                            with self.subTest(dataset=path):
+                                self.assertTrue(np.array_equal(data[()], expected[path][()], equal_nan=True))
+
+
+def documented():
+    """Regular expressions of the paths in the page's tables: <b> is one name, ... any number of them."""
+    patterns, prefix = [], ""
+    with open(PAGE, encoding="utf-8") as page:
+        for line in page:
+            cells = line.split("|")
+            if len(cells) < 3:
+                continue
+            if heading := re.search(r"in `(/[^`]*/)`", cells[1]):
+                prefix = heading[1]
+                continue
+            folder = prefix
+            for name in re.findall(r"`([^`]+)`", cells[1]):
+                path = name if name.startswith("/") else (prefix if "/" in name else folder) + name
+                folder = path[: path.rfind("/") + 1]  # of the names that follow in this row
+                escaped = re.escape(path).replace(re.escape("..."), ".+")
+                patterns.append(re.sub(r"<[a-z_]+>", "[^/]+", escaped))
+    return patterns
+
+
+if __name__ == "__main__":
+    unittest.main()
