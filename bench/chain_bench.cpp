@@ -1,0 +1,99 @@
+// Chains of rigid links from model file to results: cost per step, the share of recording, starting, checking.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "hersey/model/read.h"
+#include "hersey/report/report.h"
+#include "hersey/run/simulate.h"
+
+namespace {
+
+using namespace hersey;
+namespace fs = std::filesystem;
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// A level chain of `links` rods on hinges, let go.
+void write_model(const fs::path& path, int links, double duration) {
+  std::ofstream file(path);
+  file << "hersey: 1\ntitle: chain\ngravity: 0 -9.81 0 m/s^2\nbodies:\n";
+  for (int i = 1; i <= links; ++i)
+    file << fmt::format(
+        "  link{}:\n    mass: 0.1 kg\n    centre_of_mass: 50 0 0 mm\n"
+        "    inertia: {{xx: 1e-5 kg.m^2, yy: 1e-4 kg.m^2, zz: 1e-4 kg.m^2}}\n"
+        "    frames: {{end: {{origin: 100 0 0 mm}}}}\n",
+        i);
+  file << "joints:\n";
+  for (int i = 1; i <= links; ++i)
+    file << fmt::format("  hinge{}: {{type: revolute, between: [{}, link{}], axis: z}}\n", i,
+                        i == 1 ? "ground" : fmt::format("link{}.end", i - 1), i);
+  file << fmt::format("simulation:\n  duration: {} s\n  step: 1 ms\n  spectral_radius: 0.9\n", duration);
+}
+
+struct Line {
+  double check = 0, start_up = 0, step = 0, recording = 0, report = 0;  ///< [s] of computing; recording: share of steps
+  bool completed = false;
+};
+
+Line measure(const fs::path& folder, int links, int steps) {
+  const fs::path path = folder / "chain.yaml", results = folder / "results.h5";
+  write_model(path, links, 1e-3 * steps);
+  Line line;
+  double began = cpu_seconds();
+  const model::Model model = model::read(path.string(), {});
+  (void)run::check(model);
+  line.check = cpu_seconds() - began;
+  run::Options options;
+  options.results = results;
+  options.overwrite = true;
+  began = cpu_seconds();
+  const run::Summary summary = run::simulate(model, options);
+  const double all = cpu_seconds() - began;
+  line.completed = summary.status == run::Status::completed;
+  const double share = summary.work.stepping > 0 ? all / summary.wall_time : 1;  // other programs run as well
+  line.start_up = summary.work.start_up * share;
+  line.step = summary.work.stepping * share / steps;
+  for (const run::WorkPart& part : summary.work.parts)
+    if (part.name == "recording") line.recording = part.seconds / summary.work.stepping;
+  began = cpu_seconds();
+  report::write_html({results}, folder / "report.html");
+  line.report = cpu_seconds() - began;
+  return line;
+}
+
+}  // namespace
+
+int main() {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("hersey-chain-{}", ::getpid());
+  fs::create_directories(folder);
+  fmt::print("{:>8} {:>10} {:>12} {:>12} {:>14} {:>12} {:>12}\n", "links", "check [s]", "start-up [s]", "step [ms]",
+             "us/step/link", "recording", "report [s]");
+  bool met = true;
+  double per_link = 0;
+  for (const auto& [links, steps] : {std::pair{100, 2000}, {200, 1000}, {1000, 500}, {5000, 200}}) {
+    const Line line = measure(folder, links, steps);
+    fmt::print("{:8} {:10.2f} {:12.2f} {:12.2f} {:14.2f} {:11.1f}% {:12.2f}\n", links, line.check, line.start_up,
+               1e3 * line.step, 1e6 * line.step / links, 100 * line.recording, line.report);
+    std::fflush(stdout);
+    met &= line.completed;
+    if (links == 200) met &= line.report <= 2;
+    if (links == 1000) {
+      per_link = line.step / links;
+      met &= line.step <= 6e-3 && line.recording <= 0.1 && line.start_up <= 2 && line.check <= 1;
+    }
+    if (links == 5000) met &= line.step / links <= 1.3 * per_link;
+  }
+  fs::remove_all(folder);
+  fmt::print(
+      "1000 links: a step in 6 ms, a tenth of it recording, start-up in 2 s, check in 1 s; 200: report in 2 s;\n"
+      "5000: at most 1.3 times the cost per link   {}\n",
+      met ? "met" : "MISSED");
+  return met ? 0 : 1;
+}
