@@ -259,6 +259,7 @@ struct Writer::Impl {
 
   void write_labels(const std::string& name, const std::vector<std::string>& texts, std::string_view description) {
     std::vector<const char*> pointers;
+    pointers.reserve(texts.size());
     for (const std::string& one : texts) pointers.push_back(one.c_str());
     const hsize_t n = texts.size();
     const Handle space(H5Screate_simple(1, &n, nullptr));
