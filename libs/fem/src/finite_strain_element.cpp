@@ -44,8 +44,9 @@ std::vector<Point> points_of(ElementType type, const NodeColumns& x, const NodeC
   points.reserve(stiffness_points(type, rule).size());
   for (const auto& [xi, weight] : stiffness_points(type, rule)) {
     const ElementPoint at = element_point(shape_functions(type, xi), x);
-    const Matrix3 F = Matrix3::Identity() + u * at.gradients;
-    const Matrix3 E = (F.transpose() * F - Matrix3::Identity()) / 2;
+    // From the gradient itself: F^T F - 1 would leave the round-off of 1 on strains of 1e-9.
+    const Matrix3 H = u * at.gradients, F = Matrix3::Identity() + H;
+    const Matrix3 E = (H + H.transpose() + H.transpose() * H) / 2;
     Point point{at.gradients, strain_variation(at.gradients, F), strain_components(E), {}, weight * at.jacobian};
     if (incompatible) point.modes = incompatible->strain(xi, at.jacobian);
     points.push_back(std::move(point));

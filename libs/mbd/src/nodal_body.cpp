@@ -113,7 +113,8 @@ void NodalBody::update_fields() {
     fields_->carried.noalias() = Psi() * amplitudes;
     fields_->amplitudes = amplitudes;
   }
-  fields_->y = x_ + nodes_of(fields_->carried.col(0) + w_.position());
+  fields_->u = fields_->carried.col(0) + w_.position();
+  fields_->y = x_ + nodes_of(fields_->u);
   fields_->y_rate = nodes_of(fields_->carried.col(1) + w_.rate());
   fields_->y_acc = nodes_of(fields_->carried.col(2) + w_.acceleration());
 }
@@ -163,14 +164,14 @@ void NodalBody::gather(const ElasticMotion& motion, bool want_tangent) {
 /// Of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.24).
 VectorXd NodalBody::elastic_forces() {
   if (strain_ == Strain::small) return body_.K * (w_.position() + damping_.stiffness * w_.rate());
-  fem::finite_strain(body_, flat(fields_->y - x_), finite_, false);
+  fem::finite_strain(body_, fields_->u, finite_, false);
   return finite_.force + damping_.stiffness * (body_.K * w_.rate());
 }
 
 /// The matrix of the displacement at hand, theory manual eq. (flexible-bodies.24).
 void NodalBody::refresh_stiffness(const solver::Stage& stage) {
   update_fields();
-  fem::finite_strain(body_, flat(fields_->y - x_), finite_);
+  fem::finite_strain(body_, fields_->u, finite_);
   const double viscous = stage.c * damping_.stiffness, scale = stage.k + viscous;
   factors_->restiffen((stage.k / scale) * finite_.tangent + (viscous / scale) * body_.K);
   is_stale_ = false;

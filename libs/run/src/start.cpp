@@ -81,6 +81,12 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
     return {fault_at(model, summary.message, summary.message, "frames whose z-axes are those of bore and journal",
                      "turn the frame of the shell or of the journal, or the bodies by the joints' `initial` values")};
   }
+  if (summary.status == Status::domain_error && path_of(summary.message).starts_with("bodies.")) {
+    return {fault_at(model, summary.message, summary.message,
+                     "a body whose motion at the start its material can follow",
+                     "see that speeds, loads and stiffness are in the units meant, or start from rest and let a drive "
+                     "speed up")};
+  }
   if (summary.status == Status::domain_error) {
     return {fault_at(model, summary.message, summary.message, "a journal inside its shell at the start",
                      "move the bodies' frames or the joints' `initial` values, or enlarge `radial_clearance`")};

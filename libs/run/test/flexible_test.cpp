@@ -126,6 +126,59 @@ TEST_CASE("PendulumOfNodes_IsRecordedAndBalanced") {
   check_pendulum_of_nodes("finite");
 }
 
+TEST_CASE("StiffBarOfFiniteStrain_StartsTurning") {
+  // Strains of 1e-9 on a bar of steel: taken as F^T F - 1 they would be lost in round-off.
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::string text = kPendulum;
+  text.replace(text.find("modes: 4"), 8, "modes: 4\n      form: nodal\n      strain: finite");
+  text.replace(text.find("youngs_modulus: 1 GPa"), 21, "youngs_modulus: 210 GPa");
+  text.replace(text.find("      tip: {nodes: right}\n"), 26, "");
+  text.replace(text.find("bar.root]}"), 10, "bar.root], initial: {rotation_rate: 40 rad/s}}");
+  text.replace(text.find("duration: 50 ms"), 15, "duration: 1 ms");
+  std::ofstream(folder / "model.yaml") << text;
+  const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
+  INFO(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  // Stretched by its own rotation: N = rho A w^2 (L^2 - x^2)/2, energy integral of N^2/(2 E A) = (rho w^2)^2 A L^5/(15
+  // E).
+  const double load = 1200 * 1600.0;
+  const results::Reader reader(folder / "r.h5");
+  CHECK(reader.read("/energy/strain").values.front() ==
+        doctest::Approx(load * load * 1e-4 * std::pow(0.2, 5) / (15 * 210e9)).epsilon(0.05));
+}
+
+TEST_CASE("ClampedBodies_RunThoughNothingCanMove") {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::string bar = kPendulum;
+  bar.replace(bar.find("modes: 4"), 8, "modes: 0").replace(bar.find("      tip: {nodes: right}\n"), 26, "");
+  bar.replace(bar.find("type: revolute"), 14, "type: fixed")
+      .replace(bar.find("50 ms, step: 0.1 ms"), 19, "1 ms, step: 0.1 ms");
+  const std::string rigid = R"(hersey: 1
+gravity: 0 -9.81 0 m/s^2
+bodies:
+  block: {mass: 0.024 kg, inertia: {xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}}
+joints:
+  hinge: {type: fixed, between: [ground, block]}
+simulation: {duration: 1 ms, step: 0.1 ms}
+)";
+  for (const std::string& text : {bar, rigid}) {
+    for (const char* step :
+         {"simulation.step=0.1 ms", "simulation.step={tolerance: 1e-4}", "simulation.analysis=static"}) {
+      CAPTURE(step);
+      std::ofstream(folder / "model.yaml") << text;
+      const Summary summary =
+          simulate(model::read(folder / "model.yaml", {step}), {.results = folder / "r.h5", .overwrite = true});
+      INFO(summary.message);
+      REQUIRE(summary.status == Status::completed);
+      const results::Reader reader(folder / "r.h5");
+      const std::vector<double> force = reader.read("/joints/hinge/reaction_force").values;
+      CHECK(force[force.size() - 2] == doctest::Approx(0.024 * 9.81).epsilon(1e-9));  // 1200 kg/m^3, 20 cm^3
+    }
+  }
+}
+
 TEST_CASE("PendulumBlownAtItsEnd_BalancesPowers") {
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);

@@ -26,6 +26,7 @@ struct SparseLu::Impl {
   double rcond = 0;
   int pivotings = 0;
   bool factorised = false;
+  bool is_empty = false;  // analysed, without an unknown: a machine that cannot move
 
   Impl() { klu_defaults(&common); }
   ~Impl() { clear(); }
@@ -71,13 +72,15 @@ SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 
 void SparseLu::analyse(int n, std::span<const int> column_start, std::span<const int> row_index) {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(n > 0 && column_start.size() == static_cast<std::size_t>(n) + 1, "one start per column and an end");
+  HERSEY_REQUIRE(n >= 0 && column_start.size() == static_cast<std::size_t>(n) + 1, "one start per column and an end");
   HERSEY_REQUIRE(row_index.size() == static_cast<std::size_t>(column_start[n]), "one row per entry");
   m.clear();
   m.n = n;
   m.pivotings = 0;
   m.column_start.assign(column_start.begin(), column_start.end());
   m.row_index.assign(row_index.begin(), row_index.end());
+  m.is_empty = n == 0;
+  if (m.is_empty) return;
   m.symbolic = klu_analyze(n, m.column_start.data(), m.row_index.data(), &m.common);
   HERSEY_REQUIRE(m.symbolic && m.common.structural_rank == n, "the pattern is structurally singular");
 }
@@ -91,8 +94,12 @@ void SparseLu::analyse(const Eigen::SparseMatrix<double>& A) {
 
 bool SparseLu::factorise(std::span<const double> values) {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(m.symbolic, "analyse() comes first");
+  HERSEY_REQUIRE(m.symbolic || m.is_empty, "analyse() comes first");
   HERSEY_REQUIRE(values.size() == m.row_index.size(), "one value per entry of the pattern");
+  if (m.is_empty) {
+    m.rcond = 1;
+    return m.factorised = true;
+  }
   m.factorised = (m.numeric && m.reuse_pivots(values)) || m.pivot(values);
   // A factor with a zero pivot is no pattern to reuse.
   if (!m.factorised && m.numeric) klu_free_numeric(&m.numeric, &m.common);
@@ -103,6 +110,7 @@ void SparseLu::solve(std::span<double> b, int columns) const {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.factorised, "no factorisation to solve with");
   HERSEY_REQUIRE(b.size() == static_cast<std::size_t>(m.n) * static_cast<std::size_t>(columns), "shape (n, columns)");
+  if (m.is_empty) return;
   klu_solve(m.symbolic, m.numeric, m.n, columns, b.data(), &m.common);
 }
 
@@ -110,6 +118,7 @@ void SparseLu::solve_transposed(std::span<double> b, int columns) const {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.factorised, "no factorisation to solve with");
   HERSEY_REQUIRE(b.size() == static_cast<std::size_t>(m.n) * static_cast<std::size_t>(columns), "shape (n, columns)");
+  if (m.is_empty) return;
   klu_tsolve(m.symbolic, m.numeric, m.n, columns, b.data(), &m.common);
 }
 

@@ -51,6 +51,15 @@ TEST_CASE("SparseLu_SolvesASequenceWithOnePivoting") {
   CHECK(lu.pivotings() == 1);
 }
 
+TEST_CASE("SparseLu_SolvesASystemWithoutUnknowns") {
+  SparseLu lu;
+  const Eigen::SparseMatrix<double> A(0, 0);
+  lu.analyse(A);
+  CHECK(lu.factorise({}));
+  lu.solve({});
+  CHECK(lu.reciprocal_condition() == 1);
+}
+
 TEST_CASE("SparseLu_PivotsAfreshWhereTheOldOrderFails") {
   // [[1, 1], [1, 0]]-like and then its mirror: the first pivot order would divide by 1e-20.
   Eigen::SparseMatrix<double> A(2, 2), B(2, 2);
