@@ -66,6 +66,23 @@ TEST_CASE("TurningBlade_HasTheFrequenciesOfTheClosedForm") {
   CHECK(tip(1, 2) + tip_imaginary(1, 2) > 100 * (tip(1, 1) + tip_imaginary(1, 1)));
 }
 
+TEST_CASE("VerySlenderBlade_KeepsItsSlowModes") {
+  // I/(A L^2) = 1e-8: bending is ten million times slower than the shear of an element, and its stiffness lost in the
+  // round-off of that one, squared. E I/(rho A L^4) stays 1 rad^2/s^2.
+  const TemporaryDirectory folder;
+  const std::string stubby =
+      "{area: 1 cm^2, shear_y: 0.5 cm^2, shear_z: 0.5 cm^2, I_y: 0.01 cm^4, I_z: 0.01 cm^4, J: 0.02 cm^4}";
+  std::string text = edited(kBlade, stubby,
+                            "{area: 1 m^2, shear_y: 1 m^2, shear_z: 1 m^2, I_y: 1e-8 m^4, I_z: 1e-8 m^4, J: 2e-8 m^4}");
+  text = edited(text, "youngs_modulus: 10 GPa, poisson_ratio: 0.3, density: 10000 kg/m^3",
+                "youngs_modulus: 1e8 Pa, poisson_ratio: 0.3, density: 1 kg/m^3");
+  const results::Reader reader = run_in(folder, text);
+  const auto frequency = reader.read("/modes/fields/frequency").values;
+  CHECK(2 * std::numbers::pi * frequency[0] == doctest::Approx(3.743511896).epsilon(2e-3));
+  CHECK(2 * std::numbers::pi * frequency[1] == doctest::Approx(4.797278532).epsilon(2e-3));
+  CHECK(reader.number_attribute("/modes", "stable").value_or(0) == 1);
+}
+
 TEST_CASE("HeldBeam_ShowsItsSectionForces") {
   const TemporaryDirectory folder;
   std::string text = edited(kBlade, "title:", "gravity: 0 0 -0.02 m/s^2\ntitle:");

@@ -3,7 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "constraint_space.h"
 
@@ -13,6 +16,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+constexpr double kSlow = 1e-4;   // of the fastest motion: below, round-off of 1e-8 and more
+constexpr double kShift = 1e-5;  // of the fastest motion, where inverses are taken
 
 /// The block of motions in the tangent for one stage.
 MatrixXd tangent_block(Equations& equations, const State& state, const Stage& stage) {
@@ -52,6 +58,64 @@ Linearisation linearise(Equations& equations, const State& state, double dt) {
   return linear;
 }
 
+/// A root of the quadratic eigenvalue problem.
+struct Root {
+  std::complex<double> s;  ///< [1/s]
+  Eigen::VectorXcd y;
+  double doubt = 0;  ///< of the real part [1/s]
+};
+
+/// Roots near `shift`, by the inverse of what the fastest motions dominate: theory manual eq. (integrator.24).
+std::vector<Root> roots_near(const Linearisation& linear, double shift) {
+  const Index n = linear.M.rows();
+  // Units in which no coordinate is large or small by inertia, times in units of 1/shift.
+  const VectorXd d = linear.M.diagonal().cwiseSqrt().cwiseInverse();
+  const auto scaled = [&](const MatrixXd& A) { return MatrixXd(d.asDiagonal() * A * d.asDiagonal()); };
+  const MatrixXd M = scaled(linear.M), C = scaled(linear.C) / shift, K = scaled(linear.K) / (shift * shift);
+  const Eigen::FullPivLU<MatrixXd> stiffness(K + C + M);
+  MatrixXd A = MatrixXd::Zero(2 * n, 2 * n);
+  A.topRightCorner(n, n).setIdentity();
+  A.bottomLeftCorner(n, n) = -stiffness.solve(M);
+  A.bottomRightCorner(n, n) = -stiffness.solve(C + 2 * M);
+  const Eigen::EigenSolver<MatrixXd> eigen(A);
+  std::vector<Root> roots;
+  for (Index i = 0; i < 2 * n; ++i) {
+    const std::complex<double> mu = eigen.eigenvalues()[i];
+    if (mu == 0.0) continue;
+    roots.push_back({shift * (1.0 + 1.0 / mu), d.asDiagonal() * eigen.eigenvectors().col(i).head(n), 0});
+  }
+  return roots;
+}
+
+/// What round-off of the stiffness makes of a motion that nothing holds [1/s].
+double noise_of(const Linearisation& linear, const Eigen::VectorXcd& y) {
+  const VectorXd size = y.cwiseAbs();
+  const double inertia = std::abs((y.adjoint() * linear.M * y).value());
+  const double eps = 100 * std::numeric_limits<double>::epsilon();
+  return std::sqrt(eps * size.dot(linear.K.cwiseAbs() * size) / inertia) +
+         eps * size.dot(linear.C.cwiseAbs() * size) / inertia;
+}
+
+/// Replaces the slow ones among `roots` by those that do not carry the round-off of the fast ones. A slender blade
+/// bends a million times slower than its sections shear.
+void refine_slow(const Linearisation& linear, double fastest, std::vector<Root>& roots) {
+  const auto by_size = [](const Root& a, const Root& b) { return std::abs(a.s) < std::abs(b.s); };
+  std::sort(roots.begin(), roots.end(), by_size);
+  const auto slow = static_cast<std::size_t>(
+      std::count_if(roots.begin(), roots.end(), [&](const Root& r) { return std::abs(r.s) <= kSlow * fastest; }));
+  if (slow == 0) return;
+  const double shift = kShift * fastest;
+  std::vector<Root> near = roots_near(linear, shift);
+  std::sort(near.begin(), near.end(), by_size);
+  for (std::size_t i = 0; i < std::min(slow, near.size()); ++i) {
+    // A motion nothing holds is a double zero: round-off splits it into roots of eps.
+    const double noise = noise_of(linear, near[i].y), size = std::abs(near[i].s);
+    if (size <= std::max(1e-6 * shift, noise)) near[i].s = 0;
+    near[i].doubt = std::max(1e-6 * size, noise * noise / size);
+    roots[i] = std::move(near[i]);
+  }
+}
+
 Modes find_modes(const Linearisation& linear) {
   Modes found;
   const Index n = linear.M.rows();
@@ -79,18 +143,20 @@ Modes find_modes(const Linearisation& linear) {
     A.bottomRightCorner(n, n) = -C / omega;
   }
   const Eigen::EigenSolver<MatrixXd> eigen(A);
-  const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
+  std::vector<Root> roots;
   for (Index i = 0; i < 2 * n; ++i) {
-    std::complex<double> s = eigen.eigenvalues()[i];
-    // A motion nothing holds is a double zero: round-off splits it into roots of eps.
-    if (std::abs(s) <= 1e-6 * largest) s = 0;
-    if (s.imag() < 0) continue;
     const Eigen::VectorXcd z = eigen.eigenvectors().col(i).head(n);
-    const Eigen::VectorXcd y = mass.matrixU().solve(z);
-    const double y_largest = (linear.Z * y).cwiseAbs().maxCoeff();
+    roots.push_back({eigen.eigenvalues()[i] * omega, mass.matrixU().solve(z), 0});
+  }
+  const double fastest = eigen.eigenvalues().cwiseAbs().maxCoeff() * omega;
+  for (Root& root : roots) root.doubt = 1e-9 * fastest;
+  refine_slow(linear, fastest, roots);
+  for (const Root& root : roots) {
+    if (root.s.imag() < 0) continue;
+    const double y_largest = (linear.Z * root.y).cwiseAbs().maxCoeff();
     if (!(y_largest > 0)) continue;
-    found.modes.push_back(mode_of(s * omega, y, linear.Z));
-    if (s.real() > 1e-9 * largest) found.stable = false;
+    found.modes.push_back(mode_of(root.s, root.y, linear.Z));
+    if (root.s.real() > root.doubt) found.stable = false;
   }
   std::sort(found.modes.begin(), found.modes.end(),
             [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });
