@@ -15,6 +15,7 @@ struct RunArguments {
   bool force = false;
   bool resume = false;
   bool json = false;
+  bool step_error = false;
   int jobs = 0;     ///< 0: one per thread
   int threads = 0;  ///< 0: one per processor
 };

@@ -203,10 +203,15 @@ int dispatch(int argc, char** argv) {
   run_app->add_option("--output", run.output, "Folder for results and report (default: results/<model>)")
       ->type_name("DIR");
   CLI::Option* force = run_app->add_flag("--force", run.force, "Replace results that exist already");
+  CLI::Option* resume =
+      run_app
+          ->add_flag("--resume", run.resume,
+                     "Go on where a run was interrupted, from its last checkpoint; of a study, finish what is missing")
+          ->excludes(force);
   run_app
-      ->add_flag("--resume", run.resume,
-                 "Go on where a run was interrupted, from its last checkpoint; of a study, finish what is missing")
-      ->excludes(force);
+      ->add_flag("--step-error", run.step_error,
+                 "Estimate what the time step does to each bearing's figures, by a run with steps twice as long")
+      ->excludes(resume);
   run_app->add_flag("--json", run.json, "Print the closing table as JSON");
   run_app->add_option("--jobs", run.jobs, "Runs of a study at the same time (default: one per processor)")
       ->check(CLI::PositiveNumber);

@@ -112,6 +112,21 @@ nlohmann::json json_of(const run::EnergySummary& energy) {
           {"error", energy.error()}};
 }
 
+// What was not asked for is null.
+nlohmann::json step_errors_of(const run::Summary& summary) {
+  const auto number = [](double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); };
+  nlohmann::json bearings = nlohmann::json::object();
+  for (const run::BearingSummary& bearing : summary.bearings) {
+    const run::StepErrors& errors = bearing.step_error;
+    bearings[bearing.name] = {{"moft", number(errors.moft)},
+                              {"pofp", number(errors.pofp)},
+                              {"max_force", number(errors.max_force)},
+                              {"mean_power", number(errors.mean_power)},
+                              {"mean_flow", number(errors.mean_flow)}};
+  }
+  return {{"largest_of_a_step", summary.worst_step_error}, {"bearings", bearings}};
+}
+
 nlohmann::json json_of(const run::Summary& summary) {
   return {{"status", word(summary.status)},
           {"message", summary.message},
@@ -124,6 +139,7 @@ nlohmann::json json_of(const run::Summary& summary) {
           {"newton_iterations", summary.newton_iterations},
           {"worst_constraint_drift", summary.worst_constraint_drift},
           {"worst_power_balance", summary.worst_power_balance},
+          {"step_error", step_errors_of(summary)},
           {"energy", json_of(summary.energy)},
           {"wall_time", summary.wall_time},
           {"work", json_of(summary.work)}};
@@ -218,6 +234,7 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   options.results = folder / "results.h5";
   options.overwrite = arguments.force;
   options.resume = arguments.resume;
+  options.step_error = arguments.step_error;
   options.stop = &catch_interrupts();
   require_own_files(model, folder, {options.results});
   refuse_existing({options.results}, arguments.force || arguments.resume);
@@ -249,6 +266,7 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
   options.directory = folder;
   options.overwrite = arguments.force;
   options.resume = arguments.resume;
+  options.step_error = arguments.step_error;
   options.threads = arguments.jobs;
   options.stop = &catch_interrupts();
   Paths planned;

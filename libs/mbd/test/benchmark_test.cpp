@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "benchmark_mechanisms.h"
+#include "hersey/solver/step_control.h"
 #include "simulate.h"
 #include "test_mechanisms.h"
 
@@ -51,6 +52,58 @@ TEST_CASE("FourBars_PassTheirSingularPositionOnTheRightBranch") {
   CHECK(next == reference.size());
   MESSAGE("largest error of B0 ", worst);
   CHECK(worst < 1e-3);  // the benchmark's own measure
+}
+
+/// Distance of B0 from its place at t = 10 s.
+double error_at_the_end(Mechanism& mechanism, const solver::State& state) {
+  const Vector3 B0 = mechanism.frame_motion(state, mechanism.spec().body_frames[1]).X_WF * Vector3(1, 0, 0);
+  return std::hypot(B0.x() - 0.3284581115, B0.y() - 0.9445185382);
+}
+
+struct ChosenSteps {
+  int steps = 0;
+  double error = 0;
+};
+
+ChosenSteps four_bars_with_tolerance(double tolerance) {
+  const auto m = four_bars(2);
+  solver::State state = test::start(*m);
+  const Eigen::VectorXd scales = m->position_scales();
+  solver::GeneralizedAlpha integrator({.spectral_radius = 0.9});
+  solver::StepControl control({.smallest = 1e-9, .largest = 0.1}, 1e-4);
+  ChosenSteps chosen;
+  while (state.t < 10 - 1e-12) {
+    const double dt = control.proposed(10 - state.t);
+    Eigen::VectorXd errors;
+    const auto judge = [&](const solver::State&, const Eigen::VectorXd& estimate) {
+      errors = estimate.cwiseQuotient(scales) / tolerance;
+      return errors.lpNorm<Eigen::Infinity>() <= 1;
+    };
+    if (integrator.step(*m, state, dt, judge).converged()) {
+      control.accepted(dt, errors);
+      ++chosen.steps;
+    } else {
+      REQUIRE(control.rejected(dt, errors.lpNorm<Eigen::Infinity>()));
+    }
+  }
+  chosen.error = error_at_the_end(*m, state);
+  return chosen;
+}
+
+TEST_CASE("FourBars_CostNoMoreThanEqualStepsOfTheSameError") {
+  // Errors go as the inverse square of the number of steps. A step that lags by one step behind the motion, or keeps
+  // the length of a while ago, costs a hundred times the error.
+  const auto m = four_bars(2);
+  solver::State state = test::start(*m);
+  test::run(*m, state, 10, 3000, 0.9);
+  const double equal = error_at_the_end(*m, state) * 3000 * 3000;
+  for (const double tolerance : {1e-5, 1e-6, 1e-7}) {
+    CAPTURE(tolerance);
+    const ChosenSteps chosen = four_bars_with_tolerance(tolerance);
+    const double size = chosen.error * chosen.steps * chosen.steps;
+    MESSAGE(chosen.steps, " steps: ", size / equal, " times the error of equal ones");
+    CHECK(size < 1.21 * equal);  // 1.1 times the steps
+  }
 }
 
 TEST_CASE("FortyFourBarsOfHinges_RunLikeThoseWithoutRedundancy") {

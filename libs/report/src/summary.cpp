@@ -57,8 +57,25 @@ class Summary {
       last("peak film pressure at the end", "p_max", 1e-6, "MPa");
       extreme("worst mass-balance error of the film", "mass_balance_error", largest_size, 1, "", false);
       film_energy_error();
+      step_error_rows();
       cycle_rows();
     }
+  }
+
+  /// What the length of the steps has done to the figures, where the run was asked.
+  void step_error_rows() {
+    const std::string group = "/step_errors/" + group_;
+    if (!reader_.has(group)) return;
+    const auto row = [&](const std::string& of, const std::string& attribute, double factor, const std::string& unit) {
+      const auto error = reader_.number_attribute(group, attribute);
+      if (!error || !std::isfinite(*error)) return;
+      add("error by the step: " + of, factor * *error, unit, "estimated by a run with steps twice as long");
+    };
+    row("minimum film thickness (MOFT)", "moft", 1e6, "µm");
+    row("peak film pressure (POFP)", "pofp", 1e-6, "MPa");
+    row("largest film force", "max_force", 1, "N");
+    row("mean power loss", "mean_power", 1, "W");
+    row("mean side flow, both sides", "mean_flow", 1e9, "mm³/s");
   }
 
   /// Losses and loads of the surfaces over the last cycle, or over the whole run where the model has none.
@@ -245,6 +262,7 @@ class Summary {
       }
     }
     const std::vector<double> rejected = values("solver/rejected_steps"), drift = values("solver/constraint_drift");
+    extreme("largest estimated error of one step", "solver/step_error", largest, 1, "", false);
     if (!rejected.empty() && rejected.back() > 0) add("rejected steps", rejected.back(), "");
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }

@@ -123,6 +123,11 @@ void Recorder::declare_run(const solver::State& start, const Options& options) {
   if (model_.simulation.error_control) {
     error_ = writer_.series("/solver/error", 1, "1", "estimated local error of the step over its tolerance");
   }
+  if (integrates()) {
+    step_error_ = writer_.series("/solver/step_error", 1, "1",
+                                 "estimated local error of the step: angles in rad, lengths over the machine's size, "
+                                 "positions of journals over their clearance");
+  }
 }
 
 void Recorder::declare_machine() {
@@ -241,6 +246,7 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   rejected_.append(step.rejected_steps);
   drift_.append(step.constraint_drift);
   if (model_.simulation.error_control) error_.append(step.error);
+  if (integrates()) step_error_.append(step.step_error);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (hidden_bodies_[i + 1]) continue;
     const mbd::FrameMotion& motion = seen.bodies[i + 1];
@@ -337,6 +343,15 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
     if (const auto created = before.text_attribute("/", "created")) writer_.attribute("/", "created", *created);
   }
   writer_.rename(results);
+}
+
+void Recorder::write_step_errors(const std::string& bearing, const StepErrors& errors) {
+  const std::string group = "/step_errors/" + bearing;
+  writer_.attribute(group, "moft", errors.moft);
+  writer_.attribute(group, "pofp", errors.pofp);
+  writer_.attribute(group, "max_force", errors.max_force);
+  writer_.attribute(group, "mean_power", errors.mean_power);
+  writer_.attribute(group, "mean_flow", errors.mean_flow);
 }
 
 void Recorder::declare_cost(const Work& work) {

@@ -20,6 +20,7 @@ struct StepRecord {
   int newton_iterations = 0;
   double newton_residual = 0;
   double error = 0;             ///< estimated, over the tolerance; 0 with a fixed step
+  double step_error = 0;        ///< the same, not over the tolerance; of fixed steps too
   int rejected_steps = 0;       ///< since the start of the run
   double constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares
   mbd::Observation mechanism;
@@ -60,6 +61,7 @@ class Recorder {
   /// leaves a file that can be read. Before the first row.
   /// @param work  of no steps yet
   void declare_cost(const Work& work);
+  void write_step_errors(const std::string& bearing, const StepErrors& errors);
   void finish(results::Status status, const std::string& message, double wall_time, const Work& work, int steps);
 
  private:
@@ -126,6 +128,7 @@ class Recorder {
   void write_flexible_bodies(const mbd::Observation& seen);
   void declare_surface_loads();
   void write_surface_loads(const mbd::Observation& seen);
+  [[nodiscard]] bool integrates() const { return model_.simulation.analysis == model::Analysis::dynamics; }
   void hide_inner_nodes();
   void declare_beams();
   void write_beams(const mbd::Observation& seen);
@@ -142,7 +145,7 @@ class Recorder {
   const model::Machine& machine_;
   results::Writer writer_;
   CycleMaps cycles_;
-  results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, rejected_, drift_;
+  results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, step_error_, rejected_, drift_;
   std::vector<FlexibleSeries> flexibles_;
   std::vector<SurfaceLoadSeries> surface_loads_;
   std::vector<BeamSeries> beams_;

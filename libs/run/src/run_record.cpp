@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coarser_run.h"
+
 namespace hersey::run {
 
 RunRecord::RunRecord(const model::Model& model, const model::Machine& machine, const solver::State& start,
@@ -23,6 +25,7 @@ void RunRecord::take(const StepRecord& step) {
   const double t = step.mechanism.t;
   if (step.dt > 0) ++steps_;
   newton_iterations_ += step.newton_iterations;
+  step_error_ = std::max(step_error_, step.step_error);
   constraint_drift_ = std::max(constraint_drift_, step.constraint_drift);
   largest_power_ = std::max(largest_power_, step.power.largest());
   largest_error_ = std::max(largest_error_, std::abs(step.power.error()));
@@ -91,9 +94,24 @@ void RunRecord::summarise(Summary& summary) const {
   summary.cycles = last_cycle_.number;
   summary.cycle_change = last_cycle_.value;
   summary.worst_constraint_drift = constraint_drift_;
+  summary.worst_step_error = step_error_;
   summary.worst_power_balance = largest_power_ > 0 ? largest_error_ / largest_power_ : 0;
   summary.energy = energy_.sums();
   for (const BearingExtremes& bearing : extremes_) summary.bearings.push_back(bearing.summary());
+  for (std::size_t i = 0; i < step_errors_.size(); ++i) summary.bearings[i].step_error = step_errors_[i];
+}
+
+void RunRecord::declare_cost(const Work& work) {
+  if (options_.step_error)
+    for (const BearingExtremes& bearing : extremes_) recorder_.write_step_errors(bearing.name(), {});
+  recorder_.declare_cost(work);
+}
+
+void RunRecord::write_step_errors(const Summary& coarse) {
+  for (std::size_t i = 0; i < extremes_.size(); ++i) {
+    step_errors_.push_back(step_errors(extremes_[i].summary(), coarse.bearings[i]));
+    recorder_.write_step_errors(extremes_[i].name(), step_errors_.back());
+  }
 }
 
 void RunRecord::finish(results::Status status, const std::string& message, double wall_time, const Work& work) {
@@ -102,7 +120,7 @@ void RunRecord::finish(results::Status status, const std::string& message, doubl
 
 void RunRecord::persist(Archive& archive) {
   archive.io("steps", steps_), archive.io("newton_iterations", newton_iterations_);
-  archive.io("constraint_drift", constraint_drift_);
+  archive.io("constraint_drift", constraint_drift_), archive.io("step_error", step_error_);
   archive.io("largest_power", largest_power_), archive.io("largest_error", largest_error_);
   archive.io("next_fields", next_fields_), archive.io("next_row", next_row_);
   for (BearingExtremes& extremes : extremes_) {

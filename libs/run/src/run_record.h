@@ -28,7 +28,7 @@ class RunRecord {
 
   /// The start of the run, then every accepted step.
   void take(const StepRecord& step);
-  void declare_cost(const Work& work) { recorder_.declare_cost(work); }
+  void declare_cost(const Work& work);
   void write_modes(const solver::State& state, const solver::Modes& found) { recorder_.write_modes(state, found); }
   void finish(results::Status status, const std::string& message, double wall_time, const Work& work);
 
@@ -41,6 +41,10 @@ class RunRecord {
   [[nodiscard]] double moft() const;
   /// The figures of all steps taken.
   void summarise(Summary& summary) const;
+
+  /// Writes what the steps have done to each bearing's figures. Before finish().
+  /// @param coarse  summary of the run with steps twice as long
+  void write_step_errors(const Summary& coarse);
 
   void persist(Archive& archive);
 
@@ -59,6 +63,8 @@ class RunRecord {
   std::vector<BearingExtremes> extremes_;
   EnergyBalance energy_;
   int steps_ = 0, newton_iterations_ = 0;
+  std::vector<StepErrors> step_errors_;  ///< of the bearings, where asked for
+  double step_error_ = 0;                ///< largest of a step
   double constraint_drift_ = 0, largest_power_ = 0, largest_error_ = 0;
   CycleChange last_cycle_;
   bool settled_ = false, repeats_ = false;

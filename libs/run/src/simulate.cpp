@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "checkpoint.h"
+#include "coarser_run.h"
 #include "facing_surfaces.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
@@ -41,9 +42,12 @@ double last_time(const std::filesystem::path& file) {
 class Simulation {
  public:
   /// @param checkpoint  where an interrupted run goes on; empty: from the start
-  Simulation(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint)
+  /// @param coarse  summary of the run with steps twice as long; none where no step error is asked for
+  Simulation(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint,
+             const Summary* coarse = nullptr)
       : model_(model),
         options_(options),
+        coarse_(coarse),
         began_(Clock::now()),
         machine_(model::build(model)),
         state_(starting_state(model, machine_)),
@@ -152,6 +156,7 @@ class Simulation {
     StepRecord seen = observe_step(machine_, state_, kinds_);
     seen.dt = step.dt;
     seen.error = step.error;
+    seen.step_error = step.local_error;
     seen.newton_iterations = step.solution.iterations;
     seen.newton_residual = step.solution.residual;
     seen.rejected_steps = march_.rejected_steps();
@@ -239,6 +244,7 @@ class Simulation {
   void finish(results::Status status) {
     summary_.work = work_.work();
     try {
+      if (coarse_ != nullptr && status == results::Status::completed) record_.write_step_errors(*coarse_);
       record_.finish(status, summary_.message, elapsed(), summary_.work);
     } catch (const results::WriteError& error) {
       fail(error.what());
@@ -251,6 +257,7 @@ class Simulation {
 
   const model::Model& model_;
   const Options& options_;
+  const Summary* coarse_;
   Clock::time_point began_;
   model::Machine machine_;
   solver::State state_;
@@ -265,14 +272,38 @@ class Simulation {
 };
 
 // What could not begin leaves nothing behind.
-Summary simulate_from(std::optional<Archive::Content> checkpoint, const model::Model& model, const Options& options) {
+Summary simulate_from(std::optional<Archive::Content> checkpoint, const model::Model& model, const Options& options,
+                      const Summary* coarse = nullptr) {
   try {
-    return Simulation(model, options, std::move(checkpoint)).run();
+    return Simulation(model, options, std::move(checkpoint), coarse).run();
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(unfinished_file(options.results), ignored);
     throw;
   }
+}
+
+// The run that tells the error of the steps, of which only the summary is kept.
+Summary simulate_longer_steps(const model::Model& model, const Options& options) {
+  Options coarse = options;
+  coarse.step_error = false;
+  coarse.overwrite = true;
+  coarse.results += ".longer_steps";
+  coarse.on_cycle = {};
+  Summary summary = simulate(with_longer_steps(model), coarse);
+  std::error_code ignored;
+  std::filesystem::remove(coarse.results, ignored);
+  discard_checkpoint(coarse.results);
+  return summary;
+}
+
+Summary simulate_with_step_error(const model::Model& model, const Options& options) {
+  const Summary coarse = simulate_longer_steps(model, options);
+  const bool is_known = coarse.status == Status::completed;
+  Summary summary = simulate_from(std::nullopt, model, options, is_known ? &coarse : nullptr);
+  if (!is_known)
+    summary.warning = "the step error is not known: with steps twice as long the run ends early: " + coarse.message;
+  return summary;
 }
 
 Summary resume_from(Archive::Content checkpoint, const model::Model& model, const Options& options) {
@@ -326,6 +357,7 @@ Summary simulate(const model::Model& model, const Options& options) {
   if (options.resume) return resume(model, options);
   // A checkpoint of results that are about to be replaced.
   if (options.overwrite || !std::filesystem::exists(options.results)) discard_checkpoint(options.results);
+  if (options.step_error && !model.bearings.empty()) return simulate_with_step_error(model, options);
   return simulate_from(std::nullopt, model, options);
 }
 

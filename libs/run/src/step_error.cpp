@@ -8,22 +8,27 @@ namespace hersey::run {
 StepError::StepError(const model::Model& model, model::Machine& machine)
     : model_(model), machine_(machine), scales_(machine.mechanism->position_scales()) {}
 
-double StepError::measure(const solver::State& end, const Eigen::VectorXd& error) {
+const Eigen::VectorXd& StepError::measure(const solver::State& end, const Eigen::VectorXd& error) {
+  const Eigen::Index coordinates = error.size();
+  errors_.resize(coordinates + 2 * static_cast<Eigen::Index>(machine_.bearings.size()));
+  errors_.head(coordinates) = error.cwiseQuotient(scales_);
   worst_bearing_ = -1;
-  double largest = error.size() > 0 ? error.cwiseQuotient(scales_).cwiseAbs().maxCoeff(&worst_coordinate_) : 0;
-  if (machine_.bearings.empty()) return largest;
+  of_coordinates_ = coordinates > 0 ? errors_.head(coordinates).cwiseAbs().maxCoeff(&worst_coordinate_) : 0;
+  largest_ = of_coordinates_;
+  if (machine_.bearings.empty()) return errors_;
   moved_ = end;
   machine_.mechanism->retract(end.q, error, moved_.q);
   for (std::size_t i = 0; i < machine_.bearings.size(); ++i) {
     const mbd::ForceId force = machine_.bearings[i].force;
     const Vector3 shift = machine_.mechanism->relative_motion(moved_, force).X_AB.r -
                           machine_.mechanism->relative_motion(end, force).X_AB.r;
-    const double share = shift.head<2>().norm() / model_.bearings[i].film.c;
-    if (share <= largest) continue;
-    largest = share;
+    const Eigen::Vector2d share = shift.head<2>() / model_.bearings[i].film.c;
+    errors_.segment<2>(coordinates + 2 * static_cast<Eigen::Index>(i)) = share;
+    if (share.norm() <= largest_) continue;
+    largest_ = share.norm();
     worst_bearing_ = static_cast<int>(i);
   }
-  return largest;
+  return errors_;
 }
 
 std::string StepError::worst() const {

@@ -9,16 +9,23 @@
 
 namespace hersey::run {
 
-/// Measures the local error of a step: the largest of all joint coordinates, angles in rad and lengths over the
-/// machine's size, and of all journals' positions in their shells over the radial clearance.
+/// Measures the local error of a step: of all joint coordinates, angles in rad and lengths over the machine's size, and
+/// of all journals' positions in their shells over the radial clearance.
 class StepError {
  public:
   StepError(const model::Model& model, model::Machine& machine);
 
   /// @param error  increment of position, shape (nv): solver::StepJudge.
-  [[nodiscard]] double measure(const solver::State& end, const Eigen::VectorXd& error);
+  /// @returns all errors with their signs: of the coordinates, then of each journal along x and y of its shell.
+  [[nodiscard]] const Eigen::VectorXd& measure(const solver::State& end, const Eigen::VectorXd& error);
 
-  /// What the last error measured is the error of, e.g. "joint guide, x" or "the journal in bearing big_end".
+  /// The largest of those last measured; of a journal the length of its error.
+  [[nodiscard]] double largest() const { return largest_; }
+
+  /// The largest of the coordinates alone.
+  [[nodiscard]] double of_coordinates() const { return of_coordinates_; }
+
+  /// What the largest is the error of, e.g. "joint guide, x" or "the journal in bearing big_end".
   [[nodiscard]] std::string worst() const;
 
  private:
@@ -26,6 +33,8 @@ class StepError {
   model::Machine& machine_;
   Eigen::VectorXd scales_;
   solver::State moved_;
+  Eigen::VectorXd errors_;
+  double largest_ = 0, of_coordinates_ = 0;
   Eigen::Index worst_coordinate_ = 0;
   int worst_bearing_ = -1;
 };

@@ -12,6 +12,9 @@
 namespace hersey::run {
 namespace {
 
+constexpr double kMeaningless = 0.02;   // rad, or sizes of the machine, that one step may be off
+constexpr double kShortest = 1.0 / 64;  // of the fixed step: shorter ones are taken whatever their error
+
 solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
   solver::GeneralizedAlphaOptions options;
   options.spectral_radius = model.simulation.spectral_radius;
@@ -28,7 +31,11 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
 }  // namespace
 
 StepMarch::StepMarch(const model::Model& model, model::Machine& machine)
-    : model_(model), machine_(machine), integrator_(integrator_options(model)), step_error_(model, machine) {}
+    : model_(model),
+      machine_(machine),
+      integrator_(integrator_options(model)),
+      step_error_(model, machine),
+      has_smooth_motion_(model.bearings.empty() && machine.mechanism->elastic_coordinates().empty()) {}
 
 void StepMarch::plan(const solver::State& state, const mbd::Observation& start) {
   const auto& limits = model_.simulation.error_control;
@@ -75,6 +82,12 @@ void StepMarch::start_afresh(solver::State& state) {
   if (solver::solve_accelerations(*machine_.mechanism, state, last_dt_)) integrator_.reset();
 }
 
+// Much shorter steps than the last would have to take back at once the velocities that it has left across the
+// constraints: the shorter, the harder. They begin from velocities that the constraints allow.
+void StepMarch::restart(solver::State& state) {
+  if (solver::restart(*machine_.mechanism, state, last_dt_)) integrator_.reset();
+}
+
 // Nothing integrated: the last step, gone on with, is where Newton's method begins.
 MarchedStep StepMarch::follow_drives(solver::State& state, double target) const {
   MarchedStep step{.dt = target - state.t};
@@ -105,17 +118,31 @@ std::string StepMarch::advice(const solver::StepSummary& solution) const {
   return text;
 }
 
+// A step whose own estimate says that its end means nothing is no answer, though Newton's method has found it: such
+// steps lead a machine onto motions that it never leaves.
 MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
   MarchedStep step;
+  int failures = 0;
   for (;;) {
     step.dt = std::min(trial_, target - state.t);
-    step.solution = integrator_.step(*machine_.mechanism, state, step.dt);
+    const bool may_be_cut = has_smooth_motion_ && step.dt > kShortest * model_.simulation.step;
+    const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
+      // Motions that films or stiffness end within a step: the estimate extrapolates what is not there.
+      const Eigen::VectorXd way = 0.5 * step.dt * (state.v.cwiseAbs() + end.v.cwiseAbs());
+      bounded_ = estimate.cwiseMin(way).cwiseMax(-way);
+      (void)step_error_.measure(end, bounded_);
+      return !may_be_cut || step_error_.of_coordinates() <= kMeaningless;
+    };
+    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
     if (step.solution.converged()) {
+      step.local_error = step_error_.largest();
       trial_ = 2 * step.dt;
       return step;
     }
     ++rejected_;
     trial_ = step.dt / 2;
+    const int enough = step.solution.status == solver::StepStatus::inaccurate ? 1 : 2;
+    if (++failures == enough && has_smooth_motion_) restart(state);
     if (trial_ < model_.simulation.smallest_step) {
       step.trouble = fmt::format("t = {:.6g} s: no convergence with a step of {:.2g} s: {}{}", state.t, step.dt,
                                  step.solution.message, advice(step.solution));
@@ -126,8 +153,10 @@ MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
 
 MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
   MarchedStep step;
+  Eigen::VectorXd errors;
   const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
-    step.error = step_error_.measure(end, estimate) / model_.simulation.error_control->tolerance;
+    errors = step_error_.measure(end, estimate) / model_.simulation.error_control->tolerance;
+    step.error = step_error_.largest() / model_.simulation.error_control->tolerance;
     return step.error <= 1;
   };
   for (;;) {
@@ -136,7 +165,8 @@ MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
     step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
     if (step.solution.converged()) {
       if (step.dt == remaining) state.t = target;  // exactly, not as a sum of steps
-      control_->accepted(step.dt, step.error);
+      step.local_error = step_error_.largest();
+      control_->accepted(step.dt, errors);
       return step;
     }
     ++rejected_;

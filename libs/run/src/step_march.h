@@ -19,8 +19,9 @@ namespace hersey::run {
 struct MarchedStep {
   double dt = 0;  ///< [s]
   solver::StepSummary solution;
-  double error = 0;     ///< estimated, over the tolerance; 0 where it is not controlled
-  std::string trouble;  ///< why no step could be taken, with its time; empty when one was
+  double error = 0;        ///< estimated, over the tolerance; 0 where it is not controlled
+  double local_error = 0;  ///< estimated, StepError::largest; 0 where nothing is integrated
+  std::string trouble;     ///< why no step could be taken, with its time; empty when one was
 
   [[nodiscard]] bool is_taken() const { return trouble.empty(); }
 };
@@ -56,11 +57,15 @@ class StepMarch {
   [[nodiscard]] MarchedStep take_controlled(solver::State& state, double target);
   [[nodiscard]] double unit_of_steps() const;
   void start_afresh(solver::State& state);
+  void restart(solver::State& state);
 
   const model::Model& model_;
   model::Machine& machine_;
   solver::GeneralizedAlpha integrator_;
   StepError step_error_;
+  /// Neither films nor deformations, whose fast motions the error's estimate takes for errors.
+  bool has_smooth_motion_;
+  Eigen::VectorXd bounded_;    ///< a fixed step's estimated error, of no coordinate more than its way
   std::vector<double> bends_;  ///< under error control
   TargetInstants targets_;
   std::optional<solver::StepControl> control_;              ///< under error control

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "hersey/model/build.h"
+#include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
 #include "hersey/solver/generalized_alpha.h"
@@ -229,6 +231,69 @@ TEST_CASE("ConstraintDrift_StaysBelowTheNewtonTolerance") {
   const results::Reader reader(summary.results);
   const std::vector<double> drift = reader.read("/solver/constraint_drift").values;
   CHECK(drift.size() == reader.rows());
+}
+
+/// A spatial slider-crank whose crank runs through its hard places at up to 25 rad/s.
+const std::string kSpatialCrank = R"(hersey: 1
+gravity: 0 0 -9.81 m/s^2
+bodies:
+  ground: {frames: {A: {origin: 0 100 120 mm}}}
+  crank: {mass: 0.12 kg, centre_of_mass: 0 0 40 mm, inertia: {xx: 1e-4 kg.m^2, yy: 1e-4 kg.m^2, zz: 1e-4 kg.m^2}, frames: {B: {origin: 0 0 80 mm}}}
+  rod: {mass: 0.5 kg, centre_of_mass: -150 0 0 mm, inertia: {xx: 4e-4 kg.m^2, yy: 4e-3 kg.m^2, zz: 4e-3 kg.m^2}, frames: {B: {origin: -300 0 0 mm}}}
+  slider: {mass: 2 kg, inertia: {xx: 1e-4 kg.m^2, yy: 1e-4 kg.m^2, zz: 1e-4 kg.m^2}}
+joints:
+  A: {type: revolute, between: [ground.A, crank], axis: x, initial: {rotation: 0 deg, rotation_rate: 6 rad/s}}
+  slide: {type: prismatic, between: [ground, slider], axis: x}
+  C: {type: universal, between: [slider, rod], axis: z}
+  B: {type: spherical, between: [crank.B, rod.B]}
+simulation: {duration: 5 s, step: 5 ms, spectral_radius: 0.95}
+)";
+
+TEST_CASE("CoarseStep_SubdividesAtAHardInstantAndGoesOn") {
+  // At this spectral radius the constraints' own modes ring on, until Newton's method fails at any step or finds a
+  // motion with a thousand times the energy.
+  const TemporaryDirectory scratch;
+  const Summary summary = simulate(rig(kSpatialCrank), {.results = scratch / "run.h5"});
+  CAPTURE(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  CHECK(summary.rejected_steps > 0);
+  CHECK(summary.rejected_steps < 20);
+  CHECK(summary.steps < 1020);
+  const results::Reader reader(summary.results);
+  double largest = 0;
+  for (const double kinetic : reader.read("/energy/kinetic").values) largest = std::max(largest, kinetic);
+  CHECK(largest < 0.7);  // 0.574 J with steps of 0.2 ms
+  CHECK(std::abs(summary.energy.stored) < 0.1 * largest);
+}
+
+/// The slider-crank over one cycle on a coarse grid.
+BearingSummary coarse_slider_crank(const std::string& step, bool step_error) {
+  const TemporaryDirectory scratch;
+  const model::Model model =
+      model::read((std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/slider_crank/model.yaml").string(),
+                  {"simulation.step=" + step, "bearings.big_end.grid={circumferential: 24, axial: 5}"});
+  const Summary summary = simulate(model, {.results = scratch / "run.h5", .step_error = step_error});
+  CAPTURE(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  CHECK(summary.warning.empty());
+  CHECK(summary.worst_step_error > 0);
+  CHECK(!std::filesystem::exists(scratch / "run.h5.longer_steps"));
+  return summary.bearings[0];
+}
+
+TEST_CASE("StepError_IsThatOfAMuchFinerRunWithinAFactorOfThree") {
+  const BearingSummary truth = coarse_slider_crank("0.125 deg", false), told = coarse_slider_crank("0.5 deg", true);
+  CHECK(std::isnan(truth.step_error.moft));
+  const auto within_three = [](const std::string& name, double estimate, double error) {
+    MESSAGE(name, ": estimated ", estimate, ", true ", error);
+    CHECK(std::abs(estimate) < 3 * std::abs(error));
+    CHECK(std::abs(estimate) > std::abs(error) / 3);
+  };
+  within_three("MOFT", told.step_error.moft, told.moft - truth.moft);
+  within_three("POFP", told.step_error.pofp, told.pofp - truth.pofp);
+  // The mean loss has all but converged.
+  CHECK(told.step_error.mean_power < 1e-3 * truth.mean_power);
+  CHECK(std::abs(told.mean_power - truth.mean_power) < 1e-3 * truth.mean_power);
 }
 
 }  // namespace

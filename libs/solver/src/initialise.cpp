@@ -232,6 +232,30 @@ InitialiseSummary initialise(Equations& equations, State& state, const Initialis
   return summary;
 }
 
+namespace {
+
+/// Takes from the velocities what the constraints do not allow, by the impulses of the constraints alone.
+bool shed_violations(Equations& equations, State& state, double dt) {
+  if (equations.nlambda() == 0) return true;
+  VectorXd h, velocity, gamma;
+  Equations::SparseMatrix S;
+  if (!assemble_forces(equations, state, dt, h, S).empty()) return false;
+  equations.constraint_rates(state, velocity, gamma);
+  const AccelerationSolution change = solve_kkt(S, equations.nv(), VectorXd::Zero(equations.nv()), velocity);
+  if (!change.undetermined.empty() || !change.vdot.allFinite()) return false;
+  state.v += change.vdot;
+  return true;
+}
+
+}  // namespace
+
+bool restart(Equations& equations, State& state, double dt) {
+  State trial = state;
+  if (!shed_violations(equations, trial, dt) || !solve_accelerations(equations, trial, dt)) return false;
+  state = std::move(trial);
+  return true;
+}
+
 bool solve_accelerations(Equations& equations, State& state, double dt) {
   VectorXd h, velocity, gamma;
   Equations::SparseMatrix S;

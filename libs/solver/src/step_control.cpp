@@ -8,14 +8,21 @@
 namespace hersey::solver {
 namespace {
 
-constexpr double kAim = 0.5;             // share of the tolerance aimed at
-constexpr double kLargestGrowth = 1.3;   // per step
-constexpr double kSmallestGrowth = 1.1;  // below it the step stays
+constexpr double kAim = 0.5;            // share of the tolerance aimed at
+constexpr double kLargestGrowth = 1.3;  // per step
 constexpr double kLargestCut = 0.2;
 constexpr double kOrder = 3;             // of the local error
+constexpr double kReach = 8;             // steps over which an error's present change counts as an error
+constexpr double kLargestTrend = 2;      // by which a step's error factor may be thought to change to the next
 constexpr double kFinestCut = 64;        // an instant this many parts of a step away from its end is reached in parts
 constexpr double kRoundOff = 1e-9;       // of times
 constexpr double kSmallestError = 1e-6;  // a step without error says nothing about the next
+
+/// A change that goes on as the one before it did: nothing where they are of opposite signs, as those of noise are.
+double lasting(double before, double now) {
+  if (before * now <= 0) return 0;
+  return std::min(std::abs(now), kLargestTrend * std::abs(before));
+}
 
 }  // namespace
 
@@ -35,32 +42,41 @@ double StepControl::proposed(double remaining) const {
     const double parts = remaining / part * kFinestCut;
     if (part >= options_.smallest && std::abs(parts - std::round(parts)) < kRoundOff * parts) return part;
   }
-  if (remaining <= dt_ * (1 + 1e-9)) return remaining;
-  return remaining < 2 * dt_ ? 0.5 * remaining : dt_;
+  return remaining / std::max(1.0, std::ceil(remaining / dt_ * (1 - kRoundOff)));
+}
+
+/// Theory manual eq. (integrator.12): the step with which the next error would be the one aimed at.
+double StepControl::wanted(double dt, const Eigen::VectorXd& errors) {
+  const Eigen::VectorXd factors = errors / std::pow(dt, kOrder);
+  double factor = kSmallestError / std::pow(dt, kOrder);
+  if (factors.size() > 0) factor = std::max(factor, factors.lpNorm<Eigen::Infinity>());
+  Eigen::VectorXd change;
+  if (factors_.size() == factors.size()) change = factors - factors_;
+  for (Eigen::Index i = 0; i < std::min(change.size(), change_.size()); ++i)
+    factor = std::max(factor, std::hypot(factors[i], kReach * lasting(change_[i], change[i])));
+  const double trend = factor_ > 0 ? std::clamp(factor / factor_, 1 / kLargestTrend, kLargestTrend) : 1;
+  factors_ = factors;
+  change_ = change;
+  factor_ = factor;
+  return std::pow(kAim / (factor * trend), 1 / kOrder);
 }
 
 /// To double a step only where the doubled one would still meet the aim.
-void StepControl::accept_part(double dt, double error) {
-  const double factor = std::pow(kAim / error, 1 / kOrder);
+void StepControl::accept_part(double dt, double wanted) {
   const bool was_cut = dt < part_of_unit(dt_) * (1 - kRoundOff);
-  if (factor < 1)
-    dt_ = std::max(factor, kLargestCut) * dt;
+  if (wanted < dt)
+    dt_ = std::max(wanted, kLargestCut * dt);
   else if (!was_cut)
-    dt_ = factor >= 2 && !after_rejection_ ? 2 * dt : dt;
-  dt_ = std::clamp(dt_, options_.smallest, options_.largest);
-  after_rejection_ = false;
+    dt_ = wanted >= 2 * dt && !after_rejection_ ? 2 * dt : dt;
 }
 
-void StepControl::accepted(double dt, double error) {
-  const double e = std::max(error, kSmallestError);
-  const double wanted = std::pow(kAim / e, 0.7 / kOrder) * std::pow(last_error_ / kAim, 0.4 / kOrder);
-  if (options_.unit > 0) return accept_part(dt, e);
-  double growth = std::min(wanted, after_rejection_ ? 1.0 : kLargestGrowth);
-  if (growth > 1 && growth < kSmallestGrowth) growth = 1;
-  // A step cut to hit an instant does not shorten those that follow.
-  dt_ = growth * dt < dt_ && dt < dt_ && growth >= 1 ? dt_ : std::max(growth, kLargestCut) * dt;
+void StepControl::accepted(double dt, const Eigen::VectorXd& errors) {
+  const double next = wanted(dt, errors);
+  if (options_.unit > 0)
+    accept_part(dt, next);
+  else  // a step cut to hit an instant does not shorten those that follow
+    dt_ = std::clamp(next, kLargestCut * dt_, (after_rejection_ ? 1 : kLargestGrowth) * dt_);
   dt_ = std::clamp(dt_, options_.smallest, options_.largest);
-  last_error_ = e;
   after_rejection_ = false;
 }
 
@@ -72,7 +88,9 @@ bool StepControl::failed(double dt) { return shorten(dt, 0.5); }
 
 bool StepControl::shorten(double dt, double factor) {
   after_rejection_ = true;
-  last_error_ = kAim;
+  factors_.resize(0);
+  change_.resize(0);
+  factor_ = 0;
   if (dt <= options_.smallest) return false;
   dt_ = std::max(factor * dt, options_.smallest);
   return true;
@@ -80,7 +98,9 @@ bool StepControl::shorten(double dt, double factor) {
 
 void StepControl::persist(Archive& archive) {
   archive.io("dt", dt_);
-  archive.io("last_error", last_error_);
+  archive.io("factors", factors_);
+  archive.io("change", change_);
+  archive.io("factor", factor_);
   archive.io("after_rejection", after_rejection_);
 }
 

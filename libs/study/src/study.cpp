@@ -26,6 +26,7 @@ RunResult simulate_one(const std::string& path, const model::StudyRun& run, cons
   run_options.results = results_file(options, run);
   run_options.overwrite = options.overwrite;
   run_options.resume = options.resume;
+  run_options.step_error = options.step_error;
   run_options.stop = options.stop;
   for (const model::StudyValue& value : run.values) run_options.study_parameters.push_back({value.name, value.text});
   run_options.on_progress = [&](const run::Progress& progress) {

@@ -36,6 +36,16 @@ enum class Status {
   failed,     ///< no convergence at the smallest step, or the results file could not be written
 };
 
+/// What the length of the steps has done to the figures of one bearing: the size of their errors, estimated; not a
+/// number where it was not asked for.
+struct StepErrors {
+  double moft = std::numeric_limits<double>::quiet_NaN();        ///< [m]
+  double pofp = std::numeric_limits<double>::quiet_NaN();        ///< [Pa]
+  double max_force = std::numeric_limits<double>::quiet_NaN();   ///< [N]
+  double mean_power = std::numeric_limits<double>::quiet_NaN();  ///< [W]
+  double mean_flow = std::numeric_limits<double>::quiet_NaN();   ///< [m^3/s]
+};
+
 /// The extremes and balances of one bearing over a run.
 struct BearingSummary {
   std::string name;
@@ -49,6 +59,7 @@ struct BearingSummary {
   double energy_put_in = 0;                               ///< by the bodies, through the film's forces on them [J]
   double energy_taken = 0;  ///< by shear, flow, friction, storage and oil, each an integral over the film [J]
   double energy_error = 0;  ///< their difference over what the film dissipates [-]
+  StepErrors step_error;    ///< where Options::step_error asks for it
 };
 
 /// Where the energy put into a machine has gone since the start of the run [J]. Each part is an integral of its own: of
@@ -80,6 +91,7 @@ struct Summary {
   int newton_iterations = 0;
   int cycles = 0;                     ///< that ended, where the model asks for cycles
   double cycle_change = 0;            ///< of the last of them: CycleProgress::change
+  double worst_step_error = 0;        ///< largest local error of a step: angles [rad], lengths over sizes, StepError
   double worst_constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares [-]
   double worst_power_balance = 0;     ///< largest residual power of the equations of motion over the largest power [-]
   EnergySummary energy;               ///< where the energy went
@@ -96,6 +108,7 @@ struct StudyParameterValue {
 struct Options {
   std::filesystem::path results;                       ///< the HDF5 file to write
   bool overwrite = false;                              ///< replace an existing one
+  bool step_error = false;                             ///< run with steps twice as long first, and compare
   bool resume = false;                                 ///< go on where `results` and its checkpoint end
   std::function<void(const Progress&)> on_progress;    ///< may be empty
   std::function<void(const CycleProgress&)> on_cycle;  ///< may be empty
@@ -114,6 +127,9 @@ struct Options {
 /// stopped; it is removed when the run completes. With `resume` the run goes on from there, or from the start where
 /// there is no checkpoint yet, and ends with the numbers of a run that was never interrupted, to the last bit on one
 /// machine. A run that was completed is left as it is.
+///
+/// With `step_error` the model is first run with steps twice as long (a tolerance eight times as large), and from the
+/// difference of both follows what the steps have done to each bearing's figures (theory manual eq. (integrator.22)).
 /// @throws results::FileExists if the results file exists and is not to be overwritten.
 /// @throws InputError if `resume` is asked for another model; results::ReadError if results or checkpoint are damaged.
 [[nodiscard]] Summary simulate(const model::Model& model, const Options& options);

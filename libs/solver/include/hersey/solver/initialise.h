@@ -63,4 +63,12 @@ struct InitialiseSummary {
 /// jumps. False, and nothing changed, if the equations do not determine them.
 [[nodiscard]] bool solve_accelerations(Equations& equations, State& state, double dt);
 
+/// Makes the state one from which shorter steps can start: a step over dt leaves velocities across the constraints that
+/// differ by O(dt^2) from those the constraints allow (theory manual eq. (integrator.14)), which much shorter steps
+/// would take back within their own length. They are taken off with the least change of kinetic energy's measure, then
+/// accelerations and multipliers solved. The integrator's history starts anew behind it.
+/// @param dt  length of the last step [s]
+/// @returns false, the state unchanged, where they are not determined or the state is outside of the domain.
+[[nodiscard]] bool restart(Equations& equations, State& state, double dt);
+
 }  // namespace hersey::solver

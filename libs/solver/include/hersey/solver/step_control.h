@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "hersey/core/archive.h"
 
 namespace hersey::solver {
@@ -13,10 +15,11 @@ struct StepControlOptions {
 
 /// Chooses step lengths from the errors of the steps before (theory manual eq. (integrator.12)).
 ///
-/// A proportional-integral controller for a local error of third order: it aims below the tolerance, grows by at most
-/// a third of a step at a time, since the constraints' own modes bear no fast growth, and keeps the step where the gain
-/// would be small.
-/// @see Gustafsson (1991), ACM Trans. Math. Softw. 17, 533-554.
+/// Steps follow the motion without lag: the error is that of the step to come, told from the last two, so that on the
+/// way out of a hard place steps are those of the way in, and the errors of both cancel as those of equal steps do.
+/// What changes fast counts as an error too, which keeps the step where a third derivative passes through zero. Steps
+/// grow by at most a third at a time, since the constraints' own modes bear no fast growth.
+/// @see Hairer, Lubich and Wanner (2006), Geometric Numerical Integration, ch. VIII.3: reversible step selection.
 /// @verified_by step_control_test.cpp
 class StepControl {
  public:
@@ -28,8 +31,8 @@ class StepControl {
   /// reach the instant.
   [[nodiscard]] double proposed(double remaining) const;
 
-  /// The step taken had this error, relative to the tolerance (<= 1).
-  void accepted(double dt, double error);
+  /// The step taken had these errors relative to the tolerance, with their signs (within -1..1).
+  void accepted(double dt, const Eigen::VectorXd& errors);
   /// The step tried had this error (> 1). Returns false if no smaller step is allowed.
   [[nodiscard]] bool rejected(double dt, double error);
   /// The step tried had no solution. Returns false if no smaller step is allowed.
@@ -41,12 +44,15 @@ class StepControl {
 
  private:
   [[nodiscard]] bool shorten(double dt, double factor);
-  void accept_part(double dt, double error);
+  [[nodiscard]] double wanted(double dt, const Eigen::VectorXd& errors);
+  void accept_part(double dt, double wanted);
   [[nodiscard]] double part_of_unit(double most) const;
 
   StepControlOptions options_;
   double dt_;
-  double last_error_ = 0.5;
+  Eigen::VectorXd factors_;  ///< errors of the last step over its length cubed; empty where there is none
+  Eigen::VectorXd change_;   ///< of the factors over the last step
+  double factor_ = 0;        ///< their size, changes included
   bool after_rejection_ = false;
 };
 

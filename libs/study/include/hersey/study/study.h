@@ -22,8 +22,9 @@ struct RunResult {
 struct Options {
   std::filesystem::path directory;  ///< results go to directory/<slug>.h5
   bool overwrite = false;
-  bool resume = false;  ///< completed runs are left as they are, others go on where they ended
-  int threads = 0;      ///< runs at the same time; 0: one per core
+  bool resume = false;      ///< completed runs are left as they are, others go on where they ended
+  bool step_error = false;  ///< each run once more with steps twice as long: run::Options
+  int threads = 0;          ///< runs at the same time; 0: one per core
   /// Called from the run's own thread, one call at a time.
   std::function<void(std::size_t run, const run::Progress&)> on_progress;
   /// Before a run begins: what its model and its start should make the user know (model::Model::warnings, run::check).
