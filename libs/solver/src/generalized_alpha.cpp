@@ -295,7 +295,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
   w.last_dt = dt;
   w.stage.fresh = false;
-  w.remember_drift(judge ? dt : 0);
+  w.remember_drift(judge && options_.corrects_changes ? dt : 0);
   state = w.trial;
   equations.accept_step(state);
   summary.status = StepStatus::converged;

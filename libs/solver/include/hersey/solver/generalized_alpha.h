@@ -15,6 +15,9 @@ struct GeneralizedAlphaOptions {
   double rtol = 1e-8;            ///< residual of every row, relative to the terms it balances
   int max_iterations = 20;       ///< Newton iterations per step
   int max_halvings = 12;         ///< halvings of one increment that leaves the domain of the equations
+  /// Whether judged steps correct the next for a change of length, (integrator.14). Where the length is halved because
+  /// a contact closes, the error is no smooth function of time, and the correction would put energy in.
+  bool corrects_changes = true;
 };
 
 /// How a step ended.
