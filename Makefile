@@ -35,11 +35,11 @@ validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
 
-fuzz: program  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some)
+fuzz: program  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some; SEED=n)
 	@scripts/setup build test fuzz
 	@$(MAKE) --no-print-directory PRESET=fuzz build/fuzz/build.ninja
 	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target fuzzers -j $(JOBS)
-	@status=0; scripts/fuzz build/fuzz $(TIME) '$(FILTER)' || status=1; \
+	@status=0; scripts/fuzz build/fuzz $(TIME) '$(FILTER)' $(SEED) || status=1; \
 	  $(MAKE) --no-print-directory random-models || status=1; exit $$status
 
 web:  ## rebuilds the report's front end (needs Node; the C++ build does not)

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../test/model_text.h"
+#include "../test/good_model.h"
 #include "hersey/model/read.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
