@@ -9,6 +9,8 @@
 
 #include "dimension_scales.h"
 #include "hdf5_handle.h"
+#include "hersey/core/hdf5_content.h"
+#include "hersey/core/input_file.h"
 #include "hersey/core/sealed_file.h"
 
 namespace hersey::results {
@@ -66,12 +68,15 @@ struct Reader::Impl {
 
   void open() {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such file");
+    if (const auto trouble = unreadable(path)) fail("it is " + *trouble);
     // Before HDF5 sees it: the library trusts what it reads of a file's structure.
     if (check_seal(path) == Seal::broken) fail("damaged: it has changed since it was written");
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
     keep_metadata(access.get());
     file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));
     if (!file.valid()) fail("not a readable HDF5 file");
+    if (const std::string trouble = foreign_content(file.get(), path); !trouble.empty())
+      fail("no results file of hersey: it has " + trouble);
   }
 
   [[nodiscard]] bool exists(const std::string& name) const {
