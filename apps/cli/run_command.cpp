@@ -240,7 +240,10 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   require_own_files(model, folder, {options.results});
   refuse_existing({options.results}, arguments.force || arguments.resume);
   ProgressBar bar;
-  options.on_progress = [&](const run::Progress& progress) { bar.show("", progress); };
+  options.on_progress = [&](const run::Progress& progress) {
+    note_step();
+    bar.show("", progress);
+  };
   options.on_cycle = [&](const run::CycleProgress& cycle) {
     bar.clear();
     tell(cycle);
@@ -287,6 +290,7 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
     tell_once(runs[i].label, warnings, told);
   };
   options.on_progress = [&](std::size_t i, const run::Progress& progress) {
+    note_step();
     bar.show(fmt::format("{}/{} {}", finished, runs.size(), runs[i].label), progress);
   };
   options.on_finished = [&](std::size_t i, const study::RunResult& result) {

@@ -288,9 +288,11 @@ class Hostile(unittest.TestCase):
         chance = random.Random(seed)
         with open(good, "rb") as file:
             content = bytearray(file.read())
+        end = content.rfind(b"\nhersey seal")  # without these words, which vouch for the rest, the rest is as it was
+        end = end if end >= 0 else len(content)
         path = self.path("flipped" + os.path.splitext(good)[1])
         for k in range(count):
-            place = chance.randrange(min(len(content), 4096) if k % 4 == 0 else len(content))
+            place = chance.randrange(min(end, 4096) if k % 4 == 0 else end)
             content[place] ^= 1 << (bit := chance.randrange(8))
             with open(path, "wb") as file:
                 file.write(content)
@@ -299,10 +301,8 @@ class Hostile(unittest.TestCase):
 
     def test_a_bit_of_results_is_told(self):
         for place, path in self.flipped(self.results(), 200, 1):
-            done = self.hersey("report", path, "--output", self.path("page.html"))
             with self.subTest(byte=place):
-                self.assertEqual(done.returncode, WRONG_INPUT, done.stderr)
-                self.assertIn("flipped.h5", done.stderr)
+                self.told("flipped.h5", "report", path, "--output", self.path("page.html"))
 
     def test_a_bit_of_unfinished_results_ends_no_report_in_a_crash(self):
         path = self.results()
@@ -312,6 +312,8 @@ class Hostile(unittest.TestCase):
             done = self.hersey("report", path, "--output", self.path("page.html"))
             with self.subTest(byte=place):
                 self.assertIn(done.returncode, (OK, FAILED, WRONG_INPUT), done.stderr)
+                if done.returncode != OK:
+                    self.assertIn("hersey: ", done.stderr)
 
     def test_a_bit_of_a_reduced_body_is_told(self):
         good = self.reduced()
@@ -324,7 +326,7 @@ class Hostile(unittest.TestCase):
         out = self.path("out")
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", out, "--set", "duration=1000 s"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
-            self.wait_for(os.path.join(out, "results.h5"))
+            self.wait_for(os.path.join(out, "results.h5"), 1)
             run.send_signal(signal.SIGINT)
             run.wait(timeout=60)
         good = self.path("good.checkpoint")
@@ -337,10 +339,11 @@ class Hostile(unittest.TestCase):
     # -- signals
 
     @staticmethod
-    def wait_for(path):
+    def wait_for(path, more=0):
         deadline = time.monotonic() + 60
         while not os.path.exists(path) and time.monotonic() < deadline:
             time.sleep(0.02)
+        time.sleep(more)
 
     def seconds_to_end(self, arguments, stop, ready):
         """How long the program takes to end after a signal, what it returns, and what it has said."""
@@ -371,8 +374,8 @@ class Hostile(unittest.TestCase):
             out = self.path(stop.name)
             results = os.path.join(out, "results.h5")
             seconds, code, errors = self.seconds_to_end(
-                ["run", MODEL, "--output", out, "--set", "duration=1000 s"], stop, lambda at=results: self.wait_for(at))
-            self.assertLess(seconds, 3, stop)
+                ["run", MODEL, "--output", out, "--set", "duration=1000 s"], stop, lambda at=results: self.wait_for(at, 1))
+            self.assertLess(seconds, 3 if os.getloadavg()[0] < os.cpu_count() else 10, stop)  # disks of busy machines
             self.assertEqual(code, INTERRUPTED, errors)
             self.assertTrue(os.path.exists(os.path.join(out, "results.checkpoint")), errors)
 
