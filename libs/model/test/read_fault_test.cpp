@@ -168,7 +168,7 @@ TEST_CASE("ExplodingAliases_EndWithAFault") {
     text += "]\n";
   }
   CHECK(faults_of(text) ==
-        "m.yaml:5:16: aliases that repeat more than 100000 values; expected at most 100000 values repeated by aliases");
+        "m.yaml:5:40: aliases that repeat more than 100000 values; expected at most 100000 values repeated by aliases");
 }
 
 TEST_CASE("Names_AreIdentifiers") {
