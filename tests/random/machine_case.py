@@ -82,7 +82,8 @@ def compare(machine, one, ending, other, label, invariant, symmetry, found):
         rows, others = one.films[name].rows, other.films[name].rows
         power, flow = rows["power_film"].max(), max(np.abs(rows[k]).max() for k in ("flow_left", "flow_right", "flow_supply"))
         flow = max(flow, 1e-6 * abs(machine.speed) * b.R * b.c * b.L)
-        scales = {"h_min": b.c, "p_max": rows["p_max"].max(), "power_film": power, "flow_left": flow, "flow_right": flow,
+        # The largest node, not the peak between nodes: over a pocket all have one pressure, and round-off says around which.
+        scales = {"h_min": b.c, "p_max_node": rows["p_max_node"].max(), "power_film": power, "flow_left": flow, "flow_right": flow,
                   "flow_supply": flow, "oil_volume": rows["oil_volume"].max()}
         swapped = {"flow_left": "flow_right", "flow_right": "flow_left"} if symmetry.flip_z else {}
         for key, scale in scales.items():

@@ -65,6 +65,7 @@ TEST_CASE("TaskPool_SeveralCallersAtOnce") {
   TaskPool pool(3);
   std::atomic<int> done = 0;
   std::vector<std::thread> callers;
+  callers.reserve(4);
   for (int c = 0; c < 4; ++c)
     callers.emplace_back([&] {
       for (int round = 0; round < 20; ++round) pool.run(5, [&](std::size_t) { ++done; });

@@ -249,6 +249,8 @@ class FlowBalance {
   [[nodiscard]] double storage_g_rate(int node) const;
   [[nodiscard]] double storage_excess_rate(int node) const;
   void pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const;
+  double pass_along(int j, double carry, const std::vector<char>& takes_what_comes, OilOfStep& oil,
+                    bool for_good) const;
   [[nodiscard]] double start_of(int node) const;  ///< film's gap at the start of the step, pockets apart [m]
   [[nodiscard]] double oil_shown(int node, double content) const;  ///< per area, with a fill fraction of 0 to 1 [m]
   [[nodiscard]] double pocket_rate(int node) const;                ///< of its mean depth in a steady film [m/s]

@@ -12,7 +12,7 @@ namespace {
 // Without a fill fraction of their own, guembel and reynolds fade Couette shear out over a small range of u < 0, so
 // that the friction has no jump where a node cavitates: guembel over this part of the pressure scale; reynolds, whose u
 // < 0 is missing oil, over this part of what a gap that widens by c in a radian would miss.
-constexpr double fade_of_pressure = 1e-3, fade_of_slack = 1e-2;
+constexpr double fade_of_pressure = 1e-3, fade_of_slack = 1e-3;
 
 // -u where the film of `reynolds` misses all that a gap widening by c in a radian asks for at the fill speed (film.12).
 double slack_scale(const FilmModel& model) {

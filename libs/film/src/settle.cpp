@@ -58,35 +58,43 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
 }
 
 // What a full control volume cannot hold, and what an empty one has not, goes on with the flow to the next that can: a
-// film in which pressure carries oil knows no delay. Lines and features take what comes.
+// film in which pressure carries oil knows no delay. Lines and features take what comes. A first round only finds what
+// arrives where the rows begin, so that no place around the bearing is the first.
 void FlowBalance::pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const {
-  const Grid& grid = model_.grid;
-  const bool forwards = speed_phi_ >= 0;
-  for (int j = 0; j < grid.n_z; ++j) {
-    double carry = 0;
-    int last = 0;
-    for (int k = 0; k < 2 * grid.n_phi; ++k) {
-      const int step = k % grid.n_phi, i = grid.index(forwards ? step : grid.n_phi - 1 - step, j);
-      if (takes_what_comes[static_cast<std::size_t>(i)] != 0) {
-        const double flow = carry / dt_;
-        if (is_held(i)) oil.flow_supply -= flow;
-        if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] -= flow;
-        if (!is_held(i)) (j == 0 ? oil.flow_left : oil.flow_right) += flow;
-        carry = 0;
-        continue;
-      }
-      const double whole = area_[i] * oil_gap(i), full = nodes_[i].density * whole;
-      const double there = oil.content[i] * whole + carry;
-      const double holds = u_[i] >= 0 ? full : std::clamp(there, 0.0, full);
-      carry = there - holds;
-      oil.content[i] = holds / whole;
-      oil.passed_on = std::max(oil.passed_on, std::abs(carry) / whole);
-      last = i;
-    }
-    const double homeless = carry / (area_[last] * oil_gap(last));
-    oil.content[last] += homeless;
+  for (int j = 0; j < model_.grid.n_z; ++j) {
+    const double arriving = pass_along(j, 0, takes_what_comes, oil, false);
+    const double left = pass_along(j, arriving, takes_what_comes, oil, true) - arriving;
+    const int last = model_.grid.index(0, j);
+    const double homeless = left / (area_[last] * oil_gap(last));
+    if (takes_what_comes[static_cast<std::size_t>(last)] == 0) oil.content[last] += homeless;
     if (std::abs(homeless) > round_off) oil.passed_on = 1;
   }
+}
+
+// Once around with the flow; what is carried on at the end [m^3]. It is handed out where it is meant `for_good`.
+double FlowBalance::pass_along(int j, double carry, const std::vector<char>& takes_what_comes, OilOfStep& oil,
+                               bool for_good) const {
+  const Grid& grid = model_.grid;
+  const bool forwards = speed_phi_ >= 0;
+  for (int step = 0; step < grid.n_phi; ++step) {
+    const int i = grid.index(forwards ? step : grid.n_phi - 1 - step, j);
+    if (takes_what_comes[static_cast<std::size_t>(i)] != 0) {
+      const double flow = for_good ? carry / dt_ : 0;
+      if (is_held(i)) oil.flow_supply -= flow;
+      if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] -= flow;
+      if (!is_held(i)) (j == 0 ? oil.flow_left : oil.flow_right) += flow;
+      carry = 0;
+      continue;
+    }
+    const double whole = area_[i] * oil_gap(i), full = nodes_[i].density * whole;
+    const double there = oil.content[i] * whole + carry;
+    const double holds = u_[i] >= 0 ? full : std::clamp(there, 0.0, full);
+    carry = there - holds;
+    if (!for_good) continue;
+    oil.content[i] = holds / whole;
+    oil.passed_on = std::max(oil.passed_on, std::abs(carry) / whole);
+  }
+  return carry;
 }
 
 void FlowBalance::take_stock(OilOfStep& oil) const {

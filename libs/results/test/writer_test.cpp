@@ -27,6 +27,7 @@ TEST_CASE("Flush_ReadsNothingBack") {
   Writer writer(directory / "run.h5", {.flush_interval = 0});
   const Series time = writer.series("/time", 1, "s", "time");
   std::vector<Series> many;
+  many.reserve(2500);
   for (int i = 0; i < 2500; ++i)
     many.push_back(writer.series("/bodies/body" + std::to_string(i) + "/position", 3, "m", "place"));
   writer.flush();
