@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "commands.h"
 #include "exit_code.h"
 #include "hersey/core/input_error.h"
+#include "hersey/core/write_file.h"
 #include "hersey/model/read.h"
 #include "hersey/results/error.h"
 #include "output_file.h"
@@ -124,11 +124,12 @@ std::vector<model::StudyRun> runs_of(const BearingArguments& arguments, const Pl
   return runs;
 }
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw results::WriteError(path, "the file cannot be written");
+void write(const std::filesystem::path& path, const std::string& text) {
+  try {
+    write_file(path, {text});
+  } catch (const std::runtime_error& error) {
+    throw results::WriteError(path, std::string("the file cannot be written: ") + error.what());
+  }
 }
 
 void print(const BearingArguments& arguments, const std::vector<study::BearingSolution>& solutions) {
@@ -180,8 +181,8 @@ int bearing_command(const BearingArguments& arguments) {
     all_solved = false;
     say("hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.error);
   }
-  if (!arguments.csv.empty()) write_file(arguments.csv, bearing_csv(solutions));
-  if (!arguments.fields.empty() && all_solved) write_file(arguments.fields, bearing_fields_csv(solutions.front()));
+  if (!arguments.csv.empty()) write(arguments.csv, bearing_csv(solutions));
+  if (!arguments.fields.empty() && all_solved) write(arguments.fields, bearing_fields_csv(solutions.front()));
   if (!arguments.report.empty()) {
     report::write_html(bearing_page(arguments, solutions), arguments.report);
     if (!arguments.json) fmt::print("report: {}\n", arguments.report.string());

@@ -5,10 +5,12 @@
 #include <exception>
 
 #include "commands.h"
+#include "crash.h"
 #include "exit_code.h"
 #include "hersey/core/blas_threads.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
+#include "hersey/core/spelling.h"
 #include "hersey/core/task_pool.h"
 #include "hersey/core/version.h"
 #include "hersey/results/error.h"
@@ -188,6 +190,19 @@ CLI::App* add_stress_command(CLI::App& app, SolidArguments& solid) {
   return command;
 }
 
+// What is wrong with the first word, if it is no command: "unknown command 'rnu': did you mean 'run'?".
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  const std::string given = argc > 1 ? argv[1] : "";
+  if (given.empty() || given.starts_with('-')) return {};
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == given) return {};
+    names.push_back(command->get_name());
+  }
+  const std::string hint = did_you_mean(given, names);
+  return fmt::format("unknown command '{}': {}", given, hint.empty() ? "expected " + one_of(names) : hint);
+}
+
 // Declares the command line and calls the command named in it.
 int dispatch(int argc, char** argv) {
   CLI::App app{kAbout, "hersey"};
@@ -249,6 +264,10 @@ int dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const std::string unknown = unknown_command(app, argc, argv); !unknown.empty()) {
+      say("hersey: {}\n", unknown);
+      return kWrongInput;
+    }
     return app.exit(error) == 0 ? kOk : kWrongInput;
   }
   if (const int threads = std::max(run.threads, bearing.threads); threads > 0) TaskPool::shared().set_threads(threads);
@@ -270,6 +289,7 @@ int main(int argc, char** argv) {
   using namespace hersey;
   try {
     cli::open_standard_streams();
+    cli::tell_crashes_of_damaged_files();
     use_one_blas_thread();
     const int code = cli::dispatch(argc, argv);
     return cli::finish_standard_output() || code != cli::kOk ? code : static_cast<int>(cli::kFailed);

@@ -26,6 +26,8 @@ namespace {
 
 using fem::Mesh;
 
+constexpr int kMostModes = 1000;  // as in models
+
 [[noreturn]] void fail(const char* option, std::string found, std::string expected, std::string suggestion = {}) {
   throw InputError(Fault{{"", 0, 0}, option, std::move(found), std::move(expected), std::move(suggestion)});
 }
@@ -170,6 +172,9 @@ void print(const fem::ElasticBody& body, const fem::ReducedBody& reduced, const 
 }  // namespace
 
 int reduce_command(const ReduceArguments& arguments) {
+  if (arguments.modes > kMostModes)
+    fail("--modes", fmt::format("{} modes", arguments.modes), fmt::format("at most {}", kMostModes),
+         "a body of so many coordinates is computed as it is: `form: nodal` in a model");
   std::vector<std::filesystem::path> inputs{arguments.file};
   for (const std::filesystem::path& matrix : {arguments.stiffness, arguments.mass})
     if (!matrix.empty()) inputs.push_back(matrix);

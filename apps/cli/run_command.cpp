@@ -236,10 +236,14 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   options.resume = arguments.resume;
   options.step_error = arguments.step_error;
   options.stop = &catch_interrupts();
+  options.on_stopping = interrupt_is_heeded;
   require_own_files(model, folder, {options.results});
   refuse_existing({options.results}, arguments.force || arguments.resume);
   ProgressBar bar;
-  options.on_progress = [&](const run::Progress& progress) { bar.show("", progress); };
+  options.on_progress = [&](const run::Progress& progress) {
+    note_step();
+    bar.show("", progress);
+  };
   options.on_cycle = [&](const run::CycleProgress& cycle) {
     bar.clear();
     tell(cycle);
@@ -247,6 +251,7 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   warn(run::check(model));
   make_folder(folder);
   const run::Summary summary = run::simulate(model, options);
+  interrupt_is_heeded();
   bar.clear();
   tell("", summary);
   tell_work(summary);
@@ -269,6 +274,7 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
   options.step_error = arguments.step_error;
   options.threads = arguments.jobs;
   options.stop = &catch_interrupts();
+  options.on_stopping = interrupt_is_heeded;
   Paths planned;
   for (const model::StudyRun& run : runs) planned.push_back(study::results_file(options, run));
   require_own_files(model, folder, planned);
@@ -284,6 +290,7 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
     tell_once(runs[i].label, warnings, told);
   };
   options.on_progress = [&](std::size_t i, const run::Progress& progress) {
+    note_step();
     bar.show(fmt::format("{}/{} {}", finished, runs.size(), runs[i].label), progress);
   };
   options.on_finished = [&](std::size_t i, const study::RunResult& result) {
@@ -297,6 +304,7 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
     }
   };
   const std::vector<study::RunResult> results = study::simulate_all(arguments.model, runs, options);
+  interrupt_is_heeded();
 
   int code = kOk;
   Paths files;

@@ -79,6 +79,16 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(run.returncode, WRONG_INPUT, arguments)
             self.assertTrue(run.stderr.strip(), "a usage error says what is wrong")
 
+    def test_unknown_command_is_told_with_the_nearest(self):
+        run = hersey("rnu", MODEL)
+        self.assertEqual((run.returncode, run.stderr), (WRONG_INPUT, "hersey: unknown command 'rnu': did you mean 'run'?\n"))
+        run = hersey("simulate", MODEL)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("unknown command 'simulate': expected run, check, report", run.stderr)
+        run = hersey("run", MODEL, "--outptu", "x")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("--outptu", run.stderr)
+
     def test_check_accepts_a_good_model(self):
         run = hersey("check", MODEL)
         self.assertEqual(run.returncode, OK, run.stderr)

@@ -85,8 +85,9 @@ void seal_file(const std::filesystem::path& path) {
 
 Seal check_seal(const std::filesystem::path& path) {
   std::error_code error;
-  const std::uintmax_t size =
-      std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
+  // A pipe would be waited for as soon as it is opened.
+  if (!std::filesystem::is_regular_file(path, error)) return Seal::none;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
   std::ifstream file(path, std::ios::binary);
   if (error || !file || size < kSize) return Seal::none;
   const std::uint64_t length = size - kSize;

@@ -60,7 +60,9 @@ class Finisher {
  private:
   void require_elements() const {
     if (!raw_.elements.empty()) return;
-    raw_.fail({0, 0}, fmt::format("no elements of a solid or beam among {} nodes", raw_.nodes.size()),
+    raw_.fail({0, 0},
+              raw_.nodes.empty() ? "an empty mesh: no nodes and no elements"
+                                 : fmt::format("no elements of a solid or beam among {} nodes", raw_.nodes.size()),
               "tetrahedra, wedges, hexahedra or beams",
               "write volume elements too (in Gmsh: a Physical Volume, or Mesh.SaveAll = 1)");
   }

@@ -6,6 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hersey/core/hdf5_content.h"
+#include "hersey/core/input_file.h"
+
 namespace hersey::fem {
 namespace {
 
@@ -48,9 +51,12 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path) {
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   Lock lock(hdf5_lock());
   be_quiet();
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) throw std::runtime_error("is no HDF5 file that can be read");
-  return {std::move(lock), file};
+  if (const auto trouble = unreadable(path)) throw std::runtime_error(*trouble);
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id < 0) throw std::runtime_error("is no HDF5 file that can be read");
+  Hdf5File file(std::move(lock), id);
+  if (const std::string trouble = foreign_content(id, path); !trouble.empty()) throw std::runtime_error(trouble);
+  return file;
 }
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept

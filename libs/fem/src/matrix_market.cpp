@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <vector>
 
 #include "hersey/core/input_error.h"
+#include "hersey/core/input_file.h"
 #include "mesh_text.h"
 
 namespace hersey::fem {
@@ -129,12 +128,10 @@ class MatrixMarketReader {
 }  // namespace
 
 Eigen::SparseMatrix<double> read_matrix_market(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw InputError(
-        Fault{{path.string(), 0, 0}, "", "no file that can be read", "a Matrix Market file", "check its path"});
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  return parse_matrix_market(text, path.string());
+  const InputFile file = read_input_file(path);
+  if (!file.fault.empty())
+    throw InputError(Fault{{path.string(), 0, 0}, "", file.fault, "a Matrix Market file", "check its path"});
+  return parse_matrix_market(file.content, path.string());
 }
 
 Eigen::SparseMatrix<double> parse_matrix_market(std::string_view text, const std::string& name) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "abaqus_keywords.h"
@@ -12,8 +13,6 @@
 
 namespace hersey::fem {
 namespace {
-
-constexpr int kDeepestInclude = 8;
 
 enum class Role { solid, beam, mark };
 
@@ -438,11 +437,15 @@ class AbaqusReader {
 
   void read_include(int depth) {
     const std::string file = current_.value("INPUT");
-    const std::optional<std::string> text = include_ && depth < kDeepestInclude ? include_(file) : std::nullopt;
-    if (!text)
-      raw_.fail(current_.place, fmt::format("*INCLUDE of '{}', which cannot be read", file),
-                fmt::format("INPUT=file, beside this file, at most {} deep", kDeepestInclude));
-    read_file(*text, file, depth + 1);
+    const Place place = current_.place;
+    std::string text;
+    try {
+      text = included_text(include_, file, depth);
+    } catch (const std::runtime_error& error) {
+      raw_.fail(place, fmt::format("*INCLUDE of '{}': {}", file, error.what()),
+                fmt::format("INPUT={}", kIncludeExpected));
+    }
+    read_file(text, file, depth + 1);
   }
 
   const IncludeLoader& include_;

@@ -4,30 +4,58 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
 
 #include "hersey/core/contract.h"
+#include "hersey/core/input_file.h"
 #include "mesh_readers.h"
 
 namespace hersey::fem {
 namespace {
 
-std::optional<std::string> content_of(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::string content;
-  file.seekg(0, std::ios::end);
-  const std::streamoff size = file.tellg();
-  if (size < 0) return std::nullopt;
-  content.resize(static_cast<std::size_t>(size));
-  file.seekg(0);
-  file.read(content.data(), static_cast<std::streamsize>(size));
-  if (!file) return std::nullopt;
-  return content;
+constexpr const char* kIncludeAnywhere = "HERSEY_INCLUDE_ANYWHERE";
+constexpr int kDeepestInclude = 8;
+constexpr int kMostIncludes = 1000;
+
+/// Whether a name leads out of a folder: by its own words, or by a link.
+bool leads_out_of(const std::filesystem::path& folder, const std::filesystem::path& name) {
+  std::error_code error;
+  const std::filesystem::path inside = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
+  const std::filesystem::path place = std::filesystem::weakly_canonical(inside / name, error);
+  if (error) return true;
+  const std::filesystem::path from_there = place.lexically_relative(inside);
+  return from_there.empty() || *from_there.begin() == "..";
 }
+
+bool may_include_anywhere() {
+  const char* const allowed = std::getenv(kIncludeAnywhere);
+  return allowed != nullptr && std::string_view(allowed) == "1";
+}
+
+/// Loads what a mesh file includes, as much as a mesh may be: files that include each other many times multiply.
+class FolderIncludes {
+ public:
+  explicit FolderIncludes(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  std::string operator()(const std::string& name) {
+    // A mesh comes from elsewhere: it does not choose which files of this machine are read and shown in faults.
+    if (leads_out_of(folder_, name) && !may_include_anywhere())
+      throw std::runtime_error(
+          fmt::format("not in the mesh's folder; {}=1 in the environment allows that", kIncludeAnywhere));
+    InputFile file = read_input_file(folder_ / name, kLargestTextFile - bytes_);
+    if (!file.fault.empty()) throw std::runtime_error(file.fault);
+    bytes_ += file.content.size();
+    if (++files_ > kMostIncludes) throw std::runtime_error(fmt::format("one more than {} files", kMostIncludes));
+    return std::move(file.content);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::uintmax_t bytes_ = 0;
+  int files_ = 0;
+};
 
 RawMesh read_raw(std::string_view text, MeshFormat format, const std::string& name, const IncludeLoader& include) {
   switch (format) {
@@ -43,6 +71,12 @@ RawMesh read_raw(std::string_view text, MeshFormat format, const std::string& na
 }
 
 }  // namespace
+
+std::string included_text(const IncludeLoader& include, const std::string& name, int depth) {
+  if (depth >= kDeepestInclude) throw std::runtime_error("included too deep");
+  if (!include) throw std::runtime_error("no readable file");
+  return include(name);
+}
 
 std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -60,10 +94,10 @@ Mesh read_mesh(const std::filesystem::path& path, double length_unit, std::vecto
   if (!format)
     throw InputError(Fault{position, "", fmt::format("a file ending in '{}'", path.extension().string()),
                            "a mesh: .msh (Gmsh), .inp (Abaqus, CalculiX) or .bdf, .nas, .dat (Nastran)", ""});
-  const std::optional<std::string> text = content_of(path);
-  if (!text) throw InputError(Fault{position, "", "no file that can be read", "a mesh file", "check its path"});
-  const auto include = [&path](const std::string& name) { return content_of(path.parent_path() / name); };
-  return parse_mesh(*text, *format, path.string(), length_unit, warnings, include, material_faults);
+  const InputFile file = read_input_file(path);
+  if (!file.fault.empty()) throw InputError(Fault{position, "", file.fault, "a mesh file", "check its path"});
+  return parse_mesh(file.content, *format, path.string(), length_unit, warnings, FolderIncludes(path.parent_path()),
+                    material_faults);
 }
 
 Mesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name, double length_unit,

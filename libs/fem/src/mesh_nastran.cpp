@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "mesh_readers.h"
@@ -14,7 +15,6 @@
 namespace hersey::fem {
 namespace {
 
-constexpr int kDeepestInclude = 8;
 constexpr double kSameModulus = 0.01;  // of G and E / (2 (1 + nu)), from which on Nastran warns too
 constexpr const char* kBasicSystem = "the basic system, 0 or empty";
 constexpr const char* kWriteBasic = "let the program that made the file write all points in basic coordinates";
@@ -140,11 +140,13 @@ class NastranReader {
     std::string name(trimmed(line).substr(7));
     name = std::string(trimmed(name));
     std::erase_if(name, [](char c) { return c == '\'' || c == '"'; });
-    const std::optional<std::string> content = include_ && depth < kDeepestInclude ? include_(name) : std::nullopt;
-    if (!content)
-      fail(card, fmt::format("INCLUDE of '{}', which cannot be read", name),
-           fmt::format("a file beside this one, at most {} deep", kDeepestInclude));
-    read_file(*content, name, depth + 1, false);
+    std::string content;
+    try {
+      content = included_text(include_, name, depth);
+    } catch (const std::runtime_error& error) {
+      fail(card, fmt::format("INCLUDE of '{}': {}", name, error.what()), kIncludeExpected);
+    }
+    read_file(content, name, depth + 1, false);
   }
 
   void read_card(const NastranCard& card) {

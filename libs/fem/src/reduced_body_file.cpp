@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "hdf5_file.h"
+#include "hersey/core/doubtful_file.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/sealed_file.h"
 #include "mesh_data.h"
@@ -197,7 +198,9 @@ void write_reduced_body(const std::filesystem::path& path, const ReducedBody& bo
 ReducedBody read_reduced_body(const std::filesystem::path& path) {
   try {
     // Before HDF5 sees it: the library trusts what it reads of a file's structure.
-    require(check_seal(path) != Seal::broken, "has changed since it was written: its checksum is another");
+    const Seal seal = check_seal(path);
+    require(seal != Seal::broken, "has changed since it was written: its checksum is another");
+    const DoubtfulFile doubtful(seal == Seal::intact ? nullptr : path.c_str());
     return read_body(Hdf5File::open(path));
   } catch (const std::runtime_error& error) {
     throw InputError(

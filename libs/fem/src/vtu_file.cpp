@@ -4,10 +4,10 @@
 
 #include <bit>
 #include <cstdint>
-#include <fstream>
 #include <stdexcept>
 
 #include "hersey/core/contract.h"
+#include "hersey/core/write_file.h"
 
 namespace hersey::fem {
 namespace {
@@ -69,12 +69,11 @@ class VtuText {
   }
 
   void write(const std::filesystem::path& path) const {
-    std::ofstream file(path, std::ios::binary);
-    file << header_ << "<AppendedData encoding=\"raw\">\n_";
-    file.write(data_.data(), static_cast<std::streamsize>(data_.size()));
-    file << "\n</AppendedData>\n</VTKFile>\n";
-    file.close();
-    if (!file) throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
+    try {
+      write_file(path, {header_, "<AppendedData encoding=\"raw\">\n_", data_, "\n</AppendedData>\n</VTKFile>\n"});
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+    }
   }
 
  private:
@@ -184,13 +183,11 @@ void VtuSeries::write_index() const {
   for (const auto& [time, name] : files_)
     text += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", time, escaped(name));
   text += "</Collection>\n</VTKFile>\n";
-  std::filesystem::path unfinished = pvd_;
-  unfinished += ".new";
-  std::ofstream file(unfinished, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(fmt::format("{}: cannot be written", pvd_.string()));
-  std::filesystem::rename(unfinished, pvd_);
+  try {
+    write_file(pvd_, {text});
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", pvd_.string(), error.what()));
+  }
 }
 
 }  // namespace hersey::fem

@@ -136,7 +136,7 @@ TEST_CASE("Abaqus_ParametersThatWouldBePassedOver_AreRefused") {
 TEST_CASE("Abaqus_ALastLineWithoutItsEnd_IsTold") {
   CHECK(abaqus(kTets + "*NSET,NSET=n\n1,2,3").warnings == "12: a last line that does not end: '1,2,3'");
   CHECK(abaqus(kTets + "*STEP\n*END STEP").warnings.empty());
-  const auto include = [](const std::string&) -> std::optional<std::string> { return "1,0,0,0\n2,1,0"; };
+  const auto include = [](const std::string&) -> std::string { return "1,0,0,0\n2,1,0"; };
   const Answer answer = read("*INCLUDE,INPUT=a\n" + kTets, MeshFormat::abaqus, include);
   CHECK(answer.refusal == "1: '1,0,0,0'");
 }

@@ -1,7 +1,6 @@
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "hersey/core/input_file.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/skin.h"
 #include "interpret.h"
@@ -58,13 +57,12 @@ class ShapeReader {
   }
 
   std::optional<mbd::TriangleMesh> stl_of(const Value& file, const std::filesystem::path& path, double unit) {
-    std::ifstream stream(path, std::ios::binary);
-    std::error_code ignored;
-    if (!stream || !std::filesystem::is_regular_file(path, ignored)) {
-      context_.fault(file, "no readable file " + path.string(), "an STL file or a mesh beside the model file");
+    const InputFile surface = read_input_file(path);
+    if (!surface.fault.empty()) {
+      context_.fault(file, surface.fault + " " + path.string(), "an STL file or a mesh beside the model file");
       return std::nullopt;
     }
-    StlResult stl = parse_stl({std::istreambuf_iterator<char>(stream), {}});
+    StlResult stl = parse_stl(surface.content);
     if (!stl.fault.empty()) {
       context_.fault(file, path.string() + ": " + stl.fault, "a surface as STL, text or binary");
       return std::nullopt;

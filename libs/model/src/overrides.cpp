@@ -58,7 +58,8 @@ void apply_along_path(Node& root, const Override& change, std::vector<Fault>& fa
   *node = change.value;
 }
 
-constexpr std::size_t kLongest = 65536;  // characters of a value: ten parameters of each other are a gigabyte
+constexpr std::size_t kLongest = 65536;       // characters of a value: ten parameters of each other are a gigabyte
+constexpr std::size_t kMostInAll = 16000000;  // of all values with parameters: a thousand of the longest
 
 /// A scalar's text while parameters are put into it.
 class Pieces {
@@ -165,6 +166,13 @@ class Substitution {
       }
       at = end + 1;
     }
+    if (const bool was_within = in_all_ <= kMostInAll; (in_all_ += pieces.length()) > kMostInAll) {
+      if (was_within)
+        faults_.push_back({node.position, path, "values that parameters make longer than 16 MB in all",
+                           "parameters of fewer characters", ""});
+      node.reported = true;
+      return;
+    }
     pieces.put_into(node);
   }
 
@@ -186,6 +194,7 @@ class Substitution {
 
   std::vector<Fault>& faults_;
   std::map<std::string, Node> parameters_;
+  std::size_t in_all_ = 0;  // characters of values that have been put together
 };
 
 std::optional<Override> parse_override(const std::string& text, const SourcePosition& place,

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <tuple>
 
 #include "check.h"
 #include "format.h"
+#include "hersey/core/input_file.h"
 #include "interpret.h"
+#include "interpret_size.h"
 #include "reader.h"
 
 namespace hersey::model {
 namespace {
+
+constexpr std::uintmax_t kLargestModelFile = std::uintmax_t{1} << 26;  // 67 MB: tables of numbers belong into files
 
 std::vector<Parameter> parameters_of(const Node& root) {
   std::vector<Parameter> parameters;
@@ -44,13 +46,9 @@ bool stands_before(const Fault& a, const Fault& b) {
 }  // namespace
 
 std::string file_text(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError(Fault{{path, 0, 0}, "", "a directory", "a model file", ""});
-  }
-  if (!stream) throw InputError(Fault{{path, 0, 0}, "", "no readable file", "a model file", ""});
-  return {std::istreambuf_iterator<char>(stream), {}};
+  InputFile file = read_input_file(path, kLargestModelFile);
+  if (!file.fault.empty()) throw InputError(Fault{{path, 0, 0}, "", file.fault, "a model file", ""});
+  return std::move(file.content);
 }
 
 std::vector<std::string> top_level_keys() {
@@ -89,6 +87,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   check_functions_of_crank(context);
   interpret_study(context);
   check_table_ranges(context);
+  check_size(context);
   return model;
 }
 

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <fstream>
 
+#include "hersey/core/input_file.h"
 #include "interpret.h"
 
 namespace hersey::model {
@@ -9,6 +10,7 @@ namespace {
 
 /// FNV-1a of the file's bytes, 64 bits; 0 for a file that cannot be read.
 std::uint64_t digest_of(const std::filesystem::path& path) {
+  if (unreadable(path)) return 0;
   std::ifstream stream(path, std::ios::binary);
   std::uint64_t hash = stream ? 0xcbf29ce484222325U : 0;
   std::array<char, 65536> block{};

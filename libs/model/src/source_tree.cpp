@@ -6,21 +6,40 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
+#include <unordered_map>
 
 namespace hersey::model {
 namespace {
 
-/// More than any model needs; keeps a few lines of nested aliases from filling the memory.
+// More than any model needs. What aliases repeat is limited apart: a few lines of them, each naming the one before
+// several times, would fill any memory.
 constexpr std::size_t most_nodes = 1'000'000;
+constexpr std::size_t most_keys = 100'000;            // of one mapping
+constexpr std::size_t most_repeated_nodes = 100'000;  // by aliases
+constexpr std::size_t most_repeated_bytes = 16'000'000;
+constexpr std::size_t deepest = 64;
 
 /// Thrown to leave the parser once a limit is passed.
-struct TooLarge {};
+struct TooLarge {
+  SourcePosition position;
+  std::string found, expected;
+};
 
-std::size_t size_of(const Node& node) {
-  std::size_t size = 1;
-  for (const Node& item : node.items) size += size_of(item);
-  for (const Entry& entry : node.entries) size += size_of(entry.value);
-  return size;
+/// How much a copy of a value is.
+struct Extent {
+  std::size_t nodes = 1, bytes = 0, depth = 1;
+};
+
+Extent extent_of(const Node& node) {
+  Extent extent{.bytes = node.text.size()};
+  const auto add = [&extent](const Extent& part) {
+    extent.nodes += part.nodes;
+    extent.bytes += part.bytes;
+    extent.depth = std::max(extent.depth, 1 + part.depth);
+  };
+  for (const Node& item : node.items) add(extent_of(item));
+  for (const Entry& entry : node.entries) add(extent_of(entry.value));
+  return extent;
 }
 
 /// Builds the tree from the parser's events, which, unlike yaml-cpp's own nodes, keep duplicate keys and their places.
@@ -48,9 +67,8 @@ class TreeBuilder final : public YAML::EventHandler {
       add(Node{.position = position(mark), .reported = true}, 0);
       return;
     }
-    Node copy = target->second;
-    count_ += size_of(copy);
-    add(std::move(copy), 0);
+    count_repeated(target->second, position(mark));
+    add(target->second, 0);
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -83,6 +101,7 @@ class TreeBuilder final : public YAML::EventHandler {
     bool has_key = false;
     std::string key;
     SourcePosition key_position;
+    std::unordered_map<std::string, int> lines;  // of the keys so far
   };
 
   [[nodiscard]] SourcePosition position(const YAML::Mark& mark) const {
@@ -93,8 +112,30 @@ class TreeBuilder final : public YAML::EventHandler {
     faults_.push_back({at, "", std::move(found), std::move(expected), ""});
   }
 
+  /// What an anchor keeps and what an alias repeats is a copy.
+  void count_repeated(const Node& node, const SourcePosition& at) {
+    const Extent extent = extent_of(node);
+    repeated_nodes_ += extent.nodes;
+    repeated_bytes_ += extent.bytes;
+    if (repeated_nodes_ > most_repeated_nodes)
+      throw TooLarge{at, "aliases that repeat more than 100000 values", "at most 100000 values repeated by aliases"};
+    if (repeated_bytes_ > most_repeated_bytes)
+      throw TooLarge{at, "aliases that repeat more than 16 MB of text", "at most 16 MB repeated by aliases"};
+    if (open_.size() + extent.depth > deepest) throw too_deep(at);
+  }
+
+  static TooLarge too_deep(const SourcePosition& at) {
+    return {at, "values within values more than 64 deep", "at most 64 levels"};
+  }
+
+  void count(const SourcePosition& at) {
+    if (++count_ > most_nodes)
+      throw TooLarge{at, "more than a million values", "at most a million; long tables belong into files"};
+  }
+
   void open(Node node, YAML::anchor_t anchor) {
-    if (++count_ > most_nodes) throw TooLarge{};
+    count(node.position);
+    if (open_.size() >= deepest) throw too_deep(node.position);
     Open opened;
     opened.node = std::move(node);
     opened.anchor = anchor;
@@ -108,8 +149,11 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   void add(Node node, YAML::anchor_t anchor) {
-    if (++count_ > most_nodes) throw TooLarge{};
-    if (anchor != 0) anchors_[anchor] = node;
+    count(node.position);
+    if (anchor != 0) {
+      count_repeated(node, node.position);
+      anchors_[anchor] = node;
+    }
     if (open_.empty()) {
       if (documents_ <= 1) root_ = std::move(node);
       return;
@@ -136,13 +180,15 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   void add_entry(Open& parent, Node value) {
-    for (const Entry& entry : parent.node.entries) {
-      if (entry.key != parent.key) continue;
+    const auto [first, is_new] = parent.lines.try_emplace(parent.key, parent.key_position.line);
+    if (!is_new) {
       report(parent.key_position,
-             "duplicate key '" + parent.key + "' (first at line " + std::to_string(entry.position.line) + ")",
+             "duplicate key '" + parent.key + "' (first at line " + std::to_string(first->second) + ")",
              "each key once");
       return;
     }
+    if (parent.lines.size() > most_keys)
+      throw TooLarge{parent.key_position, "a mapping of more than 100000 keys", "at most 100000 keys"};
     if (value.kind == Node::Kind::null) value.position = parent.key_position;  // the parser names the next line
     parent.node.entries.push_back({std::move(parent.key), parent.key_position, std::move(value)});
   }
@@ -153,7 +199,7 @@ class TreeBuilder final : public YAML::EventHandler {
   Node root_;
   std::vector<Open> open_;
   std::map<YAML::anchor_t, Node> anchors_;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, repeated_nodes_ = 0, repeated_bytes_ = 0;
   int documents_ = 0;
 };
 
@@ -240,8 +286,8 @@ std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
     return builder.take_root();
   } catch (const YAML::Exception& error) {
     faults.push_back(syntax_fault(error, text, file));
-  } catch (const TooLarge&) {
-    faults.push_back({{file, 0, 0}, "", "more than a million values", "a model file", ""});
+  } catch (const TooLarge& limit) {
+    faults.push_back({limit.position, "", limit.found, limit.expected, ""});
   }
   return std::nullopt;
 }

@@ -1,9 +1,8 @@
 #include "table_file.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "hersey/core/input_file.h"
 #include "hersey/core/units.h"
 
 namespace hersey::model {
@@ -11,14 +10,12 @@ namespace hersey::model {
 std::optional<CsvTable> read_table_file(Context& context, const Value& file) {
   if (file.broken) return std::nullopt;
   const std::filesystem::path path = referenced_file(context, file.text);
-  std::ifstream stream(path, std::ios::binary);
-  std::error_code ignored;
-  if (!stream || !std::filesystem::is_regular_file(path, ignored)) {
-    context.fault(file, "no readable file " + path.string(), "a table beside the model file");
+  const InputFile table = read_input_file(path);
+  if (!table.fault.empty()) {
+    context.fault(file, table.fault + " " + path.string(), "a table beside the model file");
     return std::nullopt;
   }
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_csv(text, path.string(), context.faults);
+  return parse_csv(table.content, path.string(), context.faults);
 }
 
 std::optional<double> unit_factor(Context& context, const Value& at, const std::string& unit,

@@ -167,7 +167,8 @@ TEST_CASE("ExplodingAliases_EndWithAFault") {
     for (int j = 1; j < 10; ++j) text += ", " + before;
     text += "]\n";
   }
-  CHECK(faults_of(text) == "m.yaml: more than a million values; expected a model file");
+  CHECK(faults_of(text) ==
+        "m.yaml:5:40: aliases that repeat more than 100000 values; expected at most 100000 values repeated by aliases");
 }
 
 TEST_CASE("Names_AreIdentifiers") {

@@ -1,12 +1,11 @@
 #include "page_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "hersey/core/contract.h"
+#include "hersey/core/write_file.h"
 #include "hersey/results/error.h"
 #include "report_page.h"
 
@@ -39,10 +38,11 @@ void write_page(const nlohmann::json& data, const std::filesystem::path& out) {
 
   // Text in a results file may hold any bytes: what is not UTF-8 is replaced, not refused.
   const std::string text = script_safe(data.dump(-1, ' ', false, json::error_handler_t::replace));
-  std::ofstream file(out, std::ios::binary);
-  file << page.substr(0, end_of_opening) << text << page.substr(end_of_opening);
-  file.close();
-  if (!file) throw results::WriteError(out, std::string("cannot write the report: ") + std::strerror(errno));
+  try {
+    write_file(out, {page.substr(0, end_of_opening), text, page.substr(end_of_opening)});
+  } catch (const std::runtime_error& error) {
+    throw results::WriteError(out, std::string("cannot write the report: ") + error.what());
+  }
 }
 
 }  // namespace hersey::report

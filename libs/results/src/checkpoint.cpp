@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "hdf5_handle.h"
+#include "hersey/core/hdf5_content.h"
+#include "hersey/core/input_file.h"
 #include "hersey/core/sealed_file.h"
 
 namespace hersey::results {
@@ -103,12 +105,15 @@ class Contents {
  public:
   explicit Contents(const std::filesystem::path& path) : path_(path) {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such checkpoint");
+    if (const auto trouble = unreadable(path)) fail("it is " + *trouble);
     // Before HDF5 sees it: the library trusts what it reads of a file's structure.
     if (const Seal seal = check_seal(path); seal != Seal::intact)
       fail(seal == Seal::broken ? "damaged: it has changed since it was written" : "not a checkpoint, or cut short");
     file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-    if (!file_.valid() || H5Lexists(file_.get(), "format", H5P_DEFAULT) <= 0 || text("format") != kFormat)
-      fail("not a checkpoint");
+    if (!file_.valid()) fail("not a checkpoint");
+    if (const std::string trouble = foreign_content(file_.get(), path); !trouble.empty())
+      fail("not a checkpoint of hersey: it has " + trouble);
+    if (H5Lexists(file_.get(), "format", H5P_DEFAULT) <= 0 || text("format") != kFormat) fail("not a checkpoint");
     if (numbers("format_version").values != std::vector<double>{kVersion})
       fail("a checkpoint of another version of the program");
   }

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "hersey/core/doubtful_file.h"
 #include "hersey/core/hdf5_lock.h"
 
 namespace hersey::results {
@@ -45,7 +46,8 @@ class Handle {
 /// printed, for failures are told by exceptions, once.
 class Hdf5Session {
  public:
-  Hdf5Session() : lock_(hdf5_lock()) {
+  /// @param doubtful  the file that is read, if nothing vouches for it (hersey/core/doubtful_file.h)
+  explicit Hdf5Session(const char* doubtful = nullptr) : lock_(hdf5_lock()), doubtful_(doubtful) {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
@@ -55,6 +57,7 @@ class Hdf5Session {
 
  private:
   std::scoped_lock<std::recursive_mutex> lock_;
+  DoubtfulFile doubtful_;
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };

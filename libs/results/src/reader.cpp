@@ -9,6 +9,8 @@
 
 #include "dimension_scales.h"
 #include "hdf5_handle.h"
+#include "hersey/core/hdf5_content.h"
+#include "hersey/core/input_file.h"
 #include "hersey/core/sealed_file.h"
 
 namespace hersey::results {
@@ -58,20 +60,30 @@ std::size_t Array::width() const {
 struct Reader::Impl {
   std::filesystem::path path;
   Handle file;
+  bool is_sealed = false;
   std::vector<std::string> groups, datasets;
   std::unordered_set<std::string> known;             // of them all
   std::map<std::string, std::size_t> complete_rows;  // per growth group
 
   [[noreturn]] void fail(const std::string& reason) const { throw ReadError(path, reason); }
 
+  /// Its name where no checksum vouches for what HDF5 finds in it.
+  [[nodiscard]] const char* doubtful() const { return is_sealed || path.empty() ? nullptr : path.c_str(); }
+
   void open() {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such file");
+    if (const auto trouble = unreadable(path)) fail("it is " + *trouble);
     // Before HDF5 sees it: the library trusts what it reads of a file's structure.
-    if (check_seal(path) == Seal::broken) fail("damaged: it has changed since it was written");
+    const Seal seal = check_seal(path);
+    if (seal == Seal::broken) fail("damaged: it has changed since it was written");
+    is_sealed = seal == Seal::intact;
+    const DoubtfulFile doubtful_file(doubtful());
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
     keep_metadata(access.get());
     file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));
     if (!file.valid()) fail("not a readable HDF5 file");
+    if (const std::string trouble = foreign_content(file.get(), path); !trouble.empty())
+      fail("no results file of hersey: it has " + trouble);
   }
 
   [[nodiscard]] bool exists(const std::string& name) const {
@@ -196,9 +208,10 @@ struct Reader::Impl {
 };
 
 Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   impl_->path = std::move(path);
   impl_->open();
+  const DoubtfulFile doubtful(impl_->doubtful());
   if (text_attribute("/", "format") != "hersey-results") impl_->fail("HDF5, but not a results file of hersey");
   const double version = number_attribute("/", "format_version").value_or(0);
   if (version < 1 || version > newest_format)
@@ -210,7 +223,7 @@ Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
 Reader::~Reader() = default;
 
 bool Reader::has(std::string_view path) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   return impl_->exists(absolute(path));
 }
 
@@ -219,7 +232,7 @@ const std::vector<std::string>& Reader::groups() const { return impl_->groups; }
 const std::vector<std::string>& Reader::datasets() const { return impl_->datasets; }
 
 std::vector<std::string> Reader::children(std::string_view group) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   std::vector<std::string> names;
   const std::string name = absolute(group);
   if (!impl_->exists(name)) return names;
@@ -229,7 +242,7 @@ std::vector<std::string> Reader::children(std::string_view group) const {
 }
 
 std::vector<std::string> Reader::attributes(std::string_view object) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   std::vector<std::string> names;
   const std::string name = absolute(object);
   if (!impl_->exists(name)) return names;
@@ -239,7 +252,7 @@ std::vector<std::string> Reader::attributes(std::string_view object) const {
 }
 
 std::optional<std::string> Reader::text_attribute(std::string_view object, std::string_view name) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   const Handle attribute = impl_->attribute(object, name);
   if (!attribute.valid()) return std::nullopt;
   const Handle space(H5Aget_space(attribute.get()));
@@ -249,7 +262,7 @@ std::optional<std::string> Reader::text_attribute(std::string_view object, std::
 }
 
 std::optional<double> Reader::number_attribute(std::string_view object, std::string_view name) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   const Handle attribute = impl_->attribute(object, name);
   if (!attribute.valid()) return std::nullopt;
   const Handle type(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
@@ -261,13 +274,13 @@ std::optional<double> Reader::number_attribute(std::string_view object, std::str
 }
 
 std::vector<std::string> Reader::list_attribute(std::string_view object, std::string_view name) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   const Handle attribute = impl_->attribute(object, name);
   return attribute.valid() ? impl_->texts(attribute.get()) : std::vector<std::string>{};
 }
 
 DatasetInfo Reader::info(std::string_view path) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   const std::string name = absolute(path);
   const Handle dataset = impl_->dataset(name);
   const Handle space(H5Dget_space(dataset.get()));
@@ -277,7 +290,7 @@ DatasetInfo Reader::info(std::string_view path) const {
 Array Reader::read(std::string_view path) const { return read_rows(path, 0, std::numeric_limits<std::size_t>::max()); }
 
 Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t count, std::size_t stride) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   const std::string name = absolute(path);
   const Handle dataset = impl_->dataset(name);
   const Handle type(H5Dget_type(dataset.get())), space(H5Dget_space(dataset.get()));
@@ -305,7 +318,7 @@ Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t co
 }
 
 std::string Reader::text(std::string_view path) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   const std::string name = absolute(path);
   std::vector<std::string> texts = impl_->dataset_texts(name);
   if (texts.size() != 1) impl_->fail(name + " is not a single text");
@@ -313,7 +326,7 @@ std::string Reader::text(std::string_view path) const {
 }
 
 std::vector<std::pair<std::string, std::string>> Reader::text_table(std::string_view path) const {
-  const Hdf5Session session;
+  const Hdf5Session session(impl_->doubtful());
   std::vector<std::string> texts = impl_->dataset_texts(absolute(path));
   std::vector<std::pair<std::string, std::string>> rows;
   for (std::size_t i = 0; i + 1 < texts.size(); i += 2) rows.emplace_back(std::move(texts[i]), std::move(texts[i + 1]));

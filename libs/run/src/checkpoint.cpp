@@ -8,8 +8,10 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "hersey/core/input_error.h"
+#include "hersey/core/input_file.h"
 #include "hersey/core/version.h"
 #include "hersey/results/checkpoint.h"
 #include "hersey/results/reader.h"
@@ -18,6 +20,9 @@
 
 namespace hersey::run {
 namespace {
+
+constexpr double kLongStep = 0.5;      // [s]
+constexpr double kLargestShare = 0.1;  // of a long step, for the checkpoint behind it
 
 constexpr const char* kModel = "identity/model";
 constexpr const char* kVersion = "identity/version";
@@ -41,13 +46,16 @@ CheckpointSchedule::CheckpointSchedule(const model::Simulation& plan)
       slack_(1e-9 * plan.step),
       next_(plan_.every > 0 ? start_ + plan_.every : std::numeric_limits<double>::infinity()) {}
 
-bool CheckpointSchedule::is_due(double t) const {
-  const std::chrono::duration<double> since = Clock::now() - last_;
-  return t >= next_ - slack_ || since.count() >= plan_.wall_time;
+bool CheckpointSchedule::is_due(double t) {
+  const Clock::time_point now = Clock::now();
+  const std::chrono::duration<double> since = now - last_, step = now - std::exchange(step_, now);
+  const bool was_long = step.count() > kLongStep && cost_ < kLargestShare * step.count();
+  return was_long || t >= next_ - slack_ || since.count() >= plan_.wall_time;
 }
 
-void CheckpointSchedule::written(double t) {
-  last_ = Clock::now();
+void CheckpointSchedule::written(double t, double cost) {
+  last_ = step_ = Clock::now();
+  cost_ = cost;
   if (plan_.every > 0) next_ = start_ + plan_.every * (std::floor((t - start_ + slack_) / plan_.every) + 1);
 }
 
@@ -112,6 +120,7 @@ bool is_complete(const model::Model& model, const std::filesystem::path& results
 }
 
 bool has_results(const std::filesystem::path& results) {
+  if (unreadable(results)) return false;
   std::ifstream stream(results, std::ios::binary);
   std::array<char, 8> first{};
   stream.read(first.data(), first.size());

@@ -15,15 +15,19 @@ class CheckpointSchedule {
  public:
   explicit CheckpointSchedule(const model::Simulation& plan);
 
+  /// To be asked after every step. One is due after a long step, too: who stops the run amid the next does not wait for
+  /// its end.
   /// @param t  [s]; a state in which a run can go on
-  [[nodiscard]] bool is_due(double t) const;
-  void written(double t);
+  [[nodiscard]] bool is_due(double t);
+  /// @param cost  time that it took [s]
+  void written(double t, double cost);
 
  private:
   using Clock = std::chrono::steady_clock;
   model::Simulation::Checkpoints plan_;
   double start_, slack_, next_;
-  Clock::time_point last_ = Clock::now();
+  Clock::time_point last_ = Clock::now(), step_ = last_;
+  double cost_ = 0;
 };
 
 /// Stores what a run is of: program, model file with its overrides, contents of the files it names.

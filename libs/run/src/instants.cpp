@@ -1,13 +1,18 @@
 #include "instants.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "hersey/core/input_error.h"
 #include "hersey/core/table_function.h"
 
 namespace hersey::run {
 namespace {
+
+constexpr double kMostPeriods = 1e6;
 
 /// How the argument of a table moves during the run: value + rate (t - start).
 struct UniformMotion {
@@ -29,12 +34,13 @@ std::optional<UniformMotion> driven_motion(const mbd::MechanismSpec& spec, const
 
 class KinkCollector {
  public:
-  explicit KinkCollector(const model::Simulation& run) : run_(run) {}
+  explicit KinkCollector(const model::Model& model) : model_(model), run_(model.simulation) {}
 
   void add(const ScalarFunction* function, const UniformMotion& argument) {
     const auto* table = dynamic_cast<const TableFunction*>(function);
     if (table == nullptr || argument.rate == 0) return;
     const double end = argument.value + argument.rate * run_.duration;
+    if (bends_again_and_again(*table)) require_few(std::abs(end - argument.value) / (table->upper() - table->lower()));
     for (const double x : table->kinks(std::min(argument.value, end), std::max(argument.value, end))) {
       times_.push_back(run_.start + (x - argument.value) / argument.rate);
     }
@@ -46,6 +52,23 @@ class KinkCollector {
   }
 
  private:
+  static bool bends_again_and_again(const TableFunction& table) {
+    return table.is_periodic() && !table.kinks(table.lower(), 2 * table.upper() - table.lower()).empty();
+  }
+
+  /// The reader has counted the bends of tables over time and over the crank, which it can name; other coordinates move
+  /// as the machine has it.
+  void require_few(double periods) const {
+    if (periods <= kMostPeriods) return;
+    throw InputError(
+        Fault{{model_.file, 0, 0},
+              "",
+              fmt::format("a table over a driven coordinate that repeats {:.3g} times during the run", periods),
+              "at most a million times: steps hit every bend of it",
+              "a longer period, interpolation: smooth, or a fixed step"});
+  }
+
+  const model::Model& model_;
   const model::Simulation& run_;
   std::vector<double> times_;
 };
@@ -60,7 +83,7 @@ void add_multiples(double interval, const model::Simulation& run, std::vector<do
 std::vector<double> kinks(const model::Model& model, const mbd::MechanismSpec& spec, const mbd::Observation& start) {
   const model::Simulation& run = model.simulation;
   const UniformMotion time{run.start, 1};
-  KinkCollector collector(run);
+  KinkCollector collector(model);
   for (const mbd::DriveSpec& drive : spec.drives) collector.add(drive.function.get(), time);
   for (const mbd::LoadSpec& load : spec.loads) {
     for (const mbd::LoadTerm& term : load.terms) {

@@ -5,6 +5,8 @@
 namespace hersey::run {
 namespace {
 
+constexpr std::size_t kMostWarnings = 3;
+
 std::string name_of(const mbd::Mechanism& mechanism, mbd::JointId id) {
   return mechanism.spec().joints[static_cast<std::size_t>(id.index)].name;
 }
@@ -29,6 +31,17 @@ std::string described(const mbd::Mechanism& mechanism, const mbd::Redundancy& re
       redundancy.orientations);
 }
 
+// Of many loops, which are alike as a rule; the assumptions in results and report have each.
+Fault summary_of(const model::Model& model, const mbd::Mechanism& mechanism) {
+  const std::vector<mbd::Redundancy>& all = mechanism.redundancies();
+  const std::string path = "joints." + name_of(mechanism, all.front().joint);
+  return {model.position_of(path), path,
+          fmt::format("redundant: {} loops have constraints that follow from the others; in the first, {}", all.size(),
+                      described(mechanism, all.front())),
+          "as many constraints as motions, where single reactions matter",
+          "free a motion in each loop, or connect elastically with bushings; the assumptions in the report name all"};
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> redundancies(const mbd::Mechanism& mechanism) {
@@ -42,6 +55,7 @@ std::vector<std::pair<std::string, std::string>> redundancies(const mbd::Mechani
 
 std::vector<Fault> redundancy_warnings(const model::Model& model, const mbd::Mechanism& mechanism) {
   std::vector<Fault> warnings;
+  if (mechanism.redundancies().size() > kMostWarnings) return {summary_of(model, mechanism)};
   for (const mbd::Redundancy& redundancy : mechanism.redundancies()) {
     const std::string path = "joints." + name_of(mechanism, redundancy.joint);
     warnings.push_back({model.position_of(path), path, "redundant: " + described(mechanism, redundancy),

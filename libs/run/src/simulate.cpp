@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <optional>
 
@@ -18,6 +19,7 @@
 #include "hersey/results/writer.h"
 #include "hersey/solver/equilibrium.h"
 #include "hersey/solver/linearise.h"
+#include "instants.h"
 #include "observe_step.h"
 #include "redundancies.h"
 #include "run_record.h"
@@ -124,6 +126,7 @@ class Simulation {
   // Whether the user ends the run here, where it can go on later: nothing of a step is pending.
   bool is_stopped() {
     const bool stops = options_.stop && options_.stop->load();
+    if (stops && options_.on_stopping) options_.on_stopping();
     if (stops || checkpoints_.is_due(state_.t)) write_checkpoint();
     if (!stops) return false;
     summary_.status = Status::stopped;
@@ -202,11 +205,12 @@ class Simulation {
 
   void write_checkpoint() {
     const Stopwatch watch(work_.recording());
+    const Clock::time_point began = Clock::now();
     Archive archive;
     save_identity(archive, model_);
     persist(archive);
     results::write_checkpoint(checkpoint_file(options_.results), archive.content());
-    checkpoints_.written(state_.t);
+    checkpoints_.written(state_.t, std::chrono::duration<double>(Clock::now() - began).count());
   }
 
   void restore(Archive::Content checkpoint) {
@@ -218,9 +222,12 @@ class Simulation {
     } catch (const ArchiveError& error) {
       throw results::ReadError(file, std::string("it does not fit this program: ") + error.what());
     }
+    const bool is_finite = std::isfinite(state_.t) && state_.q.allFinite() && state_.v.allFinite() &&
+                           state_.vdot.allFinite() && state_.lambda.allFinite();
+    if (!is_finite) throw results::ReadError(file, "its state has a number that is not finite");
     for (const std::string& name : archive.unread())
       if (!is_identity(name)) throw results::ReadError(file, "it does not fit this program: it holds '" + name + "'");
-    checkpoints_.written(state_.t);
+    checkpoints_.written(state_.t, 0);
     resumes_ = true;
   }
 
@@ -340,6 +347,9 @@ std::vector<Fault> check(const model::Model& model) {
   if (model.is_of_bearings_alone()) return {};
   model::Machine machine = model::build(model);
   const solver::State start = starting_state(model, machine);
+  // Refuses instants without end. A fixed step asks for none.
+  if (model.simulation.error_control)
+    (void)kinks(model, machine.mechanism->spec(), observe_step(machine, start, force_kinds(machine)).mechanism);
   std::vector<Fault> warnings = start_warnings(model, *machine.mechanism, start);
   for (Fault& warning : redundancy_warnings(model, *machine.mechanism)) warnings.push_back(std::move(warning));
   for (Fault& warning : offset_warnings(model)) warnings.push_back(std::move(warning));

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -264,6 +265,10 @@ TEST_CASE("DamagedFiles_AreTold") {
   bad.numbers["state/more"] = {{}, {1}};
   results::write_checkpoint(checkpoint, bad);
   CHECK_THROWS_WITH_AS(resume(), doctest::Contains("it holds 'state/more'"), results::ReadError);
+  bad = good;
+  bad.numbers["state/v"].values[0] = std::nan("");
+  results::write_checkpoint(checkpoint, bad);
+  CHECK_THROWS_WITH_AS(resume(), doctest::Contains("a number that is not finite"), results::ReadError);
   bad = good;
   bad.numbers["record/rows"].values[0] += 1;
   results::write_checkpoint(checkpoint, bad);

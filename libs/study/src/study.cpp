@@ -17,17 +17,44 @@ namespace {
 struct Queue {
   std::atomic<std::size_t> next{0};
   std::mutex speak;
+  std::atomic<int> computing{0};
+};
+
+/// A run as long as it computes: until it ends, or has seen that it is to stop.
+class Computing {
+ public:
+  Computing(Queue& queue, const Options& options) : queue_(queue), options_(options) { ++queue_.computing; }
+  Computing(const Computing&) = delete;
+  Computing& operator=(const Computing&) = delete;
+  ~Computing() { end(); }
+
+  void end() {
+    const bool was = std::exchange(computes_, false);
+    if (was && --queue_.computing == 0 && options_.stop != nullptr && *options_.stop && options_.on_stopping)
+      options_.on_stopping();
+  }
+
+ private:
+  Queue& queue_;
+  const Options& options_;
+  bool computes_ = true;
 };
 
 RunResult simulate_one(const std::string& path, const model::StudyRun& run, const Options& options, std::size_t index,
                        Queue& queue) {
   RunResult result{.run = run, .summary = {}, .error = {}};
+  Computing computing(queue, options);
+  if (options.stop != nullptr && *options.stop) {
+    result.error = "stopped on request before it began";
+    return result;
+  }
   run::Options run_options;
   run_options.results = results_file(options, run);
   run_options.overwrite = options.overwrite;
   run_options.resume = options.resume;
   run_options.step_error = options.step_error;
   run_options.stop = options.stop;
+  run_options.on_stopping = [&computing] { computing.end(); };
   for (const model::StudyValue& value : run.values) run_options.study_parameters.push_back({value.name, value.text});
   run_options.on_progress = [&](const run::Progress& progress) {
     if (!options.on_progress) return;

@@ -18,13 +18,15 @@ enum class MeshFormat { gmsh, abaqus, nastran };
 /// The format that a file's ending tells; none for an unknown ending.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);
 
-/// Content of a file that a mesh file includes, by the name it is included with; none where it cannot be read.
-using IncludeLoader = std::function<std::optional<std::string>(const std::string& name)>;
+/// Content of a file that a mesh file includes, by the name it is included with.
+/// @throws std::runtime_error telling what is there instead: "no readable file"
+using IncludeLoader = std::function<std::string(const std::string& name)>;
 
 /// Reads a mesh file in the format that its ending tells (docs/mesh-files.md says what of each format is read).
 ///
 /// Elements are in Abaqus' node order, named sets and surfaces as in the file; every element set and surface without a
-/// node set of its name gets one, of its nodes. Nodes that no element uses are left out with a warning.
+/// node set of its name gets one, of its nodes. Nodes that no element uses are left out with a warning. Files are
+/// included from the mesh's own folder and below it only, unless HERSEY_INCLUDE_ANYWHERE is 1 in the environment.
 /// @param length_unit metres in one unit of the file (0.001 for millimetres). Materials are taken to be in the
 ///   consistent system of that length, newton and second: with millimetres MPa and t/mm^3.
 /// @param warnings what the file says and this reader leaves out is added here; nullptr: dropped.

@@ -113,7 +113,8 @@ struct Options {
   std::function<void(const Progress&)> on_progress;    ///< may be empty
   std::function<void(const CycleProgress&)> on_cycle;  ///< may be empty
   const std::atomic<bool>* stop = nullptr;             ///< set from a signal handler: end after the current step
-  std::vector<StudyParameterValue> study_parameters;   ///< of this run, for the results file
+  std::function<void()> on_stopping;  ///< it ends so: checkpoint and results are yet to be written; may be empty
+  std::vector<StudyParameterValue> study_parameters;  ///< of this run, for the results file
 };
 
 /// Simulates `model` from its start to its end and writes the results as it goes.
@@ -140,7 +141,7 @@ struct Options {
 /// Builds `model` and finds its starting state, as `simulate` does first, and writes nothing.
 /// @returns what the user should know though the model runs: initial values that had to move, redundant constraints and
 ///          how they are treated.
-/// @throws InputError as `simulate`.
+/// @throws InputError as `simulate`, and where error-controlled steps would have to hit instants without end.
 std::vector<Fault> check(const model::Model& model);
 
 }  // namespace hersey::run

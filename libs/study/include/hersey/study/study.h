@@ -30,7 +30,8 @@ struct Options {
   /// Before a run begins: what its model and its start should make the user know (model::Model::warnings, run::check).
   std::function<void(std::size_t run, const std::vector<Fault>&)> on_warnings;
   std::function<void(std::size_t run, const RunResult&)> on_finished;
-  const std::atomic<bool>* stop = nullptr;
+  const std::atomic<bool>* stop = nullptr;  ///< set from a signal handler: runs end after their step, no other begins
+  std::function<void()> on_stopping;        ///< all that had begun have ended so (run::Options::on_stopping)
 };
 
 /// The results file of one run.

@@ -1,0 +1,18 @@
+#include "hersey/core/doubtful_file.h"
+
+namespace hersey {
+namespace {
+
+thread_local const char* current = nullptr;
+
+}  // namespace
+
+const char* doubtful_file() { return current; }
+
+DoubtfulFile::DoubtfulFile(const char* path) : before_(current) {
+  if (path != nullptr) current = path;
+}
+
+DoubtfulFile::~DoubtfulFile() { current = before_; }
+
+}  // namespace hersey

@@ -1,0 +1,40 @@
+#include "hersey/core/write_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+namespace hersey {
+namespace {
+
+bool write(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
+  std::ofstream file(path, std::ios::binary);
+  for (const std::string_view part : parts) file << part;
+  file.close();
+  return static_cast<bool>(file);
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    if (!write(path, parts)) throw std::runtime_error(std::strerror(errno));
+    return;
+  }
+  const std::filesystem::path place = std::filesystem::weakly_canonical(path, error);
+  const std::filesystem::path end = error ? path : place;
+  std::filesystem::path unfinished = end;
+  unfinished += ".new";
+  if (!write(unfinished, parts)) {
+    const int reason = errno;
+    std::filesystem::remove(unfinished, error);
+    throw std::runtime_error(std::strerror(reason));
+  }
+  std::filesystem::rename(unfinished, end, error);
+  if (error) throw std::runtime_error(error.message());
+}
+
+}  // namespace hersey

@@ -1,0 +1,42 @@
+#include "hersey/core/write_file.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "hersey/core/input_file.h"
+#include "temporary_directory.h"
+
+namespace {
+
+using namespace hersey;
+
+TEST_CASE("WrittenFile_IsWholeOrTheOldOne") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path page = folder / "page.html";
+  write_file(page, {"a", "bc"});
+  CHECK(read_input_file(page).content == "abc");
+  // Where the new one cannot be begun the old one stays.
+  std::filesystem::create_directory(folder / "page.html.new");
+  CHECK_THROWS_WITH((write_file(page, {"other"})), "Is a directory");
+  CHECK(read_input_file(page).content == "abc");
+  std::filesystem::remove(folder / "page.html.new");
+  write_file(page, {"other"});
+  CHECK(read_input_file(page).content == "other");
+  CHECK_FALSE(std::filesystem::exists(folder / "page.html.new"));
+}
+
+TEST_CASE("WrittenFile_FollowsLinksAndTakesDevices") {
+  const TemporaryDirectory folder;
+  write_file(folder / "page.html", {"a"});
+  std::filesystem::create_symlink("page.html", folder / "link.html");
+  write_file(folder / "link.html", {"b"});
+  CHECK(std::filesystem::is_symlink(folder / "link.html"));
+  CHECK(read_input_file(folder / "page.html").content == "b");
+  CHECK_NOTHROW(write_file("/dev/null", {"b"}));
+  CHECK_THROWS_WITH(write_file("/dev/full", {"b"}), "No space left on device");
+  CHECK_THROWS_WITH(write_file(folder / "none" / "page.html", {"b"}), "No such file or directory");
+}
+
+}  // namespace
