@@ -211,7 +211,7 @@ TEST_CASE("CheckpointSchedule_CountsBothTimes") {
   CheckpointSchedule schedule(plan);
   CHECK_FALSE(schedule.is_due(1.09));
   CHECK(schedule.is_due(1.1));
-  schedule.written(1.25);
+  schedule.written(1.25, 0.0);
   CHECK_FALSE(schedule.is_due(1.29));
   CHECK(schedule.is_due(1.3 - 1e-12));
   plan.checkpoint = {.every = 0, .wall_time = 1e-9};
