@@ -53,12 +53,12 @@ class Setup(unittest.TestCase):
             return file.read()
 
     def test_all_packages_present_is_silent_and_needs_no_root(self):
-        self.installed("clang-format", "clang-tidy")
+        self.installed("clang-format", "clang-tidy", "python3")
         run = self.setup("lint", as_nobody=True)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
 
     def test_missing_package_without_root_or_sudo_prints_the_line_to_run(self):
-        self.installed("clang-format")
+        self.installed("clang-format", "python3")
         run = self.setup("lint", as_nobody=True)
         self.assertEqual(run.returncode, 2)
         self.assertRegex(run.stderr, r"apt-get install .*clang-tidy$")
@@ -67,7 +67,7 @@ class Setup(unittest.TestCase):
 
     def test_missing_package_is_installed_through_sudo(self):
         os.chmod(self.root, 0o777)
-        self.installed("clang-format")
+        self.installed("clang-format", "python3")
         self.program("sudo", 'case $1 in -*) shift ;; esac; exec "$@"')
         run = self.setup("lint", as_nobody=True)
         self.assertEqual(run.returncode, 0, run.stderr)

@@ -74,8 +74,8 @@ TEST_CASE("Vtu_OfAMovedBody_HasThePositionsGiven") {
 }
 
 TEST_CASE("Vtu_ThatCannotBeWritten_IsToldByItsName") {
-  CHECK_THROWS_WITH_AS(write_vtu("/no/such/folder/a.vtu", block(), {}), "/no/such/folder/a.vtu: cannot be written",
-                       std::runtime_error);
+  CHECK_THROWS_WITH_AS(write_vtu("/no/such/folder/a.vtu", block(), {}),
+                       "/no/such/folder/a.vtu: cannot be written: No such file or directory", std::runtime_error);
 }
 
 /// What a command prints; empty if it cannot be run.
