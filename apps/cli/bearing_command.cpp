@@ -34,6 +34,7 @@ class ShortNames {
               {"load_angle", point + "load_angle"},
               {"eccentricity_ratio", point + "eccentricity_ratio"},
               {"eccentricity_angle", point + "eccentricity_angle"},
+              {"radial_velocity", point + "radial_velocity"},
               {"clearance", path + (is_diametral ? "diametral_clearance" : "radial_clearance")},
               {"width", path + "width"},
               {"diameter", path + "diameter"},

@@ -179,6 +179,7 @@ def check(case, a):
         return found
     check_gap(case, a, found)
     check_fill(b, a, found)
+    check_cavity(case, a, found)
     check_oil(case, a, found)
     check_load(case, a, found)
     check_power(case, a, found)
@@ -248,6 +249,22 @@ def check_fill(b, a, found):
     if any(abs(a.p.max() - p) < 10 * DIGITS * scale for p in held):
         found.bound("p_max", bound, 100 * DIGITS * scale,
                     f"Pa: p_max {a['p_max']:.6g} beside a feature that has {a.p.max():.6g}")
+
+
+def check_cavity(case, a, found):
+    """What lies between rupture and re-formation at mid-width is cavitated, and a cavity has both."""
+    b, middle = case.bearing, np.abs(a.z).argmin()
+    broken = a.theta[:, middle] < 1 - 1e-8 if b.cavitation == "mass_conserving" else a.p[:, middle] <= b.p_cav
+    has_ends = "rupture_angle" in a.values
+    if b.cavitation == "mass_conserving" and not broken.all():
+        found.require("cavity", has_ends == bool(broken.any()), f"cavity at mid-width {broken.any()}, its ends told {has_ends}")
+    if has_ends:
+        low, high = a["rupture_angle"], a["reformation_angle"]
+        if case.journal_speed + case.shell_speed < 0:
+            low, high = high, low
+        inside = (a.phi - low) % (2 * PI) < (high - low) % (2 * PI)
+        at_an_end = np.minimum(np.abs(np.sin((a.phi - low) / 2)), np.abs(np.sin((a.phi - high) / 2))) < 1e-9
+        found.require("cavity", broken[inside & ~at_an_end].all(), f"film between rupture {low:.4f} and re-formation {high:.4f}")
 
 
 def check_oil(case, a, found):

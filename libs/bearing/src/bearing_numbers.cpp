@@ -28,6 +28,11 @@ BearingNumbers bearing_numbers(const film::FilmModel& model, const SteadyState& 
   n.hersey = model.lubricant.mu0 * omega / (2 * std::numbers::pi) * area / W;
   n.sommerfeld_S = n.hersey * R_c * R_c;
   n.sommerfeld_So = 1 / (2 * std::numbers::pi * n.sommerfeld_S);
+  // At the centre every direction is along the eccentricity.
+  const double r = state.e.norm();
+  n.radial_velocity = r > 0 ? state.point.e_rate.dot(state.e) / r : state.point.e_rate.norm();
+  if (n.radial_velocity != 0)
+    n.sommerfeld_squeeze = W / area / (R_c * R_c) / (model.lubricant.mu0 * std::abs(n.radial_velocity) / model.c);
   n.friction_journal = std::abs(state.film.torque_journal) / (model.R * W);
   n.friction_shell = std::abs(state.film.torque_shell) / (model.R * W);
   if (model.asperities.model != film::AsperityModel::none) {

@@ -58,6 +58,7 @@ ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint
   ParameterVector parameters = ParameterVector::Zero();
   parameters.segment<2>(kEx) = e;
   parameters.segment<2>(kTx) = point.tilt;
+  parameters.segment<2>(kExRate) = point.e_rate;
   parameters[kJournalSpeed] = model.R * point.journal_speed;
   parameters[kRotation] = point.journal_angle;
   parameters[kSupplyAngle] = e.squaredNorm() > 0 ? std::atan2(-e.y(), -e.x()) : 0.0;
@@ -230,7 +231,7 @@ class Search {
 
   [[nodiscard]] bool bears_nothing() const {
     const film::FilmFields fields = film::film_fields(model_, motion_, u_);
-    const double scale = model_.lubricant.mu0 * std::abs(point_.entraining_speed()) * std::pow(model_.R / model_.c, 2);
+    const double scale = model_.lubricant.mu0 * point_.film_speed(model_.c) * std::pow(model_.R / model_.c, 2);
     return fields.p.maxCoeff() - fields.p.minCoeff() <= 1e-9 * scale &&
            model_.asperities.model == film::AsperityModel::none;
   }
@@ -532,7 +533,7 @@ class Search {
 }  // namespace
 
 film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point) {
-  const double omega = std::abs(point.entraining_speed());
+  const double omega = point.film_speed(model.c);
   if (omega > 0) model.fill_speed = omega;
   return model;
 }
@@ -559,7 +560,9 @@ Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoi
     (y * y / (pi * x * std::sqrt(pi * pi * y + 16 * x * x)) > wanted ? low : high) = x;
   }
   // A bearing of finite width stands nearer to its centre or, with contact, is held off the wall: keep away from both.
-  const double contact = model.asperities.model == film::AsperityModel::none ? 0 : 3 * model.asperities.sigma / model.c;
+  const film::Asperities& rough = model.asperities;
+  const double reach = rough.model == film::AsperityModel::none ? 0 : rough.mean_summit_height + 3 * rough.sigma;
+  const double contact = reach / model.c;
   const double epsilon = std::clamp(low, 1e-4, std::clamp(1 - contact, 0.5, 0.99));
   const double attitude = std::atan2(pi * std::sqrt(1 - epsilon * epsilon), 4 * epsilon);
   const double angle = std::atan2(point.load->y(), point.load->x()) + std::copysign(attitude, point.entraining_speed());
@@ -571,8 +574,8 @@ Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoi
 SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
                            SteadyState& state) {
   HERSEY_REQUIRE(!point.load || point.load->norm() > 0, "a load that is not zero");
-  HERSEY_REQUIRE(point.entraining_speed() != 0 || model.asperities.model != film::AsperityModel::none,
-                 "speeds that drag oil into the gap, or asperities");
+  HERSEY_REQUIRE(point.film_speed(model.c) > 0 || model.asperities.model != film::AsperityModel::none,
+                 "speeds that move oil in the gap, or asperities");
   const double gap = smallest_gap(model, parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e));
   HERSEY_REQUIRE(gap > 0, "a journal inside its bore");
   Search search(model, point, options);

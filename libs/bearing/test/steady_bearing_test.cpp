@@ -429,5 +429,52 @@ TEST_CASE("TorqueInAnOvalBore_IsThatOfTheSurface") {
   CHECK(-state.film.torque_journal * point.journal_speed == doctest::Approx(state.film.power_taken()).epsilon(2e-3));
 }
 
+// Pressed out of a short bearing: p = 6 mu c eps' cos(theta) (z^2 - L^2/4)/h^3 where the gap narrows.
+TEST_CASE("PureSqueeze_MeetsTheShortBearing") {
+  film::FilmModel model{.R = 0.025, .L = 0.001, .c = 25e-6, .grid = {180, 13}};
+  model.cavitation = film::Cavitation::guembel;
+  for (const double epsilon : {0.0, 0.3, 0.7}) {
+    CAPTURE(epsilon);
+    OperatingPoint point;
+    point.e = {epsilon * model.c, 0};
+    point.e_rate = {2e-3, 0};
+    const SteadyState state = solved(model, point);
+    constexpr int n = 4000;
+    double integral = 0;
+    for (int k = 0; k < n; ++k) {
+      const double theta = pi * ((k + 0.5) / n - 0.5), h = 1 - epsilon * std::cos(theta);
+      integral += std::pow(std::cos(theta), 2) / (h * h * h) * pi / n;
+    }
+    const double F =
+        model.lubricant.mu0 * 2e-3 / model.c * model.R * std::pow(model.L, 3) / std::pow(model.c, 2) * integral;
+    CHECK(state.load.x() == doctest::Approx(F).epsilon(2e-3));
+    CHECK(std::abs(state.load.y()) < 1e-9 * F);
+    const BearingNumbers numbers = bearing_numbers(model, state);
+    CHECK(numbers.radial_velocity == doctest::Approx(2e-3));
+    CHECK(numbers.sommerfeld_squeeze ==
+          doctest::Approx(2 * std::pow(model.L / (2 * model.R), 2) * integral).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("CoefficientsOfSqueeze_AreDifferencesOfForces") {
+  film::FilmModel model = rough_elastic_film();
+  OperatingPoint point{.journal_speed = 50};
+  point.e = {0.6 * model.c, -0.2 * model.c};
+  point.e_rate = {4e-3, 1e-3};
+  const SteadyState state = solved(model, point);
+  for (int k = 0; k < 2; ++k) {
+    const auto force = [&](double e, double rate) {
+      OperatingPoint moved = point;
+      moved.e[k] += e, moved.e_rate[k] += rate;
+      return solved(model, moved).load;
+    };
+    const double de = 1e-5 * model.c, dv = 1e-7;
+    const Eigen::Vector2d stiffness = (force(de, 0) - force(-de, 0)) / (2 * de);
+    const Eigen::Vector2d damping = (force(0, dv) - force(0, -dv)) / (2 * dv);
+    CHECK((state.coefficients.stiffness.col(k).head<2>() - stiffness).norm() < 1e-4 * stiffness.norm());
+    CHECK((state.coefficients.damping.col(k).head<2>() - damping).norm() < 1e-4 * damping.norm());
+  }
+}
+
 }  // namespace
 }  // namespace hersey::bearing

@@ -231,6 +231,8 @@ const std::vector<Dimension>& dimensions() {
       {"m^2/s", "a kinematic viscosity", "20 cSt", {"m^2/s", "mm^2/s", "cSt"}},
       {"1/Pa", "an inverse pressure", "1.28e-8 1/Pa", {"1/Pa", "1/MPa", "1/GPa"}},
       {"kg/m^3", "a density", "850 kg/m^3", {"kg/m^3", "g/cm^3"}},
+      {"kg/m", "a mass per length", "9.4 kg/m", {"kg/m", "g/mm"}},
+      {"kg.m", "a moment of inertia per length", "0.02 kg.m", {"kg.m", "kg.mm"}},
       {"kg.m^2", "a moment of inertia", "0.01 kg.m^2", {"kg.m^2", "g.m^2", "kg.mm^2"}},
       {"N/m", "a stiffness", "1e5 N/m", {"N/m", "N/mm", "kN/m", "N/um"}},
       {"N.s/m", "a damping", "10 N.s/m", {"N.s/m", "N.s/mm"}},

@@ -121,7 +121,8 @@ void NodeLaw::film_thickness(double g, Node& node) const {
 void NodeLaw::contact(double h, Node& node) const {
   const Asperities& a = model_.asperities;
   if (a.model == AsperityModel::none) return;
-  const double H = std::max(h, 0.0) / a.sigma;  // a film of h <= 0 is closed: what it bears is nobody's to say
+  // A film of h <= 0 is closed: what it bears is nobody's to say.
+  const double H = (std::max(h, 0.0) - a.mean_summit_height) / a.sigma;
   const ValueAndSlope F =
       a.model == AsperityModel::greenwood_tripp_fit ? greenwood_tripp_fit(H) : greenwood_tripp_exact(H);
   node.asperity = contact_scale_ * F.value;

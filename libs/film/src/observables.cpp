@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cavity.h"
 #include "film_power.h"
 #include "film_wrench.h"
 #include "flow_balance.h"
@@ -191,6 +192,8 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
   observe_forces(wrench, e, tilt, o);
   o.normal_forces = wrench.normal().value;
   observe_oil(balance, motion, u, o);
+  const Cavity cavity = widest_cavity(balance, u, motion.u_shell + motion.u_journal < 0);
+  o.rupture_angle = cavity.rupture, o.reformation_angle = cavity.reformation;
   o.sliding_speed = std::hypot(motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell);
   add_powers(balance, motion, wrench, o);
   return o;

@@ -10,7 +10,8 @@ namespace {
 
 TEST_CASE("LawSlopes_MatchFiniteDifference") {
   const std::vector<Lubricant> oils = {{.mu0 = 0.02, .viscosity_law = Barus{2e-8}},
-                                       {.mu0 = 0.02, .viscosity_law = Roelands{0.6}, .density_law = DowsonHigginson{}}};
+                                       {.mu0 = 0.02, .viscosity_law = Roelands{0.6}, .density_law = DowsonHigginson{}},
+                                       {.mu0 = 0.02, .density_law = ConstantBulkModulus{2e9}}};
   for (const Lubricant& oil : oils) {
     for (const double p : {1e5, 2e7, 5e8}) {
       CAPTURE(p);
@@ -33,6 +34,34 @@ TEST_CASE("Laws_HaveTheirPublishedValues") {
         doctest::Approx((std::log(0.04) + 9.67) * (std::pow(2, 0.68) - 1)).epsilon(1e-4));
   CHECK(log_viscosity_ratio(oil, 1e3).value == doctest::Approx(1e3 * log_viscosity_ratio(oil, 0).slope).epsilon(1e-5));
   CHECK(log_viscosity_ratio(oil, -1e3).value < 0);
+}
+
+TEST_CASE("ConstantBulkModulus_IsThatAtEveryPressure_AndWorkIsItsIntegral") {
+  const Lubricant oil{.density_law = ConstantBulkModulus{1.5e9}};
+  double work = 0;
+  constexpr int n = 1000;
+  for (const double p : {1e6, 1e8, 2e9}) {
+    const ValueAndSlope density = density_ratio(oil, p);
+    CHECK(density.value / density.slope == doctest::Approx(1.5e9).epsilon(1e-12));
+    work = 0;
+    for (int k = 0; k < n; ++k) work += p / n / density_ratio(oil, p * (k + 0.5) / n).value;
+    CHECK(oil_work(oil, p) == doctest::Approx(work).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("SummitsAboveTheMeanPlane_TouchSoMuchSooner") {
+  FilmModel plain{.c = 30e-6, .grid = {12, 3}};
+  plain.asperities = {AsperityModel::greenwood_tripp_exact, 1e-6, 3e-3, 57e9, 0.1};
+  FilmModel raised = plain;
+  raised.asperities.mean_summit_height = 1.7e-6;
+  SurfaceMotion near = surfaces(plain, {}), far = near;
+  const Eigen::VectorXd u = Eigen::VectorXd::Zero(near.g.size());
+  for (const double h : {0.2e-6, 1e-6, 2.5e-6}) {
+    near.g.setConstant(h), far.g.setConstant(h + 1.7e-6);
+    const double p = film_fields(plain, near, u).p_asperity[0];
+    CHECK(p > 0);
+    CHECK(film_fields(raised, far, u).p_asperity[0] == doctest::Approx(p).epsilon(1e-12));
+  }
 }
 
 // Barus' fluid has the closed form p = -ln(1 - alpha q)/alpha with the isoviscous pressure q (Weibull's

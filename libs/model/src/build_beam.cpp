@@ -28,9 +28,8 @@ BuiltBeam build_beam(const Body& body, mbd::MechanismBuilder& mechanism) {
   const Beam& beam = *body.beam;
   mbd::BeamSegmentData data;
   data.element.stiffness = fem::beam_stiffness(beam.section, beam.material);
-  const double density = beam.material.density;
-  data.mass_per_length = density * beam.section.area;
-  data.inertia_per_length = density * Vector3(beam.section.I_y + beam.section.I_z, beam.section.I_y, beam.section.I_z);
+  data.mass_per_length = beam.mass_per_length;
+  data.inertia_per_length = beam.inertia_per_length;
   data.damping = beam.damping;
   data.reach = length_of(beam);
 

@@ -53,6 +53,15 @@ TypePtr beam_format() {
                             defaulted("stiffness", quantity("s", "2 us", Range::not_negative()), "0 s",
                                       "Forces of strain rates over those of strains; damps fast vibrations."),
                         });
+  const TypePtr per_length = quantity("kg.m", "0.02 kg.m", Range::positive());
+  const TypePtr inertia =
+      object("mass and rotary inertia of a length",
+             {
+                 required("mass_per_length", quantity("kg/m", "9.4 kg/m", Range::positive()), "Mass over length."),
+                 required("yy", per_length, "Moment of inertia over length about the section's y-axis."),
+                 required("zz", per_length, "The same about its z-axis."),
+                 optional("xx", per_length, "The same about the beam's axis: turning and torsion.", "yy + zz"),
+             });
   return object(
       "a beam",
       {
@@ -62,6 +71,11 @@ TypePtr beam_format() {
           optional("up", axis_format(), "Direction of the section's z-axis, as far as it lies across the beam.",
                    "z; x of a beam that begins along z"),
           required("material", material, "What it is made of."),
+          optional(
+              "inertia", inertia,
+              "Mass and rotary inertia, where they are not those of section and density: of windings, discs spread "
+              "over a length, or measured beams.",
+              "those of the section"),
           defaulted("elements", integer(20, {.low = 1, .high = 2000}), "20",
                     "Into how many elements it is divided; their ends lie on all points and frames."),
           defaulted("damping", damping, "{}", "Damping of the material."),

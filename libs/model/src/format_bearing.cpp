@@ -27,16 +27,20 @@ TypePtr asperities_format() {
       optional("roughness", quantity("m", "1 um", Range::positive()),
                "sigma, rms height of the asperity summits of both surfaces together.",
                "rms height of both surfaces in the bearing's `roughness`"),
-      defaulted("elastic_factor", number("3e-3", Range::not_negative()), "3e-3", "K in p = K E F(h/sigma)."),
+      defaulted("mean_summit_height", quantity("m", "1.5 um", Range::not_negative()), "0 um",
+                "delta, of the summits' mean plane above the mean planes of both surfaces together, at most 4 sigma: "
+                "contact sees (h - delta)/sigma."),
+      defaulted("elastic_factor", number("3e-3", Range::not_negative()), "3e-3", "K in p = K E F((h - delta)/sigma)."),
       composite_modulus_key(),
       defaulted("friction", number("0.1", Range::not_negative()), "0.1", "Coefficient of boundary friction."),
   };
-  return variant("an asperity model", "model", {},
-                 {
-                     {"none", "smooth surfaces", {}},
-                     {"greenwood_tripp_fit", "Greenwood and Tripp (1971), F = 4.4086e-5 (4 - h/sigma)^6.804", keys},
-                     {"greenwood_tripp", "the same with the exact integral F_5/2", keys},
-                 });
+  return variant(
+      "an asperity model", "model", {},
+      {
+          {"none", "smooth surfaces", {}},
+          {"greenwood_tripp_fit", "Greenwood and Tripp (1971), F = 4.4086e-5 (4 - (h - delta)/sigma)^6.804", keys},
+          {"greenwood_tripp", "the same with the exact integral F_5/2", keys},
+      });
 }
 
 TypePtr roughness_format() {
@@ -125,6 +129,9 @@ TypePtr operating_point_format() {
           optional("eccentricity_ratio", or_word(number("0.6", {.low = 0, .high = 1, .high_open = true}), not_given),
                    "Position of the journal, instead of a load: its load is sought."),
           defaulted("eccentricity_angle", angle, "-90 deg", "Direction of that position, from x towards y."),
+          defaulted("radial_velocity", quantity("m/s", "20 mm/s"), "0 m/s",
+                    "Velocity of the journal's centre in that direction, outwards; with an eccentricity_ratio. Without "
+                    "rotation it is pure squeeze."),
           defaulted("journal_angle", angle, "0 deg",
                     "By which the journal, with its holes and grooves, stands turned: one moment of its turn."),
           defaulted("tilt_x", tilt, "0 deg", "Slope of the journal's axis towards x."),
@@ -154,6 +161,10 @@ TypePtr compressibility_format() {
                       "rho = rho0 (1 + rise p/(1 + saturation p))",
                       {defaulted("rise", coefficient(), "0.6e-9 1/Pa", "Compressibility at p = 0."),
                        defaulted("saturation", coefficient(), "1.7e-9 1/Pa", "How soon it wears off.")}},
+                     {"constant_bulk_modulus",
+                      "rho = rho0 exp(p/bulk_modulus)",
+                      {required("bulk_modulus", quantity("Pa", "1.5 GPa", {.low = 1e5}),
+                                "rho dp/drho, the same at every pressure; oils: about 1.5 GPa.")}},
                  });
 }
 
@@ -199,12 +210,12 @@ TypePtr bearings_format() {
   const TypePtr diameter = quantity("m", "45 mm", Range::positive());
   const TypePtr width = quantity("m", "20 mm", Range::positive());
   const TypePtr clearance = quantity("m", "34 um", Range::positive());
-  const TypePtr edges =
-      any_of("a pressure such as 2 bar, or {left, right}",
-             {pressure(), object("two pressures", {
-                                                      required("left", pressure(), "At the edge with z < 0."),
-                                                      required("right", pressure(), "At the edge with z > 0."),
-                                                  })});
+  const TypePtr edges = any_of("a pressure such as 2 bar, `closed`, or {left, right}",
+                               {or_word(pressure(), {{"closed", "no oil passes, as in a bearing of infinite width"}}),
+                                object("two pressures", {
+                                                            required("left", pressure(), "At the edge with z < 0."),
+                                                            required("right", pressure(), "At the edge with z > 0."),
+                                                        })});
   const TypePtr fill = number("0.5", {.low = 0, .high = 1});
   const TypePtr fills =
       any_of("a number from 0 to 1, or {left, right}",
@@ -238,7 +249,7 @@ TypePtr bearings_format() {
                     choice({{"gauge", "0 is the atmosphere, -1.01325 bar is a vacuum"}, {"absolute", "0 is a vacuum"}}),
                     "gauge", "The scale on which all pressures of this bearing are given and reported."),
           defaulted("cavitation", cavitation_format(), "mass_conserving", "Where the film would be under tension."),
-          defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges."),
+          defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges, or walls there."),
           optional("ambient_fill", fills,
                    "Share of oil in what surrounds an edge at the cavitation pressure and is drawn in there: 0 air, 1 "
                    "oil. An edge above that pressure is always flooded.",

@@ -46,6 +46,7 @@ class BeamReader {
     if (const Value* damping = value.find("damping")) beam.damping = number_of(*damping, "stiffness");
     if (const Value* section = value.find("section"); section != nullptr && !section->broken)
       read_section(*section, beam);
+    read_inertia(value, beam);
     const std::optional<Axis> axis = axis_of(value);
     if (!axis) return beam;
     read_places(*axis, frames);
@@ -88,6 +89,24 @@ class BeamReader {
       // The ellipse of that area's radii of gyration.
       if (s.area > 0) beam.outline = ellipse(2 * std::sqrt(s.I_z / s.area), 2 * std::sqrt(s.I_y / s.area));
     }
+  }
+
+  /// Those of section and density, unless they are given.
+  void read_inertia(const Value& value, Beam& beam) {
+    const fem::BeamSection& s = beam.section;
+    const double density = beam.material.density;
+    beam.mass_per_length = density * s.area;
+    beam.inertia_per_length = density * Vector3(s.I_y + s.I_z, s.I_y, s.I_z);
+    const Value* given = value.find("inertia");
+    if (given == nullptr || given->broken) return;
+    const double yy = number_of(*given, "yy"), zz = number_of(*given, "zz");
+    const double xx = given->find("xx") != nullptr ? number_of(*given, "xx") : yy + zz;
+    beam.mass_per_length = number_of(*given, "mass_per_length");
+    beam.inertia_per_length = {xx, yy, zz};
+    if (context_.has_fault_in(given->path) || 2 * std::max({xx, yy, zz}) <= (1 + 1e-9) * (xx + yy + zz)) return;
+    context_.fault_at_key(*given,
+                          fmt::format("moments of inertia {:g}, {:g} and {:g} kg.m about x, y and z", xx, yy, zz),
+                          "each at most the sum of the other two", "of a thin slice xx is yy + zz");
   }
 
   std::optional<Axis> axis_of(const Value& value) {

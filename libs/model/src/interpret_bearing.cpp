@@ -46,10 +46,22 @@ class FilmReader {
         text_of(value_, "cavitated_shear") == "full" ? film::CavitatedShear::full : film::CavitatedShear::film_share;
     film_.shear_force =
         text_of(value_, "shear_force") == "torque_only" ? film::ShearForce::torque_only : film::ShearForce::full;
-    if (!context_.has_fault_in(value_.path)) warn_of_starvation();
+    if (context_.has_fault_in(value_.path)) return;
+    require_a_pressure();
+    warn_of_starvation();
   }
 
  private:
+  /// Between closed edges the pressure is known up to a constant only, unless something holds it.
+  void require_a_pressure() {
+    if (film_.edges != film::EdgeKind::closed || film_.supply.kind != film::SupplyKind::none) return;
+    for (const film::SurfaceFeature& feature : film_.features) {
+      if (feature.is_fed) return;
+    }
+    context_.fault_at_key(*value_.find("edge_pressure"), "closed edges and no supply: no place has a given pressure",
+                          "a 'supply', or a hole or groove with a pressure in 'features'");
+  }
+
   /// With mass conserved, oil that nothing presses in above the cavitation pressure does not come back where the film
   /// has once ruptured: the steady film is p = p_cav everywhere and bears nothing.
   void warn_of_starvation() {
@@ -102,6 +114,12 @@ class FilmReader {
     const Value* edges = value_.find("edge_pressure");
     if (edges == nullptr || edges->broken || edges->members.empty()) return;
     const Value& content = edges->members.front().value;
+    if (content.text == "closed") {
+      // Nothing flows out there; so that the rows have a pressure to start from, it is that of cavitation.
+      film_.edges = film::EdgeKind::closed;
+      film_.p_edge_left = film_.p_edge_right = film_.p_cav;
+      return;
+    }
     const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
     const Value& left = is_pair ? *content.find("left") : content;
     const Value& right = is_pair ? *content.find("right") : content;
@@ -121,6 +139,11 @@ class FilmReader {
     const Value& right = is_pair ? *content.find("right") : content;
     film_.ambient_fill_left = left.number;
     film_.ambient_fill_right = right.number;
+    if (film_.edges == film::EdgeKind::closed) {
+      context_.fault_at_key(*fill, "oil outside edges that are closed",
+                            "edge_pressure: a pressure, or no ambient_fill");
+      return;
+    }
     if (film_.cavitation != film::Cavitation::mass_conserving) {
       context_.fault_at_key(*fill, "a fill fraction outside a film that has none inside",
                             "cavitation: mass_conserving, or no ambient_fill");
@@ -204,9 +227,20 @@ class FilmReader {
       context_.fault_at_key(*asperities, "missing key 'roughness'", "a length > 0, such as 1 um",
                             "or give the bearing's roughness, surface by surface");
     }
+    read_summits(*asperities);
     film_.asperities.elastic_factor = number_of(*asperities, "elastic_factor");
     film_.asperities.mu_friction = number_of(*asperities, "friction");
     film_.asperities.composite_modulus = composite_modulus_of(*asperities).value_or(0);
+  }
+
+  void read_summits(const Value& asperities) {
+    film::Asperities& rough = film_.asperities;
+    rough.mean_summit_height = number_of(asperities, "mean_summit_height");
+    if (context_.has_fault_in(asperities.path) || rough.mean_summit_height <= 4 * rough.sigma) return;
+    context_.fault(*asperities.find("mean_summit_height"),
+                   fmt::format("{:.4g} um, {:.3g} times the summits' roughness", 1e6 * rough.mean_summit_height,
+                               rough.mean_summit_height / rough.sigma),
+                   "at most 4 times: higher ones would press on each other far apart");
   }
 
   void read_compliance() {
@@ -311,6 +345,7 @@ std::optional<OperatingPoint> operating_point_of(Context& context, const Value& 
   if (ratio != nullptr) point.eccentricity_ratio = ratio->number;
   point.load_angle = number_of(*value, "load_angle");
   point.eccentricity_angle = number_of(*value, "eccentricity_angle");
+  point.radial_velocity = number_of(*value, "radial_velocity");
   point.journal_angle = number_of(*value, "journal_angle");
   point.tilt_x = number_of(*value, "tilt_x");
   point.tilt_y = number_of(*value, "tilt_y");
@@ -320,10 +355,15 @@ std::optional<OperatingPoint> operating_point_of(Context& context, const Value& 
     context.fault_at_key(*ratio, "keys 'load' and 'eccentricity_ratio' together", "exactly one of them",
                          "with --set, give the other one as 'none'");
   }
+  if (!context.has_fault_in(value->path) && load != nullptr && point.radial_velocity != 0) {
+    context.fault(*value->find("radial_velocity"), "a velocity along a position that is sought",
+                  "a radial_velocity with an eccentricity_ratio", "its load is found");
+  }
   const bool is_smooth = film.asperities.model == film::AsperityModel::none;
-  if (!context.has_fault_in(value->path) && is_smooth && point.journal_speed + point.shell_speed == 0) {
+  const bool rests = point.journal_speed + point.shell_speed == 0 && point.radial_velocity == 0;
+  if (!context.has_fault_in(value->path) && is_smooth && rests) {
     context.fault(*value->find("journal_speed"), "speeds that drag no oil into the gap (their sum is 0)",
-                  "surfaces that carry oil: half the sum of both speeds does",
+                  "surfaces that carry oil: half the sum of both speeds does, a radial_velocity presses it out",
                   "rough surfaces bear loads at rest: asperities");
   }
   if (!context.has_fault_in(value->path)) check_room(context, bearing.path, *value, film, point);
@@ -376,8 +416,12 @@ void warn_of_unphysical(Context& context, const Value& lubricant) {
 
 film::DensityLaw density_law_of(const Value& lubricant) {
   const Value* law = lubricant.find("compressibility");
-  if (law == nullptr || law->broken || law->text != "dowson_higginson") return {};
-  return film::DowsonHigginson{number_of(*law, "rise"), number_of(*law, "saturation")};
+  if (law == nullptr || law->broken) return {};
+  if (law->text == "dowson_higginson")
+    return film::DowsonHigginson{number_of(*law, "rise"), number_of(*law, "saturation")};
+  const double modulus = law->text == "constant_bulk_modulus" ? number_of(*law, "bulk_modulus") : 0;
+  if (modulus > 0) return film::ConstantBulkModulus{modulus};
+  return {};
 }
 
 }  // namespace

@@ -67,6 +67,22 @@ TEST_CASE("Beam_IsBuiltFromSegmentsBetweenNodes") {
   CHECK(spec.bodies[static_cast<std::size_t>(beam.ids.bodies[4].index)].name == "shaft.node 5");
 }
 
+TEST_CASE("BeamInertia_MayBeGivenApartFromItsStiffness") {
+  const std::string given =
+      "damping: {stiffness: 2 us}\n      inertia: {mass_per_length: 3 kg/m, yy: 2e-3 kg.m, zz: 1e-3 kg.m}";
+  const std::string text = edited(kMachine, "damping: {stiffness: 2 us}", given);
+  const Beam& beam = *read_text(text, "m.yaml").bodies[0].beam;
+  CHECK(beam.mass_per_length == 3);
+  CHECK((beam.inertia_per_length - Vector3(3e-3, 2e-3, 1e-3)).norm() < 1e-15);
+  CHECK(beam.section.area == doctest::Approx(235.6194e-6).epsilon(1e-6));
+  double mass = 0;
+  const Machine machine = build(read_text(text, "m.yaml"));
+  for (const auto& segment : machine.beams[0].segments) mass += segment->mass();
+  CHECK(mass == doctest::Approx(3 * 0.3));
+  CHECK(contains(faults_of(edited(text, "zz: 1e-3 kg.m", "zz: 1e-3 kg.m, xx: 0.9e-3 kg.m")),
+                 "moments of inertia 0.0009, 0.002 and 0.001 kg.m about x, y and z; expected each at most the sum"));
+}
+
 TEST_CASE("BeamAlongZ_NeedsNoUp") {
   const Model model = read_text(
       edited(edited(kMachine, "10 0 0 mm, 110 0 0 mm, 110 0 200 mm", "0 0 0 mm, 0 0 200 mm"), "      up: y\n", ""),

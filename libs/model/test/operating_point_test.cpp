@@ -165,5 +165,49 @@ TEST_CASE("ImpossibleOperatingPoints_AreFaults") {
         std::string::npos);
 }
 
+TEST_CASE("RadialVelocity_NeedsAPosition") {
+  const std::string squeeze = edited(edited(bearing_alone, "journal_speed: 3000 rpm", "journal_speed: 0 rpm"),
+                                     "load: 500 N", "eccentricity_ratio: 0.5\n      radial_velocity: 20 mm/s");
+  CHECK(read_text(squeeze, "m.yaml").bearings[0].operating_point->radial_velocity == doctest::Approx(0.02));
+  CHECK(
+      faults_of(edited(bearing_alone, "load: 500 N", "load: 500 N\n      radial_velocity: 20 mm/s"))
+          .find("a velocity along a position that is sought; expected a radial_velocity with an eccentricity_ratio") !=
+      std::string::npos);
+  CHECK(faults_of(edited(squeeze, "20 mm/s", "0 mm/s")).find("speeds that drag no oil") != std::string::npos);
+}
+
+TEST_CASE("ClosedEdges_NeedAPressureSomewhere") {
+  const auto with = [](const std::string& keys) {
+    return edited(bearing_alone, "lubricant: oil", "lubricant: oil\n    " + keys);
+  };
+  const Model model = read_text(with("edge_pressure: closed\n    supply: {line: widest_gap}"), "m.yaml");
+  CHECK(model.bearings[0].film.edges == film::EdgeKind::closed);
+  CHECK(model.warnings.empty());
+  CHECK(faults_of(with("edge_pressure: closed")).find("closed edges and no supply: no place has a given pressure") !=
+        std::string::npos);
+  CHECK(faults_of(with("edge_pressure: closed\n    supply: {line: 0 deg}\n    ambient_fill: 0.5"))
+            .find("oil outside edges that are closed") != std::string::npos);
+  CHECK(faults_of(with("edge_pressure: shut")).find("expected closed or a pressure") != std::string::npos);
+}
+
+TEST_CASE("Summits_AreNoHigherThanFourTimesTheirRoughness") {
+  const auto with = [](const std::string& height) {
+    return edited(bearing_alone, "lubricant: oil",
+                  "lubricant: oil\n    asperities: {model: greenwood_tripp, roughness: 0.5 um, mean_summit_height: " +
+                      height + ", composite_modulus: 57 GPa}");
+  };
+  CHECK(read_text(with("1.5 um"), "m.yaml").bearings[0].film.asperities.mean_summit_height == doctest::Approx(1.5e-6));
+  CHECK(faults_of(with("3 um")).find("3 um, 6 times the summits' roughness; expected at most 4 times") !=
+        std::string::npos);
+}
+
+TEST_CASE("ConstantBulkModulus_IsRead") {
+  const Model model = read_text(edited(bearing_alone, "{viscosity: 15 mPa.s}",
+                                       "{viscosity: 15 mPa.s, compressibility: {law: constant_bulk_modulus, "
+                                       "bulk_modulus: 1.7 GPa}}"),
+                                "m.yaml");
+  CHECK(std::get<film::ConstantBulkModulus>(model.bearings[0].film.lubricant.density_law).bulk_modulus == 1.7e9);
+}
+
 }  // namespace
 }  // namespace hersey::model

@@ -84,14 +84,18 @@ std::string viscosity(const film::Lubricant& oil) {
     return text + fmt::format(", density rises by {:.4g}/Pa p/(1 + {:.4g}/Pa p) (Dowson-Higginson), isothermal",
                               law->rise, law->saturation);
   }
+  if (const auto* law = std::get_if<film::ConstantBulkModulus>(&oil.density_law))
+    return text + fmt::format(", bulk modulus {:.4g} GPa, isothermal", 1e-9 * law->bulk_modulus);
   return text + ", incompressible, isothermal";
 }
 
 std::string asperities(const film::Asperities& contact) {
   if (contact.model == film::AsperityModel::none) return "none";
   const bool fit = contact.model == film::AsperityModel::greenwood_tripp_fit;
-  return fmt::format("Greenwood-Tripp ({}), roughness {:.4g} um, K E = {:.4g} MPa, boundary friction {:.3g}",
+  const double delta = contact.mean_summit_height;
+  return fmt::format("Greenwood-Tripp ({}), roughness {:.4g} um{}, K E = {:.4g} MPa, boundary friction {:.3g}",
                      fit ? "fit of F_5/2 to h/sigma = 4" : "exact F_5/2", 1e6 * contact.sigma,
+                     delta > 0 ? fmt::format(", summits {:.4g} um above the mean plane", 1e6 * delta) : "",
                      1e-6 * contact.elastic_factor * contact.composite_modulus, contact.mu_friction);
 }
 

@@ -78,6 +78,8 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   s.oil_unexplained =
       series("oil_unexplained", "m^3", "growth of the oil volume since the start less what has come in");
   s.cavitated_share = series("cavitated_share", "1", "share of the area that is cavitated");
+  s.rupture_angle = series("rupture_angle", "rad", "where the film at mid-width ruptures; NaN where it is whole");
+  s.reformation_angle = series("reformation_angle", "rad", "where it re-forms; NaN where it is whole");
   s.film_iterations = series("film_iterations", "1", "film linearisations in the step");
   if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
     s.exchanges = series("exchanges", "1", "wrenches that film and bodies exchanged in the step");
@@ -150,6 +152,8 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
   s.oil_through_flow.append(seen.oil.through_flow);
   s.oil_unexplained.append(seen.oil.unexplained);
   s.cavitated_share.append(film.cavitated_share);
+  s.rupture_angle.append(film.rupture_angle);
+  s.reformation_angle.append(film.reformation_angle);
   s.film_iterations.append(seen.film_iterations);
   if (s.exchanges) s.exchanges->append(seen.exchanges);
 }

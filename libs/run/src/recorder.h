@@ -101,7 +101,7 @@ class Recorder {
         p_max_z, p_max_node, force, force_pressure, force_shear, force_asperity, moment, speed, torque_journal,
         torque_shell, power_film, power_asperity, power_stored, power_oil, power_into_bodies, power_error, flow_left,
         flow_right, flow_supply, storage_rate, oil_volume, mass_balance_error, oil_through_flow, oil_unexplained,
-        cavitated_share, film_iterations;
+        cavitated_share, rupture_angle, reformation_angle, film_iterations;
     std::optional<results::Series> h_min_features;  // where features have depth
     std::vector<results::Series> flow_features;
     std::optional<results::Series> exchanges;  // of a partitioned coupling

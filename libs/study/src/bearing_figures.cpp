@@ -49,6 +49,9 @@ void add_state(const BearingSolution& s, Figures& figures) {
   figures.add_with_error("eccentricity_ratio", "eccentricity ratio", "", n.eccentricity_ratio,
                          is_load_given ? error.eccentricity_ratio : -1);
   figures.add("eccentricity_angle", "direction of the eccentricity", "deg", n.eccentricity_angle, kDegree);
+  const bool squeezes = s.state.point.e_rate.norm() > 0;
+  if (squeezes)
+    figures.add("radial_velocity", "velocity along the eccentricity", "mm/s", s.numbers.radial_velocity, 1e-3);
   figures.add_with_error("attitude", "attitude angle", "deg", n.attitude, error.attitude, kDegree);
   figures.group("film");
   figures.add_with_error("h_min", "minimum film thickness", "um", film.h_min, error.h_min, kMicro);
@@ -71,6 +74,9 @@ void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
   figures.group("numbers");
   figures.add("sommerfeld_S", "Sommerfeld number S = mu N (R/c)^2 L D/W", "", n.sommerfeld_S);
   figures.add("sommerfeld_So", "Sommerfeld number So = W (c/R)^2/(L D mu omega)", "", n.sommerfeld_So);
+  if (n.radial_velocity != 0)
+    figures.add("sommerfeld_squeeze", "Sommerfeld number of squeeze W (c/R)^2/(L D mu d(eps)/dt)", "",
+                n.sommerfeld_squeeze);
   figures.add("hersey", "Hersey number mu N L D/W", "", n.hersey);
   figures.group("friction");
   figures.add_with_error("friction_journal", "friction coefficient, journal", "", n.friction_journal,
@@ -80,10 +86,10 @@ void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
   figures.add("torque_shell", "friction torque on the shell", "N.m", film.torque_shell);
   figures.add("power_film", "friction power, film", "W", film.power_film);
   figures.add("power_asperity", "friction power, asperities", "W", film.power_asperity);
-  // The bearing's axes rest: all power comes through the torques.
-  const double put_in =
-      -film.torque_journal * s.state.point.journal_speed - film.torque_shell * s.state.point.shell_speed;
-  figures.add("power_put_in", "power put in by the torques", "W", put_in);
+  // The bearing's axes rest: power comes through the torques, and through the load where the journal gives way to it.
+  const double put_in = -film.torque_journal * s.state.point.journal_speed -
+                        film.torque_shell * s.state.point.shell_speed + s.state.load.dot(s.state.point.e_rate);
+  figures.add("power_put_in", "power put in by torques and load", "W", put_in);
   if (film.power_taken() > 0)
     figures.add("power_error", "  of it not explained by the film's integrals", "", put_in / film.power_taken() - 1);
   figures.add("asperity_share", "share of the load on asperities", "", n.asperity_share);
@@ -102,6 +108,10 @@ void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
   figures.add("oil_volume", "oil in the bearing", "mm^3", film.oil_volume, 1e-9);
   figures.add("mass_balance_error", "mass balance error", "", film.mass_balance_error);
   figures.add("cavitated_share", "cavitated share of the area", "", film.cavitated_share);
+  if (std::isfinite(film.rupture_angle)) {
+    figures.add("rupture_angle", "the film ruptures at mid-width at", "deg", film.rupture_angle, kDegree);
+    figures.add("reformation_angle", "  and re-forms at", "deg", film.reformation_angle, kDegree);
+  }
 }
 
 void add_matrix(const std::string& key, const std::string& name, const std::string& unit, const Eigen::Matrix2d& M,

@@ -177,6 +177,7 @@ bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
     point.load = polar(*given.load, given.load_angle);
   } else {
     point.e = polar(*given.eccentricity_ratio * bearing.film.c, given.eccentricity_angle);
+    point.e_rate = polar(given.radial_velocity, given.eccentricity_angle);
   }
   return point;
 }

@@ -15,6 +15,8 @@ struct BearingNumbers {
   double attitude = 0;            ///< from the load to the position, in the sense of rotation, in (-pi, pi] [rad]
   double sommerfeld_S = 0;        ///< mu0 N (R/c)^2 L D/W, N = |omega_J + omega_S|/(2 pi)
   double sommerfeld_So = 0;       ///< W/(L D) (c/R)^2/(mu0 |omega_J + omega_S|)
+  double radial_velocity = 0;     ///< of the journal's centre along its eccentricity [m/s]
+  double sommerfeld_squeeze = 0;  ///< W/(L D) (c/R)^2/(mu0 |radial velocity|/c); 0 without one
   double hersey = 0;              ///< mu0 N L D/W
   double friction_journal = 0;    ///< |torque on the journal|/(R W)
   double friction_shell = 0;      ///< |torque on the shell|/(R W)

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -12,15 +14,21 @@ namespace hersey::bearing {
 
 /// What acts on a bearing by itself. Bearing axes rest; angles count from x towards y.
 struct OperatingPoint {
-  double journal_speed = 0;                        ///< angular velocity of the journal about z [rad/s]
-  double shell_speed = 0;                          ///< angular velocity of the shell about z [rad/s]
-  std::optional<Eigen::Vector2d> load;             ///< on the journal [N], not zero; without it the position is given
-  Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal, where no load is given [m]
-  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis [-]
-  double journal_angle = 0;                        ///< by which the journal, with its holes, stands turned [rad]
+  double journal_speed = 0;                          ///< angular velocity of the journal about z [rad/s]
+  double shell_speed = 0;                            ///< angular velocity of the shell about z [rad/s]
+  std::optional<Eigen::Vector2d> load;               ///< on the journal [N], not zero; without it the position is given
+  Eigen::Vector2d e = Eigen::Vector2d::Zero();       ///< position of the journal, where no load is given [m]
+  Eigen::Vector2d e_rate = Eigen::Vector2d::Zero();  ///< velocity of the journal's centre [m/s]
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();    ///< slope of the journal's axis [-]
+  double journal_angle = 0;                          ///< by which the journal, with its holes, stands turned [rad]
 
   /// Sum of both speeds, which drags the oil [rad/s].
   [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed; }
+  /// What the film's fill scales with: the entraining speed, or where the journal is pressed outwards twice the speed
+  /// of the eccentricity ratio, if that is more (in Reynolds' equation it counts so) [rad/s].
+  [[nodiscard]] double film_speed(double c) const {
+    return std::max(std::abs(entraining_speed()), 2 * e_rate.norm() / c);
+  }
 };
 
 struct SteadyOptions {

@@ -32,6 +32,16 @@ struct DowsonHigginson {
   }
 };
 
-using DensityLaw = std::variant<Incompressible, DowsonHigginson>;
+/// rho = rho0 exp(p/B): a bulk modulus rho dp/drho that does not depend on pressure.
+struct ConstantBulkModulus {
+  double bulk_modulus = 1.5e9;  ///< B [Pa], > 0
+  [[nodiscard]] ValueAndSlope ratio(double p) const {
+    const double ratio = std::exp(p / bulk_modulus);
+    return {ratio, ratio / bulk_modulus};
+  }
+  [[nodiscard]] double work(double p) const { return -bulk_modulus * std::expm1(-p / bulk_modulus); }
+};
+
+using DensityLaw = std::variant<Incompressible, DowsonHigginson, ConstantBulkModulus>;
 
 }  // namespace hersey::film

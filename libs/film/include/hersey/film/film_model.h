@@ -54,13 +54,14 @@ struct SupplyLine {
 
 enum class AsperityModel { none, greenwood_tripp_fit, greenwood_tripp_exact };
 
-/// p_a = K E F_{5/2}(h/sigma).
+/// p_a = K E F_{5/2}((h - delta)/sigma).
 struct Asperities {
   AsperityModel model = AsperityModel::none;
-  double sigma = 1e-6;           ///< composite rms summit roughness [m], > 0
-  double elastic_factor = 3e-3;  ///< K [-], >= 0
-  double composite_modulus = 0;  ///< E [Pa], >= 0
-  double mu_friction = 0;        ///< boundary friction coefficient [-], >= 0
+  double sigma = 1e-6;            ///< composite rms summit roughness [m], > 0
+  double elastic_factor = 3e-3;   ///< K [-], >= 0
+  double composite_modulus = 0;   ///< E [Pa], >= 0
+  double mu_friction = 0;         ///< boundary friction coefficient [-], >= 0
+  double mean_summit_height = 0;  ///< delta, of the summits' mean plane above the surfaces' [m], in [0, 4 sigma]
 };
 
 enum class CavitatedShear { full, film_share };

@@ -51,6 +51,8 @@ struct FilmObservables {
   double storage_rate = 0;               ///< rate of change of the oil volume in the film [m^3/s]
   double oil_volume = 0;                 ///< integral of theta h [m^3]
   double mass_balance_error = 0;  ///< |supply - left - right - storage| over the largest of the flows and U c L [-]
+  /// Where the film at mid-width ruptures and re-forms, with the flow, of its widest cavity [rad]; NaN without one.
+  double rupture_angle = 0, reformation_angle = 0;
   double cavitated_share =
       0;  ///< share of the area with theta < 1 or (other models) p <= p_cav without film action [-]
 };

@@ -87,7 +87,9 @@ struct Beam {
   fem::BeamSection section;
   std::vector<Eigen::Vector2d> outline;  ///< of the section (y, z), around; for pictures [m]
   fem::ElasticMaterial material;
-  double damping = 0;  ///< forces of strain rates over those of strains [s]
+  double mass_per_length = 0;                    ///< [kg/m]
+  Vector3 inertia_per_length = Vector3::Zero();  ///< of the section about its own x, y and z [kg m]
+  double damping = 0;                            ///< forces of strain rates over those of strains [s]
   SourcePosition position;
 };
 
@@ -270,13 +272,14 @@ struct Coupling {
 /// What acts on a bearing that is looked at by itself. Either the load or the position is given.
 struct OperatingPoint {
   double journal_speed = 0,
-         shell_speed = 0;      ///< about the bearing's axis [rad/s]; their sum is not 0 of smooth surfaces
+         shell_speed = 0;      ///< about the bearing's axis [rad/s]; of smooth surfaces at rest their sum is not 0
   std::optional<double> load;  ///< on the journal [N], > 0
   double load_angle = 0;       ///< its direction, from x towards y [rad]
   std::optional<double> eccentricity_ratio;  ///< [0, 1)
   double eccentricity_angle = 0;             ///< direction of the journal's position, from x towards y [rad]
-  double tilt_x = 0, tilt_y = 0;             ///< slope of the journal's axis towards x and y
-  double journal_angle = 0;                  ///< by which the journal stands turned [rad]
+  double radial_velocity = 0;     ///< of the journal's centre in that direction [m/s]; 0 where a load is given
+  double tilt_x = 0, tilt_y = 0;  ///< slope of the journal's axis towards x and y
+  double journal_angle = 0;       ///< by which the journal stands turned [rad]
   SourcePosition position;
 };
 
