@@ -233,5 +233,55 @@ class Defects(unittest.TestCase):
                 self.assertAlmostEqual(figures["load"], 1137.74, delta=0.01)
 
 
+    # -- cases that ended without an answer
+
+    def test_load_far_out_is_found(self):
+        figures, _ = self.bearing("load_not_found")
+        self.assertAlmostEqual(figures["load"] / 204.634, 1, delta=1e-6)
+        self.assertAlmostEqual(figures["load_angle"], -95.72, delta=1e-4)
+        self.assertTrue(0.9 < figures["eccentricity_ratio"] < 1)
+
+    def test_reynolds_has_one_side_flow_for_all_solvers(self):
+        flows = [self.bearing("newton_and_multigrid_differ", "--set", "bearings.main.solver=" + solver)[0]["side_flow"]
+                 for solver in ("newton", "multigrid", "sor")]
+        self.assertLess(max(flows) - min(flows), 1e-6 * max(flows))
+
+    def test_coarse_step_at_a_dead_centre_goes_on(self):
+        results, _ = self.run_model("coarse_step_ends_run.yaml")
+        self.assertEqual(results.attrs["status"], "completed")
+        self.assertGreaterEqual(results["time"][-1], 4.99)
+        self.assertGreater(results["solver/rejected_steps"][:].sum(), 0)
+        # What the steps cost in energy is told, not hidden.
+        self.assertGreater(abs(results["energy/since_start/unexplained"][-1]), 0.01)
+
+    def test_stiff_bar_that_turns_starts_and_keeps_turning(self):
+        results, _ = self.run_model("finite_strain_start.yaml")
+        self.assertEqual(results.attrs["status"], "completed")
+        turned = results["joints/j/coordinates"][-1] - results["joints/j/coordinates"][0]
+        self.assertAlmostEqual(turned / (40 * 2e-3), 1, delta=1e-3)
+
+    def test_limp_blade_keeps_its_modes(self):
+        results, _ = self.run_model("blade.yaml")
+        frequencies = results["modes/fields/frequency"][:6]
+        # Bending in the plane of rotation lags what bends out of it by the turning alone, mode by mode.
+        for lag, flap in zip(frequencies[::2], frequencies[1::2]):
+            self.assertAlmostEqual(flap ** 2 - lag ** 2, (12 / (2 * math.pi)) ** 2, delta=1e-4)
+        # A string on a hub of five times its length flaps faster than it turns, by sqrt(1 + 1.5 * 5) or a little less.
+        self.assertTrue(2.7 < frequencies[1] / (12 / (2 * math.pi)) < math.sqrt(1 + 1.5 * 5) * 1.02)
+
+    def test_bodies_without_freedom_hang_on_their_clamp(self):
+        for name, mass in (("clamped_mesh", None), ("clamped_body", 1.0)):
+            with self.subTest(name=name):
+                results, _ = self.run_model(name + ".yaml")
+                force = results["joints/j/reaction_force"][-1]
+                mass = mass or results["bodies/bar"].attrs["mass"]
+                self.assertAlmostEqual(abs(force[2]) / (9.81 * mass), 1, delta=1e-9)
+
+    def test_table_of_a_tiny_period_is_refused(self):
+        done = hersey("run", os.path.join(HERE, "table_of_tiny_period.yaml"), "--output", os.path.join(self.folder, "out"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("a table that bends 1e+10 times during the run", done.stderr)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)
