@@ -263,7 +263,7 @@ def check_cavity(case, a, found):
         if case.journal_speed + case.shell_speed < 0:
             low, high = high, low
         inside = (a.phi - low) % (2 * PI) < (high - low) % (2 * PI)
-        at_an_end = np.minimum(np.abs(np.sin((a.phi - low) / 2)), np.abs(np.sin((a.phi - high) / 2))) < 1e-9
+        at_an_end = np.minimum(np.abs(np.sin((a.phi - low) / 2)), np.abs(np.sin((a.phi - high) / 2))) < DIGITS
         found.require("cavity", broken[inside & ~at_an_end].all(), f"film between rupture {low:.4f} and re-formation {high:.4f}")
 
 
