@@ -107,7 +107,9 @@ class Search {
   [[nodiscard]] double in_the_middle() const {
     int low = 0;
     while (low + 2 < grid_.n_z && at_.z[low + 1] <= 0) ++low;
-    const double t = -at_.z[low] / at_.dz[low];
+    // A row in the middle is that, also where round-off has moved it: the one beside it may lie in a groove.
+    const double place = -at_.z[low] / at_.dz[low],
+                 t = std::abs(place - std::round(place)) < 1e-9 ? std::round(place) : place;
     const auto middle = [&](int i) { return (1 - t) * value(i, low) + t * value(i, low + 1); };
     const auto counts = [&](int i) { return (t == 1 || outside(i, low)) && (t == 0 || outside(i, low + 1)); };
     int lowest_node = -1;

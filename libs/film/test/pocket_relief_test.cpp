@@ -158,6 +158,19 @@ TEST_CASE("SmallestFilm_IsThatOfTheLand") {
   }
 }
 
+TEST_CASE("SmallestFilmInTheMiddle_IsThatOfItsOwnRow") {
+  // A groove all around ends just before the middle, whose row round-off puts on either side of z = 0.
+  for (const double off : {-1e-17, 0.0, 1e-17}) {
+    CAPTURE(off);
+    FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}};
+    m.grid.heights = {-0.5, -0.25, off, 0.25, 0.5};
+    m.p_edge_left = m.p_edge_right = 1e6;
+    m.features = {
+        {.name = "groove", .phi = 0, .z = -4e-3, .arc = 2 * pi, .length = 6e-3, .pressure = 1e6, .depth = 1e-4}};
+    CHECK(solve_cold(m, turning(m, 0.5, 100)).observed.h_min_centre == doctest::Approx(15e-6).epsilon(1e-4));
+  }
+}
+
 // Rate and wedge of a gap that travels around the bearing are the same oil: exactly, on any grid.
 TEST_CASE("GapThatTravels_TakesInWhatItGivesAway") {
   for (const Grid& grid : {Grid{12, 5}, Grid{60, 5}, graded().grid}) {
