@@ -378,9 +378,19 @@ def random_bearing(rng, grids, is_plain=False):
         b.is_compressible = rng.random() < 0.2
     if rng.random() < 0.9:
         share_one_pressure(b)
+    feed_from_line(b)
     if is_starved(b):
         b.supply = ("widest_gap", max(b.p_cav, 0) + 1e5)
     return b
+
+
+def feed_from_line(b):
+    """A feature of the shell on a fixed line has the line's pressure: the program refuses another one."""
+    if not b.supply or b.supply[0] == "widest_gap":
+        return
+    for f in b.features:
+        if f.pressure is not None and f.on == "shell" and abs(math.remainder(f.phi - b.supply[0], 2 * PI)) <= f.arc / 2:
+            f.pressure = b.supply[1]
 
 
 def share_one_pressure(b):
@@ -397,10 +407,12 @@ def share_one_pressure(b):
 
 def reservoirs_touch(b):
     """Whether places held at different pressures meet, where the flow from one to the other has no limit on finer grids."""
+    # Land of less than half a cell is none to the grid: the program warns of it.
+    least = b.L / (b.n_z - 1)
     for edge, side in zip(b.p_edge, (-1, 1)):
         if b.supply and b.supply[1] != edge:
             return True
-        if any(f.pressure not in (None, edge) and 2 * side * f.z + f.length > b.L * (1 - 1e-9) for f in b.features):
+        if any(f.pressure not in (None, edge) and 2 * side * f.z + f.length > b.L - least for f in b.features):
             return True
     fed = [f for f in b.features if f.pressure is not None]
     if any(f.on != g.on for f in fed for g in fed):

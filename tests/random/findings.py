@@ -4,7 +4,7 @@ import math
 
 
 # Compared with integrals over the nodes of the fields, whose error is an estimate from every second node.
-ESTIMATED = ("power: film by own integral", "power: bodies + pump = dissipated + stored")
+ESTIMATED = ("load", "power: film by own integral", "power: bodies + pump = dissipated + stored")
 
 FALLS_TO = 0.65
 

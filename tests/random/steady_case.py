@@ -79,7 +79,8 @@ def variants(case, answer, rng):
     """
     for solver in ("multigrid", "sor"):
         there = (answer["eccentricity_ratio"], answer["eccentricity_angle"])
-        yield solver, "one answer of all solvers", case.with_solver(solver).at(there), {}
+        if there[0] < 1:  # surfaces that give way may overlap; such a position cannot be given
+            yield solver, "one answer of all solvers", case.with_solver(solver).at(there), {}
     yield "mirrored_z", "mirror z", case.mirrored_z(), {"is_mirrored_z": True}
     # refined grids begin at phi = 0 and are no mirror images of themselves
     if not any(place["towards"] != "edges" for place in case.bearing.refine):
@@ -105,7 +106,8 @@ def refine(case, coarse, runs, found):
     b, bad = case.bearing, []
     # a bearing's own flow and load, where those at hand are nothing
     flow = 0.02 * abs(case.journal_speed) * b.R * b.c * b.L
-    load = 1e-3 * max(abs(finest.p).max(), 1e3) * b.R * b.L
+    capacity = b.mu * abs(case.journal_speed + case.shell_speed) * (b.R / b.c) ** 2  # near the middle forces cancel
+    load = 1e-3 * max(abs(finest.p).max(), capacity, 1e3) * b.R * b.L
     figures = [("load", load)]
     if reservoirs_touch(b):
         # Where a line meets an edge of another pressure, the flow grows with the logarithm of the grid, and what it feeds,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "hersey/film/gap_shape.h"
@@ -132,6 +133,7 @@ class SurfaceReader {
       const auto feature = std::find_if(film_.features.begin(), film_.features.end(),
                                         [&, &wanted = name](const auto& f) { return f.name == wanted; });
       if (feature == film_.features.end() || context_.has_fault_in(value.path) || film_.L <= 0) continue;
+      warn_of_narrow_land(value, feature - film_.features.begin());
       const Cells cells = cells_across(film_, *feature);
       if (cells.around >= 2 - 1e-6 && cells.along >= 2 - 1e-6) continue;
       const auto enough = [](int n, double has) { return has >= 2 ? n : std::ceil(2 * n / has - 1e-6); };
@@ -207,6 +209,31 @@ class SurfaceReader {
              "a `length` that ends before the edge, below {:.4g} mm, or the feature's pressure as edge_pressure",
              1e3 * film_.L),
          "the flow from it over that edge depends on the grid and grows as that is refined"});
+  }
+
+  /// The grid sees the land between a feature and an edge of another pressure as no less than about half a cell.
+  void warn_of_narrow_land(const Value& value, std::ptrdiff_t index) {
+    const film::SurfaceFeature& feature = film_.features[static_cast<std::size_t>(index)];
+    const film::Grid& grid = film_.grid;
+    if (!feature.is_fed || film_.edges != film::EdgeKind::pressure) return;
+    double narrowest = std::numeric_limits<double>::infinity();
+    const auto look = [&](double side, double p_edge, double cell) {
+      const double land = 0.5 * film_.L - side * feature.z - 0.5 * feature.length;
+      if (land <= 1e-9 * film_.L || land >= 0.5 * cell || has_pressure(static_cast<std::size_t>(index), p_edge)) return;
+      narrowest = std::min(narrowest, land);
+    };
+    const int last = grid.n_z - 1;
+    look(-1, film_.p_edge_left, film_.L * (grid.z_over_L(1) - grid.z_over_L(0)));
+    look(1, film_.p_edge_right, film_.L * (grid.z_over_L(last) - grid.z_over_L(last - 1)));
+    if (!std::isfinite(narrowest)) return;
+    const double enough = std::ceil(0.5 * film_.L / narrowest - 1e-6) + 1;
+    context_.model.warnings.push_back(
+        {value.key_position, value.path,
+         fmt::format("it ends {:.3g} mm from an edge that has another pressure, less than half a cell of the grid",
+                     1e3 * narrowest),
+         enough > 2000 ? "land that the grid resolves, or a feature that ends at the edge"
+                       : fmt::format("grid.axial of at least {:.0f}, or cells refined towards edges", enough),
+         "the flow over that land depends on the grid"});
   }
 
   [[nodiscard]] const Value* section_value(const std::string& name, const std::string& member) const {

@@ -120,10 +120,15 @@ TEST_CASE("GrooveOpenToAnEdgeOfAnotherPressure_IsWarnedOf") {
         "over that edge depends on the grid and grows as that is refined\n");
   CHECK(warnings("    edge_pressure: {left: 1 bar, right: 0 bar}\n", "z: -2.5 mm, length: 10 mm, pressure: 1 bar")
             .empty());
+  // 15 mm wide with cells of 1.25 mm.
+  CHECK(warnings("", "length: 14 mm, pressure: 1 bar")
+            .starts_with(
+                "m.yaml:11:7: bearings.main.features.feed: it ends 0.5 mm from an edge that has another pressure, "
+                "less than half a cell of the grid; expected grid.axial of at least 16, or cells"));
+  CHECK(warnings("", "length: 13.5 mm, pressure: 1 bar").empty());
   CHECK_FALSE(warnings("    edge_pressure: {left: 1 bar, right: 0 bar}\n", "z: 2.5 mm, length: 10 mm, pressure: 1 bar")
                   .empty());
   CHECK(warnings("    edge_pressure: 1 bar\n", "pressure: 1 bar").empty());
-  CHECK(warnings("", "length: 14 mm, pressure: 1 bar").empty());
 }
 
 TEST_CASE("UnphysicalOil_IsWarnedOf") {
