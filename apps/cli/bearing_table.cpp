@@ -88,10 +88,12 @@ std::string whirl_remark(const BearingSolution& solution) {
 std::string bearing_text(const BearingSolution& solution) {
   std::vector<std::vector<std::string>> lines;
   for (const BearingFigure& f : study::figures_of(solution)) {
-    lines.push_back({f.name, value_text(f), f.unit, error_text(f)});
+    if (f.words.empty())
+      lines.push_back({f.name, value_text(f), f.unit, error_text(f)});
+    else
+      lines.push_back({f.name, "-", "", f.words});
   }
-  const std::string remark = whirl_remark(solution);
-  return condition_of(solution) + aligned(lines, 2) + (remark.empty() ? "" : "  " + remark + "\n");
+  return condition_of(solution) + aligned(lines, 2);
 }
 
 std::string bearing_comparison_text(const std::vector<BearingSolution>& solutions) {
@@ -161,15 +163,16 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
 
 nlohmann::json bearing_json(const BearingSolution& solution) {
   nlohmann::json document{{"label", solution.run.label}, {"error", solution.error}};
-  for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;
+  for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;  // as given
   if (!solution.solved()) return document;
   document["linearisations"] = solution.summary.iterations;
   document["film_iterations"] = solution.summary.film_iterations;
   document["wall_time"] = solution.wall_time;
   for (const BearingFigure& f : study::figures_of(solution)) {
     nlohmann::json& entry = document["figures"][f.key];
-    entry = {{"name", f.name}, {"value", f.value}, {"unit", f.unit}};
-    if (f.grid_error >= 0) entry["grid_error"] = f.grid_error;
+    entry = {{"name", f.name}, {"value", f.si * f.value}, {"unit", f.si_unit}};
+    if (f.grid_error >= 0) entry["grid_error"] = f.si * f.grid_error;
+    if (!f.words.empty()) entry["value"] = nullptr, entry["words"] = f.words;
   }
   const auto rows = [](const Eigen::Matrix4d& M) {
     nlohmann::json list = nlohmann::json::array();

@@ -104,6 +104,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(mesh["sets"]["surfaces"], {"floor": 3, "roof": 2})
         # A trapezium 10 x (8 + 9)/2 x 7 and a box 10 x 9 x 12 mm; Gmsh places nodes to 1e-11.
         self.assertAlmostEqual(mesh["mass"] / (7850 * (595 + 1080) * 1e-9), 1, delta=1e-9)
+        self.assertEqual((mesh["units"]["mass"], mesh["units"]["volume"]), ("kg", "m^3"))
         vtu = os.path.join(self._folder.name, "block.vtu")
         text = hersey("mesh", block, "--length-unit", "mm", "--vtu", vtu).stdout
         with open(vtu, "rb") as file:
@@ -196,7 +197,7 @@ class CommandLine(unittest.TestCase):
             self.assertAlmostEqual(frequency / reference, 1, delta=2e-5)
         with open(vtu, "rb") as file:
             self.assertIn(b'Name="mode_6"', file.read())
-        self.assertEqual((told["unit"], told["held"]), ("Hz", ["FIX"]))
+        self.assertEqual((told["units"], told["held"]), ({"frequencies": "Hz", "mass": "kg"}, ["FIX"]))
         free = hersey("modes", mesh, "--count", "7").stdout
         self.assertRegex(free, r"free +6 rigid motions")
         self.assertRegex(free, r"1 +0 +rigid")
@@ -338,12 +339,15 @@ class CommandLine(unittest.TestCase):
         self.assertAlmostEqual(figures["load"]["value"], 2500, places=4)
         # paper_case.csv, c = 34 um, rigid, Reynolds rupture: 0.83476, 5.618 um, 15.136 MPa
         self.assertAlmostEqual(figures["eccentricity_ratio"]["value"], 0.8348, delta=0.001)
-        self.assertAlmostEqual(figures["h_min"]["value"], 5.618, delta=0.03)
-        self.assertLess(figures["h_min"]["grid_error"], 0.1)
-        self.assertAlmostEqual(figures["p_max"]["value"], 15.136, delta=0.15)
+        self.assertEqual(figures["h_min"]["unit"], "m")
+        self.assertAlmostEqual(figures["h_min"]["value"], 5.618e-6, delta=0.03e-6)
+        self.assertLess(figures["h_min"]["grid_error"], 0.1e-6)
+        self.assertAlmostEqual(figures["p_max"]["value"], 15.136e6, delta=0.15e6)
+        in_si = {"", "m", "rad", "rad/s", "Pa", "N", "N.m", "W", "m^3", "m^3/s", "kg", "N/m", "N.s/m"}
+        self.assertLessEqual({f["unit"] for f in figures.values()}, in_si)
         back = hersey("bearing", ALONE, "--json", "--eccentricity-ratio",
                       str(figures["eccentricity_ratio"]["value"]), "--eccentricity-angle",
-                      f"{figures['eccentricity_angle']['value']}deg")
+                      f"{figures['eccentricity_angle']['value']}rad")
         self.assertEqual(back.returncode, OK, back.stderr)
         load = json.loads(back.stdout)["solutions"][0]["figures"]["load"]["value"]
         self.assertAlmostEqual(load, 2500, delta=0.1)
@@ -443,6 +447,13 @@ class CommandLine(unittest.TestCase):
             run = hersey(*arguments)
             self.assertEqual(run.returncode, OK, run.stderr)
             self.assertIsInstance(json.loads(run.stdout), (dict, list))
+        document = json.loads(run.stdout)
+        self.assertEqual((document["units"]["t_end"], document["units"]["energy"]), ("s", "J"))
+        rows = {row["name"]: row for row in document["summary"]}
+        with h5py.File(document["runs"][0]["results"]) as file:
+            smallest = file["bearings/main/h_min"][:].min()
+        self.assertEqual(rows["minimum film thickness (MOFT)"]["unit"], "m")
+        self.assertAlmostEqual(rows["minimum film thickness (MOFT)"]["value"] / smallest, 1, delta=1e-9)
         report = hersey("report", *self.results(), "--json")
         self.assertEqual(report.returncode, OK, report.stderr)
         json.loads(report.stdout)
