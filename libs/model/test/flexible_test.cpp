@@ -123,6 +123,14 @@ TEST_CASE("WhatAMeshFileSaysBesides_IsAWarningOfTheModel") {
   CHECK(contains(model.warnings[1].found, "flexible_test_bar.inp:19: 1 node is part of no element: 99"));
 }
 
+TEST_CASE("AMeshInAnUnlikelyUnit_IsAWarningOfTheModel") {
+  const MeshFile file("");
+  const Model model = read_text(edited(kMachine, "length_unit: 1 mm", "length_unit: 1 km"), "m.yaml");
+  REQUIRE_FALSE(model.warnings.empty());
+  CHECK(contains(model.warnings.back().text(), "bodies.bar.flexible.mesh: "));
+  CHECK(contains(model.warnings.back().text(), "is the mesh in millimetres? then give its length unit, mm"));
+}
+
 TEST_CASE("AMeshUnfitForComputing_IsAFaultOfTheModel") {
   const MeshFile file("*NODE\n11,20,0,0\n12,30,0,0\n13,20,10,0\n14,20,0,10\n*ELEMENT, TYPE=C3D4\n2,11,12,13,14\n");
   CHECK(contains(faults_of(kMachine), "2 parts that share no node"));
@@ -235,7 +243,7 @@ TEST_CASE("ReducedBody_TakesThePlaceOfItsMesh") {
   CHECK(a.mass == doctest::Approx(b.mass).epsilon(1e-14));
   CHECK(of_file.surface_loads.size() == 1);
   const auto told = [&](const std::string& from, const std::string& to) { return faults_of(edited(text, from, to)); };
-  CHECK(contains(told("bar.root", "bar.rot"), "unknown frame 'rot' of body 'bar'; expected root or tip"));
+  CHECK(contains(told("bar.root", "bar.rot"), "unknown frame 'rot' of body 'bar'; did you mean 'root'? expected root or tip"));
   CHECK(contains(told("bar.h5", "br.h5"), "bodies.bar.flexible.reduced"));
   CHECK(contains(told("bar.h5\n", "bar.h5\n      modes: 3\n"), "`modes` of a reduced body"));
   CHECK(contains(told("bar.h5\n", "bar.h5\n    frames: {tp: {}}\n"), "frame 'tp', which the reduced body has not"));

@@ -151,7 +151,7 @@ TEST_CASE("FaultyOverrides_AreNamed") {
         "--set: unknown name 'bearing.big_end.diameter'; did you mean 'bearings'? expected a parameter (load or speed) "
         "or a key path such as simulation.duration");
   CHECK(faults_of(good_model, {"bearings.big_end.diamter=3 mm"})
-            .starts_with("--set: bearings.big_end: unknown key 'diamter'; expected shell,"));
+            .starts_with("--set: bearings.big_end: unknown key 'diamter'; did you mean 'diameter'? expected shell,"));
   CHECK(faults_of(good_model, {"bearings.big_end.diameter=3 s"}) ==
         "--set: bearings.big_end.diameter: a time (s); expected a length > 0, such as 45 mm");
   CHECK(faults_of(good_model, {"forces.push.components.7=3 N"}) ==
