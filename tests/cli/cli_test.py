@@ -73,6 +73,19 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, OK)
         self.assertRegex(run.stdout, r"\b\d+\.\d+\.\d+\b")
 
+    def test_licences_name_every_library_that_is_linked(self):
+        with open(os.path.join(HERE, "../../THIRD_PARTY.md"), encoding="utf-8") as file:
+            told = file.read()
+        dynamic = subprocess.run(["readelf", "-d", HERSEY], capture_output=True, text=True, check=True).stdout
+        libraries = re.findall(r"NEEDED.*\[lib(\w+?)[-.\]]", dynamic)
+        self.assertGreater(len(libraries), 8)
+        # Where the package is not called as its library: part of the C library's, of OpenBLAS' or of MUMPS'.
+        packages = {"dmumps_seq": "mumps-seq", "mumps_common_seq": "mumps-seq", "hdf5_serial": "hdf5", "yaml": "yaml-cpp",
+                    "gcc_s": "gcc-s1", "blas": "openblas", "lapack": "openblas"}
+        for library in libraries:
+            if library not in ("c", "m", "dl", "pthread"):
+                self.assertIn("lib" + packages.get(library, library), told, library)
+
     def test_unknown_option_or_no_command_is_a_usage_error(self):
         for arguments in ((), ("run", MODEL, "--outptu", "x"), ("rnu", MODEL), ("run",)):
             run = hersey(*arguments)

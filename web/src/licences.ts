@@ -1,4 +1,4 @@
-// What the page contains beside our own code: its licence asks to travel with it (web/THIRD_PARTY.md).
+// What the page contains beside our own code: its licence asks to travel with it (THIRD_PARTY.md).
 
 import { h } from "./dom";
 
