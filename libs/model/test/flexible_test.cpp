@@ -243,7 +243,8 @@ TEST_CASE("ReducedBody_TakesThePlaceOfItsMesh") {
   CHECK(a.mass == doctest::Approx(b.mass).epsilon(1e-14));
   CHECK(of_file.surface_loads.size() == 1);
   const auto told = [&](const std::string& from, const std::string& to) { return faults_of(edited(text, from, to)); };
-  CHECK(contains(told("bar.root", "bar.rot"), "unknown frame 'rot' of body 'bar'; did you mean 'root'? expected root or tip"));
+  CHECK(contains(told("bar.root", "bar.rot"),
+                 "unknown frame 'rot' of body 'bar'; did you mean 'root'? expected root or tip"));
   CHECK(contains(told("bar.h5", "br.h5"), "bodies.bar.flexible.reduced"));
   CHECK(contains(told("bar.h5\n", "bar.h5\n      modes: 3\n"), "`modes` of a reduced body"));
   CHECK(contains(told("bar.h5\n", "bar.h5\n    frames: {tp: {}}\n"), "frame 'tp', which the reduced body has not"));
