@@ -392,6 +392,20 @@ class CommandLine(unittest.TestCase):
         self.assertEqual([line.split(", ")[:2] for line in lines[1:3]], [["100", "30"], ["100", "40"]])
         self.assertEqual({len(line.split(", ")) for line in lines}, {len(lines[0].split(", "))})
 
+    def test_bearing_table_has_a_cell_for_each_column_whatever_a_solution_lacks(self):
+        table = os.path.join(self._folder.name, "cells.csv")
+        # Fed at high pressure the film at small eccentricity is whole and has no angle of rupture.
+        run = hersey("bearing", ALONE, "--set", "bearings.main.grid={circumferential: 40, axial: 9}", "--set",
+                     "bearings.main.supply.pressure=50 bar", "--set", "bearings.main.edge_pressure=20 bar", "--no-grid-error", "--sweep",
+                     "eccentricity_ratio=0.05,0.9", "--csv", table)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        with open(table, encoding="utf-8") as file:
+            lines = [line.split(", ") for line in file.read().splitlines()]
+        self.assertEqual({len(line) for line in lines}, {len(lines[0])})
+        place = lines[0].index("rupture_angle [deg]")
+        self.assertEqual(lines[1][place], "")
+        self.assertNotEqual(lines[2][place], "")
+
     def test_bearing_writes_its_fields(self):
         table = os.path.join(self._folder.name, "fields.csv")
         run = hersey("bearing", ALONE, "--fields", table, "--no-grid-error")
