@@ -1,9 +1,11 @@
 #include "bearing_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "table.h"
@@ -88,10 +90,12 @@ std::string whirl_remark(const BearingSolution& solution) {
 std::string bearing_text(const BearingSolution& solution) {
   std::vector<std::vector<std::string>> lines;
   for (const BearingFigure& f : study::figures_of(solution)) {
-    lines.push_back({f.name, value_text(f), f.unit, error_text(f)});
+    if (f.words.empty())
+      lines.push_back({f.name, value_text(f), f.unit, error_text(f)});
+    else
+      lines.push_back({f.name, "-", "", f.words});
   }
-  const std::string remark = whirl_remark(solution);
-  return condition_of(solution) + aligned(lines, 2) + (remark.empty() ? "" : "  " + remark + "\n");
+  return condition_of(solution) + aligned(lines, 2);
 }
 
 std::string bearing_comparison_text(const std::vector<BearingSolution>& solutions) {
@@ -122,21 +126,37 @@ std::string bearing_comparison_text(const std::vector<BearingSolution>& solution
 }
 
 std::string bearing_csv(const std::vector<BearingSolution>& solutions) {
-  std::string text;
+  // Some figures are of some solutions only: a column is there if one of them has it, and empty where it has none.
+  std::vector<std::string> columns;
+  std::vector<std::map<std::string, double>> figures;
   for (const BearingSolution& solution : solutions) {
+    std::map<std::string, double>& row = figures.emplace_back();
     if (!solution.solved()) continue;
-    std::string head, row;
+    auto next = columns.begin();  // where a column that is new belongs
     const auto add = [&](const std::string& name, double value) {
-      head += (head.empty() ? "" : ", ") + name;
-      row += fmt::format("{}{:.10g}", row.empty() ? "" : ", ", value);
+      auto at = std::find(columns.begin(), columns.end(), name);
+      if (at == columns.end()) at = columns.insert(next, name);
+      next = at + 1;
+      row[name] = value;
     };
-    for (const model::StudyValue& value : solution.run.values) add(with_unit(value.name, value.unit), value.number);
     for (const BearingFigure& f : study::figures_of(solution)) {
       add(with_unit(f.key, f.unit), f.value);
       if (f.grid_error >= 0) add(with_unit(f.key + " grid error", f.unit), f.grid_error);
     }
-    if (text.empty()) text = head + "\n";
-    text += row + "\n";
+  }
+  std::string text;
+  for (std::size_t k = 0; k < solutions.size(); ++k) {
+    if (!solutions[k].solved()) continue;
+    std::vector<std::string> head, cells;
+    for (const model::StudyValue& value : solutions[k].run.values) {
+      head.push_back(with_unit(value.name, value.unit));
+      cells.push_back(fmt::format("{:.10g}", value.number));
+    }
+    for (const std::string& name : columns)
+      cells.push_back(figures[k].contains(name) ? fmt::format("{:.10g}", figures[k].at(name)) : "");
+    head.insert(head.end(), columns.begin(), columns.end());
+    if (text.empty()) text = fmt::format("{}\n", fmt::join(head, ", "));
+    text += fmt::format("{}\n", fmt::join(cells, ", "));
   }
   return text;
 }
@@ -161,15 +181,16 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
 
 nlohmann::json bearing_json(const BearingSolution& solution) {
   nlohmann::json document{{"label", solution.run.label}, {"error", solution.error}};
-  for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;
+  for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;  // as given
   if (!solution.solved()) return document;
   document["linearisations"] = solution.summary.iterations;
   document["film_iterations"] = solution.summary.film_iterations;
   document["wall_time"] = solution.wall_time;
   for (const BearingFigure& f : study::figures_of(solution)) {
     nlohmann::json& entry = document["figures"][f.key];
-    entry = {{"name", f.name}, {"value", f.value}, {"unit", f.unit}};
-    if (f.grid_error >= 0) entry["grid_error"] = f.grid_error;
+    entry = {{"name", f.name}, {"value", f.si * f.value}, {"unit", f.si_unit}};
+    if (f.grid_error >= 0) entry["grid_error"] = f.si * f.grid_error;
+    if (!f.words.empty()) entry["value"] = nullptr, entry["words"] = f.words;
   }
   const auto rows = [](const Eigen::Matrix4d& M) {
     nlohmann::json list = nlohmann::json::array();

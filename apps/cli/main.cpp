@@ -306,5 +306,8 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     cli::say("hersey: {}\n", error_text(error));
     return cli::kFailed;
+  } catch (...) {
+    cli::say("hersey: internal error, please report it with the model\n");
+    return cli::kFailed;
   }
 }

@@ -65,6 +65,8 @@ nlohmann::json document_of(const Mesh& mesh, const MeshQuality& quality) {
                              {"materials", std::move(materials)},
                              {"sets", sets_json(mesh)}};
   document["mass"] = quality.mass ? nlohmann::json(*quality.mass) : nlohmann::json();
+  document["units"] = {
+      {"box", "m"}, {"volume", "m^3"}, {"mass", "kg"}, {"youngs_modulus", "Pa"}, {"density", "kg/m^3"}};
   return document;
 }
 

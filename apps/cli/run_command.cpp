@@ -145,6 +145,14 @@ nlohmann::json json_of(const run::Summary& summary) {
           {"work", json_of(summary.work)}};
 }
 
+// Of what has one in `runs`; the rows of `summary` name their own.
+nlohmann::json units_of_runs() {
+  const nlohmann::json errors{
+      {"moft", "m"}, {"pofp", "Pa"}, {"max_force", "N"}, {"mean_power", "W"}, {"mean_flow", "m^3/s"}};
+  return {{"t_end", "s"}, {"t_results", "s"}, {"wall_time", "s"},
+          {"work", "s"},  {"energy", "J"},    {"step_error", errors}};
+}
+
 // Report and closing table from whatever rows there are; a report that cannot be made does not undo a good run.
 int close(const RunArguments& arguments, const std::filesystem::path& folder, const Paths& files,
           const std::vector<run::Summary>& summaries, int code) {
@@ -158,7 +166,7 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
     code = std::max(code, static_cast<int>(kFailed));
   }
   if (arguments.json) {
-    nlohmann::json document{{"report", page.string()}, {"runs", nlohmann::json::array()}};
+    nlohmann::json document{{"report", page.string()}, {"units", units_of_runs()}, {"runs", nlohmann::json::array()}};
     for (const run::Summary& summary : summaries) document["runs"].push_back(json_of(summary));
     document["summary"] = nlohmann::json::parse(report::summary_json(files));
     fmt::print("{}\n", document.dump(2));

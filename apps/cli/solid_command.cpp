@@ -106,7 +106,7 @@ int modes_command(const SolidArguments& arguments) {
                              {"mass", body.mass},
                              {"held", arguments.hold},
                              {"rigid", modes.rigid},
-                             {"unit", "Hz"},
+                             {"units", {{"mass", "kg"}, {"frequencies", "Hz"}}},
                              {"frequencies", nlohmann::json::array()}};
   for (const double omega : modes.omega) document["frequencies"].push_back(omega / (2 * std::numbers::pi));
   fmt::print("{}\n", document.dump(2));
@@ -132,12 +132,15 @@ int stress_command(const SolidArguments& arguments) {
     print_stress(body, result);
     return kOk;
   }
-  const nlohmann::json document = {{"file", arguments.file},
-                                   {"degrees_of_freedom", body.size()},
-                                   {"largest_displacement", json_of(result.displacement)},
-                                   {"largest_von_mises", json_of(result.von_mises)},
-                                   {"reaction", {result.reaction.x(), result.reaction.y(), result.reaction.z()}},
-                                   {"strain_energy", result.stress.energy}};
+  const nlohmann::json document = {
+      {"file", arguments.file},
+      {"degrees_of_freedom", body.size()},
+      {"largest_displacement", json_of(result.displacement)},
+      {"largest_von_mises", json_of(result.von_mises)},
+      {"reaction", {result.reaction.x(), result.reaction.y(), result.reaction.z()}},
+      {"strain_energy", result.stress.energy},
+      {"units",
+       {{"largest_displacement", "m"}, {"largest_von_mises", "Pa"}, {"reaction", "N"}, {"strain_energy", "J"}}}};
   fmt::print("{}\n", document.dump(2));
   return kOk;
 }

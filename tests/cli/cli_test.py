@@ -73,6 +73,19 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, OK)
         self.assertRegex(run.stdout, r"\b\d+\.\d+\.\d+\b")
 
+    def test_licences_name_every_library_that_is_linked(self):
+        with open(os.path.join(HERE, "../../THIRD_PARTY.md"), encoding="utf-8") as file:
+            told = file.read()
+        dynamic = subprocess.run(["readelf", "-d", HERSEY], capture_output=True, text=True, check=True).stdout
+        libraries = re.findall(r"NEEDED.*\[lib(\w+?)[-.\]]", dynamic)
+        self.assertGreater(len(libraries), 8)
+        # Where the package is not called as its library: part of the C library's, of OpenBLAS' or of MUMPS'.
+        packages = {"dmumps_seq": "mumps-seq", "mumps_common_seq": "mumps-seq", "hdf5_serial": "hdf5", "yaml": "yaml-cpp",
+                    "gcc_s": "gcc-s1", "blas": "openblas", "lapack": "openblas"}
+        for library in libraries:
+            if library not in ("c", "m", "dl", "pthread"):
+                self.assertIn("lib" + packages.get(library, library), told, library)
+
     def test_unknown_option_or_no_command_is_a_usage_error(self):
         for arguments in ((), ("run", MODEL, "--outptu", "x"), ("rnu", MODEL), ("run",)):
             run = hersey(*arguments)
@@ -104,6 +117,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(mesh["sets"]["surfaces"], {"floor": 3, "roof": 2})
         # A trapezium 10 x (8 + 9)/2 x 7 and a box 10 x 9 x 12 mm; Gmsh places nodes to 1e-11.
         self.assertAlmostEqual(mesh["mass"] / (7850 * (595 + 1080) * 1e-9), 1, delta=1e-9)
+        self.assertEqual((mesh["units"]["mass"], mesh["units"]["volume"]), ("kg", "m^3"))
         vtu = os.path.join(self._folder.name, "block.vtu")
         text = hersey("mesh", block, "--length-unit", "mm", "--vtu", vtu).stdout
         with open(vtu, "rb") as file:
@@ -196,7 +210,7 @@ class CommandLine(unittest.TestCase):
             self.assertAlmostEqual(frequency / reference, 1, delta=2e-5)
         with open(vtu, "rb") as file:
             self.assertIn(b'Name="mode_6"', file.read())
-        self.assertEqual((told["unit"], told["held"]), ("Hz", ["FIX"]))
+        self.assertEqual((told["units"], told["held"]), ({"frequencies": "Hz", "mass": "kg"}, ["FIX"]))
         free = hersey("modes", mesh, "--count", "7").stdout
         self.assertRegex(free, r"free +6 rigid motions")
         self.assertRegex(free, r"1 +0 +rigid")
@@ -338,12 +352,15 @@ class CommandLine(unittest.TestCase):
         self.assertAlmostEqual(figures["load"]["value"], 2500, places=4)
         # paper_case.csv, c = 34 um, rigid, Reynolds rupture: 0.83476, 5.618 um, 15.136 MPa
         self.assertAlmostEqual(figures["eccentricity_ratio"]["value"], 0.8348, delta=0.001)
-        self.assertAlmostEqual(figures["h_min"]["value"], 5.618, delta=0.03)
-        self.assertLess(figures["h_min"]["grid_error"], 0.1)
-        self.assertAlmostEqual(figures["p_max"]["value"], 15.136, delta=0.15)
+        self.assertEqual(figures["h_min"]["unit"], "m")
+        self.assertAlmostEqual(figures["h_min"]["value"], 5.618e-6, delta=0.03e-6)
+        self.assertLess(figures["h_min"]["grid_error"], 0.1e-6)
+        self.assertAlmostEqual(figures["p_max"]["value"], 15.136e6, delta=0.15e6)
+        in_si = {"", "m", "rad", "rad/s", "Pa", "N", "N.m", "W", "m^3", "m^3/s", "kg", "N/m", "N.s/m"}
+        self.assertLessEqual({f["unit"] for f in figures.values()}, in_si)
         back = hersey("bearing", ALONE, "--json", "--eccentricity-ratio",
                       str(figures["eccentricity_ratio"]["value"]), "--eccentricity-angle",
-                      f"{figures['eccentricity_angle']['value']}deg")
+                      f"{figures['eccentricity_angle']['value']}rad")
         self.assertEqual(back.returncode, OK, back.stderr)
         load = json.loads(back.stdout)["solutions"][0]["figures"]["load"]["value"]
         self.assertAlmostEqual(load, 2500, delta=0.1)
@@ -374,6 +391,20 @@ class CommandLine(unittest.TestCase):
         self.assertTrue(lines[0].startswith("load [N], bearings.main.radial_clearance [um], "))
         self.assertEqual([line.split(", ")[:2] for line in lines[1:3]], [["100", "30"], ["100", "40"]])
         self.assertEqual({len(line.split(", ")) for line in lines}, {len(lines[0].split(", "))})
+
+    def test_bearing_table_has_a_cell_for_each_column_whatever_a_solution_lacks(self):
+        table = os.path.join(self._folder.name, "cells.csv")
+        # Fed at high pressure the film at small eccentricity is whole and has no angle of rupture.
+        run = hersey("bearing", ALONE, "--set", "bearings.main.grid={circumferential: 40, axial: 9}", "--set",
+                     "bearings.main.supply.pressure=50 bar", "--set", "bearings.main.edge_pressure=20 bar", "--no-grid-error", "--sweep",
+                     "eccentricity_ratio=0.05,0.9", "--csv", table)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        with open(table, encoding="utf-8") as file:
+            lines = [line.split(", ") for line in file.read().splitlines()]
+        self.assertEqual({len(line) for line in lines}, {len(lines[0])})
+        place = lines[0].index("rupture_angle [deg]")
+        self.assertEqual(lines[1][place], "")
+        self.assertNotEqual(lines[2][place], "")
 
     def test_bearing_writes_its_fields(self):
         table = os.path.join(self._folder.name, "fields.csv")
@@ -443,6 +474,13 @@ class CommandLine(unittest.TestCase):
             run = hersey(*arguments)
             self.assertEqual(run.returncode, OK, run.stderr)
             self.assertIsInstance(json.loads(run.stdout), (dict, list))
+        document = json.loads(run.stdout)
+        self.assertEqual((document["units"]["t_end"], document["units"]["energy"]), ("s", "J"))
+        rows = {row["name"]: row for row in document["summary"]}
+        with h5py.File(document["runs"][0]["results"]) as file:
+            smallest = file["bearings/main/h_min"][:].min()
+        self.assertEqual(rows["minimum film thickness (MOFT)"]["unit"], "m")
+        self.assertAlmostEqual(rows["minimum film thickness (MOFT)"]["value"] / smallest, 1, delta=1e-9)
         report = hersey("report", *self.results(), "--json")
         self.assertEqual(report.returncode, OK, report.stderr)
         json.loads(report.stdout)

@@ -17,6 +17,11 @@ endfunction()
 
 must_work(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
 must_work(${prefix}/bin/hersey --version)
+foreach(file LICENSE THIRD_PARTY.md)
+  if(NOT EXISTS ${prefix}/share/doc/hersey/${file})
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
 must_work(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
           -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER})
 must_work(${CMAKE_COMMAND} --build ${WORK}/build)

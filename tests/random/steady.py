@@ -137,13 +137,11 @@ def soften(b, pressure):
 class Answer:
     """Figures in SI and fields of a solved bearing."""
 
-    SCALES = {"rpm": PI / 30, "deg": PI / 180, "um": 1e-6, "MPa": 1e6, "mm^3/s": 1e-9, "mm^3": 1e-9, "mm": 1e-3}
-
     def __init__(self, document, fields_file):
         figures = document["figures"]
-        self.values = {key: self.SCALES.get(f["unit"], 1.0) * f["value"] for key, f in figures.items()
-                       if f["value"] is not None}
-        self.missing = [key for key, f in figures.items() if f["value"] is None]
+        self.values = {key: f["value"] for key, f in figures.items() if f["value"] is not None}
+        # what the program says in words is not missing
+        self.missing = [key for key, f in figures.items() if f["value"] is None and not f.get("words")]
         table = np.genfromtxt(fields_file, delimiter=",", skip_header=1)
         self.phi = np.radians(np.unique(table[:, 0]))
         self.z = 1e-3 * np.unique(table[:, 1])

@@ -31,6 +31,14 @@ async function pressOnSlider(page, key) {
 }
 
 export const everyReport = {
+  "the licences of what the page contains stand at its foot": async (page) => {
+    const foot = page.locator("footer.licences");
+    await foot.locator("summary").click();
+    const text = await foot.innerText();
+    for (const part of ["uPlot", "three.js", "MIT", "Permission is hereby granted"]) assert.ok(text.includes(part), `no ${part} in the licences`);
+    await foot.locator("summary").click();
+  },
+
   "title, assumptions and status come first": async (page) => {
     assert.ok((await page.locator("h1").innerText()).trim().length > 0, "there is no title");
     const assumptions = await page.locator(".assumptions").first().innerText();
@@ -305,6 +313,7 @@ export const machineReport = {
 /** Reports of a bearing by itself. */
 export const bearingReport = {
   "title, conditions and status come first": everyReport["title, assumptions and status come first"],
+  "the licences of what the page contains stand at its foot": everyReport["the licences of what the page contains stand at its foot"],
 
   "key figures carry the grid's error, tables their units": async (page) => {
     const tile = await page.locator('[data-tile="h_min"]').innerText();
@@ -345,6 +354,18 @@ export const bearingReport = {
 };
 
 export const sweepReport = {
+  "captions name what is varied, and negative coefficients their sign": async (page) => {
+    const swept = (await page.locator(".study h2").first().innerText()).replace(/^Sweep over /, "").split(" and ")[0];
+    for (const kind of ["film", "eccentricity", "friction", "pressure", "stiffness", "damping", "stability", "flow", "power"]) {
+      const caption = await page.locator(`.study [data-figure="${kind}"] figcaption`).first().innerText();
+      assert.ok(caption.includes(`over ${swept}`), `the caption of ${kind} does not say over ${swept}: ${caption}`);
+    }
+    // In every plain bearing one of the cross stiffnesses is negative at some speed.
+    const legend = await page.locator('.study [data-figure="stiffness"] .legend').first().innerText();
+    assert.match(legend, /−K(xy|yx)/, `no negative stiffness is told as such: ${legend}`);
+    assert.match(legend, /(^|\n)Kxx/, `no positive stiffness: ${legend}`);
+  },
+
   "the sweep has a curve and a row per operating point": async (page) => {
     const rows = await page.locator(".comparison tbody tr").count();
     assert.ok(rows > 2, `${rows} rows`);

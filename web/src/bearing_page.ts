@@ -105,7 +105,7 @@ class SweepView {
   ) {
     const { solutions } = bearing;
     this.locus = new Locus({ lines: lines(sweep, solutions), load: (i) => solutions[i]!.load, clearance: (i) => solutions[i]!.clearance || solutions.find((s) => !s.error)!.clearance }, 0, pick);
-    this.figures.append(figure("locus", "Locus of the journal’s centre in the clearance circle, bearing axes; the point shown in detail with its load (arrow). A click on a point shows it.", null, this.locus.element));
+    this.figures.append(figure("locus", `Locus of the journal’s centre in the clearance circle over ${sweep.abscissa}, bearing axes; the point shown in detail with its load (arrow). A click on a point shows it.`, null, this.locus.element));
     this.addAll();
     this.element.append(h("h2", {}, `Sweep over ${sweep.parameters.map((p) => p.replaceAll("_", " ")).join(" and ")}`), this.figures, this.table(), ...this.failures());
   }
@@ -157,13 +157,13 @@ class SweepView {
       ...this.alone("attitude", "attitude", "°", { axis: "right", dash: [6, 4] }),
     ], { label: "attitude angle", unit: "°" });
     const rough = this.sweep.solutions.some((s) => (figureOf(s, "asperity_share")?.value ?? 0) > 0);
-    this.add("friction", `Friction coefficient ${over}: the Stribeck curve${rough ? ", with the share of the load on asperities" : ""}.`, { label: "friction coefficient", unit: "", log: true }, [
+    this.add("friction", `Friction coefficient ${over}${this.sweep.isStribeck ? ": the Stribeck curve" : ""}${rough ? ", with the share of the load on asperities" : ""}.`, { label: "friction coefficient", unit: "", log: true }, [
       ...this.each("friction_journal", "friction coefficient", ""),
       ...(rough ? this.alone("asperity_share", "share on asperities", "", { axis: "right", dash: [6, 4] }) : []),
     ], { label: "share on asperities", unit: "", fromZero: true });
     this.add("pressure", `Peak film pressure ${over}.`, { label: "peak film pressure", unit: "MPa", fromZero: true }, this.each("p_max", "peak pressure", "MPa"));
     for (const line of this.sweep.lines.slice(0, 4)) this.addCoefficients(line);
-    this.add("stability", `Critical mass of a rigid rotor${this.sweep.lines.length === 1 ? " and whirl frequency over speed" : ""} ${over}; gaps: stable at every mass.`, { label: "critical mass", unit: "kg", log: true }, [
+    this.add("stability", `Critical mass of a rigid rotor${this.sweep.lines.length === 1 ? " and its whirl ratio (whirl frequency by the journal’s speed)" : ""} ${over}; gaps: stable at every mass.`, { label: "critical mass", unit: "kg", log: true }, [
       ...this.each("critical_mass", "critical mass", "kg"),
       ...this.alone("whirl_ratio", "whirl ratio", "", { axis: "right", dash: [6, 4] }),
     ], { label: "whirl ratio", unit: "", fromZero: true });
@@ -178,10 +178,20 @@ class SweepView {
     const of = line.label ? `; ${line.label}` : "";
     const pairs = ["xx", "xy", "yx", "yy"];
     const curves = (symbol: string): Curve[] =>
-      pairs.map((pair, i) => ({ label: `|${symbol}${pair}|`, unit: "", y: this.sweep.along(line, `${symbol}_${pair}`, Math.abs), points: true, ...(i === 1 || i === 2 ? { dash: [6, 4] } : {}) }));
+      pairs.flatMap((pair, hue) => {
+        const y = this.sweep.along(line, `${symbol}_${pair}`);
+        const only = (sign: number) => y.map((v) => (v !== null && sign * v > 0 ? sign * v : null));
+        const name = `${symbol}${pair}`;
+        return [
+          { label: name, unit: "", y: only(1), points: true, hue, ...(hue === 1 || hue === 2 ? { dash: [6, 4] } : {}) },
+          { label: `−${name}`, unit: "", y: only(-1), points: true, hue, dash: [2, 3] },
+        ];
+      });
     const axes = "x along the load, y a quarter turn on in the sense of rotation";
-    this.add("stiffness", `Sizes of the stiffness coefficients K = k c/W, ${axes}${of}.`, { label: "stiffness K", unit: "", log: true }, curves("K"), undefined, line);
-    this.add("damping", `Sizes of the damping coefficients C = b c ω/W, ${axes}${of}.`, { label: "damping C", unit: "", log: true }, curves("C"), undefined, line);
+    const signs = (symbol: string) => `Dotted, as −${symbol}: where a coefficient is negative.`;
+    const over = `over ${this.sweep.abscissa}`;
+    this.add("stiffness", `Stiffness coefficients K = k c/W ${over}, ${axes}${of}. ${signs("K")}`, { label: "stiffness ±K", unit: "", log: true }, curves("K"), undefined, line);
+    this.add("damping", `Damping coefficients C = b c ω/W ${over}, ${axes}${of}. ${signs("C")}`, { label: "damping ±C", unit: "", log: true }, curves("C"), undefined, line);
   }
 
   private table(): HTMLElement {
@@ -340,6 +350,7 @@ function shownUnit(unit: string): string {
 
 /** With as many digits as its error leaves: 5.618. */
 function valueText(f: FigureText | undefined): string {
+  if (f?.words) return f.words;
   if (!f || f.value === null) return "–";
   if (!f.grid_error || f.grid_error > Math.abs(f.value)) return format(f.value);
   const decimals = Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(f.grid_error))));
@@ -351,6 +362,7 @@ function errorText(f: FigureText): string {
 }
 
 function unitText(f: FigureText): HTMLElement | null {
+  if (f.words) return null;
   const unit = shownUnit(f.unit);
   return unit ? h("span", { class: "unit" }, unit === "°" ? "°" : ` ${unit}`) : null;
 }

@@ -41,6 +41,11 @@ export class Sweep {
     return (this.parameters[0] ?? "solution").replaceAll("_", " ");
   }
 
+  /** Whether the friction over the abscissa is a Stribeck curve: over a factor of the Hersey number. */
+  get isStribeck(): boolean {
+    return ["speed", "journal_speed", "viscosity", "load"].includes(this.parameters[0] ?? "");
+  }
+
   label(index: number): string {
     const s = this.solutions[index]!;
     return s.values.map(([name, text]) => `${name.replaceAll("_", " ")} ${typeset(text)}`).join(", ");

@@ -57,9 +57,11 @@ export interface FigureText {
   group: string;
   name: string;
   unit: string;
-  /** null where it is infinite. */
+  /** null where it is infinite, or where there is none. */
   value: number | null;
   grid_error?: number;
+  /** Said in place of a value that is no number. */
+  words?: string;
 }
 
 export interface FeatureText {

@@ -11,6 +11,8 @@ export interface Curve {
   unit: string;
   axis?: "right";
   colour?: string;
+  /** Place in the palette; else that of the curve among the others. */
+  hue?: number;
   dash?: number[];
   points?: boolean;
   stepped?: boolean;
@@ -126,7 +128,8 @@ export class LinePlot {
 
   private colour(index: number): string {
     const colours = palette().series;
-    return this.spec.curves[index]!.colour ?? colours[index % colours.length]!;
+    const { colour, hue } = this.spec.curves[index]!;
+    return colour ?? colours[(hue ?? index) % colours.length]!;
   }
 
   private legend(): HTMLElement {

@@ -4,6 +4,7 @@ import "./style.css";
 import { readReport, type Report, type Run } from "./data";
 import { h } from "./dom";
 import { assumptions, header, status } from "./header";
+import { licences } from "./licences";
 import { showBearing } from "./bearing_page";
 import { RunView } from "./run_view";
 import { StudyView } from "./study_view";
@@ -70,6 +71,7 @@ function start(): void {
     if (report.bearing) showBearing(page, report.title, report.bearing);
     else if (report.runs.length > 1) showStudy(page, report);
     else showRun(page, report);
+    page.append(licences());
   } catch (error) {
     page.append(h("p", { class: "fault" }, `This report cannot be shown: ${error instanceof Error ? error.message : String(error)}`));
     throw error;

@@ -139,7 +139,8 @@ export class StudyView {
         left: { label: end.label, unit: end.display.unit, fromZero: end.fromZero },
         curves,
       });
-      return [figure(`study-${end.name}`, `${capital(end.label)} at the end of the run.`, plot.tools, plot.element)];
+      const over = numbers ? ` over ${study.abscissa.replaceAll("_", " ")}` : "";
+      return [figure(`study-${end.name}`, `${capital(end.label)} at the end of the run${over}.`, plot.tools, plot.element)];
     });
   }
 

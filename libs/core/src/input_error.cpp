@@ -21,8 +21,11 @@ std::string Fault::text() const {
   if (!text.empty()) text += " ";
   if (!path.empty()) text += path + ": ";
   text += found;
-  if (!expected.empty()) text += "; expected " + expected;
-  if (!suggestion.empty()) text += "; " + suggestion;
+  // A name that was likely meant comes before a list, however long, of all that would do.
+  const bool is_name = suggestion.starts_with("did you mean ") && suggestion.ends_with('?');
+  if (is_name) text += "; " + suggestion;
+  if (!expected.empty()) text += (is_name ? " expected " : "; expected ") + expected;
+  if (!is_name && !suggestion.empty()) text += "; " + suggestion;
   return text;
 }
 

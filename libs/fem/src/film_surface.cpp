@@ -66,18 +66,29 @@ FilmSurfaceResult no_faces(const Mesh& mesh, const FilmCylinder& cylinder) {
                  "a larger distance");
 }
 
-/// Empty if all nodes are near enough.
-std::string off_radius(const Mesh& mesh, const std::vector<ElementFace>& faces, const FilmCylinder& cylinder,
-                       double tolerance) {
+/// The radius that lies furthest off; none if all nodes are near enough.
+std::optional<double> off_radius(const Mesh& mesh, const std::vector<ElementFace>& faces, const FilmCylinder& cylinder,
+                                 double tolerance) {
   const Pose to_cylinder = cylinder.X.inverse();
   double worst = cylinder.R;
   for (const int node : nodes_on(mesh, faces)) {
     const double radius = cylinder_point(to_cylinder * mesh.nodes[static_cast<std::size_t>(node)]).radius;
     if (std::abs(radius - cylinder.R) > std::abs(worst - cylinder.R)) worst = radius;
   }
-  if (std::abs(worst - cylinder.R) <= tolerance) return {};
-  return fmt::format("a surface with nodes at a radius of {:.5g} mm, {:.3g} mm off the film's {:.5g} mm",
-                     millimetres(worst), millimetres(std::abs(worst - cylinder.R)), millimetres(cylinder.R));
+  if (std::abs(worst - cylinder.R) <= tolerance) return std::nullopt;
+  return worst;
+}
+
+/// A thousand times the radius, or a thousandth, is that of millimetres read as metres, or the other way round.
+FilmSurfaceResult refused_radius(double worst, const FilmCylinder& cylinder) {
+  constexpr double near = 0.1;
+  const auto is_near = [&](double factor) { return std::abs(worst / (factor * cylinder.R) - 1) < near; };
+  const std::string unit = is_near(1e3)    ? "is the mesh in millimetres? then give its length unit, mm"
+                           : is_near(1e-3) ? "is the mesh in metres? then give its length unit, m"
+                                           : "check the frame's position and axis and the bearing's diameter";
+  return refused(fmt::format("a surface with nodes at a radius of {:.5g} mm, {:.3g} mm off the film's {:.5g} mm",
+                             millimetres(worst), millimetres(std::abs(worst - cylinder.R)), millimetres(cylinder.R)),
+                 unit);
 }
 
 /// Where a face that looks the wrong way is; none if all are right.
@@ -146,8 +157,8 @@ FilmSurfaceResult film_surface(const Mesh& mesh, const std::vector<ElementFace>&
   std::erase_if(surface.faces,
                 [&](ElementFace face) { return !reaches_into(cylinder_box(mesh, face, to_cylinder), cylinder); });
   if (surface.faces.empty()) return no_faces(mesh, cylinder);
-  if (std::string fault = off_radius(mesh, surface.faces, cylinder, tolerance); !fault.empty())
-    return refused(std::move(fault), "check the frame's position and axis and the bearing's diameter");
+  if (const std::optional<double> worst = off_radius(mesh, surface.faces, cylinder, tolerance))
+    return refused_radius(*worst, cylinder);
   if (const auto at = wrong_face(mesh, surface.faces, cylinder))
     return refused(
         fmt::format("a face at {:.0f} deg, z = {:.3g} mm that looks {} the axis", at->phi * 180 / std::numbers::pi,

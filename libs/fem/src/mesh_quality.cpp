@@ -280,19 +280,23 @@ std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file
   return faults;
 }
 
+std::optional<Fault> size_warning(const Vector3& box, const std::string& file, const std::string& more, bool is_heavy) {
+  const double largest = box.maxCoeff();
+  const std::string sizes = fmt::format("a body of {:.4g} x {:.4g} x {:.4g} m", box.x(), box.y(), box.z());
+  if (largest > kLargeBody || is_heavy)
+    return fault(file, sizes + more, "a machine's part", "is the mesh in millimetres? then give its length unit, mm");
+  if (largest < kSmallBody)
+    return fault(file, sizes, "a machine's part", "is the mesh in metres? then give its length unit, m");
+  return std::nullopt;
+}
+
 std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& file) {
   std::vector<Fault> warnings;
-  const Vector3 box = quality.upper - quality.lower;
-  const double largest = box.maxCoeff();
-  const std::string sizes = fmt::format("{:.4g} x {:.4g} x {:.4g} m", box.x(), box.y(), box.z());
-  if (largest > kLargeBody || quality.mass.value_or(0) > kHeavyBody)
-    warnings.push_back(fault(file,
-                             fmt::format("a body of {}, {:.4g} m^3{}", sizes, quality.volume,
-                                         quality.mass ? fmt::format(", {:.4g} kg", *quality.mass) : ""),
-                             "a machine's part", "is the mesh in millimetres? then give its length unit, mm"));
-  if (largest < kSmallBody)
-    warnings.push_back(fault(file, fmt::format("a body of {}", sizes), "a machine's part",
-                             "is the mesh in metres? then give its length unit, m"));
+  const std::string more =
+      fmt::format(", {:.4g} m^3{}", quality.volume, quality.mass ? fmt::format(", {:.4g} kg", *quality.mass) : "");
+  const bool is_heavy = quality.mass.value_or(0) > kHeavyBody;
+  if (std::optional<Fault> size = size_warning(quality.upper - quality.lower, file, more, is_heavy))
+    warnings.push_back(std::move(*size));
   if (!quality.touching.empty())
     warnings.push_back(fault(file, fmt::format("nodes on each other: {}", listed(quality.touching)),
                              "one node where elements are to hang together", "merge them unless the gap is meant"));

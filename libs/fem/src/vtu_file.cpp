@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <stdexcept>
@@ -53,6 +54,15 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// Of symmetric tensors; ParaView names the components of vectors itself.
+std::string component_names(int components) {
+  constexpr std::array<const char*, 6> tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
+  std::string text;
+  if (components != static_cast<int>(tensor.size())) return text;
+  for (std::size_t k = 0; k < tensor.size(); ++k) text += fmt::format(R"( ComponentName{}="{}")", k, tensor[k]);
+  return text;
+}
+
 /// The two halves of the file: XML that names arrays by their place, and the arrays, each behind its length.
 class VtuText {
  public:
@@ -78,8 +88,8 @@ class VtuText {
 
  private:
   void append(const std::string& name, const char* type, int components, const void* values, std::uint64_t bytes) {
-    line(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>",
-                     type, escaped(name), components, data_.size()));
+    line(fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}"{} format="appended" offset="{}"/>)",
+                     type, escaped(name), components, component_names(components), data_.size()));
     data_.append(std::bit_cast<std::array<char, sizeof bytes>>(bytes).data(), sizeof bytes);
     if (bytes > 0) data_.append(static_cast<const char*>(values), bytes);
   }

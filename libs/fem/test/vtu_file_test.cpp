@@ -54,6 +54,8 @@ TEST_CASE("Vtu_HoldsTheMeshAndItsFields_BitForBit") {
     for (std::size_t i = 0; i < 3; ++i) CHECK(points[3 * n + i] == mesh.nodes[n][static_cast<Eigen::Index>(i)]);
   const std::vector<double> stress = array_of<double>(content, "stress &lt;MPa&gt;");
   CHECK(Eigen::Map<const Eigen::MatrixXd>(stress.data(), 6, 72) == frame.node_fields[1].values);
+  CHECK(content.find(R"(ComponentName0="xx" ComponentName1="yy" ComponentName2="zz" ComponentName3="xy" )"
+                     R"(ComponentName4="yz" ComponentName5="xz")") != std::string::npos);
   const std::vector<double> energy = array_of<double>(content, "energy");
   CHECK(Eigen::Map<const Eigen::MatrixXd>(energy.data(), 1, 12) == frame.element_fields[0].values);
   const std::vector<std::int64_t> connectivity = array_of<std::int64_t>(content, "connectivity");

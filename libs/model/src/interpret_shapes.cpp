@@ -2,6 +2,7 @@
 
 #include "hersey/core/input_file.h"
 #include "hersey/fem/mesh_file.h"
+#include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/skin.h"
 #include "interpret.h"
 #include "stl_file.h"
@@ -51,9 +52,18 @@ class ShapeReader {
     std::optional<mbd::TriangleMesh> mesh =
         fem::mesh_format_of(path) ? skin_of(*file, path, unit) : stl_of(*file, path, unit);
     if (!mesh) return std::nullopt;
+    warn_of_size(*file, path, *mesh);
     const Vector3 origin = vector_of(value, "origin");
     for (Vector3& corner : mesh->corners) corner += origin;
     return std::make_shared<const mbd::TriangleMesh>(std::move(*mesh));
+  }
+
+  void warn_of_size(const Value& file, const std::filesystem::path& path, const mbd::TriangleMesh& mesh) {
+    if (mesh.corners.empty()) return;
+    Vector3 lower = mesh.corners.front(), upper = lower;
+    for (const Vector3& corner : mesh.corners) lower = lower.cwiseMin(corner), upper = upper.cwiseMax(corner);
+    if (const std::optional<Fault> warning = fem::size_warning(upper - lower, path.string()))
+      context_.warnings_in_file(file, {*warning});
   }
 
   std::optional<mbd::TriangleMesh> stl_of(const Value& file, const std::filesystem::path& path, double unit) {

@@ -161,6 +161,21 @@ TEST_CASE("Mesh_IsScaledAndShifted") {
   CHECK(highest == doctest::Approx(0.015));
 }
 
+TEST_CASE("MeshInAnUnlikelyUnit_IsWarnedOf") {
+  const TemporaryDirectory folder;
+  std::ofstream(folder / "t.stl") << tetrahedron;  // edges of 1
+  const auto warned = [&](const std::string& unit) {
+    std::ofstream(folder / "m.yaml") << with_shapes("      t: {shape: mesh, file: t.stl, unit: " + unit + "}\n");
+    std::string text;
+    for (const Fault& warning : read((folder / "m.yaml").string()).warnings)
+      if (warning.path == "bodies.rod.shapes.t.file") text += warning.text();
+    return text;
+  };
+  CHECK(warned("1 km").find("is the mesh in millimetres? then give its length unit, mm") != std::string::npos);
+  CHECK(warned("1 um").find("is the mesh in metres? then give its length unit, m") != std::string::npos);
+  CHECK(warned("1 cm").empty());
+}
+
 TEST_CASE("MeshOfSolids_GivesItsOuterSurface") {
   const TemporaryDirectory folder;
   std::ofstream(folder / "t.inp") << "*NODE\n1,0,0,0\n2,10,0,0\n3,0,10,0\n4,0,0,10\n5,0,0,-10\n"

@@ -73,10 +73,10 @@ TEST_CASE("ContactStiffness_IsForceAtAPenetration") {
 TEST_CASE("WrongContacts_AreExplained") {
   const std::string pair = "[ground.floor, ball.surface]";
   CHECK(faults_with(pair, "[ground.floor, ball.surfcae]") ==
-        "m.yaml:19:29: contacts.bounce.between.1: unknown shape 'surfcae' of body 'ball'; expected surface, block or "
-        "pin; did you mean 'surface'?");
+        "m.yaml:19:29: contacts.bounce.between.1: unknown shape 'surfcae' of body 'ball'; did you mean 'surface'? "
+        "expected surface, block or pin");
   CHECK(faults_with(pair, "[ground.floor, bal.surface]") ==
-        "m.yaml:19:29: contacts.bounce.between.1: unknown body 'bal'; expected ground or ball; did you mean 'ball'?");
+        "m.yaml:19:29: contacts.bounce.between.1: unknown body 'bal'; did you mean 'ball'? expected ground or ball");
   CHECK(faults_with(pair, "[ground.floor, ball]") ==
         "m.yaml:19:29: contacts.bounce.between.1: 'ball'; expected a shape, body.shape, such as ball.surface");
   CHECK(faults_with(pair, "[ball.block, ball.surface]") ==

@@ -96,6 +96,9 @@ TEST_CASE("DeformingSurface_FaultsSayWhereAndWhatToDo") {
   CHECK(contains(small, "no face of the mesh on the film's surface"));
   CHECK(contains(small, "the nearest nodes have a radius of 22.5 mm"));
   CHECK(contains(small, "about the z-axis of ring.hub"));
+  const std::string in_metres = edited(machine_text, surface, "{faces: bore}");
+  CHECK(contains(faults_of(edited(in_metres, "length_unit: 1 mm", "length_unit: 1 m")),
+                 "is the mesh in millimetres? then give its length unit, mm"));
   const std::string on_outside = edited(machine_text, surface, "{faces: outside}");
   CHECK(contains(faults_of(edited(on_outside, "diameter: 45 mm", "diameter: 60 mm")), "looks away from the axis"));
   CHECK(contains(faults_of(on_outside), "nodes at a radius of 30 mm, 7.5 mm off the film's 22.5 mm"));

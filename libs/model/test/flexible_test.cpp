@@ -109,8 +109,8 @@ TEST_CASE("MaterialOfTheMeshFile_IsThatOfTheSection_OrAFaultWithBothNames") {
   const std::string faults = faults_of(machine);
   CHECK(contains(faults, "bodies.bar.flexible.mesh: "));
   CHECK(contains(faults,
-                 "flexible_test_bar.inp:28: the section of 'all' names the material 'STELL', which the file does "
-                 "not define; expected a material of the file: Alu or Steel; did you mean 'Steel'?"));
+                 "flexible_test_bar.inp:28: the section of 'all' names the material 'STELL', which the file does not "
+                 "define; did you mean 'Steel'? expected a material of the file: Alu or Steel"));
   CHECK(faults_of(kMachine) == "no fault");  // a material of its own: the file's do not matter
 }
 
@@ -121,6 +121,14 @@ TEST_CASE("WhatAMeshFileSaysBesides_IsAWarningOfTheModel") {
   CHECK(contains(model.warnings[0].text(), "bodies.bar.flexible.mesh: "));
   CHECK(contains(model.warnings[0].found, "flexible_test_bar.inp:20: 1 *TIE"));
   CHECK(contains(model.warnings[1].found, "flexible_test_bar.inp:19: 1 node is part of no element: 99"));
+}
+
+TEST_CASE("AMeshInAnUnlikelyUnit_IsAWarningOfTheModel") {
+  const MeshFile file("");
+  const Model model = read_text(edited(kMachine, "length_unit: 1 mm", "length_unit: 1 km"), "m.yaml");
+  REQUIRE_FALSE(model.warnings.empty());
+  CHECK(contains(model.warnings.back().text(), "bodies.bar.flexible.mesh: "));
+  CHECK(contains(model.warnings.back().text(), "is the mesh in millimetres? then give its length unit, mm"));
 }
 
 TEST_CASE("AMeshUnfitForComputing_IsAFaultOfTheModel") {
@@ -235,7 +243,8 @@ TEST_CASE("ReducedBody_TakesThePlaceOfItsMesh") {
   CHECK(a.mass == doctest::Approx(b.mass).epsilon(1e-14));
   CHECK(of_file.surface_loads.size() == 1);
   const auto told = [&](const std::string& from, const std::string& to) { return faults_of(edited(text, from, to)); };
-  CHECK(contains(told("bar.root", "bar.rot"), "unknown frame 'rot' of body 'bar'; expected root or tip"));
+  CHECK(contains(told("bar.root", "bar.rot"),
+                 "unknown frame 'rot' of body 'bar'; did you mean 'root'? expected root or tip"));
   CHECK(contains(told("bar.h5", "br.h5"), "bodies.bar.flexible.reduced"));
   CHECK(contains(told("bar.h5\n", "bar.h5\n      modes: 3\n"), "`modes` of a reduced body"));
   CHECK(contains(told("bar.h5\n", "bar.h5\n    frames: {tp: {}}\n"), "frame 'tp', which the reduced body has not"));

@@ -145,13 +145,13 @@ TEST_CASE("FormulasThatDoNotFit_AreTold") {
 TEST_CASE("FaultyOverrides_AreNamed") {
   CHECK(faults_of(good_model, {"load"}) == "--set: 'load'; expected name=value, such as load=500N");
   CHECK(faults_of(good_model, {"laod=3 N"}) ==
-        "--set: unknown name 'laod'; expected a parameter (load or speed) or a key path such as simulation.duration; "
-        "did you mean 'load'?");
+        "--set: unknown name 'laod'; did you mean 'load'? expected a parameter (load or speed) or a key path such as "
+        "simulation.duration");
   CHECK(faults_of(good_model, {"bearing.big_end.diameter=3 mm"}) ==
-        "--set: unknown name 'bearing.big_end.diameter'; expected a parameter (load or speed) or a key path such as "
-        "simulation.duration; did you mean 'bearings'?");
+        "--set: unknown name 'bearing.big_end.diameter'; did you mean 'bearings'? expected a parameter (load or speed) "
+        "or a key path such as simulation.duration");
   CHECK(faults_of(good_model, {"bearings.big_end.diamter=3 mm"})
-            .starts_with("--set: bearings.big_end: unknown key 'diamter'; expected shell,"));
+            .starts_with("--set: bearings.big_end: unknown key 'diamter'; did you mean 'diameter'? expected shell,"));
   CHECK(faults_of(good_model, {"bearings.big_end.diameter=3 s"}) ==
         "--set: bearings.big_end.diameter: a time (s); expected a length > 0, such as 45 mm");
   CHECK(faults_of(good_model, {"forces.push.components.7=3 N"}) ==
@@ -174,8 +174,8 @@ TEST_CASE("FaultyParameter_IsReportedWhereItIsUsed") {
 
 TEST_CASE("UnknownParameter_IsReportedOnce") {
   CHECK(faults_after("\"-${load}\"", "\"-${laod}\"") ==
-        "m.yaml:19:52: forces.push.components.1: unknown parameter 'laod'; expected one of the parameters load or "
-        "speed; did you mean 'load'?");
+        "m.yaml:19:52: forces.push.components.1: unknown parameter 'laod'; did you mean 'load'? expected one of the "
+        "parameters load or speed");
   CHECK(faults_after("\"-${load}\"", "\"-${load\"") ==
         "m.yaml:19:52: forces.push.components.1: '-${load'; expected a closing } after ${");
 }

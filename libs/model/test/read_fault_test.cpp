@@ -5,14 +5,11 @@ namespace hersey::model {
 namespace {
 
 TEST_CASE("UnknownKey_NamesTheNearest") {
-  CHECK(
-      faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
-      "m.yaml:27:5: bearings.big_end: unknown key 'widht'; expected shell, journal, diameter, width, "
-      "radial_clearance, diametral_clearance, lubricant, grid, pressures, cavitation, edge_pressure, ambient_fill, "
-      "supply, features, shape, roughness, asperities, "
-      "compliance, shell_surface, journal_surface, materials, cavitated_shear, shear_force, solver, operating_point or "
-      "coupling; did you mean "
-      "'width'?");
+  CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
+        "m.yaml:27:5: bearings.big_end: unknown key 'widht'; did you mean 'width'? expected shell, journal, diameter, "
+        "width, radial_clearance, diametral_clearance, lubricant, grid, pressures, cavitation, edge_pressure, "
+        "ambient_fill, supply, features, shape, roughness, asperities, compliance, shell_surface, journal_surface, "
+        "materials, cavitated_shear, shear_force, solver, operating_point or coupling");
 }
 
 TEST_CASE("UnphysicalPressures_AreReported") {
@@ -78,8 +75,8 @@ TEST_CASE("MissingUnit_IsReported") {
 
 TEST_CASE("UnknownUnit_NamesTheNearest") {
   CHECK(faults_after("viscosity: 15 mPa.s", "viscosity: 15 mPas") ==
-        "m.yaml:21:20: lubricants.oil.viscosity: unknown unit 'mPas'; expected a dynamic viscosity > 0, such as "
-        "15 mPa.s; did you mean 'mPa.s'?");
+        "m.yaml:21:20: lubricants.oil.viscosity: unknown unit 'mPas'; did you mean 'mPa.s'? expected a dynamic "
+        "viscosity > 0, such as 15 mPa.s");
 }
 
 TEST_CASE("Frequency_IsNoAngularVelocity") {
@@ -179,10 +176,10 @@ TEST_CASE("Names_AreIdentifiers") {
 
 TEST_CASE("UnknownWord_NamesTheNearest") {
   CHECK(faults_after("type: planar", "type: plannar") ==
-        "m.yaml:15:17: joints.guide.type: 'plannar'; expected fixed, revolute, prismatic, cylindrical, spherical, "
-        "planar, universal, screw or free; did you mean 'planar'?");
+        "m.yaml:15:17: joints.guide.type: 'plannar'; did you mean 'planar'? expected fixed, revolute, prismatic, "
+        "cylindrical, spherical, planar, universal, screw or free");
   CHECK(faults_after("    lubricant: oil\n", "    lubricant: oil\n    solver: newtn\n") ==
-        "m.yaml:30:13: bearings.big_end.solver: 'newtn'; expected newton, multigrid or sor; did you mean 'newton'?");
+        "m.yaml:30:13: bearings.big_end.solver: 'newtn'; did you mean 'newton'? expected newton, multigrid or sor");
 }
 
 TEST_CASE("KeyOfAnotherVariant_NamesItsOwner") {
@@ -213,23 +210,21 @@ TEST_CASE("KeysThatBelongTogether_AreDemanded") {
 
 TEST_CASE("UnknownReferences_NameTheNearest") {
   CHECK(faults_after("shell: rod", "shell: rdo") ==
-        "m.yaml:24:12: bearings.big_end.shell: unknown body 'rdo'; expected ground, shaft or rod; did you mean 'rod'?");
-  CHECK(faults_after("journal: shaft.pin", "journal: shaft.pni") ==
-        "m.yaml:25:14: bearings.big_end.journal: unknown frame 'pni' of body 'shaft'; expected pin; did you mean "
-        "'pin'?");
+        "m.yaml:24:12: bearings.big_end.shell: unknown body 'rdo'; did you mean 'rod'? expected ground, shaft or rod");
+  CHECK(
+      faults_after("journal: shaft.pin", "journal: shaft.pni") ==
+      "m.yaml:25:14: bearings.big_end.journal: unknown frame 'pni' of body 'shaft'; did you mean 'pin'? expected pin");
   CHECK(faults_after("shell: rod", "shell: rod.pin") ==
         "m.yaml:24:12: bearings.big_end.shell: unknown frame 'pin' of body 'rod'; expected 'rod' alone, for it has no "
         "frames");
   CHECK(faults_after("lubricant: oil", "lubricant: oli") ==
-        "m.yaml:29:16: bearings.big_end.lubricant: unknown lubricant 'oli'; expected oil; did you mean 'oil'?");
-  CHECK(
-      faults_after("joint: main", "joint: mian")
-          .starts_with(
-              "m.yaml:17:18: drives.motor.joint: unknown joint 'mian'; expected main or guide; did you mean 'main'?"));
+        "m.yaml:29:16: bearings.big_end.lubricant: unknown lubricant 'oli'; did you mean 'oil'? expected oil");
+  CHECK(faults_after("joint: main", "joint: mian")
+            .starts_with(
+                "m.yaml:17:18: drives.motor.joint: unknown joint 'mian'; did you mean 'main'? expected main or guide"));
   CHECK(faults_after("coordinate: rotation", "coordinate: rotatoin")
-            .starts_with("m.yaml:17:36: drives.motor.coordinate: unknown coordinate 'rotatoin' of joint 'main'; "
-                         "expected rotation; did "
-                         "you mean 'rotation'?"));
+            .starts_with("m.yaml:17:36: drives.motor.coordinate: unknown coordinate 'rotatoin' of joint 'main'; did "
+                         "you mean 'rotation'? expected rotation"));
   CHECK(faults_after("shell: rod", "shell: rod.big.end") ==
         "m.yaml:24:12: bearings.big_end.shell: 'rod.big.end'; expected a body or body.frame, such as rod.big_end");
 }

@@ -42,6 +42,7 @@ json figures(const PageSolution& solution) {
   for (const PageFigure& f : solution.figures) {
     json entry{{"key", f.key}, {"group", f.group}, {"name", f.name}, {"unit", f.unit}, {"value", f.value}};
     if (f.grid_error >= 0) entry["grid_error"] = f.grid_error;
+    if (!f.words.empty()) entry["words"] = f.words;
     list.push_back(std::move(entry));
   }
   return list;

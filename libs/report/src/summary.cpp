@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <numeric>
 
 #include "run_names.h"
@@ -430,15 +432,44 @@ std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& 
   return rows;
 }
 
+namespace {
+
+/// What one of the units of the closing table is in SI, and the name there.
+struct SiUnit {
+  const char* unit;
+  const char* name;
+  double size;
+};
+
+SiUnit si_of(const std::string& unit) {
+  constexpr std::array<SiUnit, 10> known{{{"µm", "m", 1e-6},
+                                          {"MPa", "Pa", 1e6},
+                                          {"N·mm", "N.m", 1e-3},
+                                          {"mm³/s", "m^3/s", 1e-9},
+                                          {"°", "rad", std::numbers::pi / 180},
+                                          {"ms", "s", 1e-3},
+                                          {"µs", "s", 1e-6},
+                                          {"mJ", "J", 1e-3},
+                                          {"%", "", 1e-2},
+                                          {"W/mm²", "W/m^2", 1e6}}};
+  const auto* const found =
+      std::find_if(known.begin(), known.end(), [&](const SiUnit& candidate) { return candidate.unit == unit; });
+  return found == known.end() ? SiUnit{unit.c_str(), unit.c_str(), 1} : *found;
+}
+
+}  // namespace
+
 std::string summary_json(const std::vector<std::filesystem::path>& results) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const SummaryRow& row : summary_table(results))
+  for (const SummaryRow& row : summary_table(results)) {
+    const SiUnit si = si_of(row.unit);
     list.push_back({{"run", row.run},
                     {"group", row.group},
                     {"name", row.name},
-                    {"value", row.value},
-                    {"unit", row.unit},
+                    {"value", si.size * row.value},
+                    {"unit", si.name},
                     {"where", row.where}});
+  }
   return list.dump(2);
 }
 

@@ -21,7 +21,8 @@ PageSolution small_solution() {
   PageSolution solution;
   solution.values = {{"load", "100 N"}};
   solution.figures = {{"h_min", "film", "minimum film thickness", "um", 5.6, 0.03},
-                      {"critical_mass", "stability", "critical mass", "kg", std::numeric_limits<double>::infinity()}};
+                      {"critical_mass", "stability", "critical mass", "kg", std::numeric_limits<double>::infinity(), -1,
+                       "none: stable at every mass"}};
   solution.features = {{"inlet", true, 1.0, 0.002, 0.3, 0.004}};
   solution.clearance = 30e-6;
   solution.e = {1e-6, -2e-6};
@@ -52,6 +53,8 @@ TEST_CASE("BearingPage_HoldsFiguresFeaturesAndFields") {
   const json& solution = data["bearing"]["solutions"][0];
   CHECK(solution["figures"][0]["grid_error"] == 0.03);
   CHECK(solution["figures"][1]["value"].is_null());  // infinite
+  CHECK(solution["figures"][1]["words"] == "none: stable at every mass");
+  CHECK_FALSE(solution["figures"][0].contains("words"));
   CHECK_FALSE(solution["figures"][1].contains("grid_error"));
   CHECK(solution["features"][0]["name"] == "inlet");
   CHECK(solution["features"][0]["round"] == true);

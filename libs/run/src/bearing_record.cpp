@@ -72,8 +72,9 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   }
   s.storage_rate = series("storage_rate", "m^3/s", "rate of change of the oil volume in the film, mean of the step");
   s.oil_volume = series("oil_volume", "m^3", "oil volume in the film");
-  s.mass_balance_error =
-      series("mass_balance_error", "1", "oil of the step that is neither stored nor has passed, over the largest flow");
+  if (film.cavitation != film::Cavitation::reynolds)
+    s.mass_balance_error = series("mass_balance_error", "1",
+                                  "oil of the step that is neither stored nor has passed, over the largest flow");
   s.oil_through_flow = series("oil_through_flow", "m^3", "oil that has passed the film since the start");
   s.oil_unexplained =
       series("oil_unexplained", "m^3", "growth of the oil volume since the start less what has come in");
@@ -148,7 +149,7 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
   }
   s.storage_rate.append(film.storage_rate);
   s.oil_volume.append(film.oil_volume);
-  s.mass_balance_error.append(film.mass_balance_error);
+  if (s.mass_balance_error) s.mass_balance_error->append(film.mass_balance_error);
   s.oil_through_flow.append(seen.oil.through_flow);
   s.oil_unexplained.append(seen.oil.unexplained);
   s.cavitated_share.append(film.cavitated_share);

@@ -14,6 +14,7 @@ BearingExtremes::BearingExtremes(std::string name) {
 
 void BearingExtremes::take(double t, double dt, double clearance, const bearing::BearingObservation& seen) {
   const film::FilmObservables& film = seen.film;
+  last_thickness_ = film.h_min;
   if (film.h_min < summary_.moft) {
     summary_.moft = film.h_min;
     summary_.moft_t = t;

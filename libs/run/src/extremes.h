@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "hersey/bearing/journal_bearing.h"
 #include "hersey/core/archive.h"
 #include "hersey/run/simulate.h"
@@ -13,10 +15,13 @@ class BearingExtremes {
   void take(double t, double dt, double clearance, const bearing::BearingObservation& seen);
   [[nodiscard]] BearingSummary summary() const;
   [[nodiscard]] const std::string& name() const { return summary_.name; }
+  /// Smallest thickness at the step last taken; infinite before one is [m].
+  [[nodiscard]] double last_thickness() const { return last_thickness_; }
   void persist(Archive& archive);
 
  private:
   BearingSummary summary_;
+  double last_thickness_ = std::numeric_limits<double>::infinity();
   double time_ = 0, energy_ = 0, volume_ = 0;
   double last_put_in_ = 0, last_taken_ = 0;  ///< powers of the last state [W]
 };

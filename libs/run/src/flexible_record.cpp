@@ -147,8 +147,9 @@ void DeformedMeshes::write(double t, double since_start, double slack, const Ste
     frame.positions.resize(3, nodes);
     Eigen::MatrixXd displacement(3, nodes);
     for (Eigen::Index n = 0; n < nodes; ++n) {
+      // Where the body has moved without deforming: viewers add the displacement themselves, as often as is asked.
       displacement.col(n) = X_WB.R * u.segment<3>(3 * n);
-      frame.positions.col(n) = X_WB * flexible.mesh->nodes[static_cast<std::size_t>(n)] + displacement.col(n);
+      frame.positions.col(n) = X_WB * flexible.mesh->nodes[static_cast<std::size_t>(n)];
     }
     frame.node_fields.push_back({"displacement", std::move(displacement)});
     if (series.films.has_any()) add_film_pressure(series.films.at_nodes(step), frame);

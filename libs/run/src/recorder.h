@@ -100,9 +100,10 @@ class Recorder {
     results::Series eccentricity, ratio, attitude, tilt, h_min, h_min_phi, h_min_z, h_min_centre, p_max, p_max_phi,
         p_max_z, p_max_node, force, force_pressure, force_shear, force_asperity, moment, speed, torque_journal,
         torque_shell, power_film, power_asperity, power_stored, power_oil, power_into_bodies, power_error, flow_left,
-        flow_right, flow_supply, storage_rate, oil_volume, mass_balance_error, oil_through_flow, oil_unexplained,
-        cavitated_share, rupture_angle, reformation_angle, film_iterations;
-    std::optional<results::Series> h_min_features;  // where features have depth
+        flow_right, flow_supply, storage_rate, oil_volume, oil_through_flow, oil_unexplained, cavitated_share,
+        rupture_angle, reformation_angle, film_iterations;
+    std::optional<results::Series> mass_balance_error;  // of films that conserve oil: all but Reynolds'
+    std::optional<results::Series> h_min_features;      // where features have depth
     std::vector<results::Series> flow_features;
     std::optional<results::Series> exchanges;  // of a partitioned coupling
     results::Series h_min_around, p_max_around;

@@ -62,6 +62,22 @@ double RunRecord::moft() const {
   return moft;
 }
 
+std::string RunRecord::thin_films() const {
+  constexpr double thin = 0.05;  // of the clearance
+  std::string text;
+  for (std::size_t i = 0; i < extremes_.size(); ++i) {
+    const film::FilmModel& film = model_.bearings[i].film;
+    const double h = extremes_[i].last_thickness();
+    if (h > thin * film.c || film.asperities.model != film::AsperityModel::none) continue;
+    text += fmt::format(
+        "; the film of bearing {} is {:.3g} um at its thinnest (eccentricity ratio {:.3f}), and nothing else parts its "
+        "smooth surfaces: `asperities` let them touch{}",
+        model_.bearings[i].name, 1e6 * h, extremes_[i].summary().eccentricity_ratio,
+        film.compliance > 0 ? "" : ", a `compliance` spreads the pressure");
+  }
+  return text;
+}
+
 void RunRecord::write(const StepRecord& step) {
   const double t = step.mechanism.t, slack = 1e-9 * model_.simulation.step;
   deformed_.write(t, t - model_.simulation.start, slack, step);

@@ -39,6 +39,9 @@ class RunRecord {
 
   /// Smallest film thickness so far of all bearings [m].
   [[nodiscard]] double moft() const;
+  /// What to say of films of smooth surfaces that all but touch, where a run finds no further step; empty where none
+  /// do.
+  [[nodiscard]] std::string thin_films() const;
   /// The figures of all steps taken.
   void summarise(Summary& summary) const;
 

@@ -7,6 +7,7 @@
 #include <exception>
 #include <optional>
 
+#include "bearing_axes.h"
 #include "checkpoint.h"
 #include "coarser_run.h"
 #include "facing_surfaces.h"
@@ -116,7 +117,11 @@ class Simulation {
     work_.begin();
     while (!march_.is_at_end() && !record_.ends_run()) {
       const MarchedStep step = march_.take(state_);
-      if (!step.is_taken()) return fail(step.trouble);
+      if (!step.is_taken()) {
+        // A journal that touches has been told so already.
+        const bool is_advised = step.trouble.find("asperities") != std::string::npos;
+        return fail(step.trouble + (is_advised ? "" : record_.thin_films()));
+      }
       record(step);
       if (is_stopped()) return;
     }
@@ -348,11 +353,12 @@ std::vector<Fault> check(const model::Model& model) {
   model::Machine machine = model::build(model);
   const solver::State start = starting_state(model, machine);
   // Refuses instants without end. A fixed step asks for none.
-  if (model.simulation.error_control)
-    (void)kinks(model, machine.mechanism->spec(), observe_step(machine, start, force_kinds(machine)).mechanism);
+  const mbd::Observation at_start = observe_step(machine, start, force_kinds(machine)).mechanism;
+  if (model.simulation.error_control) (void)kinks(model, machine.mechanism->spec(), at_start);
   std::vector<Fault> warnings = start_warnings(model, *machine.mechanism, start);
   for (Fault& warning : redundancy_warnings(model, *machine.mechanism)) warnings.push_back(std::move(warning));
   for (Fault& warning : offset_warnings(model)) warnings.push_back(std::move(warning));
+  for (Fault& warning : axis_warnings(model, machine, at_start)) warnings.push_back(std::move(warning));
   return warnings;
 }
 

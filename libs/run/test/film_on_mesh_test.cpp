@@ -18,6 +18,7 @@
 #include "ring_file.h"
 #include "small_rig.h"
 #include "temporary_directory.h"
+#include "vtu_field.h"
 
 namespace hersey::run {
 namespace {
@@ -69,21 +70,6 @@ bearings:
 simulation: {duration: 1 ms, step: 0.1 ms}
 output: {meshes_at: [0.35 ms, 1 ms, 0.8 ms]}
 )";
-
-/// The numbers of one field of a .vtu file with raw appended data.
-std::vector<double> field_of(const std::filesystem::path& file, const std::string& name) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)), {});
-  const std::size_t at = text.find("Name=\"" + name + "\"");
-  REQUIRE(at != std::string::npos);
-  const std::size_t offset = std::stoul(text.substr(text.find("offset=\"", at) + 8));
-  const std::size_t begin = text.find('_', text.find("<AppendedData")) + 1 + offset;
-  std::uint64_t bytes = 0;
-  std::memcpy(&bytes, text.data() + begin, sizeof(bytes));
-  std::vector<double> values(bytes / sizeof(double));
-  std::memcpy(values.data(), text.data() + begin + sizeof(bytes), bytes);
-  return values;
-}
 
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;

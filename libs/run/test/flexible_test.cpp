@@ -1,14 +1,17 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include "hersey/fem/mesh_file.h"
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
 #include "small_bar.h"
 #include "temporary_directory.h"
+#include "vtu_field.h"
 
 // Flexible bodies in a run: energies, power balance, deformed meshes.
 namespace hersey::run {
@@ -47,6 +50,29 @@ TEST_CASE("FlexiblePendulum_IsRecordedAndBalanced") {
   std::ifstream last(folder / "r_bar" / "00005.vtu", std::ios::binary);
   const std::string vtu{std::istreambuf_iterator<char>(last), {}};
   CHECK(vtu.find("von_mises") != std::string::npos);
+}
+
+// Viewers add the displacement to the points themselves: it must not be in these already.
+TEST_CASE("PointsOfDeformedMeshes_HaveMovedWithoutDeforming") {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::ofstream(folder / "model.yaml") << kPendulum;
+  REQUIRE(simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"}).status == Status::completed);
+  const fem::Mesh mesh = fem::read_mesh(folder / "bar.inp", 1e-3);
+  const std::filesystem::path last = folder / "r_bar" / "00005.vtu";
+  const std::vector<double> points = field_of(last, "Points"), displacement = field_of(last, "displacement");
+  const auto nodes = static_cast<Eigen::Index>(mesh.nodes.size());
+  const Eigen::Map<const Eigen::Matrix3Xd> x(points.data(), 3, nodes), u(displacement.data(), 3, nodes);
+  double most_stretched = 0;
+  for (Eigen::Index n = 1; n < nodes; ++n) {
+    const double length = (mesh.nodes[static_cast<std::size_t>(n)] - mesh.nodes[0]).norm();
+    CHECK((x.col(n) - x.col(0)).norm() == doctest::Approx(length).epsilon(1e-12));
+    const double deformed = (x.col(n) + u.col(n) - x.col(0) - u.col(0)).norm();
+    most_stretched = std::max(most_stretched, std::abs(deformed / length - 1));
+  }
+  CHECK(most_stretched > 1e-6);
+  CHECK(u.colwise().norm().maxCoeff() > 1e-5);
+  CHECK((x.col(nodes - 1) - mesh.nodes.back()).norm() > 1e-3);  // it has fallen
 }
 
 TEST_CASE("HeldBar_SagsUnderItsWeight") {

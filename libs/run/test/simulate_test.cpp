@@ -101,6 +101,33 @@ TEST_CASE("SmallestStepReached_FailsWithReasonAndKeepsResults") {
   CHECK(reader.rows() >= 1);
 }
 
+TEST_CASE("RunThatEndsAtAThinSmoothFilm_IsGivenAsperities") {
+  const TemporaryDirectory scratch;
+  const std::string pushed = rig_with("drives:\n", "drives:\n  press: {joint: guide, coordinate: x, speed: 0.2 m/s}\n");
+  const Summary summary = simulate(rig(pushed), {.results = scratch / "run.h5"});
+  CAPTURE(summary.message);
+  CHECK(summary.status == Status::failed);
+  CHECK(summary.message.find("bearing big_end") != std::string::npos);
+  CHECK(summary.message.find("`asperities` let them touch") != std::string::npos);
+  // Far from any contact they are no remedy.
+  const Summary other = simulate(rig(kSmallRig, {"simulation.tolerance=1e-30", "simulation.smallest_step=0.05 ms"}),
+                                 {.results = scratch / "other.h5"});
+  CHECK(other.status == Status::failed);
+  CHECK(other.message.find("asperities") == std::string::npos);
+}
+
+TEST_CASE("MassBalance_IsRecordedOfFilmsThatConserveOil") {
+  const TemporaryDirectory scratch;
+  for (const auto& [cavitation, is_recorded] :
+       {std::pair{"mass_conserving", true}, std::pair{"guembel", true}, std::pair{"reynolds", false}}) {
+    CAPTURE(cavitation);
+    const std::string file = std::string(cavitation) + ".h5";
+    const auto overrides = {std::string("bearings.big_end.cavitation=") + cavitation, std::string("duration=0.5 ms")};
+    REQUIRE(simulate(rig(kSmallRig, overrides), {.results = scratch / file}).status == Status::completed);
+    CHECK(results::Reader(scratch / file).has("/bearings/big_end/mass_balance_error") == is_recorded);
+  }
+}
+
 // A spatial crank with steps so long that the velocities of its closed loop leave every motion it has.
 TEST_CASE("StepsTooLongForTheMotion_AreToldSo") {
   const TemporaryDirectory scratch;

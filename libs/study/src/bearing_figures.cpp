@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "hersey/study/bearing_study.h"
@@ -6,8 +7,18 @@
 namespace hersey::study {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180, kMicro = 1e-6, kMega = 1e6;
-constexpr double kRpm = std::numbers::pi / 30, kCubicMillimetrePerSecond = 1e-9;
+/// The unit that people use, its name in SI and its size there.
+struct Unit {
+  const char* name;
+  const char* si;
+  double size;
+};
+constexpr Unit kNone{"", "", 1}, kNewton{"N", "N", 1}, kNewtonMetre{"N.m", "N.m", 1}, kWatt{"W", "W", 1};
+constexpr Unit kKilogram{"kg", "kg", 1}, kStiffness{"N/m", "N/m", 1}, kDamping{"N.s/m", "N.s/m", 1};
+constexpr Unit kDegree{"deg", "rad", std::numbers::pi / 180}, kRpm{"rpm", "rad/s", std::numbers::pi / 30};
+constexpr Unit kMillimetrePerSecond{"mm/s", "m/s", 1e-3};
+constexpr Unit kMicrometre{"um", "m", 1e-6}, kMillimetre{"mm", "m", 1e-3}, kMegapascal{"MPa", "Pa", 1e6};
+constexpr Unit kFlow{"mm^3/s", "m^3/s", 1e-9}, kVolume{"mm^3", "m^3", 1e-9};
 
 // Collects figures in users' units.
 class Figures {
@@ -15,15 +26,25 @@ class Figures {
   explicit Figures(bool has_errors) : has_errors_(has_errors) {}
   /// What is added from here on belongs to `name`.
   void group(std::string name) { group_ = std::move(name); }
+  /// A value in SI.
+  void add(std::string key, std::string name, const Unit& unit, double value) {
+    list_.push_back({.key = std::move(key),
+                     .name = std::move(name),
+                     .unit = unit.name,
+                     .si_unit = unit.si,
+                     .si = unit.size,
+                     .value = value / unit.size,
+                     .grid_error = -1,
+                     .words = {},
+                     .group = group_});
+  }
   /// A negative error is none.
-  void add(std::string key, std::string name, std::string unit, double value, double scale = 1) {
-    list_.push_back({std::move(key), std::move(name), std::move(unit), value / scale, -1, group_});
+  void add_with_error(std::string key, std::string name, const Unit& unit, double value, double error) {
+    add(std::move(key), std::move(name), unit, value);
+    if (has_errors_ && error >= 0) list_.back().grid_error = error / unit.size;
   }
-  void add_with_error(std::string key, std::string name, std::string unit, double value, double error,
-                      double scale = 1) {
-    add(std::move(key), std::move(name), std::move(unit), value, scale);
-    if (has_errors_ && error >= 0) list_.back().grid_error = error / scale;
-  }
+  /// What there is no number of: words in its place, if any, and a value that is infinite or none.
+  void say(const std::string& words) { list_.back().words = words; }
   [[nodiscard]] std::vector<BearingFigure> take() { return std::move(list_); }
 
  private:
@@ -40,81 +61,84 @@ void add_state(const BearingSolution& s, Figures& figures) {
   const bearing::GridError& error = s.grid_error;
   const film::FilmObservables& film = s.state.film;
   figures.group("operating point");
-  figures.add("journal_speed", "journal speed", "rpm", s.state.point.journal_speed, kRpm);
-  figures.add("shell_speed", "shell speed", "rpm", s.state.point.shell_speed, kRpm);
+  figures.add("journal_speed", "journal speed", kRpm, s.state.point.journal_speed);
+  figures.add("shell_speed", "shell speed", kRpm, s.state.point.shell_speed);
   // What is given has no error.
   const bool is_load_given = s.state.point.load.has_value();
-  figures.add_with_error("load", "load", "N", n.load, is_load_given ? -1 : error.load);
-  figures.add("load_angle", "direction of the load", "deg", n.load_angle, kDegree);
-  figures.add_with_error("eccentricity_ratio", "eccentricity ratio", "", n.eccentricity_ratio,
+  figures.add_with_error("load", "load", kNewton, n.load, is_load_given ? -1 : error.load);
+  figures.add("load_angle", "direction of the load", kDegree, n.load_angle);
+  figures.add_with_error("eccentricity_ratio", "eccentricity ratio", kNone, n.eccentricity_ratio,
                          is_load_given ? error.eccentricity_ratio : -1);
-  figures.add("eccentricity_angle", "direction of the eccentricity", "deg", n.eccentricity_angle, kDegree);
+  figures.add("eccentricity_angle", "direction of the eccentricity", kDegree, n.eccentricity_angle);
   const bool squeezes = s.state.point.e_rate.norm() > 0;
   if (squeezes)
-    figures.add("radial_velocity", "velocity along the eccentricity", "mm/s", s.numbers.radial_velocity, 1e-3);
-  figures.add_with_error("attitude", "attitude angle", "deg", n.attitude, error.attitude, kDegree);
+    figures.add("radial_velocity", "velocity along the eccentricity", kMillimetrePerSecond, s.numbers.radial_velocity);
+  figures.add_with_error("attitude", "attitude angle", kDegree, n.attitude, error.attitude);
   figures.group("film");
-  figures.add_with_error("h_min", "minimum film thickness", "um", film.h_min, error.h_min, kMicro);
-  figures.add("h_min_angle", "  at the angle", "deg", film.h_min_phi, kDegree);
-  figures.add("h_min_z", "  at z", "mm", without_round_off(film.h_min_z, s.model.L), 1e-3);
-  figures.add("h_min_centre", "minimum film thickness at mid-width", "um", film.h_min_centre, kMicro);
+  figures.add_with_error("h_min", "minimum film thickness", kMicrometre, film.h_min, error.h_min);
+  figures.add("h_min_angle", "  at the angle", kDegree, film.h_min_phi);
+  figures.add("h_min_z", "  at z", kMillimetre, without_round_off(film.h_min_z, s.model.L));
+  figures.add("h_min_centre", "minimum film thickness at mid-width", kMicrometre, film.h_min_centre);
   if (std::isfinite(film.h_min_features))
-    figures.add("h_min_features", "minimum thickness over features with depth", "um", film.h_min_features, kMicro);
-  figures.add_with_error("p_max", "peak film pressure", "MPa", film.p_max, error.p_max, kMega);
-  figures.add("p_max_angle", "  at the angle", "deg", film.p_max_phi, kDegree);
-  figures.add("p_max_z", "  at z", "mm", without_round_off(film.p_max_z, s.model.L), 1e-3);
+    figures.add("h_min_features", "minimum thickness over features with depth", kMicrometre, film.h_min_features);
+  figures.add_with_error("p_max", "peak film pressure", kMegapascal, film.p_max, error.p_max);
+  figures.add("p_max_angle", "  at the angle", kDegree, film.p_max_phi);
+  figures.add("p_max_z", "  at z", kMillimetre, without_round_off(film.p_max_z, s.model.L));
   const double moment = n.load * s.model.L;
-  figures.add("moment_x", "moment on the shell, x", "N.m", without_round_off(film.wrench_on_shell[0], moment));
-  figures.add("moment_y", "moment on the shell, y", "N.m", without_round_off(film.wrench_on_shell[1], moment));
+  figures.add("moment_x", "moment on the shell, x", kNewtonMetre, without_round_off(film.wrench_on_shell[0], moment));
+  figures.add("moment_y", "moment on the shell, y", kNewtonMetre, without_round_off(film.wrench_on_shell[1], moment));
 }
 
 void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
   const bearing::BearingNumbers& n = s.numbers;
   const film::FilmObservables& film = s.state.film;
   figures.group("numbers");
-  figures.add("sommerfeld_S", "Sommerfeld number S = mu N (R/c)^2 L D/W", "", n.sommerfeld_S);
-  figures.add("sommerfeld_So", "Sommerfeld number So = W (c/R)^2/(L D mu omega)", "", n.sommerfeld_So);
+  figures.add("sommerfeld_S", "Sommerfeld number S = mu N (R/c)^2 L D/W", kNone, n.sommerfeld_S);
+  figures.add("sommerfeld_So", "Sommerfeld number So = W (c/R)^2/(L D mu omega)", kNone, n.sommerfeld_So);
   if (n.radial_velocity != 0)
-    figures.add("sommerfeld_squeeze", "Sommerfeld number of squeeze W (c/R)^2/(L D mu d(eps)/dt)", "",
+    figures.add("sommerfeld_squeeze", "Sommerfeld number of squeeze W (c/R)^2/(L D mu d(eps)/dt)", kNone,
                 n.sommerfeld_squeeze);
-  figures.add("hersey", "Hersey number mu N L D/W", "", n.hersey);
+  figures.add("hersey", "Hersey number mu N L D/W", kNone, n.hersey);
   figures.group("friction");
-  figures.add_with_error("friction_journal", "friction coefficient, journal", "", n.friction_journal,
+  figures.add_with_error("friction_journal", "friction coefficient, journal", kNone, n.friction_journal,
                          s.grid_error.friction_journal);
-  figures.add("friction_shell", "friction coefficient, shell", "", n.friction_shell);
-  figures.add("torque_journal", "friction torque on the journal", "N.m", film.torque_journal);
-  figures.add("torque_shell", "friction torque on the shell", "N.m", film.torque_shell);
-  figures.add("power_film", "friction power, film", "W", film.power_film);
-  figures.add("power_asperity", "friction power, asperities", "W", film.power_asperity);
+  figures.add("friction_shell", "friction coefficient, shell", kNone, n.friction_shell);
+  figures.add("torque_journal", "friction torque on the journal", kNewtonMetre, film.torque_journal);
+  figures.add("torque_shell", "friction torque on the shell", kNewtonMetre, film.torque_shell);
+  figures.add("power_film", "friction power, film", kWatt, film.power_film);
+  figures.add("power_asperity", "friction power, asperities", kWatt, film.power_asperity);
   // The bearing's axes rest: power comes through the torques, and through the load where the journal gives way to it.
   const double put_in = -film.torque_journal * s.state.point.journal_speed -
                         film.torque_shell * s.state.point.shell_speed + s.state.load.dot(s.state.point.e_rate);
-  figures.add("power_put_in", "power put in by torques and load", "W", put_in);
+  figures.add("power_put_in", "power put in by torques and load", kWatt, put_in);
   if (film.power_taken() > 0)
-    figures.add("power_error", "  of it not explained by the film's integrals", "", put_in / film.power_taken() - 1);
-  figures.add("asperity_share", "share of the load on asperities", "", n.asperity_share);
-  figures.add("film_ratio", "film ratio h_min/sigma", "", n.film_ratio);
+    figures.add("power_error", "  of it not explained by the film's integrals", kNone, put_in / film.power_taken() - 1);
+  figures.add("asperity_share", "share of the load on asperities", kNone, n.asperity_share);
+  figures.add("film_ratio", "film ratio h_min/sigma", kNone, n.film_ratio);
   figures.group("oil");
-  figures.add_with_error("side_flow", "side flow", "mm^3/s", film.flow_left + film.flow_right, s.grid_error.side_flow,
-                         kCubicMillimetrePerSecond);
-  figures.add("flow_left", "flow over the edge z < 0", "mm^3/s", film.flow_left, kCubicMillimetrePerSecond);
-  figures.add("flow_right", "flow over the edge z > 0", "mm^3/s", film.flow_right, kCubicMillimetrePerSecond);
-  figures.add("flow_supply", "flow through the supply", "mm^3/s", film.flow_supply, kCubicMillimetrePerSecond);
+  figures.add_with_error("side_flow", "side flow", kFlow, film.flow_left + film.flow_right, s.grid_error.side_flow);
+  figures.add("flow_left", "flow over the edge z < 0", kFlow, film.flow_left);
+  figures.add("flow_right", "flow over the edge z > 0", kFlow, film.flow_right);
+  figures.add("flow_supply", "flow through the supply", kFlow, film.flow_supply);
   for (Eigen::Index f = 0; f < film.flow_features.size(); ++f) {
     const std::string& name = s.model.features[static_cast<std::size_t>(f)].name;
-    figures.add("flow_feature_" + name, "  through " + name, "mm^3/s", film.flow_features[f],
-                kCubicMillimetrePerSecond);
+    figures.add("flow_feature_" + name, "  through " + name, kFlow, film.flow_features[f]);
   }
-  figures.add("oil_volume", "oil in the bearing", "mm^3", film.oil_volume, 1e-9);
-  figures.add("mass_balance_error", "mass balance error", "", film.mass_balance_error);
-  figures.add("cavitated_share", "cavitated share of the area", "", film.cavitated_share);
+  figures.add("oil_volume", "oil in the bearing", kVolume, film.oil_volume);
+  // Reynolds' condition lets oil vanish where the film breaks and appear where it forms again: what is missing there is
+  // no error of the solution.
+  const bool conserves = s.model.cavitation != film::Cavitation::reynolds;
+  figures.add("mass_balance_error", "mass balance error", kNone,
+              conserves ? film.mass_balance_error : std::numeric_limits<double>::quiet_NaN());
+  if (!conserves) figures.say("oil is not conserved by reynolds");
+  figures.add("cavitated_share", "cavitated share of the area", kNone, film.cavitated_share);
   if (std::isfinite(film.rupture_angle)) {
-    figures.add("rupture_angle", "the film ruptures at mid-width at", "deg", film.rupture_angle, kDegree);
-    figures.add("reformation_angle", "  and re-forms at", "deg", film.reformation_angle, kDegree);
+    figures.add("rupture_angle", "the film ruptures at mid-width at", kDegree, film.rupture_angle);
+    figures.add("reformation_angle", "  and re-forms at", kDegree, film.reformation_angle);
   }
 }
 
-void add_matrix(const std::string& key, const std::string& name, const std::string& unit, const Eigen::Matrix2d& M,
+void add_matrix(const std::string& key, const std::string& name, const Unit& unit, const Eigen::Matrix2d& M,
                 Figures& figures) {
   const char* axes = "xy";
   for (int i = 0; i < 2; ++i) {
@@ -125,18 +149,28 @@ void add_matrix(const std::string& key, const std::string& name, const std::stri
   }
 }
 
+// Numbers of a threshold that is not there are words.
+void add_stability(const bearing::WhirlStability& whirl, Figures& figures) {
+  figures.group("stability");
+  figures.add("critical_mass", "critical mass of a rigid rotor", kKilogram, whirl.critical_mass);
+  if (whirl.always_stable) figures.say("none: stable at every mass");
+  if (whirl.never_stable) figures.say("none: unstable at every mass");
+  figures.add("whirl_ratio", "whirl frequency ratio", kNone, whirl.whirl_ratio);
+  if (whirl.always_stable) figures.say("no whirl");
+  figures.add("stability_number", "omega sqrt(c/g) at the threshold", kNone, whirl.stability_number);
+  if (whirl.always_stable) figures.say("no threshold");
+  figures.add("threshold_speed", "threshold speed under the load's own weight", kRpm, whirl.threshold_speed);
+  if (whirl.always_stable) figures.say("none: stable at every speed");
+}
+
 void add_dynamics(const BearingSolution& s, Figures& figures) {
   const bearing::DynamicCoefficients& all = s.state.coefficients;
   figures.group("stiffness and damping");
-  add_matrix("stiffness", "stiffness, bearing axes,", "N/m", all.stiffness.topLeftCorner<2, 2>(), figures);
-  add_matrix("damping", "damping, bearing axes,", "N.s/m", all.damping.topLeftCorner<2, 2>(), figures);
-  add_matrix("K", "K = k c/W, x along the load,", "", s.coefficients.K, figures);
-  add_matrix("C", "C = b c omega/W, x along the load,", "", s.coefficients.C, figures);
-  figures.group("stability");
-  figures.add("critical_mass", "critical mass of a rigid rotor", "kg", s.whirl.critical_mass);
-  figures.add("whirl_ratio", "whirl frequency ratio", "", s.whirl.whirl_ratio);
-  figures.add("stability_number", "omega sqrt(c/g) at the threshold", "", s.whirl.stability_number);
-  figures.add("threshold_speed", "threshold speed under the load's own weight", "rpm", s.whirl.threshold_speed, kRpm);
+  add_matrix("stiffness", "stiffness, bearing axes,", kStiffness, all.stiffness.topLeftCorner<2, 2>(), figures);
+  add_matrix("damping", "damping, bearing axes,", kDamping, all.damping.topLeftCorner<2, 2>(), figures);
+  add_matrix("K", "K = k c/W, x along the load,", kNone, s.coefficients.K, figures);
+  add_matrix("C", "C = b c omega/W, x along the load,", kNone, s.coefficients.C, figures);
+  add_stability(s.whirl, figures);
 }
 
 }  // namespace

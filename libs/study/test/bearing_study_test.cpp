@@ -21,6 +21,53 @@ double value_of(const BearingSolution& solution, const std::string& key) {
   return 0;
 }
 
+BearingFigure figure_of(const BearingSolution& solution, const std::string& key) {
+  const std::vector<BearingFigure> all = figures_of(solution);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const BearingFigure& f) { return f.key == key; });
+  REQUIRE(found != all.end());
+  return *found;
+}
+
+BearingSolution solved_with(std::vector<std::string> overrides) {
+  overrides.emplace_back("bearings.main.grid={circumferential: 60, axial: 13}");
+  auto solutions = solve_bearings(example, {{overrides, "", "", {}}}, {.bearing = "", .grid_error = false});
+  REQUIRE(solutions.at(0).solved());
+  return solutions.front();
+}
+
+// By Reynolds' condition oil vanishes and appears: a balance of it is no error of the solution.
+TEST_CASE("MassBalance_OfReynoldsIsNoNumberButWords") {
+  const BearingFigure reynolds = figure_of(solved_with({"bearings.main.cavitation=reynolds"}), "mass_balance_error");
+  CHECK(std::isnan(reynolds.value));
+  CHECK(reynolds.words == "oil is not conserved by reynolds");
+  const BearingFigure conserving = figure_of(solved_with({}), "mass_balance_error");
+  CHECK(conserving.value < 1e-8);
+  CHECK(conserving.words.empty());
+}
+
+TEST_CASE("CriticalMass_ThatIsInfiniteIsWords") {
+  const BearingSolution stable =
+      solved_with({"bearings.main.operating_point.load=none", "bearings.main.operating_point.eccentricity_ratio=0.97"});
+  REQUIRE(stable.whirl.always_stable);
+  CHECK(figure_of(stable, "critical_mass").words == "none: stable at every mass");
+  for (const char* key : {"whirl_ratio", "stability_number", "threshold_speed"})
+    CHECK_FALSE(figure_of(stable, key).words.empty());
+  const BearingSolution whirls =
+      solved_with({"bearings.main.operating_point.load=none", "bearings.main.operating_point.eccentricity_ratio=0.3"});
+  REQUIRE_FALSE(whirls.whirl.always_stable);
+  CHECK(figure_of(whirls, "critical_mass").words.empty());
+}
+
+TEST_CASE("Figures_KnowTheirUnitInSi") {
+  const BearingSolution solution = solved_with({});
+  const BearingFigure thickness = figure_of(solution, "h_min"), flow = figure_of(solution, "side_flow");
+  CHECK(thickness.si * thickness.value == doctest::Approx(solution.state.film.h_min).epsilon(1e-14));
+  CHECK(thickness.si_unit == "m");
+  CHECK(flow.si * flow.value ==
+        doctest::Approx(solution.state.film.flow_left + solution.state.film.flow_right).epsilon(1e-14));
+  CHECK(flow.si_unit == "m^3/s");
+}
+
 TEST_CASE("Sweeps_AreListsAndRanges") {
   using Values = std::vector<std::string>;
   CHECK(parse_sweep("load=100N,2 kN").values == Values{"100N", "2 kN"});

@@ -3,14 +3,14 @@
 #include <exception>
 #include <string>
 
-#include "hersey/core/contract.h"
-
 namespace hersey {
 
-/// What to tell a user of an exception: a broken contract is a bug of the program, whatever the model is.
-[[nodiscard]] inline std::string error_text(const std::exception& error) {
-  const bool is_bug = dynamic_cast<const ContractError*>(&error) != nullptr;
-  return (is_bug ? "internal error, please report it with the model: " : "") + std::string(error.what());
-}
+/// Whether an exception tells of a bug of the program, whatever the model is: a broken contract, or one of the standard
+/// library's own complaints. What is known to go wrong is told by runtime errors, and memory by std::bad_alloc.
+[[nodiscard]] bool is_bug(const std::exception& error);
+
+/// What to tell a user of an exception. Of a bug no expressions of the source: one line that asks for a report, and a
+/// second one with the place, for those who read the report.
+[[nodiscard]] std::string error_text(const std::exception& error);
 
 }  // namespace hersey

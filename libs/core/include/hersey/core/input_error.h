@@ -21,7 +21,7 @@ struct Fault {
   std::string expected;    ///< what is allowed, e.g. "a length > 0, such as 45 mm"
   std::string suggestion;  ///< nearest valid name or remedy; may be empty
 
-  /// "model.yaml:12:5: bearings.big_end: unknown key 'diamter'; expected ...; did you mean 'diameter'?"
+  /// "model.yaml:12:5: bearings.big_end: unknown key 'diamter'; did you mean 'diameter'? expected ..."
   [[nodiscard]] std::string text() const;
 };
 

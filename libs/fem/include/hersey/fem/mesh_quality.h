@@ -48,6 +48,12 @@ struct MeshQuality {
 /// What makes a mesh unfit for computing: folded or repeated elements, unconnected parts. `file` names the mesh.
 [[nodiscard]] std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file);
 
+/// A body whose unit of length hardly is the one meant: of more than 10 m or less than 0.1 mm.
+/// @param box   its lengths along the axes [m]
+/// @param more  what else to say of a large one, ", 3 m^3"
+[[nodiscard]] std::optional<Fault> size_warning(const Vector3& box, const std::string& file,
+                                                const std::string& more = {}, bool is_heavy = false);
+
 /// What hardly is meant: a body of more than 10 m or a tonne or less than 0.1 mm (a wrong unit of length), nodes that
 /// lie on each other unconnected, very flat elements, faces that hang together by their corners alone.
 [[nodiscard]] std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& file);

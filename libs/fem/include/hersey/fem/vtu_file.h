@@ -12,7 +12,7 @@
 namespace hersey::fem {
 
 /// Values at every node or element: one column each, one row per component (1 scalar, 3 vector, 6 symmetric tensor in
-/// the order xx, yy, zz, xy, yz, xz, as ParaView names them).
+/// the order xx, yy, zz, xy, yz, xz, by which the file names them).
 struct VtuField {
   std::string name;
   Eigen::MatrixXd values;

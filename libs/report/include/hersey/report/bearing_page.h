@@ -13,6 +13,7 @@ struct PageFigure {
   std::string key, group, name, unit;
   double value = 0;
   double grid_error = -1;  ///< negative: none estimated
+  std::string words = {};  ///< said in place of a value that is no number; else empty
 };
 
 /// A hole or groove where it lies over the film.

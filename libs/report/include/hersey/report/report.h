@@ -22,7 +22,7 @@ struct SummaryRow {
 /// @verified_by summary_test.cpp
 [[nodiscard]] std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& results);
 
-/// The same as JSON: [{"run", "group", "name", "value", "unit", "where"}, ...].
+/// The same as JSON, in SI: [{"run", "group", "name", "value", "unit", "where"}, ...].
 [[nodiscard]] std::string summary_json(const std::vector<std::filesystem::path>& results);
 
 struct ReportOptions {

@@ -52,11 +52,14 @@ struct BearingStudyOptions {
 
 /// One reported figure in the unit people use.
 struct BearingFigure {
-  std::string key;   ///< "h_min"
-  std::string name;  ///< "minimum film thickness"
-  std::string unit;  ///< "um"; empty for a bare number
+  std::string key;      ///< "h_min"
+  std::string name;     ///< "minimum film thickness"
+  std::string unit;     ///< "um"; empty for a bare number
+  std::string si_unit;  ///< "m"
+  double si = 1;        ///< what one `unit` is in SI: 1e-6
   double value = 0;
   double grid_error = -1;  ///< estimated error of the grid; negative: none estimated
+  std::string words;       ///< said in place of a value that is no number, "stable at every mass"; else empty
   std::string group;       ///< "film": figures of one kind stand together
 };
 
