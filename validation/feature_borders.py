@@ -34,7 +34,7 @@ FED_HOLE = "hole: {{shape: hole, angle: {:g} deg, diameter: 22 mm, pressure: 170
 POCKET = "pocket: {{shape: axial_groove, angle: {:g} deg, arc: 19 deg, length: 50 mm, depth: {}}}"
 ROUND = "pocket: {{shape: hole, angle: {:g} deg, diameter: 22 mm, depth: 100 um}}"
 GRIDS = ((60, 13), (120, 25), (240, 49))
-FIGURES = ("load", "side_flow")
+FIGURES = {"load": 1, "side_flow": 1e9}  # printed in N and mm^3/s
 
 
 def solved(hersey, features, around, along, turned):
@@ -43,7 +43,7 @@ def solved(hersey, features, around, along, turned):
         file.flush()
         run = subprocess.run([hersey, "bearing", file.name, "--json"], capture_output=True, text=True, check=True)
     figures = json.loads(run.stdout)["solutions"][0]["figures"]
-    return [figures[name]["value"] for name in FIGURES]
+    return [scale * figures[name]["value"] for name, scale in FIGURES.items()]
 
 
 def cases():
