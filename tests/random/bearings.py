@@ -48,7 +48,7 @@ class Feature:
         else:
             if self.arc < 2 * PI:
                 entry["arc"] = deg(self.arc)
-            if self.length < L or self.kind == "circumferential_groove":
+            if self.length < L or self.kind in ("circumferential_groove", "pocket"):
                 entry["length"] = mm(self.length)
         if self.pressure is not None:
             entry["pressure"] = bar(self.pressure)
