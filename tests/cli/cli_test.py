@@ -759,7 +759,7 @@ class CommandLine(unittest.TestCase):
                              summaries[name])
         table = hersey("report", *files, "--output", page).stdout
         for name in runs:
-            self.assertRegex(table, rf"(?m)^ +{name} +main .*\b{summaries[name][key]:.5g}")
+            self.assertRegex(table, rf"(?m)^ +{name} +main .*\b{1e6 * summaries[name][key]:.5g}")
 
     def test_resume_of_another_model_is_refused(self):
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],

@@ -1,13 +1,19 @@
 #include "hersey/core/input_error.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace hersey {
 namespace {
 
+// As many as somebody reads.
+constexpr std::size_t kMostTold = 100;
+
 std::string join(const std::vector<Fault>& faults) {
   std::string text;
-  for (const Fault& fault : faults) text += (text.empty() ? "" : "\n") + fault.text();
+  const std::size_t told = std::min(faults.size(), kMostTold);
+  for (std::size_t i = 0; i < told; ++i) text += (i > 0 ? "\n" : "") + faults[i].text();
+  if (told < faults.size()) text += "\nand " + std::to_string(faults.size() - told) + " more faults";
   return text;
 }
 

@@ -50,7 +50,12 @@ class Search {
     for (int j = 0; j < grid_.n_z; ++j) search_row(j, best);
     for (const SurfaceFeature& feature : deep_) search_border(feature, best);
     best.in_the_middle = in_the_middle();
-    if (!deep_.empty()) best.in_features = in_features();
+    const int node = node_in_features();
+    if (node >= 0) best.in_features = with_depth(node);
+    if (node >= 0 && !std::isfinite(best.value)) {
+      // A groove over all of the bearing: there is no land.
+      best.value = best.in_features, best.phi = at_.phi[node / grid_.n_z], best.z = at_.z[node % grid_.n_z];
+    }
     return best;
   }
 
@@ -165,17 +170,30 @@ class Search {
            t * ((1 - s) * value(i + 1, j) + s * value(i + 1, j + 1));
   }
 
-  [[nodiscard]] double in_features() const {
-    double least = std::numeric_limits<double>::quiet_NaN();
-    for (int k = 0; k < grid_.size(); ++k) {
-      if (outside_[static_cast<std::size_t>(k)] != 0) continue;
-      double depth = 0;
-      for (const SurfaceFeature& f : deep_) {
-        if (contains(f, at_.phi[k / grid_.n_z], at_.z[k % grid_.n_z])) depth += f.depth;
-      }
-      if (!(h_[k] + depth >= least)) least = h_[k] + depth;
+  /// Of a node, depth of features included.
+  [[nodiscard]] double with_depth(int k) const {
+    double depth = 0;
+    for (const SurfaceFeature& f : deep_) {
+      if (contains(f, at_.phi[k / grid_.n_z], at_.z[k % grid_.n_z])) depth += f.depth;
     }
-    return least;
+    return h_[k] + depth;
+  }
+
+  /// The node over features where the film is thinnest; -1 where they cover none.
+  [[nodiscard]] int node_in_features() const {
+    int node = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < grid_.size() && !deep_.empty(); ++k) {
+      if (outside_[static_cast<std::size_t>(k)] != 0) continue;
+      const double h = with_depth(k);
+      if (h < least) least = h, node = k;
+    }
+    return node;
+  }
+
+  [[nodiscard]] double in_features() const {
+    const int node = node_in_features();
+    return node < 0 ? std::numeric_limits<double>::quiet_NaN() : with_depth(node);
   }
 
   const FilmModel& model_;
