@@ -31,7 +31,9 @@ struct GeneralizedAlpha::Workspace {
   AlphaParameters parameters;
   bool started = false;
   double last_dt = 0;
-  VectorXd a;  ///< algorithmic acceleration at the last accepted state
+  VectorXd a;         ///< algorithmic acceleration at the last accepted state
+  VectorXd offset;    ///< a - vdot
+  VectorXd a_across;  ///< the part of the offset across the constraints
 
   // One step
   State trial;
@@ -59,7 +61,8 @@ struct GeneralizedAlpha::Workspace {
   bool solve_increment(Index nv);
   bool enter_domain(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
   bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
-  void estimate_error(Index nv, bool factorised);
+  void part_across(const VectorXd& motion, bool factorised, VectorXd& part);
+  void estimate_error(bool factorised);
   void remember_drift(double dt);
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
 };
@@ -73,6 +76,7 @@ void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State
   if (!stage.fresh) return;
   if (std::optional<SettledStart> settled = settle_fast_motions(equations, state, dt)) start = std::move(*settled);
   a = start.vdot;
+  a_across.setZero(a.size());
   last_dt = dt;
   equations.begin_step(state, dt);
 }
@@ -80,7 +84,10 @@ void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State
 /// The step with a_{n+1} = a_n: dq, v and vdot that belong together.
 void GeneralizedAlpha::Workspace::predict(double dt) {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
-  a_n = start.vdot + (dt / last_dt) * (a - start.vdot);
+  // Along the constraints a - vdot goes as dt. Across them, in steps that nothing judges, it is more of a memory of
+  // earlier steps than of the motion, and stretched with steps that are cut again and again it would grow
+  // (integrator.25).
+  a_n = start.vdot + (dt / last_dt) * (a - start.vdot) + (1 - dt / last_dt) * a_across;
   v_start = start.v;
   // Theory manual eq. (integrator.14): velocities across the constraints are offset by an error that goes as dt^2.
   if (drift.size() > 0 && dt != last_dt) v_start += (dt * dt - last_dt * last_dt) * drift;
@@ -193,23 +200,28 @@ bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
   return false;
 }
 
-/// The step's local error of position, theory manual eq. (integrator.10): what the third derivative contributes beyond
-/// the method's own use of it; and the part of it across the constraints (integrator.11).
-void GeneralizedAlpha::Workspace::estimate_error(Index nv, bool factorised) {
-  const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
-  const double share = 0.5 * gamma - beta - 1.0 / 12;
-  error = (share / beta) * (dq - dq_predicted);
-  const Index n = tangent.rows();
-  across.setZero(nv);
+/// The part of a motion across the constraints, by the factors of the step's last iteration: zero without them. With
+/// J = [A G^T; G 0] as factorised, J [x; y] = [A e; 0] leaves x = e less what the constraints forbid.
+void GeneralizedAlpha::Workspace::part_across(const VectorXd& motion, bool factorised, VectorXd& part) {
+  const Index nv = motion.size(), n = tangent.rows();
+  part.setZero(nv);
   if (!factorised || n == nv) return;
-  // With J = [A G^T; G 0] as factorised, J [x; y] = [A e; 0] leaves x = e less what the constraints forbid.
   rhs.setZero(n);
   for (Index column = 0; column < nv; ++column)
     for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
-      if (entry.row() < nv) rhs[entry.row()] += entry.value() / stage.m * error[column];
+      if (entry.row() < nv) rhs[entry.row()] += entry.value() / stage.m * motion[column];
   const Stopwatch watch(linear_solve_time);
   lu.solve({rhs.data(), static_cast<std::size_t>(n)});
-  across = error - rhs.head(nv);
+  part = motion - rhs.head(nv);
+}
+
+/// The step's local error of position, theory manual eq. (integrator.10): what the third derivative contributes beyond
+/// the method's own use of it; and the part of it across the constraints (integrator.11).
+void GeneralizedAlpha::Workspace::estimate_error(bool factorised) {
+  const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
+  const double share = 0.5 * gamma - beta - 1.0 / 12;
+  error = (share / beta) * (dq - dq_predicted);
+  part_across(error, factorised, across);
 }
 
 /// Takes the accepted step's part across the constraints into `drift`, half old, half new: all of it at once would feed
@@ -289,10 +301,12 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   }
 
   if (judge) {
-    w.estimate_error(equations.nv(), summary.iterations > 0);
+    w.estimate_error(summary.iterations > 0);
     if (!judge(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
   }
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
+  w.offset = w.a - w.trial.vdot;
+  w.part_across(w.offset, summary.iterations > 0 && !judge, w.a_across);
   w.last_dt = dt;
   w.stage.fresh = false;
   w.remember_drift(judge && options_.corrects_changes ? dt : 0);
@@ -309,6 +323,7 @@ void GeneralizedAlpha::persist(Archive& archive) {
   archive.io("fresh", w.stage.fresh);
   archive.io("last_dt", w.last_dt);
   archive.io("a", w.a);
+  archive.io("a_across", w.a_across);
   archive.io("drift", w.drift);
   archive.io("analysed", w.analysed);
   const Archive::Group group(archive, "lu");
