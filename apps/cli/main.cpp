@@ -294,7 +294,7 @@ int main(int argc, char** argv) {
     const int code = cli::dispatch(argc, argv);
     return cli::finish_standard_output() || code != cli::kOk ? code : static_cast<int>(cli::kFailed);
   } catch (const InputError& error) {
-    for (const Fault& fault : error.faults()) cli::say("{}\n", fault.text());
+    cli::say("{}\n", error.what());
     if (error.faults().size() > 1) cli::say("hersey: {} faults\n", error.faults().size());
     return cli::kWrongInput;
   } catch (const results::FileExists& error) {
