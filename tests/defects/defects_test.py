@@ -279,6 +279,13 @@ class Defects(unittest.TestCase):
                 mass = mass or results["bodies/bar"].attrs["mass"]
                 self.assertAlmostEqual(abs(force[2]) / (9.81 * mass), 1, delta=1e-9)
 
+    def test_closed_edges_of_a_run_let_no_oil_pass_and_are_told(self):
+        results, _ = self.run_model("../cli/bearing.yaml", "bearings.main.edge_pressure=closed")
+        b = results["bearings/main"]
+        self.assertEqual(max(abs(b["flow_left"][:]).max(), abs(b["flow_right"][:]).max()), 0)
+        told = {name: str(item[()]) for name, item in b.items() if "assumptions" in name} | dict(b.attrs)
+        self.assertIn("closed: no oil passes", str(told))
+
     def test_table_of_a_tiny_period_is_refused(self):
         done = hersey("run", os.path.join(HERE, "table_of_tiny_period.yaml"), "--output", os.path.join(self.folder, "out"))
         self.assertEqual(done.returncode, 2)

@@ -28,6 +28,7 @@ std::string cavitation(const film::FilmModel& film) {
 }
 
 std::string edge(const film::FilmModel& film, double p, double fill) {
+  if (film.edges == film::EdgeKind::closed) return "closed: no oil passes";
   if (film.cavitation != film::Cavitation::mass_conserving || p > film.p_cav) return pressure(p);
   if (fill == 0) return pressure(p) + ", in air: oil may leave, none comes in";
   return pressure(p) + fmt::format(", in {:.3g} of oil: the film draws it in where it would be emptier", fill);
