@@ -37,10 +37,11 @@ def examine(program, rng, folder):
     if results is None:
         return ending.kind, ending.text, [], runs.models
     found = Findings(machine_checks.check(machine, results))
-    if found.has_estimated():
-        finer = machine.on_grid(2)
-        _, finer_results = runs.run(finer, "finer")
-        found.drop_estimated(machine_checks.check(finer, finer_results) if finer_results else found)
+    for times, label in ((2, "fine"), (4, "finest")):
+        if found.has_estimated():
+            finer = machine.on_grid(times)
+            _, finer_results = runs.run(finer, label)
+            found.drop_estimated(machine_checks.check(finer, finer_results) if finer_results else found, times)
     failed = {"model"} if found else set()
     if ending.kind == "answer":
         for label, invariant, variant, symmetry in variants(machine):

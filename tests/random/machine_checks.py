@@ -244,14 +244,20 @@ def check_oil(b, results, f, motion, name, found):
                 f"m^3 unexplained in {name} over the run: {lost.sum() / gap:.3g} of the gap")
     if b.roughness:
         return
+    check_volume(b, results, f, motion, name, found)
+
+
+def check_volume(b, results, f, motion, name, found):
+    """The oil told against an integral of the fields, where they differ most."""
+    worst = (0.0, 0.0, "")
     for k, row in rows_of_fields(results, f):
         gap = b.oil_gap(f.h[k], land_of(b, f, k, row, motion), f.phi[:, None], f.z[None, :], motion.turn[row])
         own = film.volume(f.theta[k] * gap * film_laws.density(b, f.p[k]), b.R, f.phi, f.z)
         step = sum(feature.depth * border_area(feature, b, f) for feature in b.features)
-        off = abs(own.value - volume[row]) - (own.error + step + 1e-6 * own.value)
-        if off > 0:
-            found.bound("oil volume", off, 0.0, f"m^3: {name}, t = {f.time[k]:.6g} s: own integral {own.value:.6g}, told {volume[row]:.6g}")
-            return
+        off, allowed = abs(own.value - f.rows["oil_volume"][row]), own.error + step + 1e-6 * own.value
+        if off - allowed > worst[0] - worst[1]:
+            worst = (off, allowed, f"m^3: {name}, t = {f.time[k]:.6g} s: own integral {own.value:.6g}, told {f.rows['oil_volume'][row]:.6g}")
+    found.bound("oil volume", *worst)
 
 
 def border_area(feature, b, f):
