@@ -95,7 +95,8 @@ nlohmann::json json_of(const run::Work& work) {
   for (const run::CouplingWork& coupling : work.couplings)
     document["couplings"][coupling.bearing] = {{"scheme", coupling.scheme},
                                                {"film_iterations", json_of(coupling.film_iterations)},
-                                               {"exchanges", json_of(coupling.exchanges)}};
+                                               {"exchanges", json_of(coupling.exchanges)},
+                                               {"steps_as_one", coupling.steps_as_one}};
   return document;
 }
 
@@ -231,7 +232,11 @@ void tell_work(const run::Summary& summary) {
   for (const run::CouplingWork& coupling : work.couplings) {
     const std::string exchanges =
         coupling.exchanges.most > 0 ? fmt::format("exchanges per step: {}; ", text_of(coupling.exchanges)) : "";
-    say("bearing {}: {}; {}film iterations per step: {}\n", coupling.bearing, coupling.scheme, exchanges,
+    const std::string as_one =
+        coupling.steps_as_one > 0
+            ? fmt::format("{} steps solved as one system, as their exchange came to no end; ", coupling.steps_as_one)
+            : "";
+    say("bearing {}: {}; {}{}film iterations per step: {}\n", coupling.bearing, coupling.scheme, exchanges, as_one,
         text_of(coupling.film_iterations));
   }
 }

@@ -84,6 +84,7 @@ def check(machine, results):
         check_gaps(bearing, results, results.films[name], motion, name, found)
         check_power(bearing, results, results.films[name], motion, name, found)
     check_momentum(machine, results, found)
+    check_drive(machine, results, found)
     return found
 
 
@@ -111,6 +112,17 @@ def compare_start(joint, given, rates, results, found):
         got = np.atleast_1d(results.joints[joint][what][0])
         off = np.abs(got - wanted) / np.maximum(np.abs(wanted), 1e-6)
         found.bound("start", off.max(), 1e-8, f": {joint} {what} given {np.array(wanted)}, at the start {got}")
+
+
+def check_drive(machine, results, found):
+    """The motor turns at its speed from the start to the end."""
+    joint = "plane" if isinstance(machine, Rotor) else "main_joint"
+    rate = results.joints[joint]["rates"]
+    rate = rate if rate.ndim == 1 else rate[:, -1]
+    k = int(np.argmax(np.abs(rate - machine.speed)))
+    # Rates across a constraint are of the second order in the step; cut steps leave some of that behind.
+    found.bound("driven speed", abs(rate[k] - machine.speed), 1e-4 * abs(machine.speed),
+                f"rad/s off {machine.speed:.6g} at t = {results.time[k]:.6g} s")
 
 
 # -- film

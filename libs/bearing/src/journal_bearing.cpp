@@ -139,6 +139,10 @@ void JournalBearing::begin_step(const mbd::RelativeMotion& /*start*/, double dt)
   given_ = given_start_;
   answered_ = false;
   interface_.begin_step();
+  // Tried before with a longer step: its exchange did not come to an end, as where the film damps more than inertia
+  // holds.
+  is_one_system_ = options_.coupling == Coupling::monolithic || dt < tried_dt_;
+  tried_dt_ = std::max(tried_dt_, dt);
 }
 
 // u += du0 + U (s - s_last): the film's share of the Newton increment the bodies have just taken.
@@ -203,8 +207,9 @@ void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tange
     linearised_ = false;
     evaluate_monolithic(want_tangent, response);
     given_ << response.W_B_A, response.Q;
-  } else if (options_.coupling == Coupling::monolithic) {
+  } else if (is_one_system_) {
     evaluate_monolithic(want_tangent, response);
+    given_ << response.W_B_A, response.Q;
   } else {
     evaluate_partitioned(response);
   }
@@ -288,6 +293,7 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   linearised_ = false;
   u_start_ = u_;
   given_start_ = given_;
+  tried_dt_ = 0;
 }
 
 // The next step starts from the oil there is, which is what was there before and what has come in since.
@@ -316,7 +322,7 @@ void JournalBearing::close_step() {
 }
 
 std::string JournalBearing::name_of_internal_residual() const {
-  if (options_.coupling == Coupling::partitioned) {
+  if (!is_one_system_) {
     return "wrench exchanged between film and bodies";
   }
   const int node = reynolds_.worst_node(), n_z = model().grid.n_z;

@@ -206,6 +206,8 @@ class Summary {
       };
       per_step("exchanges", "exchanges");
       per_step("film iterations", "film_iterations");
+      if (const double steps_as_one = reader_.number_attribute(group, "steps_as_one").value_or(0); steps_as_one > 0)
+        add("steps solved as one system, " + bearing, steps_as_one, "", "the exchange came to no end");
     }
   }
 

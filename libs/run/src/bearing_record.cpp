@@ -83,7 +83,8 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   s.reformation_angle = series("reformation_angle", "rad", "where it re-forms; NaN where it is whole");
   s.film_iterations = series("film_iterations", "1", "film linearisations in the step");
   if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
-    s.exchanges = series("exchanges", "1", "wrenches that film and bodies exchanged in the step");
+    s.exchanges =
+        series("exchanges", "1", "wrenches that film and bodies exchanged in the step; 0: it was solved as one system");
   const auto around = [&](const char* name, const char* unit, const char* description) {
     return writer_.series(path + name, film.grid.n_phi, unit, description, results::Precision::float32,
                           path + "fields/phi");

@@ -119,11 +119,15 @@ Work WorkRecord::work() const {
   for (const model::Bearing& bearing : model_.bearings) names.push_back("film " + bearing.name);
   names.insert(names.end(), {"elastic bodies", "other bodies and forces", "linear solve", "recording", "rest"});
   for (std::size_t i = 0; i < names.size(); ++i) work.parts.push_back({names[i], seconds[i]});
-  for (std::size_t i = 0; i < model_.bearings.size(); ++i)
-    work.couplings.push_back({.bearing = model_.bearings[i].name,
-                              .scheme = scheme_of(model_.bearings[i].coupling),
+  for (std::size_t i = 0; i < model_.bearings.size(); ++i) {
+    const model::Bearing& bearing = model_.bearings[i];
+    const bool exchanges = bearing.coupling.scheme == model::CouplingScheme::partitioned;
+    work.couplings.push_back({.bearing = bearing.name,
+                              .scheme = scheme_of(bearing.coupling),
                               .film_iterations = film_iterations_[i].per_step(),
-                              .exchanges = exchanges_[i].per_step()});
+                              .exchanges = exchanges_[i].per_step(),
+                              .steps_as_one = exchanges ? exchanges_[i].without() : 0});
+  }
   return work;
 }
 
@@ -164,6 +168,7 @@ void write_work(const Work& work, int steps, results::Writer& writer) {
     writer.attribute(bearing, "scheme", coupling.scheme);
     figures(bearing, "film_iterations", coupling.film_iterations);
     figures(bearing, "exchanges", coupling.exchanges);
+    writer.attribute(bearing, "steps_as_one", coupling.steps_as_one);
   }
 }
 

@@ -18,6 +18,8 @@ class StepCounts {
  public:
   void take(int count);
   [[nodiscard]] PerStep per_step() const;
+  /// Steps that took none.
+  [[nodiscard]] int without() const { return times_.empty() ? 0 : times_.front(); }
   void persist(Archive& archive, const char* name) { archive.io(name, times_); }
 
  private:

@@ -62,7 +62,7 @@ struct GeneralizedAlpha::Workspace {
   bool enter_domain(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
   bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
   void part_across(const VectorXd& motion, bool factorised, VectorXd& part);
-  void estimate_error(bool factorised);
+  void estimate_error();
   void remember_drift(double dt);
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
 };
@@ -84,8 +84,8 @@ void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State
 /// The step with a_{n+1} = a_n: dq, v and vdot that belong together.
 void GeneralizedAlpha::Workspace::predict(double dt) {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
-  // Along the constraints a - vdot goes as dt. Across them, in steps that nothing judges, it is more of a memory of
-  // earlier steps than of the motion, and stretched with steps that are cut again and again it would grow
+  // Along the constraints a - vdot goes as dt. Across them, in steps that no error control chose, it is more of a
+  // memory of earlier steps than of the motion, and stretched with steps that are cut again and again it would grow
   // (integrator.25).
   a_n = start.vdot + (dt / last_dt) * (a - start.vdot) + (1 - dt / last_dt) * a_across;
   v_start = start.v;
@@ -216,12 +216,11 @@ void GeneralizedAlpha::Workspace::part_across(const VectorXd& motion, bool facto
 }
 
 /// The step's local error of position, theory manual eq. (integrator.10): what the third derivative contributes beyond
-/// the method's own use of it; and the part of it across the constraints (integrator.11).
-void GeneralizedAlpha::Workspace::estimate_error(bool factorised) {
+/// the method's own use of it.
+void GeneralizedAlpha::Workspace::estimate_error() {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
   const double share = 0.5 * gamma - beta - 1.0 / 12;
   error = (share / beta) * (dq - dq_predicted);
-  part_across(error, factorised, across);
 }
 
 /// Takes the accepted step's part across the constraints into `drift`, half old, half new: all of it at once would feed
@@ -301,15 +300,17 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   }
 
   if (judge) {
-    w.estimate_error(summary.iterations > 0);
+    w.estimate_error();
     if (!judge(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
   }
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
   w.offset = w.a - w.trial.vdot;
-  w.part_across(w.offset, summary.iterations > 0 && !judge, w.a_across);
+  const bool factorised = summary.iterations > 0, corrects_changes = judge && options_.corrects_changes;
+  if (corrects_changes) w.part_across(w.error, factorised, w.across);  // (integrator.11)
+  w.part_across(w.offset, factorised && !corrects_changes, w.a_across);
   w.last_dt = dt;
   w.stage.fresh = false;
-  w.remember_drift(judge && options_.corrects_changes ? dt : 0);
+  w.remember_drift(corrects_changes ? dt : 0);
   state = w.trial;
   equations.accept_step(state);
   summary.status = StepStatus::converged;

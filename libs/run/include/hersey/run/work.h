@@ -22,6 +22,7 @@ struct CouplingWork {
   std::string bearing, scheme;
   PerStep film_iterations;  ///< linearisations of the film
   PerStep exchanges;        ///< of wrenches between film and bodies; monolithic: none
+  int steps_as_one = 0;     ///< partitioned: steps solved monolithically, as their exchange came to no end
 };
 
 /// What a run's steps cost. Films are solved side by side: the time until all of them are known is divided among them
