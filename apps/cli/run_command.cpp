@@ -187,8 +187,20 @@ void tell(const run::CycleProgress& cycle) {
   }
 }
 
+// Where energy has come from nowhere or gone nowhere, the motion is that of no machine.
+void tell_doubts(const std::string& name, const run::EnergySummary& energy) {
+  constexpr double kMostUnexplained = 0.2;
+  if (!(energy.error() > kMostUnexplained)) return;
+  say("warning: {}{:.2g} J, {:.0f} % of the energy, is neither stored nor lost anywhere: steps too long for this "
+      "motion "
+      "(or springs by expressions, whose energy is not counted); expected a shorter `simulation.step`, or `step: "
+      "{{tolerance: 1e-4}}`\n",
+      name, energy.unexplained(), 100 * energy.error());
+}
+
 void tell(const std::string& label, const run::Summary& summary) {
   const std::string name = label.empty() ? "" : label + ": ";
+  tell_doubts(name, summary.energy);
   if (!summary.warning.empty()) say("hersey: {}{}\n", name, summary.warning);
   if (summary.status != run::Status::completed) {
     say("hersey: {}{}\n", name, summary.message);

@@ -326,6 +326,25 @@ class CommandLine(unittest.TestCase):
         with open(os.path.join(self.out, "report.html"), encoding="utf-8") as file:
             self.assertIn("Journal in a fixed bush", file.read())
 
+    def test_energy_that_goes_nowhere_is_told(self):
+        path = os.path.join(self._folder.name, "model.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("""hersey: 1
+gravity: 0 0 0 m/s^2
+bodies:
+  block: {mass: 1 kg, inertia: {xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}, frames: {far: {origin: 1 0 0 m}}}
+joints:
+  guide: {type: prismatic, between: [ground, block], axis: x, initial: {translation: 1 mm}}
+forces:
+  spring: {type: sliding_spring, joint: guide, stiffness: 1 N/mm}
+simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
+""")
+        ended = hersey("run", path, "--output", self.out)
+        self.assertEqual(ended.returncode, OK, ended.stderr)
+        self.assertRegex(ended.stderr, r"warning: 0\.0005 J, 7\d % of the energy, is neither stored nor lost")
+        ended = hersey("run", path, "--set", "simulation.step=5ms", "--set", "simulation.spectral_radius=0.9", "--output", self.out, "--force")
+        self.assertNotIn("warning", ended.stderr)
+
     def test_override_of_parameter_and_of_key_path_reach_the_run(self):
         run = hersey("run", MODEL, "--output", self.out, "--set", "load=500 N", "--set",
                      "bearings.main.grid.circumferential=20")

@@ -21,17 +21,17 @@ EnergyBalance::Instant EnergyBalance::seen(const StepRecord& step) const {
   }
   for (const mbd::ContactObservation& contact : step.contacts)
     now.contacts += contact.damping_power + contact.friction_power;
-  now.stored = machine.kinetic_energy + machine.potential_energy + machine.spring_energy;
+  now.kinetic = machine.kinetic_energy, now.potential = machine.potential_energy, now.springs = machine.spring_energy;
   for (const mbd::ElasticObservation& body : machine.elastics) {
     now.dampers += body.energy.dissipation;
-    now.stored += body.energy.strain;
+    now.strain += body.energy.strain;
   }
   return now;
 }
 
 void EnergyBalance::take(const StepRecord& step) {
   const Instant now = seen(step);
-  if (!is_begun_) stored_at_start_ = now.stored, last_ = now, is_begun_ = true;
+  if (!is_begun_) start_ = last_ = now, is_begun_ = true;
   const auto add = [&](double& sum, double Instant::*power) { sum += 0.5 * step.dt * (last_.*power + now.*power); };
   add(sums_.put_in, &Instant::put_in);
   add(sums_.films, &Instant::films);
@@ -40,13 +40,18 @@ void EnergyBalance::take(const StepRecord& step) {
   add(sums_.film_storage, &Instant::film_storage);
   add(sums_.contacts, &Instant::contacts);
   add(sums_.dampers, &Instant::dampers);
-  sums_.stored = now.stored - stored_at_start_;
-  sums_.largest = std::max({sums_.largest, std::abs(sums_.put_in), std::abs(sums_.stored), sums_.lost()});
+  sums_.stored = now.stored() - start_.stored();
+  sums_.largest = std::max({sums_.largest, std::abs(sums_.put_in), sums_.lost()});
+  // Parts one by one: a pendulum turns one into another and back.
+  for (const auto part : {&Instant::kinetic, &Instant::potential, &Instant::springs, &Instant::strain})
+    sums_.largest = std::max(sums_.largest, std::abs(now.*part - start_.*part));
   last_ = now;
 }
 
 void EnergyBalance::persist(Archive& archive) {
-  archive.io("is_begun", is_begun_), archive.io("stored_at_start", stored_at_start_);
+  archive.io("is_begun", is_begun_);
+  archive.io("kinetic_at_start", start_.kinetic), archive.io("potential_at_start", start_.potential);
+  archive.io("springs_at_start", start_.springs), archive.io("strain_at_start", start_.strain);
   const auto io = [&](const char* name, double& sum, double& last) {
     const Archive::Group group(archive, name);
     archive.io("sum", sum), archive.io("last", last);
@@ -54,8 +59,8 @@ void EnergyBalance::persist(Archive& archive) {
   io("put_in", sums_.put_in, last_.put_in), io("films", sums_.films, last_.films);
   io("boundary_friction", sums_.boundary_friction, last_.boundary_friction), io("oil", sums_.oil, last_.oil);
   io("film_storage", sums_.film_storage, last_.film_storage), io("contacts", sums_.contacts, last_.contacts);
-  io("dampers", sums_.dampers, last_.dampers), io("stored", sums_.stored, last_.stored);
-  archive.io("largest", sums_.largest);
+  io("dampers", sums_.dampers, last_.dampers);
+  archive.io("stored", sums_.stored), archive.io("largest", sums_.largest);
 }
 
 }  // namespace hersey::run

@@ -25,14 +25,15 @@ class EnergyBalance {
   /// Powers of an instant [W] and what is stored in bodies and springs [J].
   struct Instant {
     double put_in = 0, films = 0, boundary_friction = 0, oil = 0, film_storage = 0, contacts = 0, dampers = 0;
-    double stored = 0;
+    double kinetic = 0, potential = 0, springs = 0, strain = 0;
+    [[nodiscard]] double stored() const { return kinetic + potential + springs + strain; }
   };
   [[nodiscard]] Instant seen(const StepRecord& step) const;
 
   const mbd::MechanismSpec& spec_;
   EnergySummary sums_;
   Instant last_;
-  double stored_at_start_ = 0;
+  Instant start_;
   bool is_begun_ = false;
 };
 

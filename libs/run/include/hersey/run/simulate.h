@@ -74,7 +74,8 @@ struct EnergySummary {
   double oil = 0;                ///< taken along by oil that leaves the films less what feeds bring
   double film_storage = 0;       ///< more in liners, asperities and compressed oil than at the start
   double stored = 0;             ///< more kinetic, potential, spring and strain energy than at the start
-  double largest = 0;            ///< the largest that energy put in, lost or stored has been: what errors are shares of
+  double largest =
+      0;  ///< the largest that energy put in or lost has been, or any kind of it has changed: errors are its shares
   [[nodiscard]] double lost() const { return films + boundary_friction + contacts + dampers; }
   [[nodiscard]] double unexplained() const { return put_in - lost() - oil - film_storage - stored; }
   /// |unexplained| over the largest [-].
