@@ -19,6 +19,9 @@ constexpr double kDirectionFloor = 1e-6;
 // Share of a control volume that may be left to the next one at the end of a step.
 constexpr double kMostPassedOn = 0.02;
 
+// Steps taken as one system after an exchange without end, before exchanging is tried again.
+constexpr int kStepsAsOne = 16;
+
 // How many of the parameters act. The angles come last: that of the widest gap matters only where the supply follows
 // it, the journal's only where it carries features or a shape of its own.
 Eigen::Index acting_parameters(const film::FilmModel& model, bool journal_deforms) {
@@ -139,9 +142,9 @@ void JournalBearing::begin_step(const mbd::RelativeMotion& /*start*/, double dt)
   given_ = given_start_;
   answered_ = false;
   interface_.begin_step();
-  // Tried before with a longer step: its exchange did not come to an end, as where the film damps more than inertia
-  // holds.
-  is_one_system_ = options_.coupling == Coupling::monolithic || dt < tried_dt_;
+  // Tried before with a longer step: its exchange came to no end, as where the film damps more than inertia holds.
+  if (dt < tried_dt_ && steps_as_one_left_ == 0) steps_as_one_left_ = kStepsAsOne;
+  is_one_system_ = options_.coupling == Coupling::monolithic || steps_as_one_left_ > 0;
   tried_dt_ = std::max(tried_dt_, dt);
 }
 
@@ -294,6 +297,7 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   u_start_ = u_;
   given_start_ = given_;
   tried_dt_ = 0;
+  steps_as_one_left_ = std::max(steps_as_one_left_ - 1, 0);
 }
 
 // The next step starts from the oil there is, which is what was there before and what has come in since.
@@ -385,6 +389,7 @@ void JournalBearing::persist(Archive& archive) {
   archive.io("started", started_);
   archive.io("u", u_start_);
   archive.io("given_wrench", given_start_);
+  archive.io("steps_as_one_left", steps_as_one_left_);
   {
     const Archive::Group group(archive, "exchange");
     interface_.persist(archive);

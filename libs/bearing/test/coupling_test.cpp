@@ -94,7 +94,8 @@ TEST_CASE("PartitionedAndMonolithic_Agree") {
   CHECK(fewer < more);
 }
 
-// Corrections taken whole diverge here: every first trial fails, and the shorter step is solved as one system.
+// Corrections taken whole diverge here: the first trial fails; the shorter step is solved as one system, as are the
+// next.
 TEST_CASE("ExchangeWithoutEnd_IsSolvedAsOneSystem") {
   const double dt = 2e-5;
   Rig monolithic(small_film(), 500, {.coupling = Coupling::monolithic, .initial_dt = dt});
@@ -103,8 +104,8 @@ TEST_CASE("ExchangeWithoutEnd_IsSolvedAsOneSystem") {
       {.coupling = Coupling::partitioned, .acceleration = Acceleration::constant, .relaxation = 1, .initial_dt = dt});
   monolithic.march(dt, 10);
   solver::GeneralizedAlpha integrator({.spectral_radius = 0.6, .rtol = 1e-8, .max_iterations = 10});
+  REQUIRE_FALSE(integrator.step(*partitioned.mechanism, partitioned.state, 2 * dt).converged());
   for (int k = 0; k < 10; ++k) {
-    REQUIRE_FALSE(integrator.step(*partitioned.mechanism, partitioned.state, 2 * dt).converged());
     REQUIRE(integrator.step(*partitioned.mechanism, partitioned.state, dt).converged());
     CHECK(partitioned.observe().exchanges == 0);
   }

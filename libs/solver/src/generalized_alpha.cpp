@@ -31,9 +31,7 @@ struct GeneralizedAlpha::Workspace {
   AlphaParameters parameters;
   bool started = false;
   double last_dt = 0;
-  VectorXd a;         ///< algorithmic acceleration at the last accepted state
-  VectorXd offset;    ///< a - vdot
-  VectorXd a_across;  ///< the part of the offset across the constraints
+  VectorXd a;  ///< algorithmic acceleration at the last accepted state
 
   // One step
   State trial;
@@ -61,7 +59,9 @@ struct GeneralizedAlpha::Workspace {
   bool solve_increment(Index nv);
   bool enter_domain(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
   bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
-  void part_across(const VectorXd& motion, bool factorised, VectorXd& part);
+  void find_part_across(bool factorised);
+  void return_to_constraints(Equations& equations);
+  VectorXd shed(const VectorXd& violation, VectorXd& motion);
   void estimate_error();
   void remember_drift(double dt);
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
@@ -76,7 +76,6 @@ void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State
   if (!stage.fresh) return;
   if (std::optional<SettledStart> settled = settle_fast_motions(equations, state, dt)) start = std::move(*settled);
   a = start.vdot;
-  a_across.setZero(a.size());
   last_dt = dt;
   equations.begin_step(state, dt);
 }
@@ -84,10 +83,7 @@ void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State
 /// The step with a_{n+1} = a_n: dq, v and vdot that belong together.
 void GeneralizedAlpha::Workspace::predict(double dt) {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
-  // Along the constraints a - vdot goes as dt. Across them, in steps that no error control chose, it is more of a
-  // memory of earlier steps than of the motion, and stretched with steps that are cut again and again it would grow
-  // (integrator.25).
-  a_n = start.vdot + (dt / last_dt) * (a - start.vdot) + (1 - dt / last_dt) * a_across;
+  a_n = start.vdot + (dt / last_dt) * (a - start.vdot);
   v_start = start.v;
   // Theory manual eq. (integrator.14): velocities across the constraints are offset by an error that goes as dt^2.
   if (drift.size() > 0 && dt != last_dt) v_start += (dt * dt - last_dt * last_dt) * drift;
@@ -200,19 +196,43 @@ bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
   return false;
 }
 
-/// The part of a motion across the constraints, by the factors of the step's last iteration: zero without them. With
-/// J = [A G^T; G 0] as factorised, J [x; y] = [A e; 0] leaves x = e less what the constraints forbid.
-void GeneralizedAlpha::Workspace::part_across(const VectorXd& motion, bool factorised, VectorXd& part) {
-  const Index nv = motion.size(), n = tangent.rows();
-  part.setZero(nv);
+/// The part of the estimated error across the constraints (integrator.11), by the factors of the step's last iteration:
+/// zero without them. With J = [A G^T; G 0] as factorised, J [x; y] = [A e; 0] leaves x = e less what the constraints
+/// forbid.
+void GeneralizedAlpha::Workspace::find_part_across(bool factorised) {
+  const Index nv = error.size(), n = tangent.rows();
+  across.setZero(nv);
   if (!factorised || n == nv) return;
   rhs.setZero(n);
   for (Index column = 0; column < nv; ++column)
     for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
-      if (entry.row() < nv) rhs[entry.row()] += entry.value() / stage.m * motion[column];
+      if (entry.row() < nv) rhs[entry.row()] += entry.value() / stage.m * error[column];
   const Stopwatch watch(linear_solve_time);
   lu.solve({rhs.data(), static_cast<std::size_t>(n)});
-  part = motion - rhs.head(nv);
+  across = error - rhs.head(nv);
+}
+
+/// Takes from a motion what the constraints do not allow, by forces of the constraints alone, J [x; y] = [0;
+/// -violation].
+/// @return these forces
+VectorXd GeneralizedAlpha::Workspace::shed(const VectorXd& violation, VectorXd& motion) {
+  const Index nv = motion.size();
+  rhs.setZero(tangent.rows());
+  rhs.tail(violation.size()) = -violation;
+  lu.solve({rhs.data(), static_cast<std::size_t>(rhs.size())});
+  motion += rhs.head(nv);
+  return rhs.tail(violation.size());
+}
+
+/// Puts velocities and accelerations onto the constraints (integrator.25).
+void GeneralizedAlpha::Workspace::return_to_constraints(Equations& equations) {
+  VectorXd velocity, bias, phi, lengths;
+  Equations::SparseMatrix G;
+  equations.constraint_rates(trial, velocity, bias);
+  equations.constraints(trial, phi, lengths, &G);
+  shed(velocity, trial.v);
+  trial.lambda += shed(G * trial.vdot + bias, trial.vdot);
+  shed(G * a + bias, a);
 }
 
 /// The step's local error of position, theory manual eq. (integrator.10): what the third derivative contributes beyond
@@ -304,10 +324,11 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     if (!judge(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
   }
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
-  w.offset = w.a - w.trial.vdot;
   const bool factorised = summary.iterations > 0, corrects_changes = judge && options_.corrects_changes;
-  if (corrects_changes) w.part_across(w.error, factorised, w.across);  // (integrator.11)
-  w.part_across(w.offset, factorised && !corrects_changes, w.a_across);
+  if (corrects_changes)
+    w.find_part_across(factorised);
+  else if (factorised && equations.nlambda() > 0 && dt != w.last_dt)
+    w.return_to_constraints(equations);
   w.last_dt = dt;
   w.stage.fresh = false;
   w.remember_drift(corrects_changes ? dt : 0);
@@ -324,7 +345,6 @@ void GeneralizedAlpha::persist(Archive& archive) {
   archive.io("fresh", w.stage.fresh);
   archive.io("last_dt", w.last_dt);
   archive.io("a", w.a);
-  archive.io("a_across", w.a_across);
   archive.io("drift", w.drift);
   archive.io("analysed", w.analysed);
   const Archive::Group group(archive, "lu");

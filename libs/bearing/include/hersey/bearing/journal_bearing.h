@@ -67,7 +67,8 @@ class DeformingSurfaces;
 /// linearised anew, and the wrench is returned with the film eliminated: the exact Schur complement of the full system.
 /// Partitioned: `evaluate` takes the surfaces to be the bodies' answer to the wrench it returned last, solves the film
 /// there to the end, corrects the wrench by what the film says (InterfaceIteration) and returns it without derivatives.
-/// A step whose exchange has come to no end is taken as one system: `exchanges` of its observation is 0.
+/// Where its exchange has come to no end, that step, shorter, and some more are taken monolithically: `exchanges` of
+/// their observations is 0.
 class JournalBearing final : public mbd::TwoBodyForce {
  public:
   JournalBearing(std::string name, const film::FilmModel& model, const BearingOptions& options = {});
@@ -145,6 +146,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   Eigen::VectorXd given_, given_start_;
   bool answered_ = false;
   double tried_dt_ = 0;        // longest step tried from here
+  int steps_as_one_left_ = 0;  // before exchanging is tried again
   bool is_one_system_ = true;  // the step is solved monolithically
 
   // Oil of the step last accepted, and over the run.
