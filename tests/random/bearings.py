@@ -181,6 +181,14 @@ class Bearing:
                 fed |= f.covers(phi, z, turn)
         return np.where(fed, land, h)
 
+    def is_fed(self, phi, z, turn):
+        """Whether points lie in features that are fed."""
+        fed = np.zeros(np.broadcast(phi, z).shape, bool)
+        for f in self.features:
+            if f.pressure is not None:
+                fed |= f.covers(phi, z, turn)
+        return fed
+
     def fed_pressures(self):
         """Of edges, line and features [Pa]."""
         line = [self.supply[1]] if self.supply else []

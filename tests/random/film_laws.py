@@ -22,15 +22,15 @@ def density(b, p):
     return 1 + 0.6e-9 * over / (1 + 1.7e-9 * over) if b.is_compressible else 1 + 0 * p
 
 
-def shear_shares(b, p, theta):
-    """Share of the gap under Couette shear: the least and the most that can be meant."""
+def shear_shares(b, p, theta, fed):
+    """Share of the gap under Couette shear: the least and the most that can be meant. `fed`: nodes that something feeds."""
     if b.cavitated_shear == "full":
         return (1 + 0 * p,) * 2
     if b.cavitation == "mass_conserving":
         return (np.clip(theta, 0, 1),) * 2
     # No fill fraction: sheared is what has pressure, and up to a cell around it.
     full = p > b.p_cav
-    wide = full | np.roll(full, 1, 0) | np.roll(full, -1, 0)
+    wide = full | fed | np.roll(full, 1, 0) | np.roll(full, -1, 0)
     wide[:, 1:] |= full[:, :-1]
     wide[:, :-1] |= full[:, 1:]
     return full.astype(float), wide.astype(float)

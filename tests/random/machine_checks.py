@@ -290,11 +290,16 @@ class Powers:
         at = (b.R, f.phi, f.z)
         slip = b.R * motion.speed[row]
         mu = film_laws.viscosity(b, p)
-        couette = film.couette_power(film_laws.shear_shares(b, p, theta), mu, h, slip, *at)
+        fed = b.is_fed(f.phi[:, None], f.z[None, :], motion.turn[row])
+        couette = film.couette_power(film_laws.shear_shares(b, p, theta, fed), mu, h, slip, *at)
         poiseuille = film.poiseuille_power(p, mu, h, *at)
         self.own = couette.value + poiseuille.value
         # Pressure has kinks within cells at lines and fed features, which both grids miss: more than their difference.
         self.error = (1.5 * couette.error + 2 * poiseuille.error) + 1e-3 * self.own
+        if k > 0:
+            # The film shears as it is at the end of the step, its fill is that of the step as a whole (film.59).
+            filled = np.abs(theta - f.theta[k - 1]) * min(1.0, results.dt[row] / (f.time[k] - f.time[k - 1]))
+            self.error += film.couette_power((filled,) * 2, mu, h, slip, *at).value
         highest = float((mu / np.maximum(h, 1e-9)).mean()) * slip**2
         self.error += sum(highest * border_area(g, b, f) for g in b.features if g.depth > 0)
         self.told, self.asperity = r["power_film"][row], r["power_asperity"][row]

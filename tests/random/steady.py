@@ -318,7 +318,8 @@ def check_power(case, a, found):
     mu = film_laws.viscosity(b, a.p)
     if b.roughness:
         return  # flow factors would have to be repeated
-    couette = film.couette_power(film_laws.shear_shares(b, a.p, a.theta), mu, a.h, slip, b.R, a.phi, a.z)
+    fed = b.is_fed(a.phi[:, None], a.z[None, :], case.journal_angle)
+    couette = film.couette_power(film_laws.shear_shares(b, a.p, a.theta, fed), mu, a.h, slip, b.R, a.phi, a.z)
     poiseuille = film.poiseuille_power(a.p, mu, a.h, b.R, a.phi, a.z)
     own, told = couette.value + poiseuille.value, a["power_film"]
     # The edge of a cavitated region is resolved to a cell: the estimate sees that. A step of depth lies somewhere in a cell.
