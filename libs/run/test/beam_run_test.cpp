@@ -1,5 +1,6 @@
 // Beams from the model file to the results file.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,37 @@ TEST_CASE("HeldBeam_ShowsItsSectionForces") {
   }
   CHECK(position[50] == doctest::Approx(-0.02 / 8).epsilon(5e-3));
   CHECK(reader.number_attribute("/bodies/blade", "mass").value_or(0) == doctest::Approx(1).epsilon(1e-12));
+}
+
+// A strip of 1 m by 20 mm by 1 mm, E I = 1/3 N m^2, under a moment at its end of m times 2 pi E I/L: m whole circles.
+// Its stiffness along is 10^7 times the one across.
+TEST_CASE("StripUnderAnEndMoment_RollsUpToCircles") {
+  for (const double turns : {0.05, 0.5, 1.0, 2.0}) {
+    CAPTURE(turns);
+    const TemporaryDirectory folder;
+    const double angle = 2 * std::numbers::pi * turns;
+    const results::Reader reader = run_in(folder, fmt::format(R"(hersey: 1
+gravity: 0 0 0 m/s^2
+bodies:
+  strip:
+    beam:
+      points: [0 0 0 m, 1 0 0 m]
+      section: {{rectangle: {{width: 1 mm, height: 20 mm}}}}
+      material: {{youngs_modulus: 200 GPa, poisson_ratio: 0, density: 7800 kg/m^3}}
+    frames: {{tip: {{along: end}}}}
+joints: {{clamp: {{type: fixed, between: [ground, strip]}}}}
+forces: {{roll: {{type: torque, body: strip.tip, components: [0 N.m, 0 N.m, {:.15g} N.m]}}}}
+simulation: {{analysis: static}}
+)",
+                                                              angle / 3));
+    // Stable until it has turned twice: out of the plane a moment of fixed direction then turns it over.
+    CHECK(reader.text_attribute("/", "message").value_or("").find("indifferent") == std::string::npos);
+    const auto tip = reader.read("/bodies/strip.tip/position").values;
+    // chords of 20 equal arcs: longer than the arc's own by (angle/20)^2/24 at the most
+    const double chords = angle * angle / 400 / 24;
+    CHECK(std::abs(tip[0] - std::sin(angle) / angle) < 1.1 * chords * std::abs(std::sin(angle) / angle) + 1e-8);
+    CHECK(std::abs(tip[1] - (1 - std::cos(angle)) / angle) < 1.1 * chords * (1 - std::cos(angle)) / angle + 1e-8);
+  }
 }
 
 TEST_CASE("SteppedBeam_IsTwoBeamsEndToEnd") {

@@ -19,8 +19,11 @@ using Index = Equations::Index;
 
 constexpr double kLargestIncrement = 0.2;  // rad, or sizes of the system
 constexpr double kRoundOff = 1e-13;
-constexpr double kSteady = 1e-8;      // rad, or sizes of the system: ten times what Newton's tolerance leaves
-constexpr double kFixedShare = 1e-2;  // of the deformation may stand still in space while the rest turns
+constexpr double kSolved = 1e-10;        // rad, or sizes of the system: increments that change nothing any more
+constexpr double kSmallestShare = 1e-5;  // of the load that one step of following it may add
+constexpr double kNeutral = 1e-12;       // of the terms whose sum is a stiffness
+constexpr double kSteady = 1e-8;         // rad, or sizes of the system: ten times what Newton's tolerance leaves
+constexpr double kFixedShare = 1e-2;     // of the deformation may stand still in space while the rest turns
 
 class EquilibriumSearch {
  public:
@@ -37,10 +40,14 @@ class EquilibriumSearch {
     mu_ = std::max(pull, 1e-6) / (0.1 * kLargestIncrement);
     keep_mass();
     if (!assemble(here_)) return failure(equations_.domain_error());
+    const State start = here_;
     for (; worst_ > 1; ++summary_.iterations) {
       if (summary_.iterations == options_.max_iterations || mu_ > 1e30) {
-        return failure(fmt::format("no equilibrium in {} iterations; worst equation: {}, {:.3g} times its tolerance",
-                                   summary_.iterations, summary_.worst_row, worst_));
+        const std::string why =
+            fmt::format("no equilibrium in {} iterations; worst equation: {}, {:.3g} times its tolerance",
+                        summary_.iterations, summary_.worst_row, worst_);
+        if (options_.turning || !follow_the_load(start)) return failure(why);
+        break;
       }
       if (options_.turning) {
         if (!advance_to_steady_motion())
@@ -54,6 +61,7 @@ class EquilibriumSearch {
       if (!stays_steady(steady)) return failure(summary_.message);
       here_ = steady;
     }
+    if (!options_.turning) polish();
     summary_.converged = true;
     state = here_;
     if (!options_.turning) judge(state);
@@ -89,6 +97,71 @@ class EquilibriumSearch {
     here_ = from;
     mu_ = std::max(10 * mu_, 1e-12);
     (void)assemble(here_);
+  }
+
+  /// Lets the forces that are out of balance at the start act little by little, so that Newton's method stays near the
+  /// path of equilibria: bodies soft in one way and stiff in another move far only along that path. Theory manual eq.
+  /// (integrator.26). False where it ends before the whole load.
+  bool follow_the_load(const State& start) {
+    mu_ = 0;
+    here_ = start;
+    if (!assemble(here_)) return false;
+    const VectorXd load = residual_.head(equations_.nv());
+    double share = 0, step = 0.1;
+    while (share < 1) {
+      const State from = here_;
+      const double next = std::min(share + step, 1.0);
+      held_back_ = (1 - next) * load;
+      if (reach_balance()) {
+        share = next;
+        step *= 1.5;
+        continue;
+      }
+      here_ = from;
+      step /= 2;
+      if (step < kSmallestShare) break;
+    }
+    held_back_.resize(0);
+    return assemble(here_) && share == 1 && worst_ <= 1;
+  }
+
+  /// Newton's method from a place near by; false where that is not near enough.
+  bool reach_balance() {
+    constexpr int most = 12;
+    if (!assemble(here_)) return false;
+    for (int i = 0; i < most; ++i, ++summary_.iterations) {
+      if (worst_ <= 1) return true;
+      if (!solve() || !take_whole(kLargestIncrement)) return false;
+    }
+    return false;
+  }
+
+  /// Moves by the whole increment, if it is no longer than `most`.
+  bool take_whole(double most) {
+    const Index nv = equations_.nv();
+    if (increment_.head(nv).cwiseQuotient(reach_).lpNorm<Eigen::Infinity>() > most) return false;
+    State next = here_;
+    equations_.retract(here_.q, increment_.head(nv), next.q);
+    next.lambda += increment_.tail(increment_.size() - nv);
+    here_ = next;
+    return assemble(here_);
+  }
+
+  /// What is stiff in one way holds its rows to a tolerance that says little of what is soft in another: Newton's
+  /// method goes on until it changes nothing.
+  void polish() {
+    mu_ = 0;
+    for (int i = 0; i < 8; ++i) {
+      const State from = here_;
+      const double before = worst_;
+      if (!solve()) return;
+      const double reach = increment_.head(equations_.nv()).cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
+      if (reach <= kSolved) return;
+      if (take_whole(0.01) && worst_ <= std::max(before, 1e-3)) continue;
+      here_ = from;
+      (void)assemble(here_);
+      return;
+    }
   }
 
   /// One step of Newton's method, halved until it comes nearer. A steady motion costs no least energy: above a critical
@@ -142,6 +215,7 @@ class EquilibriumSearch {
       worst_ = std::numeric_limits<double>::infinity();
       return false;
     }
+    if (held_back_.size() > 0) residual_.head(held_back_.size()) -= held_back_;
     measure();
     return true;
   }
@@ -161,6 +235,15 @@ class EquilibriumSearch {
     for (Index column = 0; column < dx.size(); ++column)
       for (Equations::SparseMatrix::InnerIterator entry(tangent_, column); entry; ++entry)
         if (entry.row() < dx.size()) sum += dx[entry.row()] * entry.value() * dx[column];
+    return sum;
+  }
+
+  /// Sum of the sizes of all terms whose sum is the stiffness along a motion: round-off is a share of it.
+  [[nodiscard]] double terms_along(const VectorXd& motion) const {
+    double sum = 0;
+    for (Index column = 0; column < motion.size(); ++column)
+      for (Equations::SparseMatrix::InnerIterator entry(stiffness_, column); entry; ++entry)
+        if (entry.row() < motion.size()) sum += std::abs(motion[entry.row()] * entry.value() * motion[column]);
     return sum;
   }
 
@@ -204,8 +287,9 @@ class EquilibriumSearch {
     const Eigen::MatrixXd K = 0.5 * (linear.K + linear.K.transpose());
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, linear.M);
     const VectorXd& stiffness = eigen.eigenvalues();
-    const double small = 1e-9 * stiffness.cwiseAbs().maxCoeff();
-    const VectorXd motion = (linear.Z * eigen.eigenvectors().col(0)).cwiseAbs().cwiseQuotient(reach_);
+    const VectorXd softest_motion = linear.Z * eigen.eigenvectors().col(0);
+    const double small = kNeutral * terms_along(softest_motion);
+    const VectorXd motion = softest_motion.cwiseAbs().cwiseQuotient(reach_);
     Index softest = 0;
     motion.maxCoeff(&softest);
     summary_.softest = equations_.name_of_row(softest);
@@ -223,7 +307,8 @@ class EquilibriumSearch {
   EquilibriumOptions options_;
   State here_;
   VectorXd reach_, residual_, scale_, increment_;
-  VectorXd walked_;  ///< by the steps towards a steady motion
+  VectorXd held_back_;  ///< out-of-balance forces that do not act yet; empty: none
+  VectorXd walked_;     ///< by the steps towards a steady motion
   Equations::SparseMatrix stiffness_, mass_, tangent_;
   SparseLu lu_;
   double mu_ = 0, worst_ = 0;
