@@ -369,6 +369,14 @@ void Mechanism::accept_step(const State& end) {
   m.for_each_force(std::cref(accept));
 }
 
+bool Mechanism::has_condensed_unknowns() const {
+  const auto& forces = impl_->spec.forces;
+  const auto& elastics = impl_->elastics;
+  return std::any_of(forces.begin(), forces.end(), [](const auto& f) { return f.force->has_condensed_unknowns(); }) ||
+         std::any_of(elastics.begin(), elastics.end(),
+                     [](const ElasticAssembly& e) { return e.body().has_condensed_unknowns(); });
+}
+
 double Mechanism::internal_residual() const {
   double worst = 0;
   for (const auto& f : impl_->spec.forces) worst = std::max(worst, f.force->internal_residual());

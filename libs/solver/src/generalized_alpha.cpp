@@ -22,6 +22,9 @@ using Index = Equations::Index;
 /// Round-off of a constraint: positions are sums of a few lengths of the mechanism's size.
 constexpr double kConstraintRoundOff = 1e-13;
 
+/// Of the residual before that an iteration with old factors may leave.
+constexpr double kFastEnough = 0.05;
+
 }  // namespace
 
 /// Algorithmic history, and everything a step needs, allocated once.
@@ -41,6 +44,7 @@ struct GeneralizedAlpha::Workspace {
   Equations::SparseMatrix tangent;
   SparseLu lu;
   Index analysed = -1;
+  bool is_tangent_current = false;  ///< `tangent` is that of the trial state, its motions not yet divided by m
   double linear_solve_time = 0;
   double worst = 0;       ///< largest residual relative to its tolerance at the last assembly
   Index worst_index = 0;  ///< its row; -1: a condensed equation
@@ -54,11 +58,12 @@ struct GeneralizedAlpha::Workspace {
   void choose_start(Equations& equations, const State& state, double dt);
   void predict(double dt);
   void place(Equations& equations, const State& state, const VectorXd& at);
-  bool assemble(Equations& equations, const GeneralizedAlphaOptions& options);
+  bool assemble(Equations& equations, const GeneralizedAlphaOptions& options, bool with_tangent = true);
   void measure(Equations& equations, double rtol);
+  bool factorise(Index nv);
   bool solve_increment(Index nv);
   bool enter_domain(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
-  bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
+  bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options, bool with_tangent);
   void find_part_across(bool factorised);
   void return_to_constraints(Equations& equations);
   VectorXd shed(const VectorXd& violation, VectorXd& motion);
@@ -106,8 +111,10 @@ void GeneralizedAlpha::Workspace::place(Equations& equations, const State& state
 }
 
 /// Assembles at the trial state; false, with `trouble`, outside the domain of the equations.
-bool GeneralizedAlpha::Workspace::assemble(Equations& equations, const GeneralizedAlphaOptions& options) {
-  equations.assemble(trial, stage, residual, scale, &tangent);
+bool GeneralizedAlpha::Workspace::assemble(Equations& equations, const GeneralizedAlphaOptions& options,
+                                           bool with_tangent) {
+  equations.assemble(trial, stage, residual, scale, with_tangent ? &tangent : nullptr);
+  is_tangent_current = with_tangent;
   trouble = equations.domain_error();
   if (trouble.empty() && !residual.allFinite()) trouble = "the residual is not a number";
   if (!trouble.empty()) return false;
@@ -145,24 +152,30 @@ void GeneralizedAlpha::Workspace::measure(Equations& equations, double rtol) {
   }
 }
 
-/// Solves for the Newton increment, with motions divided by m and multipliers by m: then no entry grows as dt shrinks
-/// (Bottasso, Bauchau and Cardona 2007). False if the matrix is singular.
-bool GeneralizedAlpha::Workspace::solve_increment(Index nv) {
+/// Factorises the tangent, with motions divided by m and multipliers by m: then no entry grows as dt shrinks (Bottasso,
+/// Bauchau and Cardona 2007). False if it is singular.
+bool GeneralizedAlpha::Workspace::factorise(Index nv) {
   const Stopwatch watch(linear_solve_time);
-  const Index n = tangent.rows();
   const double m = stage.m;
-  for (Index column = 0; column < n; ++column)
+  for (Index column = 0; column < nv; ++column)
     for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
-      if (entry.row() < nv && column < nv) entry.valueRef() /= m;
+      if (entry.row() < nv) entry.valueRef() /= m;
+  is_tangent_current = false;
   if (analysed != tangent.nonZeros()) {
     lu.analyse(tangent);
     analysed = tangent.nonZeros();
   }
-  if (!lu.factorise({tangent.valuePtr(), static_cast<std::size_t>(tangent.nonZeros())})) return false;
+  return lu.factorise({tangent.valuePtr(), static_cast<std::size_t>(tangent.nonZeros())});
+}
+
+/// The Newton increment by the factors there are; false where it is not finite.
+bool GeneralizedAlpha::Workspace::solve_increment(Index nv) {
+  const Stopwatch watch(linear_solve_time);
+  const Index n = residual.size();
   increment = -residual;
-  increment.head(nv) /= m;
+  increment.head(nv) /= stage.m;
   lu.solve({increment.data(), static_cast<std::size_t>(n)});
-  increment.tail(n - nv) *= m;
+  increment.tail(n - nv) *= stage.m;
   return increment.allFinite();
 }
 
@@ -181,8 +194,8 @@ bool GeneralizedAlpha::Workspace::enter_domain(Equations& equations, const State
 }
 
 /// Moves by the increment, halved until the equations accept it.
-bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
-                                       const GeneralizedAlphaOptions& options) {
+bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options,
+                                       bool with_tangent) {
   const Index nv = equations.nv();
   dq_before = dq;
   lambda_before = trial.lambda;
@@ -191,7 +204,7 @@ bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
     dq = dq_before + length * increment.head(nv);
     trial.lambda = lambda_before + length * increment.tail(increment.size() - nv);
     place(equations, state, dq);
-    if (assemble(equations, options)) return true;
+    if (assemble(equations, options, with_tangent)) return true;
   }
   return false;
 }
@@ -204,9 +217,10 @@ void GeneralizedAlpha::Workspace::find_part_across(bool factorised) {
   across.setZero(nv);
   if (!factorised || n == nv) return;
   rhs.setZero(n);
+  const double scale_of_motions = is_tangent_current ? stage.m : 1;
   for (Index column = 0; column < nv; ++column)
     for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
-      if (entry.row() < nv) rhs[entry.row()] += entry.value() / stage.m * error[column];
+      if (entry.row() < nv) rhs[entry.row()] += entry.value() / scale_of_motions * error[column];
   const Stopwatch watch(linear_solve_time);
   lu.solve({rhs.data(), static_cast<std::size_t>(n)});
   across = error - rhs.head(nv);
@@ -304,6 +318,10 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     return summary;
   };
   if (!w.enter_domain(equations, state, options_)) return fail(StepStatus::domain_error, w.trouble);
+  // Factors serve as long as they bring the residual down fast (theory manual, integrator.27). Condensed unknowns move
+  // with each tangent and need their own.
+  const bool may_keep_factors = !equations.has_condensed_unknowns();
+  bool keeps_factors = false;
   while (w.worst > 1 || !equations.step_stands()) {
     if (w.worst <= 1) {
       if (!w.assemble(equations, options_)) return fail(StepStatus::domain_error, w.trouble);
@@ -314,9 +332,13 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
                   fmt::format("no convergence in {} iterations; worst equation: {}, {:.3g} times its tolerance",
                               summary.iterations, w.worst_name(equations), w.worst));
     ++summary.iterations;
-    if (!w.solve_increment(equations.nv()))
+    if (!keeps_factors && !w.is_tangent_current && !w.assemble(equations, options_))
+      return fail(StepStatus::domain_error, w.trouble);
+    const double before = w.worst;
+    if (!(keeps_factors || w.factorise(equations.nv())) || !w.solve_increment(equations.nv()))
       return fail(StepStatus::singular, "the equations are singular here; worst equation: " + w.worst_name(equations));
-    if (!w.move(equations, state, options_)) return fail(StepStatus::domain_error, w.trouble);
+    if (!w.move(equations, state, options_, !may_keep_factors)) return fail(StepStatus::domain_error, w.trouble);
+    keeps_factors = may_keep_factors && w.worst < kFastEnough * before;
   }
 
   if (judge) {

@@ -78,6 +78,46 @@ TEST_CASE("LinearEquations_TakeOneIterationAndHooksInOrder") {
   CHECK(s.t == doctest::Approx(0.2));
 }
 
+// A pendulum: each iteration divides the residual by more than twenty, so the first tangent does for the step; where
+// unknowns are condensed every iteration takes its own, to the same answer.
+TEST_CASE("FactorsThatServe_AreKept") {
+  const auto pendulum = [] {
+    test::OneCoordinate e;
+    e.force = [](double q, double, double) { return 10 * std::sin(q); };
+    e.force_dq = [](double q, double, double) { return 10 * std::cos(q); };
+    return e;
+  };
+  test::OneCoordinate plain = pendulum(), condensing = pendulum();
+  condensing.condenses = true;
+  State s = plain.at(2, 0), t = s;
+  GeneralizedAlpha integrator({.spectral_radius = 0.8, .rtol = 1e-12}), other({.spectral_radius = 0.8, .rtol = 1e-12});
+  int iterations = 0;
+  for (int k = 0; k < 10; ++k) {
+    plain.tangents = 0;
+    const StepSummary summary = integrator.step(plain, s, 0.05);
+    REQUIRE(summary.converged());
+    REQUIRE(other.step(condensing, t, 0.05).converged());
+    if (k > 0) CHECK(plain.tangents == 1);
+    iterations += summary.iterations;
+    CHECK(s.q[0] == doctest::Approx(t.q[0]).epsilon(1e-12));
+  }
+  CHECK(iterations >= 20);
+  CHECK(condensing.tangents >= 20);
+}
+
+// A stop that hardens with the cube of its depth is no place for old factors: the step takes new ones and arrives.
+TEST_CASE("FactorsThatDoNotServe_AreReplaced") {
+  test::OneCoordinate e;
+  e.force = [](double q, double, double) { return q < 0 ? 1e13 * q * q * q : 0.0; };
+  e.force_dq = [](double q, double, double) { return q < 0 ? 3e13 * q * q : 0.0; };
+  State s = e.at(0.001, -1);
+  GeneralizedAlpha integrator({.spectral_radius = 0.8, .max_iterations = 20});
+  REQUIRE(integrator.step(e, s, 0.0005).converged());
+  e.tangents = 0;
+  REQUIRE(integrator.step(e, s, 0.002).converged());
+  CHECK(e.tangents >= 2);
+}
+
 TEST_CASE("ClosedGap_ShortensTheIncrementAndGoesOn") {
   // The predictor, and Newton's first increments, pass through the cushion; the step still has an answer on this side.
   test::OneCoordinate e = cushion();

@@ -18,7 +18,8 @@ class OneCoordinate final : public Equations {
   int copies_of_constraint = 0;  ///< rows q = 0
   double lowest = -1e300;        ///< q at and below this is outside the domain
   double internal = 0;           ///< internal residual reported
-  int begun = 0, accepted = 0, assembled = 0;
+  bool condenses = false;        ///< condensed unknowns told
+  int begun = 0, accepted = 0, assembled = 0, tangents = 0;
 
   [[nodiscard]] Index nq() const override { return 1; }
   [[nodiscard]] Index nv() const override { return 1; }
@@ -37,6 +38,7 @@ class OneCoordinate final : public Equations {
     scale[0] = 1 + std::abs(mass * s.vdot[0]) + std::abs(f) + s.lambda.cwiseAbs().sum();
     residual.tail(copies_of_constraint).setConstant(s.q[0]);
     if (!tangent) return;
+    ++tangents;
     tangent->resize(n, n);
     tangent->insert(0, 0) =
         stage.m * mass + stage.c * force_dv(s.q[0], s.v[0], s.t) + stage.k * force_dq(s.q[0], s.v[0], s.t);
@@ -65,6 +67,7 @@ class OneCoordinate final : public Equations {
   }
   void begin_step(const State&, double) override { ++begun; }
   void accept_step(const State&) override { ++accepted; }
+  [[nodiscard]] bool has_condensed_unknowns() const override { return condenses; }
   [[nodiscard]] double internal_residual() const override { return internal; }
   [[nodiscard]] std::string name_of_internal_residual() const override { return "film of the fake"; }
   [[nodiscard]] std::string domain_error() const override { return outside_ ? "gap closed" : ""; }

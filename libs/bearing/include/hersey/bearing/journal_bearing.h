@@ -88,6 +88,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   void accept_step(const mbd::RelativeMotion& end) override;
   [[nodiscard]] bool is_costly() const override { return true; }
   [[nodiscard]] bool has_tangent() const override { return options_.coupling == Coupling::monolithic; }
+  [[nodiscard]] bool has_condensed_unknowns() const override { return true; }
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override;
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }

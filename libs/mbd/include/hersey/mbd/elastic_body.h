@@ -119,6 +119,7 @@ class ElasticBody {
   // Condensed unknowns; see solver::Equations for when each is called.
   virtual void begin_step(const ElasticMotion& start, double dt) { (void)start, (void)dt; }
   virtual void accept_step(const ElasticMotion& end) { (void)end; }
+  [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
   [[nodiscard]] virtual double internal_residual() const { return 0; }
   [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
   [[nodiscard]] virtual std::string domain_error() const { return {}; }

@@ -106,6 +106,7 @@ class Mechanism final : public solver::Equations {
   void begin_step(const solver::State& start, double dt) override;
   [[nodiscard]] bool step_stands() override;
   void accept_step(const solver::State& end) override;
+  [[nodiscard]] bool has_condensed_unknowns() const override;
   [[nodiscard]] double internal_residual() const override;
   [[nodiscard]] std::string name_of_internal_residual() const override;
   [[nodiscard]] std::string domain_error() const override;

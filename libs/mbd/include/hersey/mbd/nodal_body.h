@@ -58,6 +58,7 @@ class NodalBody final : public ModalBody {
   [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
   void begin_step(const ElasticMotion& start, double dt) override;
   void accept_step(const ElasticMotion& end) override;
+  [[nodiscard]] bool has_condensed_unknowns() const override { return true; }
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override { return "equations of the nodes"; }
   [[nodiscard]] std::string domain_error() const override { return trouble_; }

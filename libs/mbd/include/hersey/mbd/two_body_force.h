@@ -62,6 +62,7 @@ class TwoBodyForce {
   virtual void begin_step(const RelativeMotion& start, double dt) { (void)start, (void)dt; }
   [[nodiscard]] virtual bool step_stands() { return true; }
   virtual void accept_step(const RelativeMotion& end) { (void)end; }
+  [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
   [[nodiscard]] virtual double internal_residual() const { return 0; }
   [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
   [[nodiscard]] virtual std::string domain_error() const { return {}; }

@@ -81,6 +81,10 @@ class Equations {
   /// The step ended in `end`: condensed unknowns keep what they have.
   virtual void accept_step(const State& end) = 0;
 
+  /// Whether there are condensed unknowns: each `assemble` moves them on, and the tangent is that of the place they
+  /// have reached.
+  [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
+
   /// Largest relative residual among condensed unknowns at the last `assemble`; 0 where there are none.
   [[nodiscard]] virtual double internal_residual() const { return 0; }
 
