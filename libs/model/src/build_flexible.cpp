@@ -1,5 +1,6 @@
 #include "build_flexible.h"
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -46,8 +47,7 @@ fem::ReductionOptions options_of(const Flexible& flexible, const std::vector<con
 }
 
 /// `mesh` is null where the body comes reduced from a file.
-fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh,
-                         const std::vector<const DeformingSurface*>& surfaces) {
+fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh, const fem::ReductionOptions& options) {
   const Flexible& flexible = *body.flexible;
   if (mesh == nullptr) return *flexible.reduced;
   std::vector<fem::InterfaceFrame> frames;
@@ -58,7 +58,7 @@ fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh,
         *flexible.mesh, {frame.name, frame.X_BF.r, frame.nodes, frame.connection,
                          is_average ? fem::face_weights(*flexible.mesh, frame.nodes) : std::vector<double>()}));
   }
-  fem::Reduction reduction = fem::reduce(*mesh, frames, options_of(flexible, surfaces));
+  fem::Reduction reduction = fem::reduce(*mesh, frames, options);
   if (!reduction.ok)
     throw InputError({.position = flexible.position,
                       .path = "bodies." + body.name + ".flexible",
@@ -76,7 +76,7 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
   const Flexible& flexible = *body.flexible;
   std::optional<fem::ElasticBody> mesh;
   if (!flexible.reduced) mesh = assembled(body);
-  const fem::ReducedBody shapes = reduced(body, mesh ? &*mesh : nullptr, surfaces);
+  const fem::ReducedBody shapes = reduced(body, mesh ? &*mesh : nullptr, options_of(flexible, surfaces));
   BuiltFlexible built;
   built.name = body.name;
   built.mesh = flexible.mesh;
@@ -95,6 +95,37 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
   }
   for (const double omega : shapes.internal_omega) built.frequencies.push_back(omega / (2 * std::numbers::pi));
   return built;
+}
+
+mbd::ModalBodyData steady_shapes(const Body& body, const std::vector<const DeformingSurface*>& surfaces) {
+  const Flexible& flexible = *body.flexible;
+  std::optional<fem::ElasticBody> mesh;
+  if (!flexible.reduced) mesh = assembled(body);
+  fem::ReductionOptions options = options_of(flexible, surfaces);
+  if (flexible.nodal) options.modes = 0;  // vibrations only draw a nodal body
+  return mbd::modal_data(reduced(body, mesh ? &*mesh : nullptr, options), flexible.damping);
+}
+
+std::vector<const DeformingSurface*> surfaces_on(const Model& model, const Body& body) {
+  std::vector<const DeformingSurface*> surfaces;
+  for (const Bearing& bearing : model.bearings) {
+    if (bearing.shell_surface && bearing.shell.body == body.name) surfaces.push_back(&*bearing.shell_surface);
+    if (bearing.journal_surface && bearing.journal.body == body.name) surfaces.push_back(&*bearing.journal_surface);
+  }
+  return surfaces;
+}
+
+std::shared_ptr<const bearing::ElasticSurface> elastic_surface(const DeformingSurface& surface, const Body& body,
+                                                               const std::string& frame, const Eigen::MatrixXd& U) {
+  const auto at =
+      std::find_if(body.frames.begin(), body.frames.end(), [&](const Frame& f) { return f.name == frame; });
+  const fem::FilmSurface& map = *surface.surface;
+  // No shape moves the first frame, nor the body's own axes, which ride on it.
+  const auto place = at == body.frames.end() ? 0 : at - body.frames.begin();
+  const Eigen::MatrixXd D =
+      place == 0 ? map.coefficients(U)
+                 : fem::coefficients_from_frame(map, *body.flexible->mesh, U, at->X_BF.r, 6 * (place - 1));
+  return std::make_shared<const bearing::ElasticSurface>(bearing::ElasticSurface{map.functions, D});
 }
 
 }  // namespace hersey::model

@@ -14,4 +14,17 @@ namespace hersey::model {
 [[nodiscard]] BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces,
                                            bool is_let_go, std::vector<BuiltSurface>& kept);
 
+/// The shapes in which the body answers steady loads: those of a run, of a nodal body the static ones alone.
+/// @throws InputError as build_flexible
+[[nodiscard]] mbd::ModalBodyData steady_shapes(const Body& body, const std::vector<const DeformingSurface*>& surfaces);
+
+/// Surfaces of bearings that lie on the mesh of `body`, in the order of the bearings, the shell's first.
+[[nodiscard]] std::vector<const DeformingSurface*> surfaces_on(const Model& model, const Body& body);
+
+/// A bearing's surface by shapes of its body, displacements `U` of the nodes (3 nodes, shapes), seen from the body's
+/// frame `frame` ("": its own axes).
+[[nodiscard]] std::shared_ptr<const bearing::ElasticSurface> elastic_surface(const DeformingSurface& surface,
+                                                                             const Body& body, const std::string& frame,
+                                                                             const Eigen::MatrixXd& U);
+
 }  // namespace hersey::model

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct BearingSolution {
   model::StudyRun run;
   std::string error;  ///< why there is no solution; then the rest is empty
   film::FilmModel model;
+  std::shared_ptr<const bearing::SteadyElasticity> elasticity;  ///< of the surfaces; null: both rigid
   bearing::SteadySummary summary;
   bearing::SteadyState state;
   bearing::BearingNumbers numbers;

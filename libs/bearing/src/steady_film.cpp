@@ -1,0 +1,288 @@
+#include "steady_film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::bearing {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// One Newton step may thin the film at a node to this share of itself, an elastic one may thicken it by this factor.
+constexpr double kThinnest = 0.3, kThickest = 5;
+
+// Shares of a step below this are none.
+constexpr double kSmallestShare = 1e-6;
+
+// Iterations on film and deformation together without getting nearer by half, after which they are taken in turn, and
+// iterations of either at most.
+constexpr int kPatience = 8, kMostIterations = 40;
+
+std::shared_ptr<const ElasticSurface> surface_of(const std::shared_ptr<const SurfaceFlexibility>& flexibility) {
+  return flexibility ? flexibility->surface : nullptr;
+}
+
+film::LinearSolver linear_solver(const SteadyOptions& options) {
+  // Every amplitude is a right-hand side: a factor answers all of them at once.
+  const bool is_elastic = options.elasticity && (options.elasticity->shell || options.elasticity->journal);
+  return is_elastic ? film::LinearSolver::direct : film::linear_solver_of(options.solver);
+}
+
+}  // namespace
+
+SteadyFilm::SteadyFilm(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
+    : model_(model),
+      point_(point),
+      deforming_(model, options.elasticity ? surface_of(options.elasticity->shell) : nullptr,
+                 options.elasticity ? surface_of(options.elasticity->journal) : nullptr),
+      reynolds_(model, linear_solver(options)) {
+  film_options_.rtol = options.rtol;
+  film_options_.solver = deforms() ? film::FilmSolver::newton : options.solver;
+  if (deforms()) gather_flexibility(*options.elasticity);
+}
+
+/// Both bodies side by side: one's film forces move the other through the film alone.
+void SteadyFilm::gather_flexibility(const SteadyElasticity& elasticity) {
+  HERSEY_REQUIRE(point_.shell_speed == 0 || !elasticity.shell, "a shell that turns does not deform");
+  HERSEY_REQUIRE(point_.e_rate.isZero(0), "a journal at rest between surfaces that deform");
+  C_ = MatrixXd::Zero(amplitudes(), amplitudes());
+  C_W_ = MatrixXd::Zero(amplitudes(), 6);
+  s_0_ = VectorXd::Zero(amplitudes());
+  Index first = 0;
+  if (elasticity.shell) {
+    first = elasticity.shell->by_forces.rows();
+    C_.topLeftCorner(first, first) = elasticity.shell->by_forces;
+    C_W_.topRows(first) = elasticity.shell->by_wrench;
+  }
+  if (!elasticity.journal) return;
+  const SurfaceFlexibility& journal = *elasticity.journal;
+  const Index count = journal.by_forces.rows();
+  C_.bottomRightCorner(count, count) = journal.by_forces;
+  // The journal takes the opposite wrench, seen in its axes, which stand turned.
+  Eigen::Matrix<double, 6, 6> turned = Eigen::Matrix<double, 6, 6>::Zero();
+  turned.topLeftCorner<3, 3>() = turned.bottomRightCorner<3, 3>() =
+      Eigen::AngleAxisd(-point_.journal_angle, Vector3::UnitZ()).toRotationMatrix();
+  C_W_.bottomRows(count) = -journal.by_wrench * turned;
+  s_0_.tail(count) = journal.by_spin * point_.journal_speed * point_.journal_speed;
+}
+
+film::SurfaceMotion SteadyFilm::surfaces(const Eigen::Vector2d& e, const VectorXd& x) {
+  film::SurfaceMotion motion = steady_surfaces(model_, point_, e);
+  // What rests in the bearing's axes opens the gap at no rate, a journal that turns beneath its deformation included.
+  if (deforms()) deforming_.place(amplitudes_of(x), VectorXd::Zero(amplitudes()), point_.journal_angle, 0, motion);
+  return motion;
+}
+
+VectorXd SteadyFilm::start() const {
+  VectorXd x = VectorXd::Zero(size());
+  x.tail(amplitudes()) = s_0_;
+  return x;
+}
+
+// Where linear systems are too hard for multigrid: what a film bears is no matter of the solver.
+film::FilmSolveSummary SteadyFilm::solve_by_factorisation(const film::SurfaceMotion& motion, VectorXd& u) {
+  film::Reynolds direct(model_);
+  film::FilmSolveOptions options = film_options_;
+  options.solver = film::FilmSolver::newton;
+  u.setZero();
+  return film::solve_film(direct, motion, history_, options, u);
+}
+
+film::FilmSolveSummary SteadyFilm::solve_film(const film::SurfaceMotion& motion, VectorXd& u) {
+  film::FilmSolveSummary solved = film::solve_film(reynolds_, motion, history_, film_options_, u);
+  if (solved.converged || film_options_.solver != film::FilmSolver::multigrid) return solved;
+  const int before = solved.iterations;
+  solved = solve_by_factorisation(motion, u);
+  solved.iterations += before;
+  return solved;
+}
+
+film::FilmSolveSummary SteadyFilm::solve(const Eigen::Vector2d& e, VectorXd& x) {
+  if (!deforms()) return solve_film(surfaces(e, x), x);
+  film::FilmSolveSummary solved;
+  const VectorXd start = x;
+  if (!x.head(reynolds_.size()).isZero(0)) solved = solve_together(e, x);
+  if (!solved.converged) {
+    const int before = solved.iterations;
+    x = start;
+    solved = solve_in_turn(e, x);
+    solved.iterations += before;
+  }
+  if (!solved.converged) return solved;
+  // What is to be said of a film found, such as that it is starved.
+  VectorXd u = film_of(x);
+  film::FilmSolveSummary judged = solve_film(surfaces(e, x), u);
+  judged.iterations += solved.iterations;
+  return judged;
+}
+
+/// Newton on film and deformation at once.
+film::FilmSolveSummary SteadyFilm::solve_together(const Eigen::Vector2d& e, VectorXd& x) {
+  film::FilmSolveSummary summary;
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0, idle = 0; k < kMostIterations && idle < kPatience; ++k) {
+    summary.domain = linearise(e, x);
+    if (!summary.domain.is_inside()) return summary;
+    ++summary.iterations;
+    summary.relative_residual = relative_residual();
+    summary.converged = summary.relative_residual <= film_options_.rtol;
+    if (summary.converged) return summary;
+    idle = summary.relative_residual < 0.5 * best ? 0 : idle + 1;
+    best = std::min(best, summary.relative_residual);
+    x += cut(e, x, dx_);
+  }
+  summary.message = "film and deformation do not come together";
+  return summary;
+}
+
+/// Newton on the deformation with the film solved at each; a step that does not bring the deformation nearer is halved.
+film::FilmSolveSummary SteadyFilm::solve_in_turn(const Eigen::Vector2d& e, VectorXd& x) {
+  film::FilmSolveSummary summary;
+  int iterations = 0;
+  const auto film_at = [&](VectorXd& at) {
+    VectorXd u = film_of(at);
+    summary = solve_film(surfaces(e, at), u);
+    iterations += summary.iterations;
+    if (!summary.converged) return false;
+    at.head(u.size()) = u;
+    summary.domain = linearise(e, at);
+    summary.converged = false;
+    return summary.domain.is_inside();
+  };
+  const auto finish = [&] {
+    summary.iterations = iterations;
+    return summary;
+  };
+  if (!film_at(x)) return finish();
+  for (int k = 0; k < kMostIterations; ++k) {
+    summary.relative_residual = relative_residual();
+    summary.converged = summary.relative_residual <= film_options_.rtol;
+    if (summary.converged) return finish();
+    const VectorXd from = x, dx = cut(e, x, dx_);
+    const double missing = r_s_.norm();
+    bool nearer = false;
+    for (double share = 1; !nearer && share > 1e-3; share /= 2) {
+      x = from + share * dx;
+      nearer = film_at(x) && (r_s_.norm() < missing || relative_residual() <= film_options_.rtol);
+    }
+    if (!nearer) break;
+  }
+  summary.message = "the surfaces' deformation is not found";
+  return finish();
+}
+
+VectorXd SteadyFilm::cut(const Eigen::Vector2d& e, const VectorXd& x, VectorXd dx) {
+  double share = 1;
+  while (share > kSmallestShare && !keeps_film(e, x, e, x + share * dx)) share *= 0.7;
+  return share * dx;
+}
+
+bool SteadyFilm::keeps_film(const Eigen::Vector2d& e, const VectorXd& x, const Eigen::Vector2d& e_next,
+                            const VectorXd& x_next) {
+  const VectorXd u = film_of(x), u_next = film_of(x_next);
+  if (!film::judge_unknowns(model_, u_next).is_inside()) return false;
+  const VectorXd before = film::film_fields(model_, surfaces(e, x), u).h;
+  const VectorXd after = film::film_fields(model_, surfaces(e_next, x_next), u_next).h;
+  if (!(after.array() >= kThinnest * before.array()).all()) return false;
+  return !yields() || (after.array() <= kThickest * before.array()).all();
+}
+
+film::FilmDomain SteadyFilm::linearise(const Eigen::Vector2d& e, const VectorXd& x) {
+  const film::FilmDomain domain = reynolds_.linearise(surfaces(e, x), history_, film_of(x));
+  if (!domain.is_inside()) return domain;
+  VectorXd du;
+  reynolds_.newton_increment(du);
+  wrench_ = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du);
+  dx_ = du;
+  if (!deforms()) return domain;
+  eliminate_deformation();
+  const film::NormalForces& normal = reynolds_.normal_forces();
+  const MatrixXd& B = deforming_.openings();
+  const VectorXd s = amplitudes_of(x);
+  r_s_ = s_0_ + answer(B.transpose() * normal.value, reynolds_.wrench_on_shell()) - s;
+  const VectorXd Q = B.transpose() * (normal.value + normal.by_u.cwiseProduct(du));
+  const VectorXd ds = condensed_.solve(s_0_ + answer(Q, wrench_) - s);
+  dx_.resize(size());
+  dx_ << du + u_by_s_ * ds, ds;
+  wrench_ += W_by_s_ * ds;
+  return domain;
+}
+
+VectorXd SteadyFilm::answer(const VectorXd& Q, const Vector6& W) const { return C_ * Q + C_W_ * W; }
+
+/// Changes of the forces on shapes with changes of the film's unknowns and of the gap, column by column.
+MatrixXd SteadyFilm::forces_on_shapes(const MatrixXd& du, const MatrixXd& g) const {
+  const film::NormalForces& normal = reynolds_.normal_forces();
+  return deforming_.openings().transpose() * (normal.by_u.asDiagonal() * du + normal.by_g.asDiagonal() * g);
+}
+
+/// The film's answers to the amplitudes, and the factor of 1 - C P_s.
+void SteadyFilm::eliminate_deformation() {
+  const std::span<const film::MotionDirection> positions(deforming_.directions().data(),
+                                                         static_cast<std::size_t>(amplitudes()));
+  reynolds_.responses(positions, u_by_s_, W_by_s_);
+  for (Index a = 0; a < amplitudes(); ++a) W_by_s_.col(a) += reynolds_.wrench_gradient(u_by_s_.col(a));
+  const MatrixXd Q_by_s = forces_on_shapes(u_by_s_, deforming_.openings());
+  MatrixXd A = MatrixXd::Identity(amplitudes(), amplitudes());
+  A.noalias() -= C_ * Q_by_s;
+  A.noalias() -= C_W_ * W_by_s_;
+  condensed_.compute(A);
+}
+
+double SteadyFilm::relative_residual() const {
+  if (!deforms()) return reynolds_.relative_residual();
+  const double off = (deforming_.openings() * r_s_).cwiseAbs().maxCoeff() / model_.c;
+  return std::max(reynolds_.relative_residual(), off);
+}
+
+void SteadyFilm::respond(std::span<const film::MotionDirection> directions, MatrixXd& dx, Columns& dW) {
+  MatrixXd du;
+  reynolds_.responses(directions, du, dW);
+  for (Index k = 0; k < du.cols(); ++k) dW.col(k) += reynolds_.wrench_gradient(du.col(k));
+  if (!deforms()) {
+    dx = std::move(du);
+    return;
+  }
+  MatrixXd g = MatrixXd::Zero(du.rows(), du.cols());
+  for (Index k = 0; k < du.cols(); ++k) {
+    const VectorXd& opening = directions[static_cast<std::size_t>(k)].g;
+    if (opening.size() > 0) g.col(k) = opening;
+  }
+  const MatrixXd ds = condensed_.solve(C_ * forces_on_shapes(du, g) + C_W_ * dW);
+  dx.resize(size(), du.cols());
+  dx << du + u_by_s_ * ds, ds;
+  dW += W_by_s_ * ds;
+}
+
+double SteadyFilm::depth(const Eigen::Vector2d& load) {
+  if (!deforms()) return 0;
+  // Under a pressure that falls from the load's side around the bearing like a cosine and bears the load.
+  const Eigen::Vector2d along = load.normalized();
+  VectorXd forces = VectorXd::Zero(reynolds_.size());
+  double borne = 0;
+  for (int k = 0; k < forces.size(); ++k) {
+    const double phi = model_.grid.phi(k / model_.grid.n_z);
+    const double cosine = along.dot(Eigen::Vector2d(std::cos(phi), std::sin(phi)));
+    forces[k] = std::max(0.0, cosine);
+    borne += forces[k] * cosine;
+  }
+  forces *= load.norm() / borne;
+  const MatrixXd& B = deforming_.openings();
+  return (B * (C_ * (B.transpose() * forces))).cwiseAbs().maxCoeff();
+}
+
+VectorXd SteadyFilm::shell_displacement(const VectorXd& x) const {
+  return deforming_.shell_deforms() ? deforming_.shell_displacement(amplitudes_of(x)) : VectorXd();
+}
+
+VectorXd SteadyFilm::journal_displacement(const VectorXd& x) const {
+  return deforming_.journal_deforms() ? deforming_.journal_displacement(amplitudes_of(x)) : VectorXd();
+}
+
+}  // namespace hersey::bearing
