@@ -160,9 +160,11 @@ class Search {
     state.e = e_;
     state.u = film_.film_of(x_);
     state.s = film_.amplitudes_of(x_);
+    state.tilt = film_.tilt(x_);
+    state.turn = film_.turn(x_);
     state.d_shell = film_.shell_displacement(x_);
     state.d_journal = film_.journal_displacement(x_);
-    state.film = film::observe_film(model_, film_.surfaces(e_, x_), {}, e_, state.u, point_.tilt);
+    state.film = film::observe_film(model_, film_.surfaces(e_, x_), {}, e_, state.u, state.tilt);
     state.load = state.film.wrench_on_shell.segment<2>(3);
     state.coefficients = coefficients();
     return state;
@@ -235,7 +237,7 @@ class Search {
 
   [[nodiscard]] bool linearise() {
     if (!film_.linearise(e_, x_).is_inside()) return false;
-    force_ = film_.wrench().segment<2>(3);
+    force_ = film_.force();
     ++summary_.iterations;
     return true;
   }
@@ -293,7 +295,7 @@ class Search {
   [[nodiscard]] Step newton_step(const Eigen::Vector2d& target) {
     Columns dW;
     respond(2, dx_de_, dW);
-    const Eigen::Matrix2d K = dW.block<2, 2>(3, 0);
+    const Eigen::Matrix2d K = film_.change_of_force(dx_de_, dW);
     Step step{K.fullPivLu().solve(missing(target)), film_.increment()};
     if (!step.de.allFinite()) step.de.setZero();
     step.de *= std::min(1.0, 0.5 * model_.c / std::max(step.de.norm(), 1e-300));
@@ -569,7 +571,9 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
 }
 
 film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& state) {
-  film::SurfaceMotion motion = steady_surfaces(model, state.point, state.e);
+  OperatingPoint loaded = state.point;
+  loaded.tilt = state.tilt;
+  film::SurfaceMotion motion = steady_surfaces(model, loaded, state.e);
   if (state.d_shell.size() > 0) motion.g += state.d_shell;
   if (state.d_journal.size() > 0) motion.g -= state.d_journal;
   film::FilmFields fields = film::film_fields(model, motion, state.u);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 
 namespace hersey::bearing {
@@ -26,6 +27,27 @@ constexpr int kPatience = 8, kMostIterations = 40;
 
 std::shared_ptr<const ElasticSurface> surface_of(const std::shared_ptr<const SurfaceFlexibility>& flexibility) {
   return flexibility ? flexibility->surface : nullptr;
+}
+
+/// A wrench seen in axes from which its own stand turned by `angle` about z.
+Matrix6 about_z(double angle) {
+  Matrix6 R = Matrix6::Zero();
+  R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
+  return R;
+}
+
+/// d about_z(angle) / d angle at 0, times W.
+Vector6 turning(const Vector6& W) {
+  Vector6 change;
+  change << Vector3::UnitZ().cross(W.head<3>()), Vector3::UnitZ().cross(W.tail<3>());
+  return change;
+}
+
+/// Slopes of an axis that rotations turn.
+Eigen::MatrixXd slopes(const Eigen::MatrixXd& turn) {
+  Eigen::MatrixXd t(2, turn.cols());
+  t << turn.row(1), -turn.row(0);
+  return t;
 }
 
 film::LinearSolver linear_solver(const SteadyOptions& options) {
@@ -54,30 +76,57 @@ void SteadyFilm::gather_flexibility(const SteadyElasticity& elasticity) {
   C_ = MatrixXd::Zero(amplitudes(), amplitudes());
   C_W_ = MatrixXd::Zero(amplitudes(), 6);
   s_0_ = VectorXd::Zero(amplitudes());
+  tilt_by_s_ = MatrixXd::Zero(2, amplitudes());
+  turn_by_s_ = Eigen::RowVectorXd::Zero(amplitudes());
   Index first = 0;
   if (elasticity.shell) {
-    first = elasticity.shell->by_forces.rows();
-    C_.topLeftCorner(first, first) = elasticity.shell->by_forces;
-    C_W_.topRows(first) = elasticity.shell->by_wrench;
+    const SurfaceFlexibility& shell = *elasticity.shell;
+    first = shell.by_forces.rows();
+    C_.topLeftCorner(first, first) = shell.by_forces;
+    C_W_.topRows(first) = shell.by_wrench;
+    tilt_by_s_.leftCols(first) = -slopes(shell.turn);
+    turn_by_s_.head(first) = shell.turn.row(2);
   }
-  if (!elasticity.journal) return;
-  const SurfaceFlexibility& journal = *elasticity.journal;
-  const Index count = journal.by_forces.rows();
-  C_.bottomRightCorner(count, count) = journal.by_forces;
-  // The journal takes the opposite wrench, seen in its axes, which stand turned.
-  Eigen::Matrix<double, 6, 6> turned = Eigen::Matrix<double, 6, 6>::Zero();
-  turned.topLeftCorner<3, 3>() = turned.bottomRightCorner<3, 3>() =
-      Eigen::AngleAxisd(-point_.journal_angle, Vector3::UnitZ()).toRotationMatrix();
-  C_W_.bottomRows(count) = -journal.by_wrench * turned;
-  s_0_.tail(count) = journal.by_spin * point_.journal_speed * point_.journal_speed;
+  if (elasticity.journal) {
+    const SurfaceFlexibility& journal = *elasticity.journal;
+    const Index count = journal.by_forces.rows();
+    C_.bottomRightCorner(count, count) = journal.by_forces;
+    // The journal takes the opposite wrench, seen in its axes, which stand turned.
+    const Matrix6 to_journal = about_z(-point_.journal_angle);
+    C_W_.bottomRows(count) = -journal.by_wrench * to_journal;
+    tilt_by_s_.rightCols(count) = slopes(to_journal.topLeftCorner<3, 3>().transpose() * journal.turn);
+    s_0_.tail(count) = journal.by_spin * point_.journal_speed * point_.journal_speed;
+  }
+  lay_openings();
+}
+
+/// A tilt opens the gap at z by -z t . e_r.
+void SteadyFilm::lay_openings() {
+  film::SurfaceMotion motion = steady_surfaces(model_, point_, Eigen::Vector2d::Zero());
+  deforming_.place(s_0_, VectorXd::Zero(amplitudes()), point_.journal_angle, 0, motion);
+  positions_.assign(deforming_.directions().begin(), deforming_.directions().begin() + amplitudes());
+  all_openings_ = deforming_.openings();
+  for (const int k : {kTx, kTy}) {
+    positions_.push_back(surface_direction(model_, k));
+    all_openings_ += positions_.back().g * tilt_by_s_.row(k - kTx);
+  }
 }
 
 film::SurfaceMotion SteadyFilm::surfaces(const Eigen::Vector2d& e, const VectorXd& x) {
-  film::SurfaceMotion motion = steady_surfaces(model_, point_, e);
+  if (!deforms()) return steady_surfaces(model_, point_, e);
+  OperatingPoint tilted = point_;
+  tilted.tilt = tilt(x);
+  film::SurfaceMotion motion = steady_surfaces(model_, tilted, e);
   // What rests in the bearing's axes opens the gap at no rate, a journal that turns beneath its deformation included.
-  if (deforms()) deforming_.place(amplitudes_of(x), VectorXd::Zero(amplitudes()), point_.journal_angle, 0, motion);
+  deforming_.place(amplitudes_of(x), VectorXd::Zero(amplitudes()), point_.journal_angle, 0, motion);
   return motion;
 }
+
+Eigen::Vector2d SteadyFilm::tilt(const VectorXd& x) const {
+  return deforms() ? Eigen::Vector2d(point_.tilt + tilt_by_s_ * amplitudes_of(x)) : point_.tilt;
+}
+
+double SteadyFilm::turn(const VectorXd& x) const { return deforms() ? turn_by_s_.dot(amplitudes_of(x)) : 0; }
 
 VectorXd SteadyFilm::start() const {
   VectorXd x = VectorXd::Zero(size());
@@ -200,21 +249,38 @@ film::FilmDomain SteadyFilm::linearise(const Eigen::Vector2d& e, const VectorXd&
   reynolds_.newton_increment(du);
   wrench_ = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du);
   dx_ = du;
+  force_ = wrench_.segment<2>(3);
+  turn_ = turn(x);
   if (!deforms()) return domain;
   eliminate_deformation();
   const film::NormalForces& normal = reynolds_.normal_forces();
   const MatrixXd& B = deforming_.openings();
   const VectorXd s = amplitudes_of(x);
-  r_s_ = s_0_ + answer(B.transpose() * normal.value, reynolds_.wrench_on_shell()) - s;
+  r_s_ = s_0_ + answer(B.transpose() * normal.value, reynolds_.wrench_on_shell(), turn_) - s;
   const VectorXd Q = B.transpose() * (normal.value + normal.by_u.cwiseProduct(du));
-  const VectorXd ds = condensed_.solve(s_0_ + answer(Q, wrench_) - s);
+  const VectorXd ds = condensed_.solve(s_0_ + answer(Q, wrench_, turn_) - s);
   dx_.resize(size());
   dx_ << du + u_by_s_ * ds, ds;
   wrench_ += W_by_s_ * ds;
+  turn_ += turn_by_s_.dot(ds);
+  force_ = (about_z(turn_) * wrench_).segment<2>(3);
   return domain;
 }
 
-VectorXd SteadyFilm::answer(const VectorXd& Q, const Vector6& W) const { return C_ * Q + C_W_ * W; }
+/// The shell's body takes its wrench in the axes it has without load; the journal's axes follow the load, too.
+VectorXd SteadyFilm::answer(const VectorXd& Q, const Vector6& W, double turn) const {
+  return C_ * Q + C_W_ * (about_z(turn) * W);
+}
+
+/// Change of the wrench in unloaded axes with the amplitudes.
+MatrixXd SteadyFilm::wrench_by_amplitudes() const {
+  return about_z(turn_) * (W_by_s_ + turning(wrench_) * turn_by_s_);
+}
+
+Eigen::Matrix2Xd SteadyFilm::change_of_force(const MatrixXd& dx, const Columns& dW) const {
+  if (!deforms()) return dW.middleRows<2>(3);
+  return (about_z(turn_) * (dW + turning(wrench_) * (turn_by_s_ * dx.bottomRows(amplitudes())))).middleRows<2>(3);
+}
 
 /// Changes of the forces on shapes with changes of the film's unknowns and of the gap, column by column.
 MatrixXd SteadyFilm::forces_on_shapes(const MatrixXd& du, const MatrixXd& g) const {
@@ -224,20 +290,21 @@ MatrixXd SteadyFilm::forces_on_shapes(const MatrixXd& du, const MatrixXd& g) con
 
 /// The film's answers to the amplitudes, and the factor of 1 - C P_s.
 void SteadyFilm::eliminate_deformation() {
-  const std::span<const film::MotionDirection> positions(deforming_.directions().data(),
-                                                         static_cast<std::size_t>(amplitudes()));
-  reynolds_.responses(positions, u_by_s_, W_by_s_);
-  for (Index a = 0; a < amplitudes(); ++a) W_by_s_.col(a) += reynolds_.wrench_gradient(u_by_s_.col(a));
-  const MatrixXd Q_by_s = forces_on_shapes(u_by_s_, deforming_.openings());
+  reynolds_.responses(positions_, u_by_s_, W_by_s_);
+  for (Index a = 0; a < u_by_s_.cols(); ++a) W_by_s_.col(a) += reynolds_.wrench_gradient(u_by_s_.col(a));
+  // The tilt follows the amplitudes.
+  u_by_s_ = (u_by_s_.leftCols(amplitudes()) + u_by_s_.rightCols<2>() * tilt_by_s_).eval();
+  W_by_s_ = (W_by_s_.leftCols(amplitudes()) + W_by_s_.rightCols<2>() * tilt_by_s_).eval();
+  const MatrixXd Q_by_s = forces_on_shapes(u_by_s_, all_openings_);
   MatrixXd A = MatrixXd::Identity(amplitudes(), amplitudes());
   A.noalias() -= C_ * Q_by_s;
-  A.noalias() -= C_W_ * W_by_s_;
+  A.noalias() -= C_W_ * wrench_by_amplitudes();
   condensed_.compute(A);
 }
 
 double SteadyFilm::relative_residual() const {
   if (!deforms()) return reynolds_.relative_residual();
-  const double off = (deforming_.openings() * r_s_).cwiseAbs().maxCoeff() / model_.c;
+  const double off = (all_openings_ * r_s_).cwiseAbs().maxCoeff() / model_.c;
   return std::max(reynolds_.relative_residual(), off);
 }
 
@@ -254,7 +321,7 @@ void SteadyFilm::respond(std::span<const film::MotionDirection> directions, Matr
     const VectorXd& opening = directions[static_cast<std::size_t>(k)].g;
     if (opening.size() > 0) g.col(k) = opening;
   }
-  const MatrixXd ds = condensed_.solve(C_ * forces_on_shapes(du, g) + C_W_ * dW);
+  const MatrixXd ds = condensed_.solve(C_ * forces_on_shapes(du, g) + C_W_ * (about_z(turn_) * dW));
   dx.resize(size(), du.cols());
   dx << du + u_by_s_ * ds, ds;
   dW += W_by_s_ * ds;

@@ -46,13 +46,16 @@ class SteadyFilm {
   [[nodiscard]] film::FilmDomain linearise(const Eigen::Vector2d& e, const Eigen::VectorXd& x);
   /// Of the film, and of the deformation as the largest error of the gap over the clearance.
   [[nodiscard]] double relative_residual() const;
-  /// Newton's increment of x at a fixed journal, and the wrench on the shell after it.
+  /// Newton's increment of x at a fixed journal, and the force on the shell after it, in the bearing's axes as they
+  /// stand without load.
   [[nodiscard]] const Eigen::VectorXd& increment() const { return dx_; }
-  [[nodiscard]] const Vector6& wrench() const { return wrench_; }
+  [[nodiscard]] const Eigen::Vector2d& force() const { return force_; }
 
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-  /// Total derivatives of x and of the wrench on the shell with changes of the surfaces.
+  /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces.
   void respond(std::span<const film::MotionDirection> directions, Eigen::MatrixXd& dx, Columns& dW);
+  /// Of the force in the axes of force(), by those of x and of the wrench.
+  [[nodiscard]] Eigen::Matrix2Xd change_of_force(const Eigen::MatrixXd& dx, const Columns& dW) const;
 
   /// Whether from x at e the step to x_next at e_next thins or thickens no film by more than Newton may.
   [[nodiscard]] bool keeps_film(const Eigen::Vector2d& e, const Eigen::VectorXd& x, const Eigen::Vector2d& e_next,
@@ -61,8 +64,13 @@ class SteadyFilm {
   /// How far the surfaces of elastic bodies give way to a load [m], roughly.
   [[nodiscard]] double depth(const Eigen::Vector2d& load);
 
-  /// By which amplitudes open the gap at the nodes [m].
-  [[nodiscard]] Eigen::VectorXd opening(const Eigen::VectorXd& s) const { return deforming_.openings() * s; }
+  /// By which amplitudes open the gap at the nodes, frames turned included [m].
+  [[nodiscard]] Eigen::VectorXd opening(const Eigen::VectorXd& s) const { return all_openings_ * s; }
+
+  /// Slope of the journal's axis against the shell's, both as loaded [-], and the angle about z by which the shell's
+  /// frame has turned under the load [rad].
+  [[nodiscard]] Eigen::Vector2d tilt(const Eigen::VectorXd& x) const;
+  [[nodiscard]] double turn(const Eigen::VectorXd& x) const;
 
   /// Radial displacement of each surface at the nodes, away from the axis [m]; empty where it is rigid.
   [[nodiscard]] Eigen::VectorXd shell_displacement(const Eigen::VectorXd& x) const;
@@ -78,7 +86,9 @@ class SteadyFilm {
   [[nodiscard]] film::FilmSolveSummary solve_in_turn(const Eigen::Vector2d& e, Eigen::VectorXd& x);
   [[nodiscard]] Eigen::VectorXd cut(const Eigen::Vector2d& e, const Eigen::VectorXd& x, Eigen::VectorXd dx);
   void eliminate_deformation();
-  [[nodiscard]] Eigen::VectorXd answer(const Eigen::VectorXd& Q, const Vector6& W) const;
+  [[nodiscard]] Eigen::VectorXd answer(const Eigen::VectorXd& Q, const Vector6& W, double turn) const;
+  [[nodiscard]] Eigen::MatrixXd wrench_by_amplitudes() const;
+  void lay_openings();
   [[nodiscard]] Eigen::MatrixXd forces_on_shapes(const Eigen::MatrixXd& du, const Eigen::MatrixXd& g) const;
 
   const film::FilmModel& model_;
@@ -89,11 +99,17 @@ class SteadyFilm {
   film::FilmHistory history_;  // dt = 0: a steady film
   Eigen::MatrixXd C_, C_W_;    // of both bodies, shell first; C_W for the wrench on the shell
   Eigen::VectorXd s_0_;        // what the spin of the bodies does
+  Eigen::MatrixXd tilt_by_s_;  // of the journal's axis against the shell's, (2, amplitudes)
+  Eigen::RowVectorXd turn_by_s_;  // of the shell's frame about z
+  Eigen::MatrixXd all_openings_;  // of the gap by amplitudes, frames turned included
+  std::vector<film::MotionDirection> positions_;  // of the amplitudes, then of the tilt
 
   // At the state last linearised: residual of the deformation, answers of film, wrench and deformation to the
   // amplitudes, and the factor of what is left for these.
   Eigen::VectorXd r_s_, dx_;
-  Vector6 wrench_ = Vector6::Zero();
+  Eigen::Vector2d force_ = Eigen::Vector2d::Zero();
+  Vector6 wrench_ = Vector6::Zero();  // on the shell, its present axes
+  double turn_ = 0;
   Eigen::MatrixXd u_by_s_;
   Columns W_by_s_;
   Eigen::PartialPivLU<Eigen::MatrixXd> condensed_;

@@ -95,6 +95,11 @@ class HeldBody {
   [[nodiscard]] Index shapes() const { return data_.shapes(); }
   [[nodiscard]] const mbd::ModalBodyData& data() const { return data_; }
 
+  /// [rotation; displacement] of a point at `r` on a frame by the amplitudes, body's axes, (6, shapes).
+  [[nodiscard]] MatrixXd motion(std::size_t place, const Vector3& r) const {
+    return relative(place) + carried(r) * rigid_;
+  }
+
   /// Amplitudes for unit forces on each of them, and by a wrench at `r` on frame `place`, in the body's axes.
   [[nodiscard]] const MatrixXd& by_forces() const { return answers_; }
   [[nodiscard]] MatrixXd by_wrench(std::size_t place, const Vector3& r) const {
@@ -138,11 +143,6 @@ class HeldBody {
     return E;
   }
 
-  /// Of a point at `r` on a frame by the amplitudes, the first of those that hold at rest, (6, shapes).
-  [[nodiscard]] MatrixXd motion(std::size_t place, const Vector3& r) const {
-    return relative(place) + carried(r) * rigid_;
-  }
-
   void hold(const std::vector<std::size_t>& held) {
     rigid_ = -carried(body_.frames[held.front()].X_BF.r).inverse() * relative(held.front());
   }
@@ -184,6 +184,7 @@ std::shared_ptr<const bearing::SurfaceFlexibility> flexibility(const Model& mode
   result.surface = elastic_surface(surface, body, on.frame, rest.data().displacements);
   result.by_forces = rest.by_forces();
   result.by_wrench = rest.by_wrench(own, X.r) * turned;
+  result.turn = X.R.transpose() * rest.motion(own, X.r).topRows<3>();
   result.by_spin = rest.by_spin(X.r, X.R.col(2));
   result.body = body.name;
   for (const std::size_t place : held) result.held_at.push_back(body.frames[place].name);

@@ -18,10 +18,11 @@ namespace hersey::bearing {
 struct OperatingPoint {
   double journal_speed = 0;                          ///< angular velocity of the journal about z [rad/s]
   double shell_speed = 0;                            ///< angular velocity of the shell about z [rad/s]
-  std::optional<Eigen::Vector2d> load;               ///< on the journal [N], not zero; without it the position is given
+  /// On the journal [N], not zero, in the bearing's axes while nothing deforms; without it the position is given.
+  std::optional<Eigen::Vector2d> load;
   Eigen::Vector2d e = Eigen::Vector2d::Zero();       ///< position of the journal, where no load is given [m]
   Eigen::Vector2d e_rate = Eigen::Vector2d::Zero();  ///< velocity of the journal's centre [m/s]
-  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();    ///< slope of the journal's axis [-]
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();    ///< slope of the journal's axis while nothing deforms [-]
   double journal_angle = 0;                          ///< by which the journal, with its holes, stands turned [rad]
 
   /// Sum of both speeds, which drags the oil [rad/s].
@@ -67,6 +68,8 @@ struct SteadyState {
   OperatingPoint point;
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< that the film carries: its force on the shell [N]
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis, both frames turned by the load [-]
+  double turn = 0;  ///< of the shell's frame, whose axes all of this is in, about z under the load [rad]
   Eigen::VectorXd u;                               ///< the film's unknowns
   Eigen::VectorXd s;  ///< amplitudes of the shapes of both surfaces' bodies, shell first; empty: both rigid
   Eigen::VectorXd d_shell, d_journal;  ///< radial displacement at the nodes, away from the axis [m]; empty where rigid

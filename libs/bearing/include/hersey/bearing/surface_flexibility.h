@@ -21,6 +21,7 @@ struct SurfaceFlexibility {
   Eigen::MatrixXd by_forces;                      ///< C, shape (amplitudes, amplitudes)
   Eigen::MatrixXd by_wrench;                      ///< C_W, shape (amplitudes, 6)
   Eigen::VectorXd by_spin;                        ///< s_omega, shape (amplitudes)
+  Eigen::MatrixXd turn;  ///< rotation of the surface's frame against where it is held, its axes, (3, amplitudes) [rad]
   std::string body;                               ///< its name
   std::vector<std::string> held_at;               ///< frames of the body at which it is held
 };
