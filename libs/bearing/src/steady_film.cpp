@@ -77,7 +77,9 @@ void SteadyFilm::gather_flexibility(const SteadyElasticity& elasticity) {
   C_W_ = MatrixXd::Zero(amplitudes(), 6);
   s_0_ = VectorXd::Zero(amplitudes());
   tilt_by_s_ = MatrixXd::Zero(2, amplitudes());
-  turn_by_s_ = Eigen::RowVectorXd::Zero(amplitudes());
+  offset_by_s_ = MatrixXd::Zero(3, amplitudes());
+  by_offset_moment_ = MatrixXd::Zero(amplitudes(), 3);
+  turn_by_s_ = turn_in_body_by_s_ = Eigen::RowVectorXd::Zero(amplitudes());
   Index first = 0;
   if (elasticity.shell) {
     const SurfaceFlexibility& shell = *elasticity.shell;
@@ -85,7 +87,10 @@ void SteadyFilm::gather_flexibility(const SteadyElasticity& elasticity) {
     C_.topLeftCorner(first, first) = shell.by_forces;
     C_W_.topRows(first) = shell.by_wrench;
     tilt_by_s_.leftCols(first) = -slopes(shell.turn);
+    offset_by_s_.leftCols(first) = shell.offset;
+    by_offset_moment_.topRows(first) = shell.by_offset_moment;
     turn_by_s_.head(first) = shell.turn.row(2);
+    turn_in_body_by_s_.head(first) = shell.turn_in_body.row(2);
   }
   if (elasticity.journal) {
     const SurfaceFlexibility& journal = *elasticity.journal;
@@ -250,15 +255,18 @@ film::FilmDomain SteadyFilm::linearise(const Eigen::Vector2d& e, const VectorXd&
   wrench_ = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du);
   dx_ = du;
   force_ = wrench_.segment<2>(3);
-  turn_ = turn(x);
   if (!deforms()) return domain;
+  turn_ = turn(x);
+  turn_in_body_ = turn_in_body_by_s_.dot(amplitudes_of(x));
+  C_W_now_ = C_W_;
+  C_W_now_.rightCols<3>() += by_offset_moment_ * skew(offset_by_s_ * amplitudes_of(x));
   eliminate_deformation();
   const film::NormalForces& normal = reynolds_.normal_forces();
   const MatrixXd& B = deforming_.openings();
   const VectorXd s = amplitudes_of(x);
-  r_s_ = s_0_ + answer(B.transpose() * normal.value, reynolds_.wrench_on_shell(), turn_) - s;
+  r_s_ = s_0_ + answer(B.transpose() * normal.value, reynolds_.wrench_on_shell()) - s;
   const VectorXd Q = B.transpose() * (normal.value + normal.by_u.cwiseProduct(du));
-  const VectorXd ds = condensed_.solve(s_0_ + answer(Q, wrench_, turn_) - s);
+  const VectorXd ds = condensed_.solve(s_0_ + answer(Q, wrench_) - s);
   dx_.resize(size());
   dx_ << du + u_by_s_ * ds, ds;
   wrench_ += W_by_s_ * ds;
@@ -267,14 +275,14 @@ film::FilmDomain SteadyFilm::linearise(const Eigen::Vector2d& e, const VectorXd&
   return domain;
 }
 
-/// The shell's body takes its wrench in the axes it has without load; the journal's axes follow the load, too.
-VectorXd SteadyFilm::answer(const VectorXd& Q, const Vector6& W, double turn) const {
-  return C_ * Q + C_W_ * (about_z(turn) * W);
+/// The shell's body takes its wrench in its own axes, in which a frame of it may turn.
+VectorXd SteadyFilm::answer(const VectorXd& Q, const Vector6& W) const {
+  return C_ * Q + C_W_now_ * (about_z(turn_in_body_) * W);
 }
 
-/// Change of the wrench in unloaded axes with the amplitudes.
+/// Change of the wrench in those axes with the amplitudes.
 MatrixXd SteadyFilm::wrench_by_amplitudes() const {
-  return about_z(turn_) * (W_by_s_ + turning(wrench_) * turn_by_s_);
+  return about_z(turn_in_body_) * (W_by_s_ + turning(wrench_) * turn_in_body_by_s_);
 }
 
 Eigen::Matrix2Xd SteadyFilm::change_of_force(const MatrixXd& dx, const Columns& dW) const {
@@ -298,7 +306,9 @@ void SteadyFilm::eliminate_deformation() {
   const MatrixXd Q_by_s = forces_on_shapes(u_by_s_, all_openings_);
   MatrixXd A = MatrixXd::Identity(amplitudes(), amplitudes());
   A.noalias() -= C_ * Q_by_s;
-  A.noalias() -= C_W_ * wrench_by_amplitudes();
+  A.noalias() -= C_W_now_ * wrench_by_amplitudes();
+  const Vector3 f = (about_z(turn_in_body_) * wrench_).tail<3>();
+  A.noalias() += by_offset_moment_ * (skew(f) * offset_by_s_);
   condensed_.compute(A);
 }
 
@@ -321,7 +331,7 @@ void SteadyFilm::respond(std::span<const film::MotionDirection> directions, Matr
     const VectorXd& opening = directions[static_cast<std::size_t>(k)].g;
     if (opening.size() > 0) g.col(k) = opening;
   }
-  const MatrixXd ds = condensed_.solve(C_ * forces_on_shapes(du, g) + C_W_ * (about_z(turn_) * dW));
+  const MatrixXd ds = condensed_.solve(C_ * forces_on_shapes(du, g) + C_W_now_ * (about_z(turn_in_body_) * dW));
   dx.resize(size(), du.cols());
   dx << du + u_by_s_ * ds, ds;
   dW += W_by_s_ * ds;

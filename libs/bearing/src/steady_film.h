@@ -86,7 +86,7 @@ class SteadyFilm {
   [[nodiscard]] film::FilmSolveSummary solve_in_turn(const Eigen::Vector2d& e, Eigen::VectorXd& x);
   [[nodiscard]] Eigen::VectorXd cut(const Eigen::Vector2d& e, const Eigen::VectorXd& x, Eigen::VectorXd dx);
   void eliminate_deformation();
-  [[nodiscard]] Eigen::VectorXd answer(const Eigen::VectorXd& Q, const Vector6& W, double turn) const;
+  [[nodiscard]] Eigen::VectorXd answer(const Eigen::VectorXd& Q, const Vector6& W) const;
   [[nodiscard]] Eigen::MatrixXd wrench_by_amplitudes() const;
   void lay_openings();
   [[nodiscard]] Eigen::MatrixXd forces_on_shapes(const Eigen::MatrixXd& du, const Eigen::MatrixXd& g) const;
@@ -99,8 +99,10 @@ class SteadyFilm {
   film::FilmHistory history_;  // dt = 0: a steady film
   Eigen::MatrixXd C_, C_W_;    // of both bodies, shell first; C_W for the wrench on the shell
   Eigen::VectorXd s_0_;        // what the spin of the bodies does
+  Eigen::MatrixXd offset_by_s_, by_offset_moment_;  // of the shell's body, SurfaceFlexibility
   Eigen::MatrixXd tilt_by_s_;  // of the journal's axis against the shell's, (2, amplitudes)
-  Eigen::RowVectorXd turn_by_s_;  // of the shell's frame about z
+  // Of the shell's frame about z against where its body is held, and against that body's axes.
+  Eigen::RowVectorXd turn_by_s_, turn_in_body_by_s_;
   Eigen::MatrixXd all_openings_;  // of the gap by amplitudes, frames turned included
   std::vector<film::MotionDirection> positions_;  // of the amplitudes, then of the tilt
 
@@ -109,7 +111,8 @@ class SteadyFilm {
   Eigen::VectorXd r_s_, dx_;
   Eigen::Vector2d force_ = Eigen::Vector2d::Zero();
   Vector6 wrench_ = Vector6::Zero();  // on the shell, its present axes
-  double turn_ = 0;
+  double turn_ = 0, turn_in_body_ = 0;
+  Eigen::MatrixXd C_W_now_;  // of the shell's body as it is deformed
   Eigen::MatrixXd u_by_s_;
   Columns W_by_s_;
   Eigen::PartialPivLU<Eigen::MatrixXd> condensed_;

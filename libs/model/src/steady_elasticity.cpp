@@ -95,6 +95,13 @@ class HeldBody {
   [[nodiscard]] Index shapes() const { return data_.shapes(); }
   [[nodiscard]] const mbd::ModalBodyData& data() const { return data_; }
 
+  /// Where a frame moves against the body's axes: not at all with the first, by its six amplitudes with the others.
+  [[nodiscard]] MatrixXd relative(std::size_t place) const {
+    MatrixXd E = MatrixXd::Zero(6, shapes());
+    if (place > 0) E.middleCols<6>(6 * (static_cast<Index>(place) - 1)).setIdentity();
+    return E;
+  }
+
   /// [rotation; displacement] of a point at `r` on a frame by the amplitudes, body's axes, (6, shapes).
   [[nodiscard]] MatrixXd motion(std::size_t place, const Vector3& r) const {
     return relative(place) + carried(r) * rigid_;
@@ -134,13 +141,6 @@ class HeldBody {
     Matrix6 T = Matrix6::Identity();
     T.bottomLeftCorner<3, 3>() = -skew(r);
     return T;
-  }
-
-  /// Where a frame moves against the body's axes: not at all with the first, by its six amplitudes with the others.
-  [[nodiscard]] MatrixXd relative(std::size_t place) const {
-    MatrixXd E = MatrixXd::Zero(6, shapes());
-    if (place > 0) E.middleCols<6>(6 * (static_cast<Index>(place) - 1)).setIdentity();
-    return E;
   }
 
   void hold(const std::vector<std::size_t>& held) {
@@ -185,6 +185,9 @@ std::shared_ptr<const bearing::SurfaceFlexibility> flexibility(const Model& mode
   result.by_forces = rest.by_forces();
   result.by_wrench = rest.by_wrench(own, X.r) * turned;
   result.turn = X.R.transpose() * rest.motion(own, X.r).topRows<3>();
+  result.turn_in_body = X.R.transpose() * rest.relative(own).topRows<3>();
+  result.offset = X.R.transpose() * (rest.relative(held.front()) - rest.relative(own)).bottomRows<3>();
+  result.by_offset_moment = rest.by_forces() * rest.relative(held.front()).topRows<3>().transpose() * X.R;
   result.by_spin = rest.by_spin(X.r, X.R.col(2));
   result.body = body.name;
   for (const std::size_t place : held) result.held_at.push_back(body.frames[place].name);
