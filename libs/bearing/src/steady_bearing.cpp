@@ -228,8 +228,7 @@ class Search {
   [[nodiscard]] bool is_tired() const { return summary_.iterations >= budget_; }
 
   [[nodiscard]] bool bears_nothing() {
-    const film::FilmFields fields =
-        film::film_fields(model_, film_.surfaces(e_, x_), film_.film_of(x_));
+    const film::FilmFields fields = film::film_fields(model_, film_.surfaces(e_, x_), film_.film_of(x_));
     const double scale = model_.lubricant.mu0 * point_.film_speed(model_.c) * std::pow(model_.R / model_.c, 2);
     return fields.p.maxCoeff() - fields.p.minCoeff() <= 1e-9 * scale &&
            model_.asperities.model == film::AsperityModel::none;
@@ -449,8 +448,7 @@ class Search {
     const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
     std::vector<double> result;
     for (double gap = 0.5; gap > (is_smooth ? 1 : 0.1) * kTouching; gap /= 2) result.push_back((1 - gap) * room);
-    const double depth =
-        model_.compliance * point_.load->norm() / (model_.R * model_.L) + film_.depth(*point_.load);
+    const double depth = model_.compliance * point_.load->norm() / (model_.R * model_.L) + film_.depth(*point_.load);
     for (double share = 0.25; depth > 0 && share <= 8; share *= 2) result.push_back(room + share * depth);
     return result;
   }

@@ -18,8 +18,8 @@ namespace hersey::bearing {
 ///
 ///     r_f(u, g(s)) = 0,    r_s = s_0 + C P(u, s) - s = 0,                                       (bearing.29)
 ///
-/// P = [Q; W] what the film puts on the shapes and on the shell. Without surfaces that deform x = u and the film is that
-/// of `film::solve_film`.
+/// P = [Q; W] what the film puts on the shapes and on the shell. Without surfaces that deform x = u and the film is
+/// that of `film::solve_film`.
 class SteadyFilm {
  public:
   /// What keeps references to `model`, `point` and `options` alive is the caller's.
@@ -96,14 +96,14 @@ class SteadyFilm {
   film::FilmSolveOptions film_options_;
   DeformingSurfaces deforming_;
   film::Reynolds reynolds_;
-  film::FilmHistory history_;  // dt = 0: a steady film
-  Eigen::MatrixXd C_, C_W_;    // of both bodies, shell first; C_W for the wrench on the shell
-  Eigen::VectorXd s_0_;        // what the spin of the bodies does
+  film::FilmHistory history_;                       // dt = 0: a steady film
+  Eigen::MatrixXd C_, C_W_;                         // of both bodies, shell first; C_W for the wrench on the shell
+  Eigen::VectorXd s_0_;                             // what the spin of the bodies does
   Eigen::MatrixXd offset_by_s_, by_offset_moment_;  // of the shell's body, SurfaceFlexibility
-  Eigen::MatrixXd tilt_by_s_;  // of the journal's axis against the shell's, (2, amplitudes)
+  Eigen::MatrixXd tilt_by_s_;                       // of the journal's axis against the shell's, (2, amplitudes)
   // Of the shell's frame about z against where its body is held, and against that body's axes.
   Eigen::RowVectorXd turn_by_s_, turn_in_body_by_s_;
-  Eigen::MatrixXd all_openings_;  // of the gap by amplitudes, frames turned included
+  Eigen::MatrixXd all_openings_;                  // of the gap by amplitudes, frames turned included
   std::vector<film::MotionDirection> positions_;  // of the amplitudes, then of the tilt
 
   // At the state last linearised: residual of the deformation, answers of film, wrench and deformation to the

@@ -13,20 +13,6 @@
 namespace hersey::model {
 namespace {
 
-fem::ElasticBody assembled(const Body& body) {
-  const Flexible& flexible = *body.flexible;
-  try {
-    return fem::assemble(*flexible.mesh, flexible.materials);
-  } catch (const InputError& error) {
-    std::vector<Fault> faults = error.faults();
-    for (Fault& fault : faults) {
-      fault.position = flexible.position;
-      fault.path = "bodies." + body.name + ".flexible.mesh";
-    }
-    throw InputError(std::move(faults));
-  }
-}
-
 constexpr int modes_of_nodal_body = 100000;  // all above the tolerance
 
 fem::ReductionOptions options_of(const Flexible& flexible, const std::vector<const DeformingSurface*>& surfaces) {
@@ -48,27 +34,48 @@ fem::ReductionOptions options_of(const Flexible& flexible, const std::vector<con
 
 /// `mesh` is null where the body comes reduced from a file.
 fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh, const fem::ReductionOptions& options) {
-  const Flexible& flexible = *body.flexible;
-  if (mesh == nullptr) return *flexible.reduced;
-  std::vector<fem::InterfaceFrame> frames;
-  frames.reserve(body.frames.size());
-  for (const Frame& frame : body.frames) {
-    const bool is_average = frame.connection == fem::Connection::average;
-    frames.push_back(fem::braced(
-        *flexible.mesh, {frame.name, frame.X_BF.r, frame.nodes, frame.connection,
-                         is_average ? fem::face_weights(*flexible.mesh, frame.nodes) : std::vector<double>()}));
-  }
-  fem::Reduction reduction = fem::reduce(*mesh, frames, options);
-  if (!reduction.ok)
-    throw InputError({.position = flexible.position,
-                      .path = "bodies." + body.name + ".flexible",
-                      .found = reduction.message,
-                      .expected = "a mesh that can be held at its frames",
-                      .suggestion = "see `hersey mesh` for its sets and its quality"});
+  if (mesh == nullptr) return *body.flexible->reduced;
+  fem::Reduction reduction = fem::reduce(*mesh, interface_frames(body), options);
+  if (!reduction.ok) throw cannot_be_held(body, reduction.message);
   return std::move(reduction.body);
 }
 
 }  // namespace
+
+fem::ElasticBody assembled(const Body& body) {
+  const Flexible& flexible = *body.flexible;
+  try {
+    return fem::assemble(*flexible.mesh, flexible.materials);
+  } catch (const InputError& error) {
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults) {
+      fault.position = flexible.position;
+      fault.path = "bodies." + body.name + ".flexible.mesh";
+    }
+    throw InputError(std::move(faults));
+  }
+}
+
+std::vector<fem::InterfaceFrame> interface_frames(const Body& body) {
+  std::vector<fem::InterfaceFrame> frames;
+  frames.reserve(body.frames.size());
+  for (const Frame& frame : body.frames) {
+    const bool is_average = frame.connection == fem::Connection::average;
+    frames.push_back(
+        fem::braced(*body.flexible->mesh,
+                    {frame.name, frame.X_BF.r, frame.nodes, frame.connection,
+                     is_average ? fem::face_weights(*body.flexible->mesh, frame.nodes) : std::vector<double>()}));
+  }
+  return frames;
+}
+
+InputError cannot_be_held(const Body& body, const std::string& why) {
+  return InputError({.position = body.flexible->position,
+                     .path = "bodies." + body.name + ".flexible",
+                     .found = why,
+                     .expected = "a mesh that can be held at its frames",
+                     .suggestion = "see `hersey mesh` for its sets and its quality"});
+}
 
 BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces, bool is_let_go,
                              std::vector<BuiltSurface>& kept) {
@@ -97,13 +104,11 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
   return built;
 }
 
-mbd::ModalBodyData steady_shapes(const Body& body, const std::vector<const DeformingSurface*>& surfaces) {
+mbd::ModalBodyData modal_shapes(const Body& body, const std::vector<const DeformingSurface*>& surfaces) {
   const Flexible& flexible = *body.flexible;
   std::optional<fem::ElasticBody> mesh;
   if (!flexible.reduced) mesh = assembled(body);
-  fem::ReductionOptions options = options_of(flexible, surfaces);
-  if (flexible.nodal) options.modes = 0;  // vibrations only draw a nodal body
-  return mbd::modal_data(reduced(body, mesh ? &*mesh : nullptr, options), flexible.damping);
+  return mbd::modal_data(reduced(body, mesh ? &*mesh : nullptr, options_of(flexible, surfaces)), flexible.damping);
 }
 
 std::vector<const DeformingSurface*> surfaces_on(const Model& model, const Body& body) {
@@ -117,8 +122,7 @@ std::vector<const DeformingSurface*> surfaces_on(const Model& model, const Body&
 
 std::shared_ptr<const bearing::ElasticSurface> elastic_surface(const DeformingSurface& surface, const Body& body,
                                                                const std::string& frame, const Eigen::MatrixXd& U) {
-  const auto at =
-      std::find_if(body.frames.begin(), body.frames.end(), [&](const Frame& f) { return f.name == frame; });
+  const auto at = std::find_if(body.frames.begin(), body.frames.end(), [&](const Frame& f) { return f.name == frame; });
   const fem::FilmSurface& map = *surface.surface;
   // No shape moves the first frame, nor the body's own axes, which ride on it.
   const auto place = at == body.frames.end() ? 0 : at - body.frames.begin();

@@ -8,7 +8,7 @@
 
 #include "build_flexible.h"
 #include "hersey/core/contract.h"
-#include "hersey/mbd/modal_body.h"
+#include "static_shapes.h"
 
 namespace hersey::model {
 namespace {
@@ -83,26 +83,26 @@ std::vector<std::size_t> holders(const Model& model, const Bearing& bearing, con
 /// A body by its shapes, held at some of its frames: displacements of its frames and loads on its amplitudes.
 class HeldBody {
  public:
-  HeldBody(const Body& body, mbd::ModalBodyData data, const std::vector<std::size_t>& held)
-      : body_(body), data_(std::move(data)) {
-    hold(held);
-    MatrixXd rows(6 * static_cast<Index>(held.size()) - 6, shapes());
-    for (std::size_t k = 1; k < held.size(); ++k) 
-      rows.middleRows<6>(6 * static_cast<Index>(k - 1)) = motion(held[k], body.frames[held[k]].X_BF.r);
+  HeldBody(StaticShapes shapes, const std::vector<std::size_t>& held)
+      : shapes_(std::move(shapes)), frames_(shapes_.stiffness.rows()), count_(frames_ + shapes_.flexibility.rows()) {
+    rigid_ = -carried(shapes_.at[held.front()]).inverse() * relative(held.front());
+    MatrixXd rows(6 * static_cast<Index>(held.size()) - 6, frames_);
+    for (std::size_t k = 1; k < held.size(); ++k)
+      rows.middleRows<6>(6 * static_cast<Index>(k - 1)) = motion(held[k], shapes_.at[held[k]]).leftCols(frames_);
     solve(rows);
   }
 
-  [[nodiscard]] Index shapes() const { return data_.shapes(); }
-  [[nodiscard]] const mbd::ModalBodyData& data() const { return data_; }
+  [[nodiscard]] const std::shared_ptr<const bearing::ElasticSurface>& surface() const { return shapes_.surface; }
 
   /// Where a frame moves against the body's axes: not at all with the first, by its six amplitudes with the others.
   [[nodiscard]] MatrixXd relative(std::size_t place) const {
-    MatrixXd E = MatrixXd::Zero(6, shapes());
+    MatrixXd E = MatrixXd::Zero(6, count_);
     if (place > 0) E.middleCols<6>(6 * (static_cast<Index>(place) - 1)).setIdentity();
     return E;
   }
 
-  /// [rotation; displacement] of a point at `r` on a frame by the amplitudes, body's axes, (6, shapes).
+  /// [rotation; displacement] of a point at `r` on a frame by the amplitudes, the first of those that hold at rest,
+  /// body's axes, (6, amplitudes).
   [[nodiscard]] MatrixXd motion(std::size_t place, const Vector3& r) const {
     return relative(place) + carried(r) * rigid_;
   }
@@ -113,26 +113,13 @@ class HeldBody {
     return answers_ * motion(place, r).transpose();
   }
 
-  /// Amplitudes for the forces of inertia of turning at 1 rad/s about `axis` through `centre`.
-  [[nodiscard]] VectorXd by_spin(const Vector3& centre, const Vector3& axis) const {
-    mbd::ModalBody body(data_);
-    mbd::ElasticMotion turning;
-    for (std::size_t i = 0; i < data_.rest.size(); ++i) {
-      mbd::ElasticFrame frame{.X_WF = data_.rest[i]};
-      frame.V << axis, axis.cross(data_.rest[i].r - centre);
-      frame.deformation = Vector6::Zero();
-      turning.frames.push_back(frame);
-    }
-    const Index own = body.coordinate_count();
-    turning.eta = turning.eta_rate = turning.eta_acceleration = VectorXd::Zero(own);
-    mbd::ElasticResponse needed;
-    body.evaluate(turning, false, needed);
-    // What the motion needs acts the other way where nothing gives it; the first frame has no amplitudes of its own.
-    VectorXd force = -needed.force.tail(shapes());
-    force += rigid_.transpose() * -needed.force.head<6>();
-    for (std::size_t i = 1; i < data_.rest.size(); ++i)
-      force += (carried(data_.rest[i].r) * rigid_).transpose() * -needed.force.segment<6>(6 * static_cast<Index>(i));
-    return answers_ * force;
+  /// Amplitudes by the forces of turning at 1 rad/s.
+  [[nodiscard]] VectorXd by_spin() const {
+    VectorXd s = VectorXd::Zero(count_);
+    for (std::size_t i = 0; i < shapes_.at.size(); ++i)
+      s += by_wrench(i, shapes_.at[i]) * shapes_.spin_on_frames.segment<6>(6 * static_cast<Index>(i));
+    s.tail(count_ - frames_) += shapes_.spin;
+    return s;
   }
 
  private:
@@ -143,28 +130,25 @@ class HeldBody {
     return T;
   }
 
-  void hold(const std::vector<std::size_t>& held) {
-    rigid_ = -carried(body_.frames[held.front()].X_BF.r).inverse() * relative(held.front());
-  }
-
-  /// [K rows^T; rows 0]^-1, its part of the amplitudes.
+  /// The amplitudes' part of [K rows^T; rows 0]^-1; internal ones answer for themselves.
   void solve(const MatrixXd& rows) {
-    const Index n = shapes(), m = rows.rows();
+    answers_ = MatrixXd::Zero(count_, count_);
+    answers_.bottomRightCorner(count_ - frames_, count_ - frames_) = shapes_.flexibility;
+    if (frames_ == 0) return;
+    const Index n = frames_, m = rows.rows();
     // Rows of lengths and angles beside forces: all of the size of the stiffness.
-    const double size = data_.stiffness.diagonal().cwiseAbs().maxCoeff();
+    const double size = shapes_.stiffness.diagonal().cwiseAbs().maxCoeff();
     MatrixXd A = MatrixXd::Zero(n + m, n + m);
-    A.topLeftCorner(n, n) = data_.stiffness;
+    A.topLeftCorner(n, n) = shapes_.stiffness;
     A.topRightCorner(n, m) = size * rows.transpose();
     A.bottomLeftCorner(m, n) = size * rows;
-    MatrixXd unit = MatrixXd::Zero(n + m, n);
-    unit.topRows(n).setIdentity();
-    answers_ = A.partialPivLu().solve(unit).topRows(n);
-    answers_ = 0.5 * (answers_ + answers_.transpose()).eval();
+    const MatrixXd inverse = A.partialPivLu().inverse().topLeftCorner(n, n);
+    answers_.topLeftCorner(n, n) = 0.5 * (inverse + inverse.transpose());
   }
 
-  const Body& body_;
-  mbd::ModalBodyData data_;
-  MatrixXd rigid_;  ///< motion of the body's axes by the amplitudes
+  StaticShapes shapes_;
+  Index frames_, count_;  ///< amplitudes of frames, and all of them
+  MatrixXd rigid_;        ///< motion of the body's axes by the amplitudes
   MatrixXd answers_;
 };
 
@@ -173,22 +157,22 @@ std::shared_ptr<const bearing::SurfaceFlexibility> flexibility(const Model& mode
   const Body& body = body_called(model, on.body);
   const std::size_t own = place_of(body, on.frame);
   const std::vector<std::size_t> held = holders(model, bearing, body, own);
-  const HeldBody rest(body, steady_shapes(body, surfaces_on(model, body)), held);
-  const bool has_frame = std::any_of(body.frames.begin(), body.frames.end(),
-                                     [&](const Frame& frame) { return frame.name == on.frame; });
+  const HeldBody rest(static_shapes(model, body, surface, on.frame), held);
+  const bool has_frame =
+      std::any_of(body.frames.begin(), body.frames.end(), [&](const Frame& frame) { return frame.name == on.frame; });
   HERSEY_REQUIRE(has_frame || on.frame.empty(), "the reader checks frames");
   const Pose X = has_frame ? body.frames[own].X_BF : Pose{};
   Matrix6 turned = Matrix6::Zero();
   turned.topLeftCorner<3, 3>() = turned.bottomRightCorner<3, 3>() = X.R;
   bearing::SurfaceFlexibility result;
-  result.surface = elastic_surface(surface, body, on.frame, rest.data().displacements);
+  result.surface = rest.surface();
   result.by_forces = rest.by_forces();
   result.by_wrench = rest.by_wrench(own, X.r) * turned;
   result.turn = X.R.transpose() * rest.motion(own, X.r).topRows<3>();
   result.turn_in_body = X.R.transpose() * rest.relative(own).topRows<3>();
   result.offset = X.R.transpose() * (rest.relative(held.front()) - rest.relative(own)).bottomRows<3>();
   result.by_offset_moment = rest.by_forces() * rest.relative(held.front()).topRows<3>().transpose() * X.R;
-  result.by_spin = rest.by_spin(X.r, X.R.col(2));
+  result.by_spin = rest.by_spin();
   result.body = body.name;
   for (const std::size_t place : held) result.held_at.push_back(body.frames[place].name);
   return std::make_shared<const bearing::SurfaceFlexibility>(std::move(result));
@@ -226,7 +210,8 @@ class Fingerprint {
 void add_mesh(const fem::Mesh& mesh, Fingerprint& print) {
   for (const Vector3& node : mesh.nodes) print.add(node);
   print.add(mesh.connectivity);
-  for (const fem::Element& element : mesh.elements) print.add(static_cast<int>(element.type)), print.add(element.material);
+  for (const fem::Element& element : mesh.elements)
+    print.add(static_cast<int>(element.type)), print.add(element.material);
   for (const auto& [name, nodes] : mesh.node_sets) print.add(name), print.add(nodes);
   for (const auto& [name, faces] : mesh.surfaces) print.add(name), print.add(faces);
 }

@@ -109,8 +109,7 @@ void add_deformation(const BearingSolution& s, Figures& figures) {
                 largest_of(state.d_journal));
   figures.add("tilt_x", "slope of the journal against the shell under load, x", kMicrometrePerMetre, state.tilt.x());
   figures.add("tilt_y", "slope of the journal against the shell under load, y", kMicrometrePerMetre, state.tilt.y());
-  if (state.d_shell.size() > 0)
-    figures.add("shell_turn", "turn of the bearing's axes under load", kDegree, state.turn);
+  if (state.d_shell.size() > 0) figures.add("shell_turn", "turn of the bearing's axes under load", kDegree, state.turn);
 }
 
 void add_oil_and_friction(const BearingSolution& s, Figures& figures) {

@@ -189,10 +189,10 @@ void require_rest(const model::Bearing& bearing) {
   const std::string rigid = "`--set bearings." + bearing.name + ".";
   const bool is_elastic = bearing.shell_surface || bearing.journal_surface;
   if (is_elastic && point.radial_velocity != 0)
-    throw InputError(Fault{point.position, path + "radial_velocity",
-                           "a velocity of the journal between surfaces that deform",
-                           "0: how fast the surfaces follow is part of a motion, which `hersey run` finds",
-                           rigid + (bearing.shell_surface ? "shell" : "journal") + "_surface=rigid` for rigid surfaces"});
+    throw InputError(
+        Fault{point.position, path + "radial_velocity", "a velocity of the journal between surfaces that deform",
+              "0: how fast the surfaces follow is part of a motion, which `hersey run` finds",
+              rigid + (bearing.shell_surface ? "shell" : "journal") + "_surface=rigid` for rigid surfaces"});
   if (bearing.shell_surface && point.shell_speed != 0)
     throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns and deforms",
                            "0: the shell's body is held at rest, and the journal turns",

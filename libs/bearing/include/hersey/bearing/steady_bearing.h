@@ -16,8 +16,8 @@ namespace hersey::bearing {
 
 /// What acts on a bearing by itself. Bearing axes rest; angles count from x towards y.
 struct OperatingPoint {
-  double journal_speed = 0;                          ///< angular velocity of the journal about z [rad/s]
-  double shell_speed = 0;                            ///< angular velocity of the shell about z [rad/s]
+  double journal_speed = 0;  ///< angular velocity of the journal about z [rad/s]
+  double shell_speed = 0;    ///< angular velocity of the shell about z [rad/s]
   /// On the journal [N], not zero, in the bearing's axes while nothing deforms; without it the position is given.
   std::optional<Eigen::Vector2d> load;
   Eigen::Vector2d e = Eigen::Vector2d::Zero();       ///< position of the journal, where no load is given [m]
@@ -42,8 +42,8 @@ struct SteadyOptions {
   /// Of the film; `sor` solves it anew at every position. Between surfaces that deform always `newton`.
   film::FilmSolver solver = film::FilmSolver::newton;
   std::shared_ptr<const SteadyElasticity> elasticity = {};  ///< of the surfaces; null: both rigid
-  std::optional<Eigen::Vector2d> start;  ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
-  Eigen::VectorXd start_film = {};       ///< the film's unknowns there; empty: none known
+  std::optional<Eigen::Vector2d> start;    ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
+  Eigen::VectorXd start_film = {};         ///< the film's unknowns there; empty: none known
   Eigen::VectorXd start_deformation = {};  ///< amplitudes of the surfaces' bodies there; empty: none known
 };
 
@@ -69,8 +69,8 @@ struct SteadyState {
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< that the film carries: its force on the shell [N]
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis, both frames turned by the load [-]
-  double turn = 0;  ///< of the shell's frame, whose axes all of this is in, about z under the load [rad]
-  Eigen::VectorXd u;                               ///< the film's unknowns
+  double turn = 0;    ///< of the shell's frame, whose axes all of this is in, about z under the load [rad]
+  Eigen::VectorXd u;  ///< the film's unknowns
   Eigen::VectorXd s;  ///< amplitudes of the shapes of both surfaces' bodies, shell first; empty: both rigid
   Eigen::VectorXd d_shell, d_journal;  ///< radial displacement at the nodes, away from the axis [m]; empty where rigid
   film::FilmObservables film;

@@ -24,12 +24,12 @@ struct SurfaceFlexibility {
   /// Rotation of the surface's frame against where the body is held, and against the body's axes, by the amplitudes, in
   /// its own axes, shape (3, amplitudes) [rad].
   Eigen::MatrixXd turn, turn_in_body;
-  /// A force through the surface's frame and its reaction where the body is held act where the body has moved to: by the
-  /// amplitudes the displacement between the two, (3, amplitudes) [m], and the amplitudes by the moment that the force
-  /// has over it, (amplitudes, 3), in the frame's axes.
+  /// A force through the surface's frame and its reaction where the body is held act where the body has moved to: by
+  /// the amplitudes the displacement between the two, (3, amplitudes) [m], and the amplitudes by the moment that the
+  /// force has over it, (amplitudes, 3), in the frame's axes.
   Eigen::MatrixXd offset, by_offset_moment;
-  std::string body;                               ///< its name
-  std::vector<std::string> held_at;               ///< frames of the body at which it is held
+  std::string body;                  ///< its name
+  std::vector<std::string> held_at;  ///< frames of the body at which it is held
 };
 
 /// Both surfaces of a bearing by itself; a null one is rigid.
