@@ -156,9 +156,11 @@ int bearing_command(const BearingArguments& arguments) {
   if (!arguments.fields.empty() && runs.size() > 1) {
     throw InputError(Fault{{"--fields", 0, 0}, "", fmt::format("{} solutions", runs.size()), "a single one", ""});
   }
-  const std::vector<study::BearingSolution> solutions = study::solve_bearings(
-      arguments.model, runs,
-      {.bearing = arguments.bearing, .grid_error = !arguments.no_grid_error, .threads = arguments.jobs});
+  const std::vector<study::BearingSolution> solutions = study::solve_bearings(arguments.model, runs,
+                                                                              {.bearing = arguments.bearing,
+                                                                               .grid_error = !arguments.no_grid_error,
+                                                                               .threads = arguments.jobs,
+                                                                               .first = &model});
   print(arguments, solutions);
   bool all_solved = true;
   for (const study::BearingSolution& solution : solutions) {

@@ -48,10 +48,9 @@ class Elasticities {
 };
 
 // From `start` where there is one.
-void solve_one(const std::string& path, const BearingStudyOptions& options, const bearing::SteadyState* start,
+void solve_one(const model::Model& model, const BearingStudyOptions& options, const bearing::SteadyState* start,
                Elasticities& elasticities, BearingSolution& solution) {
   const auto began = std::chrono::steady_clock::now();
-  const model::Model model = model::read(path, solution.run.overrides);
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
   solution.model = bearing::scaled_for(bearing.film, point);
@@ -151,7 +150,7 @@ void follow_neighbours(const std::string& path, const BearingStudyOptions& optio
       if (neighbour == nullptr) continue;
       BearingSolution again{.run = solutions[i].run, .error = {}};
       try {
-        solve_one(path, options, &neighbour->state, elasticities, again);
+        solve_one(model::read(path, again.run.overrides), options, &neighbour->state, elasticities, again);
       } catch (const std::exception& error) {
         again.error = error_text(error);
       }
@@ -231,6 +230,10 @@ bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
 std::vector<BearingSolution> solve_bearings(const std::string& path, const std::vector<model::StudyRun>& runs,
                                             const BearingStudyOptions& options) {
   std::vector<BearingSolution> solutions(runs.size());
+  if (runs.empty()) return solutions;
+  // Faults of the model itself are told once, from here, before any thread is started.
+  const model::Model first = options.first != nullptr ? *options.first : model::read(path, runs.front().overrides);
+  (void)operating_point_of(bearing_called(first, options.bearing));
   std::atomic<std::size_t> next{0};
   Elasticities elasticities;
   const auto work = [&] {
@@ -238,17 +241,16 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
     for (std::size_t i = next++; i < runs.size(); i = next++) {
       solutions[i].run = runs[i];
       try {
-        solve_one(path, options, nullptr, elasticities, solutions[i]);
+        if (i == 0) {
+          solve_one(first, options, nullptr, elasticities, solutions[i]);
+        } else {
+          solve_one(model::read(path, runs[i].overrides), options, nullptr, elasticities, solutions[i]);
+        }
       } catch (const std::exception& error) {
         solutions[i].error = error_text(error);
       }
     }
   };
-  // Faults of the model itself are told once, from here, before any thread is started.
-  if (!runs.empty()) {
-    const model::Model model = model::read(path, runs.front().overrides);
-    (void)operating_point_of(bearing_called(model, options.bearing));
-  }
   const auto wanted = static_cast<std::size_t>(options.threads > 0 ? options.threads : TaskPool::shared().threads());
   std::vector<std::jthread> threads;
   for (std::size_t i = 1; i < std::min(std::max<std::size_t>(wanted, 1), runs.size()); ++i) threads.emplace_back(work);

@@ -29,9 +29,10 @@ struct BearingSolution {
 };
 
 struct BearingStudyOptions {
-  std::string bearing;     ///< empty: the only one of the model
-  bool grid_error = true;  ///< solve on coarser grids too
-  int threads = 0;         ///< solutions at the same time; 0: one per core
+  std::string bearing;                  ///< empty: the only one of the model
+  bool grid_error = true;               ///< solve on coarser grids too
+  int threads = 0;                      ///< solutions at the same time; 0: one per core
+  const model::Model* first = nullptr;  ///< the model of the first run where it has been read already
 };
 
 /// The bearing of `model` called `name`, or its only one.
