@@ -168,7 +168,12 @@ film::FilmSolveSummary SteadyFilm::solve(const Eigen::Vector2d& e, VectorXd& x) 
     solved = solve_in_turn(e, x);
     solved.iterations += before;
   }
-  if (!solved.converged) return solved;
+  if (!solved.converged) {
+    // No film at one deformation says nothing of others.
+    solved.domain = {};
+    solved.relative_residual = std::max(1.0, solved.relative_residual);
+    return solved;
+  }
   // What is to be said of a film found, such as that it is starved.
   VectorXd u = film_of(x);
   film::FilmSolveSummary judged = solve_film(surfaces(e, x), u);
@@ -191,7 +196,6 @@ film::FilmSolveSummary SteadyFilm::solve_together(const Eigen::Vector2d& e, Vect
     best = std::min(best, summary.relative_residual);
     x += cut(e, x, dx_);
   }
-  summary.message = "film and deformation do not come together";
   return summary;
 }
 
@@ -227,7 +231,7 @@ film::FilmSolveSummary SteadyFilm::solve_in_turn(const Eigen::Vector2d& e, Vecto
     }
     if (!nearer) break;
   }
-  summary.message = "the surfaces' deformation is not found";
+  summary.message = "film and deformation of the surfaces do not come together";
   return finish();
 }
 
