@@ -120,7 +120,7 @@ class Search {
       return summary_;
     }
     budget_ = options_.max_linearisations;
-    const bool found = together() || from_here() || raise_load();
+    const bool found = together(*point_.load) || from_light_load() || from_here() || raise_load();
     budget_ = summary_.iterations + static_cast<int>(kShareOfSearch * options_.max_linearisations);
     if (!found && !from_inside_out()) {
       summary_.message = why_not();
@@ -235,10 +235,10 @@ class Search {
   }
 
   [[nodiscard]] bool linearise() {
-    if (!film_.linearise(e_, x_).is_inside()) return false;
+    const int linearisations = film_.linearise_near(e_, x_);
     force_ = film_.force();
-    ++summary_.iterations;
-    return true;
+    summary_.iterations += linearisations;
+    return linearisations > 0;
   }
 
   // Answers dx and dW (total derivatives) to the first `count` directions; a supply at the widest gap follows e.
@@ -336,16 +336,16 @@ class Search {
   }
 
   // Newton on film and position at once: one linearisation per iteration.
-  [[nodiscard]] bool together() {
+  [[nodiscard]] bool together(const Eigen::Vector2d& target) {
     if (is_swept()) return false;
     double best = std::numeric_limits<double>::infinity();
     int idle = 0;
     for (int k = 0; k < options_.max_iterations && idle < kPatience; ++k) {
-      if (settled(*point_.load)) return true;
-      const double now = distance_to(*point_.load) + film_.relative_residual();
+      if (settled(target)) return true;
+      const double now = distance_to(target) + film_.relative_residual();
       idle = now < 0.5 * best ? 0 : idle + 1;
       best = std::min(best, now);
-      const Step step = newton_step(*point_.load);
+      const Step step = newton_step(target);
       const Eigen::Vector2d from = e_;
       e_ += step.de;
       const Eigen::VectorXd film = x_;
@@ -398,6 +398,18 @@ class Search {
     return size * (Eigen::Rotation2Dd(share * turn) * from);
   }
 
+  // Between surfaces that deform: from a share of the load at which they hardly do.
+  [[nodiscard]] bool from_light_load() {
+    for (const double share : {1.0 / 16, 1.0 / 128}) {
+      if (!film_.deforms() || is_tired()) return false;
+      OperatingPoint light = point_;
+      light.load = share * *point_.load;
+      x_ = film_.start();
+      if (film_at(ocvirk_position(model_, light)) && follow(*light.load) && change_load()) return true;
+    }
+    return false;
+  }
+
   [[nodiscard]] bool raise_load() { return film_at_start() && change_load(); }
 
   // From the force the film has here to the load, each equilibrium the start of the next (bearing.13).
@@ -408,7 +420,7 @@ class Search {
       const Eigen::Vector2d e = e_;
       const Eigen::VectorXd x = x_;
       const double next = std::min(1.0, reached + step);
-      if (in_turn(next == 1 ? *point_.load : between(from, next))) {
+      if (follow(next == 1 ? *point_.load : between(from, next))) {
         reached = next;
         step *= 2;
         continue;
@@ -419,6 +431,17 @@ class Search {
       if (!film_at(e)) return false;
     }
     return reached >= 1;
+  }
+
+  // To a force near the present one. Soft bodies give way under a load that is held, but not where the journal is held:
+  // position and deformation then go together.
+  [[nodiscard]] bool follow(const Eigen::Vector2d& target) {
+    if (!film_.deforms()) return in_turn(target);
+    const Eigen::Vector2d e = e_;
+    const Eigen::VectorXd x = x_;
+    if (together(target)) return true;
+    x_ = x;
+    return film_at(e) && in_turn(target);
   }
 
   enum class Look { no_film, across, too_weak, strong };

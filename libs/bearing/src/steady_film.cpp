@@ -25,6 +25,9 @@ constexpr double kSmallestShare = 1e-6;
 // iterations of either at most.
 constexpr int kPatience = 8, kMostIterations = 40;
 
+// Residual of a film from which on it is found anew at the deformation of the step.
+constexpr double kFarFilm = 0.1;
+
 std::shared_ptr<const ElasticSurface> surface_of(const std::shared_ptr<const SurfaceFlexibility>& flexibility) {
   return flexibility ? flexibility->surface : nullptr;
 }
@@ -186,9 +189,9 @@ film::FilmSolveSummary SteadyFilm::solve_together(const Eigen::Vector2d& e, Vect
   film::FilmSolveSummary summary;
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0, idle = 0; k < kMostIterations && idle < kPatience; ++k) {
-    summary.domain = linearise(e, x);
-    if (!summary.domain.is_inside()) return summary;
-    ++summary.iterations;
+    const int linearisations = linearise_near(e, x);
+    if (linearisations == 0) return summary;
+    summary.iterations += linearisations;
     summary.relative_residual = relative_residual();
     summary.converged = summary.relative_residual <= film_options_.rtol;
     if (summary.converged) return summary;
@@ -314,6 +317,15 @@ void SteadyFilm::eliminate_deformation() {
   const Vector3 f = (about_z(turn_in_body_) * wrench_).tail<3>();
   A.noalias() += by_offset_moment_ * (skew(f) * offset_by_s_);
   condensed_.compute(A);
+}
+
+int SteadyFilm::linearise_near(const Eigen::Vector2d& e, VectorXd& x) {
+  if (!linearise(e, x).is_inside()) return 0;
+  if (!deforms() || reynolds_.relative_residual() < kFarFilm) return 1;
+  VectorXd u = film_of(x);
+  const film::FilmSolveSummary solved = solve_film(surfaces(e, x), u);
+  if (solved.converged) x.head(u.size()) = u;
+  return linearise(e, x).is_inside() ? solved.iterations + 2 : 0;
 }
 
 double SteadyFilm::relative_residual() const {

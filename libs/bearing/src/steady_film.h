@@ -44,6 +44,9 @@ class SteadyFilm {
 
   /// Linearises about x; the members below refer to it.
   [[nodiscard]] film::FilmDomain linearise(const Eigen::Vector2d& e, const Eigen::VectorXd& x);
+  /// The same, the film found first at this deformation where a step has moved its fronts far: else Newton runs after
+  /// them. @return linearisations, 0 where there is no film
+  [[nodiscard]] int linearise_near(const Eigen::Vector2d& e, Eigen::VectorXd& x);
   /// Of the film, and of the deformation as the largest error of the gap over the clearance.
   [[nodiscard]] double relative_residual() const;
   /// Newton's increment of x at a fixed journal, and the force on the shell after it, in the bearing's axes as they

@@ -307,6 +307,23 @@ TEST_CASE("ElasticBearing_WhatItCannotAnswer_IsRefusedAtItsLine") {
   CHECK(squeezed.found == "a velocity of the journal between surfaces that deform");
 }
 
+/// From hardly deformed to pushed in by more than the clearance.
+TEST_CASE("SoftRing_LoadsOfEverySize_AreFoundAndBorne") {
+  const Rig rig;
+  double last = 0;
+  for (const double load : {20.0, 50.0, 100.0, 200.0, 500.0, 1000.0}) {
+    CAPTURE(load);
+    const BearingSolution solution =
+        rig.solved({"bodies.ring.flexible.material.youngs_modulus=10 GPa", point("load", load, " N")});
+    CHECK(solution.state.load.norm() == doctest::Approx(load).epsilon(1e-8));
+    CHECK(solution.state.film.h_min > 1e-6);
+    const double deformed = solution.state.d_shell.cwiseAbs().maxCoeff();
+    CHECK(deformed > last);
+    last = deformed;
+  }
+  CHECK(last > c);
+}
+
 TEST_CASE("Sweep_OfElasticBearings_ReducesEachMeshOnce") {
   const Rig rig;
   std::vector<model::StudyRun> runs;
