@@ -55,8 +55,9 @@ std::vector<std::size_t> frames_with_joints(const Model& model, const Body& body
   return attached.places();
 }
 
-/// Of forces, and of bearings beside `bearing`.
-std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& bearing, const Body& body) {
+/// Of forces, and of bearings beside `bearing`; not its own frame, which they do not hold.
+std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& bearing, const Body& body,
+                                            std::size_t own) {
   Attached attached(body);
   for (const Force& force : model.forces) {
     if (force.type == ForceType::load) attached.add(force.load.at);
@@ -70,13 +71,15 @@ std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& b
     attached.add(other.shell);
     attached.add(other.journal);
   }
-  return attached.places();
+  std::vector<std::size_t> places = attached.places();
+  std::erase(places, own);
+  return places;
 }
 
 /// Where the body of a surface is held, as places among its frames.
 std::vector<std::size_t> holders(const Model& model, const Bearing& bearing, const Body& body, std::size_t own) {
   if (std::vector<std::size_t> joints = frames_with_joints(model, body); !joints.empty()) return joints;
-  if (std::vector<std::size_t> forces = frames_with_forces(model, bearing, body); !forces.empty()) return forces;
+  if (std::vector<std::size_t> forces = frames_with_forces(model, bearing, body, own); !forces.empty()) return forces;
   return {own};
 }
 

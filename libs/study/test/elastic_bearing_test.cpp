@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -286,6 +287,51 @@ TEST_CASE("ElasticJournal_IsHeldAtItsJoint_AndGivesWay") {
       rig.solved(with(hollow_shaft, {"bodies.shaft.flexible.material.youngs_modulus=2.1e9 GPa"}));
   const BearingSolution rigid = rig.solved({"bearings.main.shell_surface=rigid"});
   CHECK((stiff.state.e - rigid.state.e).norm() < 1e-6 * c);
+}
+
+/// In a run the mesh turns through its deformation, whose functions and elements leave a ripple: the mean of a turn.
+TEST_CASE("ElasticJournal_IsTheMeanOfATurnInARun") {
+  const Rig rig;
+  const std::vector<std::string> soft =
+      with(hollow_shaft, {"bodies.shaft.flexible.form=modal", "bodies.shaft.flexible.material.youngs_modulus=60 GPa",
+                          "bodies.shaft.flexible.damping.stiffness=0.2 us",
+                          "simulation={duration: 40 ms, step: 0.25 ms, spectral_radius: 0.6}"});
+  const BearingSolution alone = rig.solved(soft);
+  const std::filesystem::path results = rig.folder / "r.h5";
+  const run::Summary summary = run::simulate(model::read(rig.path, soft), {.results = results});
+  INFO(summary.message);
+  REQUIRE(summary.status == run::Status::completed);
+  const results::Reader reader(results);
+  const auto mean = [&](const char* name) {
+    const std::vector<double> values = reader.read(std::string("/bearings/main/") + name).values;
+    constexpr int turn = 80;  // steps
+    return std::accumulate(values.end() - turn, values.end(), 0.0) / turn;
+  };
+  CHECK(alone.numbers.eccentricity_ratio == doctest::Approx(mean("eccentricity_ratio")).epsilon(1e-3));
+  CHECK(alone.state.film.torque_journal == doctest::Approx(mean("torque_journal")).epsilon(1e-3));
+  const BearingSolution rigid = rig.solved({"bearings.main.shell_surface=rigid"});
+  CHECK(std::abs(rigid.numbers.eccentricity_ratio - alone.numbers.eccentricity_ratio) > 0.02);
+}
+
+TEST_CASE("ElasticBearing_IsHeldAtJoints_ThenAtOtherForces_ThenByItself") {
+  using Names = std::vector<std::string>;
+  const auto held_at = [](const Rig& rig) { return rig.solved({}).elasticity->shell->held_at; };
+  CHECK(held_at(Rig()) == Names{"foot"});
+  const std::string clamp = "  clamp: {type: fixed, between: [ground, ring.foot]}\n";
+  std::string loose = machine;
+  loose.replace(loose.find(clamp), clamp.size(), "");
+  CHECK(held_at(Rig(loose)) == Names{"bore"});
+  const std::string push = "  push: {type: force, body: shaft, components: [0 N, -1.5 kN, 0 N]}\n";
+  std::string on_bushing = loose, on_itself = loose;
+  const std::string rest = "between: [ground, ring.FRAME], stiffness: 1e9 1e9 1e9 N/m}\n";
+  const auto bushing = [&](const std::string& frame) {
+    std::string text = "  rest: {type: bushing, " + rest;
+    return push + text.replace(text.find("FRAME"), 5, frame);
+  };
+  on_bushing.replace(on_bushing.find(push), push.size(), bushing("foot"));
+  CHECK(held_at(Rig(on_bushing)) == Names{"foot"});
+  on_itself.replace(on_itself.find(push), push.size(), bushing("bore"));
+  CHECK(held_at(Rig(on_itself)) == Names{"bore"});
 }
 
 TEST_CASE("ElasticBearing_WhatItCannotAnswer_IsRefusedAtItsLine") {
