@@ -238,7 +238,7 @@ film::FilmSolveSummary SteadyFilm::solve_in_turn(const Eigen::Vector2d& e, Vecto
   return finish();
 }
 
-VectorXd SteadyFilm::cut(const Eigen::Vector2d& e, const VectorXd& x, VectorXd dx) {
+VectorXd SteadyFilm::cut(const Eigen::Vector2d& e, const VectorXd& x, const VectorXd& dx) {
   double share = 1;
   while (share > kSmallestShare && !keeps_film(e, x, e, x + share * dx)) share *= 0.7;
   return share * dx;

@@ -87,7 +87,7 @@ class SteadyFilm {
   [[nodiscard]] film::FilmSolveSummary solve_by_factorisation(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
   [[nodiscard]] film::FilmSolveSummary solve_together(const Eigen::Vector2d& e, Eigen::VectorXd& x);
   [[nodiscard]] film::FilmSolveSummary solve_in_turn(const Eigen::Vector2d& e, Eigen::VectorXd& x);
-  [[nodiscard]] Eigen::VectorXd cut(const Eigen::Vector2d& e, const Eigen::VectorXd& x, Eigen::VectorXd dx);
+  [[nodiscard]] Eigen::VectorXd cut(const Eigen::Vector2d& e, const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
   void eliminate_deformation();
   [[nodiscard]] Eigen::VectorXd answer(const Eigen::VectorXd& Q, const Vector6& W) const;
   [[nodiscard]] Eigen::MatrixXd wrench_by_amplitudes() const;

@@ -265,16 +265,18 @@ TEST_CASE("ElasticBearing_LoadOfAPosition_LeadsBackToIt") {
   CHECK(by_load.grid_error.known);
 }
 
+/// A shaft of a mesh.
+const std::string hollow = R"(bodies.shaft={flexible: {mesh: shaft.inp, length_unit: 1 mm, form: nodal,
+ damping: {stiffness: 20 us}, material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}},
+ frames: {pin: {nodes: bore, connection: average, origin: 0 0 0 mm}}})";
+
 /// A journal of a mesh instead of the shell, of which everything else holds.
-const std::vector<std::string> hollow_shaft = {
-    "bearings.main.shell_surface=rigid",
-    "bearings.main.journal_surface={within: 0.1 mm, functions: [16, 3]}",
-    "bodies.shaft={flexible: {mesh: shaft.inp, length_unit: 1 mm, form: nodal, damping: {stiffness: 20 us}, material: "
-    "{youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}}, frames: {pin: {nodes: bore, connection: "
-    "average, origin: 0 0 0 mm}}}",
-    "bearings.main.journal=shaft.pin",
-    "joints.slide.between=[ground, shaft.pin]",
-    "forces.push.body=shaft.pin"};
+const std::vector<std::string> hollow_shaft = {"bearings.main.shell_surface=rigid",
+                                               "bearings.main.journal_surface={within: 0.1 mm, functions: [16, 3]}",
+                                               hollow,
+                                               "bearings.main.journal=shaft.pin",
+                                               "joints.slide.between=[ground, shaft.pin]",
+                                               "forces.push.body=shaft.pin"};
 
 TEST_CASE("ElasticJournal_IsHeldAtItsJoint_AndGivesWay") {
   const Rig rig;
