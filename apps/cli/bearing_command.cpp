@@ -145,21 +145,6 @@ void print(const BearingArguments& arguments, const std::vector<study::BearingSo
   }
 }
 
-/// Surfaces that deform with bodies of a machine, which are not there where the bearing is looked at by itself.
-std::vector<Fault> warnings_of_surfaces(const model::Model& model, const std::string& name) {
-  std::vector<Fault> warnings;
-  for (const model::Bearing& bearing : model.bearings) {
-    if (!name.empty() && bearing.name != name) continue;
-    for (const auto& [side, surface] :
-         {std::pair{"shell", &bearing.shell_surface}, std::pair{"journal", &bearing.journal_surface}})
-      if (*surface)
-        warnings.push_back({(*surface)->position, "bearings." + bearing.name + "." + side + "_surface",
-                            "a surface that deforms in the machine, taken to be rigid here",
-                            "`hersey run` for its deformation", ""});
-  }
-  return warnings;
-}
-
 }  // namespace
 
 int bearing_command(const BearingArguments& arguments) {
@@ -168,13 +153,14 @@ int bearing_command(const BearingArguments& arguments) {
   require_separate({{"--csv", arguments.csv}, {"--fields", arguments.fields}, {"--report", arguments.report}},
                    files_of(model));
   warn(model.warnings);
-  warn(warnings_of_surfaces(model, arguments.bearing));
   if (!arguments.fields.empty() && runs.size() > 1) {
     throw InputError(Fault{{"--fields", 0, 0}, "", fmt::format("{} solutions", runs.size()), "a single one", ""});
   }
-  const std::vector<study::BearingSolution> solutions = study::solve_bearings(
-      arguments.model, runs,
-      {.bearing = arguments.bearing, .grid_error = !arguments.no_grid_error, .threads = arguments.jobs});
+  const std::vector<study::BearingSolution> solutions = study::solve_bearings(arguments.model, runs,
+                                                                              {.bearing = arguments.bearing,
+                                                                               .grid_error = !arguments.no_grid_error,
+                                                                               .threads = arguments.jobs,
+                                                                               .first = &model});
   print(arguments, solutions);
   bool all_solved = true;
   for (const study::BearingSolution& solution : solutions) {

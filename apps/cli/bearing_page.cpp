@@ -29,6 +29,8 @@ void add_fields(const BearingSolution& solution, PageSolution& page) {
   page.thickness = fields.thickness();
   page.fill = fields.theta;
   page.asperity_pressure = fields.p_asperity;
+  page.shell_displacement = fields.d_shell;
+  page.journal_displacement = fields.d_journal;
 }
 
 void add_features(const BearingSolution& solution, PageSolution& page) {
@@ -75,6 +77,8 @@ report::BearingPage bearing_page(const BearingArguments& arguments, const std::v
   page.version = version();
   page.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   page.conditions = run::bearing_assumptions(bearing);
+  for (auto& [surface, text] : surface_remarks(solutions.front()))
+    page.conditions.emplace_back(bearing.name + ": " + surface, std::move(text));
   page.solutions.reserve(solutions.size());
   for (const BearingSolution& solution : solutions) page.solutions.push_back(page_of(solution));
   return page;

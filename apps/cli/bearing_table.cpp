@@ -69,10 +69,12 @@ std::string condition_of(const BearingSolution& solution) {
   const bearing::SteadySummary& work = solution.summary;
   const std::string film_work =
       work.film_iterations > 0 ? fmt::format(" and {} film iterations", work.film_iterations) : "";
+  std::string surfaces;
+  for (const auto& [name, text] : surface_remarks(solution)) surfaces += fmt::format("  {}: {}\n", name, text);
   return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} film linearisations{}, {:.3g} s\n",
                      cavitation[static_cast<std::size_t>(film.cavitation)], 1e-5 * film.p_cav, pressures_of(film),
                      film.grid.n_phi, film.grid.n_z, work.iterations, film_work, solution.wall_time) +
-         roughness_of(film.roughness);
+         roughness_of(film.roughness) + surfaces;
 }
 
 const BearingFigure& figure(const std::vector<BearingFigure>& figures, const std::string& key) {
@@ -85,6 +87,21 @@ std::string whirl_remark(const BearingSolution& solution) {
   if (solution.whirl.always_stable) return "a rigid rotor is stable at every mass";
   if (solution.whirl.never_stable) return "a rigid rotor is unstable at every mass";
   return "";
+}
+
+std::vector<std::pair<std::string, std::string>> surface_remarks(const BearingSolution& solution) {
+  std::vector<std::pair<std::string, std::string>> remarks;
+  if (!solution.elasticity) return remarks;
+  const auto add = [&](const char* name, const std::shared_ptr<const bearing::SurfaceFlexibility>& surface) {
+    if (!surface) return;
+    const SurfaceFunctions& functions = surface->surface->functions;
+    remarks.emplace_back(
+        name, fmt::format("deforms at rest with the mesh of {}, {} x {} functions; held at {}", surface->body,
+                          functions.around(), functions.along(), fmt::join(surface->held_at, ", ")));
+  };
+  add("shell", solution.elasticity->shell);
+  add("journal", solution.elasticity->journal);
+  return remarks;
 }
 
 std::string bearing_text(const BearingSolution& solution) {
@@ -166,14 +183,20 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
   const bearing::SteadyState& state = solution.state;
   const film::FilmFields fields = bearing::steady_fields(model, state);
   const Eigen::VectorXd thickness = fields.thickness();
-  std::string text =
-      "angle [deg], z [mm], pressure [MPa], asperity pressure [MPa], film thickness [um], fill fraction\n";
+  const bool has_shell = fields.d_shell.size() > 0, has_journal = fields.d_journal.size() > 0;
+  std::string text = "angle [deg], z [mm], pressure [MPa], asperity pressure [MPa], film thickness [um], fill fraction";
+  if (has_shell) text += ", shell displacement [um]";
+  if (has_journal) text += ", journal displacement [um]";
+  text += "\n";
   for (int i = 0; i < model.grid.n_phi; ++i) {
     for (int j = 0; j < model.grid.n_z; ++j) {
       const int k = model.grid.index(i, j);
-      text += fmt::format("{:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}\n",
-                          180 / std::numbers::pi * model.grid.phi(i), 1e3 * model.L * model.grid.z_over_L(j),
-                          1e-6 * fields.p[k], 1e-6 * fields.p_asperity[k], 1e6 * thickness[k], fields.theta[k]);
+      text += fmt::format("{:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}", 180 / std::numbers::pi * model.grid.phi(i),
+                          1e3 * model.L * model.grid.z_over_L(j), 1e-6 * fields.p[k], 1e-6 * fields.p_asperity[k],
+                          1e6 * thickness[k], fields.theta[k]);
+      if (has_shell) text += fmt::format(", {:.8g}", 1e6 * fields.d_shell[k]);
+      if (has_journal) text += fmt::format(", {:.8g}", 1e6 * fields.d_journal[k]);
+      text += "\n";
     }
   }
   return text;
@@ -183,6 +206,7 @@ nlohmann::json bearing_json(const BearingSolution& solution) {
   nlohmann::json document{{"label", solution.run.label}, {"error", solution.error}};
   for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;  // as given
   if (!solution.solved()) return document;
+  for (const auto& [name, text] : surface_remarks(solution)) document["surfaces"][name] = text;
   document["linearisations"] = solution.summary.iterations;
   document["film_iterations"] = solution.summary.film_iterations;
   document["wall_time"] = solution.wall_time;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hersey/study/bearing_study.h"
@@ -10,6 +11,9 @@ namespace hersey::cli {
 
 /// Whether any rigid rotor is stable on the film, where its mass decides nothing; else empty.
 [[nodiscard]] std::string whirl_remark(const study::BearingSolution& solution);
+
+/// What is said of each surface that deforms: its name, "shell", and how its body is held.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> surface_remarks(const study::BearingSolution& solution);
 
 /// Every figure of one solution, one a line, with the error of the grid.
 [[nodiscard]] std::string bearing_text(const study::BearingSolution& solution);

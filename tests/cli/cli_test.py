@@ -398,6 +398,25 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         self.assertEqual(without.returncode, WRONG_INPUT)
         self.assertIn("operating_point", without.stderr)
 
+    def test_bearing_on_a_mesh_says_how_its_shell_deforms(self):
+        flexible = os.path.join(HERE, "../../examples/flexible_big_end/model.yaml")
+        fields, page = (os.path.join(self._folder.name, name) for name in ("fields.csv", "page.html"))
+        point = ("--set", "load=2500N", "--set", "variant=mesh", "--speed", "3570rpm", "--load", "2500N",
+                 "--load-angle", "90deg")
+        run = hersey("bearing", flexible, *point, "--json", "--fields", fields, "--report", page)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        solution = json.loads(run.stdout)["solutions"][0]
+        self.assertIn("held at small_end", solution["surfaces"]["shell"])
+        largest = solution["figures"]["deformation_shell"]["value"]
+        with open(fields, encoding="utf-8") as file:
+            self.assertTrue(file.readline().endswith(", shell displacement [um]\n"))
+            self.assertAlmostEqual(max((float(row.split(",")[-1]) for row in file), key=abs), 1e6 * largest, places=5)
+        with open(page, encoding="utf-8") as file:
+            self.assertIn("shell_displacement", file.read())
+        turning = hersey("bearing", flexible, *point, "--shell-speed", "10rpm")
+        self.assertEqual(turning.returncode, WRONG_INPUT)
+        self.assertIn("a shell that turns and deforms", turning.stderr)
+
     def test_bearing_sweeps_combine_and_are_written_as_a_table(self):
         table = os.path.join(self._folder.name, "table.csv")
         run = hersey("bearing", ALONE, "--set", "bearings.main.grid.circumferential=40", "--set",

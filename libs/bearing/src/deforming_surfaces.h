@@ -24,6 +24,8 @@ class DeformingSurfaces {
   /// Amplitudes of the shell's body, then of the journal's.
   [[nodiscard]] Eigen::Index amplitudes() const { return openings_.cols(); }
   [[nodiscard]] bool deform() const { return openings_.cols() > 0; }
+  [[nodiscard]] bool shell_deforms() const { return shell_ != nullptr; }
+  [[nodiscard]] bool journal_deforms() const { return journal_ != nullptr; }
 
   /// Adds to gap and rate in `motion`, whose journal has turned by `phi` [rad] and turns at `omega` [rad/s].
   void place(const Eigen::VectorXd& s, const Eigen::VectorXd& s_rate, double phi, double omega,

@@ -14,13 +14,13 @@
 #include "hersey/core/contract.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/reynolds.h"
+#include "steady_film.h"
 
 namespace hersey::bearing {
 namespace {
 
-// One Newton step may thin the film at a node to this share of itself, an elastic one may thicken it by this factor,
-// and turn the journal by this angle [rad].
-constexpr double kThinnest = 0.3, kThickest = 5, kLargestTurn = 0.3;
+// One Newton step may turn the journal by this angle [rad].
+constexpr double kLargestTurn = 0.3;
 
 // Fractions of the way to the load below which raising it is given up.
 constexpr double kSmallestLoadStep = 1e-3;
@@ -69,10 +69,7 @@ ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint
 class Search {
  public:
   Search(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
-      : model_(model), point_(point), options_(options), reynolds_(model, film::linear_solver_of(options.solver)) {
-    u_ = Eigen::VectorXd::Zero(model.grid.size());
-    film_options_.rtol = options.rtol;
-    film_options_.solver = options.solver;
+      : model_(model), point_(point), options_(options), film_(model, point, options), x_(film_.start()) {
     for (int k = 0; k <= kTyRate; ++k) directions_.push_back(surface_direction(model, k));
   }
 
@@ -81,30 +78,19 @@ class Search {
     e_ = e;
     is_unsolved_ = false;
     if (!stands_inside()) return false;
-    motion_ = steady_surfaces(model_, point_, e);
-    film::FilmSolveSummary solved = film::solve_film(reynolds_, motion_, history_, film_options_, u_);
-    (options_.solver != film::FilmSolver::sor ? summary_.iterations : summary_.film_iterations) += solved.iterations;
-    if (!solved.converged && options_.solver == film::FilmSolver::multigrid) solved = solve_by_factorisation();
+    const film::FilmSolveSummary solved = film_.solve(e, x_);
+    (is_swept() ? summary_.film_iterations : summary_.iterations) += solved.iterations;
     summary_.message = solved.message;
     is_unsolved_ = is_unsolved(solved);
     return solved.converged && flows() && linearise();
   }
 
-  // Where linear systems are too hard for multigrid: what a film bears is no matter of the solver.
-  [[nodiscard]] film::FilmSolveSummary solve_by_factorisation() {
-    film::Reynolds direct(model_);
-    film::FilmSolveOptions options = film_options_;
-    options.solver = film::FilmSolver::newton;
-    u_.setZero();
-    const film::FilmSolveSummary solved = film::solve_film(direct, motion_, history_, options, u_);
-    summary_.iterations += solved.iterations;
-    return solved;
-  }
+  [[nodiscard]] bool is_swept() const { return options_.solver == film::FilmSolver::sor && !film_.deforms(); }
 
   // Whether a solver has not arrived. A film that closes, starves or has an oil that stiffens without bound is none.
   [[nodiscard]] bool is_unsolved(const film::FilmSolveSummary& solved) const {
     using Trouble = film::FilmDomain::Trouble;
-    if (solved.domain.is_inside()) return solved.relative_residual > film_options_.rtol;
+    if (solved.domain.is_inside()) return solved.relative_residual > options_.rtol;
     const bool stiffens = !std::holds_alternative<film::ConstantViscosity>(model_.lubricant.viscosity_law);
     return solved.domain.trouble != Trouble::closed && !(solved.domain.trouble == Trouble::pressure && stiffens);
   }
@@ -112,8 +98,8 @@ class Search {
   // Between rigid surfaces an oil that stiffens has, beyond Weibull's limit, numerical answers in which it is a solid.
   [[nodiscard]] bool flows() {
     Eigen::Index node = 0;
-    const double p = u_.maxCoeff(&node);
-    if (model_.compliance > 0 || film::log_viscosity_ratio(model_.lubricant, p).value < kSolid) return true;
+    const double p = film_.film_of(x_).maxCoeff(&node);
+    if (film_.yields() || film::log_viscosity_ratio(model_.lubricant, p).value < kSolid) return true;
     summary_.message =
         film::text(model_, {.trouble = film::FilmDomain::Trouble::pressure, .node = static_cast<int>(node)});
     return false;
@@ -121,7 +107,7 @@ class Search {
 
   [[nodiscard]] SteadySummary at_given_position() {
     summary_.converged = film_at(point_.e);
-    if (summary_.converged) u_ += du0_;  // beyond the tolerance: derivatives and differences then agree
+    if (summary_.converged) x_ += film_.increment();  // beyond the tolerance: derivatives and differences then agree
     return summary_;
   }
 
@@ -134,7 +120,7 @@ class Search {
       return summary_;
     }
     budget_ = options_.max_linearisations;
-    const bool found = together() || from_here() || raise_load();
+    const bool found = together(*point_.load) || from_light_load() || from_here() || raise_load();
     budget_ = summary_.iterations + static_cast<int>(kShareOfSearch * options_.max_linearisations);
     if (!found && !from_inside_out()) {
       summary_.message = why_not();
@@ -145,19 +131,26 @@ class Search {
     return summary_;
   }
 
-  // Derivatives at the film found: one solve with eight right-hand sides on the factor of the last linearisation.
+  // Derivatives at the film found: one solve with four right-hand sides each on the factor of the last linearisation.
+  // What a motion of the journal does to surfaces that deform, they do at its rate (bearing.32).
   [[nodiscard]] DynamicCoefficients coefficients() {
-    Eigen::MatrixXd du;
-    Columns dW;
-    respond(8, du, dW);
+    Eigen::MatrixXd dx;
+    Columns by_position, by_rate;
+    respond(4, dx, by_position);
+    std::vector<film::MotionDirection> rates(directions_.begin() + 4, directions_.end());
+    for (Eigen::Index a = 0; film_.deforms() && a < 4; ++a) {
+      film::MotionDirection& rate = rates[static_cast<std::size_t>(a)];
+      rate.g_rate += film_.opening(film_.amplitudes_of(dx.col(a)));
+    }
+    film_.respond(rates, dx, by_rate);
     DynamicCoefficients result;
     const auto generalised = [](const Columns& wrench) {
       Eigen::Matrix4d rows;
       rows << wrench.row(3), wrench.row(4), wrench.row(1), -wrench.row(0);
       return rows;
     };
-    result.stiffness = generalised(dW.leftCols<4>());
-    result.damping = generalised(dW.rightCols<4>());
+    result.stiffness = generalised(by_position);
+    result.damping = generalised(by_rate);
     return result;
   }
 
@@ -165,8 +158,13 @@ class Search {
     SteadyState state;
     state.point = point_;
     state.e = e_;
-    state.u = u_;
-    state.film = film::observe_film(model_, motion_, history_, e_, u_, point_.tilt);
+    state.u = film_.film_of(x_);
+    state.s = film_.amplitudes_of(x_);
+    state.tilt = film_.tilt(x_);
+    state.turn = film_.turn(x_);
+    state.d_shell = film_.shell_displacement(x_);
+    state.d_journal = film_.journal_displacement(x_);
+    state.film = film::observe_film(model_, film_.surfaces(e_, x_), {}, e_, state.u, state.tilt);
     state.load = state.film.wrench_on_shell.segment<2>(3);
     state.coefficients = coefficients();
     return state;
@@ -176,7 +174,7 @@ class Search {
   // A position whose force points along the load.
   struct Position {
     double r = 0, angle = 0;  // from the bearing's centre [m, rad]
-    Eigen::VectorXd u;
+    Eigen::VectorXd x;
   };
 
   // Of the search from the inside out: the load is too much at `inner`, and at `outer` it is not, or there is no film.
@@ -205,68 +203,69 @@ class Search {
         summary_.iterations, summary_.force_error, e_.norm() / model_.c);
     if (gap_at(e_) > kTouching * model_.c) return text;
     const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
-    if (is_smooth && model_.compliance > 0)
+    if (is_smooth && film_.yields())
       return text + "; the surfaces touch at the edges, where no film pressure parts them: give asperities";
     if (is_smooth) return text + "; the film would be thinner than any surface is smooth: give asperities";
-    return model_.compliance > 0 ? text : text + "; more than the asperities of rigid surfaces bear: give a compliance";
+    return film_.yields() ? text : text + "; more than the asperities of rigid surfaces bear: give a compliance";
   }
 
   // That a solver does not arrive says nothing of what the film bears.
   [[nodiscard]] std::string not_found_further_out() const {
-    const bool is_sor = options_.solver == film::FilmSolver::sor;
+    const std::string other = film_.deforms() ? "" : is_swept() ? "; `solver: newton` may" : "; `solver: sor` may";
     return fmt::format(
         "no equilibrium found: along this load of {:.4g} N the film bears {:.4g} N at eccentricity ratio {:.4f} and "
-        "perhaps more; further out the solver does not find it ({}); `solver: {}` may",
-        point_.load->norm(), limit_.force, limit_.r / model_.c, limit_.why, is_sor ? "newton" : "sor");
+        "perhaps more; further out the solver does not find it ({}){}",
+        point_.load->norm(), limit_.force, limit_.r / model_.c, limit_.why, other);
   }
 
   [[nodiscard]] std::string what_to_try() const {
     const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
     std::string text = is_smooth ? "; `asperities` would bear what the film does not" : "";
-    if (model_.compliance == 0) text += "; surfaces that give way (`compliance`) spread the pressure";
+    if (!film_.yields()) text += "; surfaces that give way (`compliance`) spread the pressure";
     return text;
   }
 
   [[nodiscard]] bool is_tired() const { return summary_.iterations >= budget_; }
 
-  [[nodiscard]] bool bears_nothing() const {
-    const film::FilmFields fields = film::film_fields(model_, motion_, u_);
+  [[nodiscard]] bool bears_nothing() {
+    const film::FilmFields fields = film::film_fields(model_, film_.surfaces(e_, x_), film_.film_of(x_));
     const double scale = model_.lubricant.mu0 * point_.film_speed(model_.c) * std::pow(model_.R / model_.c, 2);
     return fields.p.maxCoeff() - fields.p.minCoeff() <= 1e-9 * scale &&
            model_.asperities.model == film::AsperityModel::none;
   }
 
   [[nodiscard]] bool linearise() {
-    if (!reynolds_.linearise(motion_, history_, u_).is_inside()) return false;
-    reynolds_.newton_increment(du0_);
-    force_ = (reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du0_)).segment<2>(3);
-    ++summary_.iterations;
-    return true;
+    const int linearisations = film_.linearise_near(e_, x_);
+    force_ = film_.force();
+    summary_.iterations += linearisations;
+    return linearisations > 0;
   }
 
-  // Answers du and dW (total derivatives) to the first `count` directions; a supply at the widest gap follows e.
-  void respond(int count, Eigen::MatrixXd& du, Columns& dW) {
+  // Answers dx and dW (total derivatives) to the first `count` directions; a supply at the widest gap follows e.
+  void respond(int count, Eigen::MatrixXd& dx, Columns& dW) {
     std::vector<film::MotionDirection> wanted(directions_.begin(), directions_.begin() + count);
     if (model_.supply.kind == film::SupplyKind::widest_gap && e_.norm() > 1e-6 * model_.c) {
       wanted[kEx].phi_supply = -e_.y() / e_.squaredNorm();
       wanted[kEy].phi_supply = e_.x() / e_.squaredNorm();
     }
-    reynolds_.responses(wanted, du, dW);
-    for (Eigen::Index k = 0; k < count; ++k) dW.col(k) += reynolds_.wrench_gradient(du.col(k));
+    film_.respond(wanted, dx, dW);
   }
 
   // Where the film at the given start cannot be found, it is sought nearer to the centre, where it is thicker.
   [[nodiscard]] bool film_at_start() {
     const Eigen::Vector2d start = options_.start.value_or(ocvirk_position(model_, point_));
     for (int k = 0; k < kMostStarts; ++k) {
-      if (k == 0 && options_.start_film.size() == u_.size()) {
-        u_ = options_.start_film;
-      } else {
-        u_.setZero();
-      }
+      x_ = film_.start();
+      if (k == 0) take_start();
       if (film_at(std::exp2(-k) * start)) return true;
     }
     return false;
+  }
+
+  void take_start() {
+    const Eigen::Index n = model_.grid.size();
+    if (options_.start_film.size() == n) x_.head(n) = options_.start_film;
+    if (options_.start_deformation.size() == film_.amplitudes()) x_.tail(x_.size() - n) = options_.start_deformation;
   }
 
   // What is missing from the force to the target, as if the force followed a power of the film thickness: the logarithm
@@ -285,26 +284,26 @@ class Search {
     return std::hypot(std::log(W / F), turn);
   }
 
-  // A step of position and film.
+  // A step of position, and of film and deformation.
   struct Step {
     Eigen::Vector2d de;
-    Eigen::VectorXd du;
+    Eigen::VectorXd dx;
   };
 
   // Newton's step at the present linearisation towards `target`, cut to where the linear film may be trusted.
   [[nodiscard]] Step newton_step(const Eigen::Vector2d& target) {
     Columns dW;
-    respond(2, du_de_, dW);
-    const Eigen::Matrix2d K = dW.block<2, 2>(3, 0);
-    Step step{K.fullPivLu().solve(missing(target)), du0_};
+    respond(2, dx_de_, dW);
+    const Eigen::Matrix2d K = film_.change_of_force(dx_de_, dW);
+    Step step{K.fullPivLu().solve(missing(target)), film_.increment()};
     if (!step.de.allFinite()) step.de.setZero();
     step.de *= std::min(1.0, 0.5 * model_.c / std::max(step.de.norm(), 1e-300));
-    if (model_.compliance == 0) step.de *= share_of_gap(step.de);
-    step.du += du_de_ * step.de;
+    if (!film_.yields()) step.de *= share_of_gap(step.de);
+    step.dx += dx_de_ * step.de;
     double share = 1;
-    while (share > 1e-6 && !keeps_film(step, share)) share *= 0.7;
+    while (share > 1e-6 && !film_.keeps_film(e_, x_, e_ + share * step.de, x_ + share * step.dx)) share *= 0.7;
     step.de *= share;
-    step.du *= share;
+    step.dx *= share;
     return step;
   }
 
@@ -315,23 +314,12 @@ class Search {
     return std::abs(x) < 1e-6 ? 1 : std::min(2.0, -std::expm1(-x) / x);
   }
 
-  // Whether the film of a linear step is still a film, and not much thinner than it was, at every node.
-  [[nodiscard]] bool keeps_film(const Step& step, double share) const {
-    const film::SurfaceMotion motion = steady_surfaces(model_, point_, e_ + share * step.de);
-    const Eigen::VectorXd u = u_ + share * step.du;
-    if (!film::judge_unknowns(model_, u).is_inside()) return false;
-    const Eigen::VectorXd before = film::film_fields(model_, motion_, u_).h;
-    const Eigen::VectorXd after = film::film_fields(model_, motion, u).h;
-    if (!(after.array() >= kThinnest * before.array()).all()) return false;
-    return model_.compliance == 0 || (after.array() <= kThickest * before.array()).all();
-  }
-
   [[nodiscard]] double gap_at(const Eigen::Vector2d& e) const {
     return smallest_gap(model_, parameters_of(model_, point_, e));
   }
 
   // Whether the journal stands inside its bore, as far as a rigid one must.
-  [[nodiscard]] bool stands_inside() const { return model_.compliance > 0 || gap_at(e_) > 0; }
+  [[nodiscard]] bool stands_inside() const { return film_.yields() || gap_at(e_) > 0; }
 
   // A supply at the widest gap turns with the position: after a large turn the film is another one.
   [[nodiscard]] bool turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
@@ -342,29 +330,28 @@ class Search {
 
   [[nodiscard]] bool settled(const Eigen::Vector2d& target) {
     summary_.force_error = (force_ - target).norm() / target.norm();
-    if (summary_.force_error > options_.rtol || reynolds_.relative_residual() > options_.rtol) return false;
-    u_ += du0_;
+    if (summary_.force_error > options_.rtol || film_.relative_residual() > options_.rtol) return false;
+    x_ += film_.increment();
     return true;
   }
 
   // Newton on film and position at once: one linearisation per iteration.
-  [[nodiscard]] bool together() {
-    if (options_.solver == film::FilmSolver::sor) return false;
+  [[nodiscard]] bool together(const Eigen::Vector2d& target) {
+    if (is_swept()) return false;
     double best = std::numeric_limits<double>::infinity();
     int idle = 0;
     for (int k = 0; k < options_.max_iterations && idle < kPatience; ++k) {
-      if (settled(*point_.load)) return true;
-      const double now = distance_to(*point_.load) + reynolds_.relative_residual();
+      if (settled(target)) return true;
+      const double now = distance_to(target) + film_.relative_residual();
       idle = now < 0.5 * best ? 0 : idle + 1;
       best = std::min(best, now);
-      const Step step = newton_step(*point_.load);
+      const Step step = newton_step(target);
       const Eigen::Vector2d from = e_;
       e_ += step.de;
-      motion_ = steady_surfaces(model_, point_, e_);
-      const Eigen::VectorXd film = u_;
-      u_ += step.du;
+      const Eigen::VectorXd film = x_;
+      x_ += step.dx;
       if (stands_inside() && !turns_far(from, e_) && linearise()) continue;
-      u_ = film;
+      x_ = film;
       if (!film_at(e_)) return false;
     }
     return false;
@@ -375,13 +362,13 @@ class Search {
     for (int k = 0; k < options_.max_iterations && !is_tired(); ++k) {
       if (settled(target)) return true;
       const Eigen::Vector2d e = e_;
-      const Eigen::VectorXd u = u_;
+      const Eigen::VectorXd x = x_;
       const double distance = distance_to(target);
       const Step step = newton_step(target);
       bool nearer = false;
       for (double share = 1; !nearer && share > 1e-4 && !is_tired(); share /= 2) {
-        u_ = u + share * step.du;
-        if (!film::judge_unknowns(model_, u_).is_inside()) u_ = u;
+        x_ = x + share * step.dx;
+        if (!film::judge_unknowns(model_, film_.film_of(x_)).is_inside()) x_ = x;
         nearer = film_at(e + share * step.de) && distance_to(target) < distance;
       }
       if (!nearer) return false;
@@ -394,10 +381,10 @@ class Search {
     const Eigen::Vector2d here = e_;
     if (!film_at_start()) return false;
     const Eigen::Vector2d start = e_;
-    const Eigen::VectorXd film = u_;
+    const Eigen::VectorXd film = x_;
     const double distance = distance_to(*point_.load);
     if (!film_at(here) || distance_to(*point_.load) > distance) {
-      u_ = film;
+      x_ = film;
       if (!film_at(start)) return false;
     }
     return in_turn(*point_.load);
@@ -411,6 +398,18 @@ class Search {
     return size * (Eigen::Rotation2Dd(share * turn) * from);
   }
 
+  // Between surfaces that deform: from a share of the load at which they hardly do.
+  [[nodiscard]] bool from_light_load() {
+    for (const double share : {1.0 / 16, 1.0 / 128}) {
+      if (!film_.deforms() || is_tired()) return false;
+      OperatingPoint light = point_;
+      light.load = share * *point_.load;
+      x_ = film_.start();
+      if (film_at(ocvirk_position(model_, light)) && follow(*light.load) && change_load()) return true;
+    }
+    return false;
+  }
+
   [[nodiscard]] bool raise_load() { return film_at_start() && change_load(); }
 
   // From the force the film has here to the load, each equilibrium the start of the next (bearing.13).
@@ -419,19 +418,30 @@ class Search {
     double reached = 0, step = 0.25;
     while (reached < 1 && !is_tired()) {
       const Eigen::Vector2d e = e_;
-      const Eigen::VectorXd u = u_;
+      const Eigen::VectorXd x = x_;
       const double next = std::min(1.0, reached + step);
-      if (in_turn(next == 1 ? *point_.load : between(from, next))) {
+      if (follow(next == 1 ? *point_.load : between(from, next))) {
         reached = next;
         step *= 2;
         continue;
       }
       step /= 4;
       if (step < kSmallestLoadStep) return false;
-      u_ = u;
+      x_ = x;
       if (!film_at(e)) return false;
     }
     return reached >= 1;
+  }
+
+  // To a force near the present one. Soft bodies give way under a load that is held, but not where the journal is held:
+  // position and deformation then go together.
+  [[nodiscard]] bool follow(const Eigen::Vector2d& target) {
+    if (!film_.deforms()) return in_turn(target);
+    const Eigen::Vector2d e = e_;
+    const Eigen::VectorXd x = x_;
+    if (together(target)) return true;
+    x_ = x;
+    return film_at(e) && in_turn(target);
   }
 
   enum class Look { no_film, across, too_weak, strong };
@@ -442,11 +452,11 @@ class Search {
     const Eigen::Vector2d& W = *point_.load;
     double turn = std::numbers::pi;
     for (int k = 0; k < kMostTurns && !is_tired(); ++k) {
-      if (std::abs(turn) > kFreshTurn) u_.setZero();
+      if (std::abs(turn) > kFreshTurn) x_.head(model_.grid.size()).setZero();
       if (!film_at(at.r * Eigen::Vector2d(std::cos(at.angle), std::sin(at.angle)))) return Look::no_film;
       turn = std::atan2(force_.x() * W.y() - force_.y() * W.x(), force_.dot(W));
       if (std::abs(turn) < kAligned) {
-        at.u = u_;
+        at.x = x_;
         return force_.norm() < W.norm() ? Look::too_weak : Look::strong;
       }
       at.angle += turn;
@@ -456,12 +466,12 @@ class Search {
 
   // Distances from the centre to look at: each halves what is left of the clearance; surfaces that give way overlap
   // beyond it by up to a few times what the load deforms them.
-  [[nodiscard]] std::vector<double> distances() const {
+  [[nodiscard]] std::vector<double> distances() {
     const double room = std::max(0.1, 1 - 0.5 * model_.L * point_.tilt.norm() / model_.c) * model_.c;
     const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
     std::vector<double> result;
     for (double gap = 0.5; gap > (is_smooth ? 1 : 0.1) * kTouching; gap /= 2) result.push_back((1 - gap) * room);
-    const double depth = model_.compliance * point_.load->norm() / (model_.R * model_.L);
+    const double depth = model_.compliance * point_.load->norm() / (model_.R * model_.L) + film_.depth(*point_.load);
     for (double share = 0.25; depth > 0 && share <= 8; share *= 2) result.push_back(room + share * depth);
     return result;
   }
@@ -507,7 +517,7 @@ class Search {
     if (!bounds.strong) return false;
     const Position& from = *bounds.strong;
     const auto back = [&] {
-      u_ = from.u;
+      x_ = from.x;
       return film_at(from.r * Eigen::Vector2d(std::cos(from.angle), std::sin(from.angle)));
     };
     return (back() && in_turn(*point_.load)) || (back() && change_load());
@@ -516,14 +526,11 @@ class Search {
   const film::FilmModel& model_;
   const OperatingPoint& point_;
   const SteadyOptions& options_;
-  film::Reynolds reynolds_;
-  film::FilmSolveOptions film_options_;
-  film::FilmHistory history_;  // dt = 0: a steady film
+  SteadyFilm film_;
   std::vector<film::MotionDirection> directions_;
-  film::SurfaceMotion motion_;
   Eigen::Vector2d e_ = Eigen::Vector2d::Zero(), force_ = Eigen::Vector2d::Zero();
-  Eigen::VectorXd u_, du0_;
-  Eigen::MatrixXd du_de_;
+  Eigen::VectorXd x_;  // film and deformation
+  Eigen::MatrixXd dx_de_;
   SteadySummary summary_;
   Limit limit_;
   bool is_unsolved_ = false;  // the solver has not found the film last sought
@@ -585,9 +592,15 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
 }
 
 film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& state) {
-  const film::SurfaceMotion motion = steady_surfaces(model, state.point, state.e);
+  OperatingPoint loaded = state.point;
+  loaded.tilt = state.tilt;
+  film::SurfaceMotion motion = steady_surfaces(model, loaded, state.e);
+  if (state.d_shell.size() > 0) motion.g += state.d_shell;
+  if (state.d_journal.size() > 0) motion.g -= state.d_journal;
   film::FilmFields fields = film::film_fields(model, motion, state.u);
   fields.depth = film::mean_depth(model, motion.phi_journal);
+  fields.d_shell = state.d_shell;
+  fields.d_journal = state.d_journal;
   return fields;
 }
 

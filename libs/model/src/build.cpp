@@ -144,18 +144,8 @@ class Builder {
     }
   }
 
-  // Surfaces of bearings that lie on the mesh of `body`, in the order of the bearings, the shell's first.
-  [[nodiscard]] std::vector<const DeformingSurface*> surfaces_on(const Body& body) const {
-    std::vector<const DeformingSurface*> surfaces;
-    for (const Bearing& bearing : model_.bearings) {
-      if (bearing.shell_surface && bearing.shell.body == body.name) surfaces.push_back(&*bearing.shell_surface);
-      if (bearing.journal_surface && bearing.journal.body == body.name) surfaces.push_back(&*bearing.journal_surface);
-    }
-    return surfaces;
-  }
-
   void add_flexible(const Body& body) {
-    const std::vector<const DeformingSurface*> surfaces = surfaces_on(body);
+    const std::vector<const DeformingSurface*> surfaces = surfaces_on(model_, body);
     std::vector<BuiltSurface> kept;
     const bool is_let_go = model_.simulation.analysis == Analysis::dynamics &&
                            model_.simulation.initial_deformation == InitialDeformation::none;
@@ -429,21 +419,12 @@ class Builder {
   }
 
   // A bearing's surface by the shapes of the flexible body it lies on, seen from the bearing's frame.
-  [[nodiscard]] std::shared_ptr<const bearing::ElasticSurface> elastic_surface(const DeformingSurface& surface,
-                                                                               const FrameName& on) const {
+  [[nodiscard]] std::shared_ptr<const bearing::ElasticSurface> surface_of(const DeformingSurface& surface,
+                                                                          const FrameName& on) const {
     const BuiltFlexible& flexible = machine_.flexibles[flexible_called(on.body)];
     const auto body =
         std::find_if(model_.bodies.begin(), model_.bodies.end(), [&](const Body& b) { return b.name == on.body; });
-    const auto frame =
-        std::find_if(body->frames.begin(), body->frames.end(), [&](const Frame& f) { return f.name == on.frame; });
-    const Eigen::MatrixXd& U = flexible.body->data().displacements;
-    const fem::FilmSurface& map = *surface.surface;
-    // No shape moves the first frame, nor the body's own axes, which ride on it.
-    const auto place = frame == body->frames.end() ? 0 : frame - body->frames.begin();
-    const Eigen::MatrixXd D =
-        place == 0 ? map.coefficients(U)
-                   : fem::coefficients_from_frame(map, *flexible.mesh, U, frame->X_BF.r, 6 * (place - 1));
-    return std::make_shared<const bearing::ElasticSurface>(bearing::ElasticSurface{map.functions, D});
+    return elastic_surface(surface, *body, on.frame, flexible.body->data().displacements);
   }
 
   void add_bearing(const Bearing& bearing) {
@@ -460,12 +441,12 @@ class Builder {
     BuiltBearing built;
     mbd::ForceSurfaces surfaces;
     if (bearing.shell_surface) {
-      options.shell_surface = elastic_surface(*bearing.shell_surface, bearing.shell);
+      options.shell_surface = surface_of(*bearing.shell_surface, bearing.shell);
       surfaces.a = machine_.flexibles[flexible_called(bearing.shell.body)].elastic;
       built.shell = kept_.at(&*bearing.shell_surface);
     }
     if (bearing.journal_surface) {
-      options.journal_surface = elastic_surface(*bearing.journal_surface, bearing.journal);
+      options.journal_surface = surface_of(*bearing.journal_surface, bearing.journal);
       surfaces.b = machine_.flexibles[flexible_called(bearing.journal.body)].elastic;
       built.journal = kept_.at(&*bearing.journal_surface);
     }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "hersey/core/input_error.h"
+#include "hersey/fem/elastic_body.h"
+#include "hersey/fem/reduction.h"
 #include "hersey/model/build.h"
 
 namespace hersey::model {
@@ -13,5 +16,22 @@ namespace hersey::model {
 ///         does not fit into memory.
 [[nodiscard]] BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces,
                                            bool is_let_go, std::vector<BuiltSurface>& kept);
+
+/// The shapes of a modal body. @throws InputError as build_flexible
+[[nodiscard]] mbd::ModalBodyData modal_shapes(const Body& body, const std::vector<const DeformingSurface*>& surfaces);
+
+/// The mesh of a flexible body, its frames on it, and the fault of one that its frames do not hold.
+[[nodiscard]] fem::ElasticBody assembled(const Body& body);
+[[nodiscard]] std::vector<fem::InterfaceFrame> interface_frames(const Body& body);
+[[nodiscard]] InputError cannot_be_held(const Body& body, const std::string& why);
+
+/// Surfaces of bearings that lie on the mesh of `body`, in the order of the bearings, the shell's first.
+[[nodiscard]] std::vector<const DeformingSurface*> surfaces_on(const Model& model, const Body& body);
+
+/// A bearing's surface by shapes of its body, displacements `U` of the nodes (3 nodes, shapes), seen from the body's
+/// frame `frame` ("": its own axes).
+[[nodiscard]] std::shared_ptr<const bearing::ElasticSurface> elastic_surface(const DeformingSurface& surface,
+                                                                             const Body& body, const std::string& frame,
+                                                                             const Eigen::MatrixXd& U);
 
 }  // namespace hersey::model

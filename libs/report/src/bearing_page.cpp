@@ -34,6 +34,10 @@ json datasets(const PageSolution& solution, const std::string& bearing) {
   result[fields + "thickness"] = dataset(solution.thickness, {1, n_phi, n_z}, "m");
   result[fields + "fill"] = dataset(solution.fill, {1, n_phi, n_z}, "1");
   result[fields + "asperity_pressure"] = dataset(solution.asperity_pressure, {1, n_phi, n_z}, "Pa");
+  if (solution.shell_displacement.size() > 0)
+    result[fields + "shell_displacement"] = dataset(solution.shell_displacement, {1, n_phi, n_z}, "m");
+  if (solution.journal_displacement.size() > 0)
+    result[fields + "journal_displacement"] = dataset(solution.journal_displacement, {1, n_phi, n_z}, "m");
   return result;
 }
 

@@ -18,6 +18,7 @@ constexpr Unit kKilogram{"kg", "kg", 1}, kStiffness{"N/m", "N/m", 1}, kDamping{"
 constexpr Unit kDegree{"deg", "rad", std::numbers::pi / 180}, kRpm{"rpm", "rad/s", std::numbers::pi / 30};
 constexpr Unit kMillimetrePerSecond{"mm/s", "m/s", 1e-3};
 constexpr Unit kMicrometre{"um", "m", 1e-6}, kMillimetre{"mm", "m", 1e-3}, kMegapascal{"MPa", "Pa", 1e6};
+constexpr Unit kMicrometrePerMetre{"um/m", "1", 1e-6};
 constexpr Unit kFlow{"mm^3/s", "m^3/s", 1e-9}, kVolume{"mm^3", "m^3", 1e-9};
 
 // Collects figures in users' units.
@@ -87,6 +88,28 @@ void add_state(const BearingSolution& s, Figures& figures) {
   const double moment = n.load * s.model.L;
   figures.add("moment_x", "moment on the shell, x", kNewtonMetre, without_round_off(film.wrench_on_shell[0], moment));
   figures.add("moment_y", "moment on the shell, y", kNewtonMetre, without_round_off(film.wrench_on_shell[1], moment));
+}
+
+/// Where a surface lies furthest off its rest, away from the axis (> 0) or towards it.
+double largest_of(const Eigen::VectorXd& displacement) {
+  Eigen::Index node = 0;
+  displacement.cwiseAbs().maxCoeff(&node);
+  return displacement[node];
+}
+
+void add_deformation(const BearingSolution& s, Figures& figures) {
+  if (!s.elasticity) return;
+  const bearing::SteadyState& state = s.state;
+  figures.group("deformation");
+  if (state.d_shell.size() > 0)
+    figures.add("deformation_shell", "largest displacement of the shell, outward", kMicrometre,
+                largest_of(state.d_shell));
+  if (state.d_journal.size() > 0)
+    figures.add("deformation_journal", "largest displacement of the journal, outward", kMicrometre,
+                largest_of(state.d_journal));
+  figures.add("tilt_x", "slope of the journal against the shell under load, x", kMicrometrePerMetre, state.tilt.x());
+  figures.add("tilt_y", "slope of the journal against the shell under load, y", kMicrometrePerMetre, state.tilt.y());
+  if (state.d_shell.size() > 0) figures.add("shell_turn", "turn of the bearing's axes under load", kDegree, state.turn);
 }
 
 void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
@@ -178,6 +201,7 @@ void add_dynamics(const BearingSolution& s, Figures& figures) {
 std::vector<BearingFigure> figures_of(const BearingSolution& solution) {
   Figures figures(solution.grid_error.known);
   add_state(solution, figures);
+  add_deformation(solution, figures);
   add_oil_and_friction(solution, figures);
   add_dynamics(solution, figures);
   return figures.take();

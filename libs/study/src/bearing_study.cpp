@@ -7,7 +7,11 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
@@ -15,6 +19,7 @@
 #include "hersey/core/task_pool.h"
 #include "hersey/core/units.h"
 #include "hersey/model/read.h"
+#include "hersey/model/steady_elasticity.h"
 
 namespace hersey::study {
 namespace {
@@ -25,18 +30,36 @@ Eigen::Vector2d polar(double length, double angle) {
   return length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
+// How surfaces give way, of every mesh seen so far: it takes long, and most sweeps leave the bodies as they are.
+class Elasticities {
+ public:
+  [[nodiscard]] std::shared_ptr<const bearing::SteadyElasticity> of(const model::Model& model,
+                                                                    const model::Bearing& bearing) {
+    if (!bearing.shell_surface && !bearing.journal_surface) return nullptr;
+    std::string fingerprint = model::fingerprint_of_elasticity(model, bearing);
+    const std::lock_guard lock(mutex_);
+    if (const auto found = known_.find(fingerprint); found != known_.end()) return found->second;
+    return known_.emplace(std::move(fingerprint), model::steady_elasticity(model, bearing)).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const bearing::SteadyElasticity>> known_;
+};
+
 // From `start` where there is one.
-void solve_one(const std::string& path, const BearingStudyOptions& options, const bearing::SteadyState* start,
-               BearingSolution& solution) {
+void solve_one(const model::Model& model, const BearingStudyOptions& options, const bearing::SteadyState* start,
+               Elasticities& elasticities, BearingSolution& solution) {
   const auto began = std::chrono::steady_clock::now();
-  const model::Model model = model::read(path, solution.run.overrides);
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
   solution.model = bearing::scaled_for(bearing.film, point);
-  bearing::SteadyOptions steady{.solver = bearing.solver};
+  solution.elasticity = elasticities.of(model, bearing);
+  bearing::SteadyOptions steady{.solver = bearing.solver, .elasticity = solution.elasticity};
   if (start != nullptr) {
     steady.start = start->e;
     if (start->u.size() == bearing.film.grid.size()) steady.start_film = start->u;
+    steady.start_deformation = start->s;
   }
   solution.summary = bearing::solve_steady(solution.model, point, steady, solution.state);
   if (!solution.summary.converged) {
@@ -117,7 +140,7 @@ const BearingSolution* solved_neighbour(const std::vector<BearingSolution>& solu
 }
 
 // Runs without a solution start again from their neighbours' solutions, as long as that finds new ones.
-void follow_neighbours(const std::string& path, const BearingStudyOptions& options,
+void follow_neighbours(const std::string& path, const BearingStudyOptions& options, Elasticities& elasticities,
                        std::vector<BearingSolution>& solutions) {
   bool found = true;
   while (found) {
@@ -127,7 +150,7 @@ void follow_neighbours(const std::string& path, const BearingStudyOptions& optio
       if (neighbour == nullptr) continue;
       BearingSolution again{.run = solutions[i].run, .error = {}};
       try {
-        solve_one(path, options, &neighbour->state, again);
+        solve_one(model::read(path, again.run.overrides), options, &neighbour->state, elasticities, again);
       } catch (const std::exception& error) {
         again.error = error_text(error);
       }
@@ -156,11 +179,33 @@ const model::Bearing& bearing_called(const model::Model& model, const std::strin
   return name.empty() ? model.bearings.front() : model.bearings[static_cast<std::size_t>(found - names.begin())];
 }
 
+namespace {
+
+// What surfaces that deform do not answer while everything else rests.
+void require_rest(const model::Bearing& bearing) {
+  const model::OperatingPoint& point = *bearing.operating_point;
+  const std::string path = "bearings." + bearing.name + ".operating_point.";
+  const std::string rigid = "`--set bearings." + bearing.name + ".";
+  const bool is_elastic = bearing.shell_surface || bearing.journal_surface;
+  if (is_elastic && point.radial_velocity != 0)
+    throw InputError(
+        Fault{point.position, path + "radial_velocity", "a velocity of the journal between surfaces that deform",
+              "0: how fast the surfaces follow is part of a motion, which `hersey run` finds",
+              rigid + (bearing.shell_surface ? "shell" : "journal") + "_surface=rigid` for rigid surfaces"});
+  if (bearing.shell_surface && point.shell_speed != 0)
+    throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns and deforms",
+                           "0: the shell's body is held at rest, and the journal turns",
+                           rigid + "shell_surface=rigid` for a rigid shell"});
+}
+
+}  // namespace
+
 bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
   if (!bearing.operating_point) {
     throw InputError(Fault{bearing.position, "bearings." + bearing.name, "no operating point",
                            "an 'operating_point' in the file, or --speed with --load or --eccentricity-ratio", ""});
   }
+  require_rest(bearing);
   for (std::size_t f = 0; f < bearing.feature_pressures.size(); ++f) {
     const model::Function& pressure = bearing.feature_pressures[f];
     if (pressure.is_constant()) continue;
@@ -185,29 +230,33 @@ bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
 std::vector<BearingSolution> solve_bearings(const std::string& path, const std::vector<model::StudyRun>& runs,
                                             const BearingStudyOptions& options) {
   std::vector<BearingSolution> solutions(runs.size());
+  if (runs.empty()) return solutions;
+  // Faults of the model itself are told once, from here, before any thread is started.
+  const model::Model first = options.first != nullptr ? *options.first : model::read(path, runs.front().overrides);
+  (void)operating_point_of(bearing_called(first, options.bearing));
   std::atomic<std::size_t> next{0};
+  Elasticities elasticities;
   const auto work = [&] {
     const TaskPool::OwnThread one(TaskPool::shared());
     for (std::size_t i = next++; i < runs.size(); i = next++) {
       solutions[i].run = runs[i];
       try {
-        solve_one(path, options, nullptr, solutions[i]);
+        if (i == 0) {
+          solve_one(first, options, nullptr, elasticities, solutions[i]);
+        } else {
+          solve_one(model::read(path, runs[i].overrides), options, nullptr, elasticities, solutions[i]);
+        }
       } catch (const std::exception& error) {
         solutions[i].error = error_text(error);
       }
     }
   };
-  // Faults of the model itself are told once, from here, before any thread is started.
-  if (!runs.empty()) {
-    const model::Model model = model::read(path, runs.front().overrides);
-    (void)operating_point_of(bearing_called(model, options.bearing));
-  }
   const auto wanted = static_cast<std::size_t>(options.threads > 0 ? options.threads : TaskPool::shared().threads());
   std::vector<std::jthread> threads;
   for (std::size_t i = 1; i < std::min(std::max<std::size_t>(wanted, 1), runs.size()); ++i) threads.emplace_back(work);
   work();
   threads.clear();
-  follow_neighbours(path, options, solutions);
+  follow_neighbours(path, options, elasticities, solutions);
   return solutions;
 }
 

@@ -3,9 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/observables.h"
@@ -14,12 +16,13 @@ namespace hersey::bearing {
 
 /// What acts on a bearing by itself. Bearing axes rest; angles count from x towards y.
 struct OperatingPoint {
-  double journal_speed = 0;                          ///< angular velocity of the journal about z [rad/s]
-  double shell_speed = 0;                            ///< angular velocity of the shell about z [rad/s]
-  std::optional<Eigen::Vector2d> load;               ///< on the journal [N], not zero; without it the position is given
+  double journal_speed = 0;  ///< angular velocity of the journal about z [rad/s]
+  double shell_speed = 0;    ///< angular velocity of the shell about z [rad/s]
+  /// On the journal [N], not zero, in the bearing's axes while nothing deforms; without it the position is given.
+  std::optional<Eigen::Vector2d> load;
   Eigen::Vector2d e = Eigen::Vector2d::Zero();       ///< position of the journal, where no load is given [m]
   Eigen::Vector2d e_rate = Eigen::Vector2d::Zero();  ///< velocity of the journal's centre [m/s]
-  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();    ///< slope of the journal's axis [-]
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();    ///< slope of the journal's axis while nothing deforms [-]
   double journal_angle = 0;                          ///< by which the journal, with its holes, stands turned [rad]
 
   /// Sum of both speeds, which drags the oil [rad/s].
@@ -36,9 +39,12 @@ struct SteadyOptions {
   int max_iterations = 40;  ///< of one Newton iteration on film and position
   int max_linearisations =
       1000;  ///< of the film on paths from the start; the search from inside out adds 0.6 of it; > 0
-  film::FilmSolver solver = film::FilmSolver::newton;  ///< of the film; `sor` solves it anew at every position
-  std::optional<Eigen::Vector2d> start;  ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
-  Eigen::VectorXd start_film = {};       ///< the film's unknowns there; empty: none known
+  /// Of the film; `sor` solves it anew at every position. Between surfaces that deform always `newton`.
+  film::FilmSolver solver = film::FilmSolver::newton;
+  std::shared_ptr<const SteadyElasticity> elasticity = {};  ///< of the surfaces; null: both rigid
+  std::optional<Eigen::Vector2d> start;    ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
+  Eigen::VectorXd start_film = {};         ///< the film's unknowns there; empty: none known
+  Eigen::VectorXd start_deformation = {};  ///< amplitudes of the surfaces' bodies there; empty: none known
 };
 
 struct SteadySummary {
@@ -62,7 +68,11 @@ struct SteadyState {
   OperatingPoint point;
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< that the film carries: its force on the shell [N]
-  Eigen::VectorXd u;                               ///< the film's unknowns
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis, both frames turned by the load [-]
+  double turn = 0;    ///< of the shell's frame, whose axes all of this is in, about z under the load [rad]
+  Eigen::VectorXd u;  ///< the film's unknowns
+  Eigen::VectorXd s;  ///< amplitudes of the shapes of both surfaces' bodies, shell first; empty: both rigid
+  Eigen::VectorXd d_shell, d_journal;  ///< radial displacement at the nodes, away from the axis [m]; empty where rigid
   film::FilmObservables film;
   DynamicCoefficients coefficients;
 };
@@ -71,12 +81,14 @@ struct SteadyState {
 /// slowest (film.6).
 [[nodiscard]] film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point);
 
-/// The position at which the film carries the load, or the film at a given position.
+/// The position at which the film carries the load, or the film at a given position; surfaces that deform
+/// (SteadyOptions::elasticity) in static equilibrium with it.
 ///
 /// Newton on film and position together with exact derivatives, the film condensed; where that does not settle, the
 /// load is raised from what the film carries at the start (bearing.13). A smooth rigid journal never leaves its bore
 /// on the way.
-/// @throws ContractError for a load of zero, speeds that drag no oil, or a rigid journal placed outside its bore.
+/// @throws ContractError for a load of zero, speeds that drag no oil, a rigid journal placed outside its bore, or a
+/// velocity of the journal, or a shell that turns, together with surfaces that deform.
 [[nodiscard]] SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point,
                                          const SteadyOptions& options, SteadyState& state);
 

@@ -36,6 +36,7 @@ struct PageSolution {
   Eigen::Vector2d load = Eigen::Vector2d::Zero();                ///< on the journal [N]
   Eigen::VectorXd phi, z;                                        ///< places of the nodes [rad, m]
   Eigen::VectorXd pressure, thickness, fill, asperity_pressure;  ///< at the nodes, index i z.size() + j [Pa, m, -, Pa]
+  Eigen::VectorXd shell_displacement, journal_displacement;      ///< outward, at the nodes [m]; empty where it is rigid
 };
 
 /// What the report of a bearing by itself shows.

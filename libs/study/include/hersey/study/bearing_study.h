@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct BearingSolution {
   model::StudyRun run;
   std::string error;  ///< why there is no solution; then the rest is empty
   film::FilmModel model;
+  std::shared_ptr<const bearing::SteadyElasticity> elasticity;  ///< of the surfaces; null: both rigid
   bearing::SteadySummary summary;
   bearing::SteadyState state;
   bearing::BearingNumbers numbers;
@@ -27,9 +29,10 @@ struct BearingSolution {
 };
 
 struct BearingStudyOptions {
-  std::string bearing;     ///< empty: the only one of the model
-  bool grid_error = true;  ///< solve on coarser grids too
-  int threads = 0;         ///< solutions at the same time; 0: one per core
+  std::string bearing;                  ///< empty: the only one of the model
+  bool grid_error = true;               ///< solve on coarser grids too
+  int threads = 0;                      ///< solutions at the same time; 0: one per core
+  const model::Model* first = nullptr;  ///< the model of the first run where it has been read already
 };
 
 /// The bearing of `model` called `name`, or its only one.

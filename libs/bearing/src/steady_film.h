@@ -1,0 +1,124 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "deforming_surfaces.h"
+#include "hersey/bearing/steady_bearing.h"
+#include "hersey/bearing/surface_flexibility.h"
+#include "hersey/film/film_solver.h"
+#include "hersey/film/reynolds.h"
+
+namespace hersey::bearing {
+
+/// A steady film and the surfaces it deforms: unknowns x = [u; s], u the film's and s the amplitudes of both bodies'
+/// shapes, shell first, which obey
+///
+///     r_f(u, g(s)) = 0,    r_s = s_0 + C P(u, s) - s = 0,                                       (bearing.29)
+///
+/// P = [Q; W] what the film puts on the shapes and on the shell. Without surfaces that deform x = u and the film is
+/// that of `film::solve_film`.
+class SteadyFilm {
+ public:
+  /// What keeps references to `model`, `point` and `options` alive is the caller's.
+  SteadyFilm(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options);
+
+  [[nodiscard]] bool deforms() const { return amplitudes() > 0; }
+  /// Whether the surfaces may overlap before the film parts them.
+  [[nodiscard]] bool yields() const { return deforms() || model_.compliance > 0; }
+  [[nodiscard]] Eigen::Index amplitudes() const { return deforming_.amplitudes(); }
+  [[nodiscard]] Eigen::Index size() const { return reynolds_.size() + amplitudes(); }
+  [[nodiscard]] auto film_of(const Eigen::VectorXd& x) const { return x.head(reynolds_.size()); }
+  [[nodiscard]] auto amplitudes_of(const Eigen::VectorXd& x) const { return x.tail(amplitudes()); }
+
+  /// Surfaces with the journal at `e` and deformed as x says.
+  [[nodiscard]] film::SurfaceMotion surfaces(const Eigen::Vector2d& e, const Eigen::VectorXd& x);
+
+  /// No film known, the bodies deformed by their spin alone.
+  [[nodiscard]] Eigen::VectorXd start() const;
+
+  /// The film and the deformation at `e`, from x. On failure x is the last iterate.
+  [[nodiscard]] film::FilmSolveSummary solve(const Eigen::Vector2d& e, Eigen::VectorXd& x);
+
+  /// Linearises about x; the members below refer to it.
+  [[nodiscard]] film::FilmDomain linearise(const Eigen::Vector2d& e, const Eigen::VectorXd& x);
+  /// The same, the film found first at this deformation where a step has moved its fronts far: else Newton runs after
+  /// them. @return linearisations, 0 where there is no film
+  [[nodiscard]] int linearise_near(const Eigen::Vector2d& e, Eigen::VectorXd& x);
+  /// Of the film, and of the deformation as the largest error of the gap over the clearance.
+  [[nodiscard]] double relative_residual() const;
+  /// Newton's increment of x at a fixed journal, and the force on the shell after it, in the bearing's axes as they
+  /// stand without load.
+  [[nodiscard]] const Eigen::VectorXd& increment() const { return dx_; }
+  [[nodiscard]] const Eigen::Vector2d& force() const { return force_; }
+
+  using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+  /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces.
+  void respond(std::span<const film::MotionDirection> directions, Eigen::MatrixXd& dx, Columns& dW);
+  /// Of the force in the axes of force(), by those of x and of the wrench.
+  [[nodiscard]] Eigen::Matrix2Xd change_of_force(const Eigen::MatrixXd& dx, const Columns& dW) const;
+
+  /// Whether from x at e the step to x_next at e_next thins or thickens no film by more than Newton may.
+  [[nodiscard]] bool keeps_film(const Eigen::Vector2d& e, const Eigen::VectorXd& x, const Eigen::Vector2d& e_next,
+                                const Eigen::VectorXd& x_next);
+
+  /// How far the surfaces of elastic bodies give way to a load [m], roughly.
+  [[nodiscard]] double depth(const Eigen::Vector2d& load);
+
+  /// By which amplitudes open the gap at the nodes, frames turned included [m].
+  [[nodiscard]] Eigen::VectorXd opening(const Eigen::VectorXd& s) const { return all_openings_ * s; }
+
+  /// Slope of the journal's axis against the shell's, both as loaded [-], and the angle about z by which the shell's
+  /// frame has turned under the load [rad].
+  [[nodiscard]] Eigen::Vector2d tilt(const Eigen::VectorXd& x) const;
+  [[nodiscard]] double turn(const Eigen::VectorXd& x) const;
+
+  /// Radial displacement of each surface at the nodes, away from the axis [m]; empty where it is rigid.
+  [[nodiscard]] Eigen::VectorXd shell_displacement(const Eigen::VectorXd& x) const;
+  [[nodiscard]] Eigen::VectorXd journal_displacement(const Eigen::VectorXd& x) const;
+
+  [[nodiscard]] const film::Reynolds& reynolds() const { return reynolds_; }
+
+ private:
+  void gather_flexibility(const SteadyElasticity& elasticity);
+  [[nodiscard]] film::FilmSolveSummary solve_film(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
+  [[nodiscard]] film::FilmSolveSummary solve_by_factorisation(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
+  [[nodiscard]] film::FilmSolveSummary solve_together(const Eigen::Vector2d& e, Eigen::VectorXd& x);
+  [[nodiscard]] film::FilmSolveSummary solve_in_turn(const Eigen::Vector2d& e, Eigen::VectorXd& x);
+  [[nodiscard]] Eigen::VectorXd cut(const Eigen::Vector2d& e, const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
+  void eliminate_deformation();
+  [[nodiscard]] Eigen::VectorXd answer(const Eigen::VectorXd& Q, const Vector6& W) const;
+  [[nodiscard]] Eigen::MatrixXd wrench_by_amplitudes() const;
+  void lay_openings();
+  [[nodiscard]] Eigen::MatrixXd forces_on_shapes(const Eigen::MatrixXd& du, const Eigen::MatrixXd& g) const;
+
+  const film::FilmModel& model_;
+  const OperatingPoint& point_;
+  film::FilmSolveOptions film_options_;
+  DeformingSurfaces deforming_;
+  film::Reynolds reynolds_;
+  film::FilmHistory history_;                       // dt = 0: a steady film
+  Eigen::MatrixXd C_, C_W_;                         // of both bodies, shell first; C_W for the wrench on the shell
+  Eigen::VectorXd s_0_;                             // what the spin of the bodies does
+  Eigen::MatrixXd offset_by_s_, by_offset_moment_;  // of the shell's body, SurfaceFlexibility
+  Eigen::MatrixXd tilt_by_s_;                       // of the journal's axis against the shell's, (2, amplitudes)
+  // Of the shell's frame about z against where its body is held, and against that body's axes.
+  Eigen::RowVectorXd turn_by_s_, turn_in_body_by_s_;
+  Eigen::MatrixXd all_openings_;                  // of the gap by amplitudes, frames turned included
+  std::vector<film::MotionDirection> positions_;  // of the amplitudes, then of the tilt
+
+  // At the state last linearised: residual of the deformation, answers of film, wrench and deformation to the
+  // amplitudes, and the factor of what is left for these.
+  Eigen::VectorXd r_s_, dx_;
+  Eigen::Vector2d force_ = Eigen::Vector2d::Zero();
+  Vector6 wrench_ = Vector6::Zero();  // on the shell, its present axes
+  double turn_ = 0, turn_in_body_ = 0;
+  Eigen::MatrixXd C_W_now_;  // of the shell's body as it is deformed
+  Eigen::MatrixXd u_by_s_;
+  Columns W_by_s_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> condensed_;
+};
+
+}  // namespace hersey::bearing
