@@ -384,6 +384,13 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         load = json.loads(back.stdout)["solutions"][0]["figures"]["load"]["value"]
         self.assertAlmostEqual(load, 2500, delta=0.1)
 
+    def test_bearing_refuses_a_shell_that_turns_with_pockets(self):
+        ended = hersey("bearing", ALONE, "--shell-speed", "100rpm", "--set",
+                       "bearings.main.features={pad: {shape: pocket, on: shell, angle: 0 deg, arc: 30 deg, length: 5 mm, depth: 10 um}}")
+        self.assertEqual(ended.returncode, WRONG_INPUT, ended.stdout + ended.stderr)
+        self.assertIn("a shell that turns with pockets that nothing feeds", ended.stderr)
+        self.assertIn("exchange journal and shell", ended.stderr)
+
     def test_bearing_prints_the_error_of_the_grid(self):
         run = hersey("bearing", ALONE)
         self.assertEqual(run.returncode, OK, run.stderr)

@@ -94,6 +94,8 @@ def random_steady(rng):
     case = Steady(b, speed)
     if rng.random() < 0.25:
         case.shell_speed = rounded(speed * rng.uniform(-0.5, 1.0))
+        if any(f.on == "shell" and f.pressure is None and f.depth > 0 and f.arc < 2 * PI for f in b.features):
+            case.shell_speed = 0.0  # refused: its pockets would travel
     omega = abs(case.journal_speed + case.shell_speed)
     room = b.room() / b.c
     # p of a bearing of Sommerfeld number 1, which laws of viscosity must be able to stand

@@ -13,6 +13,7 @@
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 #include "hersey/film/film_solver.h"
+#include "hersey/film/gap_shape.h"
 #include "hersey/film/reynolds.h"
 #include "steady_film.h"
 
@@ -550,6 +551,8 @@ film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const Operatin
   film::SurfaceMotion motion;
   place_surfaces(model, parameters_of(model, point, e), motion);
   motion.u_shell = model.R * point.shell_speed;
+  // The bearing's axes rest: a shell that turns takes its shape along.
+  if (point.shell_speed != 0) motion.g_rate -= point.shell_speed * film::GapShape(model).shell_slope();
   return motion;
 }
 

@@ -404,6 +404,23 @@ TEST_CASE("GridError_CoversTheErrorOfAFinerGrid") {
   CHECK(error.p_max < 20 * p_error);
 }
 
+// Reynolds' equation knows no difference between its surfaces: lobes that turn make the same film, whoever carries
+// them.
+TEST_CASE("LobesThatTurn_MakeOneFilmOnEitherSurface") {
+  film::FilmModel model{.R = 0.03, .L = 0.02, .c = 40e-6, .grid = {90, 13}};
+  model.supply = {film::SupplyKind::fixed_angle, 2, 1e5};
+  model.profiles = {{film::Lobes{.count = 3, .offset = 15e-6, .angle = 0.3}, film::Surface::shell}};
+  OperatingPoint point{.journal_speed = -100, .shell_speed = 300};
+  point.e = {0, -20e-6};
+  const SteadyState on_shell = solved(model, point);
+  model.profiles.front().surface = film::Surface::journal;
+  std::swap(point.journal_speed, point.shell_speed);
+  const SteadyState on_journal = solved(model, point);
+  CHECK((on_shell.u - on_journal.u).lpNorm<Eigen::Infinity>() < 1e-6 * on_journal.u.lpNorm<Eigen::Infinity>());
+  CHECK(on_shell.film.p_max == doctest::Approx(on_journal.film.p_max).epsilon(1e-6));
+  CHECK(on_shell.film.flow_supply == doctest::Approx(on_journal.film.flow_supply).epsilon(1e-6));
+}
+
 // Shear stress on the journal and nothing else turns a round journal about its own axis, whatever the bore is.
 TEST_CASE("TorqueInAnOvalBore_IsThatOfTheSurface") {
   film::FilmModel model{.R = 0.03, .L = 0.02, .c = 40e-6, .grid = {120, 41}};

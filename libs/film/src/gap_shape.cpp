@@ -27,6 +27,15 @@ Opening GapShape::opening_at(const Profile& profile, int node, double turned) co
   return profile.opening(geometry_->phi[node / n_z] - turned, geometry_->z[node % n_z], model_.L);
 }
 
+Eigen::VectorXd GapShape::shell_slope() const {
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(of_shell_.size());
+  for (const Profile& profile : model_.profiles) {
+    if (profile.surface != Surface::shell || !profile.varies_around()) continue;
+    for (int k = 0; k < slope.size(); ++k) slope[k] += opening_at(profile, k, 0).phi;
+  }
+  return slope;
+}
+
 void GapShape::turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
                              Eigen::VectorXd& second) const {
   for (auto* field : {&opening, &first, &second}) field->setZero(still_.size());

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <thread>
 #include <utility>
 
@@ -196,6 +197,16 @@ void require_rest(const model::Bearing& bearing) {
     throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns and deforms",
                            "0: the shell's body is held at rest, and the journal turns",
                            rigid + "shell_surface=rigid` for a rigid shell"});
+  const auto travels = [](const film::SurfaceFeature& feature) {
+    return feature.surface == film::Surface::shell && !feature.is_fed && feature.depth > 0 &&
+           feature.arc < 2 * std::numbers::pi;
+  };
+  const auto& features = bearing.film.features;
+  if (point.shell_speed != 0 && std::any_of(features.begin(), features.end(), travels))
+    throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns with pockets that nothing feeds",
+                           "0, or pockets of the journal, whose oil travels with them",
+                           "the film knows no difference between its surfaces: exchange journal and shell, speeds "
+                           "and features"});
 }
 
 }  // namespace

@@ -24,6 +24,9 @@ class GapShape {
   /// The share of it that is cut out of the shell [m], same shape.
   [[nodiscard]] const Eigen::VectorXd& of_shell() const { return of_shell_; }
 
+  /// The derivative of of_shell() around the bearing [m/rad]: what a shell that turns moves past a fixed place.
+  [[nodiscard]] Eigen::VectorXd shell_slope() const;
+
   [[nodiscard]] bool profiles_turn() const { return !turning_profiles_.empty(); }
   [[nodiscard]] bool is_round() const { return !profiles_turn() && still_.isZero(0); }
 
