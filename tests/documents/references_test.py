@@ -41,6 +41,16 @@ class Links(unittest.TestCase):
             self.fail("\n".join(faults))
 
 
+class BearingPage(unittest.TestCase):
+    def test_every_group_of_figures_has_a_place_on_the_page(self):
+        groups = re.findall(r'figures\.group\("([^"]+)"\)', read("libs/study/src/bearing_figures.cpp"))
+        self.assertIn("film", groups)
+        page = read("web/src/bearing_page.ts")
+        for group in groups:
+            if group != "stiffness and damping" and f'"{group}"' not in page:  # those are matrices of their own
+                self.fail(f"figures of the group '{group}' are on no page")
+
+
 class TheoryTables(unittest.TestCase):
     """Rows `| (film.3) | `film/reynolds.cpp: balance` | `reynolds_test.cpp: Flux_IsConserved`, `Another` |`."""
 

@@ -15,6 +15,7 @@ import { format, megapascal, micrometre, typeset } from "./units";
 const groups: [string, string][] = [
   ["operating point", "Operating point"],
   ["film", "Film"],
+  ["deformation", "Deformation"],
   ["friction", "Friction"],
   ["oil", "Oil"],
   ["numbers", "Numbers"],
@@ -321,9 +322,9 @@ class SolutionView {
   }
 
   private tables(): HTMLElement {
-    const tables = groups.map(([group, title]) => {
+    const tables = groups.flatMap(([group, title]) => {
       const rows = this.solution.figures.filter((f) => f.group === group && !isNothing(f));
-      return h("table", {}, h("caption", {}, title), h("tbody", {}, ...rows.map((f) => row(f))));
+      return rows.length === 0 ? [] : h("table", {}, h("caption", {}, title), h("tbody", {}, ...rows.map((f) => row(f))));
     });
     return h("section", { class: "summary", "aria-label": "Figures" }, ...tables, this.solution.remark ? h("p", { class: "note" }, capital(this.solution.remark) + ".") : null);
   }
