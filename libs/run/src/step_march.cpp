@@ -21,6 +21,7 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
   options.rtol = model.simulation.tolerance;
   options.max_iterations = model.simulation.max_iterations;
   options.corrects_changes = model.simulation.error_control.has_value();
+  options.returns_to_constraints = !model.bearings.empty();
   for (const model::Bearing& bearing : model.bearings) {
     if (bearing.coupling.scheme == model::CouplingScheme::partitioned) {
       options.max_iterations = std::max(options.max_iterations, bearing.coupling.max_iterations);

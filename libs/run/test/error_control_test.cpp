@@ -115,8 +115,8 @@ Vector3 errors_of_a_pattern(int repetitions) {
 }
 
 TEST_CASE("VaryingSteps_KeepOrderTwoOfMultipliersToo") {
-  // Without (integrator.14) the force is of first order.
-  const Vector3 coarse = errors_of_a_pattern(300), fine = errors_of_a_pattern(600);
+  // Without (integrator.14) the force is of first order. Shorter steps would show the round-off of positions over dt^2.
+  const Vector3 coarse = errors_of_a_pattern(150), fine = errors_of_a_pattern(300);
   for (int i = 0; i < 3; ++i) {
     CAPTURE(i);
     MESSAGE("order ", std::log2(coarse[i] / fine[i]), ", error ", fine[i]);
@@ -140,7 +140,8 @@ simulation: {duration: 2 s, step: 1 ms, spectral_radius: 0.8}
   solver::State state = starting_state(model, machine);
   const auto tell = [](const solver::State&, const Eigen::VectorXd&) { return true; };
   for (const solver::StepJudge& judge : {solver::StepJudge(), solver::StepJudge(tell)}) {
-    solver::GeneralizedAlpha integrator({.spectral_radius = 0.8, .rtol = 1e-9, .corrects_changes = false});
+    solver::GeneralizedAlpha integrator(
+        {.spectral_radius = 0.8, .rtol = 1e-9, .corrects_changes = false, .returns_to_constraints = true});
     for (int i = 0; i < 100; ++i) {
       for (const double share : {1.0, 0.5, 0.125, 0.0625, 0.0625, 0.125, 0.25, 0.5})
         REQUIRE(integrator.step(*machine.mechanism, state, 1e-3 * share, judge).converged());

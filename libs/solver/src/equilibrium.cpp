@@ -150,6 +150,7 @@ class EquilibriumSearch {
   /// What is stiff in one way holds its rows to a tolerance that says little of what is soft in another: Newton's
   /// method goes on until it changes nothing.
   void polish() {
+    if (reach_.size() == 0) return;
     mu_ = 0;
     for (int i = 0; i < 8; ++i) {
       const State from = here_;

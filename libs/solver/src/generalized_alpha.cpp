@@ -22,6 +22,14 @@ using Index = Equations::Index;
 /// Round-off of a constraint: positions are sums of a few lengths of the mechanism's size.
 constexpr double kConstraintRoundOff = 1e-13;
 
+/// Of the tolerance that iterations with old factors go down to, as Newton's own pass it by: what stays within it at
+/// every step adds up in the multipliers.
+constexpr double kWithOldFactors = 0.01;
+
+/// A step that differs by more than this share from the one before is of another length; equal ones differ by
+/// round-off.
+constexpr double kOtherLength = 0.01;
+
 /// Of the residual before that an iteration with old factors may leave.
 constexpr double kFastEnough = 0.05;
 
@@ -322,8 +330,8 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   // with each tangent and need their own.
   const bool may_keep_factors = !equations.has_condensed_unknowns();
   bool keeps_factors = false;
-  while (w.worst > 1 || !equations.step_stands()) {
-    if (w.worst <= 1) {
+  while (w.worst > (keeps_factors ? kWithOldFactors : 1) || !equations.step_stands()) {
+    if (w.worst <= 1 && !keeps_factors) {
       if (!w.assemble(equations, options_)) return fail(StepStatus::domain_error, w.trouble);
       continue;
     }
@@ -349,7 +357,8 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   const bool factorised = summary.iterations > 0, corrects_changes = judge && options_.corrects_changes;
   if (corrects_changes)
     w.find_part_across(factorised);
-  else if (factorised && equations.nlambda() > 0 && dt != w.last_dt)
+  else if (options_.returns_to_constraints && factorised && equations.nlambda() > 0 &&
+           std::abs(dt - w.last_dt) > kOtherLength * w.last_dt)
     w.return_to_constraints(equations);
   w.last_dt = dt;
   w.stage.fresh = false;

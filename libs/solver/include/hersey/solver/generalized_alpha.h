@@ -18,6 +18,9 @@ struct GeneralizedAlphaOptions {
   /// Whether judged steps correct the next for a change of length, (integrator.14). Where the length is halved because
   /// a contact closes, the error is no smooth function of time, and the correction would put energy in.
   bool corrects_changes = true;
+  /// Without that: a step of another length than the one before ends on the constraints, velocities and accelerations
+  /// (theory manual, integrator.25). For steps that are cut hundreds of times, as with films.
+  bool returns_to_constraints = false;
 };
 
 /// How a step ended.
