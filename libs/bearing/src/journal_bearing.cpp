@@ -134,6 +134,10 @@ void JournalBearing::fill_gap() {
 }
 
 void JournalBearing::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {
+  // A trial of this step has exchanged wrenches without end, as where the film damps more than inertia holds.
+  if (exchanges_ > 0 && !exchange_has_ended_) steps_as_one_left_ = kStepsAsOne;
+  exchange_has_ended_ = false;
+  is_one_system_ = options_.coupling == Coupling::monolithic || steps_as_one_left_ > 0;
   history_ = history_start_;
   history_.dt = dt;
   u_ = u_start_;
@@ -142,10 +146,6 @@ void JournalBearing::begin_step(const mbd::RelativeMotion& /*start*/, double dt)
   given_ = given_start_;
   answered_ = false;
   interface_.begin_step();
-  // Tried before with a longer step: its exchange came to no end, as where the film damps more than inertia holds.
-  if (dt < tried_dt_ && steps_as_one_left_ == 0) steps_as_one_left_ = kStepsAsOne;
-  is_one_system_ = options_.coupling == Coupling::monolithic || steps_as_one_left_ > 0;
-  tried_dt_ = std::max(tried_dt_, dt);
 }
 
 // u += du0 + U (s - s_last): the film's share of the Newton increment the bodies have just taken.
@@ -267,6 +267,7 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
 }
 
 bool JournalBearing::step_stands() {
+  exchange_has_ended_ = true;
   if (!started_) return true;
   settle();
   if (oil_.passed_on <= kMostPassedOn || history_.by_gap) return true;
@@ -296,7 +297,7 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
   linearised_ = false;
   u_start_ = u_;
   given_start_ = given_;
-  tried_dt_ = 0;
+  exchanges_ = 0;
   steps_as_one_left_ = std::max(steps_as_one_left_ - 1, 0);
 }
 

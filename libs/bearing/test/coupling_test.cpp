@@ -113,6 +113,16 @@ TEST_CASE("ExchangeWithoutEnd_IsSolvedAsOneSystem") {
   CHECK(difference.norm() <= 1e-6 * e.norm());
 }
 
+TEST_CASE("ExchangeThatEnded_GoesOnInAShorterStep") {
+  const double dt = 2e-5;
+  Rig rig(small_film(), 500, {.coupling = Coupling::partitioned, .initial_dt = dt});
+  solver::GeneralizedAlpha integrator({.spectral_radius = 0.6, .rtol = 1e-8, .max_iterations = 60});
+  const auto refuse = [](const solver::State&, const Eigen::VectorXd&) { return false; };
+  CHECK(integrator.step(*rig.mechanism, rig.state, dt, refuse).status == solver::StepStatus::inaccurate);
+  REQUIRE(integrator.step(*rig.mechanism, rig.state, dt / 2).converged());
+  CHECK(rig.observe().exchanges > 0);
+}
+
 TEST_CASE("MultigridAndDirect_StepAlike") {
   const double dt = 2e-4;
   film::FilmModel film = small_film();

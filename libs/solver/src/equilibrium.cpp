@@ -20,6 +20,7 @@ using Index = Equations::Index;
 constexpr double kLargestIncrement = 0.2;  // rad, or sizes of the system
 constexpr double kRoundOff = 1e-13;
 constexpr double kSolved = 1e-10;        // rad, or sizes of the system: increments that change nothing any more
+constexpr int kLongestPath = 20;         // in steps of Newton's method, times those allowed to a search
 constexpr double kSmallestShare = 1e-5;  // of the load that one step of following it may add
 constexpr double kNeutral = 1e-12;       // of the terms whose sum is a stiffness
 constexpr double kSteady = 1e-8;         // rad, or sizes of the system: ten times what Newton's tolerance leaves
@@ -119,7 +120,7 @@ class EquilibriumSearch {
       }
       here_ = from;
       step /= 2;
-      if (step < kSmallestShare) break;
+      if (step < kSmallestShare || summary_.iterations > kLongestPath * options_.max_iterations) break;
     }
     held_back_.resize(0);
     return assemble(here_) && share == 1 && worst_ <= 1;

@@ -330,12 +330,15 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   // with each tangent and need their own.
   const bool may_keep_factors = !equations.has_condensed_unknowns();
   bool keeps_factors = false;
-  while (w.worst > (keeps_factors ? kWithOldFactors : 1) || !equations.step_stands()) {
-    if (w.worst <= 1 && !keeps_factors) {
+  for (;;) {
+    const bool may_go_on = summary.iterations < options_.max_iterations;
+    if (w.worst <= (keeps_factors && may_go_on ? kWithOldFactors : 1)) {
+      if (equations.step_stands()) break;
       if (!w.assemble(equations, options_)) return fail(StepStatus::domain_error, w.trouble);
+      keeps_factors = false;
       continue;
     }
-    if (summary.iterations == options_.max_iterations)
+    if (!may_go_on)
       return fail(StepStatus::no_convergence,
                   fmt::format("no convergence in {} iterations; worst equation: {}, {:.3g} times its tolerance",
                               summary.iterations, w.worst_name(equations), w.worst));

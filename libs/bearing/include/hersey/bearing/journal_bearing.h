@@ -146,7 +146,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   InterfaceIteration interface_;
   Eigen::VectorXd given_, given_start_;
   bool answered_ = false;
-  double tried_dt_ = 0;        // longest step tried from here
+  bool exchange_has_ended_ = false;
   int steps_as_one_left_ = 0;  // before exchanging is tried again
   bool is_one_system_ = true;  // the step is solved monolithically
 
