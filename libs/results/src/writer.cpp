@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <ctime>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <unordered_set>
@@ -26,21 +28,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t chunk_numbers = 256;         // 2 KiB: rewritten at most once a flush while it fills
-constexpr std::size_t large_chunk_numbers = 1024;  // of series of many rows
-constexpr std::size_t waiting_numbers = 1u << 20;  // of one series: then they go to HDF5's own buffers
-constexpr std::size_t all_waiting_numbers = 1u
-                                            << 25;  // of all series: then there is a flush, however short ago the last
-constexpr double flush_share = 0.03;                // of the time of a run, which flushes take at most
-constexpr std::size_t chunk_cache_bytes = 64u << 10;  // per dataset; only the last chunk is ever touched again
+constexpr std::size_t chunk_numbers = 256;             // 2 KiB: rewritten at most once a flush while it fills
+constexpr std::size_t large_chunk_numbers = 1024;      // of series of many rows
+constexpr std::size_t block_numbers = 1u << 20;        // that rows of one series are copied in
+constexpr std::size_t many_handed_numbers = 7u << 22;  // 224 MiB: then a flush is due, however short ago the last
+constexpr std::size_t most_handed_numbers = 1u << 25;  // then HDF5 gets them, due or not
+constexpr double flush_share = 0.03;                   // of the time of a run, which flushes take at most
+constexpr std::size_t chunk_cache_bytes = 64u << 10;   // per dataset; only the last chunk is ever touched again
 
-/// One growing dataset and its rows that are not in the file yet.
+/// One growing dataset.
 struct Growing {
   std::string name;
   Handle dataset;
-  std::vector<hsize_t> shape;  // of the dataset; shape[0] rows are in it
+  std::vector<hsize_t> shape;  // shape[0] rows are in it
   std::size_t width;           // numbers per row
-  std::vector<double> waiting;
 };
 
 std::string absolute(std::string_view path) {
@@ -54,6 +55,13 @@ std::string now_iso8601() {
   char text[sizeof "2026-01-31T12:34:56Z"];
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
   return text;
+}
+
+/// Fresh memory by the page costs more than what is written there. A wish: where it is not heard, nothing is lost.
+void use_huge_pages(void* data, std::size_t bytes) {
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  void* begin = data;
+  if (std::align(page, page, begin, bytes) != nullptr) ::madvise(begin, bytes / page * page, MADV_HUGEPAGE);
 }
 
 /// @returns descriptor of a new, empty file.
@@ -92,14 +100,15 @@ struct Writer::Impl {
   Handle file;
   std::optional<DimensionScales> scales;
   std::vector<Growing> growing;
-  std::size_t waiting = 0;                // numbers in all series
+  std::vector<double> handed;             // rows that are not in the file yet, in the order they came
+  std::vector<std::uint32_t> handed_to;   // the series of each
   std::unordered_set<std::string> names;  // of groups and datasets made so far
   std::string parent_name = "/";          // of the group opened last
   Handle parent;
   std::map<std::vector<hsize_t>, Handle> creations;  // property lists of datasets by the shape of their chunks
   std::map<std::size_t, Handle> accesses;            // and by the room in memory for chunks
   Clock::time_point last_flush = Clock::now();
-  double flush_cost = 0;  // of the last one [s]
+  double flush_cost = 0;  // of the last one [s]; before there are rows, what making the series took
 
   void open() {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
@@ -284,7 +293,8 @@ struct Writer::Impl {
 
   std::size_t make_growing(std::string_view name, const std::vector<hsize_t>& row_shape, std::string_view unit,
                            std::string_view description, Precision precision, std::vector<std::string> dimensions) {
-    Growing entry{absolute(name), {}, {0}, 1, {}};
+    const Clock::time_point began = Clock::now();
+    Growing entry{absolute(name), {}, {0}, 1};
     for (const hsize_t n : row_shape) {
       HERSEY_REQUIRE(n > 0, "a row has numbers");
       entry.shape.push_back(n);
@@ -305,38 +315,82 @@ struct Writer::Impl {
       name_dimensions(entry.dataset, entry.name, dimensions);
     }
     growing.push_back(std::move(entry));
+    flush_cost += std::chrono::duration<double>(Clock::now() - began).count();
     return growing.size() - 1;
   }
 
-  /// Hands waiting rows to HDF5; they are safe only after H5Fflush.
-  void drain(Growing& entry) {
-    if (entry.waiting.empty()) return;
+  void take(std::size_t series, std::span<const double> row) {
+    if (handed.capacity() == 0) reserve_room();
+    if (handed.size() + row.size() > most_handed_numbers && !handed.empty()) {
+      const Hdf5Session session;
+      drain();
+    }
+    handed.insert(handed.end(), row.begin(), row.end());
+    handed_to.push_back(static_cast<std::uint32_t>(series));
+  }
+
+  /// Of the whole run where it is short: memory that is never used costs nothing, to move it does.
+  void reserve_room() {
+    const std::size_t of_a_step =
+        std::accumulate(growing.begin(), growing.end(), std::size_t{0},
+                        [](std::size_t sum, const Growing& entry) { return sum + entry.width; });
+    handed.reserve(std::min(most_handed_numbers / of_a_step, options.rows + 2) * of_a_step);
+    handed_to.reserve(std::min(most_handed_numbers / of_a_step, options.rows + 2) * growing.size());
+    use_huge_pages(handed.data(), handed.capacity() * sizeof(double));
+  }
+
+  /// Hands the rows to HDF5, one series after the other; they are safe only after H5Fflush.
+  void drain() {
+    std::vector<std::size_t> last(growing.size() + 1, 0);  // of each series' places in `order`, once they are filled
+    for (const std::uint32_t series : handed_to) ++last[series + 1];
+    std::partial_sum(last.begin(), last.end(), last.begin());
+    std::vector<std::size_t> order(handed_to.size());  // where rows begin in `handed`, sorted by series
+    std::size_t at = 0;
+    for (const std::uint32_t series : handed_to) {
+      order[last[series]++] = at;
+      at += growing[series].width;
+    }
+    std::vector<double> rows;
+    std::size_t first = 0;
+    for (std::size_t series = 0; series < growing.size(); ++series) {
+      rows.clear();
+      for (; first < last[series]; ++first) {
+        const auto row = handed.begin() + static_cast<std::ptrdiff_t>(order[first]);
+        rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(growing[series].width));
+      }
+      add_rows(growing[series], rows);
+    }
+    handed.clear();
+    handed_to.clear();
+  }
+
+  void add_rows(Growing& entry, const std::vector<double>& rows) {
+    if (rows.empty()) return;
     std::vector<hsize_t> start(entry.shape.size(), 0), count = entry.shape;
     start[0] = entry.shape[0];
-    count[0] = entry.waiting.size() / entry.width;
+    count[0] = rows.size() / entry.width;
     entry.shape[0] += count[0];
     bool good = H5Dset_extent(entry.dataset.get(), entry.shape.data()) >= 0;
     const Handle space(H5Dget_space(entry.dataset.get()));
     const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr));
     good = good && H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
-    good = good && H5Dwrite(entry.dataset.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT,
-                            entry.waiting.data()) >= 0;
-    waiting -= entry.waiting.size();
-    entry.waiting.clear();
+    good = good &&
+           H5Dwrite(entry.dataset.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, rows.data()) >= 0;
     require(good, "HDF5 cannot add rows");
   }
 
   void flush() {
     const Clock::time_point began = Clock::now();
-    for (Growing& entry : growing) drain(entry);
+    const bool has_rows = !handed.empty();
+    drain();
     require(H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0, "HDF5 cannot flush");
     last_flush = Clock::now();
     // A flush of few rows does not tell what the next one will cost.
-    flush_cost = std::max(std::chrono::duration<double>(last_flush - began).count(), 0.5 * flush_cost);
+    if (has_rows) flush_cost = std::max(std::chrono::duration<double>(last_flush - began).count(), 0.5 * flush_cost);
   }
 
   [[nodiscard]] bool is_flush_due() const {
-    if (waiting >= all_waiting_numbers || options.flush_interval == 0) return true;
+    if (handed.size() >= many_handed_numbers || options.flush_interval == 0) return true;
     const std::chrono::duration<double> since = Clock::now() - last_flush;
     return since.count() >= std::max(options.flush_interval, flush_cost / flush_share);
   }
@@ -490,14 +544,9 @@ void Series::append(std::span<const double> row) const {
   HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
   Writer::Impl& impl = *writer_->impl_;
   impl.require_open();
-  Growing& entry = impl.growing[index_];
-  HERSEY_REQUIRE(row.size() == entry.width,
-                 fmt::format("a row of {} numbers was given, {} are due", row.size(), entry.width));
-  entry.waiting.insert(entry.waiting.end(), row.begin(), row.end());
-  impl.waiting += row.size();
-  if (entry.waiting.size() < waiting_numbers) return;
-  const Hdf5Session session;
-  impl.drain(entry);
+  const std::size_t width = impl.growing[index_].width;
+  HERSEY_REQUIRE(row.size() == width, fmt::format("a row of {} numbers was given, {} are due", row.size(), width));
+  impl.take(index_, row);
 }
 
 std::size_t Series::width() const {
@@ -517,19 +566,18 @@ std::vector<std::pair<std::string, std::size_t>> Writer::rows() {
 void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::string, std::size_t>>& rows) {
   impl_->require_open();
   if (rows.size() != impl_->growing.size()) throw ReadError(from.path(), "it holds other series");
+  const Hdf5Session session;
+  impl_->drain();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Growing& entry = impl_->growing[i];
     const auto& [name, count] = rows[i];
     if (name != entry.name || !from.has(name)) throw ReadError(from.path(), "it lacks " + entry.name);
-    const std::size_t block = std::max<std::size_t>(1, waiting_numbers / entry.width);
+    const std::size_t block = std::max<std::size_t>(1, block_numbers / entry.width);
     for (std::size_t first = 0; first < count; first += block) {
       const std::size_t size = std::min(block, count - first);
-      Array part = from.read_rows(name, first, size);
+      const Array part = from.read_rows(name, first, size);
       if (part.values.size() != size * entry.width) throw ReadError(from.path(), "it lacks rows of " + name);
-      entry.waiting = std::move(part.values);
-      impl_->waiting += entry.waiting.size();
-      const Hdf5Session session;
-      impl_->drain(entry);
+      impl_->add_rows(entry, part.values);
     }
   }
   flush();
