@@ -32,12 +32,13 @@ StrainMatrix strain_variation(const NodeGradients& gradients, const Matrix3& F) 
 struct Point {
   NodeGradients gradients;
   StrainMatrix B;
-  Vector6 strain;
+  Vector6 strain, rate;
   Eigen::Matrix<double, 6, 9> modes;  // of hex8
   double volume;
 };
 
-std::vector<Point> points_of(ElementType type, const NodeColumns& x, const NodeColumns& u, Integration rule) {
+std::vector<Point> points_of(ElementType type, const NodeColumns& x, const NodeColumns& u, const NodeColumns* u_rate,
+                             Integration rule) {
   const std::optional<IncompatibleModes> incompatible =
       type == ElementType::hex8 ? std::optional<IncompatibleModes>(x) : std::nullopt;
   std::vector<Point> points;
@@ -47,7 +48,9 @@ std::vector<Point> points_of(ElementType type, const NodeColumns& x, const NodeC
     // From the gradient itself: F^T F - 1 would leave the round-off of 1 on strains of 1e-9.
     const Matrix3 H = u * at.gradients, F = Matrix3::Identity() + H;
     const Matrix3 E = (H + H.transpose() + H.transpose() * H) / 2;
-    Point point{at.gradients, strain_variation(at.gradients, F), strain_components(E), {}, weight * at.jacobian};
+    Point point{at.gradients,        strain_variation(at.gradients, F), strain_components(E), Vector6::Zero(), {},
+                weight * at.jacobian};
+    if (u_rate != nullptr) point.rate = point.B * Eigen::Map<const Eigen::VectorXd>(u_rate->data(), u_rate->size());
     if (incompatible) point.modes = incompatible->strain(xi, at.jacobian);
     points.push_back(std::move(point));
   }
@@ -59,33 +62,40 @@ std::vector<Point> points_of(ElementType type, const NodeColumns& x, const NodeC
 ElementMatrix relax(std::vector<Point>& points, const Matrix6& D) {
   Eigen::Matrix<double, 9, 9> K_aa = Eigen::Matrix<double, 9, 9>::Zero();
   Eigen::Matrix<double, 9, 24> K_au = Eigen::Matrix<double, 9, 24>::Zero();
-  Eigen::Matrix<double, 9, 1> f_a = Eigen::Matrix<double, 9, 1>::Zero();
+  Eigen::Matrix<double, 9, 2> f_a = Eigen::Matrix<double, 9, 2>::Zero();  // by the strain, and by its rate
   for (const Point& p : points) {
     const Eigen::Matrix<double, 9, 6> stress = p.volume * p.modes.transpose() * D;
     K_aa += stress * p.modes;
     K_au += stress * p.B;
-    f_a += stress * p.strain;
+    f_a.col(0) += stress * p.strain;
+    f_a.col(1) += stress * p.rate;
   }
   const Eigen::LLT<Eigen::Matrix<double, 9, 9>> solver(K_aa);
-  const Eigen::Matrix<double, 9, 1> amplitude = -solver.solve(f_a);
-  for (Point& p : points) p.strain += p.modes * amplitude;
+  const Eigen::Matrix<double, 9, 2> amplitude = -solver.solve(f_a);
+  for (Point& p : points) {
+    p.strain += p.modes * amplitude.col(0);
+    p.rate += p.modes * amplitude.col(1);
+  }
   return K_au.transpose() * solver.solve(K_au);
 }
 
 }  // namespace
 
 FiniteStrainElement finite_strain_element(ElementType type, const NodeColumns& x, const SolidMaterial& material,
-                                          const NodeColumns& u, Integration rule, bool want_tangent) {
+                                          const NodeColumns& u, Integration rule, bool want_tangent,
+                                          const NodeColumns* u_rate) {
   HERSEY_REQUIRE(x.cols() == u.cols(), "one displacement per node");
-  std::vector<Point> points = points_of(type, x, u, rule);
+  std::vector<Point> points = points_of(type, x, u, u_rate, rule);
   const Eigen::Index nodes = x.cols();
   FiniteStrainElement element{.force = Eigen::VectorXd::Zero(3 * nodes),
+                              .rate = Eigen::VectorXd::Zero(3 * nodes),
                               .tangent = ElementMatrix::Zero(3 * nodes, 3 * nodes)};
   if (type == ElementType::hex8) element.tangent = -relax(points, material.D);
   for (const Point& p : points) {
     const Vector6 stress = material.D * p.strain;
     element.energy += p.volume * stress.dot(p.strain) / 2;
     element.force += p.volume * p.B.transpose() * stress;
+    if (u_rate != nullptr) element.rate += p.volume * p.B.transpose() * (material.D * p.rate);
     if (!want_tangent) continue;
     const StrainMatrix DB = p.volume * material.D * p.B;
     element.tangent.noalias() += p.B.transpose() * DB;
@@ -95,6 +105,23 @@ FiniteStrainElement finite_strain_element(ElementType type, const NodeColumns& x
         element.tangent.block<3, 3>(3 * a, 3 * b).diagonal().array() += geometric(a, b);
   }
   return element;
+}
+
+FiniteStress finite_strain_stress(ElementType type, const NodeColumns& x, const SolidMaterial& material,
+                                  const NodeColumns& u, Integration rule) {
+  std::vector<Point> points = points_of(type, x, u, nullptr, rule);
+  if (type == ElementType::hex8) (void)relax(points, material.D);
+  FiniteStress at{.stress = Eigen::Matrix<double, 6, Eigen::Dynamic>(6, points.size()),
+                  .energy = Eigen::VectorXd(points.size())};
+  for (Eigen::Index i = 0; i < at.energy.size(); ++i) {
+    const Point& p = points[static_cast<std::size_t>(i)];
+    const Vector6 S = material.D * p.strain;
+    const Matrix3 F = Matrix3::Identity() + u * p.gradients;
+    const Matrix3 sigma = F * stress_tensor(S) * F.transpose() / F.determinant();
+    at.stress.col(i) << sigma.diagonal(), sigma(0, 1), sigma(1, 2), sigma(0, 2);
+    at.energy[i] = 0.5 * p.volume * S.dot(p.strain);
+  }
+  return at;
 }
 
 }  // namespace hersey::fem

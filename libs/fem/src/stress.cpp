@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hersey/core/contract.h"
+#include "hersey/fem/finite_strain.h"
 
 namespace hersey::fem {
 namespace {
@@ -42,14 +43,14 @@ Continuation continuation(ElementType type, Integration rule) {
   return terms_at(type, natural_nodes(type)) * fit.completeOrthogonalDecomposition().pseudoInverse();
 }
 
-/// Stresses of one element at its points of integration, and the volume each stands for.
+/// Stresses of one element at its points of integration, and the volume and energy of each.
 struct PointStress {
-  Eigen::Matrix<double, 6, Eigen::Dynamic> strain, stress;
-  Eigen::VectorXd volume;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> stress;
+  Eigen::VectorXd energy, volume;
 };
 
 PointStress stress_at_points(const Mesh& mesh, const Element& element, const SolidMaterial& material,
-                             const Eigen::VectorXd& u, Integration integration) {
+                             const Eigen::VectorXd& u, Integration integration, StressMeasure measure) {
   NodeColumns x(3, node_count(element.type)), displacement = x;
   for (Eigen::Index a = 0; a < x.cols(); ++a) {
     const int node = mesh.nodes_of(element)[a];
@@ -65,8 +66,13 @@ PointStress stress_at_points(const Mesh& mesh, const Element& element, const Sol
         point.weight * element_point(shape_functions(element.type, point.xi), x).jacobian;
     xi.push_back(point.xi);
   }
+  if (measure == StressMeasure::finite) {
+    const FiniteStress at = finite_strain_stress(element.type, x, material, displacement, integration);
+    return {at.stress, at.energy, volume};
+  }
   const auto strain = element_strain(element.type, x, material, displacement, xi);
-  return {strain, material.D * strain, volume};
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> stress = material.D * strain;
+  return {stress, 0.5 * stress.cwiseProduct(strain).colwise().sum().transpose().cwiseProduct(volume), volume};
 }
 
 }  // namespace
@@ -76,7 +82,7 @@ Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u) {
 }
 
 Stress recover_stress(const Mesh& mesh, const std::vector<SolidMaterial>& materials, const Eigen::VectorXd& u,
-                      Integration integration) {
+                      Integration integration, StressMeasure measure) {
   const auto nodes = static_cast<Eigen::Index>(mesh.nodes.size());
   HERSEY_REQUIRE(u.size() == 3 * nodes, "one displacement per degree of freedom");
   const auto elements = static_cast<Eigen::Index>(mesh.elements.size());
@@ -93,9 +99,9 @@ Stress recover_stress(const Mesh& mesh, const std::vector<SolidMaterial>& materi
     const auto [to_nodes, is_new] = continued.try_emplace(element.type);
     if (is_new) to_nodes->second = continuation(element.type, integration);
     const SolidMaterial& material = materials[static_cast<std::size_t>(std::max(element.material, 0))];
-    const PointStress at = stress_at_points(mesh, element, material, u, integration);
+    const PointStress at = stress_at_points(mesh, element, material, u, integration, measure);
     s.element.col(e) = at.stress * at.volume / at.volume.sum();
-    s.element_energy[e] = 0.5 * (at.stress.cwiseProduct(at.strain).colwise().sum() * at.volume).value();
+    s.element_energy[e] = at.energy.sum();
     s.element_von_mises[e] = von_mises(s.element.col(e));
     const Eigen::MatrixXd nodal = at.stress * to_nodes->second.transpose();
     for (Eigen::Index a = 0; a < nodal.cols(); ++a) {

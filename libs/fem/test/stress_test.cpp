@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "hersey/fem/finite_strain.h"
 #include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/loads.h"
 #include "small_bodies.h"
@@ -26,6 +27,29 @@ TEST_CASE("Stress_OfALinearField_IsUniformAndItsEnergyThatOfK") {
     CHECK((stress.element.colwise() - expected).cwiseAbs().maxCoeff() < 1e4 * eps * expected.cwiseAbs().maxCoeff());
     CHECK(stress.nodal_von_mises[1] == doctest::Approx(von_mises(expected)).epsilon(1e4 * eps));
     CHECK(stress.energy == doctest::Approx(0.5 * u.dot(body.K * u)).epsilon(1e4 * eps));
+  }
+}
+
+TEST_CASE("StressOfFiniteStrain_TurnsWithTheBody") {
+  // Stretched by U, then turned by 1 rad: the stress is that of U alone in axes that turn, and its energy.
+  const Matrix3 R = Eigen::AngleAxisd(1, Vector3(1, 2, -2).normalized()).toRotationMatrix();
+  const Matrix3 U = Matrix3::Identity() + 1e-2 * (Matrix3() << 1, 0.5, 0, 0.5, -1, 0.2, 0, 0.2, 2).finished();
+  const Matrix3 E = 0.5 * (U * U - Matrix3::Identity());
+  const Vector6 S = steel.D * (Vector6() << E.diagonal(), 2 * E(0, 1), 2 * E(1, 2), 2 * E(0, 2)).finished();
+  const Matrix3 S_ = (Matrix3() << S[0], S[3], S[5], S[3], S[1], S[4], S[5], S[4], S[2]).finished();
+  const Matrix3 sigma = R * U * S_ * U * R.transpose() / U.determinant();
+  const Vector6 expected = (Vector6() << sigma.diagonal(), sigma(0, 1), sigma(1, 2), sigma(0, 2)).finished();
+  for (const ElementType type : solids) {
+    CAPTURE(name_of(type));
+    const ElasticBody body = assemble(distorted_box(type), {steel});
+    Eigen::VectorXd u(body.size());
+    for (Eigen::Index a = 0; a < body.node_count(); ++a)
+      u.segment<3>(3 * a) = (R * U - Matrix3::Identity()) * body.mesh.nodes[static_cast<std::size_t>(a)];
+    const Stress stress = recover_stress(body.mesh, body.materials, u, Integration::full, StressMeasure::finite);
+    CHECK((stress.nodal.colwise() - expected).cwiseAbs().maxCoeff() < 1e6 * eps * expected.cwiseAbs().maxCoeff());
+    FiniteStrain strain;
+    finite_strain(body, u, strain, false);
+    CHECK(stress.energy == doctest::Approx(strain.energy).epsilon(1e4 * eps));
   }
 }
 

@@ -74,7 +74,8 @@ ModalBodyData modal_data(const fem::ReducedBody& reduced, const RayleighDamping&
 
 ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::make_unique<Workspace>()) {
   const Index n = data_.shapes();
-  HERSEY_REQUIRE(!data_.rest.empty() && n >= 6 * static_cast<Index>(data_.rest.size() - 1), "six shapes per frame");
+  HERSEY_REQUIRE(data_.shapes_per_frame == 6 || data_.shapes_per_frame == 12, "one of the two measures of a turn");
+  HERSEY_REQUIRE(!data_.rest.empty() && coordinate_count() >= 0, "as many shapes per frame as there are for it");
   HERSEY_REQUIRE(data_.stiffness.cols() == n && data_.damping.rows() == n && data_.damping.cols() == n, "square");
   HERSEY_REQUIRE(data_.first_moment.cols() == n + 1, "first moments of positions and of every shape");
   for (const MatrixXd& G : data_.second_moment)
@@ -83,13 +84,14 @@ ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::ma
   round_off_ = kStiffnessShare * stiffness_at_size();
   Workspace& w = *work_;
   w.q = w.rate = w.acceleration = VectorXd::Zero(n + 1);
-  w.interfaces.resize(data_.rest.size() - 1);
+  w.interfaces.assign(data_.rest.size() - 1,
+                      RelativeDeformation(data_.shapes_per_frame == 6 ? TurnMeasure::sine : TurnMeasure::matrix));
   w.H.resize(static_cast<std::size_t>(n) + 1);
   w.H_rate = w.H_acc = w.H;
   w.load = VectorXd::Zero(6 + n);
   w.K = w.C = w.M = MatrixXd::Zero(6 + n, 6 + n);
-  const Index outer = 6 * frame_count();
-  w.Z = w.Z_rate_X = w.Z_acc_X = w.Z_acc_V = MatrixXd::Zero(outer, outer);
+  const Index outer = 6 * frame_count(), inner = 6 + n - coordinate_count();
+  w.Z = w.Z_rate_X = w.Z_acc_X = w.Z_acc_V = MatrixXd::Zero(inner, outer);
   w.Z.topLeftCorner<6, 6>().setIdentity();
 }
 
@@ -97,13 +99,13 @@ ModalBody::~ModalBody() = default;
 
 /// Forces of a turn of 1 rad or a shift by twice the radius of gyration of every frame, all taken as positive.
 VectorXd ModalBody::stiffness_at_size() const {
-  const Index interfaces = 6 * (frame_count() - 1);
+  const Index per_frame = data_.shapes_per_frame, interfaces = per_frame * (frame_count() - 1);
   double square = 0;
   for (std::size_t p = 0; p < 3; ++p) square += data_.second_moment[4 * p](0, 0);
   const double size =
       2 * std::sqrt(std::max(square / data_.mass - (data_.first_moment.col(0) / data_.mass).squaredNorm(), 0.0));
   VectorXd reach = VectorXd::Zero(data_.shapes());
-  for (Index i = 0; i < interfaces; ++i) reach[i] = i % 6 < 3 ? 1 : size;
+  for (Index i = 0; i < interfaces; ++i) reach[i] = i % per_frame < per_frame - 3 ? 1 : size;
   return data_.stiffness.cwiseAbs() * reach;
 }
 
@@ -114,10 +116,10 @@ void ModalBody::gather_amplitudes(const ElasticMotion& motion, bool want_tangent
   for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
     RelativeDeformation& interface = w.interfaces[i];
     interface.update(motion.frames[0], motion.frames[i + 1], data_.rest[i + 1], want_tangent);
-    const Index at = 1 + 6 * static_cast<Index>(i);
-    w.q.segment<6>(at) = interface.q;
-    w.rate.segment<6>(at) = interface.rate;
-    w.acceleration.segment<6>(at) = interface.acceleration;
+    const Index n = interface.q.size(), at = 1 + n * static_cast<Index>(i);
+    w.q.segment(at, n) = interface.q;
+    w.rate.segment(at, n) = interface.rate;
+    w.acceleration.segment(at, n) = interface.acceleration;
   }
   w.q.tail(own) = motion.eta;
   w.rate.tail(own) = motion.eta_rate;
@@ -246,10 +248,10 @@ void ModalBody::fill_transformations(bool want_tangent) {
   Workspace& w = *work_;
   for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
     const RelativeDeformation& interface = w.interfaces[i];
-    const auto put = [&](MatrixXd& to, const Matrix6x12& block) {
-      const Index row = 6 + 6 * static_cast<Index>(i);
-      to.block<6, 6>(row, 0) = block.leftCols<6>();
-      to.block<6, 6>(row, row) = block.rightCols<6>();
+    const auto put = [&](MatrixXd& to, const RelativeDeformation::ByTwists& block) {
+      const auto row = 6 + block.rows() * static_cast<Index>(i), column = 6 + 6 * static_cast<Index>(i);
+      to.block(row, 0, block.rows(), 6) = block.leftCols<6>();
+      to.block(row, column, block.rows(), 6) = block.rightCols<6>();
     };
     put(w.Z, interface.B);
     if (!want_tangent) continue;
@@ -276,32 +278,34 @@ void ModalBody::find_shapes(const ElasticMotion& motion, bool want_tangent, Shap
 void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
   Workspace& w = *work_;
   fill_transformations(want_tangent);
-  const Index outer = w.Z.rows(), own = coordinate_count();
-  response.force = w.force;
-  response.force.head(outer).noalias() = w.Z.transpose() * w.force.head(outer);
-  response.magnitude = w.magnitude;
-  response.magnitude.head(outer).noalias() = w.Z.cwiseAbs().transpose() * w.magnitude.head(outer);
+  const Index inner = w.Z.rows(), outer = w.Z.cols(), own = coordinate_count();
+  response.force.resize(outer + own);
+  response.force.head(outer).noalias() = w.Z.transpose() * w.force.head(inner);
+  response.force.tail(own) = w.force.tail(own);
+  response.magnitude.resize(outer + own);
+  response.magnitude.head(outer).noalias() = w.Z.cwiseAbs().transpose() * w.magnitude.head(inner);
+  response.magnitude.tail(own) = w.magnitude.tail(own);
   if (!want_tangent) return;
   // With `product` what the frames change: A' = [Z^T product_top, Z^T A_top,own; product_bottom, A_own,own].
   const auto reduce = [&](const MatrixXd& A, MatrixXd& reduced) {
     reduced.resize(outer + own, outer + own);
-    reduced.topLeftCorner(outer, outer).noalias() = w.Z.transpose() * w.product.topRows(outer);
+    reduced.topLeftCorner(outer, outer).noalias() = w.Z.transpose() * w.product.topRows(inner);
     reduced.bottomLeftCorner(own, outer) = w.product.bottomRows(own);
-    reduced.topRightCorner(outer, own).noalias() = w.Z.transpose() * A.topRightCorner(outer, own);
+    reduced.topRightCorner(outer, own).noalias() = w.Z.transpose() * A.topRightCorner(inner, own);
     reduced.bottomRightCorner(own, own) = A.bottomRightCorner(own, own);
   };
-  w.product.noalias() = w.K.leftCols(outer) * w.Z;
-  w.product.noalias() += w.C.leftCols(outer) * w.Z_rate_X;
-  w.product.noalias() += w.M.leftCols(outer) * w.Z_acc_X;
+  w.product.noalias() = w.K.leftCols(inner) * w.Z;
+  w.product.noalias() += w.C.leftCols(inner) * w.Z_rate_X;
+  w.product.noalias() += w.M.leftCols(inner) * w.Z_acc_X;
   reduce(w.K, response.K);
-  w.product.noalias() = w.C.leftCols(outer) * w.Z;
-  w.product.noalias() += w.M.leftCols(outer) * w.Z_acc_V;
+  w.product.noalias() = w.C.leftCols(inner) * w.Z;
+  w.product.noalias() += w.M.leftCols(inner) * w.Z_acc_V;
   reduce(w.C, response.C);
-  w.product.noalias() = w.M.leftCols(outer) * w.Z;
+  w.product.noalias() = w.M.leftCols(inner) * w.Z;
   reduce(w.M, response.M);
   for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
-    const Index at = 6 + 6 * static_cast<Index>(i);
-    const Matrix12 G = w.interfaces[i].geometric(w.force.segment<6>(at));
+    const Index at = 6 + 6 * static_cast<Index>(i), n = w.interfaces[i].q.size();
+    const Matrix12 G = w.interfaces[i].geometric(w.force.segment(6 + n * static_cast<Index>(i), n));
     response.K.block<6, 6>(0, 0) += G.topLeftCorner<6, 6>();
     response.K.block<6, 6>(0, at) += G.topRightCorner<6, 6>();
     response.K.block<6, 6>(at, 0) += G.bottomLeftCorner<6, 6>();

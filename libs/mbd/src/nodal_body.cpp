@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 constexpr int kSolves = 2;           // most solutions per evaluation
 constexpr int kSolvesAtRest = 30;    // the same of a body of finite strain in statics
 constexpr double kBalanced = 1e-12;  // of the forces on the nodes: no further solution
+constexpr double kServes = 1e-4;     // the same: the matrix of a body of finite strain serves for this step
 
 // As in inertia.cpp: the share of the force that would stop a body within the step.
 constexpr double kMomentumShare = 1e-4;
@@ -31,8 +32,7 @@ constexpr double kNodalShare = 1e-4;
 // Square of the time within which nodes let go take up their acceleration [s^2]: no stiffness of a mesh acts so fast.
 constexpr double kInstant = 1e-24;
 
-// Columns of (flexible-bodies.18).
-constexpr Index kTurning = 3, kShapes = 12;
+constexpr Index kTurning = 3;  // the first of these columns of (flexible-bodies.18)
 
 Eigen::Map<const Matrix3Xd> nodes_of(const VectorXd& u) { return {u.data(), 3, u.size() / 3}; }
 
@@ -42,18 +42,17 @@ VectorXd flat(const Matrix3Xd& field) { return Eigen::Map<const VectorXd>(field.
 
 NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping,
                      Strain strain)
-    : ModalBody(static_data(body, reduced, damping)),
+    : ModalBody(strain == Strain::small ? static_data(body, reduced, damping) : finite_data(body, reduced, damping)),
       body_(std::move(body)),
       damping_(damping),
       strain_(strain),
       fields_(std::make_unique<Fields>()) {
-  HERSEY_REQUIRE(strain == Strain::small || reduced.frames.size() == 1, "finite strains go with one frame");
   HERSEY_REQUIRE(static_cast<std::size_t>(body_.node_count()) == reduced.nodes.size(), "both of one mesh");
   x_.resize(3, body_.node_count());
   for (Index i = 0; i < x_.cols(); ++i) x_.col(i) = reduced.nodes[static_cast<std::size_t>(i)];
   nodal_mass_ = Eigen::RowVectorXd::Ones(x_.cols()) * body_.m;
   const Index shapes = data().shapes();
-  frame_shapes_ = reduced.internal_first() - 6;
+  frame_shapes_ = data().shapes_per_frame * (frame_count() - 1);
   Psi_size_ = Psi().cwiseAbs();
   vibrations_ = reduced.Phi.rightCols(reduced.size() - reduced.internal_first());
   for (Index a = 0; a < vibrations_.cols(); ++a) {
@@ -62,23 +61,29 @@ NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, con
   }
   vibration_mass_ = vibrations_.cwiseProduct(fem::mass_times(body_.m, vibrations_)).colwise().sum();
 
-  inertia_ = MatrixXd::Zero(body_.size(), kShapes + shapes);
+  columns_ = MatrixXd::Zero(body_.size(), kInertiaColumns + (strain == Strain::small ? shapes : 2 * shapes));
   const Matrix3Xd moments = x_ * body_.m;
   for (Index k = 0; k < 3; ++k) {
-    for (Index i = 0; i < x_.cols(); ++i) inertia_(3 * i + k, k) = nodal_mass_[i];
+    for (Index i = 0; i < x_.cols(); ++i) columns_(3 * i + k, k) = nodal_mass_[i];
     for (Index p = 0; p < 3; ++p)
-      for (Index i = 0; i < x_.cols(); ++i) inertia_(3 * i + k, kTurning + 3 * p + k) = moments(p, i);
+      for (Index i = 0; i < x_.cols(); ++i) columns_(3 * i + k, kTurning + 3 * p + k) = moments(p, i);
   }
-  inertia_.rightCols(shapes) = fem::mass_times(body_.m, Psi());
+  columns_.middleCols(kInertiaColumns, shapes) = fem::mass_times(body_.m, Psi());
   for (std::size_t p = 0; p < 3; ++p) {
     m_Psi_[p].resize(x_.cols(), shapes);
     for (Index a = 0; a < shapes; ++a)
       m_Psi_[p].col(a) =
-          Eigen::Map<const VectorXd, 0, Eigen::InnerStride<3>>(inertia_.col(kShapes + a).data() + p, x_.cols());
+          Eigen::Map<const VectorXd, 0, Eigen::InnerStride<3>>(columns_.col(kInertiaColumns + a).data() + p, x_.cols());
   }
 
-  factors_ = std::make_unique<NodalFactors>(body_, supports_of(body_, reduced), damping_, inertia_, Psi());
+  factors_ = std::make_unique<NodalFactors>(body_, supports_of(body_, reduced), damping_, columns_, Psi());
+  if (strain == Strain::finite) {
+    drawn_frames_ = reduced.Phi.middleCols(6, reduced.internal_first() - 6);
+    columns_.rightCols(shapes) = body_.K * Psi();
+    stiffness_of_shapes_ = data().stiffness;
+  }
   w_.start(VectorXd::Zero(body_.size()));
+  followed_ = VectorXd::Zero(data().shapes());
   sizes_ = VectorXd::Zero(body_.size());
 }
 
@@ -164,17 +169,36 @@ void NodalBody::gather(const ElasticMotion& motion, bool want_tangent) {
 /// Of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.24).
 VectorXd NodalBody::elastic_forces() {
   if (strain_ == Strain::small) return body_.K * (w_.position() + damping_.stiffness * w_.rate());
-  fem::finite_strain(body_, fields_->u, finite_, false);
-  return finite_.force + damping_.stiffness * (body_.K * w_.rate());
+  const VectorXd rate = flat(fields_->y_rate);
+  fem::finite_strain(body_, fields_->u, finite_, false, damping_.stiffness > 0 ? &rate : nullptr);
+  return finite_.force + damping_.stiffness * finite_.rate;
 }
 
 /// The matrix of the displacement at hand, theory manual eq. (flexible-bodies.24).
-void NodalBody::refresh_stiffness(const solver::Stage& stage) {
+void NodalBody::refresh_stiffness() {
   update_fields();
   fem::finite_strain(body_, fields_->u, finite_);
-  const double viscous = stage.c * damping_.stiffness, scale = stage.k + viscous;
-  factors_->restiffen((stage.k / scale) * finite_.tangent + (viscous / scale) * body_.K);
+  factors_->restiffen(finite_.tangent);
+  const Index n = data().shapes();
+  columns_.rightCols(n).noalias() = finite_.tangent * Psi();
+  stiffness_of_shapes_.noalias() = Psi().transpose() * columns_.rightCols(n);
   is_stale_ = false;
+}
+
+/// Nodes go along with frames that have moved since they were last looked at: without that the elements beside a frame
+/// would take up its whole motion. Frames that a step has only just predicted are those the nodes are predicted with.
+void NodalBody::follow_frames(const solver::Stage& stage) {
+  const Index n = data().shapes();
+  const VectorXd moved = work().q.tail(n) - followed_;
+  followed_ = work().q.tail(n);
+  const bool goes_along = !is_predicted_ && !is_let_go_ && !moved.isZero(0);
+  is_predicted_ = false;
+  if (!goes_along) return;
+  const NodalFactor* factor = factors_->of(stage, trouble_);
+  if (factor == nullptr) return;
+  const VectorXd forces = columns_.rightCols(n) * ((stage.k + stage.c * damping_.stiffness) * moved) +
+                          columns_.middleCols(kInertiaColumns, n) * ((stage.m + stage.c * damping_.mass) * moved);
+  w_.move(stage, factors_->solve(*factor, -forces));
 }
 
 /// Forces on the nodes that nothing balances, into r_; their norm relative to those of the forces they are sums of.
@@ -183,10 +207,10 @@ double NodalBody::unbalance(const ElasticMotion& motion) {
   const ElasticFrame& base = motion.frames[0];
   update_accelerations(base);
   const VectorXd inertia = flat((fields_->acceleration + damping_.mass * fields_->y_rate) * body_.m);
-  const VectorXd elastic = elastic_forces();
-  r_ = inertia + elastic;
-  sizes_ = inertia.cwiseAbs() + elastic.cwiseAbs();
-  double size = inertia.norm() + elastic.norm();
+  elastic_ = elastic_forces();
+  r_ = inertia + elastic_;
+  sizes_ = inertia.cwiseAbs() + elastic_.cwiseAbs();
+  double size = inertia.norm() + elastic_.norm();
   if (!loads_.empty()) {
     const VectorXd loads = flat(loads_on_nodes(motion));
     r_ -= loads;
@@ -223,7 +247,7 @@ void NodalBody::settle(const ElasticMotion& motion) {
     iterate(motion, stage_of(motion));
   } else if (strain_ == Strain::finite) {  // looked at, not moved
     update_fields();
-    (void)elastic_forces();
+    elastic_ = elastic_forces();
   }
 }
 
@@ -233,15 +257,17 @@ void NodalBody::iterate(const ElasticMotion& motion, const solver::Stage& stage)
   const int most = renews ? kSolvesAtRest : kSolves;
   solver::Stage moved = stage;
   if (is_let_go_) moved.k = 0;  // accelerated, but still in place
+  if (strain_ == Strain::finite) follow_frames(stage);
   for (int solve = 0;; ++solve) {
-    if (renews || (strain_ == Strain::finite && is_stale_)) refresh_stiffness(stage);
+    if (renews || (strain_ == Strain::finite && is_stale_)) refresh_stiffness();
     internal_residual_ = unbalance(motion);
     const NodalFactor* factor = factors_->of(stage, trouble_);
     if (factor == nullptr) return;
     trouble_.clear();
-    if (internal_residual_ <= kBalanced || solve == most) return;
+    if (internal_residual_ <= kBalanced || solve == most) break;
     w_.move(moved, factors_->solve(*factor, -r_));
   }
+  is_stale_ = internal_residual_ > kServes;
 }
 
 void NodalBody::evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) {
@@ -249,10 +275,21 @@ void NodalBody::evaluate(const ElasticMotion& motion, bool want_tangent, Elastic
   ModalBody::evaluate(motion, want_tangent, response);
 }
 
+void NodalBody::add_elasticity(bool want_tangent) {
+  if (strain_ == Strain::small) return ModalBody::add_elasticity(want_tangent);
+  Workspace& w = work();
+  const Index n = data().shapes();
+  w.force.tail(n) += Psi().transpose() * elastic_ + data().damping * w.rate.tail(n);
+  w.magnitude.tail(n) += round_off();
+  if (!want_tangent) return;
+  w.K.bottomRightCorner(n, n) += stiffness_of_shapes_;
+  w.C.bottomRightCorner(n, n) += damping_.stiffness * stiffness_of_shapes_ + data().damping;
+}
+
 void NodalBody::add_nodes(const ElasticMotion& motion, bool want_tangent) {
   Workspace& w = work();
   const Index n = data().shapes();
-  w.force.tail(n) += damping_.mass * (inertia_.rightCols(n).transpose() * w_.rate());
+  w.force.tail(n) += damping_.mass * (columns_.middleCols(kInertiaColumns, n).transpose() * w_.rate());
   if (!loads_.empty()) w.force.head<3>() -= cross_moment(nodes_of(w_.position()) * loads_on_nodes(motion).transpose());
   const VectorXd size = kNodalShare * sizes_;
   const Eigen::RowVectorXd each = nodes_of(size).colwise().norm();
@@ -266,6 +303,7 @@ void NodalBody::begin_step(const ElasticMotion&, double dt) {
   at_rest_ = dt == 0 && !lets_go_;
   is_let_go_ = dt == 0 && lets_go_;
   is_stale_ = true;
+  is_predicted_ = !at_rest_;
   w_.begin_step();
   if (at_rest_) w_.start(w_.position());
   if (is_let_go_) w_.start(VectorXd::Zero(body_.size()));
@@ -279,12 +317,29 @@ void NodalBody::accept_step(const ElasticMotion& end) {
 
 VectorXd NodalBody::amplitudes(const ElasticMotion& motion) {
   ModalBody::gather(motion, false);
-  const Index n = data().shapes(), films = n - frame_shapes_;
-  VectorXd all(frame_shapes_ + vibrations_.cols());
-  all.head(frame_shapes_) = work().q.segment(1, frame_shapes_);
-  const VectorXd internal = Psi().rightCols(films) * work().q.tail(films) + w_.position();
+  const Index films = data().shapes() - frame_shapes_;
+  const VectorXd of_frames = frame_amplitudes();
+  VectorXd all(of_frames.size() + vibrations_.cols());
+  all.head(of_frames.size()) = of_frames;
+  const VectorXd internal =
+      strain_ == Strain::small
+          ? VectorXd(Psi().rightCols(films) * work().q.tail(films) + w_.position())
+          : VectorXd(Psi() * work().q.tail(data().shapes()) + w_.position() - drawn_frames_ * of_frames);
   const VectorXd momentum = fem::mass_times(body_.m, internal);
   all.tail(vibrations_.cols()) = (vibrations_.transpose() * momentum).cwiseQuotient(vibration_mass_);
+  return all;
+}
+
+/// Of each frame but the first the sine of its turn times the axis, and its displacement.
+VectorXd NodalBody::frame_amplitudes() {
+  const VectorXd q = work().q.segment(1, frame_shapes_);
+  if (strain_ == Strain::small) return q;
+  const Index further = frame_count() - 1;
+  VectorXd all(6 * further);
+  for (Index i = 0; i < further; ++i) {
+    const auto A = q.segment<12>(12 * i);
+    all.segment<6>(6 * i) << 0.5 * (A[7] - A[5]), 0.5 * (A[2] - A[6]), 0.5 * (A[3] - A[1]), A.tail<3>();
+  }
   return all;
 }
 
@@ -308,16 +363,18 @@ ElasticEnergy NodalBody::energy(const ElasticMotion& motion, const Vector3& grav
   ElasticEnergy e;
   e.kinetic = 0.5 * velocity.cwiseProduct(momentum).sum();
   if (strain_ == Strain::finite) {
-    (void)elastic_forces();
+    elastic_ = elastic_forces();
+    const VectorXd y_rate = flat(fields_->y_rate);
     e.strain = finite_.energy;
-    e.strain_rate = finite_.force.dot(flat(fields_->y_rate));
+    e.strain_rate = finite_.force.dot(y_rate);
+    e.dissipation = damping_.stiffness * finite_.rate.dot(y_rate);
   } else {
     const VectorXd K_w = body_.K * w_.position();
     e.strain = 0.5 * (q.dot(data().stiffness * q) + w_.position().dot(K_w));
     e.strain_rate = rate.dot(data().stiffness * q) + w_.rate().dot(K_w);
+    e.dissipation = damping_.stiffness * (rate.dot(data().stiffness * rate) + w_.rate().dot(body_.K * w_.rate()));
   }
-  e.dissipation = damping_.stiffness * (rate.dot(data().stiffness * rate) + w_.rate().dot(body_.K * w_.rate())) +
-                  damping_.mass * fields_->y_rate.cwiseProduct(fields_->y_rate * body_.m).sum();
+  e.dissipation += damping_.mass * fields_->y_rate.cwiseProduct(fields_->y_rate * body_.m).sum();
   e.potential = -gravity.dot(data().mass * X.r + X.R * w.S);
   e.gravity = (X.R.transpose() * gravity).dot(p);
   e.momentum = X.R * p;

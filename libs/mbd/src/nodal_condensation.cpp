@@ -31,7 +31,12 @@ void NodalBody::condense(const ElasticMotion& motion) {
     by_acc[r] = sums.rightCols<3>();
   }
   const MatrixXd onto = forces_of_answers(factor, stage, base, by_y, by_rate, by_acc);
-  const MatrixXd answer = S.transpose().fullPivLu().solve(onto.transpose()).transpose();
+  // Columns of forces and of masses differ by many decades, and some shapes move nothing.
+  const VectorXd size = factor.W.diagonal().cwiseMax(0).cwiseSqrt();
+  const VectorXd scale = (size.array() > 0).select(size.cwiseInverse(), 0.0);
+  const MatrixXd scaled = scale.asDiagonal() * S.transpose() * scale.asDiagonal();
+  const MatrixXd answer =
+      (scale.asDiagonal() * scaled.fullPivLu().solve(scale.asDiagonal() * onto.transpose())).transpose();
   add_forces_on_nodes(factor, base, by_y, by_rate, answer);
 }
 
@@ -57,7 +62,7 @@ void NodalBody::add_forces_on_nodes(const NodalFactor& factor, const ElasticFram
   const auto even = factor.W.leftCols<3>();
   for (Index j = 0; j < 3; ++j) from.col(j) = turned(skew(Vector3(Vector3::Unit(j))), by_y);
   from.middleCols<3>(3) = even;
-  from.rightCols(n) = factor.W.rightCols(n);
+  from.rightCols(n) = factor.W.middleCols(kInertiaColumns, n);
   w.M.noalias() -= answer * from;
 
   for (Index j = 0; j < 3; ++j) {
@@ -66,9 +71,11 @@ void NodalBody::add_forces_on_nodes(const NodalFactor& factor, const ElasticFram
   }
   from.leftCols<3>() -= even * skew(Vector3(base.V.tail<3>()));
   from.middleCols<3>(3) = even * omega_x;
-  from.rightCols(n) = of_shapes(2 * omega_x) + damping_.mass * factor.W.rightCols(n);
+  from.rightCols(n) = of_shapes(2 * omega_x) + damping_.mass * factor.W.middleCols(kInertiaColumns, n);
+  if (strain_ == Strain::finite) from.rightCols(n) += damping_.stiffness * factor.W.rightCols(n);
   w.C.noalias() -= answer * from;
   w.K.rightCols(n).noalias() -= answer * of_shapes(w.Omega);
+  if (strain_ == Strain::finite) w.K.rightCols(n).noalias() -= answer * factor.W.rightCols(n);
 }
 
 /// d forces on [frame 0; amplitudes] / d answer of the nodes as a sum of columns of X, theory manual eq.
@@ -95,7 +102,8 @@ MatrixXd NodalBody::forces_of_answers(const NodalFactor& factor, const solver::S
         cross_moment(k * (B + B.transpose()) * w.Omega.transpose() +
                      2 * (c * B + k * B_rate.transpose()) * omega_x.transpose() + m * B + k * B_acc.transpose());
   }
-  onto.bottomRows(n) = (m + c * damping_.mass) * factor.W.bottomRows(n);
+  onto.bottomRows(n) = (m + c * damping_.mass) * factor.W.middleRows(kInertiaColumns, n);
+  if (strain_ == Strain::finite) onto.bottomRows(n) += (k + c * damping_.stiffness) * factor.W.bottomRows(n);
   for (Index p = 0; p < 3; ++p)
     for (Index r = 0; r < 3; ++r)
       onto.bottomRows(n) += D(p, r) * factor.shapes[static_cast<std::size_t>(3 * r + p)].transpose();

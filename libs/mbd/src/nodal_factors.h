@@ -12,6 +12,9 @@
 
 namespace hersey::mbd {
 
+/// Columns of (flexible-bodies.18) before M Psi: 3 accelerations, 9 of turning.
+inline constexpr Eigen::Index kInertiaColumns = 12;
+
 /// One factor, and what its answers X = (m M + c D + k K)^-1 E to columns E mean to the frames.
 struct NodalFactor {
   double shift = 0;

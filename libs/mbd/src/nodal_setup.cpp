@@ -2,6 +2,9 @@
 
 #include <vector>
 
+#include "hersey/core/contract.h"
+#include "hersey/fem/held_stiffness.h"
+
 namespace hersey::mbd {
 
 using Eigen::Index;
@@ -29,6 +32,37 @@ ModalBodyData static_data(const fem::ElasticBody& body, const fem::ReducedBody& 
   still.M = still.Phi.transpose() * fem::mass_times(body.m, still.Phi);
   still.internal_omega.resize(0);
   return modal_data(still, damping);
+}
+
+ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& reduced,
+                          const RayleighDamping& damping) {
+  ModalBodyData data = static_data(body, reduced, damping);
+  constexpr Index kTurns = 9, kPerFrame = 12;
+  const auto further = static_cast<Index>(reduced.frames.size()) - 1;
+  const Index films = data.shapes() - 6 * further;
+  MatrixXd Psi = MatrixXd::Zero(body.size(), kPerFrame * further + films);
+  for (Index i = 0; i < further; ++i) {
+    const fem::InterfaceFrame& frame = reduced.frames[static_cast<std::size_t>(i) + 1];
+    HERSEY_REQUIRE(frame.connection == fem::Connection::rigid, "averages turn little against the first frame");
+    for (const int node : frame.nodes) {
+      const Vector3 d = reduced.nodes[static_cast<std::size_t>(node)] - frame.origin;
+      for (Index p = 0; p < 3; ++p) {
+        for (Index r = 0; r < 3; ++r) Psi(3 * node + p, kPerFrame * i + 3 * p + r) = d[r];
+        Psi(3 * node + p, kPerFrame * i + kTurns + p) = 1;
+      }
+    }
+  }
+  const fem::FrameSupports supports = supports_of(body, reduced);
+  fem::HeldStiffness held(body.K, body.m, supports.held, supports.C);
+  HERSEY_REQUIRE(held.factorise().ok(), "a reduction has held it");
+  if (further > 0) Psi -= held.solve(MatrixXd(body.K * Psi));
+  Psi.rightCols(films) = data.displacements.rightCols(films);
+  const Eigen::Matrix3Xd x = data.nodes;
+  set_moments(data, reduced.m, x, Psi);
+  data.shapes_per_frame = kPerFrame;
+  data.stiffness = Psi.transpose() * (body.K * Psi);
+  data.damping = damping.mass * (Psi.transpose() * fem::mass_times(body.m, Psi));
+  return data;
 }
 
 fem::FrameSupports supports_of(const fem::ElasticBody& body, const fem::ReducedBody& reduced) {

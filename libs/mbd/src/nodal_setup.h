@@ -10,6 +10,12 @@ namespace hersey::mbd {
 [[nodiscard]] ModalBodyData static_data(const fem::ElasticBody& body, const fem::ReducedBody& reduced,
                                         const RayleighDamping& damping);
 
+/// The same for strains of any size: the nodes of a frame move as a rigid piece however far it turns, the others as the
+/// undeformed body answers (theory manual eq. (flexible-bodies.29)). `damping` is that by mass alone.
+/// @pre the frames but the first are rigid
+[[nodiscard]] ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& reduced,
+                                        const RayleighDamping& damping);
+
 /// What keeps the nodes' own displacements apart from the static shapes: they move no frame, and the pressures that
 /// the film modes answer do no work on them (theory manual eq. (flexible-bodies.28)).
 [[nodiscard]] fem::FrameSupports supports_of(const fem::ElasticBody& body, const fem::ReducedBody& reduced);

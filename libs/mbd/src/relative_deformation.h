@@ -5,34 +5,57 @@
 
 namespace hersey::mbd {
 
-using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
-/// How far a frame of an elastic body has moved from its rest pose, as frame 0 sees it: q = [theta; u], theta the axial
-/// vector of the relative rotation (sin of the angle times the axis), u the displacement, both in frame 0's axes; with
-/// rates and derivatives with respect to [frame 0; the frame] (theory manual eq. (flexible-bodies.8) to
-/// (flexible-bodies.11)).
+/// How amplitudes of a frame's shapes tell its rotation R against the rest pose.
+enum class TurnMeasure {
+  sine,   ///< theta, the sine of the angle times the axis: 3 shapes that turn the frame linearly, for small strains
+  matrix  ///< R - 1, row by row: 9 shapes, of which the nodes of the frame stay a rigid piece however far it turns
+};
+
+/// How far a frame of an elastic body has moved from its rest pose, as frame 0 sees it: q = [measure of the turn; u], u
+/// the displacement, in frame 0's axes; with rates and derivatives with respect to [frame 0; the frame] (theory manual
+/// eq. (flexible-bodies.8) to (flexible-bodies.11), (flexible-bodies.29)).
 class RelativeDeformation {
  public:
-  Vector6 q = Vector6::Zero(), rate = Vector6::Zero(), acceleration = Vector6::Zero();
-  Matrix6x12 B;         ///< dq/dxi = drate/dV = dacceleration/dA
-  Matrix6x12 rate_dX;   ///< drate/dxi
-  Matrix6x12 accel_dX;  ///< dacceleration/dxi
-  Matrix6x12 accel_dV;  ///< dacceleration/dV
+  using Amplitudes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
+  using ByTwists = Eigen::Matrix<double, Eigen::Dynamic, 12, 0, 12, 12>;
+
+  Amplitudes q, rate, acceleration;
+  ByTwists B;         ///< dq/dxi = drate/dV = dacceleration/dA
+  ByTwists rate_dX;   ///< drate/dxi
+  ByTwists accel_dX;  ///< dacceleration/dxi
+  ByTwists accel_dV;  ///< dacceleration/dV
+
+  explicit RelativeDeformation(TurnMeasure measure) : measure_(measure) {}
 
   void update(const ElasticFrame& base, const ElasticFrame& frame, const Pose& rest, bool want_tangent);
 
   /// d(B^T f)/dxi at fixed f.
-  [[nodiscard]] Matrix12 geometric(const Vector6& f) const;
+  [[nodiscard]] Matrix12 geometric(const Amplitudes& f) const;
 
  private:
-  void differentiate(const ElasticFrame& base);
+  using Turn = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1>;
+  using ByVector = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 9, 3>;
 
+  void take_precise(const Vector6& deformation);
+  void measure_sine();
+  void differentiate_sine();
+  void measure_matrix();
+  void differentiate_matrix();
+  void differentiate(const ElasticFrame& base);
+  [[nodiscard]] Matrix3 torque_by_turn(const Turn& f) const;
+
+  TurnMeasure measure_;
   Matrix3 R_, relative_;               // frame's axes in frame 0; the same over the rest pose
   Vector3 r_, omega_, v_, alpha_, a_;  // frame's origin; its motion turned into frame 0's axes
   Vector3 w_, w_rate_;                 // relative angular velocity and its rate
-  Matrix3 B_theta_;                    // theta_rate = B_theta w
+  Turn turn_, turn_rate_, turn_acceleration_;
+  ByVector by_w_;           // rate of the measure by w, as of the measure by a turn of the frame, d acceleration by w'
+  ByVector rate_by_turn_;   // of the rate at fixed w
+  ByVector accel_by_turn_;  // of the acceleration at fixed w and w'
+  ByVector accel_by_w_;
 };
 
 }  // namespace hersey::mbd

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/reduction.h"
@@ -18,7 +19,8 @@ struct Beam {
   Vector3 size{1, 0.1, 0.06};
   std::array<int, 3> cells{8, 2, 2};
   fem::ElasticMaterial material{.youngs_modulus = 2.1e11, .poisson_ratio = 0.3, .density = 7850};
-  bool tip = false;  ///< a second frame, on the end x = length
+  bool tip = false;        ///< a second frame, on the end x = length
+  bool tip_first = false;  ///< of the two
   fem::Connection connection = fem::Connection::rigid;
   int modes = 8;
   fem::ElementType type = fem::ElementType::hex8;
@@ -35,6 +37,7 @@ struct Beam {
     const fem::ElasticBody body = elastic();
     std::vector<fem::InterfaceFrame> frames{{"root", frame_at(0).r, body.mesh.node_sets.at("x0"), connection, {}}};
     if (tip) frames.push_back({"tip", frame_at(size.x()).r, body.mesh.node_sets.at("x1"), connection, {}});
+    if (tip_first) std::swap(frames[0], frames[1]);
     fem::ReductionOptions options;
     options.modes = modes;
     if (contact) options.contact_faces.push_back(body.mesh.surfaces.at("y1"));
@@ -49,7 +52,7 @@ struct Beam {
   /// Adds it to `builder` as `name`; its axes have their origin at the corner.
   [[nodiscard]] FlexibleBodyIds add_to(MechanismBuilder& builder, const std::string& name = "beam") const {
     std::vector<std::string> names;
-    if (tip) names.emplace_back("tip");
+    if (tip) names.emplace_back(tip_first ? "root" : "tip");
     if (nodal) return builder.add_flexible_body(name, names, all_nodes());
     return builder.add_flexible_body(name, names, std::make_shared<ModalBody>(reduced()));
   }

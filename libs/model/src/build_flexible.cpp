@@ -88,6 +88,7 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
   built.name = body.name;
   built.mesh = flexible.mesh;
   built.materials = shapes.materials;
+  built.strain = flexible.strain;
   built.static_errors = shapes.static_errors;
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     kept.push_back({body.name, surfaces[i]->surface->functions.around(), surfaces[i]->surface->functions.along(),

@@ -55,7 +55,8 @@ TypePtr flexible_format() {
           defaulted("strain",
                     choice({{"small", "displacements against the body's axes strain linearly"},
                             {"finite",
-                             "by Green and Lagrange: large bending, stiffening by pull; nodal bodies of one frame"}}),
+                             "by Green and Lagrange: large bending, stiffening by pull; nodal bodies whose frames but "
+                             "the first are `connection: rigid`"}}),
                     "small", "How displacements strain the body."),
           defaulted("modes", integer(10, {.low = 0, .high = 1000}), "10",
                     "How many vibrations with all frames held, those of lowest frequency, add to the static shapes."),

@@ -23,7 +23,7 @@ class FlexibleReader {
     flexible.position = value.key_position;
     flexible.nodal = text_of(value, "form") == "nodal";
     if (text_of(value, "strain") == "finite") flexible.strain = mbd::Strain::finite;
-    refuse_finite_strain(value, flexible, frames);
+    refuse_finite_strain(value, flexible);
     flexible.modes = integer_of(value, "modes");
     flexible.highest = number_of(value, "highest_frequency");
     if (const Value* damping = value.find("damping"))
@@ -38,20 +38,27 @@ class FlexibleReader {
     if (!mesh) return flexible;
     flexible.materials = materials_of(value, *mesh);
     place_frames(*mesh, frames);
+    refuse_averages(flexible, frames);
     read_load_surfaces(value, *mesh, flexible);
     flexible.mesh = std::make_shared<const fem::Mesh>(std::move(*mesh));
     return flexible;
   }
 
  private:
-  void refuse_finite_strain(const Value& value, const Flexible& flexible, const std::vector<Frame>& frames) {
-    if (flexible.strain == mbd::Strain::small) return;
-    if (!flexible.nodal)
+  void refuse_finite_strain(const Value& value, const Flexible& flexible) {
+    if (flexible.strain == mbd::Strain::finite && !flexible.nodal)
       context_.fault(*value.find("strain"), "finite strain of a modal body", "`form: nodal`",
                      "shapes that add up linearly strain linearly");
-    else if (frames.size() > 1)
-      context_.fault(*value.find("strain"), "finite strain of a body with " + std::to_string(frames.size()) + " frames",
-                     "a body held at one frame", "load others by forces on their faces");
+  }
+
+  void refuse_averages(const Flexible& flexible, const std::vector<Frame>& frames) {
+    if (flexible.strain == mbd::Strain::small) return;
+    for (std::size_t i = 1; i < frames.size(); ++i)
+      if (frames[i].connection == fem::Connection::average)
+        context_.fault(*body_.find("frames")->find(frames[i].name)->find("connection"),
+                       "`connection: average` of frame '" + frames[i].name + "' of a body of finite strain",
+                       "`connection: rigid` of every frame but the first",
+                       "averages measure turns that are small against the first frame");
   }
 
   void refuse_rigid_keys() {

@@ -147,8 +147,9 @@ TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreTold") {
   CHECK(faults_of(nodal) == "no fault");
   CHECK(
       contains(faults_of(edited(kMachine, "      modes: 0", "      strain: finite")), "finite strain of a modal body"));
-  CHECK(contains(faults_of(edited(nodal, "form: nodal", "form: nodal\n      strain: finite")),
-                 "finite strain of a body with 2 frames"));
+  const std::string finite = edited(nodal, "form: nodal", "form: nodal\n      strain: finite");
+  CHECK(contains(faults_of(finite), "`connection: average` of frame 'tip' of a body of finite strain"));
+  CHECK(faults_of(edited(finite, ", connection: average", "")) == "no fault");
 }
 
 TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {

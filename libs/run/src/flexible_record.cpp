@@ -26,7 +26,9 @@ std::vector<double> deformation_of_skin(const model::BuiltFlexible& flexible) {
 
 /// Stresses in the body's axes, which turn with it.
 void add_stress(const model::BuiltFlexible& flexible, const Eigen::VectorXd& u, fem::VtuFrame& frame) {
-  const fem::Stress stress = fem::recover_stress(*flexible.mesh, flexible.materials, u);
+  const auto measure = flexible.strain == mbd::Strain::finite ? fem::StressMeasure::finite : fem::StressMeasure::small;
+  const fem::Stress stress =
+      fem::recover_stress(*flexible.mesh, flexible.materials, u, fem::Integration::full, measure);
   frame.node_fields.push_back({"stress", stress.nodal});
   frame.node_fields.push_back({"von_mises", stress.nodal_von_mises.transpose()});
 }

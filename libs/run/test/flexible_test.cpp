@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -150,6 +151,36 @@ void check_pendulum_of_nodes(const std::string& strains) {
 TEST_CASE("PendulumOfNodes_IsRecordedAndBalanced") {
   check_pendulum_of_nodes("small");
   check_pendulum_of_nodes("finite");
+}
+
+TEST_CASE("BarOfFiniteStrain_IsBentIntoAnArcByAMomentAtItsTip") {
+  // Curvature M/(E I) all along, to 1 rad: stresses of E kappa h/2 in axes that turn with the strip.
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 10);
+  std::string text = kPendulum;
+  const double I = 1e-8 / 12, length = 0.2;
+  text.replace(text.find("modes: 4"), 8, "modes: 4\n      form: nodal\n      strain: finite");
+  text.replace(text.find("type: revolute"), 14, "type: fixed").replace(text.find("duration"), 29, "analysis: static");
+  text.replace(text.find("gravity: 0 -9.81 0"), 18, "gravity: 0 0 0");
+  text.replace(text.find("poisson_ratio: 0.3"), 18, "poisson_ratio: 0");
+  text += fmt::format("forces:\n  turn: {{type: torque, body: bar.tip, components: [0 N.m, 0 N.m, {} N.m]}}\n",
+                      1e9 * I / length);
+  std::ofstream(folder / "model.yaml") << text;
+  const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
+  INFO(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  const results::Reader reader(folder / "r.h5");
+  const auto series = [&](const std::string& name) { return reader.read(name).values; };
+  const auto p = series("/bodies/bar.tip/orientation");
+  CHECK(2 * std::atan2(p[3], p[0]) == doctest::Approx(1).epsilon(0.01));
+  const auto r = series("/joints/bar.tip/coordinates");
+  CHECK(r[0] == doctest::Approx(length * (std::sin(1) - 1)).epsilon(0.01));
+  CHECK(r[1] == doctest::Approx(length * (1 - std::cos(1))).epsilon(0.01));
+  const double M = 1e9 * I / length;
+  CHECK(series("/energy/strain").back() == doctest::Approx(0.5 * M).epsilon(0.01));
+  CHECK(series("/joints/hinge/reaction_torque")[2] == doctest::Approx(-M).epsilon(1e-6));
+  const std::vector<double> stress = field_of(folder / "r_bar" / "00000.vtu", "von_mises");
+  CHECK(*std::max_element(stress.begin(), stress.end()) == doctest::Approx(1e9 * 0.005 / length).epsilon(0.05));
 }
 
 TEST_CASE("StiffBarOfFiniteStrain_StartsTurning") {

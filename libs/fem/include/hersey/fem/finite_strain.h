@@ -13,19 +13,33 @@ namespace hersey::fem {
 struct FiniteStrainElement {
   double energy = 0;      ///< [J]
   Eigen::VectorXd force;  ///< gradient (3 nodes) [N]
+  Eigen::VectorXd rate;   ///< by the rate of strain, integral of dE/du^T : D : dE/dt (3 nodes) [N/s]
   ElementMatrix tangent;  ///< second derivative (3 nodes, 3 nodes), symmetric
 };
+/// @param u_rate  (3, nodes); null: `rate` is left zero
 [[nodiscard]] FiniteStrainElement finite_strain_element(ElementType type, const NodeColumns& x,
                                                         const SolidMaterial& material, const NodeColumns& u,
-                                                        Integration rule = Integration::full, bool want_tangent = true);
+                                                        Integration rule = Integration::full, bool want_tangent = true,
+                                                        const NodeColumns* u_rate = nullptr);
+
+/// Stresses at the points of integration, per unit of area as it is there (Cauchy's), F S F^T / det F, components as of
+/// `Stress`; and the energy of each point's volume [J]. @verified_by stress_test.cpp: StressOfFiniteStrain_...
+struct FiniteStress {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> stress;
+  Eigen::VectorXd energy;
+};
+[[nodiscard]] FiniteStress finite_strain_stress(ElementType type, const NodeColumns& x, const SolidMaterial& material,
+                                                const NodeColumns& u, Integration rule = Integration::full);
 
 /// The same of a whole body; `tangent` has the pattern of ElasticBody::K and is K where u = 0.
 struct FiniteStrain {
   double energy = 0;
-  Eigen::VectorXd force;
+  Eigen::VectorXd force, rate;
   Eigen::SparseMatrix<double> tangent;  ///< left alone where it is not wanted
 };
-void finite_strain(const ElasticBody& body, const Eigen::VectorXd& u, FiniteStrain& out, bool want_tangent = true);
+/// @param u_rate  (3 n); null: `rate` is left zero
+void finite_strain(const ElasticBody& body, const Eigen::VectorXd& u, FiniteStrain& out, bool want_tangent = true,
+                   const Eigen::VectorXd* u_rate = nullptr);
 
 struct LargeDisplacementOptions {
   int steps = 5;  ///< load and prescribed displacements grow in as many equal parts, halved where Newton's method fails

@@ -20,8 +20,12 @@ struct Stress {
 /// @param u displacements (3 n) [m] @verified_by stress_test.cpp
 [[nodiscard]] Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u);
 
+/// How displacements make stresses: in proportion, or by Green and Lagrange's strain (then Cauchy's stress).
+enum class StressMeasure { small, finite };
+
 /// The same of a mesh and its materials alone.
 [[nodiscard]] Stress recover_stress(const Mesh& mesh, const std::vector<SolidMaterial>& materials,
-                                    const Eigen::VectorXd& u, Integration integration = Integration::full);
+                                    const Eigen::VectorXd& u, Integration integration = Integration::full,
+                                    StressMeasure measure = StressMeasure::small);
 
 }  // namespace hersey::fem

@@ -21,6 +21,9 @@ struct ModalBodyData {
   Eigen::Matrix3Xd first_moment;  ///< integral of rho Y_a, Y_0 = x and Y_a = Phi_a, shape (3, 1 + shapes)
   /// Integrals of rho Y_a,p Y_b,r, component by component: second_moment[3 p + r](a, b), shape (1 + shapes)^2.
   std::array<Eigen::MatrixXd, 9> second_moment;
+  /// Of the turn and displacement of each frame but the first: 6, or 12 with the matrix of the turn (theory manual eq.
+  /// (flexible-bodies.29)).
+  int shapes_per_frame = 6;
   Eigen::MatrixXd stiffness;      ///< shape (shapes, shapes)
   Eigen::MatrixXd damping;        ///< the same
   Eigen::Matrix3Xd nodes;         ///< undeformed [m], shape (3, nodes)
@@ -54,13 +57,13 @@ struct RayleighDamping {
 /// @see Shabana (2013), Dynamics of Multibody Systems, ch. 5; Craig and Bampton (1968), AIAA J. 6, 1313.
 class ModalBody : public ElasticBody {
  public:
-  /// @pre the matrices have the shapes ModalBodyData says, and shapes >= 6 (frames - 1).
+  /// @pre the matrices have the shapes ModalBodyData says, and shapes >= shapes_per_frame (frames - 1).
   explicit ModalBody(ModalBodyData data);
   ~ModalBody() override;
 
   [[nodiscard]] int frame_count() const override { return static_cast<int>(data_.rest.size()); }
   [[nodiscard]] int coordinate_count() const override {
-    return static_cast<int>(data_.shapes()) - 6 * (frame_count() - 1);
+    return static_cast<int>(data_.shapes()) - data_.shapes_per_frame * (frame_count() - 1);
   }
   [[nodiscard]] Pose rest_pose(int i) const override { return data_.rest[static_cast<std::size_t>(i)]; }
   [[nodiscard]] double mass() const override { return data_.mass; }
@@ -85,6 +88,10 @@ class ModalBody : public ElasticBody {
   /// What a body has beside its shapes, added to forces and derivatives of [frame 0; amplitudes].
   virtual void add_nodes(const ElasticMotion& motion, bool want_tangent) { (void)motion, (void)want_tangent; }
   void add_load_energies(const ElasticMotion& motion, ElasticEnergy& energy);
+  /// Magnitude of what poses with round-off leave of the elastic forces.
+  [[nodiscard]] const Eigen::VectorXd& round_off() const { return round_off_; }
+  /// Of stiffness and damping on the amplitudes.
+  virtual void add_elasticity(bool want_tangent);
 
  private:
   /// A nodal load on the shapes, theory manual eq. (flexible-bodies.21).
@@ -99,7 +106,6 @@ class ModalBody : public ElasticBody {
   void add_inertia(const ElasticFrame& base);
   void differentiate_inertia(const ElasticFrame& base);
   void add_momentum_share(const ElasticFrame& base, double dt);
-  void add_elasticity(bool want_tangent);
   void add_loads(const ElasticMotion& motion, bool want_tangent);
   void project_load(const ProjectedLoad& load, const Pose& X_WB);
   void turn_load(const ProjectedLoad& load, double value, const Matrix3& Q);

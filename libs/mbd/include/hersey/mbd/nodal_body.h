@@ -33,9 +33,10 @@ enum class Strain {
 /// matrix m M + c D + k K factorised once per step size, in the body's axes. What spin adds to that matrix, 2 c omega~
 /// M and less, is left to iteration (theory manual eq. (flexible-bodies.15) to (flexible-bodies.20)).
 ///
-/// With Strain::finite, for a body of one frame, the elastic forces are those of Green and Lagrange's strain (St.
-/// Venant and Kirchhoff): strains may be moderate, rotations against the body's axes large, and what is pulled gets
-/// stiffer. The matrix is then that of the state each step starts from, factorised anew for each.
+/// With Strain::finite the elastic forces are those of Green and Lagrange's strain (St. Venant and Kirchhoff): strains
+/// may be moderate, rotations against the body's axes large, and what is pulled gets stiffer. The static shapes of a
+/// frame then keep its nodes a rigid piece, however far it turns (flexible-bodies.29). The matrix is that of
+/// the state each step starts from, factorised anew for each.
 ///
 /// At the start w is the static answer to the forces of inertia and weight of the start, at rest against the axes: as
 /// if the motion had gone on like this before. After `start_undeformed` it is zero and is let go there.
@@ -44,7 +45,7 @@ class NodalBody final : public ModalBody {
   /// @param body     the whole mesh
   /// @param reduced  of that mesh with the same frames and film modes; its vibrations serve to draw the body, not to
   ///                 move it
-  /// @pre one frame where `strain` is finite: further frames turn little against the first
+  /// @pre frames but the first are rigid where `strain` is finite
   /// @throws InputError  telling the memory needed where the factor does not fit
   NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping,
             Strain strain = Strain::small);
@@ -75,6 +76,7 @@ class NodalBody final : public ModalBody {
  protected:
   void gather(const ElasticMotion& motion, bool want_tangent) override;
   void add_nodes(const ElasticMotion& motion, bool want_tangent) override;
+  void add_elasticity(bool want_tangent) override;
 
  private:
   struct Fields;
@@ -91,7 +93,9 @@ class NodalBody final : public ModalBody {
   /// Integrals of rho X_r f_p of answers X and a field f: [r](column of X, p).
   using Moments = std::array<Eigen::MatrixX3d, 3>;
   [[nodiscard]] Eigen::VectorXd elastic_forces();
-  void refresh_stiffness(const solver::Stage& stage);
+  void refresh_stiffness();
+  void follow_frames(const solver::Stage& stage);
+  [[nodiscard]] Eigen::VectorXd frame_amplitudes();
   void condense(const ElasticMotion& motion);
   [[nodiscard]] Eigen::MatrixXd forces_of_answers(const NodalFactor& factor, const solver::Stage& stage,
                                                   const ElasticFrame& base, const Moments& by_y, const Moments& by_rate,
@@ -106,20 +110,26 @@ class NodalBody final : public ModalBody {
   Eigen::RowVectorXd nodal_mass_;  ///< sums of the rows of m
   Eigen::Index frame_shapes_ = 0;  ///< static shapes of the frames; those of films follow
   Eigen::MatrixXd Psi_size_;       ///< absolute values of Psi
+  Eigen::MatrixXd drawn_frames_;   ///< finite strains: static shapes of the frames, to draw with
   Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
   Eigen::VectorXd vibration_mass_;
   std::array<Eigen::MatrixXd, 3> m_Psi_;  ///< m times each component of Psi, (nodes, shapes)
-  Eigen::MatrixXd inertia_;               ///< columns E of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi
+  /// Columns E of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi; with finite strain K(u) Psi as well.
+  Eigen::MatrixXd columns_;
   std::vector<NodalLoad> loads_;
   solver::SecondOrderHistory w_;
   std::unique_ptr<NodalFactors> factors_;
   std::unique_ptr<Fields> fields_;
-  fem::FiniteStrain finite_;   ///< at the last displacement looked at
-  Eigen::VectorXd r_, sizes_;  ///< forces on the nodes that nothing balances, and sizes of the terms in them
+  fem::FiniteStrain finite_;             ///< at the last displacement looked at
+  Eigen::VectorXd elastic_;              ///< forces of the material there
+  Eigen::MatrixXd stiffness_of_shapes_;  ///< Psi^T K(u) Psi, of the state the matrix is of
+  Eigen::VectorXd followed_;             ///< amplitudes that the nodes at rest have followed
+  Eigen::VectorXd r_, sizes_;            ///< forces on the nodes that nothing balances, and sizes of the terms in them
   bool at_rest_ = true;
-  bool lets_go_ = false;    ///< the motion is still to start, from w = 0
-  bool is_let_go_ = false;  ///< what is evaluated is the instant of that start
-  bool is_stale_ = true;    ///< finite strains: the matrix is not of this step
+  bool lets_go_ = false;       ///< the motion is still to start, from w = 0
+  bool is_let_go_ = false;     ///< what is evaluated is the instant of that start
+  bool is_stale_ = true;       ///< finite strains: the matrix is not of this step, or serves it no longer
+  bool is_predicted_ = false;  ///< the step has just begun, with frames and nodes as they are predicted
   double internal_residual_ = 0;
   std::string trouble_;
 };

@@ -68,7 +68,7 @@ struct Flexible {
   std::shared_ptr<const fem::ReducedBody> reduced;  ///< read from a file, with its mesh; null: `mesh` is to be reduced
   std::vector<fem::SolidMaterial> materials;        ///< of the mesh's elements
   bool nodal = false;                               ///< a displacement of every node, not of shapes
-  mbd::Strain strain = mbd::Strain::small;          ///< finite: of nodal bodies of one frame
+  mbd::Strain strain = mbd::Strain::small;          ///< finite: of nodal bodies
   int modes = 10;                                   ///< with all frames held
   std::vector<std::string> load_surfaces;           ///< surfaces or sets of nodes
   double static_error = 0.01;                       ///< of their displacements
