@@ -24,7 +24,7 @@ MODEL = os.path.join(HERE, "../cli/bearing.yaml")
 ROD = os.path.join(HERE, "../../examples/meshes/conrod.msh")
 
 OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
-PATIENCE = 2  # s of CPU
+PATIENCE = 2  # s
 MEMORY = 2 << 30  # bytes of address space: far more than small models take, far less than the files ask for
 MATERIAL = ("--length-unit", "mm", "--youngs-modulus", "210 GPa", "--poisson-ratio", "0.3", "--density", "7850 kg/m^3")
 
@@ -345,6 +345,10 @@ class Hostile(unittest.TestCase):
             time.sleep(0.02)
         time.sleep(more)
 
+    def assert_in_time(self, seconds, stop):
+        """Two seconds; more where others want the same processors and disks."""
+        self.assertLess(seconds, PATIENCE if os.getloadavg()[0] < os.cpu_count() else 5 * PATIENCE, stop)
+
     def seconds_to_end(self, arguments, stop, ready):
         """How long the program takes to end after a signal, what it returns, and what it has said."""
         with subprocess.Popen([HERSEY, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -360,12 +364,12 @@ class Hostile(unittest.TestCase):
             return time.monotonic() - began, process.returncode, errors
 
     def test_signals_are_obeyed_while_a_run_starts(self):
-        # A film of 100,000 nodes: its start alone takes many seconds.
+        # A film of 400,000 nodes: its start alone takes many seconds.
         for stop in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             seconds, code, errors = self.seconds_to_end(
                 ["run", MODEL, "--output", self.path(stop.name), "--set",
-                 "bearings.main.grid={circumferential: 1000, axial: 101}"], stop, lambda: time.sleep(1.5))
-            self.assertLess(seconds, 3, stop)
+                 "bearings.main.grid={circumferential: 2000, axial: 201}"], stop, lambda: time.sleep(1.5))
+            self.assert_in_time(seconds, stop)
             self.assertIn(code, (INTERRUPTED, -stop), errors)
             self.assertEqual(glob.glob(self.path(stop.name, "*.h5")), [])
 
@@ -375,7 +379,7 @@ class Hostile(unittest.TestCase):
             results = os.path.join(out, "results.h5")
             seconds, code, errors = self.seconds_to_end(
                 ["run", MODEL, "--output", out, "--set", "duration=1000 s"], stop, lambda at=results: self.wait_for(at, 1))
-            self.assertLess(seconds, 3 if os.getloadavg()[0] < os.cpu_count() else 10, stop)  # disks of busy machines
+            self.assert_in_time(seconds, stop)
             self.assertEqual(code, INTERRUPTED, errors)
             self.assertTrue(os.path.exists(os.path.join(out, "results.checkpoint")), errors)
 
@@ -385,7 +389,7 @@ class Hostile(unittest.TestCase):
             seconds, code, errors = self.seconds_to_end(
                 ["reduce", mesh, *MATERIAL, "--frame", "foot=foot", "--modes", "300", "--output", self.path("b.h5")],
                 stop, lambda: time.sleep(2))
-            self.assertLess(seconds, 3, stop)
+            self.assert_in_time(seconds, stop)
             self.assertEqual(code, -stop, errors)
             self.assertFalse(os.path.exists(self.path("b.h5")))
 
@@ -400,7 +404,7 @@ class Hostile(unittest.TestCase):
                           ("drives:", "  hold: {type: fixed, between: [ground, block.foot]}\n\ndrives:"))
         seconds, code, errors = self.seconds_to_end(["run", path, "--output", self.path("out")], signal.SIGTERM,
                                                     lambda: time.sleep(4))
-        self.assertLess(seconds, 3)
+        self.assert_in_time(seconds, signal.SIGTERM)
         self.assertIn(code, (INTERRUPTED, -signal.SIGTERM), errors)
 
     def block(self, n):
