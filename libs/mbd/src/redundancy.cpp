@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
 #include <random>
-#include <set>
 #include <span>
 
 #include "hersey/solver/sparse_lu.h"
@@ -29,7 +30,9 @@ struct ReducedRow {
 class Echelon {
  public:
   explicit Echelon(Index columns)
-      : row_of_pivot_(static_cast<std::size_t>(columns), -1), work_(VectorXd::Zero(columns)) {}
+      : row_of_pivot_(static_cast<std::size_t>(columns), -1),
+        work_(VectorXd::Zero(columns)),
+        is_touched_(static_cast<std::size_t>(columns), 0) {}
 
   /// Takes row `i` of G if what earlier rows leave of it exceeds `threshold` of its largest entry, and `smallest`.
   bool take(const RowMatrix& G, Index i, double threshold, double smallest) {
@@ -39,26 +42,31 @@ class Echelon {
     if (size <= limit) return false;
     for (RowMatrix::InnerIterator entry(G, i); entry; ++entry) touch(static_cast<int>(entry.col()), entry.value());
     eliminate();
+    std::sort(touched_.begin(), touched_.end());  // of equal entries the first is the pivot
     int pivot = -1;
     for (int column : touched_)
       if (std::abs(work_[column]) > (pivot < 0 ? limit : std::abs(work_[pivot]))) pivot = column;
     if (pivot >= 0) keep(pivot);
     for (int column : touched_) work_[column] = 0;
+    for (int column : touched_) is_touched_[column] = 0;
     touched_.clear();
     return pivot >= 0;
   }
 
  private:
   void touch(int column, double value) {
-    if (touched_.insert(column).second && row_of_pivot_[column] >= 0) pending_.insert(row_of_pivot_[column]);
     work_[column] += value;
+    if (is_touched_[column] != 0) return;
+    is_touched_[column] = 1;
+    touched_.push_back(column);
+    if (row_of_pivot_[column] >= 0) pending_.push(row_of_pivot_[column]);
   }
 
   /// Earlier rows first: each has zeros in the pivots of those before it.
   void eliminate() {
     while (!pending_.empty()) {
-      const ReducedRow& row = rows_[*pending_.begin()];
-      pending_.erase(pending_.begin());
+      const ReducedRow& row = rows_[static_cast<std::size_t>(pending_.top())];
+      pending_.pop();
       const double factor = work_[row.pivot];
       if (factor == 0) continue;
       for (const auto& [column, value] : row.entries) touch(column, -factor * value);
@@ -77,8 +85,9 @@ class Echelon {
   std::vector<ReducedRow> rows_;
   std::vector<int> row_of_pivot_;  ///< -1: not a pivot
   VectorXd work_;
-  std::set<int> touched_;  ///< columns of the row at hand
-  std::set<int> pending_;  ///< reduced rows still to be subtracted
+  std::vector<int> touched_;  ///< columns of the row at hand
+  std::vector<char> is_touched_;
+  std::priority_queue<int, std::vector<int>, std::greater<>> pending_;  ///< reduced rows still to be subtracted
 };
 
 /// Closes the loops of a tree by themselves, drives apart.

@@ -86,15 +86,16 @@ FrameName frame_of(Context& context, const Value& reference) {
   const auto dot = reference.text.find('.');
   FrameName name{reference.text.substr(0, dot), "", reference.position};
   if (dot != std::string::npos) name.frame = reference.text.substr(dot + 1);
-  if (reference.broken || context.root.find("bodies") == nullptr) return name;
-  std::vector<std::string> bodies = names_in(context.root, "bodies");
-  if (std::find(bodies.begin(), bodies.end(), "ground") == bodies.end()) bodies.insert(bodies.begin(), "ground");
-  if (std::find(bodies.begin(), bodies.end(), name.body) == bodies.end()) {
+  const Value* given = context.root.find("bodies");
+  if (reference.broken || given == nullptr) return name;
+  const Value* body = given->find(name.body);
+  if (body == nullptr && name.body != "ground") {
+    std::vector<std::string> bodies = names_in(context.root, "bodies");
+    if (given->find("ground") == nullptr) bodies.insert(bodies.begin(), "ground");
     context.fault(reference, "unknown body '" + name.body + "'", one_of(bodies), did_you_mean(name.body, bodies));
     return name;
   }
   if (name.frame.empty()) return name;
-  const Value* body = context.root.find("bodies")->find(name.body);
   std::vector<std::string> frames = body != nullptr ? names_in(*body, "frames") : std::vector<std::string>{};
   for (const Body& read : context.model.bodies)  // a reduced body brings its frames along
     if (read.name == name.body && read.flexible && read.flexible->reduced) {

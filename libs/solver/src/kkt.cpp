@@ -133,6 +133,8 @@ class SparseKkt {
              lu_.reciprocal_condition() > 1e-11;
   }
 
+  [[nodiscard]] bool sound() const { return sound_; }
+
   /// Solves S x = b, refined; false where that leaves more than round-off.
   [[nodiscard]] bool solve(const VectorXd& b, VectorXd& x) const {
     if (!sound_) return false;
@@ -187,6 +189,29 @@ RankAnalysis analyse_rank(const MatrixXd& G) {
   return analysis;
 }
 
+namespace {
+
+/// [1, G^T; G, 0]: as singular as G's rows depend on each other.
+Equations::SparseMatrix bordered_identity(const Equations::SparseMatrix& G) {
+  const auto n = static_cast<int>(G.cols()), size = n + static_cast<int>(G.rows());
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(n + 2 * G.nonZeros()));
+  for (int k = 0; k < n; ++k) entries.emplace_back(k, k, 1.0);
+  for (int column = 0; column < n; ++column) {
+    for (Equations::SparseMatrix::InnerIterator entry(G, column); entry; ++entry) {
+      entries.emplace_back(n + static_cast<int>(entry.row()), column, entry.value());
+      entries.emplace_back(column, n + static_cast<int>(entry.row()), entry.value());
+    }
+  }
+  Equations::SparseMatrix S(size, size);
+  S.setFromTriplets(entries.begin(), entries.end());
+  return S;
+}
+
+}  // namespace
+
+// Elimination is linear in the size of a chain, where the QR decomposition takes its square: that is for what
+// elimination is not sure of.
 bool has_full_rank(const Equations::SparseMatrix& G) {
   if (G.rows() == 0) return true;
   if (G.rows() > G.cols()) return false;
@@ -195,6 +220,8 @@ bool has_full_rank(const Equations::SparseMatrix& G) {
     for (Equations::SparseMatrix::InnerIterator entry(G, column); entry; ++entry)
       norm[entry.row()] += entry.value() * entry.value();
   if (!(norm.minCoeff() > 0)) return false;
+  const Equations::SparseMatrix S = bordered_identity(G);
+  if (SparseKkt(S, G.cols()).sound()) return true;
   const VectorXd scale = norm.cwiseSqrt().cwiseInverse();
   Equations::SparseMatrix columns = Equations::SparseMatrix(scale.asDiagonal() * G).transpose();
   columns.makeCompressed();
@@ -206,6 +233,10 @@ bool has_full_rank(const Equations::SparseMatrix& G) {
 
 VectorXd smallest_increment(const Equations::SparseMatrix& G, const VectorXd& residual, const VectorXd& weight) {
   if (G.rows() == 0) return VectorXd::Zero(G.cols());
+  const Equations::SparseMatrix S = bordered_identity(G * weight.asDiagonal());
+  VectorXd x, b = VectorXd::Zero(S.rows());
+  b.tail(G.rows()) = -residual;
+  if (SparseKkt(S, G.cols()).solve(b, x)) return weight.cwiseProduct(x.head(G.cols()));
   // With (G W)^T = Q R P^T the smallest z with G W z = b is Q R^-T P^T b.
   Equations::SparseMatrix columns = Equations::SparseMatrix(G * weight.asDiagonal()).transpose();
   columns.makeCompressed();
