@@ -104,7 +104,9 @@ class Bearing:
     features: list = field(default_factory=list)
     profiles: list = field(default_factory=list)
     viscosity_law: tuple | None = None  # ("barus", alpha) or ("roelands", z)
-    is_compressible: bool = False
+    is_compressible: bool = False  # by Dowson and Higginson
+    bulk_modulus: float | None = None  # constant, in its place
+    is_closed: bool = False  # walls at both edges, whose pressure is then of no account
     roughness: dict | None = None
     asperities: dict | None = None
     column: tuple | None = None  # (modulus, length)
@@ -125,13 +127,15 @@ class Bearing:
                                            else {"law": "barus", "alpha": f"{number(value)} 1/Pa"})
         if self.is_compressible:
             entry["compressibility"] = "dowson_higginson"
+        if self.bulk_modulus:
+            entry["compressibility"] = {"law": "constant_bulk_modulus", "bulk_modulus": f"{number(1e-9 * self.bulk_modulus)} GPa"}
         return entry
 
     def text(self):
         entry = {"diameter": mm(2 * self.R), "width": mm(self.L), "radial_clearance": um(self.c), "lubricant": "oil",
                  "grid": {"circumferential": self.n_phi, "axial": self.n_z},
                  "cavitation": {"model": self.cavitation, "pressure": bar(self.p_cav)},
-                 "edge_pressure": {"left": bar(self.p_edge[0]), "right": bar(self.p_edge[1])}}
+                 "edge_pressure": "closed" if self.is_closed else {"left": bar(self.p_edge[0]), "right": bar(self.p_edge[1])}}
         if self.refine:
             entry["grid"]["refine"] = self.refine
         if any(self.ambient):
@@ -160,7 +164,7 @@ class Bearing:
 
     def asperities_text(self):
         a = self.asperities
-        return {"model": a["model"], "roughness": um(a["sigma"]), "elastic_factor": a["factor"],
+        return {"model": a["model"], "roughness": um(a["sigma"]), "mean_summit_height": um(a["summits"]), "elastic_factor": a["factor"],
                 "composite_modulus": f"{number(1e-9 * a['modulus'])} GPa", "friction": a["friction"]}
 
     # -- its gap by formula
@@ -359,6 +363,7 @@ def add_surfaces(rng, b):
         b.roughness = {"shell": (sigma, rng.choice([1.0, 3.0, 9.0, 0.2])), "journal": (0.6 * sigma, rng.choice([1.0, 4.0]))}
     if rng.random() < 0.25:
         b.asperities = {"model": rng.choice(["greenwood_tripp", "greenwood_tripp_fit"]), "sigma": sigma, "factor": 3e-3,
+                        "summits": rounded(rng.choice([0.0, rng.uniform(0, 2)]) * sigma),
                         "modulus": rounded(rng.uniform(50e9, 150e9)), "friction": 0.1}
     if rng.random() < 0.2:
         b.column = (rounded(log_uniform(rng, 3e9, 1e11)), rounded(rng.uniform(1e-3, 0.5 * b.R)))
@@ -384,12 +389,22 @@ def random_bearing(rng, grids, is_plain=False):
         if law:
             b.viscosity_law = (law, rounded(log_uniform(rng, 1e-9, 2e-8)) if law == "barus" else rounded(rng.uniform(0.3, 0.7)))
         b.is_compressible = rng.random() < 0.2
+        if not b.is_compressible and rng.random() < 0.2:
+            b.bulk_modulus = rounded(log_uniform(rng, 3e8, 3e9))
     if rng.random() < 0.9:
         share_one_pressure(b)
     feed_from_line(b)
+    close_edges(rng, b)
     if is_starved(b):
         b.supply = ("widest_gap", max(b.p_cav, 0) + 1e5)
     return b
+
+
+def close_edges(rng, b):
+    """Walls at the edges of some: oil is at p_cav there where nothing feeds it."""
+    b.is_closed = rng.random() < 0.1
+    if b.is_closed:
+        b.p_edge, b.ambient = (b.p_cav, b.p_cav), (0.0, 0.0)
 
 
 def feed_from_line(b):
@@ -417,7 +432,7 @@ def reservoirs_touch(b):
     """Whether places held at different pressures meet, where the flow from one to the other has no limit on finer grids."""
     # Land of less than half a cell is none to the grid: the program warns of it.
     least = b.L / (b.n_z - 1)
-    for edge, side in zip(b.p_edge, (-1, 1)):
+    for edge, side in zip(() if b.is_closed else b.p_edge, (-1, 1)):
         if b.supply and b.supply[1] != edge:
             return True
         if any(f.pressure not in (None, edge) and 2 * side * f.z + f.length > b.L - least for f in b.features):

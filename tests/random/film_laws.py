@@ -19,7 +19,21 @@ def viscosity(b, p):
 def density(b, p):
     """rho/rho0 (film.24)."""
     over = np.maximum(p - b.p_cav, 0)
+    if b.bulk_modulus:
+        return np.exp(over / b.bulk_modulus)
     return 1 + 0.6e-9 * over / (1 + 1.7e-9 * over) if b.is_compressible else 1 + 0 * p
+
+
+def compressibility(b):
+    """The largest rise of density per pressure [1/Pa]."""
+    return 1 / b.bulk_modulus if b.bulk_modulus else 0.6e-9 if b.is_compressible else 0.0
+
+
+def asperity_pressure(b, h):
+    """Of the fitted law (film.38), from the gap of the mean planes."""
+    a = b.asperities
+    below = np.maximum(4 - (h - a["summits"]) / a["sigma"], 0)
+    return a["factor"] * a["modulus"] * 4.4086e-5 * below**6.804
 
 
 def shear_shares(b, p, theta, fed):

@@ -356,8 +356,8 @@ def check_power(b, results, f, motion, name, found):
             continue  # elastic energy goes in and out, walls of a travelling pocket work
         lost = abs(w.mechanical + w.pumped - w.told - w.asperity - w.stored)
         allowed = w.error + w.stored_error + 2 * b.c / b.R * (abs(w.mechanical) + abs(w.pumped)) + 0.01 * abs(w.told)
-        if b.is_compressible:
-            allowed += 0.6e-9 * f.p[k].max() * (abs(w.told) + abs(w.pumped) + abs(w.mechanical))
+        if film_laws.compressibility(b):
+            allowed += film_laws.compressibility(b) * f.p[k].max() * (abs(w.told) + abs(w.pumped) + abs(w.mechanical))
         if lost > allowed and (worst is None or lost / allowed > worst[0]):
             worst = (lost / allowed, "power: bodies + pump = dissipated + stored", lost, allowed,
                      f"W: {name}, t = {f.time[k]:.6g} s: bodies {w.mechanical:.6g}, pump {w.pumped:.6g}, film {w.told:.6g}, "

@@ -66,15 +66,15 @@ class RandomModels(unittest.TestCase):
 class TheChecks(unittest.TestCase):
     """The checks see what they are made for: an answer altered by hand is found out."""
 
-    def answer(self):
+    def answer(self, radial_velocity=0.0, **changes):
         import tempfile
 
         import bearings
         import steady
         import steady_case
 
-        b = bearings.Bearing(0.025, 0.02, 40e-6, 0.015, 60, 13, p_edge=(1e5, 1e5))
-        case = steady.Steady(b, 300.0, position=(0.6, 0.3))
+        b = bearings.Bearing(0.025, 0.02, 40e-6, 0.015, 60, 13, **({"p_edge": (1e5, 1e5)} | changes))
+        case = steady.Steady(b, 300.0, position=(0.6, 0.3), radial_velocity=radial_velocity)
         with tempfile.TemporaryDirectory() as folder:
             ending, answer = steady_case.Runs(HERSEY, folder).solve(case, "model")
         self.assertEqual(ending.kind, "answer", ending.text)
@@ -104,6 +104,25 @@ class TheChecks(unittest.TestCase):
 
     def test_oil_from_nowhere_is_found(self):
         self.assert_found("oil", lambda a: a.values.update(flow_left=a["flow_left"] + 0.001 * abs(a["flow_left"]) + 1e-9))
+
+    def test_contact_of_another_roughness_is_found(self):
+        case, answer, steady = self.answer(asperities={"model": "greenwood_tripp_fit", "sigma": 5e-6, "summits": 5e-6,
+                                                       "factor": 3e-3, "modulus": 1e11, "friction": 0.1})
+        self.assertEqual(list(steady.check(case, answer)), [])
+        case.bearing.asperities["summits"] = 0.0
+        self.assertIn("asperities by formula", [name for name, _ in steady.check(case, answer)])
+
+    def test_oil_through_a_wall_is_found(self):
+        case, answer, steady = self.answer(is_closed=True, p_edge=(0.0, 0.0), supply=("widest_gap", 1e5))
+        self.assertEqual(list(steady.check(case, answer)), [])
+        answer.values.update(flow_left=1e-9)
+        self.assertIn("closed edges", [name for name, _ in steady.check(case, answer)])
+
+    def test_work_of_a_journal_that_squeezes_is_missed(self):
+        case, answer, steady = self.answer(radial_velocity=2e-3)
+        self.assertEqual(list(steady.check(case, answer)), [])
+        case.radial_velocity = 0.0
+        self.assertIn("power: turned + pumped = dissipated", [name for name, _ in steady.check(case, answer)])
 
     def test_a_gap_in_the_wrong_place_is_found(self):
         self.assert_found("gap by formula", lambda a: setattr(a, "h", a.h * 1.001))

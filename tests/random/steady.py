@@ -30,6 +30,7 @@ class Steady:
     position: tuple | None = None
     tilt: tuple = (0.0, 0.0)
     journal_angle: float = 0.0
+    radial_velocity: float = 0.0  # of the journal's centre in the direction of its position, outwards [m/s]
 
     def text(self, note=""):
         point = {"journal_speed": rpm(self.journal_speed)}
@@ -39,6 +40,8 @@ class Steady:
             point |= {"load": f"{number(self.load[0])} N", "load_angle": deg(self.load[1])}
         else:
             point |= {"eccentricity_ratio": self.position[0], "eccentricity_angle": deg(self.position[1])}
+        if self.radial_velocity:
+            point["radial_velocity"] = f"{number(1e3 * self.radial_velocity)} mm/s"
         if self.journal_angle:
             point["journal_angle"] = deg(self.journal_angle)
         if any(self.tilt):
@@ -109,6 +112,11 @@ def random_steady(rng):
         case.position = (ratio, angle)
         left = (room - ratio) * b.c
         size = 10 * unit * slender / max(1 - ratio / room, 0.02)
+        if ratio > 0 and rng.random() < 0.2:
+            case.radial_velocity = rounded(rng.uniform(-0.5, 0.5) * omega * b.c)
+            size *= 2
+            if rng.random() < 0.3:
+                case.journal_speed = case.shell_speed = 0.0
     else:
         sommerfeld = log_uniform(rng, 0.05, 8) * slender
         case.load = (rounded(max(sommerfeld * unit * 2 * b.R * b.L, 0.1)), angle)
@@ -182,6 +190,7 @@ def check(case, a):
     check_cavity(case, a, found)
     check_oil(case, a, found)
     check_load(case, a, found)
+    check_asperities(case, a, found)
     check_power(case, a, found)
     return found
 
@@ -278,7 +287,9 @@ def check_oil(case, a, found):
         if f.pressure is None:
             found.bound("flows add up", abs(a[f"flow_feature_{f.name}"]), 1e-12 * scale, f"m^3/s through {f.name}, not fed")
     moves = (case.journal_speed and b.varies_on("journal")) or (case.shell_speed and b.varies_on("shell"))
-    if b.cavitation != "reynolds" and not moves:
+    if b.is_closed:
+        found.bound("closed edges", abs(a["flow_left"]) + abs(a["flow_right"]), 1e-9 * scale, "m^3/s through walls")
+    if b.cavitation != "reynolds" and not moves and not case.radial_velocity:
         # the solver's tolerance, 1e-8 of the largest flow through a node's volume, may add up over a row
         out = a["flow_left"] + a["flow_right"]
         found.bound("oil", abs(a["flow_supply"] - out), 1e-6 * scale + 1e-8 * b.n_phi * b.R * b.c * abs(case.journal_speed) * b.L,
@@ -313,6 +324,18 @@ def check_load(case, a, found):
         found.bound("given position", abs(a["eccentricity_ratio"] - case.position[0]), 1e-9, "")
 
 
+def check_asperities(case, a, found):
+    """Contact pressure of the fitted law from the gap told, to the digits printed of both; land beside a pocket touches on its own."""
+    b = case.bearing
+    if not b.asperities or b.asperities["model"] != "greenwood_tripp_fit":
+        return
+    own = film_laws.asperity_pressure(b, a.h)
+    slope = 6.804 / np.maximum(4 - (a.h - b.asperities["summits"]) / b.asperities["sigma"], 1e-3) * a.h / b.asperities["sigma"]
+    off = np.abs(own - a.p_asperity) - DIGITS * (1 + slope) * np.maximum(own, a.p_asperity)
+    away = ~features_near(b, a, case.journal_angle, 0.5)
+    found.bound("asperities by formula", float(off[away].max(initial=0.0)), 1e-6 * max(float(own.max()), 1.0), "Pa")
+
+
 def check_power(case, a, found):
     """What turns the surfaces and what pumps the oil is what the film dissipates by own integrals."""
     b = case.bearing
@@ -329,14 +352,16 @@ def check_power(case, a, found):
     error = 1.5 * (couette.error + poiseuille.error) + 1e-3 * own + border_power(b, a, mu, slip) + bearings.corner_power(b, pumped)
     found.bound("power: film by own integral", abs(own - told), error, f"W: own {own:.6g}, told {told:.6g}")
     turned = -(case.journal_speed * a["torque_journal"] + case.shell_speed * a["torque_shell"])
+    # the film pushes the shell away from the journal, and this back
+    turned += case.radial_velocity * a["load"] * math.cos(a["load_angle"] - a["eccentricity_angle"])
     if (case.journal_speed and b.varies_on("journal")) or (case.shell_speed and b.varies_on("shell")):
         return  # one moment of a turn: the gap's own motion does work, too
     asperity = a["power_asperity"]
     found.require("power: asperities", asperity >= 0, f"boundary friction of {asperity:.6g} W")
     # c/R: the film's curvature; the rise of density does work of its own
     grid = error + 2 * b.c / b.R * (abs(turned) + abs(pumped)) + 0.01 * abs(told)
-    if b.is_compressible:
-        grid += 0.6e-9 * a["p_max"] * (abs(told) + abs(pumped))
+    if film_laws.compressibility(b):
+        grid += film_laws.compressibility(b) * a["p_max"] * (abs(told) + abs(pumped))
     found.bound("power: turned + pumped = dissipated", abs(turned + pumped - told - asperity), grid,
                 f"W: turned {turned:.6g}, pumped {pumped:.6g}, film {told:.6g}, asperities {asperity:.6g}")
 

@@ -67,7 +67,7 @@ def examine(program, rng, folder):
         if len(found) > before:
             failed |= {"model", label}
     if refine(case, answer, runs, found):
-        failed |= {"model", "fine", "finest"}
+        failed |= {"model", "fine", "finest", "last"}
     return "answer", "", list(found), {k: v for k, v in runs.models.items() if k in failed}
 
 
@@ -95,7 +95,7 @@ def refine(case, coarse, runs, found):
     """Load and flow converge: from grid to twice as fine grid the difference falls, or is small already.
 
     First order is what a border within a cell leaves; two grids may see a border differently, hence a share of the figure
-    itself on top.
+    itself on top. Where the first three grids are too coarse to tell, the last three of four decide.
     """
     if case.load or case.bearing.refine:
         return False
@@ -103,6 +103,16 @@ def refine(case, coarse, runs, found):
     _, finest = runs.solve(case.on_grid(4), "finest") if fine else (None, None)
     if not finest:
         return False
+    bad = not_converging(case, coarse, fine, finest)
+    if bad:
+        _, last = runs.solve(case.on_grid(8), "last")
+        bad = bad if last is None else not_converging(case, fine, finest, last)
+    found.require("refinement", not bad, "; ".join(bad))
+    return bool(bad)
+
+
+def not_converging(case, coarse, fine, finest):
+    """Figures whose differences between three grids do not fall."""
     b, bad = case.bearing, []
     # a bearing's own flow and load, where those at hand are nothing
     flow = 0.02 * abs(case.journal_speed) * b.R * b.c * b.L
@@ -120,5 +130,4 @@ def refine(case, coarse, runs, found):
         first, second = abs(values[1] - values[0]), abs(values[2] - values[1])
         if second > max(0.75 * first, 0.05 * abs(values[2])) + floor:
             bad.append(f"{key} {values[0]:.6g}, {values[1]:.6g}, {values[2]:.6g}")
-    found.require("refinement", not bad, "; ".join(bad))
-    return bool(bad)
+    return bad
