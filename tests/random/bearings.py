@@ -178,12 +178,12 @@ class Bearing:
         return gap
 
     def oil_gap(self, h, land, phi, z, turn=0.0):
-        """The gap whose oil counts as the film's: what fills the depth of a fed feature is the supply's."""
-        fed = np.zeros(h.shape, bool)
+        """The gap whose oil counts as the film's: what fills the depth of a fed feature is the supply's, a pocket's under it is not."""
+        gap = h
         for f in self.features:
             if f.pressure is not None and f.depth > 0:
-                fed |= f.covers(phi, z, turn)
-        return np.where(fed, land, h)
+                gap = gap - f.depth * f.covers(phi, z, turn)
+        return np.maximum(gap, land)
 
     def is_fed(self, phi, z, turn):
         """Whether points lie in features that are fed."""

@@ -7,7 +7,7 @@
 
 namespace hersey::film {
 
-// Each law gives ln(mu/mu0) and its slope [1/Pa] at a pressure p above the cavitation pressure [Pa]; the film takes its
+// Each law gives ln(mu/mu0) and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa]; the film takes its
 // exponential. A new law is a struct like these and its name in ViscosityLaw.
 
 /// mu = mu0.
@@ -22,8 +22,7 @@ struct Barus {
   [[nodiscard]] ValueAndSlope log_ratio(double p, double /*mu0*/) const { return {alpha * p, alpha}; }
 };
 
-/// ln mu + 9.67 = (ln mu0 + 9.67) (1 + p/196.2 MPa)^z, mu in Pa s. Where p < 0 (guembel only) it goes on along its
-/// tangent.
+/// ln mu + 9.67 = (ln mu0 + 9.67) (1 + p/196.2 MPa)^z, mu in Pa s.
 /// @see Roelands (1966), Correlational Aspects of the Viscosity-Temperature-Pressure Relationship of Lubricating Oils.
 struct Roelands {
   double z = 0;  ///< pressure-viscosity index [-], >= 0
@@ -33,7 +32,6 @@ struct Roelands {
 
   [[nodiscard]] ValueAndSlope log_ratio(double p, double mu0) const {
     const double size = std::log(mu0 / smallest_viscosity), slope = size * z / pole_pressure;
-    if (p <= 0) return {slope * p, slope};
     const double power = std::pow(1 + p / pole_pressure, z);
     return {size * (power - 1), slope * power / (1 + p / pole_pressure)};
   }
