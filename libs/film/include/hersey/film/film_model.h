@@ -20,8 +20,8 @@ struct Lubricant {
   DensityLaw density_law = {};  ///< rho(p)/rho0
 };
 
-/// ln(mu/mu0) and its slope [1/Pa] at a pressure above the cavitation pressure, saturated where no oil is meant; tension,
-/// which guembel cuts off, does not thin the oil.
+/// ln(mu/mu0) and its slope [1/Pa] at a pressure above the cavitation pressure, saturated where no oil is meant;
+/// tension, which guembel cuts off, does not thin the oil.
 [[nodiscard]] inline ValueAndSlope log_viscosity_ratio(const Lubricant& oil, double p) {
   if (p < 0) return {};
   return saturated(std::visit([&](const auto& law) { return law.log_ratio(p, oil.mu0); }, oil.viscosity_law));

@@ -40,9 +40,9 @@ struct BuiltFlexible {
   std::string name;
   std::shared_ptr<mbd::ModalBody> body;
   std::shared_ptr<const fem::Mesh> mesh;
-  Eigen::MatrixXd shapes;                       ///< displacements of the nodes per amplitude, shape (3 nodes, shapes)
-  std::vector<double> frequencies;              ///< with all frames held [Hz]
-  std::vector<fem::SolidMaterial> materials;    ///< of the mesh's elements; none: unknown
+  Eigen::MatrixXd shapes;                     ///< displacements of the nodes per amplitude, shape (3 nodes, shapes)
+  std::vector<double> frequencies;            ///< with all frames held [Hz]
+  std::vector<fem::SolidMaterial> materials;  ///< of the mesh's elements; none: unknown
   mbd::Strain strain = mbd::Strain::small;
   std::vector<fem::StaticError> static_errors;  ///< of the surfaces that carry load
   mbd::ElasticId elastic;
