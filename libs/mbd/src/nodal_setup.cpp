@@ -52,10 +52,12 @@ ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& 
       }
     }
   }
-  const fem::FrameSupports supports = supports_of(body, reduced);
-  fem::HeldStiffness held(body.K, body.m, supports.held, supports.C);
-  HERSEY_REQUIRE(held.factorise().ok(), "a reduction has held it");
-  if (further > 0) Psi -= held.solve(MatrixXd(body.K * Psi));
+  if (further > 0) {
+    const fem::FrameSupports supports = supports_of(body, reduced);
+    fem::HeldStiffness held(body.K, body.m, supports.held, supports.C);
+    HERSEY_REQUIRE(held.factorise().ok(), "a reduction has held it");
+    Psi -= held.solve(MatrixXd(body.K * Psi));
+  }
   Psi.rightCols(films) = data.displacements.rightCols(films);
   const Eigen::Matrix3Xd x = data.nodes;
   set_moments(data, reduced.m, x, Psi);
