@@ -30,6 +30,15 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(hersey_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread
                                                   -Wno-restrict)
 endif()
+# For whoever builds once: several sources at a time are compiled as one, in half the time. A changed source takes its
+# neighbours along, so that who works on the code builds one by one.
+if(HERSEY_UNITY)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(hersey_options INTERFACE -Wno-subobject-linkage)  # what is in no header has one user still
+  endif()
+endif()
 if(HERSEY_WERROR)
   target_compile_options(hersey_options INTERFACE -Werror)
 endif()

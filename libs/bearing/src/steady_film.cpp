@@ -23,7 +23,7 @@ constexpr double kSmallestShare = 1e-6;
 
 // Iterations on film and deformation together without getting nearer by half, after which they are taken in turn, and
 // iterations of either at most.
-constexpr int kPatience = 8, kMostIterations = 40;
+constexpr int kFilmPatience = 8, kMostIterations = 40;
 
 // Residual of a film from which on it is found anew at the deformation of the step.
 constexpr double kFarFilm = 0.1;
@@ -188,7 +188,7 @@ film::FilmSolveSummary SteadyFilm::solve(const Eigen::Vector2d& e, VectorXd& x) 
 film::FilmSolveSummary SteadyFilm::solve_together(const Eigen::Vector2d& e, VectorXd& x) {
   film::FilmSolveSummary summary;
   double best = std::numeric_limits<double>::infinity();
-  for (int k = 0, idle = 0; k < kMostIterations && idle < kPatience; ++k) {
+  for (int k = 0, idle = 0; k < kMostIterations && idle < kFilmPatience; ++k) {
     const int linearisations = linearise_near(e, x);
     if (linearisations == 0) return summary;
     summary.iterations += linearisations;

@@ -21,7 +21,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 struct UnitDeleter {
   void operator()(ut_unit* unit) const { ut_free(unit); }
@@ -115,13 +115,14 @@ std::string name_of(const UnitSystem& system, const ut_unit* unit, const std::st
 /// A unit as a factor: known, and zero where its quantity is.
 Unit factor_unit(const UnitSystem& system, const std::string& text) {
   Unit unit = text.empty() ? system.parse("1") : system.parse_written(text);
-  if (!unit) throw QuantityError("unknown unit " + quoted(text), "a unit such as mm or N/mm^2");
+  if (!unit) throw QuantityError("unknown unit " + in_quotes(text), "a unit such as mm or N/mm^2");
   std::array<char, 256> buffer{};
   const int length = ut_format(unit.get(), buffer.data(), buffer.size(), UT_ASCII | UT_DEFINITION);
   const bool is_plain =
       length >= 0 && length < static_cast<int>(buffer.size()) &&
       std::string_view(buffer.data(), static_cast<std::size_t>(length)).find_first_of("@(") == std::string_view::npos;
-  if (!is_plain) throw QuantityError(quoted(text) + " in arithmetic", "a unit whose zero is zero, such as K for degC");
+  if (!is_plain)
+    throw QuantityError(in_quotes(text) + " in arithmetic", "a unit whose zero is zero, such as K for degC");
   return unit;
 }
 
@@ -156,14 +157,14 @@ bool take_number(std::string_view& text, double& number) {
 }
 
 void require_finite(double number, std::string_view text) {
-  if (!std::isfinite(number)) throw QuantityError(quoted(text), "a finite number");
+  if (!std::isfinite(number)) throw QuantityError(in_quotes(text), "a finite number");
 }
 
 void reject_decimal_comma(std::string_view unit, std::string_view text) {
   if (!unit.starts_with(',')) return;
   std::string remedy(text);
   remedy[remedy.find(',')] = '.';
-  throw QuantityError(quoted(text), "a decimal point", "write " + remedy);
+  throw QuantityError(in_quotes(text), "a decimal point", "write " + remedy);
 }
 
 /// Takes the words of a unit off the front of `text`, up to the next number.
@@ -188,13 +189,13 @@ std::vector<Quantity> split_quantities(std::string_view given, int count, const 
   std::vector<Quantity> parts;
   for (std::string_view rest = text; !rest.empty();) {
     Quantity part;
-    if (!take_number(rest, part.number)) throw QuantityError(quoted(text), expected);
+    if (!take_number(rest, part.number)) throw QuantityError(in_quotes(text), expected);
     require_finite(part.number, text);
     part.unit = take_unit(rest);
     reject_decimal_comma(part.unit, text);
     parts.push_back(std::move(part));
   }
-  if (static_cast<int>(parts.size()) != count) throw QuantityError(quoted(text), expected);
+  if (static_cast<int>(parts.size()) != count) throw QuantityError(in_quotes(text), expected);
   for (std::size_t i = parts.size() - 1; i > 0; --i) {
     if (parts[i - 1].unit.empty()) parts[i - 1].unit = parts[i].unit;
   }
@@ -266,7 +267,7 @@ double convert_to_si(const Quantity& quantity, std::string_view si_unit) {
   const UnitSystem& system = UnitSystem::instance();
   const Unit given = system.parse_written(quantity.unit);
   if (!given) {
-    throw QuantityError("unknown unit " + quoted(quantity.unit), expectation(wanted),
+    throw QuantityError("unknown unit " + in_quotes(quantity.unit), expectation(wanted),
                         did_you_mean(quantity.unit, wanted.spelled));
   }
   const Unit target = system.parse(wanted.si_unit);
@@ -296,8 +297,8 @@ double convert(const Quantity& quantity, const std::string& unit) {
   const UnitSystem& system = UnitSystem::instance();
   const Unit from = quantity.unit.empty() ? system.parse("1") : system.parse_written(quantity.unit);
   const Unit to = unit.empty() ? system.parse("1") : system.parse_written(unit);
-  if (!from) throw QuantityError("unknown unit " + quoted(quantity.unit), "a unit like " + unit);
-  if (!to) throw QuantityError("unknown unit " + quoted(unit), "a unit like " + quantity.unit);
+  if (!from) throw QuantityError("unknown unit " + in_quotes(quantity.unit), "a unit like " + unit);
+  if (!to) throw QuantityError("unknown unit " + in_quotes(unit), "a unit like " + quantity.unit);
   const bool zero = quantity.number == 0 && quantity.unit.empty();
   if (zero) return 0;
   if (!measure_the_same(from.get(), to.get())) {

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "film_quadrature.h"
+#include "hersey/core/turn.h"
 
 namespace hersey::fem {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 constexpr int around = 144, along = 24;  // points looked at
 
 double phi_at(int i) { return (i + 0.5) * turn / around; }

@@ -15,12 +15,12 @@
 namespace hersey::fem {
 namespace {
 
-constexpr double kTouching = 1e-6;       // of the box's diagonal
-constexpr double kFlat = 0.02;           // shape below which a solver loses figures
-constexpr double kLargeBody = 10;        // [m]
-constexpr double kSmallBody = 1e-4;      // [m]
-constexpr double kHeavyBody = 1000;      // [kg]
-constexpr std::size_t kMostLabels = 10;  // told in one message
+constexpr double kTouching = 1e-6;           // of the box's diagonal
+constexpr double kFlat = 0.02;               // shape below which a solver loses figures
+constexpr double kLargeBody = 10;            // [m]
+constexpr double kSmallBody = 1e-4;          // [m]
+constexpr double kHeavyBody = 1000;          // [kg]
+constexpr std::size_t kMostLabelsTold = 10;  // told in one message
 
 /// Corners of a shape, and of each corner its three neighbours in right-handed order.
 using Corners = std::vector<std::array<int, 4>>;
@@ -208,14 +208,14 @@ void find_parts(const Mesh& mesh, MeshQuality& quality) {
 }
 
 std::string listed(const std::vector<long>& labels) {
-  const std::size_t told = std::min(labels.size(), kMostLabels);
+  const std::size_t told = std::min(labels.size(), kMostLabelsTold);
   return fmt::format("{}{}", fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(told), ", "),
                      told < labels.size() ? fmt::format(", ... ({} in all)", labels.size()) : "");
 }
 
 std::string listed(const std::vector<std::pair<long, long>>& pairs) {
   std::vector<std::string> texts;
-  for (std::size_t k = 0; k < std::min(pairs.size(), kMostLabels); ++k)
+  for (std::size_t k = 0; k < std::min(pairs.size(), kMostLabelsTold); ++k)
     texts.push_back(fmt::format("{} and {}", pairs[k].first, pairs[k].second));
   return fmt::format("{}{}", fmt::join(texts, ", "),
                      texts.size() < pairs.size() ? fmt::format(", ... ({} in all)", pairs.size()) : "");
@@ -268,7 +268,7 @@ std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file
                            "each element once", "delete the repeated ones: they count twice in stiffness and mass"));
   if (quality.parts.size() > 1) {
     std::vector<std::string> parts;
-    for (std::size_t k = 0; k < std::min(quality.parts.size(), kMostLabels); ++k)
+    for (std::size_t k = 0; k < std::min(quality.parts.size(), kMostLabelsTold); ++k)
       parts.push_back(fmt::format("{} {} (one is {})", quality.parts[k].second,
                                   quality.parts[k].second == 1 ? "element" : "elements", quality.parts[k].first));
     faults.push_back(fault(file,

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "cylinder_point.h"
 #include "film_quadrature.h"
+#include "hersey/core/turn.h"
 
 namespace hersey::fem {
 namespace {
 
 using Eigen::Index;
-
-constexpr double turn = 2 * std::numbers::pi;
 
 Index column_of(double phi) {
   const auto i = static_cast<Index>(std::floor(phi / turn * SurfaceRadii::around));

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "hersey/core/turn.h"
 
 namespace hersey::film {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// The unknowns of the row nearest to mid-width.
 class MiddleRow {

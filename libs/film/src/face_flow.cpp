@@ -8,7 +8,7 @@ namespace hersey::film {
 namespace {
 
 // As for the control volumes: interpolation leaves a face at least this share of the gap at its nodes.
-constexpr double least_share = 0.25;
+constexpr double least_face_share = 0.25;
 
 }  // namespace
 
@@ -24,14 +24,14 @@ Carried FaceFlow::carried(double theta) const {
 bool FlowBalance::is_limited(std::size_t f) const {
   if (axial(f)) return false;
   const Face& face = faces_[f];
-  return bends_[static_cast<Eigen::Index>(f)] < (least_share - 1) * 0.5 * (nodes_[face.a].h + nodes_[face.b].h);
+  return bends_[static_cast<Eigen::Index>(f)] < (least_face_share - 1) * 0.5 * (nodes_[face.a].h + nodes_[face.b].h);
 }
 
 double FlowBalance::thickness_on(std::size_t f) const {
   const Face& face = faces_[f];
   const double mean = 0.5 * (nodes_[face.a].h + nodes_[face.b].h);
   if (axial(f)) return mean;
-  return is_limited(f) ? least_share * mean : mean + bends_[static_cast<Eigen::Index>(f)];
+  return is_limited(f) ? least_face_share * mean : mean + bends_[static_cast<Eigen::Index>(f)];
 }
 
 FlowBalance::FaceGap FlowBalance::smooth_gap(std::size_t f, double h) const {
@@ -95,7 +95,7 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) 
 }
 
 std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
-  if (is_limited(f)) return {0.5 * least_share, 0};
+  if (is_limited(f)) return {0.5 * least_face_share, 0};
   return {0.5, axial(f) ? 0.0 : 1.0};
 }
 

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "hersey/core/turn.h"
 
 namespace hersey::film {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// A share of a cell and its derivative with the feature's angle.
 struct Share {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hersey/core/turn.h"
+
 namespace hersey::film {
 namespace {
 
@@ -190,7 +192,6 @@ FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap* rough, 
 // u_b < 0 over a distance l acts on its positive part, the triangle u_a t l/2 with t = u_a/(u_a - u_b).
 void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
   const Grid& grid = model_.grid;
-  constexpr double turn = 2 * std::numbers::pi;
   for (int i = 0; i < grid.n_phi; ++i) {
     const int next = (i + 1) % grid.n_phi;
     const double length = model_.R * std::fmod(grid.phi(next) - grid.phi(i) + turn, turn);

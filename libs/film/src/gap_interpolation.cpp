@@ -1,12 +1,11 @@
 #include "gap_interpolation.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "hersey/core/turn.h"
 
 namespace hersey::film {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// Weights by which four nodal values give the value at angle 0, exact for 1, cos, sin and sin of twice the angle.
 std::array<double, 4> weights_at_face(const std::array<double, 4>& angle) {

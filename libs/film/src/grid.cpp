@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
+#include "hersey/core/turn.h"
 
 namespace hersey::film {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 // Points of the table by which a density is integrated, per node: the places of nodes are then exact to 1e-4 of a cell.
 constexpr int points_per_node = 32;

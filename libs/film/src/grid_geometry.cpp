@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "hersey/core/contract.h"
+#include "hersey/core/turn.h"
 
 namespace hersey::film {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// Integrals over [b, c] of the three parabolas through values at 0, b, c that are 1 at one of them, per length.
 Eigen::Vector3d over_second_interval(double before, double length) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "cavity.h"
 #include "film_power.h"
 #include "film_wrench.h"
 #include "flow_balance.h"
 #include "hersey/core/contract.h"
+#include "hersey/core/turn.h"
 #include "thinnest_film.h"
 
 namespace hersey::film {
@@ -66,7 +66,7 @@ class PeakFinder {
     const Vertex along = around(i, [&](int k) { return at(k, j); });
     const bool inside = j > 0 && j < grid_.n_z - 1;
     const Vertex across = inside ? vertex(at(i, j - 1), at(i, j), at(i, j + 1), at_.dz[j - 1], at_.dz[j]) : Vertex{};
-    const double turn = 2 * std::numbers::pi, phi = std::fmod(at_.phi[i] + along.offset / R_ + turn, turn);
+    const double phi = std::fmod(at_.phi[i] + along.offset / R_ + turn, turn);
     return {at(i, j) + along.rise + across.rise, phi, at_.z[j] + across.offset};
   }
 
@@ -89,7 +89,6 @@ Peak largest_pressure_of(const FlowBalance& balance, const Eigen::VectorXd& p, d
   const Peak peak =
       PeakFinder(model, balance.geometry()).largest(p, [&](int a, int b) { return is_smooth(balance, a, b); });
   if (model.supply.kind == SupplyKind::none || model.supply.pressure <= peak.value) return peak;
-  const double turn = 2 * std::numbers::pi;
   return {model.supply.pressure, phi_supply - turn * std::floor(phi_supply / turn), 0};
 }
 

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "hersey/core/turn.h"
 
 namespace hersey::film {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 // Gauss' rule with four points on [-1, 1]: Abramowitz and Stegun (1964), table 25.4. Two of them in a row, as where the
 // shares of control volumes are counted (feature_cover.cpp), so that a pocket that turns keeps its volume.

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
+#include "hersey/core/turn.h"
+
 namespace hersey::film {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 // Places along each side of a feature's border.
 constexpr int border_places = 64;

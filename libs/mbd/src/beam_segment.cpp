@@ -3,15 +3,14 @@
 #include <algorithm>
 
 #include "hersey/core/contract.h"
+#include "momentum_share.h"
 
 namespace hersey::mbd {
 namespace {
 
 using fem::BeamVector;
 
-// As in modal_body.cpp: shares of the force that stops the body within the step, and of that of a deformation as large
-// as the body, which count as magnitudes.
-constexpr double kMomentumShare = 1e-4;
+// As in modal_body.cpp: the share of the force of a deformation as large as the body that counts as a magnitude.
 constexpr double kStiffnessShare = 1e-6;
 
 /// What moves of one frame: acceleration of its origin with gravity taken off, in its axes.

@@ -1,11 +1,8 @@
 #include "assembly.h"
+#include "momentum_share.h"
 
 namespace hersey::mbd {
 namespace {
-
-// Share of the force that would stop a body within the step, counted as a magnitude its rows balance: a relative
-// tolerance of 1e-8 then asks for velocities to 1e-12, which double precision can still deliver.
-constexpr double kMomentumShare = 1e-4;
 
 /// The matrix of D -> D x* h for a momentum h = [n; p].
 Matrix6 momentum_cross(const Vector6& h) {

@@ -7,6 +7,7 @@
 
 #include "hersey/core/contract.h"
 #include "modal_workspace.h"
+#include "momentum_share.h"
 
 namespace hersey::mbd {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// As in inertia.cpp: the share of the force that would stop a body within the step.
-constexpr double kMomentumShare = 1e-4;
 
 // The share of the force of a deformation as large as the body, counted as a magnitude too: loops that the body closes
 // give its deformation as a difference of poses, with their round-off of 1e-15.

@@ -5,6 +5,7 @@
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
 #include "modal_workspace.h"
+#include "momentum_share.h"
 #include "nodal_factors.h"
 #include "nodal_fields.h"
 #include "nodal_setup.h"
@@ -21,9 +22,6 @@ constexpr int kSolves = 2;           // most solutions per evaluation
 constexpr int kSolvesAtRest = 30;    // the same of a body of finite strain in statics
 constexpr double kBalanced = 1e-12;  // of the forces on the nodes: no further solution
 constexpr double kServes = 1e-4;     // the same: the matrix of a body of finite strain serves for this step
-
-// As in inertia.cpp: the share of the force that would stop a body within the step.
-constexpr double kMomentumShare = 1e-4;
 
 // The share of the forces on all nodes, taken as positive, that counts as a magnitude of their sums: balances of frames
 // that see little of these forces still have their round-off.

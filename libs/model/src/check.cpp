@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "hersey/core/contract.h"
 #include "hersey/core/quantity_formula.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
@@ -425,12 +426,24 @@ class Checker {
   std::map<std::string, SourcePosition>& positions_;
 };
 
+/// Whether the format has such a key, or leaves the names free.
+bool may_have(const Type* type, const std::string& key) {
+  if (type == nullptr || (type->kind != Kind::object && type->kind != Kind::variant)) return true;
+  const std::vector<const Key*> keys = all_keys(*type);
+  return std::any_of(keys.begin(), keys.end(), [&](const Key* one) { return one->name == key; });
+}
+
 }  // namespace
+
+bool Value::has(const std::string& key) const {
+  return std::any_of(members.begin(), members.end(), [&](const Member& member) { return member.key == key; });
+}
 
 const Value* Value::find(const std::string& key) const {
   for (const auto& [name, value] : members) {
     if (name == key) return &value;
   }
+  HERSEY_REQUIRE(may_have(type, key), "the format knows no key '" + key + "' of " + path);
   return nullptr;
 }
 

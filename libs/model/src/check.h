@@ -30,7 +30,11 @@ struct Value {
   std::vector<Member> members;  ///< object, named, variant by key; list by index
 
   /// The value of `key`, given or default; null if it has neither or is missing.
+  /// @pre the format has this key here, so that no misspelt one reads as absent
   [[nodiscard]] const Value* find(const std::string& key) const;
+
+  /// Whether there is such a member; of mappings that are told apart by their keys.
+  [[nodiscard]] bool has(const std::string& key) const;
 };
 
 /// One `key: value`, or an item of a list with its index.

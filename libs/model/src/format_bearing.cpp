@@ -1,4 +1,6 @@
+#include "film_vocabulary.h"
 #include "format.h"
+#include "oil_laws.h"
 
 namespace hersey::model {
 namespace {
@@ -14,12 +16,7 @@ TypePtr cavitation_format() {
   const auto pressure_key = defaulted("pressure", pressure(), "0 Pa",
                                       "Pressure in the cavitated film, on the scale of all other pressures of the "
                                       "bearing (gauge or absolute).");
-  return variant("a cavitation model", "model", {pressure_key},
-                 {
-                     {"mass_conserving", "pressure or fill fraction at every place (Jakobsson, Floberg, Olsson)", {}},
-                     {"reynolds", "zero pressure gradient at rupture; oil is lost where the film forms again", {}},
-                     {"guembel", "full film, negative pressures left out of the forces (half Sommerfeld)", {}},
-                 });
+  return variant("a cavitation model", "model", {pressure_key}, variants_of(cavitation_words));
 }
 
 TypePtr asperities_format() {
@@ -34,13 +31,10 @@ TypePtr asperities_format() {
       composite_modulus_key(),
       defaulted("friction", number("0.1", Range::not_negative()), "0.1", "Coefficient of boundary friction."),
   };
-  return variant(
-      "an asperity model", "model", {},
-      {
-          {"none", "smooth surfaces", {}},
-          {"greenwood_tripp_fit", "Greenwood and Tripp (1971), F = 4.4086e-5 (4 - (h - delta)/sigma)^6.804", keys},
-          {"greenwood_tripp", "the same with the exact integral F_5/2", keys},
-      });
+  std::vector<Variant> models = variants_of(asperity_words);
+  for (Variant& model : models)
+    if (model.tag != "none") model.keys = keys;
+  return variant("an asperity model", "model", {}, std::move(models));
 }
 
 TypePtr roughness_format() {
@@ -52,16 +46,12 @@ TypePtr roughness_format() {
                     "Peklenik's ratio: how much longer its features are around the bearing than along it. Ridges "
                     "around, as from turning: 9; along the axis: 0.11; no direction: 1."),
       });
-  return object(
-      "the roughness of both surfaces",
-      {
-          optional("shell", surface, "The bore.", "smooth"),
-          optional("journal", surface, "The journal.", "smooth"),
-          defaulted("flow_factors",
-                    choice({{"patir_cheng", "it changes flow and shear of the oil (Patir and Cheng 1978, 1979)"},
-                            {"none", "it matters to contact only"}}),
-                    "patir_cheng", "What it does to the oil."),
-      });
+  return object("the roughness of both surfaces",
+                {
+                    optional("shell", surface, "The bore.", "smooth"),
+                    optional("journal", surface, "The journal.", "smooth"),
+                    defaulted("flow_factors", choice(flow_factor_words), "patir_cheng", "What it does to the oil."),
+                });
 }
 
 TypePtr compliance_format() {
@@ -102,11 +92,8 @@ TypePtr coupling_format() {
           {"partitioned",
            "bodies and film in turn, exchanging force and motion until both agree",
            {
-               defaulted("acceleration",
-                         choice({{"quasi_newton", "the interface's Jacobian is learnt from the steps taken (IQN-ILS)"},
-                                 {"aitken", "the share taken follows the last two corrections"},
-                                 {"constant", "the same share of every correction"}}),
-                         "quasi_newton", "How the exchanged force is corrected."),
+               defaulted("acceleration", choice(acceleration_words), "quasi_newton",
+                         "How the exchanged force is corrected."),
                defaulted("relaxation", number("0.1", {.low = 0, .high = 1, .low_open = true}), "0.1",
                          "Share of the first correction of the force that is taken."),
                defaulted("max_iterations", integer(50, {.low = 1, .high = 10000}), "50", "Exchanges per step."),
@@ -142,31 +129,10 @@ TypePtr operating_point_format() {
 TypePtr pressure_viscosity_format() {
   const TypePtr alpha = quantity("1/Pa", "1.28e-10 1/Pa", Range::not_negative());
   return any_of("a coefficient such as 1.28e-10 1/Pa, or {law, ...}",
-                {alpha, variant("a pressure-viscosity law", "law", {},
-                                {
-                                    {"barus", "mu = mu0 exp(alpha p)", {required("alpha", alpha, "Its coefficient.")}},
-                                    {"roelands",
-                                     "ln mu + 9.67 = (ln mu0 + 9.67) (1 + p/196.2 MPa)^z with mu in Pa.s",
-                                     {required("z", number("0.6", {.low = 0, .high = 2}),
-                                               "Pressure-viscosity index; mineral oils: 0.5 to 0.7.")}},
-                                })});
+                {alpha, variant("a pressure-viscosity law", "law", {}, variants_of(viscosity_laws()))});
 }
 
-TypePtr compressibility_format() {
-  const auto coefficient = [] { return quantity("1/Pa", "0.6e-9 1/Pa", Range::not_negative()); };
-  return variant("a density law", "law", {},
-                 {
-                     {"incompressible", "the density does not depend on pressure", {}},
-                     {"dowson_higginson",
-                      "rho = rho0 (1 + rise p/(1 + saturation p))",
-                      {defaulted("rise", coefficient(), "0.6e-9 1/Pa", "Compressibility at p = 0."),
-                       defaulted("saturation", coefficient(), "1.7e-9 1/Pa", "How soon it wears off.")}},
-                     {"constant_bulk_modulus",
-                      "rho = rho0 exp(p/bulk_modulus)",
-                      {required("bulk_modulus", quantity("Pa", "1.5 GPa", {.low = 1e5}),
-                                "rho dp/drho, the same at every pressure; oils: about 1.5 GPa.")}},
-                 });
-}
+TypePtr compressibility_format() { return variant("a density law", "law", {}, variants_of(density_laws())); }
 
 TypePtr deforming_surface_format() {
   const TypePtr on_mesh = with_exactly_one(
@@ -245,9 +211,8 @@ TypePtr bearings_format() {
           optional("diametral_clearance", clearance, "Twice the radial clearance, instead of it."),
           required("lubricant", reference(Refers::lubricant, "oil"), "Name of the oil."),
           defaulted("grid", grid_format(), "{}", "Nodes of the oil film."),
-          defaulted("pressures",
-                    choice({{"gauge", "0 is the atmosphere, -1.01325 bar is a vacuum"}, {"absolute", "0 is a vacuum"}}),
-                    "gauge", "The scale on which all pressures of this bearing are given and reported."),
+          defaulted("pressures", choice(pressure_scale_words), "gauge",
+                    "The scale on which all pressures of this bearing are given and reported."),
           defaulted("cavitation", cavitation_format(), "mass_conserving", "Where the film would be under tension."),
           defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges, or walls there."),
           optional("ambient_fill", fills,
@@ -267,17 +232,9 @@ TypePtr bearings_format() {
           defaulted("journal_surface", deforming_surface_format(), "rigid",
                     "Whether the journal deforms as the mesh of its body does."),
           optional("materials", materials_format(), "Give the composite modulus where it is not given itself."),
-          defaulted("cavitated_shear",
-                    choice({{"film_share", "the liquid's share of the gap"}, {"full", "as if the gap were full"}}),
-                    "film_share", "Shear in the cavitated film."),
-          defaulted("shear_force",
-                    choice({{"full", "torque and net force"}, {"torque_only", "the net force of shear is left out"}}),
-                    "full", "What shear does to the bodies."),
-          defaulted("solver",
-                    choice({{"newton", "Newton's method with exact derivatives"},
-                            {"multigrid", "the same, its linear systems solved by multigrid: for fine grids"},
-                            {"sor", "successive over-relaxation, for comparison"}}),
-                    "newton",
+          defaulted("cavitated_shear", choice(cavitated_shear_words), "film_share", "Shear in the cavitated film."),
+          defaulted("shear_force", choice(shear_force_words), "full", "What shear does to the bodies."),
+          defaulted("solver", choice(film_solver_words), "newton",
                     "Solver of the film. Coupled monolithically to the bodies, `sor` finds the initial film only."),
           optional("operating_point", operating_point_format(),
                    "Speeds and load, or position, of the bearing by itself (`hersey bearing`); a simulation has its "

@@ -1,4 +1,5 @@
 #include "format.h"
+#include "machine_vocabulary.h"
 
 // Bodies that deform.
 namespace hersey::model {
@@ -48,16 +49,8 @@ TypePtr flexible_format() {
           optional("length_unit", quantity("m", "1 mm", Range::positive()), "What a length of 1 in the mesh means.",
                    "must be given with `mesh`"),
           optional("material", material, "Material of all elements.", "the materials of the mesh file"),
-          defaulted("form",
-                    choice({{"modal", "it moves in static shapes of its frames and vibrations"},
-                            {"nodal", "every node moves; `modes` then only draw it in the report"}}),
-                    "modal", "What deforms."),
-          defaulted("strain",
-                    choice({{"small", "displacements against the body's axes strain linearly"},
-                            {"finite",
-                             "by Green and Lagrange: large bending, stiffening by pull; nodal bodies whose frames but "
-                             "the first are `connection: rigid`"}}),
-                    "small", "How displacements strain the body."),
+          defaulted("form", choice(form_words), "modal", "What deforms."),
+          defaulted("strain", choice(strain_words), "small", "How displacements strain the body."),
           defaulted("modes", integer(10, {.low = 0, .high = 1000}), "10",
                     "How many vibrations with all frames held, those of lowest frequency, add to the static shapes."),
           optional("highest_frequency", quantity("Hz", "5 kHz", Range::positive()),

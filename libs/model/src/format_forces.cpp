@@ -1,4 +1,5 @@
 #include "format.h"
+#include "machine_vocabulary.h"
 
 namespace hersey::model {
 namespace {
@@ -13,8 +14,7 @@ std::vector<Key> load_keys(const std::string& unit, const std::string& example) 
       optional("direction", axis_format(),
                "Direction of `magnitude`: x, y, z or three numbers, whose length does not matter."),
       optional("magnitude", function, "Along `direction`."),
-      defaulted("axes", choice({{"ground", "axes fixed in space"}, {"body", "axes of the frame it acts at"}}), "ground",
-                "Axes of `components` or `direction`."),
+      defaulted("axes", choice(axes_of_frame_words), "ground", "Axes of `components` or `direction`."),
   };
 }
 
@@ -49,8 +49,7 @@ std::vector<Key> surface_force_keys() {
                "The whole force along x, y and z; functions of time or of the crank's rotation."),
       optional("direction", axis_format(), "Direction of `magnitude`: x, y, z or three numbers."),
       optional("magnitude", function, "The whole force along `direction`."),
-      defaulted("axes", choice({{"ground", "axes fixed in space"}, {"body", "axes of the body"}}), "ground",
-                "Axes of `components` or `direction`."),
+      defaulted("axes", choice(axes_of_body_words), "ground", "Axes of `components` or `direction`."),
   };
 }
 

@@ -1,4 +1,5 @@
 #include "format.h"
+#include "machine_vocabulary.h"
 
 namespace hersey::model {
 
@@ -16,25 +17,20 @@ namespace {
 TypePtr frames_format() {
   return named(
       "a mapping from names to frames",
-      object("a frame", {
-                            optional("origin", vector("m", "0 50 0 mm"), "From the body's origin.",
-                                     "0 0 0 m; with `nodes`, the centre of their faces"),
-                            optional("rotation", rotation_format(), "Turns the frame's axes from the body's.", "none"),
-                            optional("nodes", text("a set of nodes", "big_end"),
-                                     "Set of the mesh's nodes that the frame of a flexible body stands on."),
-                            optional("connection",
-                                     choice({{"rigid", "the nodes follow the frame as one rigid piece"},
-                                             {"average",
-                                              "the frame follows the nodes' mean motion, and what acts on it "
-                                              "spreads over them; on one node or a line it turns with the elements "
-                                              "around"}}),
-                                     "How frame and nodes hold each other.", "rigid"),
-                            optional("along",
-                                     or_word(quantity("m", "250 mm", Range::not_negative()),
-                                             {{"start", "at its first point"}, {"end", "at its last point"}}),
-                                     "Where on a beam the frame sits: distance from its start along its axis.",
-                                     "**required** on beams"),
-                        }));
+      object("a frame",
+             {
+                 optional("origin", vector("m", "0 50 0 mm"), "From the body's origin.",
+                          "0 0 0 m; with `nodes`, the centre of their faces"),
+                 optional("rotation", rotation_format(), "Turns the frame's axes from the body's.", "none"),
+                 optional("nodes", text("a set of nodes", "big_end"),
+                          "Set of the mesh's nodes that the frame of a flexible body stands on."),
+                 optional("connection", choice(connection_words), "How frame and nodes hold each other.", "rigid"),
+                 optional("along",
+                          or_word(quantity("m", "250 mm", Range::not_negative()),
+                                  {{"start", "at its first point"}, {"end", "at its last point"}}),
+                          "Where on a beam the frame sits: distance from its start along its axis.",
+                          "**required** on beams"),
+             }));
 }
 
 Key between_format() {

@@ -1,4 +1,5 @@
 #include "format.h"
+#include "machine_vocabulary.h"
 
 namespace hersey::model {
 
@@ -54,17 +55,7 @@ TypePtr simulation_format() {
                          required("over", quantity_in({"s", "rad"}, "360 deg", Range::positive()),
                                   "Time or crank angle between the states compared."),
                      });
-  const TypePtr analysis = choice({{"dynamics", "motion under forces, integrated over time"},
-                                   {"kinematics", "motion that drives prescribe completely, and the forces it takes"},
-                                   {"static", "rest under gravity and the loads at `start`, drives held; no bearings"},
-                                   {"modes", "natural frequencies, damping and stability of small motions"}});
-  const TypePtr about = choice(
-      {{"start", "the state at the start"},
-       {"equilibrium", "the static equilibrium"},
-       {"turning",
-        "the steady motion in which drives keep the speed they have at the start and everything else keeps still "
-        "in its coordinates: rotating blades and shafts"},
-       {"end", "the state at the end of a run over `duration`; bearings by their tangent there"}});
+  const TypePtr analysis = choice(analysis_words), about = choice(modes_about_words);
   return object(
       "simulation settings",
       {
@@ -81,14 +72,7 @@ TypePtr simulation_format() {
                    "Revolute joint driven at a constant speed: turns angles into times, and is the report's abscissa.",
                    "angles cannot be used"),
           defaulted("start", quantity("s", "0 s"), "0 s", "Time at the start."),
-          optional("initial_deformation",
-                   choice({{"none", "undeformed: what presses on it makes it vibrate"},
-                           {"internal",
-                            "as the forces of the start hold it between its frames; these stand as in the undeformed "
-                            "body, so that journals start where the joints put them"},
-                           {"static",
-                            "as the forces of the start hold it; frames, and journals with them, are shifted by what "
-                            "the body gives way"}}),
+          optional("initial_deformation", choice(initial_deformation_words),
                    "How bodies that deform start, in `dynamics`.",
                    "`internal` where a film presses on a surface that deforms or a body is `nodal`, otherwise `none`"),
           defaulted("spectral_radius", number("0.8", {.low = 0, .high = 1}), "0.8",
@@ -142,9 +126,7 @@ TypePtr study_format() {
       "overrides of a variant",
       {choice({{"unchanged", "the model as it stands"}}),
        list("a list of overrides", text("a parameter or key path and its value", "bearings.big_end.width=20mm"))});
-  const TypePtr figures =
-      list("a list of figures", choice({{"midplane_pressure", "pressure around the middle of the bearing"},
-                                        {"film_thickness", "least film thickness against the first parameter"}}));
+  const TypePtr figures = list("a list of figures", choice(study_figure_words));
   return object("a study", {
                                required("parameters", parameters,
                                         "Values of each parameter or key path (`bearings.big_end.width`); every "

@@ -1,6 +1,8 @@
 #include <numbers>
 
+#include "film_vocabulary.h"
 #include "format.h"
+#include "profile_shapes.h"
 
 // What the two surfaces of a bearing are like, and the grid between them.
 namespace hersey::model {
@@ -10,8 +12,7 @@ TypePtr features_format() {
   const Range whole_turn{.low = 0, .high = 2 * std::numbers::pi + 1e-9, .low_open = true};
   const TypePtr arc = quantity("rad", "20 deg", whole_turn);
   const std::vector<Key> common = {
-      defaulted("on", choice({{"shell", "the bore"}, {"journal", "the journal: it travels as the journal turns"}}),
-                "shell", "The surface it is made in."),
+      defaulted("on", choice(feature_surface_words), "shell", "The surface it is made in."),
       defaulted("angle", quantity("rad", "90 deg"), "0 deg",
                 "Its middle, from the x-axis of that surface's frame towards y."),
       defaulted("z", quantity("m", "0 mm"), "0 mm", "Its middle along the axis, from the middle of the bearing."),
@@ -47,39 +48,18 @@ TypePtr features_format() {
 }
 
 TypePtr shape_format() {
-  const TypePtr size = quantity("m", "5 um", Range::not_negative());
-  const TypePtr angle = quantity("rad", "90 deg");
-  const Key on = defaulted("on", choice({{"shell", "the bore"}, {"journal", "the journal: it turns with it"}}), "shell",
-                           "The surface that has it.");
-  return list(
-      "a list of deviations from a cylinder",
-      variant(
-          "a deviation from a cylinder", "profile", {on},
-          {
-              {"barrel",
-               "falls off towards both edges, as a parabola",
-               {required("drop", size, "By how much the gap is wider at the edges.")}},
-              {"taper",
-               "a cone",
-               {required("rise", quantity("m", "5 um"), "By how much the gap grows from z < 0 to z > 0.")}},
-              {"ovality",
-               "an ellipse",
-               {required("amplitude", size, "By how much the gap is wider at `angle` and narrower across."),
-                defaulted("angle", angle, "0 deg", "Where it is wide.")}},
-              {"lobes",
-               "equal arcs; two make a lemon bore",
-               {defaulted("count", integer(2, {.low = 2, .high = 100}), "2", "Number of arcs."),
-                required("offset", size,
-                         "By how much the centre of each arc is moved away from its middle, where the gap "
-                         "stays that of the clearance."),
-                defaulted("angle", angle, "90 deg", "Middle of one arc.")}},
-              {"table",
-               "a measured surface: smooth around the bearing, straight lines along it",
-               {required("file", text("a file", "bore.csv"),
-                         "CSV file beside the model file with the columns `angle`, `z` and `opening`, units in "
-                         "brackets: by how much the gap is wider than that of the clearance at every combination of "
-                         "the angles, which lie within one turn, and the heights.")}},
-          }));
+  std::vector<Variant> shapes = variants_of(profile_shapes());
+  shapes.push_back(
+      {"table",
+       "a measured surface: smooth around the bearing, straight lines along it",
+       {required(
+           "file", text("a file", "bore.csv"),
+           "CSV file beside the model file with the columns `angle`, `z` and `opening`, units in brackets: by how "
+           "much the gap is wider than that of the clearance at every combination of the angles, which lie "
+           "within one turn, and the heights.")}});
+  const Key on = defaulted("on", choice(profile_surface_words), "shell", "The surface that has it.");
+  return list("a list of deviations from a cylinder",
+              variant("a deviation from a cylinder", "profile", {on}, std::move(shapes)));
 }
 
 TypePtr grid_format() {

@@ -217,11 +217,11 @@ void refuse_along(Context& context, const Value& body) {
 }  // namespace
 
 std::optional<Beam> beam_of(Context& context, const Value& body, std::vector<Frame>& frames) {
-  const Value* value = body.find("beam");
-  if (value == nullptr) {
+  if (!body.has("beam")) {  // as ground never does
     refuse_along(context, body);
     return std::nullopt;
   }
+  const Value* value = body.find("beam");
   if (value->broken) return std::nullopt;
   return BeamReader(context, body).read(*value, frames);
 }

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "film_vocabulary.h"
 #include "interpret.h"
+#include "oil_laws.h"
 
 namespace hersey::model {
 namespace {
@@ -42,10 +44,8 @@ class FilmReader {
     read_asperities();
     read_compliance();
     check_pressure_scale();
-    film_.cavitated_shear =
-        text_of(value_, "cavitated_shear") == "full" ? film::CavitatedShear::full : film::CavitatedShear::film_share;
-    film_.shear_force =
-        text_of(value_, "shear_force") == "torque_only" ? film::ShearForce::torque_only : film::ShearForce::full;
+    film_.cavitated_shear = meaning_of(value_, "cavitated_shear", cavitated_shear_words);
+    film_.shear_force = meaning_of(value_, "shear_force", shear_force_words);
     if (context_.has_fault_in(value_.path)) return;
     require_a_pressure();
     warn_of_starvation();
@@ -105,9 +105,7 @@ class FilmReader {
     const Value* cavitation = value_.find("cavitation");
     if (cavitation == nullptr || cavitation->broken) return;
     film_.p_cav = number_of(*cavitation, "pressure");
-    film_.cavitation = cavitation->text == "guembel"    ? film::Cavitation::guembel
-                       : cavitation->text == "reynolds" ? film::Cavitation::reynolds
-                                                        : film::Cavitation::mass_conserving;
+    film_.cavitation = meaning_of(*cavitation, cavitation_words);
   }
 
   void read_edges() {
@@ -164,8 +162,8 @@ class FilmReader {
 
   /// No pressure lies below a vacuum. On the absolute scale a default of 0 would be one: edges have to be given.
   void check_pressure_scale() {
-    const bool absolute = text_of(value_, "pressures") == "absolute";
-    film_.pressures = absolute ? film::PressureScale::absolute : film::PressureScale::gauge;
+    film_.pressures = meaning_of(value_, "pressures", pressure_scale_words);
+    const bool absolute = film_.pressures == film::PressureScale::absolute;
     const double vacuum = absolute ? 0 : -101325;
     const Value* edges = value_.find("edge_pressure");
     if (absolute && edges != nullptr && !edges->given) {
@@ -195,8 +193,7 @@ class FilmReader {
   void read_roughness() {
     const Value* roughness = value_.find("roughness");
     if (roughness == nullptr || roughness->broken) return;
-    film_.roughness.flow_factors =
-        text_of(*roughness, "flow_factors") == "none" ? film::FlowFactors::none : film::FlowFactors::patir_cheng;
+    film_.roughness.flow_factors = meaning_of(*roughness, "flow_factors", flow_factor_words);
     const auto surface = [&](const char* key, film::SurfaceRoughness& target) {
       const Value* given = roughness->find(key);
       if (given != nullptr && !given->broken) target = {number_of(*given, "sigma"), number_of(*given, "gamma")};
@@ -216,9 +213,9 @@ class FilmReader {
 
   void read_asperities() {
     const Value* asperities = value_.find("asperities");
-    if (asperities == nullptr || asperities->broken || asperities->text == "none") return;
-    film_.asperities.model = asperities->text == "greenwood_tripp" ? film::AsperityModel::greenwood_tripp_exact
-                                                                   : film::AsperityModel::greenwood_tripp_fit;
+    if (asperities == nullptr || asperities->broken) return;
+    film_.asperities.model = meaning_of(*asperities, asperity_words);
+    if (film_.asperities.model == film::AsperityModel::none) return;
     if (asperities->find("roughness") != nullptr) {
       film_.asperities.sigma = number_of(*asperities, "roughness");
     } else if (value_.find("roughness") != nullptr) {
@@ -272,22 +269,13 @@ class FilmReader {
   film::FilmModel& film_;
 };
 
-film::FilmSolver solver_of(const Value& bearing) {
-  const std::string name = text_of(bearing, "solver");
-  if (name == "sor") return film::FilmSolver::sor;
-  return name == "multigrid" ? film::FilmSolver::multigrid : film::FilmSolver::newton;
-}
-
 Coupling coupling_of(const Value& bearing) {
   Coupling coupling;
   const Value* value = bearing.find("coupling");
   if (value == nullptr || value->text != "partitioned") return coupling;
   coupling.scheme = CouplingScheme::partitioned;
   coupling.relaxation = number_of(*value, "relaxation");
-  if (const Value* acceleration = value->find("acceleration")) {
-    if (acceleration->text == "aitken") coupling.acceleration = bearing::Acceleration::aitken;
-    if (acceleration->text == "constant") coupling.acceleration = bearing::Acceleration::constant;
-  }
+  coupling.acceleration = meaning_of(*value, "acceleration", acceleration_words);
   coupling.max_iterations = integer_of(*value, "max_iterations");
   return coupling;
 }
@@ -378,13 +366,15 @@ film::ViscosityLaw viscosity_law_of(Context& context, const Value& lubricant, do
     if (law.number == 0) return film::ConstantViscosity{};
     return film::Barus{law.number};
   }
-  if (law.text == "barus") return film::Barus{number_of(law, "alpha")};
+  if (law.broken) return {};
+  film::ViscosityLaw read = read_alternative(law, viscosity_laws());
   const Value* viscosity = lubricant.find("viscosity");
-  if (viscosity != nullptr && !viscosity->broken && mu0 <= film::Roelands::smallest_viscosity) {
+  if (std::holds_alternative<film::Roelands>(read) && viscosity != nullptr && !viscosity->broken &&
+      mu0 <= film::Roelands::smallest_viscosity) {
     context.fault(*viscosity, "a viscosity at or below Roelands' 0.0632 mPa.s",
                   "a larger one, or another law in pressure_viscosity");
   }
-  return film::Roelands{number_of(law, "z")};
+  return read;
 }
 
 /// A value that no oil has is most often one in the wrong unit.
@@ -414,14 +404,10 @@ void warn_of_unphysical(Context& context, const Value& lubricant) {
                                     "a rise below saturation, such as 0.6 and 1.7 1/GPa", ""});
 }
 
-film::DensityLaw density_law_of(const Value& lubricant) {
+film::DensityLaw density_law_of(const Context& context, const Value& lubricant) {
   const Value* law = lubricant.find("compressibility");
-  if (law == nullptr || law->broken) return {};
-  if (law->text == "dowson_higginson")
-    return film::DowsonHigginson{number_of(*law, "rise"), number_of(*law, "saturation")};
-  const double modulus = law->text == "constant_bulk_modulus" ? number_of(*law, "bulk_modulus") : 0;
-  if (modulus > 0) return film::ConstantBulkModulus{modulus};
-  return {};
+  if (law == nullptr || law->broken || context.has_fault_in(law->path)) return {};
+  return read_alternative(*law, density_laws());
 }
 
 }  // namespace
@@ -433,7 +419,7 @@ void interpret_lubricants(Context& context) {
     lubricant.data = {.mu0 = mu0,
                       .viscosity_law = viscosity_law_of(context, value, mu0),
                       .density = number_of(value, "density"),
-                      .density_law = density_law_of(value)};
+                      .density_law = density_law_of(context, value)};
     warn_of_unphysical(context, value);
     context.model.lubricants.push_back(std::move(lubricant));
   }
@@ -457,7 +443,7 @@ void interpret_bearings(Context& context) {
     bearing.shell_surface = deforming_surface_of(context, value, "shell", bearing.shell, bearing.film);
     bearing.journal_surface = deforming_surface_of(context, value, "journal", bearing.journal, bearing.film);
     require_facing_surfaces(context, value, bearing);
-    bearing.solver = solver_of(value);
+    bearing.solver = meaning_of(value, "solver", film_solver_words);
     bearing.coupling = coupling_of(value);
     bearing.operating_point = operating_point_of(context, value, bearing.film);
     context.model.bearings.push_back(std::move(bearing));

@@ -10,6 +10,7 @@
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/skin.h"
 #include "interpret.h"
+#include "machine_vocabulary.h"
 
 namespace hersey::model {
 namespace {
@@ -21,8 +22,8 @@ class FlexibleReader {
   Flexible read(const Value& value, std::vector<Frame>& frames) {
     Flexible flexible;
     flexible.position = value.key_position;
-    flexible.nodal = text_of(value, "form") == "nodal";
-    if (text_of(value, "strain") == "finite") flexible.strain = mbd::Strain::finite;
+    flexible.nodal = meaning_of(value, "form", form_words);
+    flexible.strain = meaning_of(value, "strain", strain_words);
     refuse_finite_strain(value, flexible);
     flexible.modes = integer_of(value, "modes");
     flexible.highest = number_of(value, "highest_frequency");
@@ -255,7 +256,7 @@ class FlexibleReader {
       }
       frame.nodes = set->second;
       claim(mesh, frame, *nodes);
-      if (text_of(value, "connection") == "average") frame.connection = fem::Connection::average;
+      frame.connection = meaning_of(value, "connection", connection_words);
       if (value.find("origin") == nullptr) frame.X_BF.r = fem::face_centre(mesh, frame.nodes);
     }
   }
@@ -298,11 +299,11 @@ void refuse_nodes(Context& context, const Value& body) {
 }  // namespace
 
 std::optional<Flexible> flexible_of(Context& context, const Value& body, std::vector<Frame>& frames) {
-  const Value* value = body.find("flexible");
-  if (value == nullptr) {
+  if (!body.has("flexible")) {  // as ground never does
     refuse_nodes(context, body);
     return std::nullopt;
   }
+  const Value* value = body.find("flexible");
   if (value->broken) return std::nullopt;
   return FlexibleReader(context, body).read(*value, frames);
 }

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "interpret.h"
+#include "machine_vocabulary.h"
 
 namespace hersey::model {
 namespace {
@@ -11,7 +12,7 @@ BodyLoad load_of(Context& context, const Value& value, bool is_torque) {
   load.is_torque = is_torque;
   const std::string unit = is_torque ? "N.m" : "N";
   if (const Value* body = value.find("body")) load.at = frame_of(context, *body);
-  load.axes = text_of(value, "axes") == "body" ? Axes::body : Axes::ground;
+  load.axes = meaning_of(value, "axes", axes_of_frame_words);
   if (const Value* components = value.find("components")) {
     for (const auto& [index, component] : components->members) {
       load.functions.push_back(function_of(context, component, unit));

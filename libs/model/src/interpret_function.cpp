@@ -31,7 +31,7 @@ class FunctionReader {
     const Value& content = value.members.front().value;
     if (content.type->kind == Type::Kind::quantity) {
       read_constant(content);
-    } else if (content.find("expression") != nullptr) {
+    } else if (content.has("expression")) {
       read_expression(content);
     } else if (content.find("table") != nullptr) {
       read_table(content);
@@ -182,7 +182,7 @@ class FunctionReader {
     const Value& table = *content.find("table");
     if (table.broken || table.members.empty()) return;
     const Value& source = table.members.front().value;
-    std::optional<Points> points = source.find("file") != nullptr ? points_from_file(source) : points_in_place(source);
+    std::optional<Points> points = source.has("file") ? points_from_file(source) : points_in_place(source);
     if (!points || !variable) return;
     const bool usable = convert_points(*points, source, content, unit_of(*variable)) && check_order(*points);
     const std::optional<double> period = argument_of(content, "period", unit_of(*variable));
@@ -253,8 +253,8 @@ class FunctionReader {
 
   /// Turns points into SI: x by its unit, y by its unit times the scale. Reports units that do not fit.
   bool convert_points(Points& points, const Value& source, const Value& content, const std::string& x_si_unit) {
-    const Value& x_place = *source.find(source.find("x_unit") != nullptr ? "x_unit" : "x");
-    const Value& y_place = *source.find(source.find("y_unit") != nullptr ? "y_unit" : "y");
+    const Value& x_place = *source.find(source.has("x_unit") ? "x_unit" : "x");
+    const Value& y_place = *source.find(source.has("y_unit") ? "y_unit" : "y");
     const std::optional<double> x_factor = unit_factor(context_, x_place, points.x_unit, x_si_unit);
     const Value& scale_value = *content.find("scale");
     Quantity scale;

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "hersey/core/spelling.h"
+#include "hersey/core/turn.h"
 #include "table_file.h"
 
 namespace hersey::model {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// A table of three columns as openings [m] by height [m] and angle [rad].
 class ShapeTable {

@@ -5,6 +5,7 @@
 
 #include "hersey/core/spelling.h"
 #include "interpret.h"
+#include "machine_vocabulary.h"
 #include "overrides.h"
 
 namespace hersey::model {
@@ -140,11 +141,12 @@ void refuse_bearings(Context& context, const Value& value) {
 void refuse_flexible_bodies(Context& context, const Value& value) {
   const Analysis analysis = context.model.simulation.analysis;
   for (const auto& [name, body] : section(context.root, "bodies")) {
+    if (name == "ground") continue;
     const Value* flexible = body.find("flexible");
     if (analysis == Analysis::kinematics && (flexible != nullptr || body.find("beam") != nullptr)) {
       context.fault(*value.find("analysis"), "a kinematic analysis with the flexible body '" + name + "'",
                     "rigid bodies: how others deform depends on forces", "use dynamics, or make the body rigid");
-    } else if (analysis == Analysis::modes && flexible != nullptr && text_of(*flexible, "form") == "nodal") {
+    } else if (analysis == Analysis::modes && flexible != nullptr && meaning_of(*flexible, "form", form_words)) {
       context.fault(*flexible->find("form"), "`form: nodal` of a body whose small motions are sought",
                     "`form: modal`, with as many `modes` as are needed", "");
     }
@@ -153,15 +155,8 @@ void refuse_flexible_bodies(Context& context, const Value& value) {
 
 void interpret_analysis(Context& context, const Value& value) {
   Simulation& simulation = context.model.simulation;
-  const std::string analysis = text_of(value, "analysis"), about = text_of(value, "modes_about");
-  simulation.analysis = analysis == "kinematics" ? Analysis::kinematics
-                        : analysis == "static"   ? Analysis::equilibrium
-                        : analysis == "modes"    ? Analysis::modes
-                                                 : Analysis::dynamics;
-  simulation.modes_about = about == "equilibrium" ? ModesAbout::equilibrium
-                           : about == "turning"   ? ModesAbout::turning
-                           : about == "end"       ? ModesAbout::end
-                                                  : ModesAbout::start;
+  simulation.analysis = meaning_of(value, "analysis", analysis_words);
+  simulation.modes_about = meaning_of(value, "modes_about", modes_about_words);
   if (needs_duration(simulation)) {
     if (value.find("duration") == nullptr && value.find("cycle") == nullptr)
       context.fault_at_key(value, "missing key 'duration'", "a time or an angle > 0, such as 0.1 s");
@@ -260,9 +255,7 @@ void require_whole_steps(Context& context, const Value& parent) {
 
 InitialDeformation initial_deformation_of(const Model& model, const Value& simulation) {
   if (const Value* value = simulation.find("initial_deformation"); value != nullptr && !value->broken)
-    return value->text == "static"     ? InitialDeformation::complete
-           : value->text == "internal" ? InitialDeformation::internal
-                                       : InitialDeformation::none;
+    return meaning_of(*value, initial_deformation_words);
   const auto deforms = [](const Bearing& bearing) { return bearing.shell_surface || bearing.journal_surface; };
   const auto is_nodal = [](const Body& body) { return body.flexible && body.flexible->nodal; };
   const bool rests = std::any_of(model.bearings.begin(), model.bearings.end(), deforms) ||
@@ -333,8 +326,7 @@ void interpret_study(Context& context) {
     study.parameters.push_back({kVariant, names_in(*value, "variants"), variants->key_position});
   }
   for (const auto& [index, figure] : section(*value, "figures")) {
-    study.figures.push_back(figure.text == "film_thickness" ? StudyFigure::film_thickness
-                                                            : StudyFigure::midplane_pressure);
+    study.figures.push_back(meaning_of(figure, study_figure_words));
   }
   context.model.study = std::move(study);
 }

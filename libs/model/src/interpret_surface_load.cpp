@@ -3,6 +3,7 @@
 #include "hersey/core/spelling.h"
 #include "hersey/fem/surface_loads.h"
 #include "interpret.h"
+#include "machine_vocabulary.h"
 
 // Loads on the mesh of a flexible body.
 namespace hersey::model {
@@ -56,7 +57,7 @@ std::vector<fem::ElementFace> faces_of(Context& context, const Value& name, cons
 SurfaceLoad surface_load_of(Context& context, const Value& value) {
   SurfaceLoad load;
   load.is_pressure = value.text == "pressure";
-  load.axes = text_of(value, "axes") == "ground" ? Axes::ground : Axes::body;
+  load.axes = meaning_of(value, "axes", axes_of_body_words, Axes::body);
   if (const Body* body = flexible_body(context, value)) {
     load.body = body->name;
     const Value* faces = value.find("faces");

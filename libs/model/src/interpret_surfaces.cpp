@@ -6,13 +6,14 @@
 #include <limits>
 #include <numbers>
 
+#include "film_vocabulary.h"
+#include "hersey/core/turn.h"
 #include "hersey/film/gap_shape.h"
 #include "interpret.h"
+#include "profile_shapes.h"
 
 namespace hersey::model {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 // Positions of a turning journal in which its shape is held against that of the bore.
 constexpr int angles_tried = 72;
@@ -100,7 +101,7 @@ class SurfaceReader {
   [[nodiscard]] film::SurfaceFeature feature_of(const Value& value, const std::string& name) const {
     film::SurfaceFeature feature;
     feature.name = name;
-    feature.surface = text_of(value, "on") == "journal" ? film::Surface::journal : film::Surface::shell;
+    feature.surface = meaning_of(value, "on", feature_surface_words);
     feature.phi = number_of(value, "angle");
     feature.z = number_of(value, "z");
     feature.depth = number_of(value, "depth");
@@ -264,19 +265,13 @@ class SurfaceReader {
   }
 
   void read_profile(const Value& value) {
-    const auto on = text_of(value, "on") == "journal" ? film::Surface::journal : film::Surface::shell;
+    if (value.broken) return;
+    const film::Surface on = meaning_of(value, "on", profile_surface_words);
     if (value.text != "table") {
-      film_.profiles.push_back({formula_of(value), on});
+      film_.profiles.push_back({read_alternative(value, profile_shapes()), on});
     } else if (const Value* file = value.find("file")) {
       if (auto shape = measured_shape_of(context_, *file, film_.L)) film_.profiles.push_back({std::move(*shape), on});
     }
-  }
-
-  static film::ProfileShape formula_of(const Value& value) {
-    if (value.text == "barrel") return film::Barrel{number_of(value, "drop")};
-    if (value.text == "taper") return film::Taper{number_of(value, "rise")};
-    if (value.text == "ovality") return film::Ovality{number_of(value, "amplitude"), number_of(value, "angle")};
-    return film::Lobes{integer_of(value, "count"), number_of(value, "offset"), number_of(value, "angle")};
   }
 
   void read_grid() {

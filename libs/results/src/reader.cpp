@@ -12,16 +12,13 @@
 #include "hersey/core/hdf5_content.h"
 #include "hersey/core/input_file.h"
 #include "hersey/core/sealed_file.h"
+#include "object_path.h"
 
 namespace hersey::results {
 namespace {
 
 constexpr int newest_format = 1;
 constexpr int deepest_group = 32;
-
-std::string absolute(std::string_view path) {
-  return path.starts_with('/') ? std::string(path) : "/" + std::string(path);
-}
 
 std::vector<std::size_t> shape_of(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);

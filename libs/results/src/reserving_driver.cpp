@@ -33,7 +33,7 @@ struct Piece {
 };
 
 /// HDF5 sees only its public part, which must come first.
-struct File {
+struct ReservedFile {
   H5FD_t base;
   int fd;
   DriverStatus* status;
@@ -43,10 +43,10 @@ struct File {
   std::set<haddr_t> index_nodes;     // addresses of B-tree nodes that are in the file
 };
 
-File& self(H5FD_t* file) { return *reinterpret_cast<File*>(file); }
-const File& self(const H5FD_t* file) { return *reinterpret_cast<const File*>(file); }
+ReservedFile& self(H5FD_t* file) { return *reinterpret_cast<ReservedFile*>(file); }
+const ReservedFile& self(const H5FD_t* file) { return *reinterpret_cast<const ReservedFile*>(file); }
 
-void fail(File& file, int error) {
+void fail(ReservedFile& file, int error) {
   if (file.status->failed) return;
   file.status->failed = true;
   file.status->reason = std::strerror(error);
@@ -74,7 +74,7 @@ class WithoutSizeSignal {
   sigset_t before_;
 };
 
-int grow(File& file, haddr_t end) {
+int grow(ReservedFile& file, haddr_t end) {
   const WithoutSizeSignal guard;
   int error = 0;
   do {
@@ -84,7 +84,7 @@ int grow(File& file, haddr_t end) {
   return error;
 }
 
-void reserve(File& file, haddr_t end) {
+void reserve(ReservedFile& file, haddr_t end) {
   if (end <= file.reserved || file.status->failed) return;
   const haddr_t generous = (end / reserve_step + 1) * reserve_step;
   if (grow(file, generous) == 0) return;
@@ -94,7 +94,7 @@ void reserve(File& file, haddr_t end) {
 H5FD_t* open_file(const char*, unsigned, hid_t access, haddr_t) {
   const auto* info = static_cast<const Info*>(H5Pget_driver_info(access));
   if (info == nullptr) return nullptr;
-  return &std::make_unique<File>(File{{}, info->fd, info->status, 0, 0, {}, {}}).release()->base;
+  return &std::make_unique<ReservedFile>(ReservedFile{{}, info->fd, info->status, 0, 0, {}, {}}).release()->base;
 }
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
@@ -115,7 +115,7 @@ herr_t set_eoa(H5FD_t* file, H5FD_mem_t, haddr_t address) {
 /// index node cut in two is not readable: a piece of metadata that fits into a page is put into one.
 haddr_t place(H5FD_t* base, H5FD_mem_t type, hid_t, hsize_t size) {
   static const auto page = static_cast<haddr_t>(sysconf(_SC_PAGESIZE));
-  File& file = self(base);
+  ReservedFile& file = self(base);
   haddr_t address = file.eoa;
   const bool crosses = address % page + size > page;
   if (type != H5FD_MEM_DRAW && size <= page && crosses) address = (address / page + 1) * page;
@@ -129,7 +129,7 @@ haddr_t get_eof(const H5FD_t* file, H5FD_mem_t) { return self(file).reserved; }
 haddr_t end_of(const std::pair<const haddr_t, Piece>& entry) { return entry.first + entry.second.bytes.size(); }
 
 /// The first waiting piece that ends beyond `address`.
-std::map<haddr_t, Piece>::iterator first_beyond(File& file, haddr_t address) {
+std::map<haddr_t, Piece>::iterator first_beyond(ReservedFile& file, haddr_t address) {
   auto next = file.waiting.upper_bound(address);
   if (next == file.waiting.begin()) return next;
   const auto before = std::prev(next);
@@ -137,7 +137,7 @@ std::map<haddr_t, Piece>::iterator first_beyond(File& file, haddr_t address) {
 }
 
 /// What waits is newer than what is in the file.
-void overlay(File& file, haddr_t address, std::size_t size, char* buffer) {
+void overlay(ReservedFile& file, haddr_t address, std::size_t size, char* buffer) {
   for (auto at = first_beyond(file, address); at != file.waiting.end() && at->first < address + size; ++at) {
     const auto& [start, piece] = *at;
     const haddr_t from = std::max(start, address), to = std::min(end_of(*at), address + size);
@@ -146,7 +146,7 @@ void overlay(File& file, haddr_t address, std::size_t size, char* buffer) {
 }
 
 /// A piece takes the place of what waits there; of older ones the parts beside it stay.
-void put(File& file, haddr_t address, Piece piece) {
+void put(ReservedFile& file, haddr_t address, Piece piece) {
   const haddr_t end = address + piece.bytes.size();
   for (auto at = first_beyond(file, address); at != file.waiting.end() && at->first < end;) {
     const haddr_t start = at->first, old_end = end_of(*at);
@@ -165,7 +165,7 @@ void put(File& file, haddr_t address, Piece piece) {
 }
 
 herr_t read_bytes(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {
-  File& file = self(base);
+  ReservedFile& file = self(base);
   auto* to = static_cast<char*>(buffer);
   std::size_t done = 0;
   while (done < size) {
@@ -180,7 +180,7 @@ herr_t read_bytes(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t 
   return 0;
 }
 
-void write_now(File& file, haddr_t address, const char* from, std::size_t size) {
+void write_now(ReservedFile& file, haddr_t address, const char* from, std::size_t size) {
   while (size > 0 && !file.status->failed) {
     const ssize_t n = pwrite(file.fd, from, size, static_cast<off_t>(address));
     if (n < 0 && errno == EINTR) continue;
@@ -192,7 +192,7 @@ void write_now(File& file, haddr_t address, const char* from, std::size_t size) 
 }
 
 herr_t write_bytes(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::size_t size, const void* buffer) {
-  File& file = self(base);
+  ReservedFile& file = self(base);
   const auto* from = static_cast<const char*>(buffer);
   if (file.status->failed) return 0;
   if (type == H5FD_MEM_DRAW)
@@ -212,7 +212,7 @@ int node_level(const Piece& piece) {
 /// for it states how far the file reaches (the space is there already); index nodes before the headers that state the
 /// number of rows; among index nodes the new ones first, then from the root to the leaves, for a split leaf must not
 /// shrink before its parent knows the other half.
-std::tuple<int, int> rank(const File& file, haddr_t address, const Piece& piece) {
+std::tuple<int, int> rank(const ReservedFile& file, haddr_t address, const Piece& piece) {
   switch (piece.type) {
     case H5FD_MEM_SUPER:
       return {0, 0};
@@ -227,7 +227,7 @@ std::tuple<int, int> rank(const File& file, haddr_t address, const Piece& piece)
 
 /// The end of a flush: all metadata goes into the file, in an order that keeps it readable if the program dies midway.
 herr_t commit(H5FD_t* base, hid_t, hbool_t) {
-  File& file = self(base);
+  ReservedFile& file = self(base);
   std::map<std::tuple<std::tuple<int, int>, haddr_t>, const Piece*> ordered;
   for (const auto& [address, piece] : file.waiting) ordered[{rank(file, address, piece), address}] = &piece;
   for (const auto& [key, piece] : ordered) write_now(file, std::get<1>(key), piece->bytes.data(), piece->bytes.size());
@@ -238,7 +238,7 @@ herr_t commit(H5FD_t* base, hid_t, hbool_t) {
 }
 
 herr_t close_file(H5FD_t* base) {
-  const std::unique_ptr<File> file(&self(base));
+  const std::unique_ptr<ReservedFile> file(&self(base));
   commit(base, H5P_DEFAULT, true);
   if (!file->status->failed && fdatasync(file->fd) != 0 && errno != EINVAL) fail(*file, errno);
   if (close(file->fd) != 0) fail(*file, errno);
@@ -247,7 +247,7 @@ herr_t close_file(H5FD_t* base) {
 
 /// Gives back what was reserved and not used. HDF5 calls it with every flush: only the last one counts.
 herr_t truncate_file(H5FD_t* base, hid_t, hbool_t closing) {
-  File& file = self(base);
+  ReservedFile& file = self(base);
   if (!closing || file.status->failed) return 0;
   if (ftruncate(file.fd, static_cast<off_t>(file.eoa)) != 0) fail(file, errno);
   file.reserved = file.eoa;

@@ -20,6 +20,7 @@
 #include "hersey/core/contract.h"
 #include "hersey/core/sealed_file.h"
 #include "hersey/results/reader.h"
+#include "object_path.h"
 #include "reserving_driver.h"
 #include "waiting_rows.h"
 
@@ -43,10 +44,6 @@ struct Growing {
   std::vector<hsize_t> shape;  // shape[0] rows are in it
   std::size_t width;           // numbers per row
 };
-
-std::string absolute(std::string_view path) {
-  return path.starts_with('/') ? std::string(path) : "/" + std::string(path);
-}
 
 std::string now_iso8601() {
   const std::time_t now = std::time(nullptr);

@@ -17,7 +17,7 @@ namespace {
 using Eigen::VectorXd;
 using Index = Equations::Index;
 
-constexpr double kLargestIncrement = 0.2;  // rad, or sizes of the system
+constexpr double kLargestMove = 0.2;  // rad, or sizes of the system
 constexpr double kRoundOff = 1e-13;
 constexpr double kSolved = 1e-10;        // rad, or sizes of the system: increments that change nothing any more
 constexpr int kLongestPath = 20;         // in steps of Newton's method, times those allowed to a search
@@ -38,7 +38,7 @@ class EquilibriumSearch {
   EquilibriumSummary run(State& state) {
     // The first step goes about a tenth of the allowed way: the start's accelerations tell how far a mu would go.
     const double pull = state.vdot.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
-    mu_ = std::max(pull, 1e-6) / (0.1 * kLargestIncrement);
+    mu_ = std::max(pull, 1e-6) / (0.1 * kLargestMove);
     keep_mass();
     if (!assemble(here_)) return failure(equations_.domain_error());
     const State start = here_;
@@ -79,7 +79,7 @@ class EquilibriumSearch {
     }
     const VectorXd dx = increment_.head(nv);
     const double length =
-        std::min(1.0, kLargestIncrement / std::max(dx.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>(), 1e-300));
+        std::min(1.0, kLargestMove / std::max(dx.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>(), 1e-300));
     // dx^T (K + mu M) dx: the work the forces do on the way, less what is left of them at its end.
     const double curvature = curvature_along(dx), before = worst_;
     State next = here_;
@@ -132,7 +132,7 @@ class EquilibriumSearch {
     if (!assemble(here_)) return false;
     for (int i = 0; i < most; ++i, ++summary_.iterations) {
       if (worst_ <= 1) return true;
-      if (!solve() || !take_whole(kLargestIncrement)) return false;
+      if (!solve() || !take_whole(kLargestMove)) return false;
     }
     return false;
   }
@@ -176,7 +176,7 @@ class EquilibriumSearch {
     const double before = worst_;
     const VectorXd dx = increment_.head(nv);
     const double reach = dx.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
-    for (double length = std::min(1.0, kLargestIncrement / std::max(reach, 1e-300)); length > 1e-4; length /= 2) {
+    for (double length = std::min(1.0, kLargestMove / std::max(reach, 1e-300)); length > 1e-4; length /= 2) {
       equations_.retract(from.q, length * dx, here_.q);
       here_.lambda = from.lambda + length * increment_.tail(increment_.size() - nv);
       if (!assemble(here_) || !(worst_ < before)) continue;
@@ -190,7 +190,7 @@ class EquilibriumSearch {
   bool stays_steady(const State& now) {
     const double fastest = now.v.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
     if (fastest == 0) return true;
-    const double dt = kLargestIncrement / fastest;
+    const double dt = kLargestMove / fastest;
     State expected = now;
     expected.t += dt;
     equations_.retract(now.q, dt * now.v, expected.q);
@@ -202,7 +202,7 @@ class EquilibriumSearch {
       if (!advance_to_steady_motion()) break;
     const VectorXd moved = walked_.cwiseQuotient(reach_).cwiseAbs();
     Index farthest = 0;
-    if (moved.maxCoeff(&farthest) < std::max(kSteady, kFixedShare * kLargestIncrement * deformed)) return true;
+    if (moved.maxCoeff(&farthest) < std::max(kSteady, kFixedShare * kLargestMove * deformed)) return true;
     summary_.message = fmt::format(
         "no steady motion: {} does not keep still while the drives turn; what it turns in must be alike all around its "
         "axis, with gravity along it, and the drives' speeds constant",

@@ -12,8 +12,8 @@ using Eigen::VectorXd;
 using Index = Equations::Index;
 
 // Of the terms that a row balances. The combination below magnifies what is left about a hundred times.
-constexpr double kTolerance = 1e-10;
-constexpr int kMaxIterations = 30, kMaxHalvings = 8;
+constexpr double kSettledTolerance = 1e-10;
+constexpr int kSettlingIterations = 30, kSettlingHalvings = 8;
 
 // A motion that damping changes by less within the step is left to the integrator: it follows motions that end some
 // tens of times sooner than the step with its own order.
@@ -37,8 +37,8 @@ class VelocitySteps {
   /// Finds the acceleration with which a step of length `span` from velocity v ends; false where there is none.
   bool solve(const VectorXd& v, double span) {
     if (!evaluate(v, span)) return false;
-    for (int iteration = 0; worst_ > kTolerance; ++iteration) {
-      if (iteration == kMaxIterations || !advance(v, span)) return false;
+    for (int iteration = 0; worst_ > kSettledTolerance; ++iteration) {
+      if (iteration == kSettlingIterations || !advance(v, span)) return false;
     }
     return true;
   }
@@ -72,7 +72,7 @@ class VelocitySteps {
     if (!solve_bordered(matrix_, nv_, -residual_, x)) return false;
     const VectorXd vdot = trial_.vdot, lambda = trial_.lambda;
     double length = 1;
-    for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, length /= 2) {
+    for (int halvings = 0; halvings <= kSettlingHalvings; ++halvings, length /= 2) {
       trial_.vdot = vdot + length * x.head(nv_);
       trial_.lambda = lambda + length * x.tail(bias_.size());
       if (evaluate(v, span)) return true;

@@ -10,9 +10,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Equations::Index;
 
-constexpr double kTolerance = 1e-10;  // of the terms that a motion balances
-constexpr double kNoDamping = 1e-10;  // relative to that of the coordinates in a motion
-constexpr int kMaxIterations = 60, kMaxHalvings = 12;
+constexpr double kMasslessTolerance = 1e-10;  // of the terms that a motion balances
+constexpr double kNoDamping = 1e-10;          // relative to that of the coordinates in a motion
+constexpr int kMasslessIterations = 60, kMasslessHalvings = 12;
 
 class MasslessBalance {
  public:
@@ -25,8 +25,8 @@ class MasslessBalance {
   MasslessSummary run(State& state) {
     MasslessSummary summary;
     if (!evaluate()) return {{}, trouble_};
-    for (int iteration = 0; worst_ > kTolerance; ++iteration) {
-      if (iteration == kMaxIterations) return {{}, "no velocity balances the forces on motions without inertia"};
+    for (int iteration = 0; worst_ > kMasslessTolerance; ++iteration) {
+      if (iteration == kMasslessIterations) return {{}, "no velocity balances the forces on motions without inertia"};
       if (summary.undetermined = unheld(); !summary.undetermined.empty()) return summary;
       if (!advance()) return {{}, trouble_};
     }
@@ -45,9 +45,10 @@ class MasslessBalance {
       equations_.assemble(here_, {.dt = 0, .k = 0, .c = 1, .m = 0, .dq = {}}, residual, scale, &C);
       trouble_ = equations_.domain_error();
       if (trouble_.empty() && !residual.allFinite()) trouble_ = "the forces are not numbers";
-      if (trouble_.empty() && i == kMaxIterations) trouble_ = equations_.name_of_internal_residual() + " is not solved";
+      if (trouble_.empty() && i == kMasslessIterations)
+        trouble_ = equations_.name_of_internal_residual() + " is not solved";
       if (!trouble_.empty()) return false;
-      if (equations_.internal_residual() <= kTolerance) break;
+      if (equations_.internal_residual() <= kMasslessTolerance) break;
     }
     const Index nv = equations_.nv();
     force_ = N_.transpose() * residual.head(nv);
@@ -84,10 +85,11 @@ class MasslessBalance {
     const VectorXd before = y_, unit = units(), force = force_;
     const VectorXd dy = damping_.fullPivLu().solve(-force);
     double length = 1;
-    for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, length /= 2) {
+    for (int halvings = 0; halvings <= kMasslessHalvings; ++halvings, length /= 2) {
       y_ = before + length * dy;
       if (!evaluate()) continue;
-      if (worst_ <= kTolerance || (unit.cwiseProduct(force_)).norm() < unit.cwiseProduct(force).norm()) return true;
+      if (worst_ <= kMasslessTolerance || (unit.cwiseProduct(force_)).norm() < unit.cwiseProduct(force).norm())
+        return true;
     }
     if (trouble_.empty()) trouble_ = "no velocity balances the forces on motions without inertia";
     return false;
