@@ -30,7 +30,7 @@ def compressibility(b):
 
 
 def asperity_pressure(b, h):
-    """Of the fitted law (film.38), from the gap of the mean planes."""
+    """Of the law fitted to (film.16), from the gap of the mean planes."""
     a = b.asperities
     below = np.maximum(4 - (h - a["summits"]) / a["sigma"], 0)
     return a["factor"] * a["modulus"] * 4.4086e-5 * below**6.804

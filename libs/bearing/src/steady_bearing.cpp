@@ -66,7 +66,7 @@ ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint
   return parameters;
 }
 
-// Film and position of one bearing, and the Newton iterations that bring them together.
+// Film and position of one bearing (bearing.11), and the Newton iterations that bring them together.
 class Search {
  public:
   Search(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
@@ -132,8 +132,8 @@ class Search {
     return summary_;
   }
 
-  // Derivatives at the film found: one solve with four right-hand sides each on the factor of the last linearisation.
-  // What a motion of the journal does to surfaces that deform, they do at its rate (bearing.32).
+  // Derivatives at the film found (bearing.14): one solve with four right-hand sides each on the factor of the last
+  // linearisation. What a motion of the journal does to surfaces that deform, they do at its rate (bearing.32).
   [[nodiscard]] DynamicCoefficients coefficients() {
     Eigen::MatrixXd dx;
     Columns by_position, by_rate;
@@ -291,7 +291,8 @@ class Search {
     Eigen::VectorXd dx;
   };
 
-  // Newton's step at the present linearisation towards `target`, cut to where the linear film may be trusted.
+  // Newton's step (bearing.12) at the present linearisation towards `target`, cut to where the linear film may be
+  // trusted.
   [[nodiscard]] Step newton_step(const Eigen::Vector2d& target) {
     Columns dW;
     respond(2, dx_de_, dW);

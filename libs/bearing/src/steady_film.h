@@ -55,7 +55,7 @@ class SteadyFilm {
   [[nodiscard]] const Eigen::Vector2d& force() const { return force_; }
 
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-  /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces.
+  /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces (bearing.31).
   void respond(std::span<const film::MotionDirection> directions, Eigen::MatrixXd& dx, Columns& dW);
   /// Of the force in the axes of force(), by those of x and of the wrench.
   [[nodiscard]] Eigen::Matrix2Xd change_of_force(const Eigen::MatrixXd& dx, const Columns& dW) const;

@@ -56,7 +56,8 @@ struct FaceFlow {
   [[nodiscard]] Carried carried(double theta) const;
 };
 
-/// Balance of oil in every control volume, its Jacobian in u and its derivative along any change of the surfaces.
+/// Balance of oil (film.2) in every control volume, with the flows (film.1) over its faces, its Jacobian in u and its
+/// derivative along any change of the surfaces.
 ///
 /// Rows of the residual [m^3/s]: outflow plus storage in the film, u - u_given times a conductance on an edge at given
 /// pressure, a blend of both beside the supply line and on features (film.10 to film.13, film.25).

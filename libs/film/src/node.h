@@ -4,7 +4,7 @@
 
 namespace hersey::film {
 
-/// Everything the film is at one node, with derivatives: x_u = dx/du, x_g = dx/dg (theory manual, film.4 to film.7).
+/// Everything the film is at one node, with derivatives: x_u = dx/du, x_g = dx/dg (theory manual, film.3 to film.7).
 struct Node {
   double p = 0, p_u = 0;                ///< pressure above p_cav in the balance of flows [Pa]
   double wall = 0, wall_u = 0;          ///< pressure the walls feel, p_cav + max(u, 0) [Pa]

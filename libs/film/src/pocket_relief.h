@@ -58,8 +58,8 @@ class PocketRelief {
   [[nodiscard]] const std::vector<PocketTube>& tubes() const { return tubes_; }
   [[nodiscard]] TubeGap gap(const PocketTube& tube, double h) const;
 
-  // Mean depth of pockets over each control volume now and at the start of the step [m], its rate in a steady film
-  // [m/s] with derivatives; empty where there are no pockets.
+  // Mean depth of pockets over each control volume (film.29) now and at the start of the step [m], and by how much it
+  // changes with phi_journal [m/rad]; empty where there are no pockets.
   [[nodiscard]] const Eigen::VectorXd& depth() const { return depth_; }
   [[nodiscard]] const Eigen::VectorXd& depth_start() const { return depth_start_; }
   [[nodiscard]] const Eigen::VectorXd& depth_by_journal() const { return depth_journal_; }

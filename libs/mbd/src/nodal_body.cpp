@@ -32,7 +32,7 @@ constexpr double kNodalShare = 1e-4;
 // Square of the time within which nodes let go take up their acceleration [s^2]: no stiffness of a mesh acts so fast.
 constexpr double kInstant = 1e-24;
 
-constexpr Index kTurning = 3;  // the first of these columns of (flexible-bodies.18)
+constexpr Index kTurning = 3;  // the first of these columns of (flexible-bodies.19)
 
 Eigen::Map<const Matrix3Xd> nodes_of(const VectorXd& u) { return {u.data(), 3, u.size() / 3}; }
 
@@ -238,7 +238,8 @@ solver::Stage NodalBody::stage_of(const ElasticMotion& motion) const {
   return motion.stage;
 }
 
-/// Solves the equations of the nodes for this motion of the frames, theory manual eq. (flexible-bodies.17).
+/// Solves the equations of the nodes for this motion of the frames, theory manual eq. (flexible-bodies.17); at the
+/// start (flexible-bodies.20).
 void NodalBody::settle(const ElasticMotion& motion) {
   const bool moves = follows(motion);
   if (moves && !at_rest_ && !is_let_go_) w_.predict(motion.stage);

@@ -32,7 +32,7 @@ class RelativeDeformation {
 
   void update(const ElasticFrame& base, const ElasticFrame& frame, const Pose& rest, bool want_tangent);
 
-  /// d(B^T f)/dxi at fixed f.
+  /// d(B^T f)/dxi at fixed f (flexible-bodies.12).
   [[nodiscard]] Matrix12 geometric(const Amplitudes& f) const;
 
  private:

@@ -93,7 +93,8 @@ void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State
   equations.begin_step(state, dt);
 }
 
-/// The step with a_{n+1} = a_n: dq, v and vdot that belong together.
+/// The step with a_{n+1} = a_n, a_n carried over to the length of this step (integrator.7): dq, v and vdot that belong
+/// together by (integrator.2) and (integrator.3), and how an increment moves them (integrator.5).
 void GeneralizedAlpha::Workspace::predict(double dt) {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
   a_n = start.vdot + (dt / last_dt) * (a - start.vdot);
@@ -130,8 +131,8 @@ bool GeneralizedAlpha::Workspace::assemble(Equations& equations, const Generaliz
   return true;
 }
 
-/// Residuals relative to their tolerances. Motions: rtol of the terms balanced. Constraints: a violation acts on the
-/// multipliers like an acceleration of violation/(beta dt^2), so it is measured against beta dt^2 vdot.
+/// Residuals relative to their tolerances. Motions: rtol of the terms balanced (integrator.8). Constraints: a violation
+/// acts on the multipliers like an acceleration of violation/(beta dt^2), so it is measured against beta dt^2 vdot.
 void GeneralizedAlpha::Workspace::measure(Equations& equations, double rtol) {
   const Index nv = equations.nv(), n = nv + equations.nlambda();
   tolerance = rtol * scale;

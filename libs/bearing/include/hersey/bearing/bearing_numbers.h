@@ -27,7 +27,7 @@ struct BearingNumbers {
 [[nodiscard]] BearingNumbers bearing_numbers(const film::FilmModel& model, const SteadyState& state);
 
 /// Coefficients of the force against the position alone, x along the load and y a quarter turn on in the sense of
-/// rotation, made dimensionless: K = k c/W, C = b c omega/W with omega = |omega_J + omega_S|.
+/// rotation, made dimensionless (bearing.15): K = k c/W, C = b c omega/W with omega = |omega_J + omega_S|.
 struct LoadAxesCoefficients {
   Eigen::Matrix2d K = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d C = Eigen::Matrix2d::Zero();
@@ -35,7 +35,8 @@ struct LoadAxesCoefficients {
 
 [[nodiscard]] LoadAxesCoefficients in_load_axes(const film::FilmModel& model, const SteadyState& state);
 
-/// Stability of a rigid rotor on this film against whirl, linear about the equilibrium (Lund and Thomsen 1978).
+/// Stability of a rigid rotor on this film against whirl, linear about the equilibrium (Lund and Thomsen 1978): where
+/// (bearing.16) has a root without damping, (bearing.18).
 struct WhirlStability {
   bool always_stable = false;   ///< no mass makes it whirl; then the numbers below are infinite
   bool never_stable = false;    ///< no mass is small enough: the film does not centre the journal

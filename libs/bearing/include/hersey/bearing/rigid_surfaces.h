@@ -14,8 +14,8 @@ class RigidSurfaces {
  public:
   explicit RigidSurfaces(const film::FilmModel& model);
 
-  /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi), widened by profiles, its rate at fixed
-  /// grid points, the speeds, the place of the supply line and the journal's angle into `motion`.
+  /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi) (bearing.2), widened by profiles, its rate at fixed
+  /// grid points (bearing.3), the speeds, the place of the supply line and the journal's angle into `motion`.
   void place(const ParameterVector& parameters, film::SurfaceMotion& motion);
 
   /// What a unit change of one Parameter does to the surfaces last placed.

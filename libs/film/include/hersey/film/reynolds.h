@@ -109,8 +109,8 @@ class Reynolds {
   /// live on their oil: fronts then follow in one iteration instead of one per node.
   void let_fronts_follow(Eigen::VectorXd& u) const;
 
-  /// Answer to a change of the surfaces: `du` = -J^{-1} dr/d(parameter), and the wrench's *partial* derivative at
-  /// fixed u. The total derivative is  partial + wrench_gradient(du).
+  /// Answer to a change of the surfaces (film.15): `du` = -J^{-1} dr/d(parameter), and the wrench's *partial*
+  /// derivative at fixed u. The total derivative is  partial + wrench_gradient(du).
   void response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial);
 
   /// Likewise for several changes at once, a column each: one solve with many right-hand sides.
@@ -119,10 +119,11 @@ class Reynolds {
 
   /// Static condensation of the film: the wrench after its Newton increment at fixed surfaces, and the wrench's total
   /// derivative with each direction (theory manual, bearing.9). `direct` solves the transposed system, once per entry
-  /// of the wrench; `multigrid` once per direction.
+  /// of the wrench (bearing.9a); `multigrid` once per direction.
   ///
   /// Surfaces that deform bring the shapes by which they open the gap, `openings` (n, shapes) for unit amplitudes: the
-  /// film puts the force Q = openings^T normal_forces() on them (theory manual, bearing.22). (n, 0): no shapes.
+  /// film puts the force Q = openings^T normal_forces() on them (theory manual, bearing.22 and bearing.23). (n, 0): no
+  /// shapes.
   void condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, CondensedFilm& film);
 
   /// At the state last linearised.

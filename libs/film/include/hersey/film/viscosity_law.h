@@ -7,8 +7,8 @@
 
 namespace hersey::film {
 
-// Each law gives ln(mu/mu0) and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa]; the film
-// takes its exponential. A new law is a struct like these and its name in ViscosityLaw.
+// Each law (film.23) gives ln(mu/mu0) and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa]; the
+// film takes its exponential. A new law is a struct like these and its name in ViscosityLaw.
 
 /// mu = mu0.
 struct ConstantViscosity {

@@ -114,7 +114,7 @@ class NodalBody final : public ModalBody {
   Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
   Eigen::VectorXd vibration_mass_;
   std::array<Eigen::MatrixXd, 3> m_Psi_;  ///< m times each component of Psi, (nodes, shapes)
-  /// Columns E of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi; with finite strain K(u) Psi as well.
+  /// Columns E of (flexible-bodies.19): 3 accelerations, 9 of turning, M Psi; with finite strain K(u) Psi as well.
   Eigen::MatrixXd columns_;
   std::vector<NodalLoad> loads_;
   solver::SecondOrderHistory w_;

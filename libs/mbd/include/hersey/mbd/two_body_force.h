@@ -21,7 +21,7 @@ struct RelativeMotion {
 /// The wrench the force puts on B, at A's origin and in A's axes; on A acts its negative at the same point.
 /// Derivatives are with respect to a twist xi_A that moves B relative to A, dX_AB = xi^ X_AB at fixed V_AB_A, and to
 /// V_AB_A. A force that sees amplitudes s of shapes puts generalised forces Q on them, beside the wrench: it does the
-/// work W . V_AB_A + Q . s_rate.
+/// power W . V_AB_A + Q . s_rate (theory manual eq. (flexible-bodies.25)).
 struct ForceResponse {
   Vector6 W_B_A = Vector6::Zero();  ///< [tau; f] [N m; N]
   Matrix6 dW_dX = Matrix6::Zero();
