@@ -67,6 +67,11 @@ class Equations(unittest.TestCase):
         if faults:
             self.fail("\n".join(faults))
 
+    def test_equations_are_numbered_in_their_order(self):
+        for page, numbers in self.shown.items():
+            expected = [f"{numbers[0].split('.')[0]}.{k}" for k in range(1, len(numbers) + 1)]
+            self.assertEqual(numbers, expected, f"the equations of {page}")
+
     def test_every_equation_is_named_in_code(self):
         named = {number for path in checked_files() for number in equations_named_in(read(path))}
         faults = [f"no code names ({number})" for number in sorted(self.all - named)]

@@ -100,7 +100,7 @@ TEST_CASE("SaturatedViscosity_IsSmoothAndBounded") {
   }
 }
 
-// The film thickness under contact is the root of (film.7), wherever Newton's iteration for it begins.
+// The film thickness under contact is the root of (film.10), wherever Newton's iteration for it begins.
 TEST_CASE("ContactHoldsSurfacesApart_HoweverFarTheyOverlap") {
   FilmModel m = big_end();
   m.compliance = 2e-3 / 60e9;

@@ -127,7 +127,7 @@ TEST_CASE("FineRoughness_TendsToTheSmoothFilm") {
   CHECK((solve_cold(m, turning(m, 0.7, 200)).wrench - plain).norm() == 0);
 }
 
-// Power the bodies put in = power dissipated (film.36), as between smooth surfaces: what is left there are the grid's
+// Power the bodies put in = power dissipated (film.47), as between smooth surfaces: what is left there are the grid's
 // error and c/R. The gaps are above 7 sigma.
 TEST_CASE("MechanicalPowerBetweenRoughSurfaces_IsDissipated") {
   const Journal journal{.e = {8e-6, 11e-6}, .e_rate = {0.01, -0.02}, .omega_shell = -40, .omega_journal = 300};

@@ -166,7 +166,7 @@ void NodalBody::gather(const ElasticMotion& motion, bool want_tangent) {
   }
 }
 
-/// Of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.24).
+/// Of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.21).
 VectorXd NodalBody::elastic_forces() {
   if (strain_ == Strain::small) return body_.K * (w_.position() + damping_.stiffness * w_.rate());
   const VectorXd rate = flat(fields_->y_rate);
@@ -174,7 +174,7 @@ VectorXd NodalBody::elastic_forces() {
   return finite_.force + damping_.stiffness * finite_.rate;
 }
 
-/// The matrix of the displacement at hand, theory manual eq. (flexible-bodies.24).
+/// The matrix of the displacement at hand, theory manual eq. (flexible-bodies.21).
 void NodalBody::refresh_stiffness() {
   update_fields();
   fem::finite_strain(body_, fields_->u, finite_);

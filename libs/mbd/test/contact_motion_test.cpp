@@ -84,7 +84,7 @@ Impact impact(const ContactLaw& law, int steps) {
 
 TEST_CASE("BallDrop_MeetsHertzForceAndDuration") {
   // delta_max = (5 m v^2/(4 k))^(2/5), F = k delta_max^(3/2), T = 2.9432 delta_max/v (Hertz; Johnson 1985, Sec.
-  // 11.4): (contact.11).
+  // 11.4): (contact.13).
   const ContactLaw law{.stiffness = 1e9};
   const double depth = std::pow(1.25 * 0.1 / law.stiffness, 0.4);
   const double force = law.stiffness * std::pow(depth, 1.5), duration = 2.943275 * depth;

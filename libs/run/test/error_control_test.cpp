@@ -115,7 +115,7 @@ Vector3 errors_of_a_pattern(int repetitions) {
 }
 
 TEST_CASE("VaryingSteps_KeepOrderTwoOfMultipliersToo") {
-  // Without (integrator.14) the force is of first order. Shorter steps would show the round-off of positions over dt^2.
+  // Without (integrator.13) the force is of first order. Shorter steps would show the round-off of positions over dt^2.
   const Vector3 coarse = errors_of_a_pattern(150), fine = errors_of_a_pattern(300);
   for (int i = 0; i < 3; ++i) {
     CAPTURE(i);

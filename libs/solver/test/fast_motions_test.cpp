@@ -37,7 +37,7 @@ double integrated(test::OneCoordinate& e, int steps) {
 }
 
 TEST_CASE("Start_IsOfOrderTwoHoweverStiffTheDamping") {
-  // Without the start of (integrator.20) the error at a ratio of 1e8 is 12 instead of 3e-6.
+  // Without the start of (integrator.9) the error at a ratio of 1e8 is 12 instead of 3e-6.
   for (const double ratio : {1.0, 10.0, 100.0, 1e4, 1e8}) {
     CAPTURE(ratio);
     test::OneCoordinate coarse = dragged(1 / ratio, 1), fine = coarse;

@@ -206,7 +206,7 @@ TEST_CASE("ElasticBearing_StiffnessMatchesDifferencesOfTheForce") {
 }
 
 /// A bearing all around alike, seen from axes that turn with its journal around the shell at Omega, is a steady one
-/// whose oil is dragged by omega - 2 Omega: b (z x e) = -2 dF/d omega (bearing.33), the motion of the deformation
+/// whose oil is dragged by omega - 2 Omega: b (z x e) = -2 dF/d omega (bearing.30), the motion of the deformation
 /// included.
 TEST_CASE("ElasticBearing_DampingIsThatOfAFlowSeenFromTurningAxes") {
   const Rig rig;

@@ -55,7 +55,7 @@ struct BeamState {
 using BeamVector = Eigen::Matrix<double, 12, 1>;
 using BeamMatrix = Eigen::Matrix<double, 12, 12>;
 
-/// Strain energy, its gradient and the derivative of that, of one element, (elastic.16) to (elastic.18).
+/// Strain energy, its gradient and the derivative of that, of one element, (elastic.18) to (elastic.20).
 struct BeamResponse {
   double energy = 0;   ///< [J]
   BeamVector force;    ///< gradient: [moment; force] at node a, at node b

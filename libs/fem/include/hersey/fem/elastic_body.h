@@ -17,7 +17,7 @@ struct ElasticBody {
   std::vector<SolidMaterial> materials;
   Integration integration = Integration::full;
   Eigen::SparseMatrix<double> K;      ///< stiffness (3 n, 3 n) [N/m], symmetric, both triangles
-  Eigen::SparseMatrix<double> m;      ///< consistent mass (n, n) [kg], M = m (x) I3, (elastic.7)
+  Eigen::SparseMatrix<double> m;      ///< consistent mass (n, n) [kg], M = m (x) I3, (elastic.6)
   double mass = 0;                    ///< [kg]
   Vector3 centre = Vector3::Zero();   ///< of mass [m]
   Matrix3 inertia = Matrix3::Zero();  ///< about `centre`, in the mesh's axes [kg m^2]

@@ -77,7 +77,7 @@ struct Support {
   double displacement = 0;  ///< [m]
 };
 
-/// K u = f + reaction, for each column of `f` (3 n, loads); a body that is not held is told so, (elastic.9).
+/// K u = f + reaction, for each column of `f` (3 n, loads); a body that is not held is told so, (elastic.10).
 [[nodiscard]] StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>& supports,
                                           const Eigen::MatrixXd& f);
 

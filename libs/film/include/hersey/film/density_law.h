@@ -7,7 +7,7 @@
 
 namespace hersey::film {
 
-// Each law (film.24) gives rho/rho0 and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa], and
+// Each law (film.8) gives rho/rho0 and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa], and
 // the work that brings a unit of volume (at rho0) to p, the integral of dp rho0/rho [Pa]. A new law is a struct like
 // these and its name in DensityLaw.
 

@@ -7,7 +7,7 @@
 
 namespace hersey::film {
 
-/// Whether the film's equations mean anything at a trial (film.65). A trial outside is an outcome, not an error:
+/// Whether the film's equations mean anything at a trial (film.32). A trial outside is an outcome, not an error:
 /// whoever made it takes a shorter step.
 struct FilmDomain {
   enum class Trouble {

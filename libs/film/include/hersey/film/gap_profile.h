@@ -14,7 +14,7 @@ struct Opening {
   double value = 0, phi = 0, phi_phi = 0;
 };
 
-// Deviations of a surface from its cylinder (film.26), as metal that is missing: by how much they widen the gap at
+// Deviations of a surface from its cylinder (film.24), as metal that is missing: by how much they widen the gap at
 // (phi, z), in the frame of their surface. A new one is a struct like these and its name in ProfileShape.
 
 /// Falls off towards both edges as a parabola.

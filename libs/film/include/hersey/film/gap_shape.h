@@ -32,7 +32,7 @@ class GapShape {
 
   /// The journal's profiles with the journal turned by `phi_journal` [rad]: opening [m] and its first and second
   /// derivative with that angle, shape (grid.size()) each. The first times the journal's angular speed is the
-  /// rate of the gap (film.28).
+  /// rate of the gap (film.25).
   void turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
                      Eigen::VectorXd& second) const;
 

@@ -7,7 +7,7 @@
 
 namespace hersey::film {
 
-// Each law (film.23) gives ln(mu/mu0) and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa]; the
+// Each law (film.7) gives ln(mu/mu0) and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa]; the
 // film takes its exponential. A new law is a struct like these and its name in ViscosityLaw.
 
 /// mu = mu0.
@@ -40,7 +40,7 @@ struct Roelands {
 /// Logarithm of the largest viscosity ratio that a law may mean: exp(20) = 5e8 times the viscosity is no oil.
 inline constexpr double largest_log_viscosity = 20;
 
-/// A logarithm beyond +-largest_log_viscosity runs smoothly into a limit half as large again (film.64). No answer lies
+/// A logarithm beyond +-largest_log_viscosity runs smoothly into a limit half as large again (film.9). No answer lies
 /// there, but trials on the way to one do: their viscosities stay finite, and slopes are those of the values.
 [[nodiscard]] inline ValueAndSlope saturated(const ValueAndSlope& log_ratio) {
   constexpr double room = 0.5 * largest_log_viscosity;

@@ -22,7 +22,7 @@ struct ModalBodyData {
   /// Integrals of rho Y_a,p Y_b,r, component by component: second_moment[3 p + r](a, b), shape (1 + shapes)^2.
   std::array<Eigen::MatrixXd, 9> second_moment;
   /// Of the turn and displacement of each frame but the first: 6, or 12 with the matrix of the turn (theory manual eq.
-  /// (flexible-bodies.29)).
+  /// (flexible-bodies.22)).
   int shapes_per_frame = 6;
   Eigen::MatrixXd stiffness;      ///< shape (shapes, shapes)
   Eigen::MatrixXd damping;        ///< the same
@@ -94,7 +94,7 @@ class ModalBody : public ElasticBody {
   virtual void add_elasticity(bool want_tangent);
 
  private:
-  /// A nodal load on the shapes, theory manual eq. (flexible-bodies.21).
+  /// A nodal load on the shapes, theory manual eq. (flexible-bodies.23).
   struct ProjectedLoad {
     LoadAxes axes = LoadAxes::body;
     Vector3 force = Vector3::Zero();  ///< sum over nodes of f

@@ -35,7 +35,7 @@ enum class Strain {
 ///
 /// With Strain::finite the elastic forces are those of Green and Lagrange's strain (St. Venant and Kirchhoff): strains
 /// may be moderate, rotations against the body's axes large, and what is pulled gets stiffer. The static shapes of a
-/// frame then keep its nodes a rigid piece, however far it turns (flexible-bodies.29). The matrix is that of
+/// frame then keep its nodes a rigid piece, however far it turns (flexible-bodies.22). The matrix is that of
 /// the state each step starts from, factorised anew for each.
 ///
 /// At the start w is the static answer to the forces of inertia and weight of the start, at rest against the axes: as

@@ -131,7 +131,7 @@ struct Options {
 /// machine. A run that was completed is left as it is.
 ///
 /// With `step_error` the model is first run with steps twice as long (a tolerance eight times as large), and from the
-/// difference of both follows what the steps have done to each bearing's figures (theory manual eq. (integrator.22)).
+/// difference of both follows what the steps have done to each bearing's figures (theory manual eq. (integrator.17)).
 /// @throws results::FileExists if the results file exists and is not to be overwritten.
 /// @throws InputError if `resume` is asked for another model; results::ReadError if results or checkpoint are damaged.
 [[nodiscard]] Summary simulate(const model::Model& model, const Options& options);
