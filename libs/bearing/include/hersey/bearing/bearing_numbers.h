@@ -24,6 +24,7 @@ struct BearingNumbers {
   double film_ratio = 0;          ///< h_min/sigma; 0 for smooth surfaces
 };
 
+/// Of a state that was solved for `model`. @pre its load is not zero
 [[nodiscard]] BearingNumbers bearing_numbers(const film::FilmModel& model, const SteadyState& state);
 
 /// Coefficients of the force against the position alone, x along the load and y a quarter turn on in the sense of
@@ -33,6 +34,7 @@ struct LoadAxesCoefficients {
   Eigen::Matrix2d C = Eigen::Matrix2d::Zero();
 };
 
+/// Of a state that was solved for `model`. @pre its load is not zero
 [[nodiscard]] LoadAxesCoefficients in_load_axes(const film::FilmModel& model, const SteadyState& state);
 
 /// Stability of a rigid rotor on this film against whirl, linear about the equilibrium (Lund and Thomsen 1978): where

@@ -71,11 +71,16 @@ class DeformingSurfaces;
 /// their observations is 0.
 class JournalBearing final : public mbd::TwoBodyForce {
  public:
+  /// @param name  as it stands in messages and results
+  /// @throws ContractError for a model that describes no film, as film::Reynolds
   JournalBearing(std::string name, const film::FilmModel& model, const BearingOptions& options = {});
   ~JournalBearing() override;
 
+  /// As it stands in messages and results.
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Of the film; constant.
   [[nodiscard]] const film::FilmModel& model() const { return reynolds_.model(); }
+  /// As asked for; a step may be taken as one system all the same.
   [[nodiscard]] Coupling coupling() const { return options_.coupling; }
 
   /// With motion.dt = 0 (start of a run) the film is solved to the end instead: freshly filled, theta = 1 before a step

@@ -12,6 +12,7 @@ namespace hersey::bearing {
 /// chapter bearing). One object per bearing and thread; no allocation after the first call.
 class RigidSurfaces {
  public:
+  /// Of a bearing whose journal has no place yet: place() comes first.
   explicit RigidSurfaces(const film::FilmModel& model);
 
   /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi) (bearing.2), widened by profiles, its rate at fixed
@@ -39,7 +40,9 @@ class RigidSurfaces {
 };
 
 // The same for a single use.
+/// RigidSurfaces::place for a single use.
 void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion);
+/// RigidSurfaces::smallest_gap at these parameters [m].
 [[nodiscard]] double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters);
 /// Of a parameter that does not turn the journal.
 [[nodiscard]] film::MotionDirection surface_direction(const film::FilmModel& model, int parameter);

@@ -22,9 +22,13 @@ struct ElasticBody {
   Vector3 centre = Vector3::Zero();   ///< of mass [m]
   Matrix3 inertia = Matrix3::Zero();  ///< about `centre`, in the mesh's axes [kg m^2]
 
+  /// Nodes, n.
   [[nodiscard]] Eigen::Index node_count() const { return m.rows(); }
+  /// Degrees of freedom, 3 n.
   [[nodiscard]] Eigen::Index size() const { return K.rows(); }
+  /// Of an element; the first where it names none.
   [[nodiscard]] const SolidMaterial& material_of(const Element& element) const;
+  /// Of an element's nodes, undeformed, (3, nodes) [m].
   [[nodiscard]] NodeColumns positions_of(const Element& element) const;
 };
 

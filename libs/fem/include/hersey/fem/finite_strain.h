@@ -28,6 +28,7 @@ struct FiniteStress {
   Eigen::Matrix<double, 6, Eigen::Dynamic> stress;
   Eigen::VectorXd energy;
 };
+/// Of an element with nodes at `x` + `u`, (3, nodes) [m].
 [[nodiscard]] FiniteStress finite_strain_stress(ElementType type, const NodeColumns& x, const SolidMaterial& material,
                                                 const NodeColumns& u, Integration rule = Integration::full);
 

@@ -49,6 +49,7 @@ struct FrameSupports {
   std::vector<int> held;
   Eigen::SparseMatrix<double> C;
 };
+/// Of these frames on this mesh.
 [[nodiscard]] FrameSupports frame_supports(const Mesh& mesh, const std::vector<InterfaceFrame>& frames);
 
 /// A surface that carries loads, and shapes of pressure on it.
@@ -112,7 +113,9 @@ struct ReducedBody {
   Mesh mesh;
   std::vector<SolidMaterial> materials;  ///< of the elements; none: unknown
 
+  /// Coordinates, r.
   [[nodiscard]] Eigen::Index size() const { return Phi.cols(); }
+  /// Place of the first internal coordinate in q.
   [[nodiscard]] Eigen::Index internal_first() const { return 6 * static_cast<Eigen::Index>(frames.size()); }
 };
 

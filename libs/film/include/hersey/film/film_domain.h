@@ -19,6 +19,7 @@ struct FilmDomain {
   Trouble trouble = Trouble::none;
   int node = -1;  ///< where; -1: nowhere, or everywhere
 
+  /// Whether the trial is a film.
   [[nodiscard]] bool is_inside() const { return trouble == Trouble::none; }
 };
 

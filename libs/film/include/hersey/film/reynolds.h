@@ -72,14 +72,20 @@ struct CondensedFilm {
 /// first call.
 class Reynolds {
  public:
+  /// The film of `model`. @throws ContractError for a model that describes none: no size, no viscosity, edges below
+  /// p_cav
   explicit Reynolds(const FilmModel& model, LinearSolver linear = LinearSolver::direct);
   ~Reynolds();
   Reynolds(Reynolds&&) noexcept;
   Reynolds& operator=(Reynolds&&) noexcept;
 
+  /// As given.
   [[nodiscard]] const FilmModel& model() const;
+  /// Nodes, n.
   [[nodiscard]] int size() const;
+  /// As asked for.
   [[nodiscard]] LinearSolver linear_solver() const;
+  /// Of all solutions so far.
   [[nodiscard]] const LinearSolverCounts& counts() const;
 
   /// Linearises about `u`. After it the members below refer to this state; the first of them that needs the factorised

@@ -12,6 +12,7 @@ namespace hersey::film {
 
 /// mu = mu0.
 struct ConstantViscosity {
+  /// 0 at every pressure.
   [[nodiscard]] ValueAndSlope log_ratio(double /*p*/, double /*mu0*/) const { return {}; }
 };
 
@@ -19,6 +20,7 @@ struct ConstantViscosity {
 /// @see Barus (1893), Am. J. Sci. 45, 87-96.
 struct Barus {
   double alpha = 0;  ///< pressure-viscosity coefficient [1/Pa], >= 0
+  /// alpha p, whatever mu0 is.
   [[nodiscard]] ValueAndSlope log_ratio(double p, double /*mu0*/) const { return {alpha * p, alpha}; }
 };
 
@@ -30,6 +32,7 @@ struct Roelands {
   static constexpr double pole_pressure = 196.2e6;          ///< [Pa]
   static constexpr double smallest_viscosity = 6.3151e-05;  ///< exp(-9.67) [Pa s]: mu0 lies above it
 
+  /// At p above p_cav [Pa]; mu0 [Pa s], > smallest_viscosity.
   [[nodiscard]] ValueAndSlope log_ratio(double p, double mu0) const {
     const double size = std::log(mu0 / smallest_viscosity), slope = size * z / pole_pressure;
     const double power = std::pow(1 + p / pole_pressure, z);

@@ -62,6 +62,7 @@ class Contact final : public TwoBodyForce {
   [[nodiscard]] double stored_energy(const RelativeMotion& motion) const override;
   [[nodiscard]] std::string domain_error() const override;
 
+  /// Where and how hard the surfaces touch at this motion.
   [[nodiscard]] ContactObservation observe(const RelativeMotion& motion);
 
  private:

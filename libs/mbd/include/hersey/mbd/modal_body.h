@@ -28,6 +28,7 @@ struct ModalBodyData {
   Eigen::MatrixXd damping;        ///< the same
   Eigen::Matrix3Xd nodes;         ///< undeformed [m], shape (3, nodes)
   Eigen::MatrixXd displacements;  ///< of the nodes for unit amplitudes, shape (3 nodes, shapes)
+  /// How many there are.
   [[nodiscard]] Eigen::Index shapes() const { return stiffness.rows(); }
 };
 

@@ -59,13 +59,21 @@ class TwoBodyForce {
   [[nodiscard]] virtual double lost_power(const RelativeMotion&) const { return 0; }
 
   // Condensed unknowns; see solver::Equations for when each is called.
+  /// As solver::Equations::begin_step; `start` is the motion at the start of the step, `dt` its length [s].
   virtual void begin_step(const RelativeMotion& start, double dt) { (void)start, (void)dt; }
+  /// As solver::Equations::step_stands.
   [[nodiscard]] virtual bool step_stands() { return true; }
+  /// As solver::Equations::accept_step.
   virtual void accept_step(const RelativeMotion& end) { (void)end; }
+  /// As solver::Equations::has_condensed_unknowns.
   [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
+  /// As solver::Equations::internal_residual.
   [[nodiscard]] virtual double internal_residual() const { return 0; }
+  /// As solver::Equations::name_of_internal_residual.
   [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
+  /// As solver::Equations::domain_error.
   [[nodiscard]] virtual std::string domain_error() const { return {}; }
+  /// As solver::Equations::persist.
   virtual void persist(Archive& archive) { (void)archive; }
 };
 

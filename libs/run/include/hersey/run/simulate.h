@@ -76,7 +76,9 @@ struct EnergySummary {
   double stored = 0;             ///< more kinetic, potential, spring and strain energy than at the start
   double largest =
       0;  ///< the largest that energy put in or lost has been, or any kind of it has changed: errors are its shares
+  /// Dissipated by films, asperities, contacts and dampers.
   [[nodiscard]] double lost() const { return films + boundary_friction + contacts + dampers; }
+  /// What all the parts leave of put_in.
   [[nodiscard]] double unexplained() const { return put_in - lost() - oil - film_storage - stored; }
   /// |unexplained| over the largest [-].
   [[nodiscard]] double error() const { return largest > 0 ? std::abs(unexplained()) / largest : 0; }

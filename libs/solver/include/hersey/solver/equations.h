@@ -45,8 +45,11 @@ class Equations {
 
   virtual ~Equations() = default;
 
+  /// Entries of q.
   [[nodiscard]] virtual Index nq() const = 0;
+  /// Velocity components, nv <= nq.
   [[nodiscard]] virtual Index nv() const = 0;
+  /// Constraints, one multiplier each.
   [[nodiscard]] virtual Index nlambda() const = 0;
 
   /// q = q0 (+) dq; for plain coordinates a sum, for an orientation q0 exp(dq).

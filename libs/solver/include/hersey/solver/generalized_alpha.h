@@ -34,6 +34,7 @@ struct StepSummary {
   std::string worst_row;  ///< the row behind `residual`, by name; empty when converged
   std::string message;    ///< empty when converged, otherwise one sentence: what failed and where
 
+  /// Whether the step was taken.
   [[nodiscard]] bool converged() const { return status == StepStatus::converged; }
 };
 
@@ -79,6 +80,7 @@ class GeneralizedAlpha {
   /// The history, and the pivot order in use.
   void persist(Archive& archive);
 
+  /// As given.
   [[nodiscard]] const GeneralizedAlphaOptions& options() const { return options_; }
 
  private:

@@ -38,6 +38,7 @@ struct InitialiseSummary {
   std::vector<OpenConstraint> conflict;   ///< the same with the held positions at rest; empty where these could stay
   std::string message;                    ///< empty when consistent
 
+  /// Whether the state was made consistent.
   [[nodiscard]] bool consistent() const { return status == InitialiseStatus::consistent; }
 };
 

@@ -17,6 +17,7 @@ struct KinematicsSummary {
   std::vector<std::string> undetermined;  ///< velocity components that constraints and drives leave free, by name
   std::string message;                    ///< empty when solved
 
+  /// Whether the motion was found.
   [[nodiscard]] bool solved() const { return status == KinematicsStatus::solved; }
 };
 

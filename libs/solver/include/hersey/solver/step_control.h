@@ -38,8 +38,10 @@ class StepControl {
   /// The step tried had no solution. Returns false if no smaller step is allowed.
   [[nodiscard]] bool failed(double dt);
 
+  /// The step wanted next, without regard to instants to hit [s].
   [[nodiscard]] double dt() const { return dt_; }
 
+  /// The step wanted, and what it is told from.
   void persist(Archive& archive);
 
  private:
