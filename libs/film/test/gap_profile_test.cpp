@@ -9,6 +9,8 @@
 namespace hersey::film {
 namespace {
 
+constexpr double kNothing = 1e-20;  // m: round-off of openings of some micrometres
+
 TEST_CASE("Profiles_HaveTheirShapes") {
   const double L = 0.02;
   CHECK(Barrel{4e-6}.opening(1, 0, L).value == 0);
@@ -31,6 +33,7 @@ TEST_CASE("LemonBore_IsMadeOfArcs") {
   SurfaceMotion motion = surfaces(m, {.e = {0, -offset}});
   m.profiles = {{Lobes{2, offset, pi / 2}}};
   motion.g += gap_opening(m);
+  // Round-off.
   for (int i = 1; i < 24; ++i) CHECK(motion.g[m.grid.index(i, 2)] == doctest::Approx(m.c + offset).epsilon(1e-12));
 }
 
@@ -41,7 +44,7 @@ TEST_CASE("Profiles_AddUp") {
   m.profiles = {{Taper{5e-6}}, {Barrel{2e-6}}, {Taper{-5e-6}, Surface::journal}};
   const Eigen::VectorXd sum = gap_opening(m);
   m.profiles = {{Barrel{2e-6}}};
-  CHECK((sum - gap_opening(m)).cwiseAbs().maxCoeff() < 1e-20);
+  CHECK((sum - gap_opening(m)).cwiseAbs().maxCoeff() < kNothing);
 }
 
 TEST_CASE("ProfileDerivatives_MatchFiniteDifference") {
@@ -58,8 +61,9 @@ TEST_CASE("ProfileDerivatives_MatchFiniteDifference") {
     const double d = 1e-5, at = 0.7, z = 2e-3, L = 0.02;
     const Opening here = profile.opening(at, z, L);
     const Opening before = profile.opening(at - d, z, L), after = profile.opening(at + d, z, L);
+    // Differences of step 1e-5 of micrometres: h^2, and round-off over h.
     CHECK(std::abs((after.value - before.value) / (2 * d) - here.phi) < 1e-14);
-    CHECK(std::abs((after.phi - before.phi) / (2 * d) - here.phi_phi) < 1e-13);
+    CHECK(std::abs((after.phi - before.phi) / (2 * d) - here.phi_phi) < 1e-13);  // the same, once more differentiated
   }
   // Straight between the measured heights, constant beyond them, a smooth curve through the points around the bearing.
   CHECK(measured.opening(phi[3], 0, 0.02).value == doctest::Approx(3e-6 * std::sin(phi[3]) + 1e-6));
@@ -72,7 +76,7 @@ TEST_CASE("ProfilesOfTheJournal_TurnWithIt") {
   m.profiles = {{Ovality{4e-6, 0.2}, Surface::journal}};
   const Eigen::VectorXd turned = gap_opening(m, 0.9);
   m.profiles = {{Ovality{4e-6, 0.2 + 0.9}}};
-  CHECK((turned - gap_opening(m)).cwiseAbs().maxCoeff() < 1e-20);
+  CHECK((turned - gap_opening(m)).cwiseAbs().maxCoeff() < kNothing);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ TEST_CASE("FilmForces_DoNotDependOnTheFrame") {
     const Vector6 ground = solve_cold(m, swinging).wrench;
     for (const double omega : {swinging.omega_shell, swinging.omega_journal, 33.0}) {
       const Vector6 turning_grid = solve_cold(m, seen_from(swinging, omega)).wrench;
+      // What the solver leaves, rtol 1e-10.
       CHECK((turning_grid - ground).tail<3>().norm() < 1e-10 * ground.tail<3>().norm());
     }
   }
@@ -83,6 +84,7 @@ TEST_CASE("MirroredBearing_MirrorsItsForces") {
   const SolvedFilm a = solve_cold(m, one), b = solve_cold(m, mirrored);
   Vector6 expected = a.wrench;  // y -> -y: forces mirror as vectors, moments as axial vectors
   expected[0] *= -1, expected[2] *= -1, expected[4] *= -1;
+  // What the solver leaves, rtol 1e-10, on a film with weak spots.
   CHECK((b.wrench - expected).norm() < 1e-9 * a.wrench.norm());
 }
 

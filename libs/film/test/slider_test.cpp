@@ -58,7 +58,7 @@ SolvedSlider solve(const Slider& slider, int n) {
   }
   s.film = solve_cold(m, motion, {0, 0});
   REQUIRE(s.film.summary.converged);
-  CHECK(s.film.observed.mass_balance_error < 1e-9);
+  CHECK(s.film.observed.mass_balance_error < 1e-9);  // the solver's tolerance is 1e-10 per node
   s.p.resize(n + 1), s.theta.resize(n + 1);
   for (int k = 0; k <= n; ++k) {
     s.p[k] = s.film.fields.p[m.grid.index(k, 1)] - slider.end_pressure;
@@ -132,7 +132,7 @@ PocketErrors pocket(int n) {
   const SolvedSlider s = solve({10e-3, 1, 0.01, 1e5, gap, 2e-3, 5e-3, 1e-6}, n);
   int last = 0, first = n;
   for (int k = 0; k <= n; ++k) {
-    if (s.theta[k] < 1 - 1e-9) last = k, first = std::min(first, k);
+    if (s.theta[k] < 1 - 1e-9) last = k, first = std::min(first, k);  // full but for round-off
   }
   CHECK(std::abs(first * s.dx - 2e-3) <= s.dx);
   // The front's own node is partly full: the share by which it is fuller than the one before tells where in the cell

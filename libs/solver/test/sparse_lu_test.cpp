@@ -125,8 +125,8 @@ TEST_CASE("RestoredSparseLu_SolvesToTheSameBits") {
   fresh.solve({z.data(), static_cast<std::size_t>(n)});
   CHECK(x == y);
   CHECK(lu.pivotings() == 1);
-  CHECK(x != z);  // what was restored matters
-  CHECK((x - z).norm() < 1e-10 * x.norm());
+  CHECK(x != z);                             // what was restored matters
+  CHECK((x - z).norm() < 1e-10 * x.norm());  // round-off times the growth that another pivot order allows
 }
 
 TEST_CASE("SparseLuWithoutAMatrix_IsRestoredAsSuch") {
