@@ -19,7 +19,7 @@ std::filesystem::path data(const std::string& name) {
   return std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data" / name;
 }
 
-constexpr double kMillimetre = 1e-3;
+constexpr double kMillimetre = 1e-3;  // m
 
 long label_of_node(const Mesh& mesh, const Element& element, int k) {
   return mesh.node_labels[static_cast<std::size_t>(mesh.nodes_of(element)[k])];
