@@ -133,18 +133,6 @@ void write(const std::filesystem::path& path, const std::string& text) {
   }
 }
 
-/// Surfaces answer pressures linearly here, whatever their bodies do in runs.
-void tell_small_strains(const model::Model& model) {
-  for (const model::Bearing& bearing : model.bearings)
-    for (const auto& [surface, frame] :
-         {std::pair{&bearing.shell_surface, &bearing.shell}, std::pair{&bearing.journal_surface, &bearing.journal}})
-      for (const model::Body& body : model.bodies)
-        if (*surface && body.name == frame->body && body.flexible && body.flexible->strain == mbd::Strain::finite)
-          say("warning: `strain: finite` of body '{}': by itself the bearing '{}' is answered with small strains; "
-              "`hersey run` takes them as they are\n",
-              body.name, bearing.name);
-}
-
 void print(const BearingArguments& arguments, const std::vector<study::BearingSolution>& solutions) {
   if (arguments.json) {
     nlohmann::json document{{"model", arguments.model}, {"solutions", nlohmann::json::array()}};
@@ -165,7 +153,6 @@ int bearing_command(const BearingArguments& arguments) {
   require_separate({{"--csv", arguments.csv}, {"--fields", arguments.fields}, {"--report", arguments.report}},
                    files_of(model));
   warn(model.warnings);
-  tell_small_strains(model);
   if (!arguments.fields.empty() && runs.size() > 1) {
     throw InputError(Fault{{"--fields", 0, 0}, "", fmt::format("{} solutions", runs.size()), "a single one", ""});
   }

@@ -59,9 +59,6 @@ class InertiaTerms {
   std::vector<Vector6> F_, magnitude_;  ///< composite inertia wrench and the size of its parts
 };
 
-/// Inertia of a link about ground's origin, in ground's axes.
-[[nodiscard]] Matrix6 inertia_in_world(const Link& link, const Pose& X_WL);
-
 /// Adds a wrench that frame a's body puts on frame b's, and its negative on a's (theory manual eq. (mechanisms.12)).
 /// @param response  as a TwoBodyForce gives it: on b, at a's origin and in a's axes
 void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& response);

@@ -14,8 +14,7 @@ Matrix6 momentum_cross(const Vector6& h) {
   return c;
 }
 
-}  // namespace
-
+/// Inertia of a link about ground's origin, in ground's axes.
 Matrix6 inertia_in_world(const Link& link, const Pose& X_WL) {
   const Matrix3 c = skew(X_WL * link.com);
   Matrix6 I;
@@ -23,6 +22,8 @@ Matrix6 inertia_in_world(const Link& link, const Pose& X_WL) {
       link.mass * Matrix3::Identity();
   return I;
 }
+
+}  // namespace
 
 InertiaTerms::InertiaTerms(const Tree& tree)
     : I_(tree.links.size()), B_(tree.links.size()), F_(tree.links.size()), magnitude_(tree.links.size()) {}

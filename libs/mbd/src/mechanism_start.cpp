@@ -114,8 +114,8 @@ std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
     for (const Coordinate& coordinate : coordinates_of(joint.type))
       for (const bool is_rate : {false, true}) {
         if (!(is_rate ? joint.is_rate_given(coordinate.offset) : joint.is_given(coordinate.offset))) continue;
-        const auto part = [&](const std::vector<double>& all) {
-          const auto first = all.begin() + coordinate.offset;
+        const auto part = [&](const auto& all) {
+          const double* first = all.data() + coordinate.offset;
           return std::vector<double>(first, first + coordinate.size);
         };
         ChangedStart change{{static_cast<int>(j)}, coordinate, is_rate, {}, {}, 0};

@@ -7,7 +7,23 @@
 namespace hersey::mbd {
 namespace {
 
-Vector6 convert_wrench(const Pose& X_WF, const Vector6& W_world) { return force_transform(X_WF.inverse()) * W_world; }
+/// What inertia and weight ask of a body: the wrench about ground's origin, in ground's axes.
+/// @param A  its acceleration; the weight is in it as that of ground
+Vector6 inertia_forces(const BodySpec& body, const Pose& X_WB, const Vector6& V, const Vector6& A) {
+  const Matrix3& R = X_WB.R;
+  const Vector3 c = X_WB * body.com, omega = V.head<3>(), alpha = A.head<3>();
+  const Vector3 f = body.mass * (A.tail<3>() + alpha.cross(c) + omega.cross(V.tail<3>() + omega.cross(c)));
+  const auto times_inertia = [&](const Vector3& u) -> Vector3 { return R * (body.inertia * (R.transpose() * u)); };
+  Vector6 W;
+  W << times_inertia(alpha) + omega.cross(times_inertia(omega)) + c.cross(f), f;
+  return W;
+}
+
+double kinetic_energy(const Link& link, const Pose& X_WL, const Vector6& V) {
+  const Vector3 omega = X_WL.R.transpose() * V.head<3>();
+  const Vector3 v = V.tail<3>() + V.head<3>().cross(X_WL * link.com);
+  return 0.5 * (link.mass * v.squaredNorm() + omega.dot(link.inertia * omega));
+}
 
 /// Values and rates of a joint that is not in the tree, read off its frames' relative motion.
 void measure_joint(JointType type, const Vector3& axis, const RelativeMotion& relative, JointObservation& seen) {
@@ -17,8 +33,11 @@ void measure_joint(JointType type, const Vector3& axis, const RelativeMotion& re
   const Vector3& r = relative.X_AB.r;
   const Vector3 omega = relative.V_AB_A.head<3>(), v = relative.V_AB_A.tail<3>() + omega.cross(r);
   const auto add = [&](double position, double rate) {
-    seen.position.push_back(position);
-    seen.rate.push_back(rate);
+    const Eigen::Index count = seen.position.size();
+    seen.position.conservativeResize(count + 1);
+    seen.rate.conservativeResize(count + 1);
+    seen.position[count] = position;
+    seen.rate[count] = rate;
   };
   const auto add_rotation = [&] { add(std::atan2(t2.dot(R * t1), t1.dot(R * t1)), n.dot(omega)); };
   const auto add_orientation = [&] {
@@ -87,9 +106,10 @@ void Mechanism::Implementation::observe_joint_coordinates(const solver::State& s
       measure_joint(joint.type, joint.axis, motion.relative(pair), o);
       continue;
     }
-    o.position.resize(place.value_link.size());
-    o.rate.resize(place.value_link.size());
-    for (std::size_t i = 0; i < place.value_link.size(); ++i) {
+    const auto n = static_cast<Eigen::Index>(place.value_link.size());
+    o.position.resize(n);
+    o.rate.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
       const Link& link = tree.links[place.value_link[i]];
       const int c = place.value_component[i];
       if (link.motion != Motion::ball) {
@@ -145,15 +165,8 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
   std::vector<Vector6> need(spec.bodies.size(), Vector6::Zero());
   const auto body_of = [&](FrameId frame) { return spec.frames[frame.index].body.index; };
   for (int b : tree.body_order) {
-    const BodySpec& body = spec.bodies[b];
-    Link alone;
-    alone.mass = body.mass;
-    alone.com = body.com;
-    alone.inertia = body.inertia;
     const Attachment& at = tree.bodies[b];
-    const Matrix6 I = inertia_in_world(alone, motion.pose(at));
-    const Vector6& V = motion.V(at.link);
-    need[b] = I * motion.A(at.link) + cross_force(V, I * V);
+    need[b] = inertia_forces(spec.bodies[b], motion.pose(at), motion.V(at.link), motion.A(at.link));
   }
   for (std::size_t i = 0; i < loads.size(); ++i) need[body_of(spec.loads[i].frame)] -= loads[i].wrench(motion, state);
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
@@ -213,9 +226,9 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
   if (shared_reactions) shared_reactions->share(spec, tree, motion, through);
   for (std::size_t j = 0; j < spec.joints.size(); ++j) {
     const Pose X_WI = motion.pose(tree.frames[spec.joints[j].inboard.index]);
-    const Vector6 W = convert_wrench(X_WI, through[j]);
-    seen.joints[j].torque = W.head<3>();
-    seen.joints[j].force = W.tail<3>();
+    const Vector3 f = through[j].tail<3>();
+    seen.joints[j].torque = X_WI.R.transpose() * (through[j].head<3>() - X_WI.r.cross(f));
+    seen.joints[j].force = X_WI.R.transpose() * f;
   }
 }
 
@@ -234,9 +247,9 @@ void Mechanism::Implementation::observe_drift(const solver::State& state, Observ
 void Mechanism::Implementation::observe_energies(Observation& seen) const {
   for (std::size_t l = 1; l < tree.links.size(); ++l) {
     const Link& link = tree.links[l];
-    const Vector6& V = motion.V(static_cast<int>(l));
-    seen.kinetic_energy += 0.5 * V.dot(inertia_in_world(link, motion.X(static_cast<int>(l))) * V);
-    seen.potential_energy -= link.mass * spec.gravity.dot(motion.X(static_cast<int>(l)) * link.com);
+    const Pose& X_WL = motion.X(static_cast<int>(l));
+    seen.kinetic_energy += kinetic_energy(link, X_WL, motion.V(static_cast<int>(l)));
+    seen.potential_energy -= link.mass * spec.gravity.dot(X_WL * link.com);
   }
 }
 
@@ -258,6 +271,7 @@ Observation Mechanism::observe(const solver::State& state) {
   m.motion.update(state);
   Observation seen;
   seen.t = state.t;
+  seen.bodies.reserve(m.tree.bodies.size());
   for (const Attachment& body : m.tree.bodies) seen.bodies.push_back(m.frame_motion(body));
   seen.joints.resize(m.spec.joints.size());
   m.observe_joint_coordinates(state, seen);

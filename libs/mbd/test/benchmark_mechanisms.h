@@ -180,7 +180,7 @@ class Squeezer {
   /// Angle of the named joint: the last of its values.
   [[nodiscard]] double angle(const Observation& seen, const std::string& name) const {
     for (std::size_t j = 0; j < seen.joints.size(); ++j)
-      if (mechanism->spec().joints[j].name == name) return seen.joints[j].position.back();
+      if (mechanism->spec().joints[j].name == name) return seen.joints[j].position.tail<1>()[0];
     return std::numeric_limits<double>::quiet_NaN();
   }
 

@@ -58,7 +58,8 @@ TEST_CASE("CardanJoint_TurnsUnevenlyByTheClosedForm") {
     const double phi = seen.joints[0].position[0], psi = seen.joints[1].position[0];
     worst = std::max(worst, std::abs(std::cos(phi) * std::sin(psi) - std::cos(beta) * std::sin(phi) * std::cos(psi)));
     // The angles read off the closing joint are those that lead from one shaft to the other.
-    const Pose across = joint_pose(JointType::universal, {0, 0, 1}, seen.joints[cross.index].position);
+    const JointValues& angles = seen.joints[cross.index].position;
+    const Pose across = joint_pose(JointType::universal, {0, 0, 1}, {angles.data(), 2});
     worst_pose = std::max(worst_pose, (seen.bodies[1].X_WF.R * across.R - seen.bodies[2].X_WF.R).norm());
   });
   // Constraints are held to round-off of their terms.

@@ -90,6 +90,12 @@ class ContactReader {
   void keep_answers() {
     const DeformingFaces* faces = context_.model.find_faces(contact_.second);
     if (faces == nullptr) return;
+    if (is_of_finite_strain(contact_.second.body)) {
+      context_.fault(value_.find("between")->members[1].value, "faces that deform of a body of finite strain",
+                     "a body of `strain: small`, or a shape on one of its frames",
+                     "faces move by static shapes, which a large bend is not");
+      return;
+    }
     // Two contacts on the same faces share the answers: given twice, they would depend on each other.
     const auto has_them = [&](const Contact& other) {
       return other.second.body == contact_.second.body && other.second.shape == contact_.second.shape;
@@ -107,6 +113,11 @@ class ContactReader {
                        "give the body a shape `faces` of the part that touches");
       }
     }
+  }
+
+  [[nodiscard]] bool is_of_finite_strain(const std::string& name) const {
+    const Body* body = find_body(context_.model, name);
+    return body->flexible && body->flexible->strain == mbd::Strain::finite;
   }
 
   static ShapeName name_of(const Value& reference) {

@@ -87,6 +87,13 @@ class FilmSurfaceReader {
           instead, "give the body its 'mesh' in place of 'reduced'");
       return nullptr;
     }
+    if (body->flexible->strain == mbd::Strain::finite) {
+      context_.fault_at_key(value_, "a deforming surface on '" + on_.body + "', a body of finite strain",
+                            "`rigid`, or a body of `strain: small`",
+                            "surfaces move by static shapes, which a large bend is not; give the bearing a rigid frame "
+                            "of its own on the body");
+      return nullptr;
+    }
     return body->flexible->mesh ? &*body : nullptr;
   }
 

@@ -121,6 +121,14 @@ TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsTold") {
   CHECK(contains(told("shell: ring.hub", "shell: ground"), "a deforming surface on rigid body 'ground'"));
 }
 
+TEST_CASE("DeformingSurface_OfABodyOfFiniteStrainIsTold") {
+  const WrittenRing file;
+  const std::string finite = told("      modes: 2\n", "      form: nodal\n      strain: finite\n");
+  CHECK(contains(finite, "shell_surface: a deforming surface on 'ring', a body of finite strain"));
+  CHECK(contains(finite, "`rigid`, or a body of `strain: small`"));
+  CHECK_FALSE(contains(told("      modes: 2\n", "      form: nodal\n"), "finite strain"));
+}
+
 TEST_CASE("DeformingSurface_OfAReducedBodyIsTold") {
   const WrittenRing file;
   const Model model = read_text(machine_text, "m.yaml");

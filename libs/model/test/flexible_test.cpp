@@ -154,6 +154,22 @@ TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreTold") {
   CHECK(faults_of(edited(finite, ", connection: average", "")) == "no fault");
 }
 
+TEST_CASE("FacesThatTouch_DoNotBelongToABodyOfFiniteStrain") {
+  const MeshFile file;
+  const std::string ball =
+      "  ball:\n    mass: 1 kg\n    inertia: {xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}\n"
+      "    shapes: {skin: {shape: sphere, diameter: 5 mm}}\n";
+  const std::string contact =
+      "contacts: {hit: {between: [ball.skin, bar.pad], stiffness: {pressure: 10 MPa, penetration: 10 um}}}\n";
+  const std::string with_pad = edited(kMachine, "    frames:\n      root",
+                                      "    shapes: {pad: {shape: faces, of: right}}\n    frames:\n      root");
+  const std::string with_ball = edited(with_pad, "joints:\n", ball + contact + "joints:\n");
+  const std::string nodal = edited(edited(with_ball, "modes: 0", "form: nodal"), ", connection: average", "");
+  CHECK(faults_of(nodal) == "no fault");
+  const std::string told = faults_of(edited(nodal, "form: nodal", "form: nodal\n      strain: finite"));
+  CHECK(contains(told, "contacts.hit.between.1: faces that deform of a body of finite strain"));
+}
+
 TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {
   CHECK(contains(faults_with("nodes: right", "nodes: left"), "on which frame 'root' stands too"));
   const MeshFile file;

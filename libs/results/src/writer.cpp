@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -22,19 +21,20 @@
 #include "hersey/core/sealed_file.h"
 #include "hersey/results/reader.h"
 #include "reserving_driver.h"
+#include "waiting_rows.h"
 
 namespace hersey::results {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t chunk_numbers = 256;             // 2 KiB: rewritten at most once a flush while it fills
-constexpr std::size_t large_chunk_numbers = 1024;      // of series of many rows
-constexpr std::size_t block_numbers = 1u << 20;        // that rows of one series are copied in
-constexpr std::size_t many_handed_numbers = 7u << 22;  // 224 MiB: then a flush is due, however short ago the last
-constexpr std::size_t most_handed_numbers = 1u << 25;  // then HDF5 gets them, due or not
-constexpr double flush_share = 0.03;                   // of the time of a run, which flushes take at most
-constexpr std::size_t chunk_cache_bytes = 64u << 10;   // per dataset; only the last chunk is ever touched again
+constexpr std::size_t chunk_numbers = 256;         // 2 KiB: rewritten at most once a flush while it fills
+constexpr std::size_t large_chunk_numbers = 1024;  // of series of many rows
+constexpr std::size_t block_numbers = 1u << 20;    // that rows of one series are copied in
+constexpr std::size_t many_numbers =
+    WaitingRows::most_numbers / 8 * 7;                // then a flush is due, however short ago the last
+constexpr double flush_share = 0.03;                  // of the time of a run, which flushes take at most
+constexpr std::size_t chunk_cache_bytes = 64u << 10;  // per dataset; only the last chunk is ever touched again
 
 /// One growing dataset.
 struct Growing {
@@ -55,13 +55,6 @@ std::string now_iso8601() {
   char text[sizeof "2026-01-31T12:34:56Z"];
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
   return text;
-}
-
-/// Fresh memory by the page costs more than what is written there. A wish: where it is not heard, nothing is lost.
-void use_huge_pages(void* data, std::size_t bytes) {
-  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  void* begin = data;
-  if (std::align(page, page, begin, bytes) != nullptr) ::madvise(begin, bytes / page * page, MADV_HUGEPAGE);
 }
 
 /// @returns descriptor of a new, empty file.
@@ -100,8 +93,7 @@ struct Writer::Impl {
   Handle file;
   std::optional<DimensionScales> scales;
   std::vector<Growing> growing;
-  std::vector<double> handed;             // rows that are not in the file yet, in the order they came
-  std::vector<std::uint32_t> handed_to;   // the series of each
+  WaitingRows waiting;                    // not in the file yet
   std::unordered_set<std::string> names;  // of groups and datasets made so far
   std::string parent_name = "/";          // of the group opened last
   Handle parent;
@@ -320,52 +312,27 @@ struct Writer::Impl {
   }
 
   void take(std::size_t series, std::span<const double> row) {
-    if (handed.capacity() == 0) reserve_room();
-    if (handed.size() + row.size() > most_handed_numbers && !handed.empty()) {
+    if (waiting.numbers() == 0) expect_rows();
+    if (!waiting.has_room_for(row.size())) {
       const Hdf5Session session;
       drain();
     }
-    handed.insert(handed.end(), row.begin(), row.end());
-    handed_to.push_back(static_cast<std::uint32_t>(series));
+    waiting.add(series, row);
   }
 
-  /// Of the whole run where it is short: memory that is never used costs nothing, to move it does.
-  void reserve_room() {
-    const std::size_t of_a_step =
-        std::accumulate(growing.begin(), growing.end(), std::size_t{0},
-                        [](std::size_t sum, const Growing& entry) { return sum + entry.width; });
-    handed.reserve(std::min(most_handed_numbers / of_a_step, options.rows + 2) * of_a_step);
-    handed_to.reserve(std::min(most_handed_numbers / of_a_step, options.rows + 2) * growing.size());
-    use_huge_pages(handed.data(), handed.capacity() * sizeof(double));
+  void expect_rows() {
+    std::vector<std::size_t> widths;
+    widths.reserve(growing.size());
+    for (const Growing& entry : growing) widths.push_back(entry.width);
+    waiting.expect(std::move(widths), options.rows + 2);
   }
 
   /// Hands the rows to HDF5, one series after the other; they are safe only after H5Fflush.
   void drain() {
-    std::vector<std::size_t> last(growing.size() + 1, 0);  // of each series' places in `order`, once they are filled
-    for (const std::uint32_t series : handed_to) ++last[series + 1];
-    std::partial_sum(last.begin(), last.end(), last.begin());
-    std::vector<std::size_t> order(handed_to.size());  // where rows begin in `handed`, sorted by series
-    std::size_t at = 0;
-    for (const std::uint32_t series : handed_to) {
-      order[last[series]++] = at;
-      at += growing[series].width;
-    }
-    std::vector<double> rows;
-    std::size_t first = 0;
-    for (std::size_t series = 0; series < growing.size(); ++series) {
-      rows.clear();
-      for (; first < last[series]; ++first) {
-        const auto row = handed.begin() + static_cast<std::ptrdiff_t>(order[first]);
-        rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(growing[series].width));
-      }
-      add_rows(growing[series], rows);
-    }
-    handed.clear();
-    handed_to.clear();
+    waiting.take_out([this](std::size_t series, const std::vector<double>& rows) { add_rows(growing[series], rows); });
   }
 
   void add_rows(Growing& entry, const std::vector<double>& rows) {
-    if (rows.empty()) return;
     std::vector<hsize_t> start(entry.shape.size(), 0), count = entry.shape;
     start[0] = entry.shape[0];
     count[0] = rows.size() / entry.width;
@@ -381,7 +348,7 @@ struct Writer::Impl {
 
   void flush() {
     const Clock::time_point began = Clock::now();
-    const bool has_rows = !handed.empty();
+    const bool has_rows = waiting.numbers() > 0;
     drain();
     require(H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0, "HDF5 cannot flush");
     last_flush = Clock::now();
@@ -390,7 +357,7 @@ struct Writer::Impl {
   }
 
   [[nodiscard]] bool is_flush_due() const {
-    if (handed.size() >= many_handed_numbers || options.flush_interval == 0) return true;
+    if (waiting.numbers() >= many_numbers || options.flush_interval == 0) return true;
     const std::chrono::duration<double> since = Clock::now() - last_flush;
     return since.count() >= std::max(options.flush_interval, flush_cost / flush_share);
   }

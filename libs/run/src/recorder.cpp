@@ -260,9 +260,9 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (hidden_joints_[i]) continue;
     const mbd::JointObservation& joint = seen.joints[i];
-    if (!joint.position.empty()) {
-      joints_[i].coordinates.append(joint.position);
-      joints_[i].rates.append(joint.rate);
+    if (joint.position.size() > 0) {
+      joints_[i].coordinates.append({joint.position.data(), static_cast<std::size_t>(joint.position.size())});
+      joints_[i].rates.append({joint.rate.data(), static_cast<std::size_t>(joint.rate.size())});
     }
     joints_[i].force.append(joint.force);
     joints_[i].torque.append(joint.torque);

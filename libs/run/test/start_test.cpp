@@ -186,7 +186,7 @@ joints:
   d: {type: revolute, between: [two.end, plate.right]}
 simulation: {duration: 1 ms, step: 1 ms}
 )");
-  const std::vector<double>& plate = start.seen.joints[0].position;
+  const mbd::JointValues& plate = start.seen.joints[0].position;
   CHECK(plate[0] == doctest::Approx(0.3).epsilon(1e-12));                  // rtol of the start is 1e-12
   CHECK(plate[1] == doctest::Approx(std::sqrt(1 - 0.09)).epsilon(1e-10));  // rtol of the start is 1e-12, over a slope
 }

@@ -191,12 +191,12 @@ RankAnalysis analyse_rank(const MatrixXd& G) {
 
 namespace {
 
-/// [1, G^T; G, 0]: as singular as G's rows depend on each other, but by its numbers, not its pattern.
+/// [1, G^T; G, 0]: as singular as G's rows depend on each other.
 Equations::SparseMatrix bordered_identity(const Equations::SparseMatrix& G) {
   const auto n = static_cast<int>(G.cols()), size = n + static_cast<int>(G.rows());
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(n + 2 * G.nonZeros()));
-  for (int k = 0; k < size; ++k) entries.emplace_back(k, k, k < n ? 1.0 : 0.0);
+  for (int k = 0; k < n; ++k) entries.emplace_back(k, k, 1.0);
   for (int column = 0; column < n; ++column) {
     for (Equations::SparseMatrix::InnerIterator entry(G, column); entry; ++entry) {
       entries.emplace_back(n + static_cast<int>(entry.row()), column, entry.value());

@@ -26,7 +26,8 @@ struct SparseLu::Impl {
   double rcond = 0;
   int pivotings = 0;
   bool factorised = false;
-  bool is_empty = false;  // analysed, without an unknown: a machine that cannot move
+  bool is_empty = false;                  // analysed, without an unknown: a machine that cannot move
+  bool is_structurally_singular = false;  // whatever the values
 
   Impl() { klu_defaults(&common); }
   ~Impl() { clear(); }
@@ -82,7 +83,8 @@ void SparseLu::analyse(int n, std::span<const int> column_start, std::span<const
   m.is_empty = n == 0;
   if (m.is_empty) return;
   m.symbolic = klu_analyze(n, m.column_start.data(), m.row_index.data(), &m.common);
-  HERSEY_REQUIRE(m.symbolic && m.common.structural_rank == n, "the pattern is structurally singular");
+  HERSEY_REQUIRE(m.symbolic, "KLU cannot order the pattern");
+  m.is_structurally_singular = m.common.structural_rank < n;
 }
 
 void SparseLu::analyse(const Eigen::SparseMatrix<double>& A) {
@@ -100,7 +102,7 @@ bool SparseLu::factorise(std::span<const double> values) {
     m.rcond = 1;
     return m.factorised = true;
   }
-  m.factorised = (m.numeric && m.reuse_pivots(values)) || m.pivot(values);
+  m.factorised = !m.is_structurally_singular && ((m.numeric && m.reuse_pivots(values)) || m.pivot(values));
   // A factor with a zero pivot is no pattern to reuse.
   if (!m.factorised && m.numeric) klu_free_numeric(&m.numeric, &m.common);
   return m.factorised;

@@ -95,6 +95,20 @@ TEST_CASE("SparseLu_ReportsSingularMatricesAndRecovers") {
   CHECK_FALSE(lu.factorise(values(A)));
 }
 
+TEST_CASE("SparseLu_FactorisesNoPatternThatIsSingularWhateverTheNumbers") {
+  Eigen::SparseMatrix<double> A(3, 3);  // rows 1 and 2 have one column between them
+  A.insert(0, 0) = 1;
+  A.insert(1, 0) = 1;
+  A.insert(2, 0) = 1;
+  A.insert(0, 1) = 1;
+  A.insert(0, 2) = 1;
+  A.makeCompressed();
+  SparseLu lu;
+  lu.analyse(A);
+  CHECK_FALSE(lu.factorise(values(A)));
+  CHECK_FALSE(lu.factorised());
+}
+
 // Full, with the given diagonal: a weak one is no pivot.
 Eigen::SparseMatrix<double> full(int n, unsigned seed, double diagonal) {
   std::mt19937 generator(seed);

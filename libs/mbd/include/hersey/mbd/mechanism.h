@@ -18,10 +18,13 @@ struct FrameMotion {
   Vector3 a = Vector3::Zero();      ///< acceleration of the frame's origin [m/s^2]
 };
 
+/// Values of a joint, one for each of its coordinates: none to six.
+using JointValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+
 /// Coordinates of a joint and what it transmits.
 struct JointObservation {
-  std::vector<double> position;  ///< values as in coordinates_of; of a closing joint in (-pi, pi]
-  std::vector<double> rate;
+  JointValues position;  ///< as in coordinates_of; of a closing joint in (-pi, pi]
+  JointValues rate;
   Vector3 force = Vector3::Zero();   ///< of the inboard on the outboard body, in the inboard frame's axes [N]
   Vector3 torque = Vector3::Zero();  ///< the same about the inboard frame's origin [N m]; drives and springs excluded
 };

@@ -123,7 +123,7 @@ class NodalBody final : public ModalBody {
   fem::FiniteStrain finite_;             ///< at the last displacement looked at
   Eigen::VectorXd elastic_;              ///< forces of the material there
   Eigen::MatrixXd stiffness_of_shapes_;  ///< Psi^T K(u) Psi, of the state the matrix is of
-  Eigen::VectorXd followed_;             ///< amplitudes that the nodes at rest have followed
+  Eigen::VectorXd followed_;             ///< amplitudes that the nodes have followed
   Eigen::VectorXd r_, sizes_;            ///< forces on the nodes that nothing balances, and sizes of the terms in them
   bool at_rest_ = true;
   bool lets_go_ = false;       ///< the motion is still to start, from w = 0

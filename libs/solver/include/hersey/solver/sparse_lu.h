@@ -23,14 +23,15 @@ class SparseLu {
   SparseLu& operator=(SparseLu&&) noexcept;
 
   /// Takes the pattern: `column_start` of length n + 1, `row_index` ascending within each column.
-  /// @throws ContractError if the pattern is not square or structurally singular.
+  /// @throws ContractError if the pattern is not square.
   void analyse(int n, std::span<const int> column_start, std::span<const int> row_index);
 
   /// The pattern of a compressed `A`; its values go to `factorise` as {A.valuePtr(), A.nonZeros()}.
   void analyse(const Eigen::SparseMatrix<double>& A);
 
   /// Factorises the matrix with these values, in the order of the pattern. False if it is singular to working
-  /// precision (reciprocal condition estimate below 1e-15, or not a number); then there is nothing to solve with.
+  /// precision (by its pattern, or a reciprocal condition estimate below 1e-15, or not a number); then there is
+  /// nothing to solve with.
   [[nodiscard]] bool factorise(std::span<const double> values);
 
   /// Overwrites `columns` right-hand sides, stored one after the other, by the solutions of A x = b.
