@@ -80,24 +80,30 @@ class Equations(unittest.TestCase):
 
 
 class NamedTests(unittest.TestCase):
-    """`@verified_by some_test.cpp`, or `@verified_by some_test.cpp: Claim_Holds, Another_...`."""
+    """`@verified_by some_test.cpp: Claim_Holds, Another_..., other_test.cpp, tests/folder`."""
+
+    def setUp(self):
+        self.tests = {os.path.basename(path): path for path in code_files()}
 
     def test_files_and_claims_exist(self):
-        tests = {os.path.basename(path): path for path in code_files()}
         faults, count = [], 0
         for path in checked_files():
             text = re.sub(r"\s*\n\s*///?", "", read(path))
-            for file, claims in re.findall(r"@verified_by\s+([\w.]+)(?::\s*(\w+(?:\.\.\.)?(?:,\s*\w+)*))?", text):
-                count += 1
-                if file not in tests:
-                    faults.append(f"{path} names {file}, which does not exist")
-                    continue
-                for claim in re.findall(r"\w+", claims):
-                    if f'"{claim}' not in read(tests[file]):
-                        faults.append(f"{path} names {claim}, which is not in {file}")
-        self.assertGreater(count, 30)
+            for named in re.findall(r"@verified_by\s+([\w./]+(?::\s*\w+)?(?:,\s*[\w./]+(?::\s*\w+)?)*)", text):
+                file = None
+                for name in re.findall(r"[\w./]+", named):
+                    count += 1
+                    file = name if "/" in name or name.endswith((".cpp", ".py")) else file
+                    if not self.holds(file, name):
+                        faults.append(f"{path} names {name}" + (f" of {file}" if name != file else "") + ", which does not exist")
+        self.assertGreater(count, 40)
         if faults:
             self.fail("\n".join(faults))
+
+    def holds(self, file, name):
+        if file is not None and "/" in file:
+            return os.path.exists(os.path.join(SOURCE, file))
+        return file in self.tests and (name == file or f'"{name.rstrip(".")}' in read(self.tests[file]))
 
 
 class Links(unittest.TestCase):
