@@ -5,6 +5,7 @@
 
 #include "feature_cover.h"
 #include "film_cases.h"
+#include "relative.h"
 
 // Holes and grooves: where their edges lie, how smoothly they travel, and published bearings with grooves.
 namespace hersey::film {
@@ -26,8 +27,8 @@ TEST_CASE("GrooveEdges_LieWhereTheyAre") {
     REQUIRE(film.summary.converged);
     const double distance = m.R * (pi - 0.5 * (0.5 + arc));
     const double flow = 2 * m.c * m.c * m.c / (12 * m.lubricant.mu0) * m.L * 2e6 / distance;
-    CHECK(film.observed.flow_features[0] == doctest::Approx(flow).epsilon(kSolved));
-    CHECK(film.observed.flow_features[1] == doctest::Approx(-flow).epsilon(kSolved));
+    CHECK(film.observed.flow_features[0] == relative(flow).epsilon(kSolved));
+    CHECK(film.observed.flow_features[1] == relative(-flow).epsilon(kSolved));
     CHECK(film.observed.mass_balance_error < kSolved);
   }
 }
@@ -198,8 +199,8 @@ TEST_CASE("GroovesAtTheCavitationPressure_HaveOneSideFlow") {
     flows.push_back(film.flow_left + film.flow_right);
   }
   // Each solver to its tolerance, 1e-10, which weak spots of the film amplify.
-  CHECK(flows[1] == doctest::Approx(flows[0]).epsilon(1e-6));
-  CHECK(flows[2] == doctest::Approx(flows[0]).epsilon(1e-6));
+  CHECK(flows[1] == relative(flows[0]).epsilon(1e-6));
+  CHECK(flows[2] == relative(flows[0]).epsilon(1e-6));
 }
 
 TEST_CASE("FeatureFlows_AddUp") {
@@ -212,7 +213,7 @@ TEST_CASE("FeatureFlows_AddUp") {
     CAPTURE(film.summary.message);
     REQUIRE(film.summary.converged);
     // A sum: round-off.
-    CHECK(film.observed.flow_features.sum() == doctest::Approx(film.observed.flow_supply).epsilon(1e-12));
+    CHECK(film.observed.flow_features.sum() == relative(film.observed.flow_supply).epsilon(1e-12));
     CHECK(film.observed.mass_balance_error < 1e-7);  // SOR ends at 1e-9 per node
     CHECK(film.observed.flow_features[0] > 0);
     CHECK(film.observed.flow_features[1] > 0);

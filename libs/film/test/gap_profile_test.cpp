@@ -5,6 +5,7 @@
 #include "film_cases.h"
 #include "grid_geometry.h"
 #include "hersey/film/gap_shape.h"
+#include "relative.h"
 
 namespace hersey::film {
 namespace {
@@ -16,7 +17,7 @@ TEST_CASE("Profiles_HaveTheirShapes") {
   CHECK(Barrel{4e-6}.opening(1, 0, L).value == 0);
   CHECK(Barrel{4e-6}.opening(1, -0.01, L).value == doctest::Approx(4e-6));
   CHECK(Barrel{4e-6}.opening(1, 0.005, L).value == doctest::Approx(1e-6));
-  CHECK(Taper{6e-6}.opening(1, 0.01, L).value - Taper{6e-6}.opening(1, -0.01, L).value == doctest::Approx(6e-6));
+  CHECK(Taper{6e-6}.opening(1, 0.01, L).value - Taper{6e-6}.opening(1, -0.01, L).value == relative(6e-6));
   CHECK(Ovality{3e-6, 0.5}.opening(0.5 + pi, 0, L).value == doctest::Approx(3e-6));
   CHECK(Ovality{3e-6, 0.5}.opening(0.5 - pi / 2, 0, L).value == doctest::Approx(-3e-6));
   // A lemon bore has the clearance in the middle of its arcs and is widest, by its offset, where they meet.
@@ -34,7 +35,7 @@ TEST_CASE("LemonBore_IsMadeOfArcs") {
   m.profiles = {{Lobes{2, offset, pi / 2}}};
   motion.g += gap_opening(m);
   // Round-off.
-  for (int i = 1; i < 24; ++i) CHECK(motion.g[m.grid.index(i, 2)] == doctest::Approx(m.c + offset).epsilon(1e-12));
+  for (int i = 1; i < 24; ++i) CHECK(motion.g[m.grid.index(i, 2)] == relative(m.c + offset).epsilon(1e-12));
 }
 
 // Bore and journal of the same taper leave an even gap.
@@ -68,7 +69,7 @@ TEST_CASE("ProfileDerivatives_MatchFiniteDifference") {
   // Straight between the measured heights, constant beyond them, a smooth curve through the points around the bearing.
   CHECK(measured.opening(phi[3], 0, 0.02).value == doctest::Approx(3e-6 * std::sin(phi[3]) + 1e-6));
   CHECK(measured.opening(phi[3], 0.01, 0.02).value == doctest::Approx(3e-6 * std::sin(phi[3]) + 2e-6));
-  CHECK(measured.opening(0.4, -0.01, 0.02).value == doctest::Approx(3e-6 * std::sin(0.4)).epsilon(0.01));
+  CHECK(measured.opening(0.4, -0.01, 0.02).value == relative(3e-6 * std::sin(0.4)).epsilon(0.01));
 }
 
 TEST_CASE("ProfilesOfTheJournal_TurnWithIt") {

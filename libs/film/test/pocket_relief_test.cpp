@@ -8,6 +8,7 @@
 #include "film_cases.h"
 #include "flow_balance.h"
 #include "gap_interpolation.h"
+#include "relative.h"
 
 // Depth of features: volume, flow over their steps, and what the film beside them feels.
 namespace hersey::film {
@@ -47,8 +48,8 @@ TEST_CASE("TurningPocket_KeepsItsVolume") {
       double volume = 0;
       for (int k = 0; k < depth.size(); ++k) volume += depth[k] * geometry.area(k / 9, k % 9);
       // Gauss' rule across the ellipse's ends leaves some thousandths.
-      CHECK(volume == doctest::Approx(share * 0.7 * m.R * 6e-3 * 50e-6).epsilon(share == 1 ? 1e-12 : 1e-2));
-      CHECK(depth.maxCoeff() == doctest::Approx(50e-6));
+      CHECK(volume == relative(share * 0.7 * m.R * 6e-3 * 50e-6).epsilon(share == 1 ? 1e-12 : 1e-2));
+      CHECK(depth.maxCoeff() == relative(50e-6));
     }
   }
 }
@@ -57,10 +58,10 @@ TEST_CASE("TurningPocket_KeepsItsVolume") {
 TEST_CASE("PocketToTheEdge_IsDeepThere") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {40, 9}};
   m.features = {{.name = "slot", .phi = pi, .arc = 1, .length = 0.02, .is_fed = false, .depth = 1e-4}};
-  for (int j = 0; j < 9; ++j) CHECK(mean_depth(m, 0)[m.grid.index(20, j)] == doctest::Approx(1e-4));
+  for (int j = 0; j < 9; ++j) CHECK(mean_depth(m, 0)[m.grid.index(20, j)] == relative(1e-4));
   m.features[0].arc = 2 * pi, m.features[0].length = 5e-3, m.features[0].z = 7.5e-3;
   const Eigen::VectorXd all_around = mean_depth(m, 0);
-  for (int i = 0; i < 40; ++i) CHECK(all_around[m.grid.index(i, 8)] == doctest::Approx(1e-4));
+  for (int i = 0; i < 40; ++i) CHECK(all_around[m.grid.index(i, 8)] == relative(1e-4));
 }
 
 // In a full film at rest but for a journal with a pocket, concentric: the pocket's own volume turns with it and asks
@@ -108,7 +109,7 @@ TEST_CASE("FedGrooveWithDepth_DoesNotLeakOntoTheLand") {
     }
     // The same film but for what no equation contains: round-off.
     CHECK(flow[1] == doctest::Approx(flow[0]).epsilon(1e-12));
-    CHECK(flow[2] == doctest::Approx(flow[0]).epsilon(0.05));
+    CHECK(flow[2] == relative(flow[0]).epsilon(0.05));
   }
 }
 
@@ -151,13 +152,13 @@ TEST_CASE("SmallestFilm_IsThatOfTheLand") {
       m.features = {
           {.name = "pocket", .surface = surface, .phi = 1, .arc = 0.5, .length = 8e-3, .is_fed = false, .depth = 1e-4}};
       // Between nodes of 6 degrees: a parabola's error.
-      CHECK(solve_cold(m, journal).observed.h_min == doctest::Approx(15e-6).epsilon(1e-4));
+      CHECK(solve_cold(m, journal).observed.h_min == relative(15e-6).epsilon(1e-4));
       m.features[0].phi = pi + 0.1, m.features[0].length = 0.02;
       const FilmObservables o = solve_cold(m, journal).observed;
       // The nearer border lies 0.15 rad from the narrowest place.
-      CHECK(o.h_min == doctest::Approx(30e-6 - 15e-6 * std::cos(0.15)).epsilon(0.003));
-      CHECK(o.h_min_phi == doctest::Approx(pi - 0.15).epsilon(1e-3));    // nodes are 0.05 rad and more apart
-      CHECK(o.h_min_features == doctest::Approx(115e-6).epsilon(1e-2));  // at a node near the narrowest place
+      CHECK(o.h_min == relative(30e-6 - 15e-6 * std::cos(0.15)).epsilon(0.003));
+      CHECK(o.h_min_phi == doctest::Approx(pi - 0.15).epsilon(1e-3));  // nodes are 0.05 rad and more apart
+      CHECK(o.h_min_features == relative(115e-6).epsilon(1e-2));       // at a node near the narrowest place
     }
   }
 }
@@ -245,8 +246,9 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
       const FilmObservables between = solve(120, line, pressure), on_node = solve(480, line, pressure);
       CHECK(between.wrench_on_shell.segment<2>(3).norm() ==
             doctest::Approx(on_node.wrench_on_shell.segment<2>(3).norm()).epsilon(0.003));
-      CHECK(between.flow_left + between.flow_right ==
-            doctest::Approx(on_node.flow_left + on_node.flow_right).epsilon(0.003));
+      // At its ends a line of another pressure than the edges' has a flow that grows with the number of nodes.
+      if (pressure > 0) continue;
+      CHECK(between.flow_left + between.flow_right == relative(on_node.flow_left + on_node.flow_right).epsilon(0.003));
     }
   }
 }
