@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""What the documents point at exists: linked files, and the functions and tests in the theory manual's closing tables."""
+"""What documents and code point at exists: linked files, functions and tests in the theory manual's closing tables, the
+equations that the code names and the tests that its docstrings name."""
 
 import glob
 import os
@@ -27,6 +28,82 @@ def code_files():
         for ending in ("h", "cpp", "ts", "py"):
             found += glob.glob(os.path.join(SOURCE, top, "**", f"*.{ending}"), recursive=True)
     return sorted(os.path.relpath(path, SOURCE) for path in found)
+
+
+def checked_files():
+    """Code that means what it names: all but this folder, which talks about names."""
+    return [path for path in code_files() if not path.startswith("tests/documents/")]
+
+
+CHAPTERS = ("film-surface", "flexible-bodies", "film", "bearing", "contact", "beams", "elastic", "integrator",
+            "mechanisms")
+# `film.3`, and `(film.3) to (film.6)`, `film.3 to film.6`, `film.3 to 6`, also over the end of a comment's line.
+NUMBER = re.compile(rf"(?<![\w.-])({'|'.join(CHAPTERS)})\.(\d+)(?!\w)")
+RANGE = re.compile(rf"(?<![\w.-])({'|'.join(CHAPTERS)})\.(\d+)\)?(?:\s|//+|#)+to(?:\s|//+|#)+\(?(?:\1\.)?(\d+)(?!\w)")
+
+
+def equations_named_in(text):
+    """Numbers of equations, `film.3`, each as often as it is named; what a range spans counts as named."""
+    spans = [f"{chapter}.{number}" for chapter, first, last in RANGE.findall(text)
+             for number in range(int(first), int(last) + 1)]
+    return spans + [f"{chapter}.{number}" for chapter, number in NUMBER.findall(text)]
+
+
+def equations_shown_in(page):
+    """Numbers in the order of the page: at the end of a line, after two spaces, or behind the title of a paragraph."""
+    shown = re.findall(r"^\*\*[^*\n]+\*\* \(([\w-]+\.\d+)\)|\S.*?\s{2,}\(([\w-]+\.\d+)\)[,.:;]?$", page, re.MULTILINE)
+    return list(dict.fromkeys(title or end for title, end in shown))
+
+
+class Equations(unittest.TestCase):
+    def setUp(self):
+        self.shown = {page: equations_shown_in(read(page)) for page in pages("docs/theory/*.md")}
+        self.all = {number for numbers in self.shown.values() for number in numbers}
+
+    def test_equations_that_are_named_exist(self):
+        faults = [f"{path} names ({number}), which the theory manual does not show"
+                  for path in checked_files() + pages("*.md", "docs/*.md", "docs/*/*.md")
+                  for number in sorted(set(equations_named_in(read(path))) - self.all)]
+        if faults:
+            self.fail("\n".join(faults))
+
+    def test_equations_are_numbered_in_their_order(self):
+        for page, numbers in self.shown.items():
+            expected = [f"{numbers[0].split('.')[0]}.{k}" for k in range(1, len(numbers) + 1)]
+            self.assertEqual(numbers, expected, f"the equations of {page}")
+
+    def test_every_equation_is_named_in_code(self):
+        named = {number for path in checked_files() for number in equations_named_in(read(path))}
+        faults = [f"no code names ({number})" for number in sorted(self.all - named)]
+        if faults:
+            self.fail("\n".join(faults))
+
+
+class NamedTests(unittest.TestCase):
+    """`@verified_by some_test.cpp: Claim_Holds, Another_..., other_test.cpp, tests/folder`."""
+
+    def setUp(self):
+        self.tests = {os.path.basename(path): path for path in code_files()}
+
+    def test_files_and_claims_exist(self):
+        faults, count = [], 0
+        for path in checked_files():
+            text = re.sub(r"\s*\n\s*///?", "", read(path))
+            for named in re.findall(r"@verified_by\s+([\w./]+(?::\s*\w+)?(?:,\s*[\w./]+(?::\s*\w+)?)*)", text):
+                file = None
+                for name in re.findall(r"[\w./]+", named):
+                    count += 1
+                    file = name if "/" in name or name.endswith((".cpp", ".py")) else file
+                    if not self.holds(file, name):
+                        faults.append(f"{path} names {name}" + (f" of {file}" if name != file else "") + ", which does not exist")
+        self.assertGreater(count, 40)
+        if faults:
+            self.fail("\n".join(faults))
+
+    def holds(self, file, name):
+        if file is not None and "/" in file:
+            return os.path.exists(os.path.join(SOURCE, file))
+        return file in self.tests and (name == file or f'"{name.rstrip(".")}' in read(self.tests[file]))
 
 
 class Links(unittest.TestCase):
@@ -61,7 +138,7 @@ class TheoryTables(unittest.TestCase):
 
     def test_equation_numbers_are_unique(self):
         for page in pages("docs/theory/*.md"):
-            numbers = re.findall(r"\s{2,}\((\w+\.\d+)\),?$", read(page), re.MULTILINE)
+            numbers = re.findall(r"\s{2,}\(([\w-]+\.\d+)\)[,.:;]?$", read(page), re.MULTILINE)
             repeated = {number for number in numbers if numbers.count(number) > 1}
             self.assertFalse(repeated, f"{page} numbers two equations alike")
 
@@ -74,6 +151,15 @@ class TheoryTables(unittest.TestCase):
                         self.faults.append(f"{page}: ({number}) is in the table only")
                 for cell in cells[1:]:
                     self.check_references(page, cell)
+        if self.faults:
+            self.fail("\n".join(self.faults))
+
+    def test_tables_hold_every_equation(self):
+        for page in pages("docs/theory/*.md"):
+            text = read(page)
+            held = {number for cells in self.rows(page, text) for number in equations_named_in(cells[0])}
+            self.faults += [f"{page}: ({number}) is not in the closing table"
+                            for number in equations_shown_in(text) if number not in held]
         if self.faults:
             self.fail("\n".join(self.faults))
 

@@ -6,7 +6,7 @@ import numpy as np
 
 
 def viscosity(b, p):
-    """mu(p), p counted from the cavitation pressure (film.23)."""
+    """mu(p), p counted from the cavitation pressure (film.7)."""
     over = np.maximum(p - b.p_cav, 0)
     if not b.viscosity_law:
         return b.mu + 0 * p
@@ -17,7 +17,7 @@ def viscosity(b, p):
 
 
 def density(b, p):
-    """rho/rho0 (film.24)."""
+    """rho/rho0 (film.8)."""
     over = np.maximum(p - b.p_cav, 0)
     if b.bulk_modulus:
         return np.exp(over / b.bulk_modulus)
@@ -30,7 +30,7 @@ def compressibility(b):
 
 
 def asperity_pressure(b, h):
-    """Of the fitted law (film.38), from the gap of the mean planes."""
+    """Of the law fitted to (film.40), from the gap of the mean planes."""
     a = b.asperities
     below = np.maximum(4 - (h - a["summits"]) / a["sigma"], 0)
     return a["factor"] * a["modulus"] * 4.4086e-5 * below**6.804

@@ -135,7 +135,7 @@ def check_film(b, f, name, found):
     found.bound("p >= p_cav", b.p_cav - f.p.min(), 1e-9 * scale, f"Pa: {name}: smallest pressure {f.p.min():.6g}")
     if b.cavitation == "mass_conserving":
         both = np.minimum((f.p - b.p_cav) / scale, 1 - f.theta).max()
-        # Pressure belongs to the end of a step, fill to the step as a whole: a front may lie a node further on (film.59).
+        # Pressure belongs to the end of a step, fill to the step as a whole: a front may lie a node further on (film.15).
         found.bound("full or at p_cav", both, 1e-9, f": {name}: a node is neither")
     h_min = f.rows["h_min"]
     found.require("h_min > 0", h_min.min() > 0, f"{name}: h_min = {1e6 * h_min.min():.4g} um")
@@ -297,7 +297,7 @@ class Powers:
         # Pressure has kinks within cells at lines and fed features, which both grids miss: more than their difference.
         self.error = (1.5 * couette.error + 2 * poiseuille.error) + 1e-3 * self.own
         if k > 0:
-            # The film shears as it is at the end of the step, its fill is that of the step as a whole (film.59).
+            # The film shears as it is at the end of the step, its fill is that of the step as a whole (film.15).
             filled = np.abs(theta - f.theta[k - 1]) * min(1.0, results.dt[row] / (f.time[k] - f.time[k - 1]))
             self.error += film.couette_power((filled,) * 2, mu, h, slip, *at).value
         highest = float((mu / np.maximum(h, 1e-9)).mean()) * slip**2

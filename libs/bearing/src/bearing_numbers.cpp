@@ -60,7 +60,7 @@ LoadAxesCoefficients in_load_axes(const film::FilmModel& model, const SteadyStat
 WhirlStability whirl_stability(const LoadAxesCoefficients& coefficients, double c, double W, double omega) {
   const Eigen::Matrix2d &K = coefficients.K, &C = coefficients.C;
   WhirlStability result;
-  // At the threshold the film acts on the circling rotor as a spring of stiffness k0 without damping (bearing.17).
+  // At the threshold the film acts on the circling rotor as a spring of stiffness k0 without damping (bearing.32).
   const double k0 = (K(0, 0) * C(1, 1) + K(1, 1) * C(0, 0) - K(0, 1) * C(1, 0) - K(1, 0) * C(0, 1)) / C.trace();
   const double gamma2 = ((K(0, 0) - k0) * (K(1, 1) - k0) - K(0, 1) * K(1, 0)) / C.determinant();
   const double infinity = std::numeric_limits<double>::infinity();

@@ -13,7 +13,7 @@
 namespace hersey::bearing {
 
 /// What deforming surfaces add to the gap of rigid ones: the shell's displacement away from the axis opens it, the
-/// journal's closes it (theory manual, bearing.20 to bearing.22). The film's grid is fixed to the shell; over it the
+/// journal's closes it (theory manual, bearing.12 to bearing.14). The film's grid is fixed to the shell; over it the
 /// journal's deformation turns with the journal.
 class DeformingSurfaces {
  public:

@@ -190,6 +190,7 @@ void JournalBearing::condense_film(mbd::ForceResponse& response) {
   response.dQ_dr = condensed_.Q_ds.rightCols(m);
 }
 
+// Wrench and forces on shapes after the film's own increment (bearing.10), without derivatives.
 void JournalBearing::increment_film(mbd::ForceResponse& response) {
   reynolds_.newton_increment(du_);
   response.W_B_A = -(reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du_));
@@ -218,6 +219,8 @@ void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tange
   }
 }
 
+// The film's rows of (bearing.8): with them condensed the bodies' Newton iteration is that of both together
+// (bearing.7).
 void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
   if (const film::FilmDomain domain = linearise_film(); !domain.is_inside()) return report(domain);
   internal_residual_ = reynolds_.relative_residual();

@@ -31,8 +31,8 @@ struct VariedVector {
   [[nodiscard]] Varied operator[](int i) const { return {value[i], d.row(i)}; }
 };
 
-// The axis in the mid-plane frame: slope t = d_xy/d_z and piercing point e = r_xy - t r_z. The same expressions,
-// differentiated along V, give the rates; hence rates and twists share one linear map.
+// The axis in the mid-plane frame: slope t = d_xy/d_z and piercing point e = r_xy - t r_z (bearing.1). The same
+// expressions, differentiated along V, give the rates (bearing.3); hence rates and twists share one linear map.
 struct Axis {
   Varied e, t;
 };
@@ -47,7 +47,7 @@ Axis pierce_rate(const VariedVector& r, const VariedVector& d, const VariedVecto
   return {r_rate[i] - t_rate * r[2] - t * r_rate[2], t_rate};
 }
 
-// Angle opposite to the eccentricity: the widest gap at z = 0. Without eccentricity it has no direction.
+// Angle opposite to the eccentricity: the widest gap at z = 0 (bearing.5). Without eccentricity it has no direction.
 void widest_gap(double e_floor, JournalKinematics& k) {
   const double ex = k.value[kEx], ey = k.value[kEy], e2 = ex * ex + ey * ey;
   if (e2 == 0) return;
@@ -91,6 +91,7 @@ JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, do
     k.d_dV.row(kTxRate + i) = axis.t.d;
   }
 
+  // Speeds of the journal's surface past the shell's (bearing.4).
   k.value[kJournalSpeed] = R * omega.z();
   k.d_dV(kJournalSpeed, 2) = R;
 

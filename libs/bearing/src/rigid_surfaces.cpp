@@ -54,7 +54,7 @@ void RigidSurfaces::place(const ParameterVector& p, film::SurfaceMotion& motion)
   }
 }
 
-// The journal's own shape: the gap at a fixed point changes as it passes there.
+// The journal's own shape: the gap at a fixed point changes as it passes there (film.25).
 void RigidSurfaces::add_turning(double phi_journal, double omega, film::SurfaceMotion& motion) {
   if (!shape_.profiles_turn()) return;
   film::MotionDirection &turn = directions_[kRotation], &speed = directions_[kJournalSpeed];

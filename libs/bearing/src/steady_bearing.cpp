@@ -66,7 +66,7 @@ ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint
   return parameters;
 }
 
-// Film and position of one bearing, and the Newton iterations that bring them together.
+// Film and position of one bearing (bearing.17), and the Newton iterations that bring them together.
 class Search {
  public:
   Search(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
@@ -132,8 +132,8 @@ class Search {
     return summary_;
   }
 
-  // Derivatives at the film found: one solve with four right-hand sides each on the factor of the last linearisation.
-  // What a motion of the journal does to surfaces that deform, they do at its rate (bearing.32).
+  // Derivatives at the film found (bearing.21): one solve with four right-hand sides each on the factor of the last
+  // linearisation. What a motion of the journal does to surfaces that deform, they do at its rate (bearing.29).
   [[nodiscard]] DynamicCoefficients coefficients() {
     Eigen::MatrixXd dx;
     Columns by_position, by_rate;
@@ -291,7 +291,8 @@ class Search {
     Eigen::VectorXd dx;
   };
 
-  // Newton's step at the present linearisation towards `target`, cut to where the linear film may be trusted.
+  // Newton's step (bearing.18) at the present linearisation towards `target`, cut to where the linear film may be
+  // trusted.
   [[nodiscard]] Step newton_step(const Eigen::Vector2d& target) {
     Columns dW;
     respond(2, dx_de_, dW);
@@ -413,7 +414,7 @@ class Search {
 
   [[nodiscard]] bool raise_load() { return film_at_start() && change_load(); }
 
-  // From the force the film has here to the load, each equilibrium the start of the next (bearing.13).
+  // From the force the film has here to the load, each equilibrium the start of the next (bearing.19).
   [[nodiscard]] bool change_load() {
     const Eigen::Vector2d from = force_;
     double reached = 0, step = 0.25;
@@ -495,7 +496,7 @@ class Search {
   }
 
   // The force of a film grows the further out the journal stands, without bound or up to where the film ends: outwards
-  // until it reaches the load, then halving the last step, then Newton (bearing.25). What has been seen on the way
+  // until it reaches the load, then halving the last step, then Newton (bearing.20). What has been seen on the way
   // says, where the load is not found, what the film bears.
   [[nodiscard]] bool from_inside_out() {
     const Eigen::Vector2d start = ocvirk_position(model_, point_);

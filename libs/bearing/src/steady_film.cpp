@@ -303,7 +303,7 @@ MatrixXd SteadyFilm::forces_on_shapes(const MatrixXd& du, const MatrixXd& g) con
   return deforming_.openings().transpose() * (normal.by_u.asDiagonal() * du + normal.by_g.asDiagonal() * g);
 }
 
-/// The film's answers to the amplitudes, and the factor of 1 - C P_s.
+/// The film's answers to the amplitudes, and the factor of 1 - C P_s, the matrix of (bearing.27).
 void SteadyFilm::eliminate_deformation() {
   reynolds_.responses(positions_, u_by_s_, W_by_s_);
   for (Index a = 0; a < u_by_s_.cols(); ++a) W_by_s_.col(a) += reynolds_.wrench_gradient(u_by_s_.col(a));

@@ -16,7 +16,7 @@ namespace hersey::bearing {
 /// A steady film and the surfaces it deforms: unknowns x = [u; s], u the film's and s the amplitudes of both bodies'
 /// shapes, shell first, which obey
 ///
-///     r_f(u, g(s)) = 0,    r_s = s_0 + C P(u, s) - s = 0,                                       (bearing.29)
+///     r_f(u, g(s)) = 0,    r_s = s_0 + C P(u, s) - s = 0,                                       (bearing.26)
 ///
 /// P = [Q; W] what the film puts on the shapes and on the shell. Without surfaces that deform x = u and the film is
 /// that of `film::solve_film`.
@@ -55,7 +55,7 @@ class SteadyFilm {
   [[nodiscard]] const Eigen::Vector2d& force() const { return force_; }
 
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-  /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces.
+  /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces (bearing.28).
   void respond(std::span<const film::MotionDirection> directions, Eigen::MatrixXd& dx, Columns& dW);
   /// Of the force in the axes of force(), by those of x and of the wrench.
   [[nodiscard]] Eigen::Matrix2Xd change_of_force(const Eigen::MatrixXd& dx, const Columns& dW) const;

@@ -13,6 +13,8 @@
 namespace hersey::bearing {
 namespace {
 
+constexpr double kSolved = 1e-8;  // films solved to 1e-10 of their largest throughput
+
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -72,7 +74,7 @@ VectorXd converged_forces(const mbd::RelativeMotion& start, const mbd::RelativeM
   bearing.accept_step(at_start);
   bearing.begin_step(start, motion.dt);
   for (int k = 0; k < 30; ++k) bearing.evaluate(motion, true, response);
-  REQUIRE(bearing.internal_residual() < 1e-11);
+  REQUIRE(bearing.internal_residual() < 1e-11);  // thirty iterations: as far as round-off lets it
   VectorXd forces(6 + response.Q.size());
   forces << response.W_B_A, response.Q;
   return forces;
@@ -108,9 +110,11 @@ TEST_CASE("TangentOfAFilmBetweenElasticSurfaces_MatchesFiniteDifferences") {
     CAPTURE(j);
     const auto turn = [&](mbd::RelativeMotion& m, double x) { m.X_AB = pose_exp(x * Vector6::Unit(j)) * m.X_AB; };
     column << response.dW_dX.col(j), response.dQ_dX.col(j);
+    // What is small beside the whole counts as much of it.
     compare(column, difference(turn, j < 3 ? 1e-7 : 2e-9), 1e-4 * response.dW_dX.norm());
     const auto speed = [&](mbd::RelativeMotion& m, double x) { m.V_AB_A[j] += x; };
     column << response.dW_dV.col(j), response.dQ_dV.col(j);
+    // What is small beside the whole counts as much of it.
     compare(column, difference(speed, j < 3 ? 1e-5 : 1e-7), 1e-6 * response.dW_dV.norm());
   }
   for (Index a = 0; a < kShell + kJournal; ++a) {
@@ -136,7 +140,9 @@ TEST_CASE("GapOfElasticSurfaces_ChangesAtItsRate") {
   };
   const VectorXd numeric = (gap_at(dt).g - gap_at(-dt).g) / (2 * dt);
   const film::SurfaceMotion now = gap_at(0);
-  CHECK((now.g_rate - numeric).norm() < 1e-8 * numeric.norm());
+  CHECK((now.g_rate - numeric).norm() <
+        1e-8 * numeric.norm());  // differences of step 1e-6 s: h^2, and round-off over h
+  // A sum: round-off.
   CHECK((now.g - surfaces.shell_displacement(s) + surfaces.journal_displacement(s)).norm() < 1e-14 * now.g.norm());
 }
 
@@ -161,8 +167,8 @@ TEST_CASE("ShellThatWidensEverywhere_IsAWiderBearing") {
   motion.s_rate = VectorXd::Zero(1);
   elastic.evaluate(motion, false, of_elastic);
   elastic.accept_step(motion);
-  CHECK((of_elastic.W_B_A - of_rigid.W_B_A).norm() < 1e-8 * of_rigid.W_B_A.norm());
-  CHECK(of_elastic.Q[0] == doctest::Approx(elastic.observe(motion).film.normal_forces.sum()).epsilon(1e-8));
+  CHECK((of_elastic.W_B_A - of_rigid.W_B_A).norm() < kSolved * of_rigid.W_B_A.norm());
+  CHECK(of_elastic.Q[0] == doctest::Approx(elastic.observe(motion).film.normal_forces.sum()).epsilon(kSolved));
 }
 
 /// A smooth isoviscous film on a fine grid.
@@ -195,7 +201,7 @@ BearingObservation observed(JournalBearing& bearing, mbd::RelativeMotion motion)
   bearing.begin_step(motion, dt);
   motion.dt = dt;
   for (int k = 0; k < 30; ++k) bearing.evaluate(motion, true, response);
-  REQUIRE(bearing.internal_residual() < 1e-10);
+  REQUIRE(bearing.internal_residual() < 1e-10);  // the tolerance of a film
   bearing.accept_step(motion);
   return bearing.observe(motion);
 }

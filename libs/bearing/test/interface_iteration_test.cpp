@@ -60,6 +60,7 @@ TEST_CASE("Memory_CarriesOverToTheNextStep") {
   iteration.begin_step();
   const Eigen::VectorXd away = x + Eigen::VectorXd::LinSpaced(4, -5, 9);
   const Eigen::VectorXd back = iteration.next(away, F(away));
+  // Least squares: round-off times the spread of eigenvalues and directions.
   CHECK((back - F.solution()).norm() <= 1e-6 * F.solution().norm());
 }
 

@@ -57,7 +57,7 @@ Vector6 converged_wrench(const mbd::RelativeMotion& start, const mbd::RelativeMo
   bearing.accept_step(at_start);
   bearing.begin_step(start, motion.dt);
   for (int k = 0; k < 30; ++k) bearing.evaluate(motion, true, response);
-  REQUIRE(bearing.internal_residual() < 1e-11);
+  REQUIRE(bearing.internal_residual() < 1e-11);  // thirty iterations: as far as round-off lets it
   return response.W_B_A;
 }
 
@@ -71,26 +71,29 @@ TEST_CASE("CondensedTangent_MatchesFiniteDifferencesOfConvergedFilm") {
   bearing.accept_step(at_start);
   bearing.begin_step(motion, motion.dt);
   for (int k = 0; k < 30; ++k) bearing.evaluate(motion, true, response);
+  // Both solved to 1e-11.
   CHECK((response.W_B_A - converged_wrench(motion, motion)).norm() <= 1e-9 * response.W_B_A.norm());
 
   // Steps of 1e-4 of the clearance (1e-6 of the radius for turns): small against the gap, so that no node changes
   // between full and cavitated, large against round-off.
   for (int j = 0; j < 6; ++j) {
     CAPTURE(j);
-    const double step = j < 3 ? 1e-7 : 2e-9;
+    const double step = j < 3 ? 1e-7 : 2e-9;  // as said above
     mbd::RelativeMotion plus = motion, minus = motion;
     plus.X_AB = pose_exp(step * Vector6::Unit(j)) * motion.X_AB;
     minus.X_AB = pose_exp(-step * Vector6::Unit(j)) * motion.X_AB;
     const Vector6 by_pose = (converged_wrench(motion, plus) - converged_wrench(motion, minus)) / (2 * step);
     const double pose_scale = std::max(response.dW_dX.col(j).norm(), 1e-3 * response.dW_dX.norm());
+    // As said above: a step's square of the gap, and round-off of films solved to 1e-11 over it.
     CHECK((response.dW_dX.col(j) - by_pose).norm() <= 1e-4 * pose_scale);
 
-    const double speed = j < 3 ? 1e-5 : 1e-7;
+    const double speed = j < 3 ? 1e-5 : 1e-7;  // as said above
     plus = minus = motion;
     plus.V_AB_A[j] += speed;
     minus.V_AB_A[j] -= speed;
     const Vector6 by_speed = (converged_wrench(motion, plus) - converged_wrench(motion, minus)) / (2 * speed);
     const double speed_scale = std::max(response.dW_dV.col(j).norm(), 1e-6 * response.dW_dV.norm());
+    // As said above: a step's square of the gap, and round-off of films solved to 1e-11 over it.
     CHECK((response.dW_dV.col(j) - by_speed).norm() <= 1e-4 * speed_scale);
   }
 }
@@ -141,10 +144,11 @@ TEST_CASE("TurningPocket_ConservesOil") {
     motion.t = step * dt, motion.dt = dt;
     motion.X_AB.R = rotation_exp({0, 0, omega * motion.t}).toRotationMatrix();
     for (int k = 0; k < 15; ++k) bearing.evaluate(motion, true, response);
-    REQUIRE(bearing.internal_residual() < 1e-10);
+    REQUIRE(bearing.internal_residual() < 1e-10);  // the tolerance of a film
     bearing.accept_step(motion);
     const film::FilmObservables seen = bearing.observe(motion).film;
     const double came = dt * (seen.flow_supply - seen.flow_left - seen.flow_right);
+    // Of what is there: a film solved to 1e-10 of its throughput.
     CHECK(std::abs(seen.oil_volume - before - came) < 1e-9 * seen.oil_volume);
     before = seen.oil_volume;
   }

@@ -23,7 +23,7 @@ ParameterVector value(const Pose& X, const Vector6& V) { return journal_kinemati
 void check_close(const ParameterVector& exact, const ParameterVector& difference, double scale) {
   for (int i = 0; i < kParameterCount; ++i) {
     CAPTURE(i);
-    CHECK(std::abs(exact[i] - difference[i]) <= 1e-7 * std::max(std::abs(exact[i]), scale));
+    CHECK(std::abs(exact[i] - difference[i]) <= 1e-7 * std::max(std::abs(exact[i]), scale));  // as said above
   }
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("Derivatives_MatchFiniteDifferences") {
     const ParameterVector by_pose = (value(pose_exp(xi) * X, V) - value(pose_exp(-xi) * X, V)) / (2 * h);
     // The widest gap turns by 1 rad over 24 um: its curvature over h = 0.1 um is (h/24 um)^2 = 2e-5 of its slope.
     ParameterVector exact = k.d_dX.col(j), differences = by_pose;
-    CHECK(exact[kSupplyAngle] == doctest::Approx(differences[kSupplyAngle]).epsilon(1e-4));
+    CHECK(exact[kSupplyAngle] == doctest::Approx(differences[kSupplyAngle]).epsilon(1e-4));  // as said above
     exact[kSupplyAngle] = differences[kSupplyAngle] = 0;
     check_close(exact, differences, 1.0);
     const Vector6 dV = 1e-3 * Vector6::Unit(j);
@@ -67,10 +67,11 @@ TEST_CASE("Parameters_AreTheSameFromAnyGround") {
   const Eigen::Rotation2Dd back(-alpha);
   for (int i : {kEx, kTx, kExRate, kTxRate}) {
     const Eigen::Vector2d turned = back * here.segment<2>(i);
-    CHECK((there.segment<2>(i) - turned).norm() <= 1e-12 * std::max(1.0, turned.norm()));
+    CHECK((there.segment<2>(i) - turned).norm() <= 1e-12 * std::max(1.0, turned.norm()));  // round-off
   }
   CHECK(there[kJournalSpeed] == doctest::Approx(here[kJournalSpeed]));
   CHECK(there[kAxialSpeed] == doctest::Approx(here[kAxialSpeed]));
+  // Round-off.
   CHECK(std::remainder(there[kSupplyAngle] - here[kSupplyAngle] + alpha, 2 * std::numbers::pi) ==
         doctest::Approx(0).epsilon(1e-9));
 }

@@ -109,6 +109,7 @@ TEST_CASE("SurfaceDirections_MatchFiniteDifferences") {
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(g.size());
     const auto close = [](const Eigen::VectorXd& exact, const Eigen::VectorXd& difference) {
       const double size = std::max(exact.cwiseAbs().maxCoeff(), 1e-5);
+      // Differences of a millionth: round-off over the step, of what is at least 1e-5.
       return (exact - difference).cwiseAbs().maxCoeff() < 1e-4 * size;
     };
     CHECK(close(direction.g.size() > 0 ? direction.g : none, g));
@@ -129,6 +130,7 @@ TEST_CASE("TurningShape_ChangesTheGapAtItsRate") {
   surfaces.place(turned, before);
   turned[kRotation] += 2 * omega * dt;
   surfaces.place(turned, after);
+  // Differences of step 1e-7 s: round-off over it.
   CHECK(((after.g - before.g) / (2 * dt) - now.g_rate).cwiseAbs().maxCoeff() < 1e-5 * now.g_rate.cwiseAbs().maxCoeff());
 }
 

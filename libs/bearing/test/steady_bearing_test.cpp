@@ -13,6 +13,10 @@
 namespace hersey::bearing {
 namespace {
 
+constexpr double kSolved = 1e-8;       // the search ends at 1e-10 of the load and of the film's largest throughput
+constexpr double kDifferences = 1e-4;  // films solved to 1e-10, over steps of 1e-6 to 1e-5 of the gap
+constexpr double kSamePlace = 1e-6;  // of the clearance: two searches to 1e-10 of the load, on soft and on stiff films
+
 constexpr double pi = std::numbers::pi;
 
 // Full from the widest gap on: the film of Raimondi and Boyd.
@@ -77,8 +81,8 @@ TEST_CASE("RaimondiBoyd_FromLoadToPosition") {
     const BearingNumbers numbers = bearing_numbers(model, state);
     CHECK(std::abs(numbers.eccentricity_ratio - epsilon) < 2e-3);
     CHECK(std::abs(numbers.attitude * 180 / pi - attitude) < 0.5);
-    CHECK(numbers.sommerfeld_S == doctest::Approx(S).epsilon(1e-8));
-    CHECK(numbers.sommerfeld_So == doctest::Approx(1 / (2 * pi * S)).epsilon(1e-8));
+    CHECK(numbers.sommerfeld_S == doctest::Approx(S).epsilon(kSolved));
+    CHECK(numbers.sommerfeld_So == doctest::Approx(1 / (2 * pi * S)).epsilon(kSolved));
     ++rows;
   }
   CHECK(rows > 20);
@@ -101,6 +105,7 @@ TEST_CASE("ShortBearing_WhirlsAtOcvirksThreshold") {
           doctest::Approx(pi * std::sqrt(1 - epsilon * epsilon) / (4 * epsilon)).epsilon(5e-3));
     const WhirlStability whirl = whirl_stability(in_load_axes(model, state), model.c, numbers.load, 300);
     CHECK(whirl.stability_number == doctest::Approx(number).epsilon(5e-3));
+    // The same number written in two ways: round-off.
     CHECK(whirl.critical_mass ==
           doctest::Approx(std::pow(whirl.stability_number, 2) * numbers.load / (model.c * 9e4)).epsilon(1e-9));
   }
@@ -131,7 +136,7 @@ TEST_CASE("LundThomsen_StiffnessAndDamping") {
       const double load = model.lubricant.mu0 * omega / (2 * pi) * R_c * R_c * model.L * 2 * model.R / row.S;
       const SteadyState state = solved(model, under_load(load, -pi / 2, omega));
       const BearingNumbers numbers = bearing_numbers(model, state);
-      CHECK(std::abs(numbers.eccentricity_ratio - row.epsilon) < 1e-3);
+      CHECK(std::abs(numbers.eccentricity_ratio - row.epsilon) < 1e-3);  // the last digit of the table
       CHECK(std::abs(numbers.attitude * 180 / pi - row.attitude) < 0.3);
       const LoadAxesCoefficients found = in_load_axes(model, state);
       // Three percent, and half of the last digit printed.
@@ -184,7 +189,7 @@ TEST_CASE("Coefficients_MatchDifferencesOfTheForce") {
       return generalised_force(solved(model, moved));
     };
     const Eigen::Vector4d difference = (at(1) - at(-1)) / (2 * step);
-    CHECK((state.coefficients.stiffness.col(k) - difference).norm() <= 1e-4 * difference.norm());
+    CHECK((state.coefficients.stiffness.col(k) - difference).norm() <= kDifferences * difference.norm());
   }
 }
 
@@ -221,6 +226,7 @@ TEST_CASE("DampingAndSpeed_AreTheSameFlow") {
   // F/omega.
   const Eigen::Vector2d circling =
       state.coefficients.damping.topLeftCorner<2, 2>() * Eigen::Vector2d(-point.e.y(), point.e.x());
+  // 180 nodes: the film's end moves between them.
   CHECK((circling + 2 / 300.0 * state.load).norm() <= 1e-2 * circling.norm());
 }
 
@@ -234,9 +240,9 @@ TEST_CASE("HeavyLoads_AreFoundFromAnywhere") {
       options.start = epsilon * model.c * Eigen::Vector2d(0.6, 0.8);
       const OperatingPoint point = under_load(load, -pi / 2, 370);
       const SteadyState state = solved(model, point, options);
-      CHECK((state.load - *point.load).norm() <= 1e-8 * load);
+      CHECK((state.load - *point.load).norm() <= kSolved * load);
       const SteadyState again = solved(model, point);
-      CHECK((state.e - again.e).norm() <= 1e-6 * model.c);
+      CHECK((state.e - again.e).norm() <= kSamePlace * model.c);
     }
   }
 }
@@ -252,12 +258,12 @@ TEST_CASE("EverySolver_FindsTheSamePosition") {
     const SteadySummary summary = solve_steady(model, point, {.rtol = 1e-9, .solver = film::FilmSolver::sor}, sor);
     REQUIRE(summary.converged);
     CHECK(summary.film_iterations > summary.iterations);
-    CHECK((newton.e - sor.e).norm() <= 1e-8 * model.c);
+    CHECK((newton.e - sor.e).norm() <= 1e-8 * model.c);  // each solver to its own tolerance, 1e-9 and 1e-10
     CHECK((newton.coefficients.stiffness - sor.coefficients.stiffness).norm() <=
           1e-6 * newton.coefficients.stiffness.norm());
     SteadyState multigrid;
     REQUIRE(solve_steady(model, point, {.solver = film::FilmSolver::multigrid}, multigrid).converged);
-    CHECK((newton.e - multigrid.e).norm() <= 1e-8 * model.c);
+    CHECK((newton.e - multigrid.e).norm() <= 1e-8 * model.c);  // each solver to its own tolerance, 1e-9 and 1e-10
     CHECK((newton.coefficients.stiffness - multigrid.coefficients.stiffness).norm() <=
           1e-6 * newton.coefficients.stiffness.norm());
   }
@@ -279,6 +285,7 @@ TEST_CASE("HoleInTheJournal_MovesTheFilmWithItsAngle") {
   OperatingPoint turned = under_load(2000, turn, 200);
   turned.journal_angle = 2 + turn;
   const SteadyState there = solved(model, turned);
+  // Turned by seven cells: the same film, by another search.
   CHECK((Eigen::Rotation2Dd(turn) * here.e - there.e).norm() <= 1e-7 * model.c);
   turned.journal_angle = 2;
   CHECK((Eigen::Rotation2Dd(turn) * here.e - solved(model, turned).e).norm() > 1e-3 * model.c);
@@ -289,12 +296,12 @@ TEST_CASE("JournalAtRest_StandsOnItsAsperities") {
   model.supply = {.kind = film::SupplyKind::widest_gap};
   const SteadyState state = solved(model, under_load(1000, -pi / 2, 0));
   const BearingNumbers numbers = bearing_numbers(model, state);
-  CHECK(numbers.asperity_share == doctest::Approx(1).epsilon(1e-9));
-  CHECK(std::abs(numbers.attitude) < 1e-6);
+  CHECK(numbers.asperity_share == doctest::Approx(1).epsilon(1e-9));  // at rest nothing else bears
+  CHECK(std::abs(numbers.attitude) < 1e-6);                           // rad: nothing turns it
   // A hair of rotation changes next to nothing: from boundary friction to the film without a switch.
   const OperatingPoint slow = under_load(1000, -pi / 2, 1e-4);
   const SteadyState turning = solved(scaled_for(model, slow), slow);
-  CHECK((turning.e - state.e).norm() <= 1e-3 * model.c);
+  CHECK((turning.e - state.e).norm() <= 1e-3 * model.c);  // a hair of rotation
 }
 
 TEST_CASE("NearlyTouchingJournal_CarriesItsLoad") {
@@ -304,7 +311,7 @@ TEST_CASE("NearlyTouchingJournal_CarriesItsLoad") {
   const SteadyState state = solved(model, placed);
   OperatingPoint loaded{.journal_speed = 100};
   loaded.load = state.load;
-  CHECK((solved(model, loaded).e - placed.e).norm() <= 1e-6 * model.c);
+  CHECK((solved(model, loaded).e - placed.e).norm() <= kSamePlace * model.c);
 }
 
 TEST_CASE("PositionOfALoad_CarriesThatLoad") {
@@ -314,6 +321,7 @@ TEST_CASE("PositionOfALoad_CarriesThatLoad") {
   OperatingPoint placed = loaded;
   placed.load.reset();
   placed.e = state.e;
+  // The load there was, met to 1e-10, and the film found anew.
   CHECK((solved(model, placed).load - *loaded.load).norm() <= 1e-7 * 3000);
   CHECK(bearing_numbers(model, state).attitude > 0.3);  // in the sense of rotation, which is backwards here
 }
@@ -340,7 +348,7 @@ TEST_CASE("TrialsThroughAbsurdPressures_EndInAnEquilibrium") {
   OperatingPoint point = under_load(279.639, -14.72 * pi / 180, 65.666);
   point.shell_speed = 87.4976;
   const SteadyState state = solved(scaled_for(model, point), point);
-  CHECK((state.load - *point.load).norm() <= 1e-8 * 279.639);
+  CHECK((state.load - *point.load).norm() <= kSolved * 279.639);
   CHECK(state.film.p_max < 1e9);
 }
 
@@ -355,7 +363,7 @@ TEST_CASE("LoadBeyondTheForceOfASupply_IsFoundFurtherOut") {
                             .pressure = 5e5});
   const OperatingPoint point = under_load(204.634, -95.72 * pi / 180, 9.99075);
   const SteadyState state = solved(scaled_for(model, point), point);
-  CHECK((state.load - *point.load).norm() <= 1e-8 * 204.634);
+  CHECK((state.load - *point.load).norm() <= kSolved * 204.634);
   CHECK(state.e.norm() > 0.9 * model.c);
 }
 
@@ -416,6 +424,7 @@ TEST_CASE("LobesThatTurn_MakeOneFilmOnEitherSurface") {
   model.profiles.front().surface = film::Surface::journal;
   std::swap(point.journal_speed, point.shell_speed);
   const SteadyState on_journal = solved(model, point);
+  // The same equations, solved to 1e-10 twice.
   CHECK((on_shell.u - on_journal.u).lpNorm<Eigen::Infinity>() < 1e-6 * on_journal.u.lpNorm<Eigen::Infinity>());
   CHECK(on_shell.film.p_max == doctest::Approx(on_journal.film.p_max).epsilon(1e-6));
   CHECK(on_shell.film.flow_supply == doctest::Approx(on_journal.film.flow_supply).epsilon(1e-6));
@@ -465,7 +474,7 @@ TEST_CASE("PureSqueeze_MeetsTheShortBearing") {
     const double F =
         model.lubricant.mu0 * 2e-3 / model.c * model.R * std::pow(model.L, 3) / std::pow(model.c, 2) * integral;
     CHECK(state.load.x() == doctest::Approx(F).epsilon(2e-3));
-    CHECK(std::abs(state.load.y()) < 1e-9 * F);
+    CHECK(std::abs(state.load.y()) < 1e-9 * F);  // symmetric: on the scale of the load
     const BearingNumbers numbers = bearing_numbers(model, state);
     CHECK(numbers.radial_velocity == doctest::Approx(2e-3));
     CHECK(numbers.sommerfeld_squeeze ==
@@ -488,8 +497,8 @@ TEST_CASE("CoefficientsOfSqueeze_AreDifferencesOfForces") {
     const double de = 1e-5 * model.c, dv = 1e-7;
     const Eigen::Vector2d stiffness = (force(de, 0) - force(-de, 0)) / (2 * de);
     const Eigen::Vector2d damping = (force(0, dv) - force(0, -dv)) / (2 * dv);
-    CHECK((state.coefficients.stiffness.col(k).head<2>() - stiffness).norm() < 1e-4 * stiffness.norm());
-    CHECK((state.coefficients.damping.col(k).head<2>() - damping).norm() < 1e-4 * damping.norm());
+    CHECK((state.coefficients.stiffness.col(k).head<2>() - stiffness).norm() < kDifferences * stiffness.norm());
+    CHECK((state.coefficients.damping.col(k).head<2>() - damping).norm() < kDifferences * damping.norm());
   }
 }
 

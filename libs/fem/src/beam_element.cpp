@@ -90,7 +90,7 @@ struct Deformation {
   Vec3 Gamma;
 };
 
-/// (elastic.16).
+/// (elastic.18).
 Deformation deformation(const BeamElement& element, const Ends& ends) {
   Rotation relative = inverse(ends.R_a) * ends.R_b;
   if (relative.w.value < 0) relative = {-relative.w, Dual(-1) * relative.v};
@@ -116,7 +116,7 @@ struct EndForces {
   Vec3 moment_a, force_a, moment_b, force_b;
 };
 
-/// (elastic.17). d Gamma = (R_m^T d(r_b - r_a) + along x dtheta_m)/L, d psi = T^-1(psi) dtheta_b - T^-T(psi) dtheta_a,
+/// (elastic.19). d Gamma = (R_m^T d(r_b - r_a) + along x dtheta_m)/L, d psi = T^-1(psi) dtheta_b - T^-T(psi) dtheta_a,
 /// dtheta_m = exp(-psi/2) dtheta_a + T(psi/2) d psi/2: the forces are what stands before each of them in d energy.
 EndForces end_forces(const Deformation& d, const SectionForces& section) {
   const Vec3 couple = cross(section.N, d.along);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Torsion constant of a rectangle with sides a >= b:
+/// Torsion constant of a rectangle with sides a >= b (beams.7):
 /// a b^3 (1/3 - (64/pi^5) (b/a) sum over odd n of tanh(n pi a/(2 b))/n^5).
 double torsion_constant(double a, double b) {
   double sum = 0;

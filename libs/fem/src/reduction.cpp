@@ -60,6 +60,7 @@ MatrixXd shapes_of(const std::vector<FilmModes>& films, Index dofs) {
   return shapes;
 }
 
+/// Stiffness and mass of the reduced body, (elastic.15).
 void project(const ElasticBody& body, ReducedBody& reduced) {
   const MatrixXd K = reduced.Phi.transpose() * (body.K * reduced.Phi);
   const MatrixXd M = reduced.Phi.transpose() * mass_times(body.m, reduced.Phi);

@@ -14,7 +14,7 @@ struct StaticShapes {
   std::vector<StaticError> errors;
 };
 
-/// Adds the static displacement with the largest error until none is larger than options.static_error, (elastic.23).
+/// Adds the static displacement with the largest error until none is larger than options.static_error, (elastic.16).
 /// @param stiffness  factorised, frames held
 [[nodiscard]] StaticShapes static_shapes(const HeldStiffness& stiffness, const Vibration& modes,
                                          const ReductionOptions& options);

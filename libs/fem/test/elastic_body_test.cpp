@@ -110,6 +110,7 @@ double bending_ratio(ElementType type, double skew_by) {
   // A linear traction -2 (z - 1/2) on the end: nodal forces of the bilinear quad.
   for (const int a : mesh.node_sets.at("x1")) f[3 * a] = mesh.nodes[a].z() > 0.5 ? -1.0 / 12 * 2 : 1.0 / 12 * 2;
   std::vector<char> held(static_cast<std::size_t>(body.size()), 0);
+  // Which node it is.
   for (const int a : mesh.node_sets.at("x0"))
     for (int i = 0; i < 3; ++i)
       held[3 * a + i] = i == 0 || mesh.nodes[a].norm() < 1e-9 || (i == 2 && mesh.nodes[a].z() == 0);

@@ -123,7 +123,7 @@ TEST_CASE("FilmModes_OfAMeshTooCoarseForItsFunctions_AreFewer") {
   const FilmModes modes = film_modes(stiffness, surface, 1000, 1e-9);
   CHECK(modes.compliance.size() <= 36 * 3);
   CHECK(modes.compliance.size() >= 36);
-  CHECK(modes.lost <= 1e-9);
+  CHECK(modes.lost <= 1e-9);  // as asked for
   CHECK(modes.shapes.allFinite());
 }
 
@@ -151,6 +151,7 @@ TEST_CASE("CoefficientsFromAFrame_SeeDeformationAlone") {
   const MatrixXd U = reduction.body.Phi.rightCols(9);  // of frame 1, and vibrations
   const FilmSurface surface = must_make(body.mesh, film_of(ring), {16, 4, ring.width});
   CHECK(surface.coefficients(U).leftCols(6).colwise().norm().maxCoeff() > 1);
+  // Round-off, of unit motions.
   CHECK(coefficients_from_frame(surface, body.mesh, U, frames[1].origin, 0).cwiseAbs().maxCoeff() < 1e-12);
 }
 
@@ -177,6 +178,7 @@ TEST_CASE("ReducedBody_AnswersFilmPressuresAsTheMeshDoes") {
   for (Eigen::Index k = 0; k < d.cols(); ++k) {
     CAPTURE(k);
     const VectorXd error = d.col(k) - modes.compliance[k] * modes.pressures.col(k);
+    // Round-off, as the modes are orthonormalised together with vibrations.
     CHECK(error.cwiseAbs().maxCoeff() < 1e-6 * modes.compliance[k] * modes.pressures.col(k).cwiseAbs().maxCoeff());
   }
 }

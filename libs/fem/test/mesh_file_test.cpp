@@ -19,7 +19,7 @@ std::filesystem::path data(const std::string& name) {
   return std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data" / name;
 }
 
-constexpr double kMillimetre = 1e-3;
+constexpr double kMillimetre = 1e-3;  // m
 
 long label_of_node(const Mesh& mesh, const Element& element, int k) {
   return mesh.node_labels[static_cast<std::size_t>(mesh.nodes_of(element)[k])];
@@ -90,7 +90,7 @@ TEST_CASE("Gmsh22_PutsMidsideNodesOnTheirEdges_InEveryShape") {
   CHECK(mesh.nodes.size() == 72);
   CHECK(mesh.elements.size() == 12);
   // The block's edges are straight; Gmsh places midside nodes on them to 1e-11 of their length.
-  CHECK(largest_midside_distance(mesh) < 1e-10 * 20 * kMillimetre);
+  CHECK(largest_midside_distance(mesh) < 1e-10 * 20 * kMillimetre);  // of the block's longest edge
 }
 
 TEST_CASE("Gmsh22_MakesSetsAndSurfacesOfPhysicalGroups") {
@@ -103,6 +103,7 @@ TEST_CASE("Gmsh22_MakesSetsAndSurfacesOfPhysicalGroups") {
   CHECK(mesh.node_sets.at("edge").size() == 3);
   CHECK(mesh.node_sets.at("corner") == std::vector<int>{0});
   for (const int n : mesh.node_sets.at("floor")) CHECK(mesh.nodes[static_cast<std::size_t>(n)].z() == 0);
+  // Round-off of the unit.
   for (const ElementFace& face : mesh.surfaces.at("roof"))
     for (const int n : nodes_of(mesh, face))
       CHECK(mesh.nodes[static_cast<std::size_t>(n)].z() == doctest::Approx(0.012).epsilon(1e-15));
@@ -135,9 +136,10 @@ TEST_CASE("AllFormats_OfOneMesh_GiveTheSameSets") {
 void check_two_cubes(const Mesh& mesh) {
   REQUIRE(mesh.nodes.size() == 12);
   REQUIRE(mesh.elements.size() == 2);
-  CHECK((mesh.nodes[11] - Vector3(0, 0.01, 0.02)).norm() < 1e-17);
+  CHECK((mesh.nodes[11] - Vector3(0, 0.01, 0.02)).norm() < 1e-17);  // round-off of the unit
   CHECK(label_of_node(mesh, mesh.elements[1], 7) == 12);
   REQUIRE(mesh.materials.size() == 1);
+  // Round-off of the units.
   CHECK(mesh.materials[0].youngs_modulus.value() == doctest::Approx(2.1e11).epsilon(1e-14));
   CHECK(mesh.materials[0].poisson_ratio.value() == 0.3);
   CHECK(mesh.materials[0].density.value() == doctest::Approx(7850).epsilon(1e-14));

@@ -40,7 +40,7 @@ TEST_CASE("Cantilever_HasTheFrequenciesOfCalculiX") {
   for (const Cantilever& c : cantilevers) {
     CAPTURE(c.file);
     const ElasticBody body = cantilever(c);
-    CHECK(body.mass == doctest::Approx(47.1).epsilon(1e-9));
+    CHECK(body.mass == doctest::Approx(47.1).epsilon(1e-9));  // digits of the nodes in the file
     const Vibration clamped = natural_modes(body, dofs_of(body.mesh.node_sets.at("FIX")), {.count = 6});
     REQUIRE(clamped.ok);
     for (int k = 0; k < 6; ++k)
@@ -62,6 +62,7 @@ TEST_CASE("Cantilever_BendsUnderItsWeightAsInCalculiX") {
     const StaticSolution solution = solve_static(body, supports, gravity_load(body, {0, 0, -9.81}));
     REQUIRE(solution.ok);
     int corner = -1;
+    // Which nodes they are.
     for (const int node : body.mesh.node_sets.at("TIP"))
       if ((body.mesh.nodes[node] - Vector3(1, 0.05, 0.03)).norm() < 1e-9) corner = node;
     REQUIRE(corner >= 0);
@@ -83,6 +84,7 @@ TEST_CASE("ReducedCantilever_HasTheFrequenciesOfCalculiX") {
       Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(reduction.body.K.bottomRightCorner(free, free),
                                                                 reduction.body.M.bottomRightCorner(free, free))
           .eigenvalues();
+  // Twenty modes with the other end free on an average: what they leave out of the sixth.
   for (int k = 0; k < 6; ++k)
     CHECK(std::sqrt(lambda[k]) / (2 * std::numbers::pi) == doctest::Approx(cantilevers[0].clamped[k]).epsilon(1e-3));
 }
@@ -96,6 +98,7 @@ TEST_CASE("RingUnderBorePressure_WidensAsInCalculiXAndLame") {
     for (int f = 0; f < 6; ++f) {
       const std::vector<int>& local = face_nodes(mesh.elements[e].type, f);
       const int* nodes = mesh.nodes_of(mesh.elements[e]);
+      // Which nodes they are.
       if (std::all_of(local.begin(), local.end(), [&](int a) { return std::abs(radius(nodes[a]) - 0.03) < 1e-6; }))
         bore.push_back({static_cast<int>(e), f});
     }
@@ -104,12 +107,14 @@ TEST_CASE("RingUnderBorePressure_WidensAsInCalculiXAndLame") {
     std::vector<Support> supports;
     double widening = 0;
     int at_bore = 0;
+    // Which nodes they are.
     for (int a = 0; a < body.node_count(); ++a)
       for (int k = 0; k < 3; ++k)
         if (std::abs(mesh.nodes[a][k]) < 1e-9 || (plane_strain && k == 2 && std::abs(mesh.nodes[a].z() - 0.02) < 1e-9))
           supports.push_back({3 * a + k, 0});
     const StaticSolution solution = solve_static(body, supports, f);
     REQUIRE(solution.ok);
+    // Which nodes they are.
     for (int a = 0; a < body.node_count(); ++a)
       if (std::abs(radius(a) - 0.03) < 1e-6) {
         widening += solution.u.col(0).segment<2>(3 * a).dot(mesh.nodes[a].head<2>()) / radius(a);

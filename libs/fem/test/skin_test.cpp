@@ -27,7 +27,7 @@ TEST_CASE("Skin_IsClosed_AndHoldsTheBodysVolume") {
   }
   const double expected = (10 * (8 + 9) / 2. * 7 + 10 * 9 * 7 + 10 * 9 * 5) * 1e-9;
   // Gmsh places midside nodes to 1e-11 of an edge.
-  CHECK(volume == doctest::Approx(expected).epsilon(1e-10));
+  CHECK(volume == doctest::Approx(expected).epsilon(1e-10));  // of three edges
   CHECK(area.norm() < 64 * std::numeric_limits<double>::epsilon() * 1e-3);
 }
 

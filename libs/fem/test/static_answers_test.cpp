@@ -11,6 +11,8 @@
 namespace hersey::fem {
 namespace {
 
+constexpr double kAnotherWay = 1e-8;  // two factorisations of the same matrix: round-off times its condition
+
 using Eigen::VectorXd;
 
 FilmSurface bore_of(const Mesh& mesh, const Ring& ring) {
@@ -44,8 +46,9 @@ TEST_CASE("StaticAnswers_AreThoseOfTheReductionWithEveryFilmMode") {
   for (Eigen::Index k = 0; k < films.compliance.size(); ++k) {
     CAPTURE(k);
     const VectorXd p = films.pressures.col(k), d = answers.compliance * (surface.G * p);
-    CHECK((d - films.compliance[k] * p).norm() < 1e-8 * films.compliance[0] * p.norm());
+    CHECK((d - films.compliance[k] * p).norm() < kAnotherWay * films.compliance[0] * p.norm());
   }
+  // Zero for the one frame of a free body, on the scale of the material's stiffness.
   CHECK((answers.stiffness - reduced.body.K.topLeftCorner(6, 6)).norm() < 1e-6 * steel.D.norm());
 }
 
@@ -62,7 +65,7 @@ TEST_CASE("TurningRing_GrowsByTheClosedForm") {
       steel.density * r / (8 * E) *
       ((3 + nu) * (1 - nu) * (a2 + b2 + (1 + nu) / (1 - nu) * a2 * b2 / (r * r)) - (1 - nu * nu) * r * r);
   CHECK(answers.spin.mean() == doctest::Approx(grows).epsilon(2e-3));
-  CHECK(answers.spin_on_frames.norm() < 1e-9 * steel.density);
+  CHECK(answers.spin_on_frames.norm() < 1e-9 * steel.density);  // on the scale of the forces, which cancel
 }
 
 TEST_CASE("StaticAnswers_OfABodyThatNothingHolds_SayWhy") {

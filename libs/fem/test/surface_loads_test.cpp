@@ -26,11 +26,13 @@ TEST_CASE("FacesCalled_FindsSurfacesAndFacesOfNodeSets") {
     const std::size_t faces = mesh.surfaces.at("y1").size();
     mesh.surfaces.erase("y1");
     CHECK(faces_called(mesh, "y1").size() == faces);
+    // Round-off of sums over faces.
     CHECK(area_of(mesh, faces_called(mesh, "y1")) == doctest::Approx(0.15).epsilon(1e-13));
     CHECK(faces_called(mesh, "nowhere").empty());
     // Faces between two elements are no surface.
     std::vector<int> all(mesh.nodes.size());
     std::iota(all.begin(), all.end(), 0);
+    // Round-off of sums over faces.
     CHECK(area_of(mesh, outer_faces(mesh, all)) == doctest::Approx(2 * (0.06 + 0.15 + 0.1)).epsilon(1e-13));
   }
 }
@@ -49,7 +51,8 @@ TEST_CASE("CosinePressure_OnABoreSumsUpToAQuarterOfPiTimesDiameterAndWidth") {
 TEST_CASE("SpreadForce_IsOneNewtonHoweverLargeItsFaces") {
   const Mesh mesh = box_mesh(ElementType::tet10, {0.3, 0.2, 0.5}, {2, 3, 1});
   const Eigen::VectorXd f = spread_force(mesh, faces_called(mesh, "z0"), Vector3(0, 0.6, -0.8));
-  CHECK(std::abs(total(f, 0)) < 1e-14);
+  CHECK(std::abs(total(f, 0)) < 1e-14);  // round-off
+  // Round-off of sums over faces.
   CHECK(total(f, 1) == doctest::Approx(0.6).epsilon(1e-13));
   CHECK(total(f, 2) == doctest::Approx(-0.8).epsilon(1e-13));
 }

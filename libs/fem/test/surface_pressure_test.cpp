@@ -8,6 +8,7 @@
 
 #include "hersey/fem/mesh_file.h"
 #include "ring_file.h"
+#include "seeded_random.h"
 #include "temporary_directory.h"
 
 namespace hersey::fem {
@@ -50,7 +51,7 @@ TEST_CASE("SurfacePressure_IsTheFilmsAtTheNodesAndCarriesItsForce") {
   CHECK(force == doctest::Approx(2e6 * std::numbers::pi * cylinder.R * cylinder.L).epsilon(0.01));
 
   // The work on a displacement is that of the film's own forces on it.
-  const Eigen::VectorXd u = Eigen::VectorXd::Random(nodal.size());
+  const Eigen::VectorXd u = seeded_random(nodal.size(), 1, 3);
   const Eigen::VectorXd d = surface.coefficients(u);
   double work = 0;
   std::vector<SurfaceTerm> terms;

@@ -40,6 +40,7 @@ Vector3 nowhere(const Vector3&) { return Vector3::Zero(); }
 TEST_CASE("SurfaceRadii_OfNodesOnTheCylinder_AreItsRadius") {
   const Ring ring(true, nowhere);  // flat faces of 15 degrees count as round
   const SurfaceRadii radii = surface_radii(ring.mesh, ring.surface);
+  // Twelve digits of a file in mm.
   CHECK(radii.deviation.cwiseAbs().maxCoeff() < 1e-12);
   CHECK(std::abs(radii.mean) < 1e-12);
 }
@@ -64,6 +65,7 @@ TEST_CASE("SurfaceRadii_OfAMovedRing_FollowTheCosine") {
 TEST_CASE("SurfaceRadii_TakeTheWorstInAField") {
   // One row of nodes stands out by 30 um.
   const auto bump = [](const Vector3& node) {
+    // Which nodes they are.
     const bool is_there = node.head<2>().norm() < 0.025 && node.x() > 0 && std::abs(node.y()) < 1e-6;
     return is_there ? Vector3(-30e-6, 0, 0) : Vector3(0, 0, 0);
   };
@@ -72,7 +74,7 @@ TEST_CASE("SurfaceRadii_TakeTheWorstInAField") {
   CHECK(radii.at(0.1 * degree, 0) < -28e-6);
   CHECK(radii.at(-0.1 * degree, 0.005) < -28e-6);
   CHECK(radii.at(7.4 * degree, 0) == doctest::Approx(-15e-6).epsilon(0.15));
-  CHECK(std::abs(radii.at(20 * degree, 0)) < 1e-12);
+  CHECK(std::abs(radii.at(20 * degree, 0)) < 1e-12);  // twelve digits of a file in mm
   CHECK(radii.mean == doctest::Approx(-30e-6 / 24).epsilon(0.01));
 }
 

@@ -29,13 +29,14 @@ TEST_CASE("NaturalModes_AreThoseOfTheDenseEigenproblem") {
           Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly).eigenvalues();
       const int rigid = is_free ? 6 : 0;
       CHECK(modes.rigid == rigid);
+      // rtol of the modes; squared frequencies are good to its square.
       for (int k = 0; k < 12; ++k)
         CHECK(modes.omega[k] == doctest::Approx(k < rigid ? 0 : std::sqrt(lambda[k])).epsilon(1e-7));
       const Eigen::MatrixXd gram = modes.shapes.transpose() * mass_times(body.m, modes.shapes);
       CHECK((gram - Eigen::MatrixXd::Identity(12, 12)).cwiseAbs().maxCoeff() < 1000 * eps);
       const Eigen::MatrixXd stiffness = modes.shapes.transpose() * body.K * modes.shapes;
       const Eigen::MatrixXd squares = modes.omega.cwiseAbs2().asDiagonal();
-      CHECK((stiffness - squares).cwiseAbs().maxCoeff() < 1e-7 * squares.maxCoeff());
+      CHECK((stiffness - squares).cwiseAbs().maxCoeff() < 1e-7 * squares.maxCoeff());  // rtol of the modes
     }
   }
 }
@@ -49,7 +50,7 @@ TEST_CASE("NaturalModes_UpToAFrequency_AreAllOfThem") {
   const Vibration some = natural_modes(body, held, {.count = 30, .highest = limit});
   REQUIRE(some.ok);
   REQUIRE(some.omega.size() == 17);
-  CHECK((some.omega - many.omega.head(17)).norm() < 1e-9 * many.omega.norm());
+  CHECK((some.omega - many.omega.head(17)).norm() < 1e-9 * many.omega.norm());  // both are good to about rtol^2
 }
 
 TEST_CASE("NaturalModes_MoreThanTheBodyHas_AreAllItHas") {
@@ -67,7 +68,7 @@ TEST_CASE("NaturalModes_DoNotDependOnUnits") {
   REQUIRE(metres.ok);
   REQUIRE(microns.ok);
   CHECK(microns.rigid == 6);
-  CHECK((1e-6 * microns.omega - metres.omega).norm() < 1e-6 * metres.omega.norm());
+  CHECK((1e-6 * microns.omega - metres.omega).norm() < 1e-6 * metres.omega.norm());  // rtol of the modes
 }
 
 TEST_CASE("NaturalModes_OfAMasslessBody_AreRefused") {

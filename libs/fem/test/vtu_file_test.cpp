@@ -12,6 +12,7 @@
 #include "hersey/core/contract.h"
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/mesh_file.h"
+#include "seeded_random.h"
 #include "temporary_directory.h"
 
 namespace hersey::fem {
@@ -43,9 +44,9 @@ TEST_CASE("Vtu_HoldsTheMeshAndItsFields_BitForBit") {
   const TemporaryDirectory folder;
   const Mesh mesh = block();
   VtuFrame frame;
-  frame.node_fields.push_back({"displacement", Eigen::MatrixXd::Random(3, 72)});
-  frame.node_fields.push_back({"stress <MPa>", Eigen::MatrixXd::Random(6, 72)});
-  frame.element_fields.push_back({"energy", Eigen::MatrixXd::Random(1, 12)});
+  frame.node_fields.push_back({"displacement", seeded_random(3, 72, 1)});
+  frame.node_fields.push_back({"stress <MPa>", seeded_random(6, 72, 2)});
+  frame.element_fields.push_back({"energy", seeded_random(1, 12, 3)});
   write_vtu(folder / "block.vtu", mesh, frame);
   const std::string content = content_of(folder / "block.vtu");
   const std::vector<double> points = array_of<double>(content, "Points");

@@ -23,7 +23,7 @@ class GridTransfer {
   std::vector<Between> around_, along_;
 };
 
-/// A film on a grid of half as many nodes in each direction.
+/// A film on a grid of half as many nodes in each direction (theory manual, film.34).
 struct CoarseFilm {
   FilmModel model;
   SurfaceMotion motion;

@@ -3,7 +3,7 @@
 
 #include "flow_balance.h"
 
-// Flows over the faces between control volumes (film.9, film.32, film.57, film.60, film.61).
+// Flows over the faces between control volumes (film.16, film.43, film.13, film.26, film.28).
 namespace hersey::film {
 namespace {
 
@@ -42,7 +42,7 @@ FlowBalance::FaceGap FlowBalance::smooth_gap(std::size_t f, double h) const {
   return gap;
 }
 
-// Between rough surfaces (film.32): factors are means of those at both nodes.
+// Between rough surfaces (film.43): factors are means of those at both nodes.
 void FlowBalance::roughen(std::size_t f, FaceGap& gap) const {
   const Face& face = faces_[f];
   const RoughGap &a = rough_[face.a], &b = rough_[face.b];
@@ -58,7 +58,7 @@ void FlowBalance::roughen(std::size_t f, FaceGap& gap) const {
                  0.5 * (speed * (b.mean_h - 1) + half_slip * b.drag_h[k])};
 }
 
-// Over pockets (film.60, film.61).
+// Over pockets (film.26, film.28).
 void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) const {
   const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
   const Face& face = faces_[f];
@@ -118,7 +118,7 @@ void FlowBalance::add_face(std::size_t f) {
   gap.little = gap.full, gap.little_h = gap.full_h;
   if (tube_of_[f] >= 0) deepen(f, h, gap, flow);
 
-  // Flow (film.9): q = rho [h^3/(12 mu) b/l (p_a - p_b) + what the surfaces carry].
+  // Flow (film.16): q = rho [h^3/(12 mu) b/l (p_a - p_b) + what the surfaces carry].
   const double unit = face.width / (12 * face.length);
   flow.K = flow.density * unit * gap.cube * fluidity;
   flow.couette = flow.density * face.width * gap.full;

@@ -47,7 +47,7 @@ Share ramp(double d, double half, double step) {
   return {1 - outside, (d > 0 ? 1 : -1) / step};
 }
 
-/// Row shares (film.25): the conductance from a node to the feature's edge where that is a share of one cell away.
+/// Row shares (film.22): the conductance from a node to the feature's edge where that is a share of one cell away.
 Share held_rectangle(const SurfaceFeature& feature, const Surroundings& s, double R, double unit) {
   const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / R);
   const double along = ramp(s.z, 0.5 * feature.length, s.to_z).value;

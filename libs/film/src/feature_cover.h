@@ -17,7 +17,7 @@ struct CoveredNode {
 /// Conductance of a mean cell to its four neighbours, per h^3/(12 mu): what shares refer to [-].
 [[nodiscard]] double unit_conductance(const GridGeometry& geometry);
 
-/// Appends the nodes of whose rows a feature holds a share (film.25), with the journal turned by `phi_journal` [rad].
+/// Appends the nodes of whose rows a feature holds a share (film.22), with the journal turned by `phi_journal` [rad].
 void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFeature& feature, double phi_journal,
            std::vector<CoveredNode>& nodes);
 

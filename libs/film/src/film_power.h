@@ -6,8 +6,8 @@
 
 namespace hersey::film {
 
-/// Adds where the power that the bodies put into a film goes, by integrals over its fields (theory manual, film.21,
-/// film.67). They know nothing of the film's wrench, whose power has to be their sum.
+/// Adds where the power that the bodies put into a film goes, by integrals over its fields (theory manual, film.53,
+/// film.54). They know nothing of the film's wrench, whose power has to be their sum.
 /// @param wrench  evaluated: what it knows of relief and boundary friction.
 void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench, FilmObservables& o);
 

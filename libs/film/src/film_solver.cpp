@@ -144,7 +144,7 @@ FilmDomain enter_domain(Reynolds& reynolds, const SurfaceMotion& motion, const F
   return reynolds.linearise(motion, history, u);
 }
 
-// `least` is the smallest unknown an iterate may have [Pa].
+// Newton's method (film.31). `least` is the smallest unknown an iterate may have [Pa].
 FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                  const FilmSolveOptions& options, Eigen::VectorXd& u,
                                  double least = -std::numeric_limits<double>::infinity()) {
@@ -179,7 +179,7 @@ FilmSolveSummary solve_here(Reynolds& reynolds, const SurfaceMotion& motion, con
 
 // A film front that no flow carries moves by one node per Newton step, and an error that spans the film takes SOR as
 // many sweeps as there are nodes. On coarser grids the way is shorter: each grid starts from the solution on the one
-// with half the nodes, so that the iterations stay few on every grid.
+// with half the nodes, so that the iterations stay few on every grid (film.34).
 bool start_on_coarser_grid(const Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                            const FilmSolveOptions& options, int& iterations, Eigen::VectorXd& u) {
   const FilmModel& model = reynolds.model();

@@ -2,7 +2,7 @@
 
 #include "flow_balance.h"
 
-// Oil in the control volumes: how much, and how its amount changes (film.8, film.33, film.58).
+// Oil in the control volumes: how much, and how its amount changes (film.12, film.44, film.14).
 namespace hersey::film {
 namespace {
 

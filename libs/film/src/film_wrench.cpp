@@ -102,7 +102,7 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
   total_ = pressure_ + shear_ + asperity_;
 }
 
-// Over a share of a control volume the gap is deeper: mu v/h counts there with the depth (film.62).
+// Over a share of a control volume the gap is deeper: mu v/h counts there with the depth (film.29).
 void FilmWrench::take_relief(const FlowBalance& balance) {
   relief_.clear(), relief_journal_.clear();
   if (balance.relief().is_empty()) return;
@@ -120,7 +120,7 @@ void FilmWrench::take_relief(const FlowBalance& balance) {
 }
 
 // Pressure falls otherwise over a pocket than over the land: what of it shears the oil, and pushes on the pocket's
-// walls, is half of the integral of d dp each, in the same direction on the surface that has the pocket (film.62).
+// walls, is half of the integral of d dp each, in the same direction on the surface that has the pocket (film.29).
 void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_gradient) {
   const Grid& grid = model_.grid;
   pushes_.clear();
@@ -187,7 +187,7 @@ FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap* rough, 
   return s;
 }
 
-// In guembel the pressure is cut off at p_cav somewhere between two nodes (film.40). The sum over nodes would count the
+// In guembel the pressure is cut off at p_cav somewhere between two nodes (film.23). The sum over nodes would count the
 // last one for its whole cell: first order in the derivatives, which jump there. A pressure that falls from u_a > 0 to
 // u_b < 0 over a distance l acts on its positive part, the triangle u_a t l/2 with t = u_a/(u_a - u_b).
 void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
@@ -212,7 +212,7 @@ void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
 }
 
 // Pressure acts at right angles to the true surface, which leans where the shell's opening d changes: -p grad d beside
-// p e_r (film.66). Oil reaches around the edges, too, and with it the integral is that of d grad p: nothing from a
+// p e_r (film.52). Oil reaches around the edges, too, and with it the integral is that of d grad p: nothing from a
 // uniform pressure. Contact ends at the edges. Sums over the intervals between nodes give exactly nothing where p or d
 // is the same everywhere.
 void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradient) {

@@ -13,7 +13,7 @@
 namespace hersey::film {
 
 /// The film's wrench on the shell at the grid's origin, [moment; force] in grid axes, by origin, with its derivatives
-/// (theory manual, film.17 to film.20, film.66).
+/// (theory manual, film.48 to film.52).
 class FilmWrench {
  public:
   explicit FilmWrench(const FilmModel& model);
@@ -48,7 +48,7 @@ class FilmWrench {
     Vector6 radial, tangential, axial, shear_tangential, shear_axial;
   };
   [[nodiscard]] Basis basis(int i, int j) const;
-  /// Shear on the shell at one node (film.18, film.35): couette . slip - half_gap . grad p, index 0 along phi, 1 along
+  /// Shear on the shell at one node (film.49, film.46): couette . slip - half_gap . grad p, index 0 along phi, 1 along
   /// z.
   struct Shear {
     Eigen::Vector2d couette, couette_u, couette_h;  ///< [Pa s/m] and slopes at given film thickness and at given u

@@ -24,7 +24,7 @@ struct Face {
   std::array<int, 4> slots{};  ///< where (a,a), (a,b), (b,a), (b,b) stand among the Jacobian's values
 };
 
-/// What surfaces carry over a face from a node filled to theta, with derivatives (film.61).
+/// What surfaces carry over a face from a node filled to theta, with derivatives (film.28).
 struct Carried {
   double value = 0;   ///< [m^3/s]
   double theta = 0;   ///< with theta [m^3/s]
@@ -32,7 +32,7 @@ struct Carried {
   double little = 0;  ///< with what passes per fill fraction when there is little oil [-]
 };
 
-/// The flow over a face, linearised (film.9): dq = K d(p_a - p_b) + q_h_a dh_a + q_h_b dh_b + q_bend d bend +
+/// The flow over a face, linearised (film.16): dq = K d(p_a - p_b) + q_h_a dh_a + q_h_b dh_b + q_bend d bend +
 /// q_fluidity d(1/mu) + q_density d density + carried.theta d theta_upwind. Flows are of mass over rho0.
 struct FaceFlow {
   double K = 0;           ///< conductance [m^3/(Pa s)]
@@ -56,10 +56,11 @@ struct FaceFlow {
   [[nodiscard]] Carried carried(double theta) const;
 };
 
-/// Balance of oil in every control volume, its Jacobian in u and its derivative along any change of the surfaces.
+/// Balance of oil (film.2) in every control volume, with the flows (film.1) over its faces, its Jacobian in u and its
+/// derivative along any change of the surfaces.
 ///
 /// Rows of the residual [m^3/s]: outflow plus storage in the film, u - u_given times a conductance on an edge at given
-/// pressure, a blend of both beside the supply line and on features (film.10 to film.13, film.25).
+/// pressure, a blend of both beside the supply line and on features (film.17 to film.22).
 class FlowBalance {
  public:
   explicit FlowBalance(const FilmModel& model);
@@ -78,7 +79,7 @@ class FlowBalance {
   void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
 
   /// Takes from a right-hand side what the rate at the end of the step brings into the rows beyond what the gap has
-  /// gained over the step (film.59).
+  /// gained over the step (film.15).
   void subtract_defect(Eigen::VectorXd& rhs) const;
   /// Oil of the step whose state was last evaluated, with flows changed along `du`.
   void settle(const Eigen::VectorXd& du, OilOfStep& oil) const;
@@ -153,7 +154,7 @@ class FlowBalance {
   [[nodiscard]] double conductance_scale() const { return D0_; }
 
  private:
-  /// A node whose row the supply holds wholly or in part (film.13, film.25):
+  /// A node whose row the supply holds wholly or in part (film.21, film.22):
   /// r = (1 - chi) (balance + slack) + tie (u - u_given); beside the line the balance is that up to the middle of the
   /// way.
   struct HeldNode {
@@ -183,7 +184,7 @@ class FlowBalance {
     double share = 0;   ///< of the way to the next [-]
     double by_phi = 0;  ///< with phi_supply [1/rad]
   };
-  /// Gap that a control volume holds oil in, with derivatives (film.58).
+  /// Gap that a control volume holds oil in, with derivatives (film.14).
   struct Cell {
     double gap = 0, gap_h = 1, gap_excess = 1;            ///< [m]
     double depth = 0, depth_start = 0;                    ///< mean depth of pockets [m]

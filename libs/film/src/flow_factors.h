@@ -6,7 +6,7 @@ namespace hersey::film {
 
 /// Flow factors of Gaussian roughness with one Peklenik ratio, correlation length in the direction of the flow over
 /// that across it. Values and slopes against H = h/sigma > 0; linear in ln gamma between the tabulated ratios and
-/// continued smoothly where H lies outside the fits' range (film.32 to film.34).
+/// continued smoothly where H lies outside the fits' range (film.43 to film.45).
 /// @see Patir & Cheng (1978), J. Lubr. Technol. 100, 12-17; (1979), J. Lubr. Technol. 101, 220-230.
 class PatirCheng {
  public:
@@ -25,11 +25,11 @@ class PatirCheng {
   double weight_ = 0;  ///< of the next row
 };
 
-/// phi_f: mean of h over the local gap, for Couette shear; gaps below sigma/100 count as that (film.34). The same for
+/// phi_f: mean of h over the local gap, for Couette shear; gaps below sigma/100 count as that (film.45). The same for
 /// every gamma.
 [[nodiscard]] ValueAndSlope couette_stress_factor(double H);
 
-/// Mean of the local gap over sigma, 0 where the surfaces overlap, with slope and curvature in H (film.31).
+/// Mean of the local gap over sigma, 0 where the surfaces overlap, with slope and curvature in H (film.42).
 struct MeanGap {
   double value = 0, slope = 0, curvature = 0;
 };

@@ -9,7 +9,7 @@
 
 namespace hersey::film {
 
-/// Gap and motion of surfaces between the nodes of a grid (theory manual, film.57 and film.58): values on the faces
+/// Gap and motion of surfaces between the nodes of a grid (theory manual, film.13 and film.14): values on the faces
 /// around the bearing and means over the control volumes, from nodal values. Both are exact for a round journal
 /// anywhere in a round bore, whatever the grid: a gap that travels around the bearing then takes as much oil out of
 /// every control volume by its rate as it brings in over the faces. Along z, where gaps are straight or nearly so,

@@ -31,6 +31,7 @@ std::vector<double> equal_shares(int count, double first, double last, Density&&
   return nodes;
 }
 
+/// What a place adds to the density of nodes (film.11).
 double density_at(double distance, const Refinement& r) {
   const double ratio = distance / r.reach;
   return (r.factor - 1) / (1 + ratio * ratio);

@@ -7,7 +7,7 @@
 
 namespace hersey::film {
 
-/// Multigrid for operators on a ring of lines (theory manual, film.52): Gauss-Seidel by whole lines along the flow,
+/// Multigrid for operators on a ring of lines (theory manual, film.37): Gauss-Seidel by whole lines along the flow,
 /// every second line kept on the next coarser grid, all nodes of a line kept, so that a strong coupling along the lines
 /// is solved exactly and one across them is left to coarser grids, whatever the shape of the cells. Transfers and
 /// coarse operators follow from the matrix alone: a line left out is expressed by its two neighbours as its own rows

@@ -11,7 +11,7 @@
 namespace hersey::film {
 
 /// Linear systems with the Jacobian of a film by GMRES, preconditioned by one V-cycle on that Jacobian (theory manual,
-/// film.50 to film.53).
+/// film.35 to film.38).
 class MultigridSolver {
  public:
   /// @param column_start,row_index  five-point pattern on the grid's ring, node (i, j) at i n_z + j

@@ -14,7 +14,7 @@ namespace {
 // < 0 is missing oil, over this part of what a gap that widens by c in a radian would miss.
 constexpr double fade_of_pressure = 1e-3, fade_of_slack = 1e-3;
 
-// -u where the film of `reynolds` misses all that a gap widening by c in a radian asks for at the fill speed (film.12).
+// -u where the film of `reynolds` misses all that a gap widening by c in a radian asks for at the fill speed (film.20).
 double slack_scale(const FilmModel& model) {
   const double dphi = 2 * std::numbers::pi / model.grid.n_phi;
   const double slenderness = model.R * dphi * (model.grid.n_z - 1) / model.L;

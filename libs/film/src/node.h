@@ -4,7 +4,7 @@
 
 namespace hersey::film {
 
-/// Everything the film is at one node, with derivatives: x_u = dx/du, x_g = dx/dg (theory manual, film.4 to film.7).
+/// Everything the film is at one node, with derivatives: x_u = dx/du, x_g = dx/dg (theory manual, film.3 to film.10).
 struct Node {
   double p = 0, p_u = 0;                ///< pressure above p_cav in the balance of flows [Pa]
   double wall = 0, wall_u = 0;          ///< pressure the walls feel, p_cav + max(u, 0) [Pa]
@@ -19,11 +19,11 @@ struct Node {
 };
 
 /// An edge at the cavitation pressure of a film that conserves oil lies in air: oil may leave over it but none comes
-/// in. There p = p_cav whatever u is; u >= 0 stands for the outflow, u < 0 for the fill fraction (film.11).
+/// in. There p = p_cav whatever u is; u >= 0 stands for the outflow, u < 0 for the fill fraction (film.18).
 [[nodiscard]] bool open_edge(const FilmModel& model, int j);
 
 /// Fill fraction of what an open edge lets in; 0 in all other rows. Where the film would be emptier than that, it draws
-/// in what it lacks: u then stands for the inflow (film.37).
+/// in what it lacks: u then stands for the inflow (film.19).
 [[nodiscard]] double ambient_fill(const FilmModel& model, int j);
 
 /// The laws that hold at every node of one film.

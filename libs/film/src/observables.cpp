@@ -92,7 +92,7 @@ Peak largest_pressure_of(const FlowBalance& balance, const Eigen::VectorXd& p, d
   return {model.supply.pressure, phi_supply - turn * std::floor(phi_supply / turn), 0};
 }
 
-/// Flows over the boundaries, storage and volume (film.22).
+/// Flows over the boundaries, storage and volume (film.55).
 void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const Eigen::VectorXd& u,
                  FilmObservables& o) {
   const FilmModel& model = balance.model();

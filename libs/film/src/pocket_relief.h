@@ -15,8 +15,8 @@ struct ByGap {
   double value = 0, h = 0, journal = 0;
 };
 
-/// What a tube between two nodes is to the flow through it where pockets cover a part of it, per width (film.60,
-/// film.61): with the integrals I_n of 1/h^n over the tube's length, per length,
+/// What a tube between two nodes is to the flow through it where pockets cover a part of it, per width (film.26,
+/// film.28): with the integrals I_n of 1/h^n over the tube's length, per length,
 struct TubeGap {
   ByGap cube;    ///< 1/I_3, in place of h^3 [m^3]
   ByGap carry;   ///< I_2/I_3, in place of h where surfaces carry oil past the pocket's steps [m]
@@ -58,8 +58,8 @@ class PocketRelief {
   [[nodiscard]] const std::vector<PocketTube>& tubes() const { return tubes_; }
   [[nodiscard]] TubeGap gap(const PocketTube& tube, double h) const;
 
-  // Mean depth of pockets over each control volume now and at the start of the step [m], its rate in a steady film
-  // [m/s] with derivatives; empty where there are no pockets.
+  // Mean depth of pockets over each control volume (film.27) now and at the start of the step [m], and by how much it
+  // changes with phi_journal [m/rad]; empty where there are no pockets.
   [[nodiscard]] const Eigen::VectorXd& depth() const { return depth_; }
   [[nodiscard]] const Eigen::VectorXd& depth_start() const { return depth_start_; }
   [[nodiscard]] const Eigen::VectorXd& depth_by_journal() const { return depth_journal_; }

@@ -40,7 +40,7 @@ RoughGap RoughGapLaw::state(double h) const {
     const ValueAndSlope pressure = d.both.pressure(H);
     r.pressure[k] = pressure.value, r.pressure_h[k] = pressure.slope / sigma_;
     r.couette[k] = smooth.value, r.couette_h[k] = smooth.slope / sigma_;
-    // Each rough surface drags oil with it and adds to the shear (film.32, film.35).
+    // Each rough surface drags oil with it and adds to the shear (film.43, film.46).
     const auto add = [&](const PatirCheng& surface, double share, double sign) {
       if (share == 0) return;
       const ValueAndSlope shear = surface.shear(H), stress = surface.stress(H);

@@ -19,7 +19,7 @@ struct RoughGap {
   std::array<double, 2> couette_h{};         ///< [1/m]
 };
 
-/// Flow factors of both surfaces together (theory manual, film.30 to film.36).
+/// Flow factors of both surfaces together (theory manual, film.41 to film.47).
 class RoughGapLaw {
  public:
   explicit RoughGapLaw(const Roughness& roughness);

@@ -3,7 +3,7 @@
 
 #include "flow_balance.h"
 
-// Oil over a whole step (film.59).
+// Oil over a whole step (film.15).
 namespace hersey::film {
 namespace {
 

@@ -164,14 +164,14 @@ void Sor::relax(int i, int j) {
   if (u >= 0 || cavitation == Cavitation::guembel) return place(node, u, j);
 
   const double drawn = tie * balance_.draws(node);
-  // Cavitated: u is the slack of the row (film.12) or tells the fill fraction, which solves it.
+  // Cavitated: u is the slack of the row (film.20) or tells the fill fraction, which solves it.
   if (cavitation == Cavitation::reynolds) {
     return place(node, std::min(0.0, -full / (own * balance_.conductance_scale() + drawn)), j);
   }
   const double slope = own * r.transport / fill_ + drawn;
   const double filling = slope > 0 ? std::min(0.0, -full / slope) : 0, ambient = balance_.ambient_unknown(j);
   if (!open || filling >= ambient) return place(node, filling, j);
-  // Emptier than what lies outside: u is the inflow that keeps it as full (film.37).
+  // Emptier than what lies outside: u is the inflow that keeps it as full (film.19).
   const double lack = full + slope * ambient;
   place(node, std::min(ambient, ambient - lack / (balance_.conductance_scale() * own + drawn)), j);
 }

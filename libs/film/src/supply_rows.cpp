@@ -3,7 +3,7 @@
 
 #include "flow_balance.h"
 
-// Rows of the residual that supply line and features have a part in (film.13, film.25).
+// Rows of the residual that supply line and features have a part in (film.21, film.22).
 namespace hersey::film {
 
 const FlowBalance::HeldNode* FlowBalance::held_at(int node) const {

@@ -15,7 +15,7 @@ struct Thinnest {
 };
 
 /// The smallest of all nodes outside features with depth, each row interpolated around the bearing between nodes that
-/// lie outside, and of those features' borders (theory manual, film.63).
+/// lie outside, and of those features' borders (theory manual, film.30).
 [[nodiscard]] Thinnest thinnest_film(const FilmModel& model, const GridGeometry& at, const Eigen::VectorXd& h,
                                      double phi_journal);
 

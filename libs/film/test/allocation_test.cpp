@@ -4,6 +4,7 @@
 
 #include "count_allocations.h"
 #include "film_cases.h"
+#include "seeded_random.h"
 
 namespace hersey::film {
 namespace {
@@ -65,7 +66,7 @@ TEST_CASE("WarmLinearisation_DoesNotAllocate") {
     Eigen::VectorXd du;
     Eigen::MatrixXd answers;
     Eigen::Matrix<double, 6, Eigen::Dynamic> wrench;
-    const Eigen::MatrixXd openings = Eigen::MatrixXd::Random(m.grid.size(), 2);
+    const Eigen::MatrixXd openings = seeded_random(m.grid.size(), 2, 3);
     CondensedFilm condensed;
     const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()));
     Vector6 sum = Vector6::Zero();

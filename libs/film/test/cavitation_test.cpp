@@ -3,10 +3,13 @@
 #include <array>
 
 #include "film_cases.h"
+#include "relative.h"
 
 // What conserving oil means: the film's own balances, and cavitation that comes and goes.
 namespace hersey::film {
 namespace {
+
+constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest throughput per node
 
 FilmModel bearing(int n_phi = 60, int n_z = 13) {
   FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = {n_phi, n_z}};
@@ -27,8 +30,8 @@ TEST_CASE("FloodedEdgesWithoutSupply_HaveNoNetSideFlow") {
   CHECK(film.observed.cavitated_share > 0.1);
   // The solver leaves 1e-10 of the largest throughput per node.
   const double scale = m.R * omega * m.c * m.L;
-  CHECK(std::abs(film.observed.flow_left + film.observed.flow_right) < 1e-9 * scale);
-  CHECK(film.observed.flow_left == doctest::Approx(film.observed.flow_right).epsilon(1e-9).scale(scale));
+  CHECK(std::abs(film.observed.flow_left + film.observed.flow_right) < kSolved * scale);
+  CHECK(film.observed.flow_left == doctest::Approx(film.observed.flow_right).epsilon(kSolved).scale(scale));
 }
 
 TEST_CASE("FilmWithoutAnySupply_Starves") {
@@ -37,9 +40,9 @@ TEST_CASE("FilmWithoutAnySupply_Starves") {
   const SolvedFilm film = solve_cold(m, turning(m, 0.6, omega));
   CHECK(film.summary.converged);
   CHECK(film.summary.message.find("supply") != std::string::npos);
-  CHECK(film.observed.p_max < 1e-6);
+  CHECK(film.observed.p_max < 1e-6);                  // Pa: no pressure at all
   CHECK(film.observed.force_pressure.norm() < 1e-6);  // N; with supply this bearing carries 456 N
-  CHECK(film.fields.theta.maxCoeff() <= 1 + 1e-12);
+  CHECK(film.fields.theta.maxCoeff() <= 1 + 1e-12);   // round-off
   CHECK(film.fields.theta.minCoeff() >= 0);
 }
 
@@ -80,6 +83,7 @@ TEST_CASE("TimeSteps_ConserveOil") {
     const FilmObservables o = observe_film(m, motion, history, journal.e, u);
     const double change = (o.oil_volume - volume_before) / dt;
     const double scale = m.R * omega * m.c * m.L;
+    // Of a step, summed over nodes that the solver leaves 1e-10 of the largest throughput.
     CHECK(std::abs(o.flow_supply - o.flow_left - o.flow_right - change) < 1e-8 * scale);
     CHECK(o.mass_balance_error < 1e-8);
     before = motion;
@@ -186,6 +190,7 @@ Squeeze squeeze(int n, double dt, const SqueezeFront& exact) {
 
 TEST_CASE("SqueezedFilm_CavitatesAndReforms") {
   const SqueezeFront exact;
+  // Seven digits.
   CHECK(std::abs(exact.start() - 0.2500792) < 1e-7);
   CHECK(std::abs(exact.turning() - 0.3148259) < 1e-7);
   CHECK(std::abs(exact.at(exact.turning()) - 0.0230077) < 1e-7);
@@ -200,7 +205,7 @@ TEST_CASE("SqueezedFilm_CavitatesAndReforms") {
     CHECK(s.start <= 0.2500792 + dt);
     CHECK(std::abs(s.narrowest - 0.0230077) <= dx);
     CHECK(s.front_error <= 1);
-    CHECK(s.oil_error < 1e-10);
+    CHECK(s.oil_error < 1e-10);  // the solver's residual, summed over the steps
   }
   // Backward Euler and upwind transport: order one as both step and cell become a quarter.
   CHECK(0.5 * std::log2(late[0] / late[2]) == doctest::Approx(1).epsilon(0.1));
@@ -246,12 +251,14 @@ TEST_CASE("AmbientFill_IsDrawnIn") {
     other.supply.pressure = m.p_cav;
     const SolvedFilm film = solve_cold(other, turning(other, 0.6, omega), {.solver = solver, .rtol = 1e-10});
     REQUIRE(film.summary.converged);
-    CHECK(film.observed.mass_balance_error < 1e-9);
+    CHECK(film.observed.mass_balance_error < kSolved);
     return film;
   };
   const SolvedFilm flooded = solved(m.p_cav + 1e-3, 0), oil = solved(m.p_cav, 1);
+  // An edge 1e-3 Pa above p_cav.
   CHECK((flooded.wrench - oil.wrench).norm() < 1e-6 * oil.wrench.norm());
-  CHECK(flooded.observed.flow_left == doctest::Approx(oil.observed.flow_left).epsilon(1e-6));
+  // Side flows are apart by 1.2e-3 of themselves: beside the broken film both edges are not quite alike.
+  CHECK(flooded.observed.flow_left == relative(oil.observed.flow_left).epsilon(2e-3));
   CHECK(oil.fields.theta[m.grid.index(45, 0)] == 1);  // where the film is broken inside
 
   const SolvedFilm air = solved(m.p_cav, 0), mist = solved(m.p_cav, 0.9);
@@ -266,8 +273,9 @@ TEST_CASE("AmbientFill_IsDrawnIn") {
   CHECK(air.observed.flow_left > 1.001 * mist.observed.flow_left);
   CHECK(mist.observed.flow_left > 1.001 * oil.observed.flow_left);
   const SolvedFilm sor = solved(m.p_cav, 0.9, FilmSolver::sor);
+  // SOR ends at 1e-10, which weak spots of the film amplify.
   CHECK((sor.wrench - mist.wrench).norm() < 1e-6 * mist.wrench.norm());
-  CHECK(sor.observed.flow_left == doctest::Approx(mist.observed.flow_left).epsilon(1e-6));
+  CHECK(sor.observed.flow_left == relative(mist.observed.flow_left).epsilon(1e-6));
 }
 
 // Oil around the edges at p_cav has nothing that would drive it in: without a supply the film starves all the same.
@@ -278,7 +286,7 @@ TEST_CASE("FilmInOilAtTheCavitationPressure_Starves") {
   const SolvedFilm film = solve_cold(m, turning(m, 0.6, omega));
   CHECK(film.summary.converged);
   CHECK(film.summary.message.find("supply") != std::string::npos);
-  CHECK(film.observed.p_max < 1e-6);
+  CHECK(film.observed.p_max < 1e-6);  // Pa: no pressure at all
 }
 
 // Plates that part suck in what lies around them, as far as the film is emptier than that.
@@ -296,13 +304,14 @@ TEST_CASE("PartingPlates_DrawInTheAmbient") {
     REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
     const FilmFields fields = film_fields(m, motion, u);
     const double edge = std::max(0.5, fill);
-    CHECK(fields.theta[m.grid.index(3, 0)] == doctest::Approx(edge).epsilon(1e-9));
-    CHECK(fields.theta[m.grid.index(3, 1)] == doctest::Approx(0.5).epsilon(1e-9));
-    CHECK(fields.theta[m.grid.index(3, 8)] == doctest::Approx(0.5).epsilon(1e-9));
+    CHECK(fields.theta[m.grid.index(3, 0)] == doctest::Approx(edge).epsilon(kSolved));
+    CHECK(fields.theta[m.grid.index(3, 1)] == doctest::Approx(0.5).epsilon(kSolved));
+    CHECK(fields.theta[m.grid.index(3, 8)] == doctest::Approx(0.5).epsilon(kSolved));
     const FilmObservables o = observe_film(m, motion, history, {0, 0}, u);
     const double half_row = 2 * pi * m.R * m.L / 16;
-    CHECK(o.flow_left == doctest::Approx(-(edge - 0.5) * 2 * h * half_row / dt).epsilon(1e-9));
-    CHECK(std::abs(o.storage_rate + o.flow_left + o.flow_right) < 1e-9 * h * half_row / dt);
+    CHECK(o.flow_left ==
+          doctest::Approx(-(edge - 0.5) * 2 * h * half_row / dt).epsilon(kSolved).scale(h * half_row / dt));
+    CHECK(std::abs(o.storage_rate + o.flow_left + o.flow_right) < kSolved * h * half_row / dt);
   }
 }
 
@@ -330,8 +339,8 @@ TEST_CASE("FillScale_HasNoInfluence") {
   const SolvedFilm film = solve_cold(m, motion, {0, 0});
   m.c *= 2;
   const SolvedFilm other = solve_cold(m, motion, {0, 0});
-  CHECK((film.wrench - other.wrench).norm() < 1e-9 * film.wrench.norm());
-  CHECK((film.fields.theta - other.fields.theta).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK((film.wrench - other.wrench).norm() < kSolved * film.wrench.norm());
+  CHECK((film.fields.theta - other.fields.theta).cwiseAbs().maxCoeff() < kSolved);
 }
 
 }  // namespace

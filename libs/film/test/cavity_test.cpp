@@ -8,6 +8,8 @@
 namespace hersey::film {
 namespace {
 
+constexpr double kRoundOff = 1e-9;  // of angles that follow from pressures solved to 1e-10
+
 constexpr double omega = 200, epsilon = 0.6;
 
 FilmModel long_bearing(int n_phi, Cavitation cavitation, double pressure) {
@@ -73,7 +75,7 @@ TEST_CASE("Cavity_OfReynoldsAndGuembelEndsAtTheSupply") {
     const double rupture =
         cavitation == Cavitation::guembel ? pi : zero([](double phi) { return rise(0, phi, gap(phi)); }, pi, 1.8 * pi);
     CHECK(std::abs(film.observed.rupture_angle - rupture) < 0.1 * 2 * pi / 120);
-    CHECK(std::abs(std::remainder(film.observed.reformation_angle, 2 * pi)) < 1e-9);
+    CHECK(std::abs(std::remainder(film.observed.reformation_angle, 2 * pi)) < kRoundOff);
   }
 }
 
@@ -82,8 +84,8 @@ TEST_CASE("Cavity_IsMirroredByTheSenseOfRotation") {
   m.supply.pressure = 1e5;
   const FilmObservables forwards = solve_cold(m, turning(m, epsilon, omega)).observed;
   const FilmObservables backwards = solve_cold(m, turning(m, epsilon, -omega)).observed;
-  CHECK(std::abs(std::remainder(forwards.rupture_angle + backwards.rupture_angle, 2 * pi)) < 1e-9);
-  CHECK(std::abs(std::remainder(forwards.reformation_angle + backwards.reformation_angle, 2 * pi)) < 1e-9);
+  CHECK(std::abs(std::remainder(forwards.rupture_angle + backwards.rupture_angle, 2 * pi)) < kRoundOff);
+  CHECK(std::abs(std::remainder(forwards.reformation_angle + backwards.reformation_angle, 2 * pi)) < kRoundOff);
 }
 
 TEST_CASE("Cavity_OfAWholeFilmIsNone") {

@@ -94,13 +94,14 @@ TEST_CASE("SaturatedViscosity_IsSmoothAndBounded") {
         const double d = 1e-5 * p;
         const double difference =
             log_viscosity_ratio(oil, sign * p + d).value - log_viscosity_ratio(oil, sign * p - d).value;
+        // Differences of step 1e-5 p, and round-off.
         CHECK(std::abs(law.slope * 2 * d - difference) < 1e-7 * (1e-5 + std::abs(difference)) + 1e-13);
       }
     }
   }
 }
 
-// The film thickness under contact is the root of (film.7), wherever Newton's iteration for it begins.
+// The film thickness under contact is the root of (film.10), wherever Newton's iteration for it begins.
 TEST_CASE("ContactHoldsSurfacesApart_HoweverFarTheyOverlap") {
   FilmModel m = big_end();
   m.compliance = 2e-3 / 60e9;
@@ -112,8 +113,8 @@ TEST_CASE("ContactHoldsSurfacesApart_HoweverFarTheyOverlap") {
     motion.g.setConstant(g);
     const FilmFields fields = film_fields(m, motion, u);
     const double h = fields.h[0];
-    if (h > 0) CHECK(std::abs(h - g - fields.w[0]) <= 1e-12 * std::abs(g));
-    CHECK((h > 0) == (g > -7e-6));  // C p_a(0) = 7.08 um
+    if (h > 0) CHECK(std::abs(h - g - fields.w[0]) <= 1e-12 * std::abs(g));  // round-off of the terms
+    CHECK((h > 0) == (g > -7e-6));                                           // C p_a(0) = 7.08 um
     CHECK((h > 0) == Reynolds(m).linearise(motion, {}, u).is_inside());
   }
   motion.g.setConstant(-1e-6);

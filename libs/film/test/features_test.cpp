@@ -5,10 +5,13 @@
 
 #include "feature_cover.h"
 #include "film_cases.h"
+#include "relative.h"
 
 // Holes and grooves: where their edges lie, how smoothly they travel, and published bearings with grooves.
 namespace hersey::film {
 namespace {
+
+constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest throughput
 
 // A film without wedge between an axial groove and the edges' pressure is a chain of flat channels: between two grooves
 // the pressure is linear and the flow exactly that of the true distance, wherever the grooves' edges lie in their
@@ -24,9 +27,9 @@ TEST_CASE("GrooveEdges_LieWhereTheyAre") {
     REQUIRE(film.summary.converged);
     const double distance = m.R * (pi - 0.5 * (0.5 + arc));
     const double flow = 2 * m.c * m.c * m.c / (12 * m.lubricant.mu0) * m.L * 2e6 / distance;
-    CHECK(film.observed.flow_features[0] == doctest::Approx(flow).epsilon(1e-9));
-    CHECK(film.observed.flow_features[1] == doctest::Approx(-flow).epsilon(1e-9));
-    CHECK(film.observed.mass_balance_error < 1e-9);
+    CHECK(film.observed.flow_features[0] == relative(flow).epsilon(kSolved));
+    CHECK(film.observed.flow_features[1] == relative(-flow).epsilon(kSolved));
+    CHECK(film.observed.mass_balance_error < kSolved);
   }
 }
 
@@ -47,6 +50,7 @@ TEST_CASE("HeldShares_HaveTheirDerivative") {
     REQUIRE(here.size() == after.size());
     double largest = 0;
     for (std::size_t k = 0; k < here.size(); ++k) {
+      // Differences of step 1e-7: round-off over it.
       CHECK(std::abs(here[k].share_phi - (after[k].share - before[k].share) / (2 * d)) < 1e-6);
       largest = std::max(largest, std::abs(here[k].share_phi));
     }
@@ -93,7 +97,7 @@ TEST_CASE("HoleSweptOverAUniformFilm_GivesASmoothForce") {
     // edge passes a whole row of nodes at once, where the slope of the force may change, an ellipse one after the
     // other.
     CHECK(s.jump < 2e-3 * s.largest);
-    CHECK(s.bend < (shape == FeatureShape::ellipse ? 2e-4 : 1e-3) * s.largest);
+    CHECK(s.bend < (shape == FeatureShape::ellipse ? 2e-4 : 1e-3) * s.largest);  // 250 steps to a cell
   }
 }
 
@@ -121,6 +125,7 @@ TEST_CASE("PeakBesideWhatHoldsAPressure_IsThatPressure") {
         CAPTURE(degrees);
         const double phi = degrees * pi / 180;
         const FilmObservables one = peak(n_phi, phi, is_line, 30), mirrored = peak(n_phi, -phi, is_line, -30);
+        // Held exactly: round-off.
         CHECK(one.p_max == doctest::Approx(1.5e5).epsilon(1e-12));
         CHECK(mirrored.p_max == doctest::Approx(one.p_max).epsilon(1e-12));
         if (is_line) CHECK(one.p_max_phi == doctest::Approx(phi).epsilon(1e-12));
@@ -193,8 +198,9 @@ TEST_CASE("GroovesAtTheCavitationPressure_HaveOneSideFlow") {
     const FilmObservables film = observe_film(m, surfaces(m, journal), {}, journal.e, u);
     flows.push_back(film.flow_left + film.flow_right);
   }
-  CHECK(flows[1] == doctest::Approx(flows[0]).epsilon(1e-6));
-  CHECK(flows[2] == doctest::Approx(flows[0]).epsilon(1e-6));
+  // Each solver to its tolerance, 1e-10, which weak spots of the film amplify.
+  CHECK(flows[1] == relative(flows[0]).epsilon(1e-6));
+  CHECK(flows[2] == relative(flows[0]).epsilon(1e-6));
 }
 
 TEST_CASE("FeatureFlows_AddUp") {
@@ -206,8 +212,9 @@ TEST_CASE("FeatureFlows_AddUp") {
     const SolvedFilm film = solve_cold(m, turning(m, 0.6, 300), {.solver = solver, .rtol = 1e-9});
     CAPTURE(film.summary.message);
     REQUIRE(film.summary.converged);
-    CHECK(film.observed.flow_features.sum() == doctest::Approx(film.observed.flow_supply).epsilon(1e-12));
-    CHECK(film.observed.mass_balance_error < 1e-7);
+    // A sum: round-off.
+    CHECK(film.observed.flow_features.sum() == relative(film.observed.flow_supply).epsilon(1e-12));
+    CHECK(film.observed.mass_balance_error < 1e-7);  // SOR ends at 1e-9 per node
     CHECK(film.observed.flow_features[0] > 0);
     CHECK(film.observed.flow_features[1] > 0);
   }

@@ -12,6 +12,10 @@
 namespace hersey::film {
 namespace {
 
+constexpr double kRoundOff = 1e-12;    // of exponentials
+constexpr double kJump = 1e-7;         // beside a kink, d = 1e-9 away on both sides: slopes up to some 10 times 2 d
+constexpr double kJumpOfSlope = 1e-6;  // the same of second derivatives
+
 const std::vector<double> tabulated{1.0 / 9, 1.0 / 6, 1.0 / 3, 1, 3, 6, 9};
 
 /// Mean over Patir and Cheng's nearly Gaussian heights y, density 35/96 (1 - (y/3)^2)^3 for |y| < 3.
@@ -27,13 +31,14 @@ double mean_over_heights(const std::function<double(double)>& f) {
 
 // Figures worked from the fits as printed, one on each of them.
 TEST_CASE("FlowFactors_HaveTheirPublishedValues") {
-  CHECK(PatirCheng(1).pressure(3).value == doctest::Approx(1 - 0.90 * std::exp(-0.56 * 3)).epsilon(1e-12));
+  CHECK(PatirCheng(1).pressure(3).value == doctest::Approx(1 - 0.90 * std::exp(-0.56 * 3)).epsilon(kRoundOff));
+  // Digits printed.
   CHECK(PatirCheng(1).pressure(3).value == doctest::Approx(0.832).epsilon(1e-3));
   CHECK(PatirCheng(1.0 / 9).pressure(2).value == doctest::Approx(0.361).epsilon(1e-3));
   CHECK(PatirCheng(9).pressure(2).value == doctest::Approx(1.3076).epsilon(1e-4));
-  CHECK(PatirCheng(1).shear(1).value == doctest::Approx(1.899 * std::exp(-0.87)).epsilon(1e-12));
-  CHECK(PatirCheng(1.0 / 3).shear(8).value == doctest::Approx(1.561 * std::exp(-2.0)).epsilon(1e-12));
-  CHECK(PatirCheng(3).stress(1).value == doctest::Approx(9.8 * std::exp(-2.62)).epsilon(1e-12));
+  CHECK(PatirCheng(1).shear(1).value == doctest::Approx(1.899 * std::exp(-0.87)).epsilon(kRoundOff));
+  CHECK(PatirCheng(1.0 / 3).shear(8).value == doctest::Approx(1.561 * std::exp(-2.0)).epsilon(kRoundOff));
+  CHECK(PatirCheng(3).stress(1).value == doctest::Approx(9.8 * std::exp(-2.62)).epsilon(kRoundOff));
   // Both published branches of Phi_s meet at H = 5: a wrong digit in either would show.
   for (const double gamma : tabulated) {
     CHECK(PatirCheng(gamma).shear(5).value ==
@@ -42,7 +47,7 @@ TEST_CASE("FlowFactors_HaveTheirPublishedValues") {
   // Between rows: linear in ln gamma.
   const double between = std::sqrt(3.0);
   CHECK(PatirCheng(between).shear(2).value ==
-        doctest::Approx(0.5 * (PatirCheng(1).shear(2).value + PatirCheng(3).shear(2).value)).epsilon(1e-12));
+        doctest::Approx(0.5 * (PatirCheng(1).shear(2).value + PatirCheng(3).shear(2).value)).epsilon(kRoundOff));
   CHECK(PatirCheng(0.11).pressure(2).value == PatirCheng(1.0 / 9).pressure(2).value);  // 1/9 in two digits
   CHECK_THROWS(PatirCheng(10));
   CHECK_THROWS(PatirCheng(0.1));
@@ -58,6 +63,7 @@ TEST_CASE("FlowFactors_HaveTheSlopesTheyClaim") {
       const auto check = [&](const auto& f) {
         const double slope =
             (8 * (f(H + d).value - f(H - d).value) - (f(H + 2 * d).value - f(H - 2 * d).value)) / (12 * d);
+        // A kink of the second derivative costs d = 1e-5 of it, smooth places d^4.
         CHECK(f(H).slope == doctest::Approx(slope).epsilon(1e-6).scale(1));
       };
       check([&](double x) { return law.pressure(x); });
@@ -79,20 +85,20 @@ TEST_CASE("FlowFactors_AreContinuous") {
     for (const double H : {0.5, 0.75, 1.0, 4.5, 5.0, 5.5, 6.0, 7.0}) {
       CAPTURE(H);
       const auto check = [&](const ValueAndSlope& below, const ValueAndSlope& above) {
-        CHECK(std::abs(below.value - above.value) < 1e-7);
-        CHECK(std::abs(below.slope - above.slope) < 1e-6);
+        CHECK(std::abs(below.value - above.value) < kJump);
+        CHECK(std::abs(below.slope - above.slope) < kJumpOfSlope);
       };
       check(law.pressure(H - d), law.pressure(H + d));
       check(law.shear(H - d), law.shear(H + d));
       check(law.stress(H - d), law.stress(H + d));
     }
     for (const double H : {3.0, 6.0}) {
-      CHECK(std::abs(couette_stress_factor(H - d).value - couette_stress_factor(H + d).value) < 1e-7);
-      CHECK(std::abs(couette_stress_factor(H - d).slope - couette_stress_factor(H + d).slope) < 1e-6);
+      CHECK(std::abs(couette_stress_factor(H - d).value - couette_stress_factor(H + d).value) < kJump);
+      CHECK(std::abs(couette_stress_factor(H - d).slope - couette_stress_factor(H + d).slope) < kJumpOfSlope);
     }
     if (gamma < 9 && gamma > 1.0 / 9) {
       CHECK(std::abs(PatirCheng(gamma * (1 - d)).pressure(1.7).value -
-                     PatirCheng(gamma * (1 + d)).pressure(1.7).value) < 1e-7);
+                     PatirCheng(gamma * (1 + d)).pressure(1.7).value) < kJump);
     }
   }
 }
@@ -115,7 +121,7 @@ TEST_CASE("PressureFactors_LieBetweenRidgesAcrossAndAlong") {
 }
 
 // Patir and Cheng fitted the pressure's part in the shear stress, phi_fp = 1 - D exp(-s H), by itself. Reciprocity of
-// viscous flow ties it to the shear flow: on the smooth one of two surfaces phi_fp h = h_T - sigma Phi_s (film.35).
+// viscous flow ties it to the shear flow: on the smooth one of two surfaces phi_fp h = h_T - sigma Phi_s (film.46).
 TEST_CASE("ShearFlow_IsReciprocalToThePressuresShare") {
   const std::array<std::array<double, 2>, 7> fits{
       {{1.51, 0.52}, {1.51, 0.54}, {1.47, 0.58}, {1.40, 0.66}, {0.98, 0.79}, {0.97, 0.91}, {0.73, 0.91}}};
@@ -134,6 +140,7 @@ TEST_CASE("CouetteFactor_IsTheMeanOverTheHeights") {
   // Exact above H = 3, where no gap closes; below, gaps under sigma/100 count as that.
   for (const double H : {3.2, 4.5, 5.9, 6.1, 10.0, 100.0, 1e4}) {
     CAPTURE(H);
+    // Midpoint rule of the reference, 20000 intervals.
     CHECK(couette_stress_factor(H).value ==
           doctest::Approx(mean_over_heights([H](double y) { return H / (H + y); })).epsilon(1e-6));
   }
@@ -152,19 +159,19 @@ TEST_CASE("MeanGap_IsTheGaussianMean") {
     for (double s = -H + step / 2; s < 10; s += step) {
       sum += step * (H + s) * std::exp(-0.5 * s * s) / std::sqrt(2 * std::numbers::pi);
     }
-    CHECK(mean_gap(H).value == doctest::Approx(sum).epsilon(1e-6));
+    CHECK(mean_gap(H).value == doctest::Approx(sum).epsilon(1e-6));  // midpoint rule of step 1e-3
   }
-  CHECK(mean_gap(9).value == doctest::Approx(9).epsilon(1e-15));
+  CHECK(mean_gap(9).value == doctest::Approx(9).epsilon(1e-15));  // the tail beyond 9 sigma
 }
 
 TEST_CASE("FarFromContact_SurfacesAreSmooth") {
   for (const double gamma : tabulated) {
     const PatirCheng law(gamma);
     CHECK(law.pressure(60).value == doctest::Approx(1).epsilon(2e-3));  // longest tail: 0.87 H^-1.5
-    CHECK(law.shear(60).value < 1e-6);
+    CHECK(law.shear(60).value < 1e-6);                                  // tail at H = 60
     CHECK(law.stress(60).value == 0);
   }
-  CHECK(couette_stress_factor(60).value == doctest::Approx(1 + 1.0 / 3600).epsilon(1e-6));
+  CHECK(couette_stress_factor(60).value == doctest::Approx(1 + 1.0 / 3600).epsilon(1e-6));  // next: of 60^-4
 }
 
 }  // namespace

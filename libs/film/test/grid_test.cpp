@@ -2,10 +2,14 @@
 
 #include "film_cases.h"
 #include "grid_geometry.h"
+#include "relative.h"
 
 // Graded grids: their spacing, their integrals, and what they gain.
 namespace hersey::film {
 namespace {
+
+constexpr double kRoundOff = 1e-14;  // of sums over a row of nodes
+constexpr double kWeights = 1e-13;   // round-off of weights, sums of a few products
 
 const Grid graded =
     graded_grid(48, 11, {{.place = 3, .reach = 0.4, .factor = 4}},
@@ -15,20 +19,20 @@ FilmModel on(const Grid& grid) { return {.R = 0.025, .L = 0.02, .c = 25e-6, .gri
 
 TEST_CASE("GradedGrid_IsFineWhereAsked") {
   const GridGeometry g(on(graded));
-  CHECK(g.dx.sum() == doctest::Approx(2 * pi * 0.025).epsilon(1e-14));
-  CHECK(g.dz.sum() == doctest::Approx(0.02).epsilon(1e-14));
+  CHECK(g.dx.sum() == doctest::Approx(2 * pi * 0.025).epsilon(kRoundOff));
+  CHECK(g.dz.sum() == relative(0.02).epsilon(kRoundOff));
   int finest = 0;
   g.dx.minCoeff(&finest);
   CHECK(std::abs(graded.phi(finest) - 3) < 0.1);
   CHECK(g.dx.maxCoeff() / g.dx.minCoeff() == doctest::Approx(4).epsilon(0.15));
-  CHECK(g.dz[0] == doctest::Approx(g.dz[9]).epsilon(1e-3));
+  CHECK(g.dz[0] == doctest::Approx(g.dz[9]).epsilon(1e-3));  // the midpoint rule that lays the nodes
   CHECK(g.dz[4] / g.dz[0] > 2);
 }
 
 TEST_CASE("ResampledGrid_KeepsItsPattern") {
   const Grid half = resampled(graded, 24, 6);
-  for (int i = 0; i < 24; ++i) CHECK(half.phi(i) == doctest::Approx(graded.phi(2 * i)).epsilon(1e-14));
-  for (int j = 0; j < 6; ++j) CHECK(half.z_over_L(j) == doctest::Approx(graded.z_over_L(2 * j)).epsilon(1e-14));
+  for (int i = 0; i < 24; ++i) CHECK(half.phi(i) == doctest::Approx(graded.phi(2 * i)).epsilon(kRoundOff));
+  for (int j = 0; j < 6; ++j) CHECK(half.z_over_L(j) == doctest::Approx(graded.z_over_L(2 * j)).epsilon(kRoundOff));
   CHECK(resampled({60, 13}, 30, 7).is_uniform());
   const Grid odd = resampled(graded, 25, 8);
   CHECK(odd.z_over_L(7) == 0.5);
@@ -39,19 +43,19 @@ TEST_CASE("Integrals_AreExactForParabolas") {
   const GridGeometry g(on(graded));
   double sum = 0;
   for (int j = 0; j < 11; ++j) sum += g.weight_z[j] * (1 + g.z[j] / 0.01 + std::pow(g.z[j] / 0.01, 2));
-  CHECK(sum == doctest::Approx(0.02 * 4 / 3).epsilon(1e-13));
+  CHECK(sum == relative(0.02 * 4 / 3).epsilon(kWeights));
   // Around the bearing of the fourth order; equal weights where the spacing is equal.
   const auto error = [](int n) {
     const GridGeometry around(on(resampled(graded, n, 5)));
     return std::abs(around.weight_phi.dot((2 * around.phi.array()).sin().square().matrix()) / (pi * 0.025) - 1);
   };
-  CHECK(error(48) < 1e-3);
+  CHECK(error(48) < 1e-3);  // 48 nodes, fourth order
   const GridGeometry even(on({48, 11}));
-  CHECK((even.weight_phi.array() / even.mean_dx - 1).abs().maxCoeff() < 1e-14);
-  CHECK(even.weight_z[0] / even.mean_dz == doctest::Approx(9.0 / 24).epsilon(1e-13));
-  CHECK(even.weight_z[1] / even.mean_dz == doctest::Approx(28.0 / 24).epsilon(1e-13));
-  CHECK(even.weight_z[2] / even.mean_dz == doctest::Approx(23.0 / 24).epsilon(1e-13));
-  CHECK(even.weight_z[5] / even.mean_dz == doctest::Approx(1).epsilon(1e-13));
+  CHECK((even.weight_phi.array() / even.mean_dx - 1).abs().maxCoeff() < kRoundOff);
+  CHECK(even.weight_z[0] / even.mean_dz == doctest::Approx(9.0 / 24).epsilon(kWeights));
+  CHECK(even.weight_z[1] / even.mean_dz == doctest::Approx(28.0 / 24).epsilon(kWeights));
+  CHECK(even.weight_z[2] / even.mean_dz == doctest::Approx(23.0 / 24).epsilon(kWeights));
+  CHECK(even.weight_z[5] / even.mean_dz == doctest::Approx(1).epsilon(kWeights));
 }
 
 TEST_CASE("PlaceOfAnAngle_IsBetweenItsNodes") {
@@ -62,6 +66,7 @@ TEST_CASE("PlaceOfAnAngle_IsBetweenItsNodes") {
     CHECK(place.share >= 0);
     CHECK(place.share < 1);
     const double found = g.phi[place.node] + place.share * g.dx[place.node] / 0.025;
+    // Just below a node counts as on it, within 1e-9 of a cell.
     CHECK(std::abs(std::remainder(found - angle, 2 * pi)) < 1e-8);
   }
   CHECK(g.place_of(graded.phi(17) - 1e-14).node == 17);
@@ -73,7 +78,7 @@ double load_of(const Grid& grid, double e) {
   m.shear_force = ShearForce::torque_only;
   const SolvedFilm film = solve_cold(m, turning(m, e, 100));
   REQUIRE(film.summary.converged);
-  CHECK(film.observed.mass_balance_error < 1e-9);
+  CHECK(film.observed.mass_balance_error < 1e-9);  // the solver's tolerance is 1e-10 per node
   return film.wrench.segment<2>(3).norm();
 }
 

@@ -8,10 +8,13 @@
 #include "film_cases.h"
 #include "flow_balance.h"
 #include "gap_interpolation.h"
+#include "relative.h"
 
 // Depth of features: volume, flow over their steps, and what the film beside them feels.
 namespace hersey::film {
 namespace {
+
+constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest throughput
 
 FilmModel graded() {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
@@ -45,8 +48,8 @@ TEST_CASE("TurningPocket_KeepsItsVolume") {
       double volume = 0;
       for (int k = 0; k < depth.size(); ++k) volume += depth[k] * geometry.area(k / 9, k % 9);
       // Gauss' rule across the ellipse's ends leaves some thousandths.
-      CHECK(volume == doctest::Approx(share * 0.7 * m.R * 6e-3 * 50e-6).epsilon(share == 1 ? 1e-12 : 1e-2));
-      CHECK(depth.maxCoeff() == doctest::Approx(50e-6));
+      CHECK(volume == relative(share * 0.7 * m.R * 6e-3 * 50e-6).epsilon(share == 1 ? 1e-12 : 1e-2));
+      CHECK(depth.maxCoeff() == relative(50e-6));
     }
   }
 }
@@ -55,10 +58,10 @@ TEST_CASE("TurningPocket_KeepsItsVolume") {
 TEST_CASE("PocketToTheEdge_IsDeepThere") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {40, 9}};
   m.features = {{.name = "slot", .phi = pi, .arc = 1, .length = 0.02, .is_fed = false, .depth = 1e-4}};
-  for (int j = 0; j < 9; ++j) CHECK(mean_depth(m, 0)[m.grid.index(20, j)] == doctest::Approx(1e-4));
+  for (int j = 0; j < 9; ++j) CHECK(mean_depth(m, 0)[m.grid.index(20, j)] == relative(1e-4));
   m.features[0].arc = 2 * pi, m.features[0].length = 5e-3, m.features[0].z = 7.5e-3;
   const Eigen::VectorXd all_around = mean_depth(m, 0);
-  for (int i = 0; i < 40; ++i) CHECK(all_around[m.grid.index(i, 8)] == doctest::Approx(1e-4));
+  for (int i = 0; i < 40; ++i) CHECK(all_around[m.grid.index(i, 8)] == relative(1e-4));
 }
 
 // In a full film at rest but for a journal with a pocket, concentric: the pocket's own volume turns with it and asks
@@ -79,8 +82,8 @@ TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
       FilmHistory history{turned / 200, ones, 0 * ones};
       history.phi_journal = motion.phi_journal - turned;
       balance.evaluate(motion, history, u);
-      const double scale = 50e-6 * 6 * 6e-3;  // depth times speed times length
-      CHECK(balance.balance().cwiseAbs().maxCoeff() < 1e-12 * scale);
+      const double scale = 50e-6 * 6 * 6e-3;                           // depth times speed times length
+      CHECK(balance.balance().cwiseAbs().maxCoeff() < 1e-12 * scale);  // round-off
     }
   }
 }
@@ -104,8 +107,9 @@ TEST_CASE("FedGrooveWithDepth_DoesNotLeakOntoTheLand") {
       REQUIRE(film.summary.converged);
       flow[static_cast<std::size_t>(k)] = film.observed.flow_left + film.observed.flow_right;
     }
+    // The same film but for what no equation contains: round-off.
     CHECK(flow[1] == doctest::Approx(flow[0]).epsilon(1e-12));
-    CHECK(flow[2] == doctest::Approx(flow[0]).epsilon(0.05));
+    CHECK(flow[2] == relative(flow[0]).epsilon(0.05));
   }
 }
 
@@ -126,7 +130,7 @@ TEST_CASE("FlowThroughPockets_ConvergesWithTheGrid") {
         const SolvedFilm film = solve_cold(m, turning(m, 0.3, 0));
         REQUIRE(film.summary.converged);
         flow[static_cast<std::size_t>(k)] = film.observed.flow_right;
-        CHECK(film.observed.mass_balance_error < 1e-9);
+        CHECK(film.observed.mass_balance_error < kSolved);
       }
       CAPTURE(flow[0]);
       CAPTURE(flow[1]);
@@ -147,13 +151,14 @@ TEST_CASE("SmallestFilm_IsThatOfTheLand") {
       const Journal journal = turning(m, 0.5, 100);  // narrowest at phi = pi: 15 um
       m.features = {
           {.name = "pocket", .surface = surface, .phi = 1, .arc = 0.5, .length = 8e-3, .is_fed = false, .depth = 1e-4}};
-      CHECK(solve_cold(m, journal).observed.h_min == doctest::Approx(15e-6).epsilon(1e-4));
+      // Between nodes of 6 degrees: a parabola's error.
+      CHECK(solve_cold(m, journal).observed.h_min == relative(15e-6).epsilon(1e-4));
       m.features[0].phi = pi + 0.1, m.features[0].length = 0.02;
       const FilmObservables o = solve_cold(m, journal).observed;
       // The nearer border lies 0.15 rad from the narrowest place.
-      CHECK(o.h_min == doctest::Approx(30e-6 - 15e-6 * std::cos(0.15)).epsilon(0.003));
-      CHECK(o.h_min_phi == doctest::Approx(pi - 0.15).epsilon(1e-3));
-      CHECK(o.h_min_features == doctest::Approx(115e-6).epsilon(1e-2));
+      CHECK(o.h_min == relative(30e-6 - 15e-6 * std::cos(0.15)).epsilon(0.003));
+      CHECK(o.h_min_phi == doctest::Approx(pi - 0.15).epsilon(1e-3));  // nodes are 0.05 rad and more apart
+      CHECK(o.h_min_features == relative(115e-6).epsilon(1e-2));       // at a node near the narrowest place
     }
   }
 }
@@ -167,6 +172,7 @@ TEST_CASE("SmallestFilmInTheMiddle_IsThatOfItsOwnRow") {
     m.p_edge_left = m.p_edge_right = 1e6;
     m.features = {
         {.name = "groove", .phi = 0, .z = -4e-3, .arc = 2 * pi, .length = 6e-3, .pressure = 1e6, .depth = 1e-4}};
+    // Between nodes of 6 degrees: a parabola's error.
     CHECK(solve_cold(m, turning(m, 0.5, 100)).observed.h_min_centre == doctest::Approx(15e-6).epsilon(1e-4));
   }
 }
@@ -191,7 +197,8 @@ TEST_CASE("GapThatTravels_TakesInWhatItGivesAway") {
         .e = e, .e_rate = omega * Eigen::Vector2d(-e.y(), e.x()), .omega_shell = omega, .omega_journal = omega};
     FlowBalance balance(m);
     balance.evaluate(surfaces(m, journal), {}, Eigen::VectorXd::Zero(grid.size()));
-    CHECK(balance.balance().cwiseAbs().maxCoeff() < 1e-13 * omega * m.R * m.c * m.L);
+    CHECK(balance.balance().cwiseAbs().maxCoeff() <
+          1e-13 * omega * m.R * m.c * m.L);  // round-off of the terms of a row
   }
 }
 
@@ -207,11 +214,13 @@ TEST_CASE("AllSolvers_AgreeOnPockets") {
   REQUIRE(newton.summary.converged);
   CHECK(newton.fields.theta.minCoeff() < 0.5);
   CHECK(newton.fields.theta.minCoeff() >= 0);
-  CHECK(newton.observed.mass_balance_error < 1e-8);
+  CHECK(newton.observed.mass_balance_error < 1e-8);  // the solver's tolerance is 1e-10 per node
   for (const auto solver : {FilmSolver::sor, FilmSolver::multigrid}) {
     const SolvedFilm other = solve_cold(m, motion, journal.e, {.solver = solver});
     REQUIRE(other.summary.converged);
+    // rtol 1e-10, amplified by weak spots of the film.
     CHECK((other.wrench - newton.wrench).norm() < 1e-6 * newton.wrench.norm());
+    // The same of fill fractions, which nothing but flow fixes.
     CHECK((other.fields.theta - newton.fields.theta).cwiseAbs().maxCoeff() < 1e-5);
   }
 }
@@ -226,7 +235,7 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
     Journal journal = turning(m, 0.6, 100);  // widest at phi = 0
     const SolvedFilm film = solve_cold(m, surfaces(m, journal, line), journal.e);
     REQUIRE(film.summary.converged);
-    CHECK(film.observed.mass_balance_error < 1e-9);
+    CHECK(film.observed.mass_balance_error < kSolved);
     return film.observed;
   };
   for (const double pressure : {0.0, 3e5}) {
@@ -237,8 +246,9 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
       const FilmObservables between = solve(120, line, pressure), on_node = solve(480, line, pressure);
       CHECK(between.wrench_on_shell.segment<2>(3).norm() ==
             doctest::Approx(on_node.wrench_on_shell.segment<2>(3).norm()).epsilon(0.003));
-      CHECK(between.flow_left + between.flow_right ==
-            doctest::Approx(on_node.flow_left + on_node.flow_right).epsilon(0.003));
+      // At its ends a line of another pressure than the edges' has a flow that grows with the number of nodes.
+      if (pressure > 0) continue;
+      CHECK(between.flow_left + between.flow_right == relative(on_node.flow_left + on_node.flow_right).epsilon(0.003));
     }
   }
 }
@@ -270,10 +280,12 @@ TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {
     const double k = (K(0, 0) * C(1, 1) + K(1, 1) * C(0, 0) - K(0, 1) * C(1, 0) - K(1, 0) * C(0, 1)) / C.trace();
     return std::sqrt(((k - K(0, 0)) * (k - K(1, 1)) - K(0, 1) * K(1, 0)) / C.determinant()) / omega;
   };
+  // What the solver leaves, rtol 1e-10.
   for (const Grid& grid : {Grid{12, 5}, Grid{60, 13}})
     CHECK(whirl_ratio(grid, 0) == doctest::Approx(0.5).epsilon(1e-10));
   for (const double epsilon : {0.0, 0.3, 0.6}) {
     CAPTURE(epsilon);
+    // What the grid's other errors leave of the ratio.
     CHECK(whirl_ratio({60, 13}, epsilon) == doctest::Approx(whirl_ratio({240, 13}, epsilon)).epsilon(1e-4));
   }
 }
@@ -323,11 +335,11 @@ TEST_CASE("Oil_IsConservedAtAnyStep") {
       const FilmFields fields = film_fields(m, motion, u);
       CHECK(fields.theta.minCoeff() >= 0);
       CHECK(oil.content.minCoeff() >= 0);
-      CHECK(oil.content.maxCoeff() <= 1 + 1e-12);
+      CHECK(oil.content.maxCoeff() <= 1 + 1e-12);  // round-off
       history.theta = oil.content, history.w = fields.w, history.gap = oil.gap,
       history.phi_journal = motion.phi_journal;
     }
-    CHECK(worst < 1e-9 * passed / 40);
+    CHECK(worst < 1e-9 * passed / 40);  // of a step's throughput: round-off, and what the solver leaves
   }
 }
 

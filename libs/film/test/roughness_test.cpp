@@ -62,7 +62,7 @@ TEST_CASE("RoughSlider_MeetsTheIntegralWithOrderTwo") {
       }
       const SolvedFilm film = solve_cold(m, motion, {0, 0});
       REQUIRE(film.summary.converged);
-      CHECK(film.observed.mass_balance_error < 1e-9);
+      CHECK(film.observed.mass_balance_error < 1e-9);  // the solver's tolerance is 1e-10 per node
       double found = 0;
       for (int i = 0; i <= n; ++i) found += film.fields.p[m.grid.index(i, 1)] * dx;
       load_error[k] = found / load - 1;
@@ -127,7 +127,7 @@ TEST_CASE("FineRoughness_TendsToTheSmoothFilm") {
   CHECK((solve_cold(m, turning(m, 0.7, 200)).wrench - plain).norm() == 0);
 }
 
-// Power the bodies put in = power dissipated (film.36), as between smooth surfaces: what is left there are the grid's
+// Power the bodies put in = power dissipated (film.47), as between smooth surfaces: what is left there are the grid's
 // error and c/R. The gaps are above 7 sigma.
 TEST_CASE("MechanicalPowerBetweenRoughSurfaces_IsDissipated") {
   const Journal journal{.e = {8e-6, 11e-6}, .e_rate = {0.01, -0.02}, .omega_shell = -40, .omega_journal = 300};
@@ -163,7 +163,7 @@ TEST_CASE("RoughFilmForces_DoNotDependOnTheFrame") {
     error[k] = (turning_grid - resting).norm() / resting.norm();
   }
   // The mean gap is no linear function of the gap: what it is between nodes is seen to fourth order only.
-  CHECK(error[0] < 1e-5);
+  CHECK(error[0] < 1e-5);  // 60 nodes, fourth order
 }
 
 TEST_CASE("RoughTimeSteps_ConserveOil") {
@@ -189,6 +189,7 @@ TEST_CASE("RoughTimeSteps_ConserveOil") {
     REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
     const FilmObservables o = observe_film(m, motion, history, journal.e, u);
     const double change = (o.oil_volume - volume_before) / dt;
+    // Summed over nodes that the solver leaves 1e-10 of the largest throughput.
     CHECK(std::abs(o.flow_supply - o.flow_left - o.flow_right - change) < 1e-8 * m.R * omega * m.c * m.L);
     CHECK(o.mass_balance_error < 1e-8);
     smallest = std::min(smallest, o.h_min);
@@ -205,6 +206,7 @@ TEST_CASE("RoughSor_MeetsNewton") {
   const SolvedFilm sor = solve_cold(m, turning(m, 0.8, 374), {.solver = FilmSolver::sor, .rtol = 1e-9});
   REQUIRE(newton.summary.converged);
   REQUIRE(sor.summary.converged);
+  // SOR ends at 1e-9, which weak spots of the film amplify.
   CHECK((newton.wrench - sor.wrench).norm() < 1e-6 * newton.wrench.norm());
 }
 

@@ -55,7 +55,7 @@ TEST_CASE("SorInTime_MeetsNewton") {
   Reynolds reynolds(m);
   REQUIRE(solve_film(reynolds, motion, history, {}, u[0]).converged);
   REQUIRE(solve_film(reynolds, motion, history, {.solver = FilmSolver::sor, .rtol = 1e-10}, u[1]).converged);
-  CHECK((u[0] - u[1]).norm() < 1e-7 * u[0].norm());
+  CHECK((u[0] - u[1]).norm() < 1e-7 * u[0].norm());  // SOR ends at 1e-10, which weak spots of the film amplify
 }
 
 TEST_CASE("HardFilms_ConvergeFromColdStart") {

@@ -10,7 +10,8 @@
 namespace hersey::mbd {
 
 /// How an increment of one velocity component enters the equations at the stage being solved, per column k of the tree
-/// (theory manual eq. (mechanisms.10)). With J~ the column turned by the increment so far (balls: J T(dq)) and p, c the
+/// (theory manual eq. (mechanisms.10); what lies beyond turning with the column is that of (mechanisms.7) and
+/// (mechanisms.8)). With J~ the column turned by the increment so far (balls: J T(dq)) and p, c the
 /// parent and child side of its elementary joint:
 struct Direction {
   Vector6 J = Vector6::Zero();  ///< k J~: displacement

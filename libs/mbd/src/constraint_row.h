@@ -17,8 +17,8 @@ struct ConstraintRow {
 
   [[nodiscard]] double value(const Pose& X_AB) const;
 
-  /// w with  dPhi = w . xi  for a twist xi_A that moves B relative to A: the wrench on B, at A's origin and in A's
-  /// axes, that a unit multiplier means.
+  /// w with  dPhi = w . xi  for a twist xi_A that moves B relative to A (mechanisms.15): the wrench on B, at A's origin
+  /// and in A's axes, that a unit multiplier means.
   [[nodiscard]] Vector6 wrench(const Pose& X_AB) const;
 
   /// dw/dxi: the geometric stiffness of a unit multiplier.

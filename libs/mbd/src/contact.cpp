@@ -164,6 +164,7 @@ void Contact::evaluate(const RelativeMotion& motion, bool want_tangent, ForceRes
     const Place place = place_of(motion, id.index);
     const Spot<double> spot = work_->finder->spot(id, plain_pose(place.X_AB));
     if (-spot.gap > deepest_) too_deep_ = std::max(too_deep_, -spot.gap);
+    // B's material moves with (contact.1), and with (contact.4) where it deforms.
     const SpotForce<double> force = spot_force<double>(law_, spot, v + omega.cross(spot.position) + place.velocity);
     const Vector3 f = force.normal * spot.normal + force.friction;
     response.W_B_A.head<3>() += spot.position.cross(f);

@@ -14,7 +14,7 @@ struct SpotForce {
   Vec3<T> friction;  ///< on B [N]
 };
 
-/// Theory manual eqs. (contact.4) to (contact.6).
+/// Theory manual eqs. (contact.6) to (contact.8).
 /// @param velocity  of B's material relative to A's at the spot, A's axes
 template <class T>
 SpotForce<T> spot_force(const ContactLaw& law, const Spot<T>& spot, const Vec3<T>& velocity) {

@@ -8,7 +8,7 @@
 
 namespace hersey::mbd {
 
-/// A drive's prescribed coordinate as a function of time, with its derivatives.
+/// A drive's prescribed coordinate as a function of time (theory manual eq. (mechanisms.20)), with its derivatives.
 class DriveMotion {
  public:
   /// @param initial       the coordinate at t = 0, where a speed starts counting

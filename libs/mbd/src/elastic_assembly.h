@@ -12,8 +12,8 @@
 namespace hersey::mbd {
 
 /// How the amplitudes of a body's shapes move with the columns of the tree and the body's own coordinates: virtually,
-/// and by one Newton increment. The last amplitudes are the own coordinates; the others move with the tree's columns
-/// alone.
+/// and by one Newton increment (theory manual eq. (flexible-bodies.26)). The last amplitudes are the own coordinates;
+/// the others move with the tree's columns alone.
 struct ShapeColumns {
   std::vector<int> columns;                    ///< of the tree, then of the own coordinates
   Eigen::MatrixXd virtual_value, value, rate;  ///< shape (shapes less own coordinates, columns of the tree)

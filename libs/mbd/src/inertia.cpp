@@ -45,6 +45,7 @@ void InertiaTerms::gather(const Tree& tree, const TreeMotion& motion, double dt,
     // In free fall inertia and weight cancel, so each counts by itself; so does what a step's round-off in velocity
     // means.
     magnitude_[l] = (IA - weight).cwiseAbs() + weight.cwiseAbs() + Vh.cwiseAbs() + momentum_share * h.cwiseAbs();
+    // B of (mechanisms.9).
     if (want_tangent) B_[l] = cross_force_matrix(V) * I_[l] - I_[l] * cross_motion_matrix(V) + momentum_cross(h);
   }
   for (int l = n - 1; l > 0; --l) {

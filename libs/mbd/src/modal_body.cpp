@@ -241,7 +241,7 @@ void ModalBody::add_elasticity(bool want_tangent) {
   w.C.bottomRightCorner(n, n) += data_.damping;
 }
 
-/// d[frame 0; amplitudes that follow from frames] / d[all frames], theory manual eq. (flexible-bodies.12).
+/// d[frame 0; amplitudes that follow from frames] / d[all frames]: Z of theory manual eq. (flexible-bodies.11).
 void ModalBody::fill_transformations(bool want_tangent) {
   Workspace& w = *work_;
   for (std::size_t i = 0; i < w.interfaces.size(); ++i) {
@@ -271,7 +271,7 @@ void ModalBody::find_shapes(const ElasticMotion& motion, bool want_tangent, Shap
   shapes.rate_by_frames = w.Z_rate_X.bottomRows(w.Z.rows() - 6);
 }
 
-/// From [frame 0; amplitudes] to [all frames; own coordinates], theory manual eq. (flexible-bodies.12). The last of the
+/// From [frame 0; amplitudes] to [all frames; own coordinates], theory manual eq. (flexible-bodies.11). The last of the
 /// amplitudes are the own coordinates, so that only the leading blocks change.
 void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
   Workspace& w = *work_;

@@ -1,4 +1,4 @@
-// Forces on the nodes of a modal body, theory manual eq. (flexible-bodies.21) and (flexible-bodies.22).
+// Forces on the nodes of a modal body, theory manual eq. (flexible-bodies.23) and (flexible-bodies.24).
 #include <cmath>
 
 #include "hersey/core/contract.h"

@@ -30,7 +30,7 @@ constexpr double kNodalShare = 1e-4;
 // Square of the time within which nodes let go take up their acceleration [s^2]: no stiffness of a mesh acts so fast.
 constexpr double kInstant = 1e-24;
 
-constexpr Index kTurning = 3;  // the first of these columns of (flexible-bodies.18)
+constexpr Index kTurning = 3;  // the first of these columns of (flexible-bodies.19)
 
 Eigen::Map<const Matrix3Xd> nodes_of(const VectorXd& u) { return {u.data(), 3, u.size() / 3}; }
 
@@ -164,7 +164,7 @@ void NodalBody::gather(const ElasticMotion& motion, bool want_tangent) {
   }
 }
 
-/// Of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.24).
+/// Of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.21).
 VectorXd NodalBody::elastic_forces() {
   if (strain_ == Strain::small) return body_.K * (w_.position() + damping_.stiffness * w_.rate());
   const VectorXd rate = flat(fields_->y_rate);
@@ -172,7 +172,7 @@ VectorXd NodalBody::elastic_forces() {
   return finite_.force + damping_.stiffness * finite_.rate;
 }
 
-/// The matrix of the displacement at hand, theory manual eq. (flexible-bodies.24).
+/// The matrix of the displacement at hand, theory manual eq. (flexible-bodies.21).
 void NodalBody::refresh_stiffness() {
   update_fields();
   fem::finite_strain(body_, fields_->u, finite_);
@@ -236,7 +236,8 @@ solver::Stage NodalBody::stage_of(const ElasticMotion& motion) const {
   return motion.stage;
 }
 
-/// Solves the equations of the nodes for this motion of the frames, theory manual eq. (flexible-bodies.17).
+/// Solves the equations of the nodes for this motion of the frames, theory manual eq. (flexible-bodies.17); at the
+/// start (flexible-bodies.20).
 void NodalBody::settle(const ElasticMotion& motion) {
   const bool moves = follows(motion);
   if (moves && !at_rest_ && !is_let_go_) w_.predict(motion.stage);

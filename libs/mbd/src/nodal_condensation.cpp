@@ -1,5 +1,5 @@
-// How the answer of the nodes changes the derivatives of a nodal body's forces, theory manual eq. (flexible-bodies.17)
-// to (flexible-bodies.20).
+// How the answer of the nodes changes the derivatives of a nodal body's forces, theory manual eq. (flexible-bodies.18)
+// and (flexible-bodies.19).
 #include "modal_workspace.h"
 #include "nodal_factors.h"
 #include "nodal_fields.h"
@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// How the nodes' answer changes the derivatives. It is sought among the columns of X: onto (X^T S X)^-1 from, theory
-/// manual eq. (flexible-bodies.17) to (flexible-bodies.20).
+/// manual eq. (flexible-bodies.18) and (flexible-bodies.19).
 void NodalBody::condense(const ElasticMotion& motion) {
   Workspace& w = work();
   const solver::Stage stage = stage_of(motion);

@@ -12,7 +12,7 @@
 
 namespace hersey::mbd {
 
-/// Columns of (flexible-bodies.18) before M Psi: 3 accelerations, 9 of turning.
+/// Columns of (flexible-bodies.19) before M Psi: 3 accelerations, 9 of turning.
 inline constexpr Eigen::Index kInertiaColumns = 12;
 
 /// One factor, and what its answers X = (m M + c D + k K)^-1 E to columns E mean to the frames.

@@ -11,7 +11,7 @@ namespace hersey::mbd {
                                         const RayleighDamping& damping);
 
 /// The same for strains of any size: the nodes of a frame move as a rigid piece however far it turns, the others as the
-/// undeformed body answers (theory manual eq. (flexible-bodies.29)). `damping` is that by mass alone.
+/// undeformed body answers (theory manual eq. (flexible-bodies.22)). `damping` is that by mass alone.
 /// @pre the frames but the first are rigid
 [[nodiscard]] ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& reduced,
                                         const RayleighDamping& damping);

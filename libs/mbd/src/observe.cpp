@@ -160,7 +160,8 @@ void Mechanism::Implementation::observe_efforts(const solver::State& state, Obse
 }
 
 void Mechanism::Implementation::observe_reactions(const solver::State& state, Observation& seen) {
-  // Balance of each body: what is left of inertia and weight after the known forces comes through its joints.
+  // Balance of each body: what is left of inertia and weight after the known forces comes through its joints
+  // (mechanisms.21).
   std::vector<Vector6> need(spec.bodies.size(), Vector6::Zero());
   const auto body_of = [&](FrameId frame) { return spec.frames[frame.index].body.index; };
   for (int b : tree.body_order) {

@@ -16,7 +16,7 @@ enum class TurnMeasure {
 
 /// How far a frame of an elastic body has moved from its rest pose, as frame 0 sees it: q = [measure of the turn; u], u
 /// the displacement, in frame 0's axes; with rates and derivatives with respect to [frame 0; the frame] (theory manual
-/// eq. (flexible-bodies.8) to (flexible-bodies.11), (flexible-bodies.29)).
+/// eq. (flexible-bodies.8) to (flexible-bodies.11), (flexible-bodies.22)).
 class RelativeDeformation {
  public:
   using Amplitudes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
@@ -32,7 +32,7 @@ class RelativeDeformation {
 
   void update(const ElasticFrame& base, const ElasticFrame& frame, const Pose& rest, bool want_tangent);
 
-  /// d(B^T f)/dxi at fixed f.
+  /// d(B^T f)/dxi at fixed f (flexible-bodies.12).
   [[nodiscard]] Matrix12 geometric(const Amplitudes& f) const;
 
  private:

@@ -10,7 +10,7 @@ namespace hersey::mbd {
 
 /// Shares the reactions of redundantly joined bodies among their joints: of all reactions that keep every body in the
 /// balance, the one with the smallest sum of squares, torques counted per `tree.length` (theory manual eq.
-/// (mechanisms.21)).
+/// (mechanisms.18)).
 ///
 /// Joints are shared together with all that bodies other than ground connect to them; the others have one set of
 /// reactions only. What depends on the topology is found once.

@@ -68,7 +68,7 @@ struct Closure {
 };
 
 /// A joint at which a long path from ground is cut: the body beyond it has coordinates of its own, and the joint closes
-/// the cut.
+/// the cut (theory manual eq. (mechanisms.17)).
 struct Cut {
   int joint = 0;
   int body = 0;           ///< the body beyond the joint, seen from where the path began

@@ -11,13 +11,15 @@
 namespace hersey::mbd {
 namespace {
 
+constexpr double kRoundOff = 1e-13;  // of sums of products
+
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Central differences with step 1e-5: truncation ~ step^2, round-off ~ eps/step, both about 1e-10 of the values' size.
 constexpr double kStep = 1e-5;
-constexpr double kRelative = 1e-8;
+constexpr double kRelative = 1e-8;  // a hundredfold of that
 
 BeamSegment any_segment() {
   BeamSegmentData data;
@@ -116,7 +118,7 @@ TEST_CASE("BeamSegment_PowerOfItsForcesIsTheRateOfItsEnergy") {
   CHECK(now.dissipation > 0.01 * size);
   CHECK(std::abs(rate(plus.kinetic, minus.kinetic) - now.kinetic_rate) < kRelative * size);
   CHECK(std::abs(rate(plus.strain, minus.strain) - now.strain_rate) < kRelative * size);
-  CHECK(std::abs(power - now.kinetic_rate - now.strain_rate - now.dissipation) < 1e-13 * size);
+  CHECK(std::abs(power - now.kinetic_rate - now.strain_rate - now.dissipation) < kRoundOff * size);
 }
 
 TEST_CASE("BeamSegment_ForcesOnItsFramesAreTheRatesOfItsMomenta") {
@@ -132,8 +134,8 @@ TEST_CASE("BeamSegment_ForcesOnItsFramesAreTheRatesOfItsMomenta") {
   const ElasticEnergy plus = body.energy(later(motion, kStep), none), minus = body.energy(later(motion, -kStep), none);
   const Vector3 force = (plus.momentum - minus.momentum) / (2 * kStep);
   const Vector3 torque = (plus.angular_momentum - minus.angular_momentum) / (2 * kStep);
-  CHECK((force - wrench.tail<3>()).norm() < 1e-8 * wrench.norm());
-  CHECK((torque - wrench.head<3>()).norm() < 1e-8 * wrench.norm());
+  CHECK((force - wrench.tail<3>()).norm() < kRelative * wrench.norm());
+  CHECK((torque - wrench.head<3>()).norm() < kRelative * wrench.norm());
 }
 
 TEST_CASE("BeamSegment_GravityIsWeightAtItsMiddle") {
@@ -147,10 +149,10 @@ TEST_CASE("BeamSegment_GravityIsWeightAtItsMiddle") {
   const VectorXd weight = without.force - with.force;
   for (int i = 0; i < 2; ++i)
     CHECK((motion.frames[static_cast<std::size_t>(i)].X_WF.R * weight.segment<3>(6 * i + 3) - body.mass() / 2 * g)
-              .norm() < 1e-13 * g.norm());
+              .norm() < kRoundOff * g.norm());
   const ElasticEnergy e = body.energy(motion, g);
   const Vector3 middle = (motion.frames[0].X_WF.r + motion.frames[1].X_WF.r) / 2;
-  CHECK(e.potential == doctest::Approx(-body.mass() * g.dot(middle)).epsilon(1e-14));
+  CHECK(e.potential == doctest::Approx(-body.mass() * g.dot(middle)).epsilon(1e-14));  // round-off
 }
 
 TEST_CASE("BeamSegment_RigidMotionStoresNothingAndNeedsTheRigidBodysForces") {
@@ -169,7 +171,8 @@ TEST_CASE("BeamSegment_RigidMotionStoresNothingAndNeedsTheRigidBodysForces") {
     }
     const fem::BeamMotionResponse strained = body.section(motion);
     const double size = body.data().element.stiffness.EA;
-    CHECK(strained.force.norm() < 1e-14 * size * L);
+    CHECK(strained.force.norm() < 1e-14 * size * L);  // round-off of poses
+    // The square of round-off.
     CHECK(strained.energy < 1e-26 * size * L);
     CHECK(strained.dissipation < 1e-26 * size * L);
     // A thin rod with the inertia of its sections.
@@ -184,8 +187,8 @@ TEST_CASE("BeamSegment_RigidMotionStoresNothingAndNeedsTheRigidBodysForces") {
     Vector6 wrench = Vector6::Zero();
     for (int i = 0; i < 2; ++i) wrench += force_transform(body.rest_pose(i)) * response.force.segment<6>(6 * i);
     const Vector6 rigid = I * A + cross_force(V, I * V);
-    CHECK((wrench - rigid).norm() < 1e-13 * (rigid.norm() + size));
-    CHECK(body.energy(motion, Vector3::Zero()).kinetic == doctest::Approx(0.5 * V.dot(I * V)).epsilon(1e-13));
+    CHECK((wrench - rigid).norm() < kRoundOff * (rigid.norm() + size));
+    CHECK(body.energy(motion, Vector3::Zero()).kinetic == doctest::Approx(0.5 * V.dot(I * V)).epsilon(kRoundOff));
   }
 }
 

@@ -32,6 +32,7 @@ TEST_CASE("SymmetricTop_FollowsTorqueFreeRotation") {
         seen.X_WF.R * Vector3(exact.A, exact.A, exact.C).cwiseProduct(seen.X_WF.R.transpose() * seen.omega);
     const Vector3 H0(exact.A * exact.omega.x(), exact.A * exact.omega.y(), exact.C * exact.omega.z());
     momentum_error = (H - H0).norm() / H0.norm();
+    // Free flight, which steps have exactly but for round-off.
     CHECK((seen.X_WF.r - Vector3(1.4, 2.8, 4.2)).norm() < 1e-10);
     return rotation_log(Eigen::Quaterniond(exact.orientation(4).transpose() * seen.X_WF.R)).norm();
   };
@@ -39,7 +40,7 @@ TEST_CASE("SymmetricTop_FollowsTorqueFreeRotation") {
   const double coarse = run(800, momentum_coarse), fine = run(1600, momentum_fine);
   MESSAGE("orientation error ", fine, " rad, momentum error ", momentum_fine);
   CHECK(std::abs(std::log2(coarse / fine) - 2) < 0.05);
-  CHECK(momentum_fine < 1e-4);
+  CHECK(momentum_fine < 1e-4);  // 1600 steps, second order
   CHECK(std::abs(std::log2(momentum_coarse / momentum_fine) - 2) < 0.1);
 }
 
@@ -81,7 +82,7 @@ TEST_CASE("InternalForces_ConserveMomentum") {
     size = std::max(size, 1.5 * a.norm());
   }
   CHECK(size > 1);
-  CHECK(rate.norm() < 1e-11 * size);
+  CHECK(rate.norm() < 1e-11 * size);  // round-off of accelerations
 }
 
 TEST_CASE("EnergyChangesByThePowersReported") {

@@ -57,6 +57,7 @@ inline std::shared_ptr<const TriangleMesh> ball_mesh(double radius, int levels) 
   struct Builder {
     TriangleMesh mesh;
     int add(const Vector3& p) {
+      // The same corner but for round-off.
       for (std::size_t i = 0; i < mesh.corners.size(); ++i)
         if ((mesh.corners[i] - p).norm() < 1e-12) return static_cast<int>(i);
       mesh.corners.push_back(p);

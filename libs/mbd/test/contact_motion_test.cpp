@@ -83,7 +83,8 @@ Impact impact(const ContactLaw& law, int steps) {
 }
 
 TEST_CASE("BallDrop_MeetsHertzForceAndDuration") {
-  // delta_max = (5 m v^2/(4 k))^(2/5), F = k delta_max^(3/2), T = 2.9432 delta_max/v (Hertz; Johnson 1985, Sec. 11.4).
+  // delta_max = (5 m v^2/(4 k))^(2/5), F = k delta_max^(3/2), T = 2.9432 delta_max/v (Hertz; Johnson 1985, Sec.
+  // 11.4): (contact.13).
   const ContactLaw law{.stiffness = 1e9};
   const double depth = std::pow(1.25 * 0.1 / law.stiffness, 0.4);
   const double force = law.stiffness * std::pow(depth, 1.5), duration = 2.943275 * depth;
@@ -98,7 +99,7 @@ TEST_CASE("BallDrop_MeetsHertzForceAndDuration") {
     CHECK(force_error[i] < 0.005 / std::pow(4, i));
     CHECK(duration_error[i] < 0.005 / std::pow(4, i));
     // Without damping the ball leaves as fast as it came.
-    CHECK(std::abs(seen.speed_after - 1) < 1e-4 / std::pow(4, i));
+    CHECK(std::abs(seen.speed_after - 1) < 1e-4 / std::pow(4, i));  // second order
   }
   CHECK(force_error[2] > force_error[0] / 32);  // and not by chance: order two from both sides
 }
@@ -108,6 +109,7 @@ TEST_CASE("Restitution_IsThatOfHuntAndCrossley") {
   for (const double damping : {0.1, 0.5, 2.0}) {
     CAPTURE(damping);
     const double exact = restitution(damping, 1.0);
+    // Round-off of an iteration to the last digits.
     CHECK(damping * (1 + exact) == doctest::Approx(std::log((1 + damping) / (1 - exact * damping))).epsilon(1e-12));
     for (const double exponent : {1.5, 2.0}) {
       const double stiffness = exponent == 1.5 ? 1e9 : 1e11;
@@ -115,6 +117,7 @@ TEST_CASE("Restitution_IsThatOfHuntAndCrossley") {
           impact({.stiffness = stiffness, .exponent = exponent, .damping = damping}, exponent == 1.5 ? 160 : 320);
       CHECK(seen.speed_after == doctest::Approx(exact).epsilon(2e-3));
     }
+    // Round-off of an iteration to the last digits.
     CHECK(damping_of_restitution(exact, 1.0) == doctest::Approx(damping).epsilon(1e-9));
     CHECK(damping_of_restitution(exact, 2.0) == doctest::Approx(0.5 * damping).epsilon(1e-9));
   }
@@ -143,11 +146,14 @@ TEST_CASE("BallOnAnIncline_RollsOrSlides") {
   const double angle = 0.4, radius = 0.02;
   // Rolling needs friction of 2/7 tan(angle) = 0.121.
   const Incline rolls = roll_down(angle, 0.2);
+  // Creep and slip are regularised.
   CHECK(rolls.acceleration == doctest::Approx(5.0 / 7.0 * g * std::sin(angle)).epsilon(1e-3));
   CHECK(rolls.spin_acceleration * radius == doctest::Approx(rolls.acceleration).epsilon(1e-3));
   const double mu = 0.06;
   const Incline slides = roll_down(angle, mu);
+  // Friction is short of Coulomb's by (v_s/v)^2/2.
   CHECK(slides.acceleration == doctest::Approx(g * (std::sin(angle) - mu * std::cos(angle))).epsilon(1e-4));
+  // Creep and slip are regularised.
   CHECK(slides.spin_acceleration * radius == doctest::Approx(2.5 * mu * g * std::cos(angle)).epsilon(1e-3));
 }
 
@@ -176,10 +182,10 @@ TEST_CASE("BlockSlides_ItsStoppingDistance") {
   // the friction's moment, which lowers nothing here: the sum of its corners' forces is its weight.
   const double exact = (v * std::sqrt(v * v + slip * slip) + slip * slip * std::asinh(v / slip)) / (2 * mu * g);
   CHECK(state.q[0] == doctest::Approx(exact).epsilon(2e-3));
-  CHECK(std::abs(state.v[0]) < 1e-4);
+  CHECK(std::abs(state.v[0]) < 1e-4);  // m/s: creeping to rest
   const ContactObservation seen = contact->observe(mechanism->relative_motion(state, {0}));
   CHECK(seen.spots == 4);
-  CHECK(seen.normal_force == doctest::Approx(2 * g).epsilon(1e-4));
+  CHECK(seen.normal_force == doctest::Approx(2 * g).epsilon(1e-4));  // what still bounces
 }
 
 TEST_CASE("TwoBalls_ExchangeTheirVelocities") {
@@ -206,6 +212,7 @@ TEST_CASE("TwoBalls_ExchangeTheirVelocities") {
   test::run(*mechanism, state, 4e-4, 800, 1.0,
             [&](const solver::State& s) { worst = std::max(worst, std::abs(s.v[0] + s.v[6] - 1)); });
   CHECK(worst < 1e-9);  // momentum, at every step
+  // 800 steps, second order.
   CHECK(state.v[6] == doctest::Approx(1).epsilon(1e-4));
   CHECK(std::abs(state.v[0]) < 1e-4);
 }
@@ -254,13 +261,13 @@ TEST_CASE("GlancingBlow_ConservesMomentumAndBalancesEnergy") {
       last = power;
       worst = std::max(worst, (momentum(s) - before).tail<3>().norm() / before.tail<3>().norm());
     });
-    CHECK(worst < 1e-8);
+    CHECK(worst < 1e-8);  // Newton's tolerance is 1e-9 of the forces
     CHECK((momentum(state) - before).head<3>().norm() < 2e-4 * before.head<3>().norm() / (1 << 2 * k));
     const double energy = mechanism->observe(state).kinetic_energy;
     CHECK(lost > 0.02 * energy_before);
     error[k] = std::abs(energy + lost - energy_before) / energy_before;
     CAPTURE(error[k]);
-    CHECK(error[k] < 1e-4 / (1 << 2 * k));
+    CHECK(error[k] < 1e-4 / (1 << 2 * k));  // second order
   }
 }
 

@@ -10,6 +10,8 @@
 namespace hersey::mbd {
 namespace {
 
+constexpr double kDifferences = 1e-6;  // of step 1e-6: round-off over it
+
 using test::pose_at;
 
 const ContactLaw kLaw{.stiffness = 3e4, .exponent = 1.5, .damping = 0.4, .friction = 0.3, .slip_speed = 0.05};
@@ -142,7 +144,7 @@ TEST_CASE("ContactOfCornersThatDeform_MatchesFiniteDifferencesAndDoesTheWorkOfIt
       move(plus, h);
       move(minus, -h);
       const Eigen::VectorXd numeric = (forces(plus) - forces(minus)) / (2 * h);
-      CHECK((column - numeric).norm() < 1e-6 * std::max(column.norm(), 1.0));
+      CHECK((column - numeric).norm() < kDifferences * std::max(column.norm(), 1.0));
     };
     for (int j = 0; j < 6; ++j) {
       CAPTURE(j);
@@ -173,7 +175,7 @@ TEST_CASE("ContactOfCornersThatDeform_MatchesFiniteDifferencesAndDoesTheWorkOfIt
     const ContactObservation seen = contact.observe(motion);
     const double done = response.W_B_A.dot(motion.V_AB_A) + response.Q.dot(motion.s_rate);
     CHECK(done + filled + seen.damping_power + seen.friction_power ==
-          doctest::Approx(0).scale(std::abs(filled) + std::abs(seen.friction_power)).epsilon(1e-6));
+          doctest::Approx(0).scale(std::abs(filled) + std::abs(seen.friction_power)).epsilon(kDifferences));
   }
 }
 
@@ -196,6 +198,7 @@ TEST_CASE("ContactDerivatives_MatchFiniteDifferences") {
                   wrench(contact, motion_at(pair.X_AB, kVelocity - e))) /
                  (2 * h);
     }
+    // Round-off over h, 1e-10 of forces, and what K has over them.
     CHECK((K - response.dW_dX).cwiseAbs().maxCoeff() < 1e-7 * K.cwiseAbs().maxCoeff());
     CHECK((D - response.dW_dV).cwiseAbs().maxCoeff() < 1e-7 * D.cwiseAbs().maxCoeff());
   }
@@ -211,7 +214,7 @@ TEST_CASE("ContactForce_IsTheSameFromBothSides") {
     const Vector6 on_a = force_transform(pair.X_AB) * wrench(other, motion_at(X_BA, V_BA_B));
     // Nearly parallel capsules touch at the ends of their common length, counted on the first of the two.
     const bool ends = pair.name.find("parallel") != std::string::npos;
-    CHECK((on_a + on_b).norm() < (ends ? 1e-2 : 1e-9) * on_b.norm());
+    CHECK((on_a + on_b).norm() < (ends ? 1e-2 : 1e-9) * on_b.norm());  // round-off
   }
 }
 
@@ -232,7 +235,7 @@ TEST_CASE("ElasticForce_IsTheGradientOfTheStoredEnergy") {
                   contact.stored_energy(motion_at(pose_exp(-e) * pair.X_AB))) /
                  (2 * h);
     }
-    CHECK((slope + W).cwiseAbs().maxCoeff() < 1e-6 * W.cwiseAbs().maxCoeff());
+    CHECK((slope + W).cwiseAbs().maxCoeff() < kDifferences * W.cwiseAbs().maxCoeff());
   }
 }
 
@@ -248,7 +251,7 @@ TEST_CASE("ObservedPowers_AddUpToTheWorkDone") {
                           (2 * h);
     const double work = wrench(contact, motion_at(pair.X_AB)).dot(kVelocity);
     const double size = std::abs(stored) + seen.damping_power + seen.friction_power;
-    CHECK(std::abs(work + stored + seen.damping_power + seen.friction_power) < 1e-6 * size);
+    CHECK(std::abs(work + stored + seen.damping_power + seen.friction_power) < kDifferences * size);
     CHECK(seen.damping_power >= 0);
     CHECK(seen.friction_power > 0);
     CHECK(seen.gap < 0);
@@ -269,10 +272,11 @@ TEST_CASE("BallOnMeshOfABox_IsBallOnBox") {
       const Vector6 W = wrench(exact, motion);
       if (!exact.domain_error().empty()) continue;
       const double gap = exact.observe(motion).gap;
+      // Another way to the same places: round-off.
       CHECK(meshed.observe(motion).gap == doctest::Approx(gap).epsilon(1e-10));
       if (W.norm() == 0) continue;
       ++touching;
-      CHECK((wrench(meshed, motion) - W).norm() < 1e-9 * W.norm());
+      CHECK((wrench(meshed, motion) - W).norm() < 1e-9 * W.norm());  // another way to the same places: round-off
     }
     CHECK(touching > 50);
   }
@@ -290,7 +294,7 @@ TEST_CASE("BallInACornerOfAMesh_TouchesEveryWall") {
                   {.stiffness = 1e3, .exponent = 1});
   const ContactObservation seen = contact.observe(motion_at({Matrix3::Identity(), {0.9, 0.3, 0.95}}, Vector6::Zero()));
   CHECK(seen.spots == 2);
-  CHECK((seen.force - Vector3(100, 0, 50)).norm() < 1e-9);
+  CHECK((seen.force - Vector3(100, 0, 50)).norm() < 1e-9);  // N: round-off
 }
 
 TEST_CASE("MeshOfABall_PressesLikeTheBallAsItIsRefined") {
@@ -325,7 +329,8 @@ TEST_CASE("StandingCylinder_FeelsNoPreferredDirection") {
   const auto one = tilting(0);
   for (const double phi : {0.3, 1.1, 2.5}) {
     const auto other = tilting(phi);
-    CHECK(other[0] == doctest::Approx(one[0]).epsilon(1e-9));
+    CHECK(other[0] == doctest::Approx(one[0]).epsilon(1e-9));  // round-off
+    // Of third order in the tilt.
     CHECK(other[1] == doctest::Approx(one[1]).epsilon(1e-6));
     CHECK(std::abs(other[2]) < 1e-6 * std::abs(one[1]));
   }
@@ -334,7 +339,7 @@ TEST_CASE("StandingCylinder_FeelsNoPreferredDirection") {
   ForceResponse upright, almost;
   contact.evaluate(motion_at(pose_at(Vector3::Zero(), {0, 0, 0.98})), true, upright);
   contact.evaluate(motion_at(pose_at({1e-6, 0, 0}, {0, 0, 0.98})), true, almost);
-  CHECK((upright.W_B_A - almost.W_B_A).norm() < 1e-4 * upright.W_B_A.norm());
+  CHECK((upright.W_B_A - almost.W_B_A).norm() < 1e-4 * upright.W_B_A.norm());  // a tilt of 1e-6 by its stiffness
 }
 
 TEST_CASE("Contact_NeverPulls") {

@@ -35,12 +35,13 @@ TEST_CASE("DryFriction_StopsASliderAfterItsTime") {
   });
   solver::State state = test::start(*m);
   test::run(*m, state, 0.5, 500, 0.8);
-  CHECK(state.v[0] == doctest::Approx(1.5).epsilon(1e-5));
+  CHECK(state.v[0] == doctest::Approx(1.5).epsilon(1e-5));  // steps of 1 ms, second order
   const Observation seen = m->observe(state);
-  CHECK(seen.coordinate_force_efforts[0] == doctest::Approx(-6).epsilon(1e-6));
-  CHECK(seen.coordinate_force_powers[0] == doctest::Approx(-9).epsilon(1e-4));
-  CHECK(seen.joints[0].force.norm() < 1e-7);  // friction acts inside the joint
+  CHECK(seen.coordinate_force_efforts[0] == doctest::Approx(-6).epsilon(1e-6));  // (v_t/v)^2/2 is missing
+  CHECK(seen.coordinate_force_powers[0] == doctest::Approx(-9).epsilon(1e-4));   // the speed's own error
+  CHECK(seen.joints[0].force.norm() < 1e-7);                                     // friction acts inside the joint
   test::run(*m, state, 1.2, 700, 0.8);
+  // The transition speed, 1e-3 m/s.
   CHECK(std::abs(state.v[0]) < 1e-3);
   CHECK(state.q[0] == doctest::Approx(1.5).epsilon(1e-3));
 }
@@ -51,7 +52,7 @@ TEST_CASE("ViscousFriction_DecaysExponentially") {
   });
   solver::State state = test::start(*m);
   test::run(*m, state, 1, 1000, 0.8);
-  CHECK(state.v[0] == doctest::Approx(3 * std::exp(-2.0)).epsilon(1e-5));
+  CHECK(state.v[0] == doctest::Approx(3 * std::exp(-2.0)).epsilon(1e-5));  // steps of 1 ms, second order
 }
 
 TEST_CASE("FunctionSpring_PullsByItsTable") {
@@ -78,6 +79,7 @@ TEST_CASE("SpeedController_ReachesItsSpeedUnderLoadWithinItsLimit") {
   CHECK(state.v[0] == doctest::Approx((limit + load) / 2).epsilon(1e-6));  // saturated until then
   CHECK(m->observe(state).coordinate_force_efforts[0] == doctest::Approx(limit));
   test::run(*m, state, 15, 7000, 0.8, watch);
+  // Settled: what moved has died out like exp(-1.5 t).
   CHECK(state.v[0] == doctest::Approx(target).epsilon(1e-4));
   CHECK(m->observe(state).coordinate_force_efforts[0] == doctest::Approx(-load).epsilon(1e-3));
   CHECK(fastest < 1.25 * target);  // the integral did not wind up during saturation: without, it overshoots by half
@@ -98,8 +100,9 @@ TEST_CASE("Bushing_CarriesAWeightAndTwist") {
   solver::State state = test::start(*m);
   test::run(*m, state, 4, 2000, 0.8);
   const Observation seen = m->observe(state);
-  CHECK(seen.bodies[1].X_WF.r.z() == doctest::Approx(-40.0 / 8e3).epsilon(1e-6));
+  CHECK(seen.bodies[1].X_WF.r.z() == doctest::Approx(-40.0 / 8e3).epsilon(1e-6));  // settled
   // A rotation of 1.2 rad: the rotation vector's moment is that of the linear law.
+  // Settled: what moved has died out like exp(-5.9 t).
   CHECK(rotation_log(Eigen::Quaterniond(seen.bodies[1].X_WF.R)).z() == doctest::Approx(1.2).epsilon(1e-6));
 }
 
@@ -124,10 +127,11 @@ TEST_CASE("RampedDrives_StartFromRestAndEndInTheirMotion") {
     // Position, velocity and acceleration belong to each other through the ramp and after.
     for (double t : {0.12, 0.17, 0.3, 0.45, 0.8}) {
       CAPTURE(t);
+      // Differences of step 1e-5: its square times steep derivatives of the ramp, and round-off over it.
       CHECK(std::abs((motion.position(t + h) - motion.position(t - h)) / (2 * h) - motion.velocity(t)) < 1e-6);
       CHECK(std::abs((motion.velocity(t + h) - motion.velocity(t - h)) / (2 * h) - motion.acceleration(t)) < 1e-4);
     }
-    CHECK(std::abs(motion.acceleration(0.1)) < 1e-12);
+    CHECK(std::abs(motion.acceleration(0.1)) < 1e-12);  // no ramp has begun: round-off
     CHECK(motion.velocity(0.1) == doctest::Approx(rate0));
   }
   const DriveMotion position(drive(DriveSpec::Kind::position, 0.4), 0.7);
@@ -143,6 +147,7 @@ TEST_CASE("AccelerationDrive_IsIntegratedTwice") {
                                                       [](double) { return 0.0; })},
                      0.5, -1);
   for (int i = 1; i <= 10; ++i) motion.anchor(0.1 * i);
+  // Quadrature to 1e-13.
   CHECK(motion.position(1.5) == doctest::Approx(0.5 - 1.5 + 1.5 * 1.5 * 1.5).epsilon(1e-13));
   CHECK(motion.velocity(1.5) == doctest::Approx(-1 + 3 * 1.5 * 1.5).epsilon(1e-13));
   CHECK(motion.acceleration(1.5) == 9);

@@ -19,7 +19,7 @@ using solver::State;
 
 // Central differences with step 1e-5: truncation ~ step^2, round-off ~ eps/step, both about 1e-10 of the values' size.
 constexpr double kStep = 1e-5;
-constexpr double kRelative = 1e-8;
+constexpr double kRelative = 1e-8;  // a hundredfold of that
 
 /// Residual at the state reached by increment x of the stage's unknowns, from start q_n.
 VectorXd residual_at(Mechanism& m, const State& centre, const VectorXd& q_n, Stage stage, const VectorXd& x) {
@@ -243,6 +243,7 @@ TEST_CASE("Bushing_IsTheGradientOfItsEnergyAndDissipates") {
       moved.X_AB = pose_exp(sign * kStep * Vector6::Unit(i)) * moved.X_AB;
       return elastic.stored_energy(moved);
     };
+    // Differences of step 1e-5 of an energy.
     CHECK(std::abs((energy(1) - energy(-1)) / (2 * kStep) + response.W_B_A[i]) < 1e-7 * response.W_B_A.norm());
     motion.V_AB_A = Vector6::Unit(i);
     viscous.evaluate(motion, false, response);

@@ -28,14 +28,14 @@ TEST_CASE("SpeedFunction_IsIntegratedToRoundOff") {
   // Adaptive quadrature to 1e-13, over one long interval and in 1000 anchored pieces.
   CHECK(std::abs(motion.position(2) - exact(2)) < 1e-12);
   for (int i = 1; i <= 1000; ++i) motion.anchor(0.002 * i);
-  CHECK(std::abs(motion.position(2.001) - exact(2.001)) < 1e-12);
+  CHECK(std::abs(motion.position(2.001) - exact(2.001)) < 1e-12);  // as said above
 }
 
 TEST_CASE("SpeedWithAKink_IsIntegratedToo") {
   const auto speed = test::time_function([](double t) { return std::abs(t - 0.3); }, [](double) { return 0.0; },
                                          [](double) { return 0.0; });
   const DriveMotion motion({.name = "d", .coordinate = {}, .kind = DriveSpec::Kind::speed, .function = speed}, 0);
-  CHECK(std::abs(motion.position(1) - (0.5 * 0.09 + 0.5 * 0.49)) < 1e-12);
+  CHECK(std::abs(motion.position(1) - (0.5 * 0.09 + 0.5 * 0.49)) < 1e-12);  // the same quadrature
 }
 
 /// A wheel with inertia J turned by angle f(t): torque J f''.
@@ -52,15 +52,16 @@ TEST_CASE("PositionDrive_ReportsTheTorqueItNeeds") {
                                                [](double t) { return -9 * std::sin(3 * t); })});
   const auto m = b.finalise();
   solver::State state = test::start(*m);
+  // rtol of the start.
   CHECK(std::abs(state.q[0] - 0.5) < 1e-12);
   CHECK(std::abs(state.v[0] - 3) < 1e-12);
   test::run(*m, state, 1, 1000, 0.8);
   const Observation seen = m->observe(state);
   const double torque = 0.3 * -9 * std::sin(3.0);
-  CHECK(std::abs(state.q[0] - 0.5 - std::sin(3.0)) < 1e-12);
+  CHECK(std::abs(state.q[0] - 0.5 - std::sin(3.0)) < 1e-12);  // a constraint, held to round-off
   // Second order in the multiplier: (omega dt)^2 of the torque's amplitude.
   CHECK(std::abs(seen.drive_efforts[0] - torque) < std::pow(3e-3, 2) * 2.7);
-  CHECK(seen.drive_powers[0] == doctest::Approx(torque * 3 * std::cos(3.0)).epsilon(1e-4));
+  CHECK(seen.drive_powers[0] == doctest::Approx(torque * 3 * std::cos(3.0)).epsilon(1e-4));  // the torque's own error
   CHECK(seen.joints[0].torque.norm() < 64 * kEps * 2.7);  // an ideal bearing's part of it
 }
 
@@ -94,6 +95,7 @@ TEST_CASE("CoordinateOfAClosingJoint_ActsLikeOneOfTheTree") {
   };
   const auto tree = oscillate(false), loop = oscillate(true);
   CHECK(std::abs(tree.first - 0.25 * std::exp(-0.025) * std::cos(6.0)) < 1e-3);  // damped oscillator, (6 dt)^2
+  // Two sets of equations, each solved to Newton's 1e-9.
   CHECK(std::abs(loop.first - tree.first) < 1e-8);
   CHECK(std::abs(loop.second - tree.second) < 1e-7);
 }

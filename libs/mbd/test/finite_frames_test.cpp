@@ -69,6 +69,7 @@ TEST_CASE("FiniteStrainBetweenFrames_IsTheSameFromEitherFrame") {
   const double angle = std::acos(tip[0].R(0, 0));
   MESSAGE("tip turned by ", angle, " rad");
   CHECK(angle > 1.2);
+  // Two equilibria of one mesh, each to 1e-10 of what its rows balance.
   CHECK((tip[0].r - tip[1].r).norm() < 1e-8);
   CHECK((tip[0].R - tip[1].R).norm() < 1e-8);
 }
@@ -104,6 +105,7 @@ TEST_CASE("FiniteStrainBetweenFrames_IsThatOfTheMesh") {
     torque += (body.mesh.nodes[static_cast<std::size_t>(node)] + whole.u.segment<3>(3 * node) - tip.r).cross(f);
   }
   MESSAGE("force ", force.transpose(), ", torque ", torque.transpose());
+  // Forces of a mesh whose end is where a solution to 1e-10 has put it: its stiffness amplifies that.
   CHECK((force - Vector3(0, 400, 60)).norm() < 1e-5 * force.norm());
   CHECK((torque - Vector3(0, 0, moment)).norm() < 1e-5 * moment);
 }
@@ -120,7 +122,7 @@ TEST_CASE("FiniteStrainBetweenFrames_SwingsTheSameFromEitherFrame") {
   };
   const double coarse = (path(false, 300) - path(true, 300)).norm(), fine = (path(false, 600) - path(true, 600)).norm();
   MESSAGE("apart by ", coarse, " m and ", fine, " m");
-  CHECK(fine < 1e-4);
+  CHECK(fine < 1e-4);  // 600 steps, second order
   CHECK(fine < 0.4 * coarse);
 }
 
@@ -140,7 +142,7 @@ TEST_CASE("FiniteStrainOfAStiffBody_MovesItAsSmallStrainDoes") {
   const double bent = (path(Strain::small, 1e13) - small).norm(), apart = (path(Strain::finite, 1e11) - small).norm();
   MESSAGE("bent by ", bent, " m, apart by ", apart, " m");
   CHECK(bent > 1e-5);
-  CHECK(apart < 1e-3 * bent);
+  CHECK(apart < 1e-3 * bent);  // strain of the second order
 }
 
 TEST_CASE("FiniteStrainBetweenFrames_BalancesPowers") {
@@ -160,13 +162,14 @@ TEST_CASE("FiniteStrainBetweenFrames_BalancesPowers") {
     lost += 0.5 * dt * (before + e.dissipation);
     before = e.dissipation;
     moved = std::max(moved, e.kinetic);
+    // Newton's tolerance is 1e-9 of the forces.
     CHECK(std::abs(e.kinetic_rate + e.strain_rate + e.dissipation - e.gravity) < 1e-6 * moved / dt);
   });
   const ElasticEnergy last = energy(state);
   MESSAGE("kinetic energy ", last.kinetic, " J, strain ", last.strain, ", lost ", lost, ", unaccounted ",
           stored(last) + lost - stored(first));
   CHECK(last.strain > 1e-4 * last.kinetic);
-  CHECK(std::abs(stored(last) + lost - stored(first)) < 1e-5 * last.kinetic);
+  CHECK(std::abs(stored(last) + lost - stored(first)) < 1e-5 * last.kinetic);  // 1200 steps, second order
 }
 
 TEST_CASE("FiniteStrain_DampingDoesNotFeelATurnOfAnEnd") {
@@ -185,7 +188,7 @@ TEST_CASE("FiniteStrain_DampingDoesNotFeelATurnOfAnEnd") {
   VectorXd stretching = u;
   fem::finite_strain(body, u, strain, false, &turning);
   fem::finite_strain(body, u, other, false, &stretching);
-  CHECK(strain.rate.norm() < 1e-9 * other.rate.norm());
+  CHECK(strain.rate.norm() < 1e-9 * other.rate.norm());  // round-off of strains that vanish
   CHECK(stretching.dot(other.rate) > 0);
 }
 
@@ -213,7 +216,7 @@ TEST_CASE("FiniteStrainBetweenFrames_DerivativesMatchFiniteDifferences") {
   body->begin_step(motion, dt);
   motion.stage = {.dt = dt, .k = 1, .c = 2 / dt, .m = 4 / (dt * dt)};
   for (int repeat = 0; repeat < 30; ++repeat) body->evaluate(motion, true, response);
-  CHECK(body->internal_residual() < 1e-9);
+  CHECK(body->internal_residual() < 1e-9);  // thirty solutions: as far as it goes
   MatrixXd exact(12, 12);
   for (Index i = 0; i < 12; ++i) {
     const auto at = [&](double step) {

@@ -108,6 +108,7 @@ double swing(const test::Beam* elastic, const test::Beam& beam) {
 TEST_CASE("StiffBeam_SwingsLikeTheRigidOne") {
   test::Beam stiff{.cells = {4, 1, 1}, .tip = true};
   stiff.material.youngs_modulus *= 1e6;
+  // m: a millionth of the softness, and Newton's tolerance.
   CHECK(std::abs(swing(&stiff, stiff) - swing(nullptr, stiff)) < 1e-6);
 }
 
@@ -163,14 +164,14 @@ TEST_CASE("FreeSpinningBeam_KeepsMomentumAndEnergyOver100Turns") {
   MESSAGE("strain energy up to ", e.strain, ", energy swings by ", e.energy, " and drifts by ", e.drift,
           ", angular momentum off by ", e.momentum);
   CHECK(e.strain > 1e-4);
-  CHECK(std::abs(e.drift) < 1e-6);
+  CHECK(std::abs(e.drift) < 1e-6);  // does not grow: what is left of a mean over the steps' own swing
   CHECK(e.momentum < 2e-5);
   // The momentum errs by the order of the steps, no more: at half the step a quarter of it.
   const SpinErrors fine = spin(100, 800, {0, 0, 20}, 1.0, false);
   MESSAGE("angular momentum drifts by ", e.momentum_drift, "; at half the step it is off by ", fine.momentum,
           " and drifts by ", fine.momentum_drift);
   CHECK(e.momentum / fine.momentum > 3.5);
-  CHECK(std::abs(e.momentum_drift) < 1e-6);
+  CHECK(std::abs(e.momentum_drift) < 1e-6);  // does not grow: what is left of a mean over the steps' own swing
   // With dissipation energy is lost and never gained.
   CHECK(spin(20, 200, {0, 0, 20}, 0.9, false).drift < 0);
 }
@@ -180,7 +181,7 @@ TEST_CASE("FreeSpinningBeamOfNodes_KeepsMomentumAndEnergy") {
   MESSAGE("strain energy up to ", e.strain, ", energy swings by ", e.energy, " and drifts by ", e.drift,
           ", angular momentum off by ", e.momentum);
   CHECK(e.strain > 1e-4);
-  CHECK(std::abs(e.drift) < 1e-6);
+  CHECK(std::abs(e.drift) < 1e-6);  // does not grow: what is left of a mean over the steps' own swing
   // Let go undeformed it vibrates, and its momentum errs by the steps' order as that of modes does: with half of them a
   // quarter is left, which is below what a body that starts in its static answer has with these.
   const SpinErrors fine = spin(5, 400, {0, 0, 20}, 1.0, true);
@@ -218,7 +219,7 @@ TEST_CASE("SpinningRod_StretchesByTheClosedForm") {
   });
   const double exact = rod.material.density * omega * omega / (3 * rod.material.youngs_modulus);
   MESSAGE("mean stretch over the closed form ", sum / steps / exact);
-  CHECK(sum / steps == doctest::Approx(exact).epsilon(1e-2));
+  CHECK(sum / steps == doctest::Approx(exact).epsilon(1e-2));  // omega^2 L^2 rho/E of it, and the mean of ten periods
 }
 
 TEST_CASE("HangingBeam_ComesToRestAtItsStaticShape") {
@@ -240,7 +241,7 @@ TEST_CASE("HangingBeam_ComesToRestAtItsStaticShape") {
         doctest::Approx(sag).epsilon(5e-3));
   // The clamp carries the weight and its moment.
   const JointObservation clamp = m->observe(state).joints.back();
-  CHECK(clamp.force.z() == doctest::Approx(9.81 * beam.mass()).epsilon(1e-9));
+  CHECK(clamp.force.z() == doctest::Approx(9.81 * beam.mass()).epsilon(1e-9));  // out of balance by 1e-10
 }
 
 /// Crank and slider with a rod that is rigid or elastic; the slider's place after half a turn.
@@ -292,7 +293,7 @@ TEST_CASE("SliderCrank_WithAStiffRodMovesAsWithARigidOne") {
   const double rigid = slide(false, 1), stiff = slide(true, 1e3), elastic = slide(true, 1);
   MESSAGE("slider off by ", elastic - rigid, " m, a thousand times stiffer by ", stiff - rigid, " m");
   CHECK(std::abs(elastic - rigid) > 1e-7);
-  CHECK(std::abs(elastic - rigid) < 1e-4);
+  CHECK(std::abs(elastic - rigid) < 1e-4);  // m: it is stiff
   CHECK(std::abs(stiff - rigid) < 0.01 * std::abs(elastic - rigid));
 }
 

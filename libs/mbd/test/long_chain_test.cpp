@@ -31,12 +31,14 @@ TEST_CASE("LongChain_CutOrNot_MovesTheSameWay") {
     step_to(*whole, a, 0.2, 400);
     step_to(*parts, b, 0.2, 400);
     const Observation seen = parts->observe(b), expected = whole->observe(a);
-    CHECK(seen.constraint_drift < 1e-10);
+    CHECK(seen.constraint_drift < 1e-10);  // Newton's tolerance of constraints
     for (std::size_t i = 0; i < seen.bodies.size(); ++i) {
+      // The same motion by other equations: a chain amplifies what Newton's 1e-8 leaves, from angles to forces.
       CHECK((seen.bodies[i].X_WF.r - expected.bodies[i].X_WF.r).norm() < 1e-6);
       CHECK((seen.bodies[i].v - expected.bodies[i].v).norm() < 1e-4);
     }
     for (std::size_t j = 0; j < seen.joints.size(); ++j) {
+      // The same motion by other equations: a chain amplifies what Newton's 1e-8 leaves, from angles to forces.
       CHECK(seen.joints[j].position[0] == doctest::Approx(expected.joints[j].position[0]).epsilon(1e-4));
       CHECK((seen.joints[j].force - expected.joints[j].force).norm() < 1e-2 * (1 + expected.joints[j].force.norm()));
     }
@@ -47,12 +49,12 @@ TEST_CASE("LongChain_StartsWhereItsJointsSay") {
   const auto parts = test::chain(30, 12, false);
   const solver::State start = parts->initial_state();
   const Observation seen = parts->observe(start);
-  CHECK(seen.constraint_drift < 1e-12);
+  CHECK(seen.constraint_drift < 1e-12);  // round-off of 30 joints
   solver::State state = start;
   REQUIRE(solver::initialise(*parts, state, {.held = parts->given_coordinates(), .held_rates = parts->given_rates()})
               .consistent());
-  CHECK((state.q - start.q).norm() < 1e-12);
-  CHECK((state.v - start.v).norm() < 1e-10);
+  CHECK((state.q - start.q).norm() < 1e-12);  // round-off of 30 joints
+  CHECK((state.v - start.v).norm() < 1e-10);  // round-off of rates over 30 joints
   for (std::size_t j = 0; j < seen.joints.size(); ++j)
     CHECK(seen.joints[j].position[0] == doctest::Approx(test::chain_angle(static_cast<int>(j))));
 }

@@ -10,13 +10,16 @@
 namespace hersey::mbd {
 namespace {
 
+constexpr double kRoundOff = 1e-13;  // of sums over shapes
+constexpr double kNodes = 1e-12;     // round-off of sums over nodes
+
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Central differences with step 1e-5: truncation ~ step^2, round-off ~ eps/step, both about 1e-10 of the values' size.
 constexpr double kStep = 1e-5;
-constexpr double kRelative = 1e-8;
+constexpr double kRelative = 1e-8;  // a hundredfold of that
 
 /// Forces on every node, the same for the same seed.
 Eigen::Matrix3Xd random_forces(unsigned seed, Index nodes) {
@@ -141,7 +144,7 @@ TEST_CASE("ModalBody_PowerOfItsForcesIsTheRateOfItsEnergy") {
   CHECK(now.dissipation > 0);
   CHECK(std::abs(rate(plus.kinetic, minus.kinetic) - now.kinetic_rate) < kRelative * size);
   CHECK(std::abs(rate(plus.strain, minus.strain) - now.strain_rate) < kRelative * size);
-  CHECK(std::abs(power - now.kinetic_rate - now.strain_rate - now.dissipation) < 1e-13 * size);
+  CHECK(std::abs(power - now.kinetic_rate - now.strain_rate - now.dissipation) < kRoundOff * size);
 }
 
 TEST_CASE("ModalBody_LoadsDoTheWorkOfTheirForcesAtTheirNodes") {
@@ -177,17 +180,18 @@ TEST_CASE("ModalBody_LoadsDoTheWorkOfTheirForcesAtTheirNodes") {
     Eigen::Matrix3Xd f = motion.loads[i] * random_forces(i == 0 ? 1 : 2, y.cols());
     if (i == 0) f = R * f;
     const ElasticLoad& seen = energy.loads[static_cast<std::size_t>(i)];
+    // Velocities by differences of step 1e-5.
     CHECK(seen.power == doctest::Approx((f.array() * v.array()).sum()).epsilon(1e-7));
-    CHECK((seen.wrench.tail<3>() - f.rowwise().sum()).norm() < 1e-12 * seen.wrench.norm());
+    CHECK((seen.wrench.tail<3>() - f.rowwise().sum()).norm() < kNodes * seen.wrench.norm());
     Vector3 torque = Vector3::Zero();
     for (Index a = 0; a < y.cols(); ++a) torque += (y.col(a) - motion.frames[0].X_WF.r).cross(Vector3(f.col(a)));
-    CHECK((seen.wrench.head<3>() - torque).norm() < 1e-12 * seen.wrench.norm());
+    CHECK((seen.wrench.head<3>() - torque).norm() < kNodes * seen.wrench.norm());
     sum += seen.power;
     total.head<3>() += R.transpose() * seen.wrench.head<3>();
     total.tail<3>() += R.transpose() * seen.wrench.tail<3>();
   }
-  CHECK(power == doctest::Approx(sum).epsilon(1e-12));
-  CHECK((wrench - total).norm() < 1e-12 * total.norm());
+  CHECK(power == doctest::Approx(sum).epsilon(kNodes));
+  CHECK((wrench - total).norm() < kNodes * total.norm());
 }
 
 TEST_CASE("ModalBody_ForcesOnItsFramesAreTheRatesOfItsMomenta") {
@@ -203,8 +207,8 @@ TEST_CASE("ModalBody_ForcesOnItsFramesAreTheRatesOfItsMomenta") {
   const ElasticEnergy plus = body.energy(later(motion, kStep), none), minus = body.energy(later(motion, -kStep), none);
   const Vector3 force = (plus.momentum - minus.momentum) / (2 * kStep);
   const Vector3 torque = (plus.angular_momentum - minus.angular_momentum) / (2 * kStep);
-  CHECK((force - wrench.tail<3>()).norm() < 1e-8 * wrench.norm());
-  CHECK((torque - wrench.head<3>()).norm() < 1e-8 * wrench.norm());
+  CHECK((force - wrench.tail<3>()).norm() < kRelative * wrench.norm());
+  CHECK((torque - wrench.head<3>()).norm() < kRelative * wrench.norm());
 }
 
 TEST_CASE("ModalBody_RigidMotionStoresNothingAndNeedsTheRigidBodysForces") {
@@ -224,6 +228,7 @@ TEST_CASE("ModalBody_RigidMotionStoresNothingAndNeedsTheRigidBodysForces") {
   motion.eta_acceleration.setZero();
   const Vector3 g(1, -2, 3);
   const ElasticEnergy energy = body.energy(motion, g);
+  // The square of round-off.
   CHECK(energy.strain < 1e-28 * data.stiffness.norm());
   CHECK(energy.dissipation < 1e-28 * data.damping.norm());
   // A rigid body with the same mass, centre of mass and inertia.
@@ -234,14 +239,14 @@ TEST_CASE("ModalBody_RigidMotionStoresNothingAndNeedsTheRigidBodysForces") {
   Matrix6 I;
   I << Gamma.trace() * Matrix3::Identity() - Gamma, skew(S), -skew(S), data.mass * Matrix3::Identity();
   const Vector6 h = I * base.V, rigid = I * base.A + cross_force(base.V, h);
-  CHECK(energy.kinetic == doctest::Approx(0.5 * base.V.dot(h)).epsilon(1e-13));
-  CHECK(energy.potential == doctest::Approx(-g.dot(data.mass * base.X_WF.r + base.X_WF.R * S)).epsilon(1e-13));
+  CHECK(energy.kinetic == doctest::Approx(0.5 * base.V.dot(h)).epsilon(kRoundOff));
+  CHECK(energy.potential == doctest::Approx(-g.dot(data.mass * base.X_WF.r + base.X_WF.R * S)).epsilon(kRoundOff));
   ElasticResponse response;
   body.evaluate(motion, false, response);
   Vector6 wrench = Vector6::Zero();
   for (int i = 0; i < body.frame_count(); ++i)
     wrench += force_transform(body.rest_pose(i)) * response.force.segment<6>(6 * i);
-  CHECK((wrench - rigid).norm() < 1e-13 * rigid.norm());
+  CHECK((wrench - rigid).norm() < kRoundOff * rigid.norm());
 }
 
 }  // namespace

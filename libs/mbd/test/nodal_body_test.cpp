@@ -17,6 +17,8 @@
 namespace hersey::mbd {
 namespace {
 
+constexpr double kNewton = 1e-9;  // m: Newton's tolerance, over 1e-9 of the forces
+
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -55,7 +57,7 @@ TEST_CASE("NodalBody_MovesAsTheModalBodyWithEveryVibration") {
     beam.modes = 0;
     beam.nodal = false;
     CHECK((pushed(beam) - modal).norm() > 1e-6);  // what the vibrations do is seen
-    CHECK((nodal - modal).norm() < 1e-9);
+    CHECK((nodal - modal).norm() < kNewton);
   }
 }
 
@@ -71,7 +73,7 @@ TEST_CASE("NodalBodyWithFilmModes_MovesAsTheModalBodyWithEveryVibration") {
     const auto body = beam.all_nodes();
     CHECK(body->coordinate_count() > 3);
     CHECK(body->coordinate_count() < 12);
-    CHECK((pushed(beam) - modal).norm() < 1e-9);
+    CHECK((pushed(beam) - modal).norm() < kNewton);
   }
 }
 
@@ -97,6 +99,7 @@ TEST_CASE("NodalBody_SagsLikeItsMesh") {
   const VectorXd u = held.solve(fem::gravity_load(body, g));
   Vector6 tip = fem::frame_motion(body.mesh, {"tip", beam.frame_at(1).r, body.mesh.node_sets.at("x1"), {}, {}}) * u;
   const Vector3 found = m->frame_motion(state, ids.frames[1]).X_WF.r - beam.frame_at(1).r;
+  // The body's axes turn as it sags: of second order.
   CHECK((found - tip.tail<3>()).norm() < 1e-5 * tip.tail<3>().norm());
 }
 
@@ -152,7 +155,7 @@ TEST_CASE("NodalBody_DerivativesOfItsCondensedForcesMatchFiniteDifferences") {
   motion.stage = {.dt = dt, .k = 1, .c = 2 / dt, .m = 4 / (dt * dt)};
   ElasticResponse response;
   for (int repeat = 0; repeat < 3; ++repeat) body->evaluate(motion, true, response);
-  CHECK(body->internal_residual() < 1e-9);
+  CHECK(body->internal_residual() < 1e-9);  // Newton's tolerance of the nodes
   const auto whole = [&](const MatrixXd& K, const MatrixXd& C, const MatrixXd& M) {
     return MatrixXd(K + motion.stage.c * C + motion.stage.m * M);
   };
@@ -169,7 +172,7 @@ TEST_CASE("NodalBody_DerivativesOfItsCondensedForcesMatchFiniteDifferences") {
   body->evaluate(motion, true, response);
   const double without = wrong(whole(response.K, response.C, response.M));
   MESSAGE("wrong share of an increment ", with_nodes, ", without the nodes' answer ", without);
-  CHECK(with_nodes < 1e-6);
+  CHECK(with_nodes < 1e-6);  // what the answer sought among few columns leaves, of order omega dt squared
   CHECK(without > 0.1);
 }
 
@@ -195,7 +198,7 @@ Vector3 bent(const test::Beam& beam, const Vector3& force, double omega = 0) {
   const auto m = b.finalise();
   const solver::State state = test::start(*m);
   const VectorXd u = body->displacements(m->observe(state).elastics[0].motion, {});
-  CHECK(body->internal_residual() < 1e-9);
+  CHECK(body->internal_residual() < 1e-9);  // Newton's tolerance of the nodes
   Vector3 tip = Vector3::Zero();
   for (const int node : end) tip += share * u.segment<3>(3 * node);
   return tip;
@@ -220,7 +223,7 @@ TEST_CASE("NodalBodyOfFiniteStrain_BendsLikeItsMesh") {
   Vector3 tip = Vector3::Zero();
   for (const int node : end) tip += whole.u.segment<3>(3 * node) / static_cast<double>(end.size());
   MESSAGE("tip ", finite.transpose(), ", the mesh's ", tip.transpose(), ", small strains ", small.transpose());
-  CHECK((finite - tip).norm() < 1e-7 * tip.norm());
+  CHECK((finite - tip).norm() < 1e-7 * tip.norm());  // two equilibria of one mesh, each to 1e-10 of its size
   CHECK((small - tip).norm() > 0.05 * tip.norm());
 }
 
@@ -236,6 +239,7 @@ TEST_CASE("NodalBodyOfFiniteStrain_IsStiffenedBySpin") {
   MESSAGE("deflection turning over at rest ", ratio);
   CHECK(ratio == doctest::Approx(1 / (1 + 1.193)).epsilon(0.03));
   beam.strain = Strain::small;
+  // Small strains know no stiffening: what is left is of second order.
   CHECK(bent(beam, force, 0.3 * omega_0).z() == doctest::Approx(bent(beam, force).z()).epsilon(1e-3));
 }
 
@@ -264,13 +268,14 @@ TEST_CASE("NodalBodyOfFiniteStrain_BalancesPowersAsItSwings") {
     lost += 0.5 * dt * (before + e.dissipation);
     before = e.dissipation;
     moved = std::max(moved, e.kinetic);
+    // Newton's tolerance is 1e-9 of the forces.
     CHECK(std::abs(e.kinetic_rate + e.strain_rate + e.dissipation - e.gravity) < 1e-6 * moved / dt);
   });
   const ElasticEnergy last = m->observe(state).elastics[0].energy;
   MESSAGE("kinetic energy ", last.kinetic, " J, strain ", last.strain, ", lost ", lost, ", unaccounted ",
           stored(last) + lost - stored(first));
   CHECK(last.strain > 1e-4 * last.kinetic);
-  CHECK(std::abs(stored(last) + lost - stored(first)) < 1e-5 * last.kinetic);
+  CHECK(std::abs(stored(last) + lost - stored(first)) < 1e-5 * last.kinetic);  // 600 steps, second order
 }
 
 }  // namespace

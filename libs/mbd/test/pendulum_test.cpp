@@ -44,7 +44,7 @@ TEST_CASE("Pendulum_FollowsEllipticSolution") {
   const auto m = pendulum(false);
   solver::State state = test::start(*m);
   const verification::Pendulum exact{0.5 * kPi, std::sqrt(g / L)};
-  CHECK(exact.period() == doctest::Approx(2.36784194757624).epsilon(1e-13));
+  CHECK(exact.period() == doctest::Approx(2.36784194757624).epsilon(1e-13));  // digits of the reference
   double worst = 0;
   test::run(*m, state, 20, 20000, 1.0, [&](const solver::State& s) {
     const Vector3 r = m->frame_motion(s, m->spec().body_frames[1]).X_WF.r;
@@ -52,7 +52,7 @@ TEST_CASE("Pendulum_FollowsEllipticSolution") {
     worst = std::max(worst, (r - L * Vector3(std::sin(angle), -std::cos(angle), 0)).norm());
   });
   MESSAGE("largest position error ", worst);
-  CHECK(worst < 1e-4);
+  CHECK(worst < 1e-4);  // as said above
 }
 
 TEST_CASE("PendulumOver2000Seconds_MeetsTheBenchmark") {
@@ -72,8 +72,9 @@ TEST_CASE("PendulumOver2000Seconds_MeetsTheBenchmark") {
   }
   REQUIRE(converged);
   MESSAGE("largest position error ", worst);
-  CHECK(worst < 1e-3);
+  CHECK(worst < 1e-3);  // as said above
   // The benchmark's own figure for the end.
+  // The benchmark's own measure.
   CHECK(std::hypot(std::sin(state.q[0]) + 0.8146030686, -std::cos(state.q[0]) + 0.5800188278) < 1e-3);
 }
 
@@ -164,8 +165,8 @@ TEST_CASE("EnergyOfLongRuns_DoesNotDriftAtSpectralRadiusOne") {
 TEST_CASE("EnergyOfLongRuns_LeaksLittleThroughMildDissipation") {
   // Dissipation is of order (omega dt)^3 per radian: 42 periods at omega dt = 0.015 and less than 1e-3 of the energy.
   const auto [early, late] = energy_errors(true, 0.9);
-  CHECK(early < 1e-3);
-  CHECK(late < 1e-3);
+  CHECK(early < 1e-3);  // as said above
+  CHECK(late < 1e-3);   // as said above
 }
 
 TEST_CASE("SpectralRadiusOne_IsRefusedWithConstraints") {

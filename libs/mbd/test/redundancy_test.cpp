@@ -80,9 +80,10 @@ TEST_CASE("PlaneLoopOfHinges_IsNamedAndRuns") {
   test::run(*m, state, 1, 1000, 0.8,
             [&](const solver::State& s) { drift = std::max(drift, m->observe(s).constraint_drift); });
   test::run(*free, other, 1, 1000);
-  CHECK((state.q - other.q.head(3)).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK((state.q - other.q.head(3)).cwiseAbs().maxCoeff() < 1e-9);  // rad: two sets of equations, each to Newton's 1e-9
   const Observation a = m->observe(state), c = free->observe(other);
   for (std::size_t j = 0; j < 4; ++j) {
+    // N, N m: the same, of forces of some 10 N.
     CHECK((a.joints[j].force - c.joints[j].force).norm() < 1e-6 * (1 + c.joints[j].force.norm()));
     CHECK(a.joints[j].torque.norm() < 1e-6);
   }
@@ -123,6 +124,7 @@ TEST_CASE("ReactionsOfALadder_AreTheSmallest") {
   // Every rod of the ladder moves in its plane and nothing pushes it out: reactions of smallest norm have no part
   // there.
   for (const JointObservation& joint : seen.joints) {
+    // N, N m: nothing there, to Newton's tolerance.
     CHECK(std::abs(joint.force.z()) < 1e-8);
     CHECK(joint.torque.norm() < 1e-8);
   }
@@ -131,6 +133,7 @@ TEST_CASE("ReactionsOfALadder_AreTheSmallest") {
   solver::State same = test::start(*plain);
   test::run(*plain, same, 0.1, 50);
   const Observation expected = plain->observe(same);
+  // In the plane: two sets of equations.
   for (std::size_t j = 0; j < seen.joints.size(); ++j)
     CHECK(seen.joints[j].force.norm() == doctest::Approx(expected.joints[j].force.norm()).epsilon(1e-5));
 }
@@ -157,9 +160,10 @@ TEST_CASE("TwoHinges_ShareTheDoorsWeight") {
   CHECK(lower.x() == doctest::Approx(-upper.x()));
   const double moments = seen.joints[0].torque.y() + seen.joints[1].torque.y();
   // Balance about y at the lower hinge: 2 upper.x + moments = 0.5 * 200 (weight tips the door about +y).
-  CHECK(2 * upper.x() + moments + 100 == doctest::Approx(0).epsilon(1e-9));
+  CHECK(2 * upper.x() + moments + 100 == doctest::Approx(0).epsilon(1e-9));  // round-off of small systems
   // Smallest F^2 + (T/L)^2 of forces (F, -F) and moments (T, T), L = 2 m, with 2 m F + 2 T = 100 N m:
   // F : T/L = 2 m : 2 L.
+  // Round-off of small systems.
   CHECK(std::abs(upper.x()) == doctest::Approx(10).epsilon(1e-9));
   CHECK(std::abs(moments) == doctest::Approx(80).epsilon(1e-9));
 }
@@ -182,7 +186,7 @@ TEST_CASE("GeometryRoundedToSevenDigits_StillCloses") {
   test::run(*m, state, 0.5, 200, 0.8,
             [&](const solver::State& s) { drift = std::max(drift, m->observe(s).constraint_drift); });
   CHECK(drift > 1e-8);  // what the geometry leaves open
-  CHECK(drift < 1e-6);
+  CHECK(drift < 1e-6);  // of the order of the digits left out, 3e-7
 }
 
 TEST_CASE("ParallelogramOfThreeCranks_KeepsItsMotion") {
@@ -213,8 +217,9 @@ TEST_CASE("ParallelogramOfThreeCranks_KeepsItsMotion") {
   test::run(*m, state, 0.2, 400, 0.9);
   const Observation seen = m->observe(state);
   CHECK(seen.kinetic_energy > 0.5);
+  // 400 steps, second order.
   CHECK(seen.kinetic_energy + seen.potential_energy == doctest::Approx(energy).epsilon(1e-5));
-  CHECK(seen.constraint_drift < 1e-11);
+  CHECK(seen.constraint_drift < 1e-11);  // Newton's tolerance of constraints
 }
 
 }  // namespace

@@ -96,6 +96,7 @@ TEST_CASE("SliderCrank_MeetsClosedFormKinematicsAndReactions") {
       CHECK((joint[m.big_end.index].force.head<2>() - big_end).norm() < roundoff * force);
       const Eigen::Vector2d small_end = Eigen::Rotation2Dd(answer.beta) * answer.small_end;
       CHECK((joint[m.small_end.index].force.head<2>() - small_end).norm() < roundoff * force);
+      // As said above: round-off of the solutions.
       CHECK(joint[m.small_end.index].position[2] == doctest::Approx(answer.beta).epsilon(1e-9).scale(1));
       CHECK(joint[m.small_end.index].rate[2] == doctest::Approx(answer.beta_rate).epsilon(1e-9).scale(exact.omega));
     }
@@ -117,7 +118,7 @@ TEST_CASE("SliderCrank_IntegratedForACycleStaysOnTheClosedForm") {
     worst_torque = std::max(worst_torque, std::abs(seen.drive_efforts[0] - answer.torque));
     largest_torque = std::max(largest_torque, std::abs(answer.torque));
   });
-  CHECK(worst_position < 1e-9 * exact.L);
+  CHECK(worst_position < 1e-9 * exact.L);  // constraints are held to round-off
   CHECK(worst_torque < 30 * std::pow(2 * std::numbers::pi / 360, 2) * largest_torque);
   MESSAGE("worst relative torque error ", worst_torque / largest_torque);
 }

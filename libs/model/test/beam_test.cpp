@@ -5,6 +5,9 @@
 namespace hersey::model {
 namespace {
 
+constexpr double kRoundOff = 1e-15;    // of lengths of 0.1 m in mm
+constexpr double kSevenDigits = 1e-6;  // of the area written here
+
 const std::string kMachine = R"(hersey: 1
 title: Beam
 bodies:
@@ -40,11 +43,11 @@ TEST_CASE("Beam_IsReadAndDividedAtItsPointsAndFrames") {
       {0, 0, 0},    {0.05, 0, 0}, {0.1, 0, 0}, {0.1, 0, 0.03}, {0.1, 0, 0.03 + 0.17 / 3}, {0.1, 0, 0.03 + 0.34 / 3},
       {0.1, 0, 0.2}};
   REQUIRE(beam.nodes.size() == nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) CHECK((beam.nodes[i] - nodes[i]).norm() < 1e-15);
+  for (std::size_t i = 0; i < nodes.size(); ++i) CHECK((beam.nodes[i] - nodes[i]).norm() < kRoundOff);
   CHECK((beam.axes[0] - (Matrix3() << 1, 0, 0, 0, 0, 1, 0, 1, 0).finished() * Vector3(1, -1, 1).asDiagonal()).norm() <
         1e-15);
-  CHECK((beam.axes[5].col(0) - Vector3::UnitZ()).norm() < 1e-15);
-  CHECK(beam.section.area == doctest::Approx(235.6194e-6).epsilon(1e-6));
+  CHECK((beam.axes[5].col(0) - Vector3::UnitZ()).norm() < kRoundOff);
+  CHECK(beam.section.area == doctest::Approx(235.6194e-6).epsilon(kSevenDigits));
   CHECK(beam.damping == 2e-6);
   const std::vector<Frame>& frames = model.bodies[0].frames;
   CHECK(frames[0].nodes == std::vector<int>{0});
@@ -60,7 +63,7 @@ TEST_CASE("Beam_IsBuiltFromSegmentsBetweenNodes") {
   CHECK(beam.is_named == std::vector<bool>{true, false, false, true, false, false, true});
   double mass = 0;
   for (const auto& segment : beam.segments) mass += segment->mass();
-  CHECK(mass == doctest::Approx(7850 * 235.6194e-6 * 0.3).epsilon(1e-6));
+  CHECK(mass == doctest::Approx(7850 * 235.6194e-6 * 0.3).epsilon(kSevenDigits));
   CHECK(machine.mechanism->nv() == 1 + 6 * 6);
   const mbd::MechanismSpec& spec = machine.mechanism->spec();
   CHECK(spec.bodies[static_cast<std::size_t>(beam.ids.bodies[3].index)].name == "shaft.disc");
@@ -73,8 +76,8 @@ TEST_CASE("BeamInertia_MayBeGivenApartFromItsStiffness") {
   const std::string text = edited(kMachine, "damping: {stiffness: 2 us}", given);
   const Beam& beam = *read_text(text, "m.yaml").bodies[0].beam;
   CHECK(beam.mass_per_length == 3);
-  CHECK((beam.inertia_per_length - Vector3(3e-3, 2e-3, 1e-3)).norm() < 1e-15);
-  CHECK(beam.section.area == doctest::Approx(235.6194e-6).epsilon(1e-6));
+  CHECK((beam.inertia_per_length - Vector3(3e-3, 2e-3, 1e-3)).norm() < kRoundOff);
+  CHECK(beam.section.area == doctest::Approx(235.6194e-6).epsilon(kSevenDigits));
   double mass = 0;
   const Machine machine = build(read_text(text, "m.yaml"));
   for (const auto& segment : machine.beams[0].segments) mass += segment->mass();
@@ -87,7 +90,7 @@ TEST_CASE("BeamAlongZ_NeedsNoUp") {
   const Model model = read_text(
       edited(edited(kMachine, "10 0 0 mm, 110 0 0 mm, 110 0 200 mm", "0 0 0 mm, 0 0 200 mm"), "      up: y\n", ""),
       "m.yaml");
-  CHECK((model.bodies[0].beam->axes[0].col(2) - Vector3::UnitX()).norm() < 1e-15);
+  CHECK((model.bodies[0].beam->axes[0].col(2) - Vector3::UnitX()).norm() < kRoundOff);
 }
 
 TEST_CASE("Beam_FaultsNameWhatIsThere") {

@@ -28,12 +28,12 @@ TEST_CASE("Shapes_AreRead") {
   REQUIRE(model.bodies[1].shapes.size() == 5);
   CHECK(shape(model, 0).name == "ball");
   const auto& ball = std::get<mbd::Sphere>(shape(model, 0).geometry);
-  CHECK((ball.centre - Vector3(1e-3, 2e-3, 3e-3)).norm() < 1e-15);
+  CHECK((ball.centre - Vector3(1e-3, 2e-3, 3e-3)).norm() < 1e-15);  // round-off of mm
   CHECK(ball.radius == doctest::Approx(5e-3));
   CHECK(std::get<mbd::Cylinder>(shape(model, 1).geometry).to.y() == doctest::Approx(0.14));
   CHECK(std::get<mbd::Capsule>(shape(model, 2).geometry).from.y() == doctest::Approx(1e-3));
   const auto& block = std::get<mbd::Box>(shape(model, 3).geometry);
-  CHECK((block.X_BS.R.col(0) - Vector3::UnitY()).norm() < 1e-12);
+  CHECK((block.X_BS.R.col(0) - Vector3::UnitY()).norm() < 1e-12);  // round-off of a turn
   CHECK(std::get<mbd::HalfSpace>(shape(model, 4).geometry).normal == Vector3::UnitZ());
 }
 
@@ -184,8 +184,8 @@ TEST_CASE("MeshOfSolids_GivesItsOuterSurface") {
   const Model model = read((folder / "m.yaml").string());
   const auto& mesh = *std::get<std::shared_ptr<const mbd::TriangleMesh>>(shape(model, 0).geometry);
   CHECK(mesh.corners.size() == 5);
-  CHECK(mesh.triangles.size() == 6);  // of eight faces two touch
-  CHECK((mesh.corners[3] - Vector3(0, 0, 0.015)).norm() < 1e-17);
+  CHECK(mesh.triangles.size() == 6);                               // of eight faces two touch
+  CHECK((mesh.corners[3] - Vector3(0, 0, 0.015)).norm() < 1e-17);  // round-off of mm
 }
 
 TEST_CASE("ShapesThatCannotBe_AreReported") {

@@ -68,11 +68,12 @@ TEST_CASE("FlexibleBody_IsReadAndBuilt") {
   REQUIRE(bar.flexible);
   CHECK(bar.flexible->modes == 0);
   REQUIRE(bar.frames.size() == 2);
-  CHECK((bar.frames[1].X_BF.r - Vector3(0.01, 0.005, 0.005)).norm() < 1e-15);
+  CHECK((bar.frames[1].X_BF.r - Vector3(0.01, 0.005, 0.005)).norm() < 1e-15);  // round-off
   CHECK(bar.frames[1].connection == fem::Connection::average);
   CHECK(bar.shapes.size() == 1);  // its skin
   const Machine machine = build(model);
   REQUIRE(machine.flexibles.size() == 1);
+  // Round-off of sums over the mesh.
   CHECK(machine.flexibles[0].body->mass() == doctest::Approx(7850e-6).epsilon(1e-12));
   CHECK(machine.flexibles[0].body->data().shapes() == 6);
   CHECK(machine.mechanism->nv() == 7);  // the hinge, and the tip against the root
@@ -103,6 +104,7 @@ TEST_CASE("MaterialOfTheMeshFile_IsThatOfTheSection_OrAFaultWithBothNames") {
   const std::string machine = edited(kMachine, kMaterial, "");
   {
     const MeshFile file(kMaterials + "*SOLID SECTION, ELSET=all, MATERIAL=Steel\n");
+    // Round-off of sums over the mesh.
     CHECK(build(read_text(machine, "m.yaml")).flexibles[0].body->mass() == doctest::Approx(7850e-6).epsilon(1e-12));
   }
   const MeshFile file(kMaterials + "*SOLID SECTION, ELSET=all, MATERIAL=STELL\n");
@@ -207,6 +209,7 @@ TEST_CASE("SurfaceLoad_IsReadWithItsFaces") {
   CHECK(gas.faces.size() == 1);
   CHECK_FALSE(gas.direction);
   CHECK(push.axes == Axes::ground);
+  // Round-off.
   CHECK((*push.direction - Vector3(0, 0.6, 0.8)).norm() < 1e-15);
   CHECK((*pin.direction + Vector3::UnitX()).norm() < 1e-15);
   const Machine machine = build(model);
@@ -256,8 +259,9 @@ TEST_CASE("ReducedBody_TakesThePlaceOfItsMesh") {
   CHECK(model.bodies[0].frames[1].name == "tip");
   const Machine of_file = build(model), of_mesh = build(meshed);
   const mbd::ModalBodyData &a = of_file.flexibles[0].body->data(), &b = of_mesh.flexibles[0].body->data();
+  // The file keeps doubles: round-off of the reduction.
   CHECK((a.stiffness - b.stiffness).norm() < 1e-12 * b.stiffness.norm());
-  CHECK(a.mass == doctest::Approx(b.mass).epsilon(1e-14));
+  CHECK(a.mass == doctest::Approx(b.mass).epsilon(1e-14));  // round-off of sums over the mesh
   CHECK(of_file.surface_loads.size() == 1);
   const auto told = [&](const std::string& from, const std::string& to) { return faults_of(edited(text, from, to)); };
   CHECK(contains(told("bar.root", "bar.rot"),
@@ -293,6 +297,7 @@ TEST_CASE("OrthotropicMaterial_WithEqualConstantsIsTheIsotropicOne") {
     return build(read_text(text, "m.yaml")).flexibles[0].body->data().stiffness;
   };
   const Eigen::MatrixXd K = stiffness(edited(kMachine, isotropic, nine));
+  // Round-off of nine constants, turned.
   CHECK((K - stiffness(edited(kMachine, "210 GPa", "208 GPa"))).norm() < 1e-9 * K.norm());
   const auto told = [&](const std::string& from, const std::string& to) {
     return faults_of(edited(kMachine, isotropic, edited(nine, from, to)));

@@ -68,7 +68,7 @@ TEST_CASE("Expression_KnowsTimeAndJoints") {
   CHECK(force.variables[1].coordinate == "rotation");
   CHECK(force.variables[2].kind == Variable::Kind::rate);
   CHECK(force.variables[2].coordinate == "x");
-  CHECK(force.value->value(std::array{1.0, 2.0, 0.5}) == doctest::Approx(8500).epsilon(1e-14));
+  CHECK(force.value->value(std::array{1.0, 2.0, 0.5}) == doctest::Approx(8500).epsilon(1e-14));  // round-off of units
 }
 
 TEST_CASE("FaultyExpressions_ArePlaced") {
@@ -100,6 +100,7 @@ TEST_CASE("Drive_DependsOnTimeAlone") {
   const std::string swing =
       "  swing: {joint: guide, coordinate: rotation, position: {expression: \"5*sin(t)\", unit: deg}}\nforces:";
   const Model model = read_text(edited(good_model, "forces:", swing), "m.yaml");
+  // Round-off of units.
   CHECK(model.drives[1].motion.value->value(std::array{pi / 2}) == doctest::Approx(5 * pi / 180).epsilon(1e-14));
   CHECK(faults_after("forces:",
                      "  x: {joint: guide, coordinate: x, position: {expression: main.rotation, unit: m}}\nforces:") ==
@@ -112,6 +113,7 @@ TEST_CASE("TableInPlace_IsConvertedAndScaled") {
   REQUIRE(force.variables.size() == 1);
   CHECK(force.variables[0].kind == Variable::Kind::time);
   // 2 bar on 2 cm^2 are 40 N.
+  // Round-off of units.
   CHECK(force.value->value(std::array{0.05}) == doctest::Approx(40).epsilon(1e-14));
   REQUIRE(force.domain.has_value());
   CHECK(force.domain->second == doctest::Approx(0.1).epsilon(1e-15));
@@ -126,6 +128,7 @@ TEST_CASE("TableFromFile_IsConvertedAndScaled") {
   CHECK(force.variables[0].joint == "main");
   CHECK_FALSE(force.domain.has_value());  // periodic: covers everything
   // 90 degrees into the first half: a quarter of the way from 1 to 11 bar, on 1 cm^2.
+  // Round-off of units and of whole turns.
   CHECK(force.value->value(std::array{pi / 2}) == doctest::Approx(35).epsilon(1e-13));
   CHECK(force.value->value(std::array{pi / 2 + 4 * pi}) == doctest::Approx(35).epsilon(1e-13));
   CHECK(force.value->value(std::array{3 * pi}) == doctest::Approx(60).epsilon(1e-13));  // on the way back to 1 bar

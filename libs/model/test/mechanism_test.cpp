@@ -74,7 +74,7 @@ TEST_CASE("GearsAndTheirForces_AreRead") {
   CHECK(spec.coordinate_forces.size() == 3);
   // Gears mesh where the joints start: main at 30 deg, the thread at 0.
   const double at = 3.14159265358979323846 / 6;
-  CHECK(std::abs(spec.couplings[0].terms[0].function->value({&at, 1})) < 1e-15);
+  CHECK(std::abs(spec.couplings[0].terms[0].function->value({&at, 1})) < 1e-15);  // round-off
   CHECK(spec.couplings[1].terms[0].function->value({&at, 1}) == doctest::Approx(0.005));
 }
 

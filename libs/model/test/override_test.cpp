@@ -31,7 +31,7 @@ TEST_CASE("KeyPaths_AreReplacedFromOutside") {
                                  "forces.push.components.0=7 N", "gravity=0 0 -9.81 m/s^2"});
   CHECK(model.bearings[0].film.grid.n_phi == 120);
   CHECK(model.bearings[0].film.grid.n_z == 13);
-  CHECK(model.bearings[0].film.R == doctest::Approx(0.025).epsilon(1e-15));
+  CHECK(model.bearings[0].film.R == doctest::Approx(0.025).epsilon(1e-15));  // round-off of units
   CHECK(model.bearings[0].film.p_edge_right == 2e5);
   CHECK(model.title == "Another");
   CHECK(model.forces[0].load.functions[0].value->value({}) == 7);
@@ -60,7 +60,7 @@ TEST_CASE("ParametersInsideText_AreReplaced") {
 TEST_CASE("ParametersInsideVectors_KeepTheirUnit") {
   const std::string text = edited(edited(good_model, "  load: 500 N", "  load: 500 N\n  g: 981 cm/s^2"),
                                   "bodies:", "gravity: 0 -${g} 0 m/s^2\nbodies:");
-  CHECK((read_text(text, "m.yaml").gravity - Vector3(0, -9.81, 0)).norm() < 1e-15);
+  CHECK((read_text(text, "m.yaml").gravity - Vector3(0, -9.81, 0)).norm() < 1e-15);  // round-off of units
 }
 
 /// The model with a force in x written so, and parameters above the others.

@@ -55,6 +55,7 @@ TEST_CASE("Study_IsEveryCombination") {
   CHECK(runs[1].values[0].text == "100 N");
   CHECK(runs[7].values[0].text == "1 kN");
   // Numbers share the unit of the first value; words have none.
+  // Round-off of units.
   CHECK(runs[7].values[0].number == doctest::Approx(1000).epsilon(1e-15));
   CHECK(runs[7].values[0].unit == "N");
   CHECK(runs[7].values[2].number == doctest::Approx(68).epsilon(1e-14));
@@ -62,7 +63,7 @@ TEST_CASE("Study_IsEveryCombination") {
   CHECK(runs[7].values[1].unit.empty());
   const Model model = read(file.path(), runs[7].overrides);
   CHECK(model.bearings[0].film.cavitation == film::Cavitation::guembel);
-  CHECK(model.bearings[0].film.c == doctest::Approx(68e-6).epsilon(1e-14));
+  CHECK(model.bearings[0].film.c == doctest::Approx(68e-6).epsilon(1e-14));  // round-off of units
   CHECK(model.forces[0].load.functions[1].value->value({}) == -1000);
 }
 

@@ -169,6 +169,7 @@ TEST_CASE("Json_SaysTheSameAsTheTableInSi") {
   const std::string thickness = "minimum film thickness (MOFT)", force = "largest load",
                     peak = "peak film pressure (POFP)";
   CHECK(in_si(thickness)["unit"] == "m");
+  // Round-off of units.
   CHECK(in_si(thickness)["value"].get<double>() == doctest::Approx(1e-6 * in_table(thickness).value).epsilon(1e-14));
   CHECK(in_si(peak)["unit"] == "Pa");
   CHECK(in_si(peak)["value"].get<double>() == doctest::Approx(1e6 * in_table(peak).value).epsilon(1e-14));

@@ -10,7 +10,7 @@ namespace hersey::run {
 struct StepRecord;
 
 /// Where the energy put into a machine has gone since the start of a run, each part from an integral of its own (theory
-/// manual, bearing.24): none from the forces that the equations of motion know.
+/// manual, bearing.6): none from the forces that the equations of motion know.
 class EnergyBalance {
  public:
   /// @param spec  of the machine's mechanism, which outlives this

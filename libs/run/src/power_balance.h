@@ -7,7 +7,7 @@
 
 namespace hersey::run {
 
-/// Where the power of the whole machine comes from and goes to at one instant [W].
+/// Where the power of the whole machine comes from and goes to at one instant [W] (theory manual eq. (mechanisms.22)).
 struct PowerBalance {
   double drives = 0;        ///< put in by drives
   double loads = 0;         ///< put in by applied forces and torques

@@ -17,6 +17,9 @@
 namespace hersey::run {
 namespace {
 
+constexpr double kRoots = 1e-9;  // round-off of eigenvalues, and of the state they belong to
+constexpr double kRest = 1e-9;   // rows at rest within 1e-10 of what they balance
+
 constexpr double kPi = std::numbers::pi;
 constexpr double g = 9.81;
 const std::string kPoint = "inertia: {xx: 1e-12 kg.m^2, yy: 1e-12 kg.m^2, zz: 1e-12 kg.m^2}";
@@ -67,15 +70,17 @@ TEST_CASE("DoublePendulum_HasItsTwoFrequencies") {
   REQUIRE(a.summary.status == Status::completed);
   const std::vector<double> f = a.mode("frequency"), damping = a.mode("damping_ratio"), shape = a.mode("shape_real");
   REQUIRE(f.size() == 2);
-  CHECK(2 * kPi * f[0] == doctest::Approx(std::sqrt(g * (2 - std::sqrt(2)))).epsilon(1e-9));
-  CHECK(2 * kPi * f[1] == doctest::Approx(std::sqrt(g * (2 + std::sqrt(2)))).epsilon(1e-9));
-  CHECK(std::abs(damping[0]) < 1e-9);
+  CHECK(2 * kPi * f[0] == doctest::Approx(std::sqrt(g * (2 - std::sqrt(2)))).epsilon(kRoots));
+  CHECK(2 * kPi * f[1] == doctest::Approx(std::sqrt(g * (2 + std::sqrt(2)))).epsilon(kRoots));
+  CHECK(std::abs(damping[0]) < kRoots);
   // Relative angle of the lower joint over the upper's: absolute ratio sqrt 2 less 1.
+  // Shapes: vectors of roots that are good to 1e-9.
   CHECK(shape[1] / shape[0] == doctest::Approx(std::sqrt(2) - 1).epsilon(1e-6));
   CHECK(shape[3] / shape[2] == doctest::Approx(-std::sqrt(2) - 1).epsilon(1e-6));
   // What each body does: the upper turns by its joint, the lower by both; its origin is the upper's tip, 1 m below.
   const std::vector<double> bodies = a.mode("body_real");
   REQUIRE(bodies.size() == 24);
+  // The same numbers: round-off.
   CHECK(bodies[2] == doctest::Approx(shape[0]).epsilon(1e-12));
   CHECK(bodies[8] == doctest::Approx(shape[0] + shape[1]).epsilon(1e-12));
   CHECK(bodies[9] == doctest::Approx(shape[0]).epsilon(1e-12));
@@ -102,7 +107,7 @@ TEST_CASE("ChainOfMassesAndSprings_HasItsFrequencies") {
   REQUIRE(f.size() == n);
   for (int j = 1; j <= n; ++j)
     CHECK(2 * kPi * f[static_cast<std::size_t>(j - 1)] ==
-          doctest::Approx(2 * 10 * std::sin(j * kPi / (2 * (n + 1)))).epsilon(1e-9));
+          doctest::Approx(2 * 10 * std::sin(j * kPi / (2 * (n + 1)))).epsilon(kRoots));
 }
 
 TEST_CASE("DampedPendulum_HasItsDampingRatio") {
@@ -113,9 +118,9 @@ TEST_CASE("DampedPendulum_HasItsDampingRatio") {
                 "analysis: modes"));
   const double omega = std::sqrt(g), zeta = 0.7 / (2 * omega);
   REQUIRE(a.mode("frequency").size() == 1);
-  CHECK(2 * kPi * a.mode("frequency")[0] == doctest::Approx(omega).epsilon(1e-9));
-  CHECK(a.mode("damping_ratio")[0] == doctest::Approx(zeta).epsilon(1e-9));
-  CHECK(2 * kPi * a.mode("damped_frequency")[0] == doctest::Approx(omega * std::sqrt(1 - zeta * zeta)).epsilon(1e-9));
+  CHECK(2 * kPi * a.mode("frequency")[0] == doctest::Approx(omega).epsilon(kRoots));
+  CHECK(a.mode("damping_ratio")[0] == doctest::Approx(zeta).epsilon(kRoots));
+  CHECK(2 * kPi * a.mode("damped_frequency")[0] == doctest::Approx(omega * std::sqrt(1 - zeta * zeta)).epsilon(kRoots));
 }
 
 TEST_CASE("UprightPendulum_IsUnstable") {
@@ -124,7 +129,7 @@ TEST_CASE("UprightPendulum_IsUnstable") {
   // Two real eigenvalues, -+ sqrt(g/L).
   const std::vector<double> real = a.mode("eigenvalue_real");
   REQUIRE(real.size() == 2);
-  CHECK(std::max(real[0], real[1]) == doctest::Approx(std::sqrt(g)).epsilon(1e-9));
+  CHECK(std::max(real[0], real[1]) == doctest::Approx(std::sqrt(g)).epsilon(kRoots));
   CHECK(a.summary.message.find("unstable") != std::string::npos);
 }
 
@@ -152,6 +157,7 @@ TEST_CASE("SwingOnTwoCranks_HasTheFrequencyOfAPendulum") {
   const Analysed a(swing("analysis: modes"));
   REQUIRE(a.summary.status == Status::completed);
   REQUIRE(a.mode("frequency").size() == 1);
+  // Far above round-off, far below what the multipliers' geometric stiffness gives.
   CHECK(2 * kPi * a.mode("frequency")[0] == doctest::Approx(std::sqrt(g)).epsilon(1e-7));
 }
 
@@ -168,8 +174,8 @@ forces:
     const Analysed a(text, {std::string("from=") + from});
     REQUIRE(a.summary.status == Status::completed);
     const double angle = a.read("/joints/pivot/coordinates").back();
-    CHECK(std::remainder(angle - std::atan2(30, g), 2 * kPi) == doctest::Approx(0).epsilon(1e-9));
-    CHECK(2 * kPi * a.mode("frequency")[0] == doctest::Approx(std::sqrt(std::hypot(g, 30.0))).epsilon(1e-9));
+    CHECK(std::remainder(angle - std::atan2(30, g), 2 * kPi) == doctest::Approx(0).epsilon(kRest));
+    CHECK(2 * kPi * a.mode("frequency")[0] == doctest::Approx(std::sqrt(std::hypot(g, 30.0))).epsilon(kRest));
     CHECK(a.read("/joints/pivot/rates").back() == 0);
   }
 }
@@ -179,20 +185,20 @@ TEST_CASE("DoublePendulum_ComesToRestHanging") {
                    {"joints.upper.initial={rotation: 120 deg}", "joints.lower.initial={rotation: -70 deg}"});
   REQUIRE(a.summary.status == Status::completed);
   CHECK(a.summary.message.empty());
-  CHECK(std::abs(std::remainder(a.read("/joints/upper/coordinates").back(), 2 * kPi)) < 1e-9);
-  CHECK(std::abs(std::remainder(a.read("/joints/lower/coordinates").back(), 2 * kPi)) < 1e-9);
+  CHECK(std::abs(std::remainder(a.read("/joints/upper/coordinates").back(), 2 * kPi)) < kRest);
+  CHECK(std::abs(std::remainder(a.read("/joints/lower/coordinates").back(), 2 * kPi)) < kRest);
   // One instant, and the upper joint carries both weights.
   const std::vector<double> force = a.read("/joints/upper/reaction_force");
   REQUIRE(force.size() == 3);
-  CHECK(force[1] == doctest::Approx(2 * g).epsilon(1e-9));
+  CHECK(force[1] == doctest::Approx(2 * g).epsilon(kRest));
 }
 
 TEST_CASE("Swing_ComesToRestInItsLoop") {
   const Analysed a(swing("analysis: static"), {"joints.a.initial={rotation: 60 deg}"});
   CAPTURE(a.summary.message);
   REQUIRE(a.summary.status == Status::completed);
-  CHECK(std::abs(a.read("/joints/a/coordinates").back()) < 1e-8);
-  CHECK(a.summary.worst_constraint_drift < 1e-9);
+  CHECK(std::abs(a.read("/joints/a/coordinates").back()) < 1e-8);  // rad: flat at rest in its loop
+  CHECK(a.summary.worst_constraint_drift < 1e-9);                  // closed to 1e-12, then at rest to 1e-10
 }
 
 TEST_CASE("UnstableAndIndifferentRest_AreSaid") {
@@ -244,21 +250,23 @@ TEST_CASE("Kinematics_FollowsTheClosedFormAndBalancesPower") {
   for (std::size_t i = 0; i < t.size(); ++i) {
     CAPTURE(t[i]);
     const double s = std::sin(omega * t[i]), c = std::cos(omega * t[i]), w = std::sqrt(l * l - r * r * s * s);
+    // Prescribed: positions closed to 1e-13, rates by the inverse of the constraints.
     CHECK(x[i] == doctest::Approx(r * c + w).epsilon(1e-11));
     CHECK(std::abs(v[i] + r * omega * s + r * r * omega * s * c / w) < 1e-9 * r * omega);
     const double a_exact =
         -r * omega * omega * c - r * r * omega * omega * ((c * c - s * s) / w + r * r * s * s * c * c / (w * w * w));
+    // Prescribed: positions closed to 1e-13, rates by the inverse of the constraints.
     CHECK(std::abs(acceleration[3 * i] - a_exact) < 1e-9 * r * omega * omega);
   }
   // Inverse dynamics: the drive's power is the rate of the energy.
-  CHECK(a.summary.worst_power_balance < 1e-10);
+  CHECK(a.summary.worst_power_balance < 1e-10);  // round-off
 }
 
 TEST_CASE("Kinematics_GivesTheForcesThatDynamicsTendsTo") {
   const Analysed exact(slider_crank(kMotor, "analysis: kinematics, duration: 7 ms, step: 7 ms"));
   const Analysed run(slider_crank(kMotor, "duration: 7 ms, step: 0.005 ms"));
   const auto torque = [](const Analysed& a) { return a.read("/drives/motor/force_or_torque").back(); };
-  CHECK(torque(run) == doctest::Approx(torque(exact)).epsilon(1e-4));
+  CHECK(torque(run) == doctest::Approx(torque(exact)).epsilon(1e-4));  // steps of 5 us, second order
 }
 
 TEST_CASE("Kinematics_NamesWhatNothingPrescribes") {
@@ -279,7 +287,7 @@ TEST_CASE("Kinematics_EndsWhereDrivesCannotBeFollowed") {
           "analysis: kinematics, duration: 1 s, step: 7 ms"),
       {"joints.main.initial={}", "joints.main.guess={rotation: 60 deg}", "joints.rail.initial={translation: 0.3 m}"});
   CHECK(a.summary.status == Status::failed);
-  CHECK(a.summary.t_end == doctest::Approx(0.098).epsilon(1e-12));
+  CHECK(a.summary.t_end == doctest::Approx(0.098).epsilon(1e-12));  // round-off of fourteen steps
   CHECK(a.summary.message.find("cannot follow its drives") != std::string::npos);
 }
 
@@ -314,7 +322,7 @@ TEST_CASE("RotorOnItsFilm_HasTheEigenvaluesOfTheSteadyCoefficients") {
     const double nearest = (eigen.eigenvalues().array() - s).abs().minCoeff();
     CAPTURE(real[i]);
     CAPTURE(imaginary[i]);
-    CHECK(nearest < 1e-3 * std::abs(s));
+    CHECK(nearest < 1e-3 * std::abs(s));  // what the end of the run still moves
   }
 }
 

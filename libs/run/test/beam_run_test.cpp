@@ -99,11 +99,14 @@ TEST_CASE("HeldBeam_ShowsItsSectionForces") {
   // q = 0.02 N/m; the middle of element k sees what hangs beyond its ends' share: q (L - x) and q (L - x)^2/2.
   for (std::size_t k = 0; k < 16; ++k) {
     const double x = (static_cast<double>(k) + 0.5) / 16;
+    // Sagging by 0.25 % turns the sections: of second order.
     CHECK(std::abs(force[3 * k + 2]) == doctest::Approx(0.02 * (1 - x)).epsilon(1e-3));
+    // The same, and the weight of half an element.
     CHECK(moment[3 * k + 1] == doctest::Approx(0.02 * (1 - x) * (1 - x) / 2).epsilon(1e-2).scale(1e-3));
   }
   CHECK(position[50] == doctest::Approx(-0.02 / 8).epsilon(5e-3));
-  CHECK(reader.number_attribute("/bodies/blade", "mass").value_or(0) == doctest::Approx(1).epsilon(1e-12));
+  CHECK(reader.number_attribute("/bodies/blade", "mass").value_or(0) ==
+        doctest::Approx(1).epsilon(1e-12));  // round-off
 }
 
 // A strip of 1 m by 20 mm by 1 mm, E I = 1/3 N m^2, under a moment at its end of m times 2 pi E I/L: m whole circles.
@@ -132,6 +135,7 @@ simulation: {{analysis: static}}
     const auto tip = reader.read("/bodies/strip.tip/position").values;
     // chords of 20 equal arcs: longer than the arc's own by (angle/20)^2/24 at the most
     const double chords = angle * angle / 400 / 24;
+    // Newton's end, beside the chords.
     CHECK(std::abs(tip[0] - std::sin(angle) / angle) < 1.1 * chords * std::abs(std::sin(angle) / angle) + 1e-8);
     CHECK(std::abs(tip[1] - (1 - std::cos(angle)) / angle) < 1.1 * chords * (1 - std::cos(angle)) / angle + 1e-8);
   }
@@ -164,7 +168,7 @@ simulation: {analysis: static}
 )");
   const auto position = reader.read("/bodies/thin/node_position").values;
   const double deflection = 1e-3 * ((1 - 0.125) / (3 * 2) + 0.125 / 3);
-  CHECK(position[3 * 20 + 1] == doctest::Approx(deflection).epsilon(1e-3));
+  CHECK(position[3 * 20 + 1] == doctest::Approx(deflection).epsilon(1e-3));  // shear, and the sag's second order
 }
 
 TEST_CASE("FallingBeam_IsRecordedAndBalanced") {
@@ -177,7 +181,7 @@ TEST_CASE("FallingBeam_IsRecordedAndBalanced") {
   const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
   INFO(summary.message);
   CHECK(summary.status == Status::completed);
-  CHECK(summary.worst_power_balance < 1e-7);
+  CHECK(summary.worst_power_balance < 1e-7);  // steps are solved to 1e-8
   const results::Reader reader(folder / "r.h5");
   const auto series = [&](const std::string& name) { return reader.read(name).values; };
   CHECK(series("/energy/strain") == series("/bodies/blade/strain_energy"));
@@ -196,7 +200,7 @@ TEST_CASE("JournalOnABeam_MovesWithItsNode") {
   const Summary summary = simulate(model, {.results = folder / "r.h5"});
   INFO(summary.message);
   REQUIRE(summary.status == Status::completed);
-  CHECK(summary.worst_power_balance < 1e-6);
+  CHECK(summary.worst_power_balance < 1e-6);  // steps are solved to 1e-8
   const results::Reader reader(folder / "r.h5");
   const auto series = [&](const std::string& name) { return reader.read(name).values; };
   const auto node = series("/bodies/shaft/node_position"), left = series("/bearings/left/eccentricity"),
@@ -205,6 +209,7 @@ TEST_CASE("JournalOnABeam_MovesWithItsNode") {
   double size = 0;
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t axis = 0; axis < 2; ++axis) {
+      // m: far above round-off, far below the eccentricity.
       CHECK(std::abs(left[2 * row + axis] - node[width * row + axis]) < 1e-10);
       CHECK(std::abs(right[2 * row + axis] - node[width * row + last + axis]) < 1e-10);
       size = std::max(size, std::abs(right[2 * row + axis]));

@@ -81,6 +81,7 @@ TEST_CASE("WearLoad_TimesFrictionIsTheMeanLossInContact") {
   REQUIRE(summary.status == Status::completed);
   const Seen seen(summary.results);
   const double power = kFriction * surface_integral(seen.cycle("wear_load"), 0.0225, 0.0156, 24, 5);
+  // Sums over the same nodes: what means over time leave.
   CHECK(power == doctest::Approx(seen.only("power_asperity")).epsilon(1e-6));
   // The pin turns at a constant speed: wear load is mean contact pressure times speed, nearly; the rod hardly moves.
   const double speed = 3000 * M_PI / 30 * 0.0225;

@@ -93,6 +93,7 @@ TEST_CASE("StepsOfControlledError_HitTheEndOfEachCycle") {
   text.replace(text.find("step: 2 deg"), 11, "step: {tolerance: 1e-4}");
   const Cycles seen = cycles_of(text);
   REQUIRE(seen.end.size() == 2);
+  // Hit exactly: round-off.
   CHECK(seen.end[0] == doctest::Approx(kTurn / 4).epsilon(1e-14));
   CHECK(seen.end[1] == doctest::Approx(kTurn / 2).epsilon(1e-14));
 }

@@ -73,7 +73,7 @@ TEST_CASE("EnergyPutIntoAFilm_IsWhatItsIntegralsTake") {
     REQUIRE(summary.status == Status::completed);
     CHECK(summary.energy.films > 0.01);
     CHECK(summary.bearings[0].energy_taken > 0.01);
-    CHECK(std::abs(summary.bearings[0].energy_error) < 1e-3);
+    CHECK(std::abs(summary.bearings[0].energy_error) < 1e-3);  // what the grid leaves: 3e-5 to 1e-4 of the power
     CHECK(summary.energy.error() < 2e-3);
     const results::Reader reader(folder / "r.h5");
     const auto series = [&](const std::string& name) { return reader.read(name).values; };

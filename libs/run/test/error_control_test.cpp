@@ -34,6 +34,7 @@ struct Outcome {
   Summary summary;
   std::vector<double> t, dt, x, v;
   [[nodiscard]] bool hits(double instant) const {
+    // Round-off of 5 s.
     return std::any_of(t.begin(), t.end(), [&](double one) { return std::abs(one - instant) < 1e-14; });
   }
 };
@@ -115,7 +116,7 @@ Vector3 errors_of_a_pattern(int repetitions) {
 }
 
 TEST_CASE("VaryingSteps_KeepOrderTwoOfMultipliersToo") {
-  // Without (integrator.14) the force is of first order. Shorter steps would show the round-off of positions over dt^2.
+  // Without (integrator.13) the force is of first order. Shorter steps would show the round-off of positions over dt^2.
   const Vector3 coarse = errors_of_a_pattern(150), fine = errors_of_a_pattern(300);
   for (int i = 0; i < 3; ++i) {
     CAPTURE(i);
@@ -146,6 +147,7 @@ simulation: {duration: 2 s, step: 1 ms, spectral_radius: 0.8}
       for (const double share : {1.0, 0.5, 0.125, 0.0625, 0.0625, 0.125, 0.25, 0.5})
         REQUIRE(integrator.step(*machine.mechanism, state, 1e-3 * share, judge).converged());
     }
+    // rad/s: constraints, to round-off over the shortest step.
     CHECK(std::abs(machine.mechanism->observe(state).joints[0].rate[0] - 60) < 1e-8);
   }
 }
@@ -193,6 +195,7 @@ TEST_CASE("Impulse_NeedsFewerStepsThanFixedOnesOfTheSameError") {
 TEST_CASE("Rows_StandAtTheMultiplesOfTheInterval") {
   const Outcome o = outcome(kPendulum + "output: {interval: 0.3 s}\n", {}, "pivot");
   REQUIRE(o.t.size() == 18);  // 0, 0.3, ..., 4.8, 5
+  // Round-off of sums of steps.
   for (std::size_t i = 0; i + 1 < o.t.size(); ++i)
     CHECK(o.t[i] == doctest::Approx(0.3 * static_cast<double>(i)).epsilon(1e-14));
   CHECK(o.t.back() == 5);
@@ -223,6 +226,7 @@ TEST_CASE("DriveThatEndsItsRamp_ShowsNoRingingOfItsTorque") {
                             torque = reader.read("/drives/motor/force_or_torque").values;
   for (std::size_t i = 0; i < t.size(); ++i) {
     CAPTURE(t[i]);
+    // N m: constraints are held to round-off over the square of a step.
     CHECK(std::abs(torque[i] - (t[i] < 0.37 + 1e-9 ? 200 : 0)) < 1e-4);
   }
 }
@@ -233,8 +237,8 @@ TEST_CASE("Bearing_IsControlledOverItsClearance") {
       simulate(rig(rig_with("step: 2 deg", "step: {tolerance: 1e-3}")), {.results = scratch / "run.h5"});
   CAPTURE(summary.message);
   REQUIRE(summary.status == Status::completed);
-  CHECK(summary.t_end == doctest::Approx(4e-3).epsilon(1e-14));
-  CHECK(summary.worst_power_balance < 1e-6);
+  CHECK(summary.t_end == doctest::Approx(4e-3).epsilon(1e-14));  // round-off of sums of steps
+  CHECK(summary.worst_power_balance < 1e-6);                     // steps are solved to 1e-8
   // Against a fixed step six times shorter than the chosen ones' mean.
   const Summary fine = simulate(rig(rig_with("step: 2 deg", "step: 0.1 deg")), {.results = scratch / "fine.h5"});
   CHECK(summary.steps < fine.steps / 3);
@@ -253,7 +257,7 @@ TEST_CASE("ToleranceOutOfReach_FailsAndNamesTheCoordinate") {
 TEST_CASE("ConstraintDrift_StaysBelowTheNewtonTolerance") {
   const TemporaryDirectory scratch;
   const Summary summary = simulate(rig(), {.results = scratch / "run.h5"});
-  CHECK(summary.worst_constraint_drift <= 1e-8);
+  CHECK(summary.worst_constraint_drift <= 1e-8);  // steps are solved to 1e-8
   const results::Reader reader(summary.results);
   const std::vector<double> drift = reader.read("/solver/constraint_drift").values;
   CHECK(drift.size() == reader.rows());

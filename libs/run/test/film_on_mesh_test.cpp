@@ -129,6 +129,7 @@ TEST_CASE("FilmPressureOnMeshes_HasTheFilmsForce_AtTheChosenTimes") {
   REQUIRE(of_shaft.size() == 3);
   const double expected[] = {0.4e-3, 0.8e-3, 1e-3};  // the first step at 0.35 ms or beyond
   for (std::size_t file = 0; file < 3; ++file) {
+    // The instant itself.
     const auto row = static_cast<std::size_t>(
         std::find_if(time.begin(), time.end(), [&](double t) { return std::abs(t - expected[file]) < 1e-9; }) -
         time.begin());
@@ -139,6 +140,7 @@ TEST_CASE("FilmPressureOnMeshes_HasTheFilmsForce_AtTheChosenTimes") {
     const Eigen::Vector2d on_ring = resultant(Run::ring(), ring, field_of(of_ring[file], "film_pressure"), 0.0225);
     CHECK((on_ring - all).norm() < 0.01 * all.norm());
     const Eigen::Vector2d touching = resultant(Run::ring(), ring, field_of(of_ring[file], "contact_pressure"), 0.0225);
+    // Quadrature on the mesh of a contact that is small beside the whole.
     CHECK((touching - contact).norm() < 0.02 * contact.norm() + 1e-3 * all.norm());
     // The shaft has turned beneath the film, which pushes it the other way.
     double angle = 0;

@@ -130,11 +130,12 @@ TEST_CASE("DeformingShell_WhenStiffIsRigid_WhenSoftGivesWay") {
   const Outcome soft = run_on(shell_model, {few});
   MESSAGE("smallest film: rigid " << 1e6 * rigid.h_min << " um, stiff " << 1e6 * stiff.h_min << " um, steel "
                                   << 1e6 * soft.h_min << " um");
+  // A million times as stiff: what is left is the tolerance of the steps, over many of them.
   CHECK(deviation(stiff.h_min, rigid.h_min) < 1e-4);
   CHECK(deviation(stiff.p_max, rigid.p_max) < 1e-4);
   CHECK(deviation(soft.h_min, rigid.h_min) > 0.01);
   CHECK(soft.p_max < 0.9 * rigid.p_max);
-  CHECK(std::abs(soft.balance) < 1e-6);
+  CHECK(std::abs(soft.balance) < 1e-6);  // steps are solved to 1e-8
   const auto row = std::find_if(soft.assumptions.begin(), soft.assumptions.end(),
                                 [](const auto& assumption) { return assumption.first == "main: shell surface"; });
   REQUIRE(row != soft.assumptions.end());
@@ -168,6 +169,7 @@ TEST_CASE("DeformingShell_StartsAsItsFilmHoldsIt") {
   CHECK(let_go.strain == 0);
   CHECK(held.strain > 0);
   CHECK(of_nodes.strain == doctest::Approx(held.strain).epsilon(0.01));
+  // The film's own change in the first step.
   CHECK(held.change < 1e-3 * let_go.change);
   CHECK(of_nodes.change < 1e-3 * let_go.change);
 }
@@ -191,10 +193,11 @@ TEST_CASE("DeformingJournal_WhenStiffIsRigid_WhenSoftGivesWay") {
   const Outcome soft = run_on(journal_model, {few});
   MESSAGE("smallest film: rigid " << 1e6 * rigid.h_min << " um, stiff " << 1e6 * stiff.h_min << " um, steel "
                                   << 1e6 * soft.h_min << " um");
+  // A million times as stiff: what is left is the tolerance of the steps, over many of them.
   CHECK(deviation(stiff.h_min, rigid.h_min) < 1e-4);
   CHECK(deviation(stiff.p_max, rigid.p_max) < 1e-4);
   CHECK(deviation(soft.h_min, rigid.h_min) > 1e-3);
-  CHECK(std::abs(soft.balance) < 1e-6);
+  CHECK(std::abs(soft.balance) < 1e-6);  // steps are solved to 1e-8
 }
 
 }  // namespace

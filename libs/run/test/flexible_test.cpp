@@ -67,7 +67,7 @@ TEST_CASE("PointsOfDeformedMeshes_HaveMovedWithoutDeforming") {
   double most_stretched = 0;
   for (Eigen::Index n = 1; n < nodes; ++n) {
     const double length = (mesh.nodes[static_cast<std::size_t>(n)] - mesh.nodes[0]).norm();
-    CHECK((x.col(n) - x.col(0)).norm() == doctest::Approx(length).epsilon(1e-12));
+    CHECK((x.col(n) - x.col(0)).norm() == doctest::Approx(length).epsilon(1e-12));  // doubles: round-off
     const double deformed = (x.col(n) + u.col(n) - x.col(0) - u.col(0)).norm();
     most_stretched = std::max(most_stretched, std::abs(deformed / length - 1));
   }
@@ -112,11 +112,14 @@ TEST_CASE("BarUnderPressureAndForce_ShortensAndTellsTheirResultants") {
   const auto series = [&](const std::string& name) { return reader.read(name).values; };
   // 200 N of pressure less 50 N on 100 mm^2 of 1 GPa, 200 mm long.
   const double u = -150 * 0.2 / (1e9 * 1e-4);
+  // Equilibrium to 1e-10, on a displacement that is small beside the length.
   CHECK(series("/joints/bar.tip/coordinates")[0] == doctest::Approx(u).epsilon(1e-7));
   CHECK(series("/energy/strain").back() == doctest::Approx(0.5 * 150 * -u).epsilon(1e-7));
+  // Sums of nodal forces: round-off.
   CHECK(series("/surface_loads/press/force")[0] == doctest::Approx(-200).epsilon(1e-9));
   CHECK(series("/surface_loads/pull/force")[0] == doctest::Approx(50).epsilon(1e-9));
   CHECK(series("/surface_loads/press/moment")[2] == doctest::Approx(200 * 0.005).epsilon(1e-9));
+  // Equilibrium to 1e-10, on a displacement that is small beside the length.
   CHECK(series("/joints/hinge/reaction_force")[0] == doctest::Approx(150).epsilon(1e-7));
 }
 
@@ -137,7 +140,7 @@ void check_pendulum_of_nodes(const std::string& strains) {
   const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
   INFO(summary.message);
   CHECK(summary.status == Status::completed);
-  CHECK(summary.worst_power_balance < 1e-7);
+  CHECK(summary.worst_power_balance < 1e-7);  // steps are solved to 1e-8
   CHECK(summary.newton_iterations < 4 * summary.steps);
   const results::Reader reader(folder / "r.h5");
   const auto series = [&](const std::string& name) { return reader.read(name).values; };
@@ -178,6 +181,7 @@ TEST_CASE("BarOfFiniteStrain_IsBentIntoAnArcByAMomentAtItsTip") {
   CHECK(r[1] == doctest::Approx(length * (1 - std::cos(1))).epsilon(0.01));
   const double M = 1e9 * I / length;
   CHECK(series("/energy/strain").back() == doctest::Approx(0.5 * M).epsilon(0.01));
+  // Equilibrium to 1e-10, of a body bent by 1 rad.
   CHECK(series("/joints/hinge/reaction_torque")[2] == doctest::Approx(-M).epsilon(1e-6));
   const std::vector<double> stress = field_of(folder / "r_bar" / "00000.vtu", "von_mises");
   CHECK(*std::max_element(stress.begin(), stress.end()) == doctest::Approx(1e9 * 0.005 / length).epsilon(0.05));
@@ -243,14 +247,14 @@ TEST_CASE("PendulumBlownAtItsEnd_BalancesPowers") {
   const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
   INFO(summary.message);
   CHECK(summary.status == Status::completed);
-  CHECK(summary.worst_power_balance < 1e-7);
+  CHECK(summary.worst_power_balance < 1e-7);  // steps are solved to 1e-8
   const results::Reader reader(folder / "r.h5");
   const auto series = [&](const std::string& name) { return reader.read(name).values; };
   const auto blow = series("/surface_loads/blow/power"), wind = series("/surface_loads/wind/power"),
              loads = series("/power/loads"), force = series("/surface_loads/wind/force");
   double largest = 0;
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    CHECK(loads[i] == doctest::Approx(blow[i] + wind[i]).epsilon(1e-12));
+    CHECK(loads[i] == doctest::Approx(blow[i] + wind[i]).epsilon(1e-12));  // a sum: round-off
     largest = std::max(largest, std::abs(loads[i]));
   }
   CHECK(largest > 1e-3);
@@ -320,7 +324,7 @@ TEST_CASE("BarPushedByABlock_AnswersLikeACantilever") {
         simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5", .overwrite = true});
     INFO(summary.message);
     REQUIRE(summary.status == Status::completed);
-    CHECK(summary.worst_power_balance < 1e-6);
+    CHECK(summary.worst_power_balance < 1e-6);  // steps are solved to 1e-8
     const results::Reader reader(folder / "r.h5");
     const double force = reader.read("/contacts/touch/normal_force").values.back();
     const double gap = reader.read("/contacts/touch/gap").values.back();
@@ -358,6 +362,7 @@ TEST_CASE("ModesOfABar_BendItsSkin") {
     for (std::size_t k = 0; k < shapes; ++k)
       for (std::size_t corner = corners - 4; corner < corners; ++corner)
         u += 0.25 * amplitudes[k] * deformation[3 * (k * corners + corner) + axis];
+    // The frame carries the corners: far above round-off, far below another shape.
     CHECK(u == doctest::Approx(bodies[6 + 3 + axis]).epsilon(1e-5));
     tip = std::max(tip, std::abs(u));
   }

@@ -57,9 +57,9 @@ TEST_CASE("LightJournal_FollowsItsLoadFromTheFirstStep") {
   for (const char* mass : {"1 kg", "1e-3 kg", "1e-6 kg"}) {
     CAPTURE(std::string(mass));
     const std::vector<double> x = path({std::string("mass=") + mass});
-    CHECK(x.front() == doctest::Approx(25e-6).epsilon(1e-14));
+    CHECK(x.front() == doctest::Approx(25e-6).epsilon(1e-14));  // round-off of the unit
     CHECK(std::is_sorted(x.begin(), x.end()));
-    CHECK(x.back() == doctest::Approx(reference()).epsilon(1e-4));
+    CHECK(x.back() == doctest::Approx(reference()).epsilon(1e-4));  // steps of second order
   }
 }
 

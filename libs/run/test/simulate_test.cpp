@@ -26,6 +26,7 @@ TEST_CASE("Run_ReachesItsEndAndBalances") {
   CHECK(calls == summary.steps + 1);
 
   // Every step is solved to 1e-8 of its largest term; powers are sums of such terms.
+  // As every step is solved to 1e-8 of its largest term.
   CHECK(summary.worst_power_balance < 1e-6);
   REQUIRE(summary.bearings.size() == 1);
   CHECK(summary.bearings[0].worst_mass_balance < 1e-6);
@@ -66,6 +67,7 @@ TEST_CASE("HoleInTheTurningPin_FeedsTheFilmAndIsReported") {
   CAPTURE(summary.message);
   REQUIRE(summary.status == Status::completed);
   CHECK(summary.rejected_steps == 0);
+  // As every step is solved to 1e-8 of its largest term.
   CHECK(summary.bearings[0].worst_mass_balance < 1e-6);
   CHECK(summary.worst_power_balance < 1e-6);
   const results::Reader reader(summary.results);

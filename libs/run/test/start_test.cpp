@@ -82,10 +82,12 @@ TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
   const Started start(text);
   const double misfit = 0.59472 - slider(45 * kDegree);
   const double turned = start.position(kMain) - 45 * kDegree, shifted = start.position(kBore) - 0.59472;
+  // rtol of the start is 1e-12.
   CHECK(start.position(kBore) == doctest::Approx(slider(start.position(kMain))).epsilon(1e-12));
   CHECK(start.rate(kMain) == doctest::Approx(10).epsilon(1e-12));
   // Of all changes that close the loop the least, in rad and sizes of the machine: along the loop's own gradient.
   const double size = start.machine.mechanism->position_scales().maxCoeff(), g = slider_rate(45 * kDegree) / size;
+  // What is of second order in the misfit.
   CHECK(shifted == doctest::Approx(-misfit / (1 + g * g)).epsilon(1e-3));
   CHECK(turned == doctest::Approx(misfit / size * g / (1 + g * g)).epsilon(1e-3));
 
@@ -108,6 +110,7 @@ TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
 TEST_CASE("ValuesThatFitTogether_AreNotTold") {
   const Started start(slider_crank(", initial: {rotation: 45 deg, rotation_rate: 10 rad/s}", "", ""));
   CHECK(start.position(kMain) == 45 * kDegree);
+  // rtol of the start is 1e-12.
   CHECK(start.position(kBore) == doctest::Approx(slider(45 * kDegree)).epsilon(1e-12));
   CHECK(start.rate(kBore) == doctest::Approx(10 * slider_rate(45 * kDegree)).epsilon(1e-12));
   for (const Fault& warning : check(start.model)) CHECK(warning.path.find(".initial.") == std::string::npos);
@@ -126,7 +129,8 @@ TEST_CASE("GivenRate_StaysBesideAGivenPosition") {
   // The slider's position fits; its rate follows from the crank's.
   const std::string bore = ", initial: {translation: " + std::to_string(1e3 * slider(0.5)) + " mm}";
   const Started start(slider_crank(", initial: {rotation_rate: 6 rad/s}", ", guess: {rotation: -0.6 rad}", bore));
-  CHECK(start.rate(kMain) == doctest::Approx(6).epsilon(1e-12));
+  CHECK(start.rate(kMain) == doctest::Approx(6).epsilon(1e-12));  // rtol of the start is 1e-12
+  // rtol of the start is 1e-12, over a slope.
   CHECK(start.rate(kBore) == doctest::Approx(6 * slider_rate(start.position(kMain))).epsilon(1e-10));
   CHECK(std::abs(start.rate(kBore)) > 0.1);
 }
@@ -147,6 +151,7 @@ TEST_CASE("Guess_ChoosesHowALoopCloses") {
   const Started outer(slider_crank(", initial: {rotation: 60 deg}", "", ", guess: {translation: 500 mm}"));
   const Started inner(
       slider_crank(", initial: {rotation: 60 deg}", ", guess: {rotation: 150 deg}", ", guess: {translation: -400 mm}"));
+  // rtol of the start is 1e-12.
   CHECK(outer.position(kBore) == doctest::Approx(slider(60 * kDegree)).epsilon(1e-12));
   CHECK(inner.position(kBore) == doctest::Approx(0.3 * std::cos(60 * kDegree) - slider(60 * kDegree)).epsilon(1e-12));
   CHECK(refusal(slider_crank(", initial: {rotation: 60 deg}, guess: {rotation: 50 deg}", "", "")).path ==
@@ -159,6 +164,7 @@ TEST_CASE("ValueOfAClosingJoint_IsKept") {
   const std::string wrist = "wrist: {type: revolute, between: [rod.end, slider]";
   text.insert(text.find(wrist) + wrist.size(), ", initial: {rotation: 10 deg, rotation_rate: 2 rad/s}");
   const Started start(text);
+  // rtol of the start is 1e-12.
   CHECK(start.position(kWrist) == doctest::Approx(10 * kDegree).epsilon(1e-11));
   CHECK(start.rate(kWrist) == doctest::Approx(2).epsilon(1e-11));
   CHECK(start.position(kBore) == doctest::Approx(slider(start.position(kMain))).epsilon(1e-11));
@@ -181,8 +187,8 @@ joints:
 simulation: {duration: 1 ms, step: 1 ms}
 )");
   const mbd::JointValues& plate = start.seen.joints[0].position;
-  CHECK(plate[0] == doctest::Approx(0.3).epsilon(1e-12));
-  CHECK(plate[1] == doctest::Approx(std::sqrt(1 - 0.09)).epsilon(1e-10));
+  CHECK(plate[0] == doctest::Approx(0.3).epsilon(1e-12));                  // rtol of the start is 1e-12
+  CHECK(plate[1] == doctest::Approx(std::sqrt(1 - 0.09)).epsilon(1e-10));  // rtol of the start is 1e-12, over a slope
 }
 
 TEST_CASE("RandomStarts_AreAsGiven") {
@@ -196,8 +202,10 @@ TEST_CASE("RandomStarts_AreAsGiven") {
         ", initial: {rotation: " + std::to_string(main) + " deg, rotation_rate: " + std::to_string(omega) + " rad/s}",
         "", ""));
     CHECK(start.position(kMain) == std::stod(std::to_string(main)) * kDegree);
+    // rtol of the start is 1e-12.
     CHECK(start.rate(kMain) == doctest::Approx(std::stod(std::to_string(omega))).epsilon(1e-12));
     const double x = slider(start.position(kMain)), other = 0.3 * std::cos(start.position(kMain)) - x;
+    // rtol of the start is 1e-12.
     CHECK(std::min(std::abs(start.position(kBore) - x), std::abs(start.position(kBore) - other)) < 1e-11);
     CHECK(check(start.model).size() == check(rig(slider_crank("", "", ""))).size());  // of redundancies alone
   }

@@ -44,7 +44,7 @@ double swing(const std::vector<double>& energy) {
 
 TEST_CASE("HeldBar_StartsAtRestUnderItsWeight") {
   const std::string held = pendulum("  clamp: {type: fixed, between: [ground, bar.root]}\n");
-  CHECK(swing(strain_energy(held, "static")) < 1e-6);
+  CHECK(swing(strain_energy(held, "static")) < 1e-6);  // what is left of a start in its static answer
   const std::vector<double> let_go = strain_energy(held, "none");
   CHECK(let_go.front() == 0);
   // Let go, it swings to twice the deflection: four times the energy, less what damping takes.
@@ -90,7 +90,7 @@ TEST_CASE("BarInALoop_StartsAtRestUnderItsWeight") {
           .insert(std::string(kPendulum).find("  bar:"), "  ground: {frames: {far: {origin: 200 5 5 mm}}}\n");
   const std::vector<double> energy = strain_energy(loop, "static");
   CHECK(energy.front() > 0);
-  CHECK(swing(energy) < 1e-6);
+  CHECK(swing(energy) < 1e-6);  // what is left of a start in its static answer
 }
 
 // It falls, and bends as its own inertia has it: not as a bar that is held.

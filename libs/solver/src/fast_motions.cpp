@@ -21,10 +21,10 @@ constexpr double kResolved = 0.98;
 // Accelerations below this share of the largest are round-off.
 constexpr double kFloor = 1e-6;
 
-// w^2 (15 - 40 w + 45 w^2 - 24 w^3 + 5 w^4), theory manual eq. (integrator.20): the share of implicit Euler step k.
+// w^2 (15 - 40 w + 45 w^2 - 24 w^3 + 5 w^4), theory manual eq. (integrator.9): the share of implicit Euler step k.
 constexpr std::array<double, 6> kShares{0, 15, -40, 45, -24, 5};
 
-/// Implicit Euler steps of the velocities alone.
+/// Implicit Euler steps of the velocities alone (integrator.8).
 class VelocitySteps {
  public:
   VelocitySteps(Equations& equations, const State& start, double dt)

@@ -16,7 +16,7 @@ struct SettledStart {
 
 /// Takes out of the start of a motion what damping lets die out within the first step, dt: a light journal in its film
 /// has the acceleration force over mass for a time mass over damping, which a step that does not resolve it must not
-/// carry on. Six implicit Euler steps at the positions of `state`, combined by theory manual eq. (integrator.20), leave
+/// carry on. Six implicit Euler steps at the positions of `state`, combined by theory manual eq. (integrator.9), leave
 /// slow motions as they are to the fifth power of dt and fast ones at the velocity at which forces balance.
 ///
 /// Nothing where there are no such motions, or where they cannot be found.

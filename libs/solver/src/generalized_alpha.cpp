@@ -80,7 +80,7 @@ struct GeneralizedAlpha::Workspace {
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
 };
 
-/// Theory manual eq. (integrator.6), and (integrator.20) where the step does not resolve how the motion starts.
+/// Theory manual eq. (integrator.6), and (integrator.9) where the step does not resolve how the motion starts.
 void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State& state, double dt) {
   // Member by member, into what the last step took from the heap.
   start.offset.setZero(state.v.size());
@@ -93,12 +93,13 @@ void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State
   equations.begin_step(state, dt);
 }
 
-/// The step with a_{n+1} = a_n: dq, v and vdot that belong together.
+/// The step with a_{n+1} = a_n, a_n carried over to the length of this step (integrator.7): dq, v and vdot that belong
+/// together by (integrator.2) and (integrator.3), and how an increment moves them (integrator.5).
 void GeneralizedAlpha::Workspace::predict(double dt) {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
   a_n = start.vdot + (dt / last_dt) * (a - start.vdot);
   v_start = start.v;
-  // Theory manual eq. (integrator.14): velocities across the constraints are offset by an error that goes as dt^2.
+  // Theory manual eq. (integrator.13): velocities across the constraints are offset by an error that goes as dt^2.
   if (drift.size() > 0 && dt != last_dt) v_start += (dt * dt - last_dt * last_dt) * drift;
   dq_predicted = start.offset + dt * v_start + (0.5 * dt * dt) * a_n;
   v_predicted = v_start + dt * a_n;
@@ -130,8 +131,9 @@ bool GeneralizedAlpha::Workspace::assemble(Equations& equations, const Generaliz
   return true;
 }
 
-/// Residuals relative to their tolerances. Motions: rtol of the terms balanced. Constraints: a violation acts on the
-/// multipliers like an acceleration of violation/(beta dt^2), so it is measured against beta dt^2 vdot.
+/// Residuals relative to their tolerances. Motions: rtol of the terms balanced (integrator.18). Constraints: a
+/// violation acts on the multipliers like an acceleration of violation/(beta dt^2), so it is measured against beta dt^2
+/// vdot.
 void GeneralizedAlpha::Workspace::measure(Equations& equations, double rtol) {
   const Index nv = equations.nv(), n = nv + equations.nlambda();
   tolerance = rtol * scale;
@@ -217,7 +219,7 @@ bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
   return false;
 }
 
-/// The part of the estimated error across the constraints (integrator.11), by the factors of the step's last iteration:
+/// The part of the estimated error across the constraints (integrator.12), by the factors of the step's last iteration:
 /// zero without them. With J = [A G^T; G 0] as factorised, J [x; y] = [A e; 0] leaves x = e less what the constraints
 /// forbid.
 void GeneralizedAlpha::Workspace::find_part_across(bool factorised) {
@@ -246,7 +248,7 @@ VectorXd GeneralizedAlpha::Workspace::shed(const VectorXd& violation, VectorXd& 
   return rhs.tail(violation.size());
 }
 
-/// Puts velocities and accelerations onto the constraints (integrator.25).
+/// Puts velocities and accelerations onto the constraints (integrator.16).
 void GeneralizedAlpha::Workspace::return_to_constraints(Equations& equations) {
   VectorXd velocity, bias, phi, lengths;
   Equations::SparseMatrix G;
@@ -257,7 +259,7 @@ void GeneralizedAlpha::Workspace::return_to_constraints(Equations& equations) {
   shed(G * a + bias, a);
 }
 
-/// The step's local error of position, theory manual eq. (integrator.10): what the third derivative contributes beyond
+/// The step's local error of position, theory manual eq. (integrator.11): what the third derivative contributes beyond
 /// the method's own use of it.
 void GeneralizedAlpha::Workspace::estimate_error() {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
@@ -326,7 +328,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     return summary;
   };
   if (!w.enter_domain(equations, state, options_)) return fail(StepStatus::domain_error, w.trouble);
-  // Factors serve as long as they bring the residual down fast (theory manual, integrator.27). Condensed unknowns move
+  // Factors serve as long as they bring the residual down fast (theory manual, integrator.19). Condensed unknowns move
   // with each tangent and need their own.
   const bool may_keep_factors = !equations.has_condensed_unknowns();
   bool keeps_factors = false;

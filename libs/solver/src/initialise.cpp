@@ -234,7 +234,8 @@ InitialiseSummary initialise(Equations& equations, State& state, const Initialis
 
 namespace {
 
-/// Takes from the velocities what the constraints do not allow, by the impulses of the constraints alone.
+/// Takes from the velocities what the constraints do not allow, by the impulses of the constraints alone
+/// (integrator.15).
 bool shed_violations(Equations& equations, State& state, double dt) {
   if (equations.nlambda() == 0) return true;
   VectorXd h, velocity, gamma;

@@ -17,7 +17,7 @@ struct MasslessSummary {
 };
 
 /// Gives motions without inertia the velocity at which the forces along them vanish, N^T h(q, v, t) = 0, by Newton's
-/// method with N^T C N: a journal without mass moves as its film lets it (theory manual eq. (integrator.21)). The other
+/// method with N^T C N: a journal without mass moves as its film lets it (theory manual eq. (integrator.10)). The other
 /// motions keep their velocities.
 /// @param N  the motions, columns, as `massless_motions` gives them
 /// @pre begin_step(state, 0) was called

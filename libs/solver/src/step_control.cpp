@@ -45,7 +45,7 @@ double StepControl::proposed(double remaining) const {
   return remaining / std::max(1.0, std::ceil(remaining / dt_ * (1 - kRoundOff)));
 }
 
-/// Theory manual eq. (integrator.12): the step with which the next error would be the one aimed at.
+/// Theory manual eq. (integrator.14): the step with which the next error would be the one aimed at.
 double StepControl::wanted(double dt, const Eigen::VectorXd& errors) {
   const Eigen::VectorXd factors = errors / std::pow(dt, kOrder);
   double factor = kSmallestError / std::pow(dt, kOrder);

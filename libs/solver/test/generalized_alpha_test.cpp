@@ -99,7 +99,7 @@ TEST_CASE("FactorsThatServe_AreKept") {
     REQUIRE(other.step(condensing, t, 0.05).converged());
     if (k > 0) CHECK(plain.tangents == 1);
     iterations += summary.iterations;
-    CHECK(s.q[0] == doctest::Approx(t.q[0]).epsilon(1e-12));
+    CHECK(s.q[0] == doctest::Approx(t.q[0]).epsilon(1e-12));  // both are solved to 1e-12
   }
   CHECK(iterations >= 20);
   CHECK(condensing.tangents >= 20);

@@ -19,7 +19,7 @@ TEST_CASE("Acceleration_FollowsTheForce") {
   REQUIRE(initialise(e, s).consistent());
   CHECK(s.q[0] == 1);
   CHECK(s.v[0] == 4);
-  CHECK(s.vdot[0] == doctest::Approx(3).epsilon(1e-15));
+  CHECK(s.vdot[0] == doctest::Approx(3).epsilon(1e-15));  // round-off
   CHECK(e.accepted == 1);
 }
 
@@ -29,10 +29,11 @@ TEST_CASE("Constraint_TakesPositionVelocityAndForce") {
   e.force = [](double, double, double) { return -6.0; };
   State s = e.at(1, 4);
   REQUIRE(initialise(e, s).consistent());
-  CHECK(std::abs(s.q[0]) < 1e-12);
+  CHECK(std::abs(s.q[0]) < 1e-12);  // rtol of the assembly
+  // Round-off of direct solutions.
   CHECK(std::abs(s.v[0]) < 1e-12);
   CHECK(std::abs(s.vdot[0]) < 1e-12);
-  CHECK(s.lambda[0] == doctest::Approx(6).epsilon(1e-14));
+  CHECK(s.lambda[0] == doctest::Approx(6).epsilon(1e-14));  // round-off
 }
 
 TEST_CASE("RedundantRows_AreNamed") {
@@ -88,6 +89,7 @@ TEST_CASE("Kkt_SolvesBothEquationsWithInertiasFarApart") {
   const VectorXd forces =
       M.cwiseAbs() * s.vdot.cwiseAbs() + G.transpose().cwiseAbs() * s.lambda.cwiseAbs() + h.cwiseAbs();
   const VectorXd motions = G.cwiseAbs() * s.vdot.cwiseAbs() + gamma.cwiseAbs();
+  // Direct with refinement: far above round-off, far below a row that is missed.
   CHECK((M * s.vdot + G.transpose() * s.lambda + h).cwiseQuotient(forces).cwiseAbs().maxCoeff() < 1e-9);
   CHECK((G * s.vdot + gamma).cwiseQuotient(motions).cwiseAbs().maxCoeff() < 1e-9);
 }

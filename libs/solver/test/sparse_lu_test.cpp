@@ -6,6 +6,7 @@
 #include <random>
 
 #include "hersey/core/contract.h"
+#include "seeded_random.h"
 
 namespace hersey::solver {
 namespace {
@@ -39,7 +40,7 @@ TEST_CASE("SparseLu_SolvesASequenceWithOnePivoting") {
   for (unsigned seed = 0; seed < 4; ++seed) {
     const auto A = ring(n, seed);
     REQUIRE(lu.factorise(values(A)));
-    const Eigen::MatrixXd x = Eigen::MatrixXd::Random(n, 3);
+    const Eigen::MatrixXd x = seeded_random(n, 3, seed);
     Eigen::MatrixXd b = A * x;
     lu.solve({b.data(), static_cast<std::size_t>(b.size())}, 3);
     // Diagonally dominant with condition below 10: round-off of a few rows' sums.
@@ -139,8 +140,8 @@ TEST_CASE("RestoredSparseLu_SolvesToTheSameBits") {
   fresh.solve({z.data(), static_cast<std::size_t>(n)});
   CHECK(x == y);
   CHECK(lu.pivotings() == 1);
-  CHECK(x != z);  // what was restored matters
-  CHECK((x - z).norm() < 1e-10 * x.norm());
+  CHECK(x != z);                             // what was restored matters
+  CHECK((x - z).norm() < 1e-10 * x.norm());  // round-off times the growth that another pivot order allows
 }
 
 TEST_CASE("SparseLuWithoutAMatrix_IsRestoredAsSuch") {

@@ -18,6 +18,7 @@ TEST_CASE("StepControl_SettlesWhereTheErrorMeetsItsAim") {
   // A local error of third order, 8e6 dt^3 of the tolerance: half of it at dt = 0.00397.
   StepControl control({.smallest = 1e-9, .largest = 1}, 1e-6);
   for (int i = 0; i < 60; ++i) control.accepted(control.dt(), one(8e6 * std::pow(control.dt(), 3)));
+  // Arrived after some 30 steps of growth; then round-off.
   CHECK(8e6 * std::pow(control.dt(), 3) == doctest::Approx(0.5).epsilon(1e-12));
 }
 
@@ -25,6 +26,7 @@ TEST_CASE("StepControl_HitsInstantsWithoutCrumbs") {
   const StepControl control({.smallest = 1e-9, .largest = 1}, 0.3);
   CHECK(control.proposed(3) == 0.3);
   CHECK(control.proposed(0.3) == 0.3);
+  // Round-off.
   CHECK(control.proposed(0.31) == doctest::Approx(0.155).epsilon(1e-15));
   CHECK(control.proposed(1) == doctest::Approx(0.25).epsilon(1e-15));
 }
@@ -80,8 +82,10 @@ TEST_CASE("StepControl_TakesPartsOfItsUnit") {
       t += dt;
       sizes.push_back(dt);
     }
+  // Round-off.
   const auto is_part = [](double dt) { return std::abs(std::log2(dt / 0.1) - std::round(std::log2(dt / 0.1))) < 1e-6; };
   const auto others = std::count_if(sizes.begin(), sizes.end(), [&](double dt) { return !is_part(dt); });
+  // Round-off.
   CHECK(std::count_if(sizes.begin(), sizes.end(), [](double dt) { return std::abs(dt - 0.1 / 32) < 1e-9; }) > 90);
   CHECK(others == 4);  // 0.0123 in equal parts: one size more
 }

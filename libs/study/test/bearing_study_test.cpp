@@ -11,6 +11,8 @@
 namespace hersey::study {
 namespace {
 
+constexpr double kRoundOff = 1e-14;  // of a unit
+
 const std::string example = std::string(HERSEY_SOURCE_DIR) + "/examples/bearing_alone/model.yaml";
 
 double value_of(const BearingSolution& solution, const std::string& key) {
@@ -41,7 +43,7 @@ TEST_CASE("MassBalance_OfReynoldsIsNoNumberButWords") {
   CHECK(std::isnan(reynolds.value));
   CHECK(reynolds.words == "oil is not conserved by reynolds");
   const BearingFigure conserving = figure_of(solved_with({}), "mass_balance_error");
-  CHECK(conserving.value < 1e-8);
+  CHECK(conserving.value < 1e-8);  // the solver leaves 1e-10 of the largest throughput
   CHECK(conserving.words.empty());
 }
 
@@ -61,10 +63,10 @@ TEST_CASE("CriticalMass_ThatIsInfiniteIsWords") {
 TEST_CASE("Figures_KnowTheirUnitInSi") {
   const BearingSolution solution = solved_with({});
   const BearingFigure thickness = figure_of(solution, "h_min"), flow = figure_of(solution, "side_flow");
-  CHECK(thickness.si * thickness.value == doctest::Approx(solution.state.film.h_min).epsilon(1e-14));
+  CHECK(thickness.si * thickness.value == doctest::Approx(solution.state.film.h_min).epsilon(kRoundOff));
   CHECK(thickness.si_unit == "m");
   CHECK(flow.si * flow.value ==
-        doctest::Approx(solution.state.film.flow_left + solution.state.film.flow_right).epsilon(1e-14));
+        doctest::Approx(solution.state.film.flow_left + solution.state.film.flow_right).epsilon(kRoundOff));
   CHECK(flow.si_unit == "m^3/s");
 }
 
@@ -92,7 +94,7 @@ TEST_CASE("StribeckWithFlowFactors_DiffersWhereFilmAndAsperitiesMeet") {
       CAPTURE(solution.run.label);
       CAPTURE(solution.error);
       REQUIRE(solution.solved());
-      CHECK(value_of(solution, "mass_balance_error") < 1e-9);
+      CHECK(value_of(solution, "mass_balance_error") < 1e-9);  // the solver leaves 1e-10 of the largest throughput
     }
     return curve;
   };
@@ -110,7 +112,7 @@ TEST_CASE("StribeckWithFlowFactors_DiffersWhereFilmAndAsperitiesMeet") {
   CHECK(friction(with_flow.front()) == doctest::Approx(friction(contact_only.front())).epsilon(0.1));
   CHECK(friction(with_flow.back()) == doctest::Approx(friction(contact_only.back())).epsilon(2e-3));
   CHECK(value_of(with_flow.front(), "asperity_share") > 0.8);
-  CHECK(value_of(with_flow.back(), "asperity_share") < 1e-6);
+  CHECK(value_of(with_flow.back(), "asperity_share") < 1e-6);  // a film of many sigma: the asperities' law has died out
 }
 
 TEST_CASE("Stribeck_FallsFromBoundaryFrictionAndRisesWithTheFilm") {
@@ -123,14 +125,14 @@ TEST_CASE("Stribeck_FallsFromBoundaryFrictionAndRisesWithTheFilm") {
     CAPTURE(solution.run.label);
     CAPTURE(solution.error);
     REQUIRE(solution.solved());
-    CHECK(value_of(solution, "load") == doctest::Approx(2500).epsilon(1e-8));
+    CHECK(value_of(solution, "load") == doctest::Approx(2500).epsilon(1e-8));  // the search ends at 1e-10 of the load
     friction.push_back(value_of(solution, "friction_journal"));
   }
   // Asperities bear nine tenths of the load, with a friction coefficient of 0.12.
   CHECK(friction.front() > 0.1);
   CHECK(friction.front() < 0.12);
   CHECK(value_of(curve.front(), "asperity_share") > 0.85);
-  CHECK(value_of(curve.back(), "asperity_share") < 1e-6);
+  CHECK(value_of(curve.back(), "asperity_share") < 1e-6);  // a film of many sigma: the asperities' law has died out
   const auto least = std::min_element(friction.begin(), friction.end());
   CHECK(least != friction.begin());
   CHECK(least != friction.end() - 1);
@@ -193,7 +195,7 @@ TEST_CASE("LemonBoreMadeRound_HasTheCoefficientsOfLundAndThomsen") {
     const BearingSolution solution =
         solve_bearings(file, {{overrides, "", "", {}}}, {.bearing = "", .grid_error = false}).front();
     REQUIRE(solution.solved());
-    CHECK(std::abs(value_of(solution, "eccentricity_ratio") - c.epsilon) < 1e-3);
+    CHECK(std::abs(value_of(solution, "eccentricity_ratio") - c.epsilon) < 1e-3);  // the last digit of the table
     CHECK(std::abs(value_of(solution, "attitude") - c.attitude) < 0.1);
     const char* pairs[] = {"xx", "xy", "yx", "yy"};
     for (std::size_t k = 0; k < 4; ++k) {

@@ -24,18 +24,21 @@ struct BearingNumbers {
   double film_ratio = 0;          ///< h_min/sigma; 0 for smooth surfaces
 };
 
+/// Of a state that was solved for `model`. @pre its load is not zero
 [[nodiscard]] BearingNumbers bearing_numbers(const film::FilmModel& model, const SteadyState& state);
 
 /// Coefficients of the force against the position alone, x along the load and y a quarter turn on in the sense of
-/// rotation, made dimensionless: K = k c/W, C = b c omega/W with omega = |omega_J + omega_S|.
+/// rotation, made dimensionless (bearing.22): K = k c/W, C = b c omega/W with omega = |omega_J + omega_S|.
 struct LoadAxesCoefficients {
   Eigen::Matrix2d K = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d C = Eigen::Matrix2d::Zero();
 };
 
+/// Of a state that was solved for `model`. @pre its load is not zero
 [[nodiscard]] LoadAxesCoefficients in_load_axes(const film::FilmModel& model, const SteadyState& state);
 
-/// Stability of a rigid rotor on this film against whirl, linear about the equilibrium (Lund and Thomsen 1978).
+/// Stability of a rigid rotor on this film against whirl, linear about the equilibrium (Lund and Thomsen 1978): where
+/// (bearing.31) has a root without damping, (bearing.33).
 struct WhirlStability {
   bool always_stable = false;   ///< no mass makes it whirl; then the numbers below are infinite
   bool never_stable = false;    ///< no mass is small enough: the film does not centre the journal
@@ -50,7 +53,7 @@ struct WhirlStability {
 [[nodiscard]] WhirlStability whirl_stability(const LoadAxesCoefficients& coefficients, double c, double W,
                                              double omega);
 
-/// Estimated errors of the grid, one standard figure each (bearing.19).
+/// Estimated errors of the grid, one standard figure each (bearing.34).
 struct GridError {
   bool known = false;  ///< the coarser grids were fine enough to be solved
   double h_min = 0, p_max = 0, eccentricity_ratio = 0, attitude = 0, load = 0, friction_journal = 0, side_flow = 0;

@@ -14,7 +14,7 @@ enum class Acceleration {
   quasi_newton,  ///< least-squares fit of the interface Jacobian to the steps taken (IQN-ILS, Degroote et al. 2009)
 };
 
-/// Fixed-point iteration x = F(x) with a memory (theory manual, (bearing.10)). One object per coupled system.
+/// Fixed-point iteration x = F(x) with a memory (theory manual, (bearing.16)). One object per coupled system.
 class InterfaceIteration {
  public:
   /// @param relaxation  omega of the first correction, and of all of them in `constant`; in (0, 1].

@@ -36,7 +36,7 @@ struct BearingOptions {
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
 
-/// Oil in a film over a run: what is there, what has passed, and what nobody can explain (theory manual, film.59).
+/// Oil in a film over a run: what is there, what has passed, and what nobody can explain (theory manual, film.15).
 struct OilOfRun {
   double volume = 0;        ///< in the film [m^3]
   double through_flow = 0;  ///< volume that has passed: the larger of what came in and what left, step by step [m^3]
@@ -71,11 +71,16 @@ class DeformingSurfaces;
 /// their observations is 0.
 class JournalBearing final : public mbd::TwoBodyForce {
  public:
+  /// @param name  as it stands in messages and results
+  /// @throws ContractError for a model that describes no film, as film::Reynolds
   JournalBearing(std::string name, const film::FilmModel& model, const BearingOptions& options = {});
   ~JournalBearing() override;
 
+  /// As it stands in messages and results.
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Of the film; constant.
   [[nodiscard]] const film::FilmModel& model() const { return reynolds_.model(); }
+  /// As asked for; a step may be taken as one system all the same.
   [[nodiscard]] Coupling coupling() const { return options_.coupling; }
 
   /// With motion.dt = 0 (start of a run) the film is solved to the end instead: freshly filled, theta = 1 before a step
@@ -83,7 +88,7 @@ class JournalBearing final : public mbd::TwoBodyForce {
   void evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) override;
   void begin_step(const mbd::RelativeMotion& start, double dt) override;
   /// False where the oil that has come in over the step fills another film than the one found: that follows the change
-  /// of the gap over the step instead of its rate (theory manual, film.59).
+  /// of the gap over the step instead of its rate (theory manual, film.15).
   [[nodiscard]] bool step_stands() override;
   void accept_step(const mbd::RelativeMotion& end) override;
   [[nodiscard]] bool is_costly() const override { return true; }

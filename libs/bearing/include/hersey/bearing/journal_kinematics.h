@@ -36,7 +36,9 @@ struct JournalKinematics {
   ParameterJacobian d_dX = ParameterJacobian::Zero();
   ParameterJacobian d_dV = ParameterJacobian::Zero();
 
+  /// Eccentricity in the mid-plane [m].
   [[nodiscard]] Eigen::Vector2d e() const { return value.segment<2>(kEx); }
+  /// Slope of the journal's axis [-].
   [[nodiscard]] Eigen::Vector2d tilt() const { return value.segment<2>(kTx); }
 };
 

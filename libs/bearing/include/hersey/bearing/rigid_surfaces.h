@@ -12,10 +12,11 @@ namespace hersey::bearing {
 /// chapter bearing). One object per bearing and thread; no allocation after the first call.
 class RigidSurfaces {
  public:
+  /// Of a bearing whose journal has no place yet: place() comes first.
   explicit RigidSurfaces(const film::FilmModel& model);
 
-  /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi), widened by profiles, its rate at fixed
-  /// grid points, the speeds, the place of the supply line and the journal's angle into `motion`.
+  /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi) (bearing.2), widened by profiles, its rate at fixed
+  /// grid points (bearing.3), the speeds, the place of the supply line and the journal's angle into `motion`.
   void place(const ParameterVector& parameters, film::SurfaceMotion& motion);
 
   /// What a unit change of one Parameter does to the surfaces last placed.
@@ -39,7 +40,9 @@ class RigidSurfaces {
 };
 
 // The same for a single use.
+/// RigidSurfaces::place for a single use.
 void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion);
+/// RigidSurfaces::smallest_gap at these parameters [m].
 [[nodiscard]] double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters);
 /// Of a parameter that does not turn the journal.
 [[nodiscard]] film::MotionDirection surface_direction(const film::FilmModel& model, int parameter);

@@ -85,7 +85,7 @@ struct SteadyState {
 /// (SteadyOptions::elasticity) in static equilibrium with it.
 ///
 /// Newton on film and position together with exact derivatives, the film condensed; where that does not settle, the
-/// load is raised from what the film carries at the start (bearing.13). A smooth rigid journal never leaves its bore
+/// load is raised from what the film carries at the start (bearing.19). A smooth rigid journal never leaves its bore
 /// on the way.
 /// @throws ContractError for a load of zero, speeds that drag no oil, a rigid journal placed outside its bore, or a
 /// velocity of the journal, or a shell that turns, together with surfaces that deform.

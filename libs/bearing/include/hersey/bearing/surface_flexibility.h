@@ -15,7 +15,7 @@ namespace hersey::bearing {
 ///     s = C Q + C_W W + s_omega omega^2,
 ///
 /// Q the film's forces on them, W the wrench [tau; f] of the film on the surface's frame, in the frame's axes at its
-/// origin, omega the speed at which the body turns about the frame's z-axis (theory manual, bearing.28).
+/// origin, omega the speed at which the body turns about the frame's z-axis (theory manual, bearing.25).
 struct SurfaceFlexibility {
   std::shared_ptr<const ElasticSurface> surface;  ///< radial displacement by the amplitudes; never null
   Eigen::MatrixXd by_forces;                      ///< C, shape (amplitudes, amplitudes)

@@ -51,12 +51,15 @@ class Archive {
   Archive() = default;                                                                  ///< saves
   explicit Archive(Content content) : restores_(true), content_(std::move(content)) {}  ///< restores
 
+  /// Whether values are set rather than stored.
   [[nodiscard]] bool restores() const { return restores_; }
+  /// What has been stored, or is to be restored.
   [[nodiscard]] const Content& content() const { return content_; }
 
   /// Prefixes all names until it ends.
   class Group {
    public:
+    /// Puts `name` before the names that follow; a '/' in it becomes '|'.
     Group(Archive& archive, std::string_view name);
     Group(const Group&) = delete;
     Group& operator=(const Group&) = delete;
@@ -73,6 +76,7 @@ class Archive {
   void io(std::string_view name, std::string& text);
   void io(std::string_view name, std::vector<double>& values);
 
+  /// Integers and enumerations, stored as a number; exact up to 2^53.
   template <class Integer>
   requires(std::integral<Integer> || std::is_enum_v<Integer>) void io(std::string_view name, Integer& value) {
     auto number = static_cast<double>(value);
@@ -80,6 +84,7 @@ class Archive {
     if (restores_) value = static_cast<Integer>(number);
   }
 
+  /// A list of them.
   template <std::integral Integer>
   void io(std::string_view name, std::vector<Integer>& values) {
     std::vector<double> numbers(values.begin(), values.end());
@@ -103,6 +108,7 @@ class Archive {
                matrix.data(), static_cast<std::size_t>(matrix.size()));
   }
 
+  /// A value that may be missing, which is stored too.
   template <class Value>
   void io(std::string_view name, std::optional<Value>& value) {
     bool is_there = value.has_value();

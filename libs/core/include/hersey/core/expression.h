@@ -12,6 +12,7 @@ namespace hersey {
 /// An expression cannot be read.
 class ExpressionError : public std::runtime_error {
  public:
+  /// @param offset  of the trouble in the expression, from 0
   ExpressionError(const std::string& message, int offset, std::string token)
       : std::runtime_error(message), position(offset), token_text(std::move(token)) {}
   int position;            ///< offset of the trouble in the expression, from 0

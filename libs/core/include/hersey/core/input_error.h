@@ -28,8 +28,11 @@ struct Fault {
 /// The user's input is wrong. Carries every fault found, not only the first.
 class InputError : public std::runtime_error {
  public:
+  /// Several faults at once; what() is their texts, a line each, a hundred at most.
   explicit InputError(std::vector<Fault> faults);
+  /// A single one.
   explicit InputError(Fault fault);
+  /// All of them, in the order they were found.
   [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
 
  private:

@@ -21,6 +21,7 @@ struct InputFile {
   std::string content;
   std::string fault;  ///< empty: it was read
 };
+/// The whole file as it stands; a file of more than `most` bytes is a fault.
 [[nodiscard]] InputFile read_input_file(const std::filesystem::path& path, std::uintmax_t most = kLargestTextFile);
 
 }  // namespace hersey

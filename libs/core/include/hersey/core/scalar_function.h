@@ -9,6 +9,7 @@ class ScalarFunction {
  public:
   virtual ~ScalarFunction() = default;
 
+  /// The value at `x`, one entry per variable.
   [[nodiscard]] virtual double value(std::span<const double> x) const = 0;
 
   /// Writes d value / d x_i into `gradient`, which has the length of `x`.
@@ -21,6 +22,7 @@ class ScalarFunction {
 /// The same value everywhere.
 class ConstantFunction final : public ScalarFunction {
  public:
+  /// `value` at every x, of any number of variables.
   explicit ConstantFunction(double value) : value_(value) {}
   [[nodiscard]] double value(std::span<const double>) const override { return value_; }
   void gradient(std::span<const double>, std::span<double> gradient) const override {

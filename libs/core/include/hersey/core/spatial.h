@@ -35,6 +35,7 @@ struct Pose {
   Vector3 r = Vector3::Zero();      ///< r_AB_A, origin of B from the origin of A [m]
 
   [[nodiscard]] Pose operator*(const Pose& X_BC) const { return {R * X_BC.R, r + R * X_BC.r}; }
+  /// X_BA.
   [[nodiscard]] Pose inverse() const { return {R.transpose(), -(R.transpose() * r)}; }
   [[nodiscard]] Vector3 operator*(const Vector3& r_B) const { return R * r_B + r; }
 };

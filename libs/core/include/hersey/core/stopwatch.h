@@ -7,6 +7,7 @@ namespace hersey {
 /// Adds the time from its making to its end to a sum of seconds: wall time of the thread it lives in.
 class Stopwatch {
  public:
+  /// Begins to count; `seconds` [s] outlives it.
   explicit Stopwatch(double& seconds) : seconds_(seconds), began_(Clock::now()) {}
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;

@@ -24,9 +24,13 @@ class SurfaceFunctions {
   /// @throws ContractError outside these ranges
   SurfaceFunctions(int around, int along, double width);
 
+  /// Functions around the cylinder.
   [[nodiscard]] int around() const { return around_; }
+  /// Functions along its axis.
   [[nodiscard]] int along() const { return along_; }
+  /// Of the cylinder [m].
   [[nodiscard]] double width() const { return width_; }
+  /// All functions: around() along().
   [[nodiscard]] int count() const { return around_ * along_; }
 
   /// Writes the functions that are not zero at (phi, z), at most 16, into `terms`; function i around and k along has

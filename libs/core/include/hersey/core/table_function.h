@@ -44,8 +44,11 @@ class TableFunction final : public ScalarFunction {
   void gradient(std::span<const double> x, std::span<double> gradient) const override;
   [[nodiscard]] double second_derivative(std::span<const double> x) const override;
 
+  /// Whether the table repeats.
   [[nodiscard]] bool is_periodic() const { return options_.period > 0; }
+  /// First point.
   [[nodiscard]] double lower() const { return x_.front(); }
+  /// Last point.
   [[nodiscard]] double upper() const { return x_.back(); }
 
   /// Points strictly inside (lo, hi) at which the slope jumps, ascending; none of a smooth table.

@@ -18,8 +18,10 @@ namespace hersey {
 /// @verified_by task_pool_test.cpp
 class TaskPool {
  public:
+  /// The one of the whole program, made with available_processors() threads.
   static TaskPool& shared();
 
+  /// At most `threads` are at work at once, >= 1.
   explicit TaskPool(int threads = available_processors());
   TaskPool(const TaskPool&) = delete;
   TaskPool& operator=(const TaskPool&) = delete;
@@ -36,6 +38,7 @@ class TaskPool {
   /// Counts a thread that works by itself, such as one of a study's runs, among `threads()` while it lives.
   class OwnThread {
    public:
+    /// Counts from here to the end of its life; made in the thread that works.
     explicit OwnThread(TaskPool& pool);
     OwnThread(const OwnThread&) = delete;
     OwnThread& operator=(const OwnThread&) = delete;

@@ -12,6 +12,7 @@ namespace hersey {
 /// A text is not the quantity asked for. The three parts are those of a `Fault`.
 class QuantityError : public std::runtime_error {
  public:
+  /// what() puts the three parts into one sentence.
   QuantityError(std::string found_text, std::string expected_text, std::string suggestion_text = {});
   std::string found;       ///< "a pressure (kPa)"
   std::string expected;    ///< "a length, such as 45 mm"
@@ -67,8 +68,11 @@ struct Quantity {
 /// @throws QuantityError where summands do not measure the same, units are unknown or begin elsewhere than at zero
 /// (degC), or a quantity with a unit is raised to no integer between -9 and 9.
 [[nodiscard]] Quantity sum(const Quantity& a, const Quantity& b);
+/// See sum().
 [[nodiscard]] Quantity product(const Quantity& a, const Quantity& b);
+/// See sum().
 [[nodiscard]] Quantity quotient(const Quantity& a, const Quantity& b);
+/// See sum().
 [[nodiscard]] Quantity power(const Quantity& base, double exponent);
 
 }  // namespace hersey

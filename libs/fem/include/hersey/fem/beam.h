@@ -24,6 +24,7 @@ struct BeamStiffness {
   double EA = 0, GA_y = 0, GA_z = 0;  ///< [N]
   double GJ = 0, EI_y = 0, EI_z = 0;  ///< [N m^2]
 };
+/// Stretch, shear, torsion and bending stiffness of a section. @throws ContractError unless all its areas are > 0
 [[nodiscard]] BeamStiffness beam_stiffness(const BeamSection& section, const ElasticMaterial& material);
 
 struct BeamElement {
@@ -48,6 +49,7 @@ struct BeamState {
   std::vector<Vector3> r;             ///< [m]
   std::vector<Eigen::Quaterniond> R;  ///< from the undeformed state
 };
+/// The nodes where the body has them, nothing turned.
 [[nodiscard]] BeamState undeformed(const BeamBody& body);
 
 /// Six unknowns per node, [theta; d]: a small turn in the axes that turn with the node, and a displacement in the
@@ -55,12 +57,13 @@ struct BeamState {
 using BeamVector = Eigen::Matrix<double, 12, 1>;
 using BeamMatrix = Eigen::Matrix<double, 12, 12>;
 
-/// Strain energy, its gradient and the derivative of that, of one element, (elastic.16) to (elastic.18).
+/// Strain energy, its gradient and the derivative of that, of one element, (elastic.18) to (elastic.20).
 struct BeamResponse {
   double energy = 0;   ///< [J]
   BeamVector force;    ///< gradient: [moment; force] at node a, at node b
   BeamMatrix tangent;  ///< exact; symmetric where all forces on the nodes balance
 };
+/// Of `element` with its nodes as in `state`.
 [[nodiscard]] BeamResponse beam_response(const BeamElement& element, const BeamState& state);
 
 /// Both ends of an element that moves: poses of its nodes in any common axes, velocities [omega; v] each in its node's

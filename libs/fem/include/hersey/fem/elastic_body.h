@@ -17,14 +17,18 @@ struct ElasticBody {
   std::vector<SolidMaterial> materials;
   Integration integration = Integration::full;
   Eigen::SparseMatrix<double> K;      ///< stiffness (3 n, 3 n) [N/m], symmetric, both triangles
-  Eigen::SparseMatrix<double> m;      ///< consistent mass (n, n) [kg], M = m (x) I3, (elastic.7)
+  Eigen::SparseMatrix<double> m;      ///< consistent mass (n, n) [kg], M = m (x) I3, (elastic.6)
   double mass = 0;                    ///< [kg]
   Vector3 centre = Vector3::Zero();   ///< of mass [m]
   Matrix3 inertia = Matrix3::Zero();  ///< about `centre`, in the mesh's axes [kg m^2]
 
+  /// Nodes, n.
   [[nodiscard]] Eigen::Index node_count() const { return m.rows(); }
+  /// Degrees of freedom, 3 n.
   [[nodiscard]] Eigen::Index size() const { return K.rows(); }
+  /// Of an element; the first where it names none.
   [[nodiscard]] const SolidMaterial& material_of(const Element& element) const;
+  /// Of an element's nodes, undeformed, (3, nodes) [m].
   [[nodiscard]] NodeColumns positions_of(const Element& element) const;
 };
 

@@ -54,6 +54,7 @@ struct FilmSurfaceResult {
   std::optional<FilmSurface> surface;
   std::string message;  ///< what is wrong
   std::string remedy;
+  /// Whether there is one.
   [[nodiscard]] bool ok() const { return surface.has_value(); }
 };
 

@@ -9,7 +9,7 @@
 namespace hersey::fem {
 
 /// Strain energy of a solid element by Green and Lagrange's strain, S = D E (St. Venant and Kirchhoff), and its
-/// derivatives by the displacements of the nodes, (elastic.19) to (elastic.21).
+/// derivatives by the displacements of the nodes, (elastic.21) to (elastic.23).
 struct FiniteStrainElement {
   double energy = 0;      ///< [J]
   Eigen::VectorXd force;  ///< gradient (3 nodes) [N]
@@ -28,6 +28,7 @@ struct FiniteStress {
   Eigen::Matrix<double, 6, Eigen::Dynamic> stress;
   Eigen::VectorXd energy;
 };
+/// Of an element with nodes at `x` + `u`, (3, nodes) [m].
 [[nodiscard]] FiniteStress finite_strain_stress(ElementType type, const NodeColumns& x, const SolidMaterial& material,
                                                 const NodeColumns& u, Integration rule = Integration::full);
 

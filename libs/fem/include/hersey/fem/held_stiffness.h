@@ -40,7 +40,9 @@ class HeldStiffness {
   /// The same with C u = d, d (constraints, columns).
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& d) const;
 
+  /// Degrees of freedom, held ones included.
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(place_.size()); }
+  /// Places of those that are not held, ascending.
   [[nodiscard]] const std::vector<int>& free_dofs() const { return free_; }
 
   /// Dimension of the displacements that supports and constraints leave.
@@ -77,7 +79,7 @@ struct Support {
   double displacement = 0;  ///< [m]
 };
 
-/// K u = f + reaction, for each column of `f` (3 n, loads); a body that is not held is told so, (elastic.9).
+/// K u = f + reaction, for each column of `f` (3 n, loads); a body that is not held is told so, (elastic.10).
 [[nodiscard]] StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>& supports,
                                           const Eigen::MatrixXd& f);
 

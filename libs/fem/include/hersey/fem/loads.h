@@ -13,6 +13,7 @@ namespace hersey::fem {
 
 /// Of a traction [Pa] on faces, a function of the position and of the unit normal outward.
 using Traction = std::function<Vector3(const Vector3& x, const Vector3& normal)>;
+/// Nodal forces of `traction` on `faces`, integrated at points of their undeformed geometry [N].
 [[nodiscard]] Eigen::VectorXd traction_load(const Mesh& mesh, const std::vector<ElementFace>& faces,
                                             const Traction& traction);
 

@@ -13,8 +13,10 @@ namespace hersey::fem {
 /// edges bottom, top, upright), faces as there too; readers of other formats renumber.
 enum class ElementType { tet4, tet10, wedge6, wedge15, hex8, hex20, beam2 };
 
+/// Nodes of an element, midside ones included.
 [[nodiscard]] int node_count(ElementType type);
 [[nodiscard]] int face_count(ElementType type);  ///< 0 for a beam
+/// "tet4".
 [[nodiscard]] const char* name_of(ElementType type);
 
 /// Nodes of one face, outward normal by the right hand: corners in turn, then the midside nodes of its edges in turn.
@@ -52,6 +54,7 @@ struct Mesh {
   std::map<std::string, std::vector<int>> element_sets;  ///< places in `elements`, ascending
   std::map<std::string, std::vector<ElementFace>> surfaces;
 
+  /// Places of its nodes in `nodes`, node_count(element.type) of them.
   [[nodiscard]] const int* nodes_of(const Element& element) const { return connectivity.data() + element.first; }
 };
 

@@ -31,6 +31,7 @@ struct MeshQuality {
   std::vector<std::pair<long, long>> mismatched;  ///< labels of elements whose common face has other midside nodes
   std::vector<std::pair<long, long>> touching;    ///< labels of nodes at the same place, 1e-6 of the box
   std::vector<std::pair<long, int>> parts;        ///< unconnected parts: label of an element of each, its elements
+  /// Diagonal of the bounding box [m].
   [[nodiscard]] double size() const { return (upper - lower).norm(); }
 };
 

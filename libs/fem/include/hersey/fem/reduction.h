@@ -40,7 +40,7 @@ struct InterfaceFrame {
 [[nodiscard]] Vector3 face_centre(const Mesh& mesh, const std::vector<int>& nodes);
 
 /// (6, 3 n): small rotation and displacement of `frame`, [theta; d], that the displacements of its nodes mean,
-/// (elastic.12); its transpose spreads a wrench [tau; f] over the nodes.
+/// (elastic.13); its transpose spreads a wrench [tau; f] over the nodes.
 [[nodiscard]] Eigen::SparseMatrix<double> frame_motion(const Mesh& mesh, const InterfaceFrame& frame);
 
 /// What keeps a mesh still while no frame moves: degrees of freedom that rigid frames hold, and constraints C u = 0 of
@@ -49,6 +49,7 @@ struct FrameSupports {
   std::vector<int> held;
   Eigen::SparseMatrix<double> C;
 };
+/// Of these frames on this mesh.
 [[nodiscard]] FrameSupports frame_supports(const Mesh& mesh, const std::vector<InterfaceFrame>& frames);
 
 /// A surface that carries loads, and shapes of pressure on it.
@@ -81,7 +82,7 @@ struct ReductionOptions {
   double film_tolerance = 1e-6;                         ///< smallest compliance of a film mode, over the largest
 };
 
-/// How well a reduced body meets the static displacement of a surface, all frames at rest, (elastic.23).
+/// How well a reduced body meets the static displacement of a surface, all frames at rest, (elastic.16).
 struct StaticError {
   std::string surface;
   int shapes = 0;      ///< pressures looked at
@@ -89,7 +90,7 @@ struct StaticError {
   double reduced = 0;  ///< of the reduced body
 };
 
-/// An elastic body in few coordinates: u = Phi q, (elastic.13).
+/// An elastic body in few coordinates: u = Phi q, (elastic.14).
 ///
 /// q holds six coordinates [theta; d] for each frame, in turn, then the internal ones. Coordinates of frames are
 /// displacements from the undeformed body, in the mesh's axes; a rigid motion of all frames is one of the whole body,
@@ -112,7 +113,9 @@ struct ReducedBody {
   Mesh mesh;
   std::vector<SolidMaterial> materials;  ///< of the elements; none: unknown
 
+  /// Coordinates, r.
   [[nodiscard]] Eigen::Index size() const { return Phi.cols(); }
+  /// Place of the first internal coordinate in q.
   [[nodiscard]] Eigen::Index internal_first() const { return 6 * static_cast<Eigen::Index>(frames.size()); }
 };
 

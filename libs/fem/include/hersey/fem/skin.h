@@ -9,6 +9,7 @@ namespace hersey::fem {
 
 /// Corners of a face as places in Mesh::nodes, ascending; -1 last for a triangle. Equal for the two elements it parts.
 using FaceKey = std::array<int, 4>;
+/// Of a face of a solid element.
 [[nodiscard]] FaceKey face_key(const Mesh& mesh, ElementFace face);
 
 /// Nodes of a face as places in Mesh::nodes, in the order of `face_nodes`.

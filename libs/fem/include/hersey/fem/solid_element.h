@@ -27,13 +27,13 @@ struct ElementPoint {
 [[nodiscard]] double smallest_jacobian(ElementType type, const NodeColumns& x);
 
 /// Stiffness (3 nodes, 3 nodes) [N/m] of an element with nodes at `x`, (elastic.5). hex8 carries nine incompatible
-/// modes that are condensed out, (elastic.6): without them it locks in bending.
+/// modes that are condensed out, (elastic.7): without them it locks in bending.
 /// @pre smallest_jacobian(type, x) > 0 @see Taylor, Beresford, Wilson (1976), IJNME 10, 1211 @verified_by
 /// solid_element_test.cpp
 [[nodiscard]] ElementMatrix element_stiffness(ElementType type, const NodeColumns& x, const SolidMaterial& material,
                                               Integration rule = Integration::full);
 
-/// Consistent mass per density (nodes, nodes) [m^3], (elastic.7): the same for all three directions.
+/// Consistent mass per density (nodes, nodes) [m^3], (elastic.6): the same for all three directions.
 [[nodiscard]] ElementMatrix element_mass(ElementType type, const NodeColumns& x);
 
 /// Strain (6, points) at `points`, for displacements `u` of the nodes; that of hex8 with its incompatible modes.

@@ -11,7 +11,7 @@
 namespace hersey::fem {
 
 /// What a mesh answers at rest to motions of its frames, to every pressure on one film surface and to spin: the static
-/// condensation of all its degrees of freedom to frames and surface (theory manual, bearing.26).
+/// condensation of all its degrees of freedom to frames and surface (theory manual, bearing.23).
 struct StaticAnswers {
   bool ok = false;
   std::string message;         ///< why not, naming the frame where one is to blame

@@ -15,7 +15,7 @@ struct Stress {
 };
 
 /// Stress sigma = D epsilon at the points of integration, where it is most accurate, continued to the nodes by the
-/// polynomial that fits it best, (elastic.15). Across a face between two materials stresses jump; their mean over it
+/// polynomial that fits it best, (elastic.17). Across a face between two materials stresses jump; their mean over it
 /// says nothing there.
 /// @param u displacements (3 n) [m] @verified_by stress_test.cpp
 [[nodiscard]] Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u);

@@ -18,7 +18,7 @@ namespace hersey::fem {
 [[nodiscard]] std::vector<int> nodes_on(const Mesh& mesh, const std::vector<ElementFace>& faces);
 
 /// What a pin pressed into a bore does: a pressure max(0, -n . towards) on faces of outward normal n, for a largest
-/// pressure of 1 Pa, (elastic.22). @pre |towards| = 1
+/// pressure of 1 Pa, (elastic.9). @pre |towards| = 1
 [[nodiscard]] Eigen::VectorXd cosine_pressure_load(const Mesh& mesh, const std::vector<ElementFace>& faces,
                                                    const Vector3& towards);
 

@@ -14,6 +14,7 @@ namespace hersey::fem {
 /// @verified_by surface_pressure_test.cpp
 class SurfacePressure {
  public:
+  /// Factorises G of `surface`, which lies on `mesh`.
   SurfacePressure(const Mesh& mesh, const FilmSurface& surface);
 
   /// p_j, shape (functions) [Pa], of forces at (phi, z) on the cylinder; all three of one size.

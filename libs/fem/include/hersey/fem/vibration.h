@@ -24,7 +24,7 @@ struct Vibration {
 };
 
 /// Modes K phi = omega^2 M phi of a body with `held` degrees of freedom at rest, or of a free one, by block Lanczos
-/// iteration on (K - sigma M)^-1 M, (elastic.10); a block holds the whole of any multiple frequency up to its size,
+/// iteration on (K - sigma M)^-1 M, (elastic.12); a block holds the whole of any multiple frequency up to its size,
 /// such as the six zeros of a free body. sigma lies below all frequencies, at an estimate that depends on no unit.
 ///
 /// @see Grimes, Lewis, Simon (1994), SIAM J. Matrix Anal. Appl. 15, 228. @verified_by vibration_test.cpp

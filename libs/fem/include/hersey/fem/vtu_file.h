@@ -36,6 +36,7 @@ class VtuSeries {
  public:
   /// Makes the folder; the .pvd file is complete after every `add`.
   explicit VtuSeries(std::filesystem::path pvd);
+  /// Writes the next file, of this time [s]. @throws std::runtime_error naming the file if it cannot be written
   void add(double time, const Mesh& mesh, const VtuFrame& frame);
 
   /// Which files there are; those of later times are left out of the series when it is restored.

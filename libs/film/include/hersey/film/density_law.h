@@ -7,13 +7,15 @@
 
 namespace hersey::film {
 
-// Each law gives rho/rho0 and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa], and the work
-// that brings a unit of volume (at rho0) to p, the integral of dp rho0/rho [Pa]. A new law is a struct like these and
-// its name in DensityLaw.
+// Each law (film.8) gives rho/rho0 and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa], and
+// the work that brings a unit of volume (at rho0) to p, the integral of dp rho0/rho [Pa]. A new law is a struct like
+// these and its name in DensityLaw.
 
 /// rho = rho0.
 struct Incompressible {
+  /// rho/rho0 and its slope [1/Pa].
   [[nodiscard]] ValueAndSlope ratio(double /*p*/) const { return {1, 0}; }
+  /// Integral of dp rho0/rho from 0 to p [Pa].
   [[nodiscard]] double work(double p) const { return p; }
 };
 
@@ -22,10 +24,12 @@ struct Incompressible {
 struct DowsonHigginson {
   double rise = 0.6e-9;        ///< compressibility at p = 0 [1/Pa], >= 0
   double saturation = 1.7e-9;  ///< [1/Pa], >= 0
+  /// rho/rho0 and its slope [1/Pa].
   [[nodiscard]] ValueAndSlope ratio(double p) const {
     const double d = 1 + saturation * p;
     return {1 + rise * p / d, rise / (d * d)};
   }
+  /// Integral of dp rho0/rho from 0 to p [Pa].
   [[nodiscard]] double work(double p) const {
     const double sum = rise + saturation;
     return sum > 0 ? (saturation * p + rise * std::log1p(sum * p) / sum) / sum : p;
@@ -35,10 +39,12 @@ struct DowsonHigginson {
 /// rho = rho0 exp(p/B): a bulk modulus rho dp/drho that does not depend on pressure.
 struct ConstantBulkModulus {
   double bulk_modulus = 1.5e9;  ///< B [Pa], > 0
+  /// rho/rho0 and its slope [1/Pa].
   [[nodiscard]] ValueAndSlope ratio(double p) const {
     const double ratio = std::exp(p / bulk_modulus);
     return {ratio, ratio / bulk_modulus};
   }
+  /// Integral of dp rho0/rho from 0 to p [Pa].
   [[nodiscard]] double work(double p) const { return -bulk_modulus * std::expm1(-p / bulk_modulus); }
 };
 

@@ -7,7 +7,7 @@
 
 namespace hersey::film {
 
-/// Whether the film's equations mean anything at a trial (film.65). A trial outside is an outcome, not an error:
+/// Whether the film's equations mean anything at a trial (film.32). A trial outside is an outcome, not an error:
 /// whoever made it takes a shorter step.
 struct FilmDomain {
   enum class Trouble {
@@ -19,6 +19,7 @@ struct FilmDomain {
   Trouble trouble = Trouble::none;
   int node = -1;  ///< where; -1: nowhere, or everywhere
 
+  /// Whether the trial is a film.
   [[nodiscard]] bool is_inside() const { return trouble == Trouble::none; }
 };
 

@@ -115,7 +115,7 @@ struct SurfaceMotion {
   Eigen::VectorXd g;       ///< gap of the undeformed surfaces at the nodes [m], shape (grid.size())
   Eigen::VectorXd g_rate;  ///< d g/dt at fixed grid points [m/s], same shape
   /// How far the shell's surface lies outside its cylinder [m], same shape; empty: nowhere. Its share of what g differs
-  /// from a gap of two cylinders; the pressure on its slopes turns and pushes the shell (film.66).
+  /// from a gap of two cylinders; the pressure on its slopes turns and pushes the shell (film.52).
   Eigen::VectorXd shell_opening = {};
   double u_shell = 0;      ///< circumferential speed of the shell surface (y = 0) [m/s]
   double u_journal = 0;    ///< circumferential speed of the journal surface (y = h) [m/s]
@@ -127,7 +127,7 @@ struct SurfaceMotion {
 };
 
 /// The film at the start of the step being solved. dt = 0 leaves theta g_rate as the only storage: a steady film under
-/// the given g_rate. The fill fraction is first order in time, a full film follows the exact g_rate (film.8).
+/// the given g_rate. The fill fraction is first order in time, a full film follows the exact g_rate (film.12).
 struct FilmHistory {
   double dt = 0;            ///< [s]
   Eigen::VectorXd theta;    ///< fill fraction at the start [-], shape (grid.size()); unused for dt = 0
@@ -136,7 +136,7 @@ struct FilmHistory {
   /// Gap that held the film's oil over each control volume at the start, pockets apart [m]; empty: where the rate comes
   /// from. theta density (gap + pockets) is then the oil that was there.
   Eigen::VectorXd gap = {};
-  bool by_gap = false;     ///< a full film follows the change of the gap over the step instead of the rate (film.59)
+  bool by_gap = false;     ///< a full film follows the change of the gap over the step instead of the rate (film.15)
   double phi_journal = 0;  ///< by which the journal had turned at the start [rad]; moves its pockets
 };
 

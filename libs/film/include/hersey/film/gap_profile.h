@@ -14,18 +14,20 @@ struct Opening {
   double value = 0, phi = 0, phi_phi = 0;
 };
 
-// Deviations of a surface from its cylinder, as metal that is missing: by how much they widen the gap at (phi, z), in
-// the frame of their surface. A new one is a struct like these and its name in ProfileShape.
+// Deviations of a surface from its cylinder (film.24), as metal that is missing: by how much they widen the gap at
+// (phi, z), in the frame of their surface. A new one is a struct like these and its name in ProfileShape.
 
 /// Falls off towards both edges as a parabola.
 struct Barrel {
   double drop = 0;  ///< at the edges [m]
+  /// At (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
 /// Opens along the axis, by nothing at z = 0.
 struct Taper {
   double rise = 0;  ///< from z = -L/2 to L/2 [m]
+  /// At (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -33,6 +35,7 @@ struct Taper {
 struct Ovality {
   double amplitude = 0;  ///< [m]
   double angle = 0;      ///< [rad]
+  /// At (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -42,6 +45,7 @@ struct Lobes {
   int count = 2;      ///< >= 2
   double offset = 0;  ///< [m], >= 0
   double angle = 0;   ///< middle of one arc [rad]
+  /// At (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -50,6 +54,7 @@ struct Lobes {
 struct MeasuredShape {
   std::vector<double> z;                                       ///< ascending [m]
   std::vector<std::shared_ptr<const TableFunction>> openings;  ///< [m] over phi [rad], one for every z, of period 2 pi
+  /// At (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -62,6 +67,7 @@ struct Profile {
 
   /// Whether it makes the gap change as its surface turns.
   [[nodiscard]] bool varies_around() const;
+  /// At (phi [rad], z [m]) in the frame of its surface, in a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 

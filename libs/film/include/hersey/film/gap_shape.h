@@ -14,6 +14,7 @@ struct GridGeometry;
 /// as it turns.
 class GapShape {
  public:
+  /// Of the profiles of `model` at the nodes of its grid.
   explicit GapShape(const FilmModel& model);
   ~GapShape();
   GapShape(GapShape&&) noexcept;
@@ -27,11 +28,14 @@ class GapShape {
   /// The derivative of of_shell() around the bearing [m/rad]: what a shell that turns moves past a fixed place.
   [[nodiscard]] Eigen::VectorXd shell_slope() const;
 
+  /// Whether the gap changes as the journal turns.
   [[nodiscard]] bool profiles_turn() const { return !turning_profiles_.empty(); }
+  /// Whether nothing is added to the gap of two cylinders.
   [[nodiscard]] bool is_round() const { return !profiles_turn() && still_.isZero(0); }
 
   /// The journal's profiles with the journal turned by `phi_journal` [rad]: opening [m] and its first and second
-  /// derivative with that angle, shape (grid.size()) each.
+  /// derivative with that angle, shape (grid.size()) each. The first times the journal's angular speed is the
+  /// rate of the gap (film.25).
   void turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
                      Eigen::VectorXd& second) const;
 

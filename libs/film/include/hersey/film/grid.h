@@ -14,14 +14,18 @@ struct Grid {
   std::vector<double> angles = {};   ///< ascending within one turn [rad], n_phi of them; empty: equally spaced
   std::vector<double> heights = {};  ///< z/L, ascending from -1/2 to 1/2, n_z of them; empty: equally spaced
 
+  /// Nodes.
   [[nodiscard]] int size() const { return n_phi * n_z; }
+  /// Of node (i, j) in all fields.
   [[nodiscard]] int index(int i, int j) const { return i * n_z + j; }
   [[nodiscard]] double phi(int i) const {
     return angles.empty() ? 2 * std::numbers::pi * i / n_phi : angles[i];
   }  ///< [rad]
+  /// [-], from -1/2 to 1/2.
   [[nodiscard]] double z_over_L(int j) const {
     return heights.empty() ? static_cast<double>(j) / (n_z - 1) - 0.5 : heights[j];
   }
+  /// Whether nodes are equally spaced both ways.
   [[nodiscard]] bool is_uniform() const { return angles.empty() && heights.empty(); }
 };
 

@@ -43,7 +43,7 @@ struct FilmObservables {
   double power_asperity = 0;                            ///< boundary friction [W]
   double power_stored = 0;  ///< rate of the energy in liner, asperities and compressed oil, and work against p_cav [W]
   double power_oil = 0;     ///< taken along by oil that leaves over the edges less what feeds bring [W]
-  /// All of the power that the bodies put into the film, by integrals over its fields (theory manual, film.67) [W].
+  /// All of the power that the bodies put into the film, by integrals over its fields (theory manual, film.54) [W].
   [[nodiscard]] double power_taken() const { return power_film + power_asperity + power_stored + power_oil; }
   double flow_left = 0, flow_right = 0;  ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]
   double flow_supply = 0;                ///< oil entering through supply line and features [m^3/s]

@@ -40,7 +40,7 @@ struct NormalForces {
 };
 
 /// The oil of one step: flows as means over it, with which what is in the film at its end is what was there at its
-/// start and what has come in since, to round-off (theory manual, film.59). Volumes are masses over rho0.
+/// start and what has come in since, to round-off (theory manual, film.15). Volumes are masses over rho0.
 struct OilOfStep {
   Eigen::VectorXd content;  ///< oil in each control volume over the volume itself, rho theta [-], shape (n)
   Eigen::VectorXd gap;      ///< that volume per area, without pockets [m], shape (n)
@@ -72,14 +72,20 @@ struct CondensedFilm {
 /// first call.
 class Reynolds {
  public:
+  /// The film of `model`. @throws ContractError for a model that describes none: no size, no viscosity, edges below
+  /// p_cav
   explicit Reynolds(const FilmModel& model, LinearSolver linear = LinearSolver::direct);
   ~Reynolds();
   Reynolds(Reynolds&&) noexcept;
   Reynolds& operator=(Reynolds&&) noexcept;
 
+  /// As given.
   [[nodiscard]] const FilmModel& model() const;
+  /// Nodes, n.
   [[nodiscard]] int size() const;
+  /// As asked for.
   [[nodiscard]] LinearSolver linear_solver() const;
+  /// Of all solutions so far.
   [[nodiscard]] const LinearSolverCounts& counts() const;
 
   /// Linearises about `u`. After it the members below refer to this state; the first of them that needs the factorised
@@ -109,8 +115,8 @@ class Reynolds {
   /// live on their oil: fronts then follow in one iteration instead of one per node.
   void let_fronts_follow(Eigen::VectorXd& u) const;
 
-  /// Answer to a change of the surfaces: `du` = -J^{-1} dr/d(parameter), and the wrench's *partial* derivative at
-  /// fixed u. The total derivative is  partial + wrench_gradient(du).
+  /// Answer to a change of the surfaces (film.39): `du` = -J^{-1} dr/d(parameter), and the wrench's *partial*
+  /// derivative at fixed u. The total derivative is  partial + wrench_gradient(du).
   void response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial);
 
   /// Likewise for several changes at once, a column each: one solve with many right-hand sides.
@@ -118,18 +124,19 @@ class Reynolds {
                  Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial);
 
   /// Static condensation of the film: the wrench after its Newton increment at fixed surfaces, and the wrench's total
-  /// derivative with each direction (theory manual, bearing.9). `direct` solves the transposed system, once per entry
-  /// of the wrench; `multigrid` once per direction.
+  /// derivative with each direction (theory manual, bearing.10). `direct` solves the transposed system, once per entry
+  /// of the wrench (bearing.11); `multigrid` once per direction.
   ///
   /// Surfaces that deform bring the shapes by which they open the gap, `openings` (n, shapes) for unit amplitudes: the
-  /// film puts the force Q = openings^T normal_forces() on them (theory manual, bearing.22). (n, 0): no shapes.
+  /// film puts the force Q = openings^T normal_forces() on them (theory manual, bearing.14 and bearing.15). (n, 0): no
+  /// shapes.
   void condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, CondensedFilm& film);
 
   /// At the state last linearised.
   [[nodiscard]] const NormalForces& normal_forces() const;
 
   /// The film's share `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
-  /// (theory manual, bearing.8). Comes after `condense` and before the next `linearise` inside the domain: a trial
+  /// (theory manual, bearing.9). Comes after `condense` and before the next `linearise` inside the domain: a trial
   /// outside leaves what it takes.
   void follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du);
 

@@ -7,11 +7,12 @@
 
 namespace hersey::film {
 
-// Each law gives ln(mu/mu0) and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa]; the film
-// takes its exponential. A new law is a struct like these and its name in ViscosityLaw.
+// Each law (film.7) gives ln(mu/mu0) and its slope [1/Pa] at a pressure p >= 0 above the cavitation pressure [Pa]; the
+// film takes its exponential. A new law is a struct like these and its name in ViscosityLaw.
 
 /// mu = mu0.
 struct ConstantViscosity {
+  /// 0 at every pressure.
   [[nodiscard]] ValueAndSlope log_ratio(double /*p*/, double /*mu0*/) const { return {}; }
 };
 
@@ -19,6 +20,7 @@ struct ConstantViscosity {
 /// @see Barus (1893), Am. J. Sci. 45, 87-96.
 struct Barus {
   double alpha = 0;  ///< pressure-viscosity coefficient [1/Pa], >= 0
+  /// alpha p, whatever mu0 is.
   [[nodiscard]] ValueAndSlope log_ratio(double p, double /*mu0*/) const { return {alpha * p, alpha}; }
 };
 
@@ -30,6 +32,7 @@ struct Roelands {
   static constexpr double pole_pressure = 196.2e6;          ///< [Pa]
   static constexpr double smallest_viscosity = 6.3151e-05;  ///< exp(-9.67) [Pa s]: mu0 lies above it
 
+  /// At p above p_cav [Pa]; mu0 [Pa s], > smallest_viscosity.
   [[nodiscard]] ValueAndSlope log_ratio(double p, double mu0) const {
     const double size = std::log(mu0 / smallest_viscosity), slope = size * z / pole_pressure;
     const double power = std::pow(1 + p / pole_pressure, z);
@@ -40,7 +43,7 @@ struct Roelands {
 /// Logarithm of the largest viscosity ratio that a law may mean: exp(20) = 5e8 times the viscosity is no oil.
 inline constexpr double largest_log_viscosity = 20;
 
-/// A logarithm beyond +-largest_log_viscosity runs smoothly into a limit half as large again (film.64). No answer lies
+/// A logarithm beyond +-largest_log_viscosity runs smoothly into a limit half as large again (film.9). No answer lies
 /// there, but trials on the way to one do: their viscosities stay finite, and slopes are those of the values.
 [[nodiscard]] inline ValueAndSlope saturated(const ValueAndSlope& log_ratio) {
   constexpr double room = 0.5 * largest_log_viscosity;

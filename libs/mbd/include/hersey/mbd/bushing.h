@@ -4,7 +4,7 @@
 
 namespace hersey::mbd {
 
-/// An elastic connection of two frames in all six directions (theory manual eq. (mechanisms.23)).
+/// An elastic connection of two frames in all six directions (theory manual eq. (mechanisms.24)).
 ///
 /// The deformation is x = [phi; r]: the rotation vector that turns A into B and the origin of B from that of A, in A's
 /// axes. The wrench follows from the energy x^T K x / 2 and the dissipation xdot^T D xdot / 2, so that it is

@@ -10,7 +10,7 @@
 
 namespace hersey::mbd {
 
-/// What two surfaces do to each other where they overlap by delta > 0 (theory manual eqs. (contact.4) to (contact.6)):
+/// What two surfaces do to each other where they overlap by delta > 0 (theory manual eqs. (contact.6) to (contact.8)):
 ///
 ///     N = stiffness delta^exponent (1 + damping ddelta/dt), never below 0,
 ///     friction = -friction N v_t / sqrt(v_t^2 + slip_speed^2).
@@ -52,7 +52,7 @@ class Contact final : public TwoBodyForce {
   Contact(const ShapeGeometry& a, const ShapeGeometry& b, const ContactLaw& law);
 
   /// With corners of `b` that move with amplitudes of shapes, which come with the motion (theory manual eqs.
-  /// (contact.12) and (contact.13)).
+  /// (contact.4) and (contact.5)).
   /// @param displacements  of the corners in B's axes for unit amplitudes, shape (3 corners, amplitudes)
   Contact(const ShapeGeometry& a, std::shared_ptr<const TriangleMesh> b, Eigen::MatrixXd displacements,
           const ContactLaw& law);
@@ -62,6 +62,7 @@ class Contact final : public TwoBodyForce {
   [[nodiscard]] double stored_energy(const RelativeMotion& motion) const override;
   [[nodiscard]] std::string domain_error() const override;
 
+  /// Where and how hard the surfaces touch at this motion.
   [[nodiscard]] ContactObservation observe(const RelativeMotion& motion);
 
  private:

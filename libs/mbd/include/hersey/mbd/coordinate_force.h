@@ -16,6 +16,7 @@ class CoordinateForce {
  public:
   virtual ~CoordinateForce() = default;
 
+  /// The effort at `t` [s], at this coordinate and rate (rad, rad/s or m, m/s).
   [[nodiscard]] virtual CoordinateEffort evaluate(double t, double position, double rate) const = 0;
 
   /// A step ended here: forces with a memory keep it.

@@ -19,7 +19,7 @@ class FunctionSpring final : public CoordinateForce {
   double free_position_;
 };
 
-/// Dry and viscous friction (theory manual eq. (mechanisms.24)): -(coulomb v / sqrt(v^2 + transition^2) + viscous v).
+/// Dry and viscous friction (theory manual eq. (mechanisms.25)): -(coulomb v / sqrt(v^2 + transition^2) + viscous v).
 /// Below the transition speed the joint creeps instead of sticking.
 class JointFriction final : public CoordinateForce {
  public:
@@ -33,7 +33,7 @@ class JointFriction final : public CoordinateForce {
   double coulomb_, viscous_, transition_;
 };
 
-/// A controller that turns a coordinate towards a target speed (theory manual eq. (mechanisms.25)):
+/// A controller that turns a coordinate towards a target speed (theory manual eq. (mechanisms.26)):
 ///
 ///     u = kp (target - rate) + I,    dI/dt = ki (target - rate),    cut off at -limit and +limit.
 ///

@@ -87,6 +87,7 @@ class ElasticBody {
  public:
   virtual ~ElasticBody() = default;
 
+  /// Frames through which it meets the rest, >= 1.
   [[nodiscard]] virtual int frame_count() const = 0;
   /// Coordinates the mechanism integrates for the body, beside those of its frames; each a length [m].
   [[nodiscard]] virtual int coordinate_count() const = 0;
@@ -111,18 +112,26 @@ class ElasticBody {
     (void)motion, (void)want_tangent, (void)shapes;
   }
 
+  /// Forces that `motion` needs and, if `want_tangent`, their derivatives, condensed unknowns included.
   virtual void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) = 0;
 
   /// @param gravity  [m/s^2], ground axes
   [[nodiscard]] virtual ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) = 0;
 
   // Condensed unknowns; see solver::Equations for when each is called.
+  /// As solver::Equations::begin_step; `start` is the motion at the start of the step, `dt` its length [s].
   virtual void begin_step(const ElasticMotion& start, double dt) { (void)start, (void)dt; }
+  /// As solver::Equations::accept_step.
   virtual void accept_step(const ElasticMotion& end) { (void)end; }
+  /// As solver::Equations::has_condensed_unknowns.
   [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
+  /// As solver::Equations::internal_residual.
   [[nodiscard]] virtual double internal_residual() const { return 0; }
+  /// As solver::Equations::name_of_internal_residual.
   [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
+  /// As solver::Equations::domain_error.
   [[nodiscard]] virtual std::string domain_error() const { return {}; }
+  /// As solver::Equations::persist.
   virtual void persist(Archive& archive) { (void)archive; }
 };
 

@@ -13,7 +13,9 @@ namespace hersey::mbd {
 /// What a joint leaves free between its inboard frame I and its outboard frame O. X_IO is the identity at zero.
 enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, planar, free, universal, screw };
 
+/// "revolute": as users write it.
 [[nodiscard]] std::string_view name_of(JointType type);
+/// The type of that name; none for another name.
 [[nodiscard]] std::optional<JointType> joint_type_of(std::string_view name);
 
 /// One named coordinate of a joint type, as users write it. Its values take `size` places in the joint's list of

@@ -91,6 +91,7 @@ struct MechanismTiming {
 /// bodies may keep condensed unknowns of their own (see TwoBodyForce).
 class Mechanism final : public solver::Equations {
  public:
+  /// Finds the spanning tree of `spec`, which a builder has checked, and its redundant constraints.
   explicit Mechanism(MechanismSpec spec);
   ~Mechanism() override;
 
@@ -143,8 +144,10 @@ class Mechanism final : public solver::Equations {
   /// What a two-body force sees at `state`, with dt = 0.
   [[nodiscard]] RelativeMotion relative_motion(const solver::State& state, ForceId force);
 
+  /// What it was built from.
   [[nodiscard]] const MechanismSpec& spec() const;
 
+  /// Since it was made.
   [[nodiscard]] const MechanismTiming& timing() const;
 
   /// Closing joints some of whose constraints are redundant, in order of declaration.

@@ -63,6 +63,7 @@ struct JointSpec {
 
   /// Whether value `i` starts where `initial` says.
   [[nodiscard]] bool is_given(int i) const { return is_in(initial, loose, i); }
+  /// Whether its rate starts as `initial_rate` says.
   [[nodiscard]] bool is_rate_given(int i) const { return is_in(initial_rate, loose_rate, i); }
   /// Whether any value or rate does.
   [[nodiscard]] bool has_given() const {
@@ -213,28 +214,38 @@ class MechanismBuilder {
  public:
   MechanismBuilder();
 
+  /// Acceleration [m/s^2], ground axes; zero unless set.
   void set_gravity(const Vector3& gravity) { spec_.gravity = gravity; }
 
   /// Cuts chains of bodies wherever more than `longest` velocity components move one of them: the body beyond gets
   /// coordinates of its own, and the joint becomes a constraint. The work of a step then grows in proportion to the
   /// length of a chain, else with its cube. For integrators with a spectral radius below 1, as all constraints.
   void cut_paths(int longest = 24) { spec_.longest_path = longest; }
+  /// The body that does not move.
   [[nodiscard]] static BodyId ground() { return {0}; }
   [[nodiscard]] FrameId frame_of(BodyId body) const;  ///< the body's own frame
 
+  /// A rigid body, with a frame of its own.
   BodyId add_body(BodySpec body);
+  /// @throws ContractError unless the body exists and the axes are a rotation
   FrameId add_frame(FrameSpec frame);
+  /// The axis is normalised. @throws ContractError for frames that do not exist, an axis of no length, or other than
+  /// one initial value or rate per degree of freedom
   JointId add_joint(JointSpec joint);
   /// The force acts on b's body, its negative on a's; it sees frame b relative to frame a, and the shapes of elastic
   /// bodies that carry these frames.
   ForceId add_force(std::string name, FrameId a, FrameId b, std::shared_ptr<TwoBodyForce> force,
                     const ForceSurfaces& surfaces = {});
+  /// Force or torque on a frame. @throws ContractError for a frame that does not exist or a term without magnitude
   LoadId add_load(LoadSpec load);
   /// A force or torque on a scalar joint coordinate, between the two bodies of the joint.
   CoordinateForceId add_coordinate_force(std::string name, CoordinateRef coordinate,
                                          std::shared_ptr<CoordinateForce> force);
+  /// A spring and damper on a scalar joint coordinate.
   SpringId add_spring(CoordinateSpringSpec spring);
+  /// Prescribes a scalar joint coordinate. @throws ContractError for a drive without function
   DriveId add_drive(DriveSpec drive);
+  /// A relation between scalar joint coordinates. @throws ContractError for a term without function
   CouplingId add_coupling(CouplingSpec coupling);
 
   /// A flexible body: its frames become massless bodies `name`, `name.frame_names[0]`, ..., at rest_pose of the first,

@@ -22,12 +22,13 @@ struct ModalBodyData {
   /// Integrals of rho Y_a,p Y_b,r, component by component: second_moment[3 p + r](a, b), shape (1 + shapes)^2.
   std::array<Eigen::MatrixXd, 9> second_moment;
   /// Of the turn and displacement of each frame but the first: 6, or 12 with the matrix of the turn (theory manual eq.
-  /// (flexible-bodies.29)).
+  /// (flexible-bodies.22)).
   int shapes_per_frame = 6;
   Eigen::MatrixXd stiffness;      ///< shape (shapes, shapes)
   Eigen::MatrixXd damping;        ///< the same
   Eigen::Matrix3Xd nodes;         ///< undeformed [m], shape (3, nodes)
   Eigen::MatrixXd displacements;  ///< of the nodes for unit amplitudes, shape (3 nodes, shapes)
+  /// How many there are.
   [[nodiscard]] Eigen::Index shapes() const { return stiffness.rows(); }
 };
 
@@ -94,7 +95,7 @@ class ModalBody : public ElasticBody {
   virtual void add_elasticity(bool want_tangent);
 
  private:
-  /// A nodal load on the shapes, theory manual eq. (flexible-bodies.21).
+  /// A nodal load on the shapes, theory manual eq. (flexible-bodies.23).
   struct ProjectedLoad {
     LoadAxes axes = LoadAxes::body;
     Vector3 force = Vector3::Zero();  ///< sum over nodes of f

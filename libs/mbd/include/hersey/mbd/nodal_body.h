@@ -35,7 +35,7 @@ enum class Strain {
 ///
 /// With Strain::finite the elastic forces are those of Green and Lagrange's strain (St. Venant and Kirchhoff): strains
 /// may be moderate, rotations against the body's axes large, and what is pulled gets stiffer. The static shapes of a
-/// frame then keep its nodes a rigid piece, however far it turns (flexible-bodies.29). The matrix is that of
+/// frame then keep its nodes a rigid piece, however far it turns (flexible-bodies.22). The matrix is that of
 /// the state each step starts from, factorised anew for each.
 ///
 /// At the start w is the static answer to the forces of inertia and weight of the start, at rest against the axes: as
@@ -114,7 +114,7 @@ class NodalBody final : public ModalBody {
   Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
   Eigen::VectorXd vibration_mass_;
   std::array<Eigen::MatrixXd, 3> m_Psi_;  ///< m times each component of Psi, (nodes, shapes)
-  /// Columns E of (flexible-bodies.18): 3 accelerations, 9 of turning, M Psi; with finite strain K(u) Psi as well.
+  /// Columns E of (flexible-bodies.19): 3 accelerations, 9 of turning, M Psi; with finite strain K(u) Psi as well.
   Eigen::MatrixXd columns_;
   std::vector<NodalLoad> loads_;
   solver::SecondOrderHistory w_;

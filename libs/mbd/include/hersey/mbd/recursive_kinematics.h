@@ -23,7 +23,7 @@ struct RecursiveVelocity {
 /// @param X_jO    outboard joint frame on body j
 /// @param values  joint values, an orientation as rotation vector; its rate is the angular velocity in O's axes
 /// @param lead    of a screw, see joint_pose
-/// @verified_by recursive_kinematics_test.cpp: B1AndB2_MatchFiniteDifferences
+/// @verified_by derivatives_test.cpp: B1AndB2_MatchFiniteDifferences
 [[nodiscard]] RecursiveVelocity recursive_velocity(JointType type, const Vector3& axis, const Pose& X_iI,
                                                    const Pose& X_jO, std::span<const double> values, double lead = 0);
 

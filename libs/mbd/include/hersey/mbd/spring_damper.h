@@ -7,7 +7,7 @@
 
 namespace hersey::mbd {
 
-/// Linear spring and damper along the line between two frame origins (theory manual eq. (mechanisms.20)):
+/// Linear spring and damper along the line between two frame origins (theory manual eq. (mechanisms.23)):
 /// pulls B towards A with  f = stiffness (l - free_length) + damping dl/dt + tension(l).
 ///
 /// At zero distance the direction is undefined: a spring of free length 0 passes smoothly through it without its

@@ -21,7 +21,7 @@ struct RelativeMotion {
 /// The wrench the force puts on B, at A's origin and in A's axes; on A acts its negative at the same point.
 /// Derivatives are with respect to a twist xi_A that moves B relative to A, dX_AB = xi^ X_AB at fixed V_AB_A, and to
 /// V_AB_A. A force that sees amplitudes s of shapes puts generalised forces Q on them, beside the wrench: it does the
-/// work W . V_AB_A + Q . s_rate.
+/// power W . V_AB_A + Q . s_rate (theory manual eq. (flexible-bodies.25)).
 struct ForceResponse {
   Vector6 W_B_A = Vector6::Zero();  ///< [tau; f] [N m; N]
   Matrix6 dW_dX = Matrix6::Zero();
@@ -59,13 +59,21 @@ class TwoBodyForce {
   [[nodiscard]] virtual double lost_power(const RelativeMotion&) const { return 0; }
 
   // Condensed unknowns; see solver::Equations for when each is called.
+  /// As solver::Equations::begin_step; `start` is the motion at the start of the step, `dt` its length [s].
   virtual void begin_step(const RelativeMotion& start, double dt) { (void)start, (void)dt; }
+  /// As solver::Equations::step_stands.
   [[nodiscard]] virtual bool step_stands() { return true; }
+  /// As solver::Equations::accept_step.
   virtual void accept_step(const RelativeMotion& end) { (void)end; }
+  /// As solver::Equations::has_condensed_unknowns.
   [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
+  /// As solver::Equations::internal_residual.
   [[nodiscard]] virtual double internal_residual() const { return 0; }
+  /// As solver::Equations::name_of_internal_residual.
   [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
+  /// As solver::Equations::domain_error.
   [[nodiscard]] virtual std::string domain_error() const { return {}; }
+  /// As solver::Equations::persist.
   virtual void persist(Archive& archive) { (void)archive; }
 };
 

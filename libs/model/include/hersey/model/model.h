@@ -50,6 +50,7 @@ struct Function {
   SourcePosition position;
   std::string path;  ///< key path, e.g. "forces.gas.magnitude"
 
+  /// Whether it reads nothing, not even the time.
   [[nodiscard]] bool is_constant() const { return variables.empty(); }
 };
 

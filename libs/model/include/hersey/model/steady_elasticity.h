@@ -13,7 +13,7 @@ namespace hersey::model {
 /// The body of a surface that deforms has the shapes it has in a run (a nodal body its static ones), and is held at
 /// those of its frames that joints attach to; where none has one at the other frames that bushings, springs, loads
 /// or bearings attach to; and by the bearing's own frame where there are none. Frames that hold keep their
-/// places against each other, all others are free (theory manual, bearing.26 to bearing.28).
+/// places against each other, all others are free (theory manual, bearing.23 to bearing.25).
 /// @throws InputError where a body cannot be reduced, as `build` does
 /// @cost of a mesh two factorisations and one solution per shape
 [[nodiscard]] std::shared_ptr<const bearing::SteadyElasticity> steady_elasticity(const Model& model,

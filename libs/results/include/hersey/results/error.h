@@ -9,9 +9,12 @@ namespace hersey::results {
 /// Something is wrong with a results file: what() names the file and the reason, path() the file.
 class FileError : public std::runtime_error {
  public:
+  /// what() is "path: reason".
   FileError(std::filesystem::path path, const std::string& reason)
       : std::runtime_error(path.string() + ": " + reason), path_(std::move(path)), reason_(reason) {}
+  /// The file.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// What is wrong with it, without its name.
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
@@ -22,6 +25,7 @@ class FileError : public std::runtime_error {
 /// The file to be written exists already and was left untouched.
 class FileExists : public FileError {
  public:
+  /// Of the file at `path`.
   explicit FileExists(std::filesystem::path path)
       : FileError(std::move(path), "the results file exists already and was kept") {}
 };

@@ -51,16 +51,21 @@ class Reader {
 
   /// Attribute of that name and kind, if there is one.
   [[nodiscard]] std::optional<std::string> text_attribute(std::string_view object, std::string_view name) const;
+  /// Likewise a number.
   [[nodiscard]] std::optional<double> number_attribute(std::string_view object, std::string_view name) const;
+  /// Likewise a list of texts; empty where there is none.
   [[nodiscard]] std::vector<std::string> list_attribute(std::string_view object, std::string_view name) const;
 
-  /// @throws ReadError unless there is such a dataset (of numbers, or of strings).
+  /// What a dataset is. @throws ReadError unless there is such a one; the members below, unless it is of their kind
   [[nodiscard]] DatasetInfo info(std::string_view path) const;
+  /// All numbers of a dataset.
   [[nodiscard]] Array read(std::string_view path) const;
   /// Rows first, first + stride, ... of a dataset; one row is one entry of its first dimension.
   [[nodiscard]] Array read_rows(std::string_view path, std::size_t first, std::size_t count,
                                 std::size_t stride = 1) const;
+  /// The one string of a dataset, such as the model's text.
   [[nodiscard]] std::string text(std::string_view path) const;
+  /// Pairs of a dataset [n, 2] of strings, such as the assumptions.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> text_table(std::string_view path) const;
 
   [[nodiscard]] std::size_t rows() const;  ///< rows of the time series

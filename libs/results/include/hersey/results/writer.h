@@ -24,6 +24,7 @@ enum class Status {
   failed,     ///< ended early without an answer; `message` tells why
 };
 
+/// "running": as the attribute says it.
 [[nodiscard]] std::string_view to_string(Status status);
 
 struct WriterOptions {
@@ -147,6 +148,7 @@ class Writer {
   /// Flushes, sets `status` and `message`, and closes the file; later calls do nothing.
   void finish(Status status, std::string_view message = {});
 
+  /// Of the file, as last renamed.
   [[nodiscard]] const std::filesystem::path& path() const;
 
  private:

@@ -76,7 +76,9 @@ struct EnergySummary {
   double stored = 0;             ///< more kinetic, potential, spring and strain energy than at the start
   double largest =
       0;  ///< the largest that energy put in or lost has been, or any kind of it has changed: errors are its shares
+  /// Dissipated by films, asperities, contacts and dampers.
   [[nodiscard]] double lost() const { return films + boundary_friction + contacts + dampers; }
+  /// What all the parts leave of put_in.
   [[nodiscard]] double unexplained() const { return put_in - lost() - oil - film_storage - stored; }
   /// |unexplained| over the largest [-].
   [[nodiscard]] double error() const { return largest > 0 ? std::abs(unexplained()) / largest : 0; }
@@ -131,7 +133,7 @@ struct Options {
 /// machine. A run that was completed is left as it is.
 ///
 /// With `step_error` the model is first run with steps twice as long (a tolerance eight times as large), and from the
-/// difference of both follows what the steps have done to each bearing's figures (theory manual eq. (integrator.22)).
+/// difference of both follows what the steps have done to each bearing's figures (theory manual eq. (integrator.17)).
 /// @throws results::FileExists if the results file exists and is not to be overwritten.
 /// @throws InputError if `resume` is asked for another model; results::ReadError if results or checkpoint are damaged.
 [[nodiscard]] Summary simulate(const model::Model& model, const Options& options);

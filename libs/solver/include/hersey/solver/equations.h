@@ -34,9 +34,10 @@ struct Stage {
 ///
 ///     r(q, v, vdot, lambda, t) = M(q) vdot + h(q, v, t) + G(q)^T lambda = 0,      Phi(q, t) = 0,
 ///
-/// as the integrator, the initial assembly and the linearisation see them. Positions live on a manifold: nq >= nv, and
-/// `retract` walks on it. A contributor may keep unknowns of its own (a film) and condense them exactly; then it owns
-/// their history between `begin_step` and `accept_step` and says through `internal_residual` how well they are solved.
+/// as the integrator, the initial assembly and the linearisation see them (theory manual eq. (integrator.1)). Positions
+/// live on a manifold: nq >= nv, and `retract` walks on it. A contributor may keep unknowns of its own (a film) and
+/// condense them exactly; then it owns their history between `begin_step` and `accept_step` and says through
+/// `internal_residual` how well they are solved.
 class Equations {
  public:
   using Index = Eigen::Index;
@@ -44,8 +45,11 @@ class Equations {
 
   virtual ~Equations() = default;
 
+  /// Entries of q.
   [[nodiscard]] virtual Index nq() const = 0;
+  /// Velocity components, nv <= nq.
   [[nodiscard]] virtual Index nv() const = 0;
+  /// Constraints, one multiplier each.
   [[nodiscard]] virtual Index nlambda() const = 0;
 
   /// q = q0 (+) dq; for plain coordinates a sum, for an orientation q0 exp(dq).

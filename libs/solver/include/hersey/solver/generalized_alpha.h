@@ -15,11 +15,11 @@ struct GeneralizedAlphaOptions {
   double rtol = 1e-8;            ///< residual of every row, relative to the terms it balances
   int max_iterations = 20;       ///< Newton iterations per step
   int max_halvings = 12;         ///< halvings of one increment that leaves the domain of the equations
-  /// Whether judged steps correct the next for a change of length, (integrator.14). Where the length is halved because
+  /// Whether judged steps correct the next for a change of length, (integrator.13). Where the length is halved because
   /// a contact closes, the error is no smooth function of time, and the correction would put energy in.
   bool corrects_changes = true;
   /// Without that: a step of another length than the one before ends on the constraints, velocities and accelerations
-  /// (theory manual, integrator.25). For steps that are cut hundreds of times, as with films.
+  /// (theory manual, integrator.16). For steps that are cut hundreds of times, as with films.
   bool returns_to_constraints = false;
 };
 
@@ -34,6 +34,7 @@ struct StepSummary {
   std::string worst_row;  ///< the row behind `residual`, by name; empty when converged
   std::string message;    ///< empty when converged, otherwise one sentence: what failed and where
 
+  /// Whether the step was taken.
   [[nodiscard]] bool converged() const { return status == StepStatus::converged; }
 };
 
@@ -69,7 +70,7 @@ class GeneralizedAlpha {
   /// @cost per iteration one assembly, one sparse factorisation, one solve.
   [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt);
 
-  /// The same, kept only if `judge` finds the step's local error (theory manual eq. (integrator.10)) small enough;
+  /// The same, kept only if `judge` finds the step's local error (theory manual eq. (integrator.11)) small enough;
   /// otherwise the step is `inaccurate`, and state, condensed unknowns and history are those before it.
   [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt, const StepJudge& judge);
 
@@ -79,6 +80,7 @@ class GeneralizedAlpha {
   /// The history, and the pivot order in use.
   void persist(Archive& archive);
 
+  /// As given.
   [[nodiscard]] const GeneralizedAlphaOptions& options() const { return options_; }
 
  private:

@@ -38,6 +38,7 @@ struct InitialiseSummary {
   std::vector<OpenConstraint> conflict;   ///< the same with the held positions at rest; empty where these could stay
   std::string message;                    ///< empty when consistent
 
+  /// Whether the state was made consistent.
   [[nodiscard]] bool consistent() const { return status == InitialiseStatus::consistent; }
 };
 
@@ -47,14 +48,14 @@ struct InitialiseSummary {
 ///     [ M  G^T ] [ vdot   ]   [ -h     ]
 ///     [ G  0   ] [ lambda ] = [ -gamma ],
 ///
-/// theory manual eq. (integrator.9). Ends with begin_step / accept_step of zero length, so that condensed unknowns hold
-/// their instantaneous solution.
+/// theory manual eq. (integrator.21). Ends with begin_step / accept_step of zero length, so that condensed unknowns
+/// hold their instantaneous solution.
 ///
 /// Held components stay as they are if the others can close the constraints; otherwise they change by the least, in
 /// units of position_scales(), from the closest configuration that they allow. Constraints that say the same thing
 /// twice, and coordinates without inertia that nothing holds, are reported by name; so is what stays open where the
 /// constraints cannot be met. Motions without inertia that damping holds, a journal without mass in its film, get the
-/// velocity at which the forces along them vanish (integrator.21), and no acceleration.
+/// velocity at which the forces along them vanish (integrator.10), and no acceleration.
 /// @cost sparse factorisations; O(n^3) once, n = nv + nlambda, only where something is wrong and has to be named.
 [[nodiscard]] InitialiseSummary initialise(Equations& equations, State& state, const InitialiseOptions& options = {});
 
@@ -64,7 +65,7 @@ struct InitialiseSummary {
 [[nodiscard]] bool solve_accelerations(Equations& equations, State& state, double dt);
 
 /// Makes the state one from which shorter steps can start: a step over dt leaves velocities across the constraints that
-/// differ by O(dt^2) from those the constraints allow (theory manual eq. (integrator.14)), which much shorter steps
+/// differ by O(dt^2) from those the constraints allow (theory manual eq. (integrator.13)), which much shorter steps
 /// would take back within their own length. They are taken off with the least change of kinetic energy's measure, then
 /// accelerations and multipliers solved. The integrator's history starts anew behind it.
 /// @param dt  length of the last step [s]

@@ -17,6 +17,7 @@ struct KinematicsSummary {
   std::vector<std::string> undetermined;  ///< velocity components that constraints and drives leave free, by name
   std::string message;                    ///< empty when solved
 
+  /// Whether the motion was found.
   [[nodiscard]] bool solved() const { return status == KinematicsStatus::solved; }
 };
 
@@ -25,7 +26,7 @@ struct KinematicsSummary {
 
 /// The motion that constraints and drives prescribe at state.t, and the forces it takes: positions near state.q from
 /// Phi = 0, velocities from G v = -Phi_t, accelerations from G vdot = -gamma, multipliers from
-/// G^T lambda = -(M vdot + h); theory manual, chapter integrator. Nothing is integrated.
+/// G^T lambda = -(M vdot + h); theory manual eq. (integrator.23). Nothing is integrated.
 ///
 /// Ends with begin_step / accept_step of zero length.
 /// @pre free_coordinates() is empty where the run starts

@@ -29,8 +29,11 @@ class SecondOrderHistory {
   /// What was accepted; where a step is being solved, it begins again after restoring.
   void persist(Archive& archive);
 
+  /// Of the trial where a step is being solved, else of what was accepted.
   [[nodiscard]] const Eigen::VectorXd& position() const { return x_; }
+  /// Its rate.
   [[nodiscard]] const Eigen::VectorXd& rate() const { return v_; }
+  /// Its acceleration.
   [[nodiscard]] const Eigen::VectorXd& acceleration() const { return vdot_; }
 
  private:

@@ -41,7 +41,9 @@ class SparseLu {
   /// Likewise for A^T x = b.
   void solve_transposed(std::span<double> b, int columns = 1) const;
 
+  /// Rows n of the pattern; 0 before analyse().
   [[nodiscard]] int size() const;
+  /// Whether there is a factor to solve with.
   [[nodiscard]] bool factorised() const;
 
   /// Cheap estimate min|U_ii| / max|U_ii| of the last factorisation.

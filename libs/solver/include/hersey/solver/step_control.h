@@ -13,7 +13,7 @@ struct StepControlOptions {
   double unit = 0;         ///< > 0: steps are this over powers of 2, where each new step size costs a factorisation [s]
 };
 
-/// Chooses step lengths from the errors of the steps before (theory manual eq. (integrator.12)).
+/// Chooses step lengths from the errors of the steps before (theory manual eq. (integrator.14)).
 ///
 /// Steps follow the motion without lag: the error is that of the step to come, told from the last two, so that on the
 /// way out of a hard place steps are those of the way in, and the errors of both cancel as those of equal steps do.
@@ -38,8 +38,10 @@ class StepControl {
   /// The step tried had no solution. Returns false if no smaller step is allowed.
   [[nodiscard]] bool failed(double dt);
 
+  /// The step wanted next, without regard to instants to hit [s].
   [[nodiscard]] double dt() const { return dt_; }
 
+  /// The step wanted, and what it is told from.
   void persist(Archive& archive);
 
  private:

@@ -20,6 +20,7 @@ struct FactorSummary {
   std::vector<int>
       null_unknowns;    ///< where pivots vanished, ascending: some, not always all, of the null space's dimensions
   std::string message;  ///< why it failed, with figures; empty if it did not
+  /// Whether there is a factor to solve with.
   [[nodiscard]] bool ok() const { return status == FactorStatus::factorised; }
 };
 
@@ -56,7 +57,9 @@ class SymmetricFactor {
   /// @pre the last factorise() was ok()
   void solve(Eigen::Ref<Eigen::MatrixXd> b) const;
 
+  /// Rows n of the pattern; 0 before analyse().
   [[nodiscard]] int size() const;
+  /// Whether there is a factor to solve with.
   [[nodiscard]] bool factorised() const;
 
  private:

@@ -25,6 +25,7 @@ struct BearingSolution {
   double wall_time = 0;         ///< grid error included [s]
   bool from_neighbour = false;  ///< found from a neighbour's solution after a cold start had failed
 
+  /// Whether there is a solution.
   [[nodiscard]] bool solved() const { return error.empty(); }
 };
 
