@@ -1,10 +1,12 @@
 # Everything from a bare checkout: each target installs what it needs (scripts/setup), configures, builds and runs.
-# Logs: build/log/. Settings: JOBS=n, PRESET=release|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test, fuzz), TIME=n (fuzz).
+# Logs: build/log/. Settings: JOBS=n, PRESET=release|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test, fuzz), TIME=n (fuzz),
+# UNITY=OFF (the first time: each source by itself, for who works on the code).
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
 FILTER ?= .
 TIME ?= 60
+UNITY ?= ON
 BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
@@ -65,7 +67,6 @@ lint:  ## checks the format and runs clang-tidy (SINCE=revision: on changed file
 	@scripts/lint $(JOBS) $(SINCE)
 
 install: program  ## installs program, libraries and headers below PREFIX
-	@$(PHASE) compile build/log/compile.log cmake --build $(BUILD) -j $(JOBS)
 	@$(PHASE) install build/log/install.log cmake --install $(BUILD) --prefix $(PREFIX)
 
 clean:  ## removes everything built
@@ -78,4 +79,4 @@ random-models: program  ## tries as many random models as TIME=60 allows, every 
 # Configured once; afterwards the build itself notices changed CMake files.
 $(BUILD)/build.ninja: CMakePresets.json
 	@scripts/setup build
-	@$(PHASE) configure build/log/configure.log cmake --preset $(PRESET)
+	@$(PHASE) configure build/log/configure.log cmake --preset $(PRESET) -DHERSEY_UNITY=$(UNITY)

@@ -4,7 +4,7 @@
 #include "hersey/bearing/journal_bearing.h"
 
 namespace hersey::bearing {
-namespace {
+namespace allocation_test {
 
 TEST_CASE("IterationOfATimeStep_DoesNotAllocate") {
   film::FilmModel model;
@@ -36,5 +36,5 @@ TEST_CASE("IterationOfATimeStep_DoesNotAllocate") {
   }
 }
 
-}  // namespace
+}  // namespace allocation_test
 }  // namespace hersey::bearing

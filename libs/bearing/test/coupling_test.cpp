@@ -10,7 +10,7 @@
 #include "hersey/solver/initialise.h"
 
 namespace hersey::bearing {
-namespace {
+namespace coupling_test {
 
 constexpr double kSpeed = 3570 * 2 * std::numbers::pi / 60;
 
@@ -207,5 +207,5 @@ TEST_CASE("JournalTurnedAway_IsADomainError") {
         "the surfaces do not face each other: the journal's z-axis stands at 86 deg to the shell's");
 }
 
-}  // namespace
+}  // namespace coupling_test
 }  // namespace hersey::bearing

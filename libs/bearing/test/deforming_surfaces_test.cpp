@@ -11,7 +11,7 @@
 #include "hersey/bearing/journal_bearing.h"
 
 namespace hersey::bearing {
-namespace {
+namespace deforming_surfaces_test {
 
 constexpr double kSolved = 1e-8;  // films solved to 1e-10 of their largest throughput
 
@@ -277,5 +277,5 @@ TEST_CASE("PowerPutInByBodiesThatDeform_IsWhatTheFilmTakes") {
   }
 }
 
-}  // namespace
+}  // namespace deforming_surfaces_test
 }  // namespace hersey::bearing

@@ -5,7 +5,7 @@
 #include "hersey/core/contract.h"
 
 namespace hersey::bearing {
-namespace {
+namespace interface_iteration_test {
 
 // F(x) = A x + b with eigenvalues of A like those of a loaded film under light bodies: -30, -8, -2, 0.5.
 struct StiffExchange {
@@ -69,5 +69,5 @@ TEST_CASE("RelaxationOutsideItsRange_IsRejected") {
   CHECK_THROWS_AS(InterfaceIteration(Acceleration::constant, 1.5), ContractError);
 }
 
-}  // namespace
+}  // namespace interface_iteration_test
 }  // namespace hersey::bearing

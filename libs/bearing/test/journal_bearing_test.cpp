@@ -5,7 +5,7 @@
 #include <numbers>
 
 namespace hersey::bearing {
-namespace {
+namespace journal_bearing_test {
 
 film::FilmModel rough_elastic_film() {
   film::FilmModel model;
@@ -154,5 +154,5 @@ TEST_CASE("TurningPocket_ConservesOil") {
   }
 }
 
-}  // namespace
+}  // namespace journal_bearing_test
 }  // namespace hersey::bearing

@@ -8,7 +8,7 @@
 #include "hersey/core/contract.h"
 
 namespace hersey::bearing {
-namespace {
+namespace journal_kinematics_test {
 
 constexpr double kR = 0.0225;
 
@@ -81,5 +81,5 @@ TEST_CASE("JournalAcrossTheBearing_IsRejected") {
   CHECK_THROWS_AS((void)journal_kinematics(across, Vector6::Zero(), kR, 0), ContractError);
 }
 
-}  // namespace
+}  // namespace journal_kinematics_test
 }  // namespace hersey::bearing

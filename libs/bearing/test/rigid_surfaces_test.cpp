@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace hersey::bearing {
-namespace {
+namespace rigid_surfaces_test {
 
 constexpr double kR = 0.0225;
 
@@ -134,5 +134,5 @@ TEST_CASE("TurningShape_ChangesTheGapAtItsRate") {
   CHECK(((after.g - before.g) / (2 * dt) - now.g_rate).cwiseAbs().maxCoeff() < 1e-5 * now.g_rate.cwiseAbs().maxCoeff());
 }
 
-}  // namespace
+}  // namespace rigid_surfaces_test
 }  // namespace hersey::bearing

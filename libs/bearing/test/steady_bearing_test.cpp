@@ -11,7 +11,7 @@
 #include "hersey/bearing/bearing_numbers.h"
 
 namespace hersey::bearing {
-namespace {
+namespace steady_bearing_test {
 
 constexpr double kSolved = 1e-8;       // the search ends at 1e-10 of the load and of the film's largest throughput
 constexpr double kDifferences = 1e-4;  // films solved to 1e-10, over steps of 1e-6 to 1e-5 of the gap
@@ -502,5 +502,5 @@ TEST_CASE("CoefficientsOfSqueeze_AreDifferencesOfForces") {
   }
 }
 
-}  // namespace
+}  // namespace steady_bearing_test
 }  // namespace hersey::bearing

@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace hersey {
-namespace {
+namespace archive_test {
 
 enum class Colour { red, green };
 
@@ -115,5 +115,5 @@ TEST_CASE("ArchiveOfSomethingElse_IsRefused") {
   CHECK_FALSE(in.unread().empty());
 }
 
-}  // namespace
+}  // namespace archive_test
 }  // namespace hersey

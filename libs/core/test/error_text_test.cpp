@@ -10,9 +10,8 @@
 
 #include "hersey/core/contract.h"
 
-using namespace hersey;
-
-namespace {
+namespace hersey {
+namespace error_text_test {
 
 void divide(int by) { HERSEY_REQUIRE(by != 0, "a divisor"); }
 
@@ -26,8 +25,6 @@ std::string told_of(const std::function<void()>& what) {
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-}  // namespace
 
 TEST_CASE("ErrorText_OfABugIsARequestAndAPlaceOfItsOwnLine") {
   const std::string text = told_of([] { divide(0); });
@@ -49,3 +46,6 @@ TEST_CASE("ErrorText_OfWhatIsKnownToGoWrongIsItsOwn") {
   CHECK(told_of([] { throw std::runtime_error("no convergence"); }) == "no convergence");
   CHECK(told_of([] { throw std::bad_alloc(); }) == "the machine's memory does not suffice");
 }
+
+}  // namespace error_text_test
+}  // namespace hersey

@@ -8,7 +8,7 @@
 #include <numbers>
 
 namespace hersey {
-namespace {
+namespace expression_test {
 
 constexpr double kNineDigits = 1e-9;  // promised; differences of eighth order give about 1e-11 of smooth expressions
 
@@ -127,5 +127,5 @@ TEST_CASE("Variables_AreFoundInAnExpression") {
   CHECK(variables_of("") == Names{});
 }
 
-}  // namespace
+}  // namespace expression_test
 }  // namespace hersey

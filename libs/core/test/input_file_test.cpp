@@ -8,9 +8,8 @@
 
 #include "temporary_directory.h"
 
-namespace {
-
-using namespace hersey;
+namespace hersey {
+namespace input_file_test {
 
 TEST_CASE("InputFiles_AreFiles") {
   const TemporaryDirectory folder;
@@ -32,4 +31,5 @@ TEST_CASE("InputFiles_HaveASize") {
   CHECK(unreadable(folder / "holes") == std::nullopt);
 }
 
-}  // namespace
+}  // namespace input_file_test
+}  // namespace hersey

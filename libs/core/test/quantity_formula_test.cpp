@@ -7,7 +7,7 @@
 #include <string>
 
 namespace hersey {
-namespace {
+namespace quantity_formula_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -88,5 +88,5 @@ TEST_CASE("WhatIsNoFormula_IsTold") {
   CHECK(trouble(std::string(5000, '-') + "1").starts_with("found '----"));
 }
 
-}  // namespace
+}  // namespace quantity_formula_test
 }  // namespace hersey

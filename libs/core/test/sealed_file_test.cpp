@@ -8,7 +8,7 @@
 #include "temporary_directory.h"
 
 namespace hersey {
-namespace {
+namespace sealed_file_test {
 
 void write(const std::filesystem::path& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
@@ -68,5 +68,5 @@ TEST_CASE("ALostOrAddedPiece_IsFound") {
   CHECK(check_seal(folder / "a") == Seal::broken);
 }
 
-}  // namespace
+}  // namespace sealed_file_test
 }  // namespace hersey

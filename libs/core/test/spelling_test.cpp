@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace hersey {
-namespace {
+namespace spelling_test {
 
 TEST_CASE("EditDistance_CountsLettersAndSwaps") {
   CHECK(edit_distance("", "abc") == 3);
@@ -35,5 +35,5 @@ TEST_CASE("Alternatives_AreListedAsSentence") {
   CHECK(one_of(std::vector<std::string>{"a", "b", "c"}) == "a, b or c");
 }
 
-}  // namespace
+}  // namespace spelling_test
 }  // namespace hersey

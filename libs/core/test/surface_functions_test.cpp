@@ -12,7 +12,7 @@
 #include "hersey/core/contract.h"
 
 namespace hersey {
-namespace {
+namespace surface_functions_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -149,5 +149,5 @@ TEST_CASE("SurfaceFunctions_RefuseWhatTheyCannotBe") {
   CHECK_THROWS_AS(SurfaceFunctions(8, 2, 0), ContractError);
 }
 
-}  // namespace
+}  // namespace surface_functions_test
 }  // namespace hersey

@@ -10,7 +10,7 @@
 #include "hersey/core/contract.h"
 
 namespace hersey {
-namespace {
+namespace table_function_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -138,5 +138,5 @@ TEST_CASE("BrokenTables_AreRejected") {
   CHECK_THROWS_AS(TableFunction({0, 4}, {0, 1}, {.period = 4}), ContractError);
 }
 
-}  // namespace
+}  // namespace table_function_test
 }  // namespace hersey

@@ -5,7 +5,7 @@
 #include "hersey/core/table_function.h"
 
 namespace hersey {
-namespace {
+namespace table_kinks_test {
 
 using Points = std::vector<double>;
 
@@ -22,5 +22,5 @@ TEST_CASE("Kinks_OfAPeriodicTableRepeat") {
   CHECK(table.kinks(-4.5, 5.5) == Points{-4, -3, 0, 1, 4, 5});
 }
 
-}  // namespace
+}  // namespace table_kinks_test
 }  // namespace hersey

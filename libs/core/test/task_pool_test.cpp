@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace hersey {
-namespace {
+namespace task_pool_test {
 
 TEST_CASE("TaskPool_EveryPartIsDoneOnce_WithAnyNumberOfThreads") {
   for (const int threads : {1, 2, 5}) {
@@ -100,5 +100,5 @@ TEST_CASE("AvailableProcessors_FollowTheAffinity") {
   CHECK(available_processors() == CPU_COUNT(&before));
 }
 
-}  // namespace
+}  // namespace task_pool_test
 }  // namespace hersey

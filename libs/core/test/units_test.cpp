@@ -6,7 +6,7 @@
 #include <thread>
 
 namespace hersey {
-namespace {
+namespace units_test {
 
 constexpr double pi = std::numbers::pi;
 // The database's factors are decimal fractions converted in two or three roundings.
@@ -154,5 +154,5 @@ TEST_CASE("Units_AreReadFromSeveralThreads") {
   for (const int count : wrong) CHECK(count == 0);
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace hersey

@@ -8,9 +8,8 @@
 #include "hersey/core/input_file.h"
 #include "temporary_directory.h"
 
-namespace {
-
-using namespace hersey;
+namespace hersey {
+namespace write_file_test {
 
 TEST_CASE("WrittenFile_IsWholeOrTheOldOne") {
   const TemporaryDirectory folder;
@@ -39,4 +38,5 @@ TEST_CASE("WrittenFile_FollowsLinksAndTakesDevices") {
   CHECK_THROWS_WITH(write_file(folder / "none" / "page.html", {"b"}), "No such file or directory");
 }
 
-}  // namespace
+}  // namespace write_file_test
+}  // namespace hersey

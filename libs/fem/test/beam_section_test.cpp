@@ -5,7 +5,7 @@
 #include <numbers>
 
 namespace hersey::fem {
-namespace {
+namespace beam_section_test {
 
 constexpr double kRoundOff = 1e-14;   // of a few products
 constexpr double kFourDigits = 1e-4;  // of Cowper's table
@@ -39,5 +39,5 @@ TEST_CASE("RectangularSection_IsThatOfTextbooks") {
   CHECK(rectangular_section(1, 2, 0.3).J == doctest::Approx(flat.J).epsilon(kRoundOff));
 }
 
-}  // namespace
+}  // namespace beam_section_test
 }  // namespace hersey::fem

@@ -8,7 +8,7 @@
 #include "hersey/core/input_error.h"
 
 namespace hersey::fem {
-namespace {
+namespace beam_test {
 
 constexpr double kDifferences = 1e-7;  // central differences of step 1e-5: h^2, and round-off over h
 
@@ -188,5 +188,5 @@ TEST_CASE("BeamAlongTheSectionsAxis_IsToldByItsLabel") {
   CHECK_THROWS_AS((void)beam_body(line(2), slender, {1, 0, 0}), InputError);
 }
 
-}  // namespace
+}  // namespace beam_test
 }  // namespace hersey::fem

@@ -6,7 +6,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace contact_modes_test {
 
 TEST_CASE("NodalNormals_AddUpToTheFacesAndShareItEvenly") {
   for (const ElementType type : {ElementType::hex8, ElementType::hex20, ElementType::tet10}) {
@@ -41,5 +41,5 @@ TEST_CASE("ContactModes_AnswerEveryForceOnTheirFaces") {
   CHECK(few.lost > 0);
 }
 
-}  // namespace
+}  // namespace contact_modes_test
 }  // namespace hersey::fem

@@ -11,7 +11,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace elastic_body_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -149,5 +149,5 @@ TEST_CASE("MeshesThatAreNoBody_AreToldByLabel") {
   CHECK(told(Mesh{}).find("without elements") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace elastic_body_test
 }  // namespace hersey::fem

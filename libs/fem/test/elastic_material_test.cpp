@@ -7,7 +7,7 @@
 #include "hersey/core/contract.h"
 
 namespace hersey::fem {
-namespace {
+namespace elastic_material_test {
 
 constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();  // four roundings lie in the formula
 
@@ -30,5 +30,5 @@ TEST_CASE("CompositeModulus_OfImpossibleMaterials_IsRejected") {
   CHECK_THROWS_AS((void)composite_modulus({.youngs_modulus = 1e9, .poisson_ratio = -1}, steel), ContractError);
 }
 
-}  // namespace
+}  // namespace elastic_material_test
 }  // namespace hersey::fem

@@ -10,7 +10,7 @@
 // The meshes kept in examples/meshes hold what their page says: they are what a reader tries first.
 
 namespace hersey::fem {
-namespace {
+namespace example_mesh_test {
 
 std::filesystem::path example(const std::string& name) {
   return std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/meshes" / name;
@@ -66,5 +66,5 @@ TEST_CASE("CrankshaftMesh_HasItsJournalsOnTrueCylinders") {
   for (const std::string pin : {"pin_2", "pin_3"}) CHECK(off_cylinder(mesh, pin, {0, -0.040, 0}, 0.022) < kOnCylinder);
 }
 
-}  // namespace
+}  // namespace example_mesh_test
 }  // namespace hersey::fem

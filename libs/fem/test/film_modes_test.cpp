@@ -12,7 +12,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace film_modes_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -183,5 +183,5 @@ TEST_CASE("ReducedBody_AnswersFilmPressuresAsTheMeshDoes") {
   }
 }
 
-}  // namespace
+}  // namespace film_modes_test
 }  // namespace hersey::fem

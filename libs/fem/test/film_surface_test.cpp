@@ -15,7 +15,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace film_surface_test {
 
 constexpr double kRoundOff = 1e-12;  // of sums over all faces
 
@@ -255,5 +255,5 @@ TEST_CASE("AFunctionThatTheSurfaceDoesNotReach_IsRefused") {
   CHECK(fine.message.find("finer than the surface") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace film_surface_test
 }  // namespace hersey::fem

@@ -8,7 +8,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace finite_strain_test {
 
 constexpr double kDifferences = 1e-8;  // central differences of step 1e-5: h^2, and round-off over h
 
@@ -109,5 +109,5 @@ TEST_CASE("BodyThatIsNotHeld_FindsNoLargeDisplacement") {
   CHECK(lost.message.find("not held") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace finite_strain_test
 }  // namespace hersey::fem

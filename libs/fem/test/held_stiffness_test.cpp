@@ -8,7 +8,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace held_stiffness_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -77,5 +77,5 @@ TEST_CASE("HeldEverywhere_NothingMoves") {
   CHECK(-solution.reaction.sum() == doctest::Approx(-7850));
 }
 
-}  // namespace
+}  // namespace held_stiffness_test
 }  // namespace hersey::fem

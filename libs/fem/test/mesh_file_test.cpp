@@ -13,7 +13,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::fem {
-namespace {
+namespace mesh_file_test {
 
 std::filesystem::path data(const std::string& name) {
   return std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data" / name;
@@ -310,5 +310,5 @@ TEST_CASE("Files_OfUnknownEnding_OrMissing_AreTold") {
   CHECK_THROWS_AS((void)read_mesh("/", 1), InputError);
 }
 
-}  // namespace
+}  // namespace mesh_file_test
 }  // namespace hersey::fem

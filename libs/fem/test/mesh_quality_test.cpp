@@ -9,7 +9,7 @@
 #include "hersey/fem/mesh_file.h"
 
 namespace hersey::fem {
-namespace {
+namespace mesh_quality_test {
 
 constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
 
@@ -101,5 +101,5 @@ TEST_CASE("MillimetresReadAsMetres_AreWarnedOf") {
   CHECK(small[0].suggestion == "is the mesh in metres? then give its length unit, m");
 }
 
-}  // namespace
+}  // namespace mesh_quality_test
 }  // namespace hersey::fem

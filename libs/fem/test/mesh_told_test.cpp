@@ -11,7 +11,7 @@
 #include "hersey/fem/mesh_quality.h"
 
 namespace hersey::fem {
-namespace {
+namespace mesh_told_test {
 
 /// What reading a text leads to: a refusal, or warnings and faults of materials, as "line: found; line: found".
 struct Answer {
@@ -267,5 +267,5 @@ TEST_CASE("ElementsOfDifferentOrder_OnOneFace_AreWarnedOf") {
   CHECK(warnings[0].found.starts_with("elements whose common face has not the same midside nodes: "));
 }
 
-}  // namespace
+}  // namespace mesh_told_test
 }  // namespace hersey::fem

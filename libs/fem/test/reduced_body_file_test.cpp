@@ -14,7 +14,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::fem {
-namespace {
+namespace reduced_body_file_test {
 
 constexpr double kSums = 1e-13;  // round-off of sums over the mesh
 
@@ -282,5 +282,5 @@ TEST_CASE("MatrixMarket_ReadsEveryKindOfRealMatrix") {
   CHECK(line_of_fault("%%MatrixMarket matrix coordinate real symmetric\n2 3 1\n") == 2);
 }
 
-}  // namespace
+}  // namespace reduced_body_file_test
 }  // namespace hersey::fem

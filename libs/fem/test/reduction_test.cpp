@@ -10,7 +10,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace reduction_test {
 
 constexpr double kCondition = 1e-9;  // round-off times the condition of the constrained stiffness, 1e6, with a margin
 
@@ -230,5 +230,5 @@ TEST_CASE("PartNotConnectedToAnyFrame_IsTold") {
         "a part of the body is not connected to the frames");
 }
 
-}  // namespace
+}  // namespace reduction_test
 }  // namespace hersey::fem

@@ -12,7 +12,7 @@
 
 // Values of CalculiX 2.20 on the same meshes with the same elements, to the digits it was read with.
 namespace hersey::fem {
-namespace {
+namespace reference_mesh_test {
 
 const std::string folder = std::string(HERSEY_SOURCE_DIR) + "/verification/data/meshes/";
 
@@ -125,5 +125,5 @@ TEST_CASE("RingUnderBorePressure_WidensAsInCalculiXAndLame") {
   }
 }
 
-}  // namespace
+}  // namespace reference_mesh_test
 }  // namespace hersey::fem

@@ -9,7 +9,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace shape_functions_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -94,5 +94,5 @@ TEST_CASE("ShapeFunctions_OfABeamAreRefused") {
   CHECK_THROWS_AS((void)shape_functions(ElementType::beam2, Vector3::Zero()), ContractError);
 }
 
-}  // namespace
+}  // namespace shape_functions_test
 }  // namespace hersey::fem

@@ -8,7 +8,7 @@
 #include "hersey/fem/mesh_file.h"
 
 namespace hersey::fem {
-namespace {
+namespace skin_test {
 
 // The block of the readers' tests: a brick of trapezoidal base, one of rectangular base, tetrahedra on the second.
 Mesh block() { return read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data/block_22.msh", 1e-3); }
@@ -38,5 +38,5 @@ TEST_CASE("OuterFaces_AreThoseOfOneElement") {
   CHECK(outer_faces(block()).size() == 8 + 8 + 10);
 }
 
-}  // namespace
+}  // namespace skin_test
 }  // namespace hersey::fem

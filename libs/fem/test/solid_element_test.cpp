@@ -7,7 +7,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace solid_element_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -68,5 +68,5 @@ TEST_CASE("SmallestJacobian_OfAFoldedElementIsNotPositive") {
   CHECK(smallest_jacobian(ElementType::tet10, x) < 0);
 }
 
-}  // namespace
+}  // namespace solid_element_test
 }  // namespace hersey::fem

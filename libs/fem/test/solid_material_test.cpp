@@ -7,7 +7,7 @@
 #include "hersey/core/contract.h"
 
 namespace hersey::fem {
-namespace {
+namespace solid_material_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -73,5 +73,5 @@ TEST_CASE("VonMises_OfUniaxialShearAndHydrostaticStress") {
   CHECK(von_mises((Vector6() << 7, 7, 7, 0, 0, 0).finished()) == 0);
 }
 
-}  // namespace
+}  // namespace solid_material_test
 }  // namespace hersey::fem

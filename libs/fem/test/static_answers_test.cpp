@@ -9,7 +9,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace static_answers_test {
 
 constexpr double kAnotherWay = 1e-8;  // two factorisations of the same matrix: round-off times its condition
 
@@ -78,5 +78,5 @@ TEST_CASE("StaticAnswers_OfABodyThatNothingHolds_SayWhy") {
   CHECK(answers.message == "frame 'nowhere' sits on no node");
 }
 
-}  // namespace
+}  // namespace static_answers_test
 }  // namespace hersey::fem

@@ -11,7 +11,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace static_error_test {
 
 Mesh conrod() { return read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/meshes/conrod.msh", 1e-3); }
 
@@ -86,5 +86,5 @@ TEST_CASE("StaticError_HoldsForACosinePressureNotAmongTheShapes") {
   CHECK(with < 0.01);
 }
 
-}  // namespace
+}  // namespace static_error_test
 }  // namespace hersey::fem

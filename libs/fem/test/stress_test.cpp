@@ -10,7 +10,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace stress_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -110,5 +110,5 @@ TEST_CASE("ThickRing_MeetsLamesStressesAndDisplacement") {
   CHECK(radial_at_bore < 1e-4);  // six quadratic elements across
 }
 
-}  // namespace
+}  // namespace stress_test
 }  // namespace hersey::fem

@@ -10,7 +10,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace surface_loads_test {
 
 double total(const Eigen::VectorXd& f, int axis) {
   double sum = 0;
@@ -57,5 +57,5 @@ TEST_CASE("SpreadForce_IsOneNewtonHoweverLargeItsFaces") {
   CHECK(total(f, 2) == doctest::Approx(-0.8).epsilon(1e-13));
 }
 
-}  // namespace
+}  // namespace surface_loads_test
 }  // namespace hersey::fem

@@ -7,7 +7,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace {
+namespace vibration_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -78,5 +78,5 @@ TEST_CASE("NaturalModes_OfAMasslessBody_AreRefused") {
   CHECK(modes.message.find("density") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace vibration_test
 }  // namespace hersey::fem

@@ -16,7 +16,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::fem {
-namespace {
+namespace vtu_file_test {
 
 Mesh block() { return read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data/block_22.msh", 1e-3); }
 
@@ -105,5 +105,5 @@ TEST_CASE("PvdSeries_IsReadBackByAnotherProgram") {
         "t=0.25 points=72 cells=12 types=24,25,26, displacement=3x72 sum=54.0;");
 }
 
-}  // namespace
+}  // namespace vtu_file_test
 }  // namespace hersey::fem

@@ -7,7 +7,7 @@
 #include "seeded_random.h"
 
 namespace hersey::film {
-namespace {
+namespace allocation_test {
 
 FilmModel big_end() {
   FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = {60, 13}};
@@ -90,5 +90,5 @@ TEST_CASE("WarmLinearisation_DoesNotAllocate") {
   }
 }
 
-}  // namespace
+}  // namespace allocation_test
 }  // namespace hersey::film

@@ -7,7 +7,7 @@
 
 // What conserving oil means: the film's own balances, and cavitation that comes and goes.
 namespace hersey::film {
-namespace {
+namespace cavitation_test {
 
 constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest throughput per node
 
@@ -343,5 +343,5 @@ TEST_CASE("FillScale_HasNoInfluence") {
   CHECK((film.fields.theta - other.fields.theta).cwiseAbs().maxCoeff() < kSolved);
 }
 
-}  // namespace
+}  // namespace cavitation_test
 }  // namespace hersey::film

@@ -6,7 +6,7 @@
 
 // Where the film ruptures and re-forms, against integrals of Reynolds' equation in a bearing without end leakage.
 namespace hersey::film {
-namespace {
+namespace cavity_test {
 
 constexpr double kRoundOff = 1e-9;  // of angles that follow from pressures solved to 1e-10
 
@@ -96,5 +96,5 @@ TEST_CASE("Cavity_OfAWholeFilmIsNone") {
   CHECK(whole.cavitated_share == 0);
 }
 
-}  // namespace
+}  // namespace cavity_test
 }  // namespace hersey::film

@@ -7,7 +7,7 @@
 #include "relative.h"
 
 namespace hersey::film {
-namespace {
+namespace closed_forms_test {
 
 using verification::FilmForce;
 
@@ -178,5 +178,5 @@ TEST_CASE("SqueezedPlates_MeetTheClosedForm") {
   }
 }
 
-}  // namespace
+}  // namespace closed_forms_test
 }  // namespace hersey::film

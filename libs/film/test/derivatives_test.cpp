@@ -11,7 +11,7 @@
 // Every derivative against central differences: residual and wrench, with respect to the unknown and to every change of
 // the surfaces, for every cavitation model, with all laws on and with each kind of boundary.
 namespace hersey::film {
-namespace {
+namespace derivatives_test {
 
 constexpr double kLinear = 1e-8;  // multigrid answers to 1e-10; summed over nodes and directions
 
@@ -376,5 +376,5 @@ TEST_CASE("NewtonIncrement_SolvesTheLinearisedFilm") {
   CHECK((sparse_times(balance, du) + balance.residual()).norm() < 1e-11 * balance.residual().norm());
 }
 
-}  // namespace
+}  // namespace derivatives_test
 }  // namespace hersey::film

@@ -7,7 +7,7 @@
 
 // Trials outside what the film's equations mean are told, not thrown; what follows from a trial inside is finite.
 namespace hersey::film {
-namespace {
+namespace domain_test {
 
 using Trouble = FilmDomain::Trouble;
 
@@ -147,5 +147,5 @@ TEST_CASE("FilmThatNothingSupplies_IsToldSo") {
   CHECK(steady.message.find("shorter step") == std::string::npos);
 }
 
-}  // namespace
+}  // namespace domain_test
 }  // namespace hersey::film

@@ -9,7 +9,7 @@
 
 // Holes and grooves: where their edges lie, how smoothly they travel, and published bearings with grooves.
 namespace hersey::film {
-namespace {
+namespace features_test {
 
 constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest throughput
 
@@ -220,5 +220,5 @@ TEST_CASE("FeatureFlows_AddUp") {
   }
 }
 
-}  // namespace
+}  // namespace features_test
 }  // namespace hersey::film

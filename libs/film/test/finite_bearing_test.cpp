@@ -5,7 +5,7 @@
 
 // Bearings of finite width against tables of an independent code (verification/data).
 namespace hersey::film {
-namespace {
+namespace finite_bearing_test {
 
 const std::string data = std::string(HERSEY_SOURCE_DIR) + "/verification/data/";
 
@@ -104,5 +104,5 @@ TEST_CASE("PaperBearing_MeetsTheTable") {
   CHECK(rows == 42);  // two gap readings, seven loads, three combinations of condition and compliance
 }
 
-}  // namespace
+}  // namespace finite_bearing_test
 }  // namespace hersey::film

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace hersey::film {
-namespace {
+namespace flow_factors_test {
 
 constexpr double kRoundOff = 1e-12;    // of exponentials
 constexpr double kJump = 1e-7;         // beside a kink, d = 1e-9 away on both sides: slopes up to some 10 times 2 d
@@ -174,5 +174,5 @@ TEST_CASE("FarFromContact_SurfacesAreSmooth") {
   CHECK(couette_stress_factor(60).value == doctest::Approx(1 + 1.0 / 3600).epsilon(1e-6));  // next: of 60^-4
 }
 
-}  // namespace
+}  // namespace flow_factors_test
 }  // namespace hersey::film

@@ -8,7 +8,7 @@
 #include "relative.h"
 
 namespace hersey::film {
-namespace {
+namespace gap_profile_test {
 
 constexpr double kNothing = 1e-20;  // m: round-off of openings of some micrometres
 
@@ -80,5 +80,5 @@ TEST_CASE("ProfilesOfTheJournal_TurnWithIt") {
   CHECK((turned - gap_opening(m)).cwiseAbs().maxCoeff() < kNothing);
 }
 
-}  // namespace
+}  // namespace gap_profile_test
 }  // namespace hersey::film

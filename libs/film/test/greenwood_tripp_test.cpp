@@ -7,7 +7,7 @@
 #include <numbers>
 
 namespace hersey::film {
-namespace {
+namespace greenwood_tripp_test {
 
 TEST_CASE("GreenwoodTrippExact_MeetsTheTabulatedIntegral") {
   // Six digits are tabulated; F_{5/2}(0) is also Gamma(7/4) 2^{1/4} / sqrt(pi).
@@ -41,5 +41,5 @@ TEST_CASE("GreenwoodTrippFit_IsOffByItsKnownError") {
   CHECK(greenwood_tripp_fit(2).slope == doctest::Approx(slope).epsilon(1e-8));  // d^2, and round-off over d
 }
 
-}  // namespace
+}  // namespace greenwood_tripp_test
 }  // namespace hersey::film

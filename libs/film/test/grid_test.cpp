@@ -6,7 +6,7 @@
 
 // Graded grids: their spacing, their integrals, and what they gain.
 namespace hersey::film {
-namespace {
+namespace grid_test {
 
 constexpr double kRoundOff = 1e-14;  // of sums over a row of nodes
 constexpr double kWeights = 1e-13;   // round-off of weights, sums of a few products
@@ -102,5 +102,5 @@ TEST_CASE("GradedGrid_MeetsTheLoadWithFewerNodes") {
   CHECK(graded_120 / graded_240 > 3);  // second order, at least nearly; on 60 nodes the error changes its sign
 }
 
-}  // namespace
+}  // namespace grid_test
 }  // namespace hersey::film

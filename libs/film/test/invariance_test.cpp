@@ -7,7 +7,7 @@
 
 // One bearing seen from different frames, action and reaction, and the balance of power.
 namespace hersey::film {
-namespace {
+namespace invariance_test {
 
 FilmModel flooded(int n_phi, int n_z) {
   FilmModel m{.R = 0.03, .L = 0.03, .c = 30e-6, .grid = {n_phi, n_z}};
@@ -134,5 +134,5 @@ TEST_CASE("AsperityFriction_OpposesSlidingAndDissipates") {
   CHECK(with.observed.force_asperity.x() < 0);  // pushes the shell towards the contact, at -x
 }
 
-}  // namespace
+}  // namespace invariance_test
 }  // namespace hersey::film

@@ -6,7 +6,7 @@
 #include "film_cases.h"
 
 namespace hersey::film {
-namespace {
+namespace multigrid_test {
 
 FilmModel big_end(Cavitation cavitation, Grid grid) {
   FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = grid, .cavitation = cavitation};
@@ -195,5 +195,5 @@ TEST_CASE("Responses_AreThoseOfTheDirectSolver") {
   }
 }
 
-}  // namespace
+}  // namespace multigrid_test
 }  // namespace hersey::film

@@ -12,7 +12,7 @@
 
 // Depth of features: volume, flow over their steps, and what the film beside them feels.
 namespace hersey::film {
-namespace {
+namespace pocket_relief_test {
 
 constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest throughput
 
@@ -366,5 +366,5 @@ TEST_CASE("InterpolatedGaps_AreOfFourthOrder") {
   CHECK(std::log2(cell[0] / cell[1]) == doctest::Approx(4).epsilon(0.02));
 }
 
-}  // namespace
+}  // namespace pocket_relief_test
 }  // namespace hersey::film

@@ -7,7 +7,7 @@
 
 // Laws of viscosity and density against their own values and against closed forms of the film.
 namespace hersey::film {
-namespace {
+namespace rheology_test {
 
 constexpr double kRoundOff = 1e-12;  // of powers and exponentials
 
@@ -146,5 +146,5 @@ TEST_CASE("CompressibleSteps_ConserveOil") {
   }
 }
 
-}  // namespace
+}  // namespace rheology_test
 }  // namespace hersey::film

@@ -7,7 +7,7 @@
 
 // Oil between rough surfaces: flow factors in the film.
 namespace hersey::film {
-namespace {
+namespace roughness_test {
 
 Roughness rough(SurfaceRoughness shell, SurfaceRoughness journal) { return {FlowFactors::patir_cheng, shell, journal}; }
 
@@ -232,5 +232,5 @@ TEST_CASE("FromFullFilmToContact_NewtonArrives") {
   }
 }
 
-}  // namespace
+}  // namespace roughness_test
 }  // namespace hersey::film

@@ -9,7 +9,7 @@
 // Plane sliders: a stretch of the circumference between two grooves that hold the rest of it at the ends' pressures,
 // closed edges, so that nothing varies along the axis.
 namespace hersey::film {
-namespace {
+namespace slider_test {
 
 struct Slider {
   double length = 0, U = 0, mu = 0;    ///< [m, m/s, Pa s]
@@ -161,5 +161,5 @@ TEST_CASE("PocketSlider_RupturesAndReforms") {
   CHECK(order(coarse.peak, fine.peak, 11) == doctest::Approx(1).epsilon(0.1));
 }
 
-}  // namespace
+}  // namespace slider_test
 }  // namespace hersey::film

@@ -6,7 +6,7 @@
 #include "hersey/core/contract.h"
 
 namespace hersey::film {
-namespace {
+namespace solver_test {
 
 FilmModel big_end(Cavitation cavitation) {
   FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = {60, 13}, .cavitation = cavitation};
@@ -135,5 +135,5 @@ TEST_CASE("BrokenContracts_AreNamed") {
   CHECK_THROWS_AS(Reynolds{m}, ContractError);
 }
 
-}  // namespace
+}  // namespace solver_test
 }  // namespace hersey::film

@@ -8,7 +8,7 @@
 #include "hersey/film/gap_profile.h"
 
 namespace hersey::film {
-namespace {
+namespace true_surface_test {
 
 /// A surface in the gap: by how much it opens it, with the derivative along phi.
 using Shape = std::function<Opening(double phi, double z)>;
@@ -148,5 +148,5 @@ TEST_CASE("PowerPutIntoAFilm_IsWhatItsFieldsTake") {
   }
 }
 
-}  // namespace
+}  // namespace true_surface_test
 }  // namespace hersey::film

@@ -7,7 +7,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace allocation_test {
 
 /// Allocations in steps 4 to 23: the first ones find pivots and sizes.
 long allocations_of(Mechanism& mechanism, double dt, double spectral_radius) {
@@ -46,5 +46,5 @@ TEST_CASE("EveryKindOfPart_TakesNothingFromTheHeap") {
   CHECK(allocations_of(*test::nasty_mechanism(false), 1e-4, 0.8) == 0);
 }
 
-}  // namespace
+}  // namespace allocation_test
 }  // namespace hersey::mbd

@@ -15,7 +15,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace beam_motion_test {
 
 using Eigen::VectorXd;
 
@@ -327,5 +327,5 @@ TEST_CASE("BeamsTangent_GrowsInProportionToItsElements") {
   CHECK(entries(40) / entries(20) < 2.1);
 }
 
-}  // namespace
+}  // namespace beam_motion_test
 }  // namespace hersey::mbd

@@ -9,7 +9,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace beam_segment_test {
 
 constexpr double kRoundOff = 1e-13;  // of sums of products
 
@@ -192,5 +192,5 @@ TEST_CASE("BeamSegment_RigidMotionStoresNothingAndNeedsTheRigidBodysForces") {
   }
 }
 
-}  // namespace
+}  // namespace beam_segment_test
 }  // namespace hersey::mbd

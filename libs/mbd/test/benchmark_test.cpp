@@ -13,7 +13,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace benchmark_test {
 
 constexpr double kBenchmark = 1e-3;  // the benchmark's own measure
 constexpr double kInstant = 1e-9;    // s: instants summed up from steps
@@ -173,5 +173,5 @@ TEST_CASE("AndrewsSqueezer_MeetsTheTestSet") {
   }
 }
 
-}  // namespace
+}  // namespace benchmark_test
 }  // namespace hersey::mbd

@@ -8,7 +8,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace conservation_test {
 
 using Eigen::VectorXd;
 
@@ -178,5 +178,5 @@ TEST_CASE("Ground_HasNoPreferredPlaceAxesOrSpeed") {
         tolerance);
 }
 
-}  // namespace
+}  // namespace conservation_test
 }  // namespace hersey::mbd

@@ -8,7 +8,7 @@
 #include "simulate.h"
 
 namespace hersey::mbd {
-namespace {
+namespace contact_motion_test {
 
 constexpr double g = 9.81;
 
@@ -291,5 +291,5 @@ TEST_CASE("MeshBall_BouncesLikeTheBall") {
   CHECK(mesh[1] == doctest::Approx(exact[1]).epsilon(0.01));
 }
 
-}  // namespace
+}  // namespace contact_motion_test
 }  // namespace hersey::mbd

@@ -8,7 +8,7 @@
 #include "hersey/core/contract.h"
 
 namespace hersey::mbd {
-namespace {
+namespace contact_test {
 
 constexpr double kDifferences = 1e-6;  // of step 1e-6: round-off over it
 
@@ -372,5 +372,5 @@ TEST_CASE("UnsupportedPairs_AreRefused") {
   CHECK_THROWS_AS(Contact(block, block, kLaw), ContractError);
 }
 
-}  // namespace
+}  // namespace contact_test
 }  // namespace hersey::mbd

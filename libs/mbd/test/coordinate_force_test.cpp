@@ -10,7 +10,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace coordinate_force_test {
 
 /// A slider of 2 kg along x, its force added by `add`.
 template <class Add>
@@ -153,5 +153,5 @@ TEST_CASE("AccelerationDrive_IsIntegratedTwice") {
   CHECK(motion.acceleration(1.5) == 9);
 }
 
-}  // namespace
+}  // namespace coordinate_force_test
 }  // namespace hersey::mbd

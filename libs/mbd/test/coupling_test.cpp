@@ -8,7 +8,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace coupling_test {
 
 constexpr double kNewton = 1e-8;  // Newton's tolerance is 1e-9 of the forces
 
@@ -178,5 +178,5 @@ TEST_CASE("CouplingOfACoordinateToItself_IsRefused") {
                     "than the output");
 }
 
-}  // namespace
+}  // namespace coupling_test
 }  // namespace hersey::mbd

@@ -9,7 +9,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace derivatives_test {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -257,5 +257,5 @@ TEST_CASE("Bushing_IsTheGradientOfItsEnergyAndDissipates") {
   CHECK_FALSE(elastic.domain_error().empty());
 }
 
-}  // namespace
+}  // namespace derivatives_test
 }  // namespace hersey::mbd

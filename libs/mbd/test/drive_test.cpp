@@ -7,7 +7,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace drive_test {
 
 constexpr double kEps = 2.2e-16;
 
@@ -100,5 +100,5 @@ TEST_CASE("CoordinateOfAClosingJoint_ActsLikeOneOfTheTree") {
   CHECK(std::abs(loop.second - tree.second) < 1e-7);
 }
 
-}  // namespace
+}  // namespace drive_test
 }  // namespace hersey::mbd

@@ -10,7 +10,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace faults_test {
 
 using solver::InitialiseStatus;
 using solver::InitialiseSummary;
@@ -142,5 +142,5 @@ TEST_CASE("CollapsedSpring_IsADomainError") {
   CHECK(summary.message.find("strut") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace faults_test
 }  // namespace hersey::mbd

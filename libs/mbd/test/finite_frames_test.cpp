@@ -12,7 +12,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace finite_frames_test {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -238,5 +238,5 @@ TEST_CASE("FiniteStrainBetweenFrames_DerivativesMatchFiniteDifferences") {
   CHECK(wrong < 0.05);
 }
 
-}  // namespace
+}  // namespace finite_frames_test
 }  // namespace hersey::mbd

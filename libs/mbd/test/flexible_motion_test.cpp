@@ -11,7 +11,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace flexible_motion_test {
 
 using Eigen::VectorXd;
 
@@ -297,5 +297,5 @@ TEST_CASE("SliderCrank_WithAStiffRodMovesAsWithARigidOne") {
   CHECK(std::abs(stiff - rigid) < 0.01 * std::abs(elastic - rigid));
 }
 
-}  // namespace
+}  // namespace flexible_motion_test
 }  // namespace hersey::mbd

@@ -8,7 +8,7 @@
 #include "hersey/core/contract.h"
 
 namespace hersey::mbd {
-namespace {
+namespace hertz_test {
 
 TEST_CASE("HertzStiffness_OfRoundContactIsClosedForm") {
   CHECK(hertz_stiffness(2e11, {0.01, 0.01}) == doctest::Approx(4.0 / 3.0 * 2e11 * 0.1).epsilon(1e-14));  // round-off
@@ -61,5 +61,5 @@ TEST_CASE("RelativeRadii_FollowTheShapes") {
   CHECK_THROWS_AS((void)hertz_stiffness(0, {1, 1}), ContractError);
 }
 
-}  // namespace
+}  // namespace hertz_test
 }  // namespace hersey::mbd

@@ -8,7 +8,7 @@
 #include "hersey/solver/initialise.h"
 
 namespace hersey::mbd {
-namespace {
+namespace long_chain_test {
 
 constexpr int uncut = std::numeric_limits<int>::max();
 
@@ -75,5 +75,5 @@ TEST_CASE("LongChain_TheMatrixGrowsInProportionToItsLength") {
   CHECK(many < 100 * 960);
 }
 
-}  // namespace
+}  // namespace long_chain_test
 }  // namespace hersey::mbd

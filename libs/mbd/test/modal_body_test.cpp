@@ -8,7 +8,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace modal_body_test {
 
 constexpr double kRoundOff = 1e-13;  // of sums over shapes
 constexpr double kNodes = 1e-12;     // round-off of sums over nodes
@@ -249,5 +249,5 @@ TEST_CASE("ModalBody_RigidMotionStoresNothingAndNeedsTheRigidBodysForces") {
   CHECK((wrench - rigid).norm() < kRoundOff * rigid.norm());
 }
 
-}  // namespace
+}  // namespace modal_body_test
 }  // namespace hersey::mbd

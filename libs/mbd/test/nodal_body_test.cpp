@@ -15,7 +15,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace nodal_body_test {
 
 constexpr double kNewton = 1e-9;  // m: Newton's tolerance, over 1e-9 of the forces
 
@@ -278,5 +278,5 @@ TEST_CASE("NodalBodyOfFiniteStrain_BalancesPowersAsItSwings") {
   CHECK(std::abs(stored(last) + lost - stored(first)) < 1e-5 * last.kinetic);  // 600 steps, second order
 }
 
-}  // namespace
+}  // namespace nodal_body_test
 }  // namespace hersey::mbd

@@ -10,7 +10,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace pendulum_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double g = 9.81, L = 1.0;
@@ -176,5 +176,5 @@ TEST_CASE("SpectralRadiusOne_IsRefusedWithConstraints") {
   CHECK_THROWS_WITH_AS((void)integrator.step(*m, state, 1e-3), doctest::Contains("spectral_radius"), InputError);
 }
 
-}  // namespace
+}  // namespace pendulum_test
 }  // namespace hersey::mbd

@@ -11,7 +11,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace redundancy_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -222,5 +222,5 @@ TEST_CASE("ParallelogramOfThreeCranks_KeepsItsMotion") {
   CHECK(seen.constraint_drift < 1e-11);  // Newton's tolerance of constraints
 }
 
-}  // namespace
+}  // namespace redundancy_test
 }  // namespace hersey::mbd

@@ -7,7 +7,7 @@
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
-namespace {
+namespace slider_crank_test {
 
 struct Model {
   std::unique_ptr<Mechanism> mechanism;
@@ -132,5 +132,5 @@ TEST_CASE("ClosingJoints_AreFoundBreadthFirst") {
   CHECK(m.mechanism->nlambda() == 4);  // spherical 3, drive 1
 }
 
-}  // namespace
+}  // namespace slider_crank_test
 }  // namespace hersey::mbd

@@ -3,7 +3,7 @@
 
 // Beams in the model file: what is read, how they are divided, and what is told about wrong ones.
 namespace hersey::model {
-namespace {
+namespace beam_test {
 
 constexpr double kRoundOff = 1e-15;    // of lengths of 0.1 m in mm
 constexpr double kSevenDigits = 1e-6;  // of the area written here
@@ -119,5 +119,5 @@ TEST_CASE("Beam_FaultsNameWhatIsThere") {
                  "`along` of a frame on a body that is no beam"));
 }
 
-}  // namespace
+}  // namespace beam_test
 }  // namespace hersey::model

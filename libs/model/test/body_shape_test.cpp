@@ -9,7 +9,7 @@
 
 // Shapes of bodies: from the model file and from STL files.
 namespace hersey::model {
-namespace {
+namespace body_shape_test {
 
 std::string with_shapes(const std::string& shapes) {
   return edited(good_model, "  rod: {mass: 2 kg}\n", "  rod:\n    mass: 2 kg\n    shapes:\n" + shapes);
@@ -203,5 +203,5 @@ TEST_CASE("ShapesThatCannotBe_AreReported") {
   CHECK(faults("{shape: mesh, file: none.msh}").find("none.msh: no readable file") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace body_shape_test
 }  // namespace hersey::model

@@ -8,7 +8,7 @@
 
 // Contacts in the model file: what is read, and what is told about wrong ones.
 namespace hersey::model {
-namespace {
+namespace contact_test {
 
 const std::string kMachine = R"(hersey: 1
 title: Contacts
@@ -100,5 +100,5 @@ TEST_CASE("WrongContacts_AreExplained") {
   CHECK(faults_with(", speed: 2 m/s}", "}").find("contacts.bounce.damping") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace contact_test
 }  // namespace hersey::model

@@ -6,7 +6,7 @@
 #include "hersey/model/study.h"
 
 namespace hersey::model {
-namespace {
+namespace examples_test {
 
 std::vector<std::string> example_files() {
   std::vector<std::string> files;
@@ -31,5 +31,5 @@ TEST_CASE("Examples_AreReadWithoutFault") {
   }
 }
 
-}  // namespace
+}  // namespace examples_test
 }  // namespace hersey::model

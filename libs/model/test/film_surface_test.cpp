@@ -9,7 +9,7 @@
 
 // Bearings whose surfaces deform with the mesh of a body: what is read, and what is told about wrong ones.
 namespace hersey::model {
-namespace {
+namespace film_surface_test {
 
 const std::string machine_text = R"(hersey: 1
 title: A ring around a journal
@@ -198,5 +198,5 @@ TEST_CASE("DeformingSurfaces_OfDifferentSizeDoNotFaceEachOther") {
   std::filesystem::remove("film_surface_test_shaft.inp");
 }
 
-}  // namespace
+}  // namespace film_surface_test
 }  // namespace hersey::model

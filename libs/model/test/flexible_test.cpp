@@ -7,7 +7,7 @@
 
 // Flexible bodies in the model file: what is read, and what is told about wrong ones.
 namespace hersey::model {
-namespace {
+namespace flexible_test {
 
 // A cube of one hexahedron, 10 mm wide, with a set on either end.
 const std::string kMesh = R"(*NODE
@@ -308,5 +308,5 @@ TEST_CASE("OrthotropicMaterial_WithEqualConstantsIsTheIsotropicOne") {
   CHECK(contains(faults_of(edited(kMachine, "youngs_modulus: 210 GPa, ", "")), "material"));
 }
 
-}  // namespace
+}  // namespace flexible_test
 }  // namespace hersey::model

@@ -6,7 +6,7 @@
 #include "model_text.h"
 
 namespace hersey::model {
-namespace {
+namespace function_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -211,5 +211,5 @@ TEST_CASE("TableThatDoesNotCoverTheRun_IsReportedBeforeIt") {
         "no fault");
 }
 
-}  // namespace
+}  // namespace function_test
 }  // namespace hersey::model

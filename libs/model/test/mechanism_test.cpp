@@ -6,7 +6,7 @@
 #include "model_text.h"
 
 namespace hersey::model {
-namespace {
+namespace mechanism_test {
 
 const std::string kGears = R"(hersey: 1
 bodies:
@@ -119,5 +119,5 @@ TEST_CASE("ImpossibleBodiesAndJoints_AreReported") {
             .find("both frames on body 'spindle'; expected frames of two bodies") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace mechanism_test
 }  // namespace hersey::model

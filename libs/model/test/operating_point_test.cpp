@@ -3,7 +3,7 @@
 #include "model_text.h"
 
 namespace hersey::model {
-namespace {
+namespace operating_point_test {
 
 // A bearing without bodies. Line numbers matter.
 const std::string bearing_alone = R"(hersey: 1
@@ -214,5 +214,5 @@ TEST_CASE("ConstantBulkModulus_IsRead") {
   CHECK(std::get<film::ConstantBulkModulus>(model.bearings[0].film.lubricant.density_law).bulk_modulus == 1.7e9);
 }
 
-}  // namespace
+}  // namespace operating_point_test
 }  // namespace hersey::model

@@ -6,7 +6,7 @@
 #include "model_text.h"
 
 namespace hersey::model {
-namespace {
+namespace override_test {
 
 double push_force(const std::vector<std::string>& overrides) {
   return read_text(good_model, "m.yaml", overrides).forces[0].load.functions[1].value->value({});
@@ -186,5 +186,5 @@ TEST_CASE("ResolvedText_NamesTheOverrides") {
   CHECK(read_text(good_model, "m.yaml").resolved_text == good_model);
 }
 
-}  // namespace
+}  // namespace override_test
 }  // namespace hersey::model

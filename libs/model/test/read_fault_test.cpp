@@ -2,7 +2,7 @@
 
 // One test per kind of fault: where it is, what was found, what is expected, what to write instead.
 namespace hersey::model {
-namespace {
+namespace read_fault_test {
 
 TEST_CASE("UnknownKey_NamesTheNearest") {
   CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
@@ -393,5 +393,5 @@ TEST_CASE("UnreadableFiles_AreReported") {
                        InputError);
 }
 
-}  // namespace
+}  // namespace read_fault_test
 }  // namespace hersey::model

@@ -6,7 +6,7 @@
 #include "model_text.h"
 
 namespace hersey::model {
-namespace {
+namespace read_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -390,5 +390,5 @@ TEST_CASE("Solver_IsOneOfThree") {
   CHECK(solver("sor") == film::FilmSolver::sor);
 }
 
-}  // namespace
+}  // namespace read_test
 }  // namespace hersey::model

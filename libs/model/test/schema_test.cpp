@@ -11,7 +11,7 @@
 #include "hersey/model/read.h"
 
 namespace hersey::model {
-namespace {
+namespace schema_test {
 
 std::string text_of_file(const std::string& path) {
   std::ifstream stream(path);
@@ -115,5 +115,5 @@ TEST_CASE("ExampleOfTheReference_IsAModel") {
   CHECK(model.simulation.duration == 0.2);
 }
 
-}  // namespace
+}  // namespace schema_test
 }  // namespace hersey::model

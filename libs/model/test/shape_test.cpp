@@ -8,7 +8,7 @@
 
 // Shapes and pockets from the model file, and what may be wrong with them.
 namespace hersey::model {
-namespace {
+namespace shape_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -89,5 +89,5 @@ TEST_CASE("FeatureWithoutPressureAndDepth_IsReported") {
                      "      c: {shape: pocket, arc: 30 deg, length: 6 mm, depth: 1 mm}\n") == "no fault");
 }
 
-}  // namespace
+}  // namespace shape_test
 }  // namespace hersey::model

@@ -6,7 +6,7 @@
 #include "model_text.h"
 
 namespace hersey::model {
-namespace {
+namespace study_test {
 
 /// A model file with a study, removed at the end.
 class StudyFile {
@@ -154,5 +154,5 @@ TEST_CASE("EndlessStudy_IsRefused") {
   CHECK_THROWS_WITH_AS((void)expand_study(file.path()), doctest::Contains("more than 100000 combinations"), InputError);
 }
 
-}  // namespace
+}  // namespace study_test
 }  // namespace hersey::model

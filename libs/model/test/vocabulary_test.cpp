@@ -8,7 +8,7 @@
 
 // Words of the model file: format and reading are one table.
 namespace hersey::model {
-namespace {
+namespace vocabulary_test {
 
 /// `text`, checked against `type`.
 Value checked(const Type& type, const std::string& text) {
@@ -56,5 +56,5 @@ TEST_CASE("Keys_ThatTheFormatDoesNotHaveAreAMistakeInTheCode") {
   CHECK_FALSE(value.has("masss"));
 }
 
-}  // namespace
+}  // namespace vocabulary_test
 }  // namespace hersey::model

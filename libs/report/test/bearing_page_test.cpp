@@ -13,7 +13,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::report {
-namespace {
+namespace bearing_page_test {
 
 using nlohmann::json;
 
@@ -71,5 +71,5 @@ TEST_CASE("BearingPage_FaultsAreTold") {
   CHECK_THROWS_AS(write_html(page, directory.path() / "nowhere" / "page.html"), results::WriteError);
 }
 
-}  // namespace
+}  // namespace bearing_page_test
 }  // namespace hersey::report

@@ -13,7 +13,7 @@
 #include "small_run.h"
 
 namespace hersey::report {
-namespace {
+namespace report_test {
 
 using nlohmann::json;
 
@@ -133,16 +133,17 @@ TEST_CASE("Study_ShowsEveryRunWithItsParameters") {
 }
 
 TEST_CASE("TroubleWithFiles_IsToldWithThePath") {
+  using Paths = std::vector<std::filesystem::path>;
   const TemporaryDirectory directory;
-  CHECK_THROWS_WITH_AS(write_html({directory / "none.h5"}, directory / "r.html"), doctest::Contains("no such file"),
-                       results::ReadError);
+  CHECK_THROWS_WITH_AS(write_html(Paths{directory / "none.h5"}, directory / "r.html"),
+                       doctest::Contains("no such file"), results::ReadError);
   SmallRun().write(directory / "run.h5");
-  CHECK_THROWS_WITH_AS(write_html({directory / "run.h5"}, directory / "missing" / "r.html"),
+  CHECK_THROWS_WITH_AS(write_html(Paths{directory / "run.h5"}, directory / "missing" / "r.html"),
                        doctest::Contains("cannot write the report: No such file or directory"), results::WriteError);
-  CHECK_THROWS_WITH_AS(write_html({directory / "run.h5"}, "/dev/full"), doctest::Contains("No space left on device"),
-                       results::WriteError);
-  CHECK_THROWS_AS(write_html({}, directory / "r.html"), ContractError);
+  CHECK_THROWS_WITH_AS(write_html(Paths{directory / "run.h5"}, "/dev/full"),
+                       doctest::Contains("No space left on device"), results::WriteError);
+  CHECK_THROWS_AS(write_html(Paths{}, directory / "r.html"), ContractError);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace hersey::report

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 namespace hersey::report {
-namespace {
+namespace run_names_test {
 
 using Names = std::vector<std::string>;
 
@@ -23,5 +23,5 @@ TEST_CASE("RunsOfOneName_GetTheFoldersThatDiffer") {
   CHECK(run_names({"/w/a/results.h5", "/w/a.h5"}) == Names{"w/a", "w/a (2)"});
 }
 
-}  // namespace
+}  // namespace run_names_test
 }  // namespace hersey::report

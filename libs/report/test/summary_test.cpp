@@ -8,7 +8,7 @@
 #include "small_run.h"
 
 namespace hersey::report {
-namespace {
+namespace summary_test {
 
 const SummaryRow& find(const std::vector<SummaryRow>& rows, const std::string& name) {
   for (const SummaryRow& row : rows)
@@ -181,5 +181,5 @@ TEST_CASE("Json_SaysTheSameAsTheTableInSi") {
       CHECK(entry["unit"].get<std::string>().find(foreign) == std::string::npos);
 }
 
-}  // namespace
+}  // namespace summary_test
 }  // namespace hersey::report

@@ -35,19 +35,19 @@ std::size_t prepare_ahead(std::vector<T>& values, std::size_t prepared, std::siz
 
 }  // namespace
 
-void WaitingRows::expect(std::vector<std::size_t> widths, std::size_t steps) {
-  widths_ = std::move(widths);
-  const std::size_t of_a_step = std::reduce(widths_.begin(), widths_.end());
-  const std::size_t room = of_a_step > 0 ? std::min(most_numbers / of_a_step, steps) : 0;
+void WaitingRows::expect(std::size_t series, std::size_t numbers, std::size_t steps) {
+  const std::size_t room = numbers > 0 ? std::min(most_numbers / numbers, steps) : 0;
   // Memory that is never used costs nothing, to move it does.
-  numbers_.reserve(room * of_a_step);
-  series_.reserve(room * widths_.size());
+  numbers_.reserve(room * numbers);
+  series_.reserve(room * series);
 }
 
 void WaitingRows::add(std::size_t series, std::span<const double> row) {
   if (numbers_.size() + row.size() > prepared_numbers_)
     prepared_numbers_ = prepare_ahead(numbers_, prepared_numbers_, row.size());
   if (series_.size() + 1 > prepared_series_) prepared_series_ = prepare_ahead(series_, prepared_series_, 1);
+  if (series >= widths_.size()) widths_.resize(series + 1, 0);
+  widths_[series] = row.size();
   numbers_.insert(numbers_.end(), row.begin(), row.end());
   series_.push_back(static_cast<std::uint32_t>(series));
 }

@@ -16,11 +16,10 @@ class WaitingRows {
  public:
   static constexpr std::size_t most_numbers = std::size_t{1} << 25;  // 256 MiB
 
-  /// Makes room for as many steps of one row of each series as fit. Nothing may wait.
-  /// @param widths  numbers per row of each series, > 0
-  void expect(std::vector<std::size_t> widths, std::size_t steps);
+  /// Makes room for as many steps of `series` rows and `numbers` numbers as fit, so that rows need not be moved.
+  void expect(std::size_t series, std::size_t numbers, std::size_t steps);
 
-  /// @param row  as many numbers as the series is wide
+  /// @param row  not empty, always as wide for one series
   void add(std::size_t series, std::span<const double> row);
 
   [[nodiscard]] std::size_t numbers() const { return numbers_.size(); }
@@ -30,7 +29,7 @@ class WaitingRows {
   void take_out(const std::function<void(std::size_t series, const std::vector<double>& rows)>& take);
 
  private:
-  std::vector<std::size_t> widths_;
+  std::vector<std::size_t> widths_;  // numbers per row of each series
   std::vector<double> numbers_;
   std::vector<std::uint32_t> series_;                       // of each row
   std::size_t prepared_numbers_ = 0, prepared_series_ = 0;  // up to which memory is there, not just promised

@@ -91,6 +91,7 @@ struct Writer::Impl {
   std::optional<DimensionScales> scales;
   std::vector<Growing> growing;
   WaitingRows waiting;                    // not in the file yet
+  bool expects_rows = false;              // room for them is made
   std::unordered_set<std::string> names;  // of groups and datasets made so far
   std::string parent_name = "/";          // of the group opened last
   Handle parent;
@@ -309,7 +310,7 @@ struct Writer::Impl {
   }
 
   void take(std::size_t series, std::span<const double> row) {
-    if (waiting.numbers() == 0) expect_rows();
+    if (!expects_rows) expect_rows();
     if (!waiting.has_room_for(row.size())) {
       const Hdf5Session session;
       drain();
@@ -318,10 +319,10 @@ struct Writer::Impl {
   }
 
   void expect_rows() {
-    std::vector<std::size_t> widths;
-    widths.reserve(growing.size());
-    for (const Growing& entry : growing) widths.push_back(entry.width);
-    waiting.expect(std::move(widths), options.rows + 2);
+    std::size_t numbers = 0;
+    for (const Growing& entry : growing) numbers += entry.width;
+    waiting.expect(growing.size(), numbers, options.rows + 2);
+    expects_rows = true;
   }
 
   /// Hands the rows to HDF5, one series after the other; they are safe only after H5Fflush.

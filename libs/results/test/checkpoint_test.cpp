@@ -11,7 +11,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::results {
-namespace {
+namespace checkpoint_test {
 
 Archive::Content some() {
   Archive::Content content;
@@ -121,5 +121,5 @@ TEST_CASE("RowsThatAreNotThere_AreMissed") {
   CHECK_THROWS_AS(after.writer.copy_rows(before, {{"/time", 1}}), ReadError);
 }
 
-}  // namespace
+}  // namespace checkpoint_test
 }  // namespace hersey::results

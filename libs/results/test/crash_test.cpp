@@ -17,7 +17,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::results {
-namespace {
+namespace crash_test {
 
 /// What the k-th row of every series holds, so that a reader can tell a lost or mixed row.
 double value(std::size_t row, std::size_t series) {
@@ -208,5 +208,5 @@ TEST_CASE("FullDisk_IsToldAndKeepsFlushedRows") {
   CHECK(std::filesystem::file_size(path.string() + ".stderr") == 0);  // HDF5 printed nothing of its own
 }
 
-}  // namespace
+}  // namespace crash_test
 }  // namespace hersey::results

@@ -11,7 +11,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::results {
-namespace {
+namespace writer_test {
 
 /// System calls of this process that read, so far.
 long read_calls() {
@@ -258,5 +258,5 @@ TEST_CASE("ABitThatFlipsInFinishedResults_IsToldOrHarmless") {
   CHECK(Reader(scratch / "killed.h5").read("/time").values.size() == 9);
 }
 
-}  // namespace
+}  // namespace writer_test
 }  // namespace hersey::results

@@ -15,7 +15,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace {
+namespace analysis_test {
 
 constexpr double kRoots = 1e-9;  // round-off of eigenvalues, and of the state they belong to
 constexpr double kRest = 1e-9;   // rows at rest within 1e-10 of what they balance
@@ -326,5 +326,5 @@ TEST_CASE("RotorOnItsFilm_HasTheEigenvaluesOfTheSteadyCoefficients") {
   }
 }
 
-}  // namespace
+}  // namespace analysis_test
 }  // namespace hersey::run

@@ -12,7 +12,7 @@
 #include "start.h"
 
 namespace hersey::run {
-namespace {
+namespace assembly_test {
 
 /// Crank of 0.3 m, coupler of 0.5 m, rocker of 0.4 m; the closing ball `right` joins coupler and rocker.
 std::string four_bar(const std::string& distance, const std::string& initial) {
@@ -84,5 +84,5 @@ TEST_CASE("GivenCoordinateOutOfReach_IsRefusedWithTheNearest") {
   }
 }
 
-}  // namespace
+}  // namespace assembly_test
 }  // namespace hersey::run

@@ -14,7 +14,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace {
+namespace beam_run_test {
 
 // A slender blade on a hub: EI = 1 N m^2, 1 kg/m, 1 m long.
 const char* const kBlade = R"(hersey: 1
@@ -219,5 +219,5 @@ TEST_CASE("JournalOnABeam_MovesWithItsNode") {
   CHECK(std::abs(fall[3 * (rows - 1) + 1]) > 0.1);
 }
 
-}  // namespace
+}  // namespace beam_run_test
 }  // namespace hersey::run

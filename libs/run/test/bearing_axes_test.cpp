@@ -10,7 +10,7 @@
 #include "small_rig.h"
 
 namespace hersey::run {
-namespace {
+namespace bearing_axes_test {
 
 /// The rig with a journal that a joint turns in a shell held by ground.
 std::string held(const std::string& axis) {
@@ -56,5 +56,5 @@ TEST_CASE("JournalThatTurnsAcrossItsBearing_IsWarnedOf") {
   CHECK(told_of_axes(kSmallRig).empty());
 }
 
-}  // namespace
+}  // namespace bearing_axes_test
 }  // namespace hersey::run

@@ -16,7 +16,7 @@
 
 // The example of a connecting rod under bore pressure against the whole mesh.
 namespace hersey::run {
-namespace {
+namespace conrod_pressure_test {
 
 TEST_CASE("ConrodUnderBorePressure_MovesAsItsWholeMesh") {
   const TemporaryDirectory folder;
@@ -90,5 +90,5 @@ TEST_CASE("ConrodUnderBorePressure_MovesAlikeByModesAndByNodes") {
   CHECK(error < 0.01 * size);
 }
 
-}  // namespace
+}  // namespace conrod_pressure_test
 }  // namespace hersey::run

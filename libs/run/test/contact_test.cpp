@@ -10,7 +10,7 @@
 
 // Contacts in a run: results, power balance, a start that lies too deep.
 namespace hersey::run {
-namespace {
+namespace contact_test {
 
 const std::string kBall = R"(hersey: 1
 title: A ball
@@ -83,5 +83,5 @@ TEST_CASE("StartDeepInside_IsToldWithItsLine") {
   }
 }
 
-}  // namespace
+}  // namespace contact_test
 }  // namespace hersey::run

@@ -9,7 +9,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace {
+namespace cycle_maps_test {
 
 constexpr double kFriction = 0.1;
 
@@ -116,5 +116,5 @@ TEST_CASE("Maps_HoldTheExtremesOfTheFields") {
   CHECK(seen.only("contact") == *std::max_element(contact.begin(), contact.end()));
 }
 
-}  // namespace
+}  // namespace cycle_maps_test
 }  // namespace hersey::run

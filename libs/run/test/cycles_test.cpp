@@ -11,7 +11,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace {
+namespace cycles_test {
 
 std::string rig_of_cycles(const std::string& cycle) {
   std::string text = rig_with("  duration: \"${duration}\"\n", "  cycle: " + cycle + "\n");
@@ -98,5 +98,5 @@ TEST_CASE("StepsOfControlledError_HitTheEndOfEachCycle") {
   CHECK(seen.end[1] == doctest::Approx(kTurn / 2).epsilon(1e-14));
 }
 
-}  // namespace
+}  // namespace cycles_test
 }  // namespace hersey::run

@@ -9,7 +9,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace {
+namespace energy_balance_test {
 
 const std::string kDampedBlock = R"(hersey: 1
 title: Springs and dampers of every kind
@@ -83,5 +83,5 @@ TEST_CASE("EnergyPutIntoAFilm_IsWhatItsIntegralsTake") {
   }
 }
 
-}  // namespace
+}  // namespace energy_balance_test
 }  // namespace hersey::run

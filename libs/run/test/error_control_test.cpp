@@ -18,7 +18,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace {
+namespace error_control_test {
 
 const std::string kPendulum = R"(hersey: 1
 
@@ -326,5 +326,5 @@ TEST_CASE("StepError_IsThatOfAMuchFinerRunWithinAFactorOfThree") {
   CHECK(std::abs(told.mean_power - truth.mean_power) < 1e-3 * truth.mean_power);
 }
 
-}  // namespace
+}  // namespace error_control_test
 }  // namespace hersey::run

@@ -15,7 +15,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace {
+namespace facing_surfaces_test {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -208,5 +208,5 @@ TEST_CASE("JournalTouchingAtTheStart_IsToldWithPlace") {
   CHECK(contains(tilted.found, "z = "));
 }
 
-}  // namespace
+}  // namespace facing_surfaces_test
 }  // namespace hersey::run

@@ -8,7 +8,7 @@
 
 // Films whose trials leave the domain of their equations: absurd pressures, liners that sink, surfaces that meet.
 namespace hersey::run {
-namespace {
+namespace film_domain_test {
 
 Summary run(const std::string& text) {
   const TemporaryDirectory scratch;
@@ -98,5 +98,5 @@ simulation: {duration: 0.11 s, step: 1.1 ms}
   CHECK(summary.message.find("asperities") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace film_domain_test
 }  // namespace hersey::run

@@ -21,7 +21,7 @@
 #include "vtu_field.h"
 
 namespace hersey::run {
-namespace {
+namespace film_on_mesh_test {
 
 /// A hollow shaft turning in a ring, both meshes.
 const std::string machine = R"(hersey: 1
@@ -219,5 +219,5 @@ TEST_CASE("MapsOverAngleAndTime_AreTheExtremesOverTheWidth") {
   }
 }
 
-}  // namespace
+}  // namespace film_on_mesh_test
 }  // namespace hersey::run

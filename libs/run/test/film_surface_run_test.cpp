@@ -13,7 +13,7 @@
 
 // Bearings between the surfaces of meshes, in a run: limits, one form of body against the other, power balance.
 namespace hersey::run {
-namespace {
+namespace film_surface_run_test {
 
 const char* const shell_model = R"(hersey: 1
 title: A ring around a journal
@@ -200,5 +200,5 @@ TEST_CASE("DeformingJournal_WhenStiffIsRigid_WhenSoftGivesWay") {
   CHECK(std::abs(soft.balance) < 1e-6);  // steps are solved to 1e-8
 }
 
-}  // namespace
+}  // namespace film_surface_run_test
 }  // namespace hersey::run

@@ -16,7 +16,7 @@
 
 // Flexible bodies in a run: energies, power balance, deformed meshes.
 namespace hersey::run {
-namespace {
+namespace flexible_test {
 
 TEST_CASE("FlexiblePendulum_IsRecordedAndBalanced") {
   const TemporaryDirectory folder;
@@ -369,5 +369,5 @@ TEST_CASE("ModesOfABar_BendItsSkin") {
   CHECK(tip > 0.01);
 }
 
-}  // namespace
+}  // namespace flexible_test
 }  // namespace hersey::run

@@ -13,7 +13,7 @@
 
 // Journals whose mass is nothing beside the damping of their film: a load pushes them through the oil.
 namespace hersey::run {
-namespace {
+namespace light_journal_test {
 
 const std::string kSqueezed = R"(hersey: 1
 parameters: {mass: 1e-3 kg, step: 0.1 ms}
@@ -96,5 +96,5 @@ TEST_CASE("MassThatNothingHolds_IsAskedFor") {
   }
 }
 
-}  // namespace
+}  // namespace light_journal_test
 }  // namespace hersey::run

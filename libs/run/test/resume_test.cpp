@@ -18,7 +18,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace {
+namespace resume_test {
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), 8 * a.size()) == 0;
@@ -383,5 +383,5 @@ TEST_CASE("ReplacedResults_LoseTheirCheckpoint") {
   CHECK_FALSE(std::filesystem::exists(checkpoint_file(results)));
 }
 
-}  // namespace
+}  // namespace resume_test
 }  // namespace hersey::run

@@ -11,7 +11,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace {
+namespace simulate_test {
 
 double last(const results::Reader& reader, const std::string& path) { return reader.read(path).values.back(); }
 
@@ -281,5 +281,5 @@ TEST_CASE("MasslessBody_IsNamed") {
   CHECK(fault.found.find("ghost") != std::string::npos);
 }
 
-}  // namespace
+}  // namespace simulate_test
 }  // namespace hersey::run

@@ -18,7 +18,7 @@
 
 // A run starts from what the model gives; what it leaves out moves.
 namespace hersey::run {
-namespace {
+namespace start_test {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -211,5 +211,5 @@ TEST_CASE("RandomStarts_AreAsGiven") {
   }
 }
 
-}  // namespace
+}  // namespace start_test
 }  // namespace hersey::run

@@ -14,7 +14,7 @@
 
 // Bodies that start deformed as the forces hold them.
 namespace hersey::run {
-namespace {
+namespace static_start_test {
 
 /// The pendulum's strain energy in time, with `change` made to its text.
 std::vector<double> strain_energy(const std::string& text, const std::string& initial_deformation) {
@@ -101,5 +101,5 @@ TEST_CASE("FallingPendulum_StartsWithoutVibration") {
   CHECK(*std::max_element(ringing.begin(), ringing.begin() + first) > 3 * smooth.front());
 }
 
-}  // namespace
+}  // namespace static_start_test
 }  // namespace hersey::run

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace hersey::run {
-namespace {
+namespace target_instants_test {
 
 TEST_CASE("TargetInstants_EqualIntervals_EndWithTheRun") {
   const TargetInstants whole = TargetInstants::equal(2, 1, 0.25);
@@ -40,5 +40,5 @@ TEST_CASE("TargetInstants_AList_IsKept") {
   CHECK(TargetInstants().size() == 0);
 }
 
-}  // namespace
+}  // namespace target_instants_test
 }  // namespace hersey::run

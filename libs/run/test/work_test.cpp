@@ -10,7 +10,7 @@
 #include "work_record.h"
 
 namespace hersey::run {
-namespace {
+namespace work_test {
 
 TEST_CASE("StepCounts_GiveMedianMeanAndMost") {
   StepCounts counts;
@@ -88,5 +88,5 @@ TEST_CASE("Work_SaysHowManyExchangesACouplingTook") {
   CHECK(aitken.exchanges.mean > quasi_newton.exchanges.mean);
 }
 
-}  // namespace
+}  // namespace work_test
 }  // namespace hersey::run

@@ -11,7 +11,7 @@
 
 // Motions that damping ends within the first step.
 namespace hersey::solver {
-namespace {
+namespace fast_motions_test {
 
 /// m v' = c (cos t - v): what a film does to a journal that a turning load drags along.
 test::OneCoordinate dragged(double mass, double damping) {
@@ -110,5 +110,5 @@ TEST_CASE("MotionWithoutMass_HasTheRateThatDampingLetsIt") {
   CHECK(s.vdot[0] == 0);
 }
 
-}  // namespace
+}  // namespace fast_motions_test
 }  // namespace hersey::solver

@@ -8,7 +8,7 @@
 #include "one_coordinate.h"
 
 namespace hersey::solver {
-namespace {
+namespace generalized_alpha_test {
 
 test::OneCoordinate oscillator(double omega) {
   test::OneCoordinate e;
@@ -197,5 +197,5 @@ TEST_CASE("BadOptions_AreRejected") {
   CHECK_THROWS_AS(GeneralizedAlpha({.rtol = 0}), ContractError);
 }
 
-}  // namespace
+}  // namespace generalized_alpha_test
 }  // namespace hersey::solver

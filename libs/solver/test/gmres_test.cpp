@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace hersey::solver {
-namespace {
+namespace gmres_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -82,5 +82,5 @@ TEST_CASE("Gmres_OfNothing_IsNothing") {
   CHECK(x.isZero(0));
 }
 
-}  // namespace
+}  // namespace gmres_test
 }  // namespace hersey::solver

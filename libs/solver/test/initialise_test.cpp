@@ -6,7 +6,7 @@
 #include "one_coordinate.h"
 
 namespace hersey::solver {
-namespace {
+namespace initialise_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -94,5 +94,5 @@ TEST_CASE("Kkt_SolvesBothEquationsWithInertiasFarApart") {
   CHECK((G * s.vdot + gamma).cwiseQuotient(motions).cwiseAbs().maxCoeff() < 1e-9);
 }
 
-}  // namespace
+}  // namespace initialise_test
 }  // namespace hersey::solver

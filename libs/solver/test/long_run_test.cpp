@@ -7,7 +7,7 @@
 #include "one_coordinate.h"
 
 namespace hersey::solver {
-namespace {
+namespace long_run_test {
 
 /// A pendulum, q'' = -sin q, swinging to 2 rad: largest error of its energy in periods [from, to).
 struct EnergyErrors {
@@ -48,5 +48,5 @@ TEST_CASE("Energy_LeaksBelowSpectralRadiusOne") {
   CHECK(fine.late < errors.late / 4);
 }
 
-}  // namespace
+}  // namespace long_run_test
 }  // namespace hersey::solver

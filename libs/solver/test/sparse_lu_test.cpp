@@ -9,7 +9,7 @@
 #include "seeded_random.h"
 
 namespace hersey::solver {
-namespace {
+namespace sparse_lu_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -154,5 +154,5 @@ TEST_CASE("SparseLuWithoutAMatrix_IsRestoredAsSuch") {
   CHECK_FALSE(restored.factorised());
 }
 
-}  // namespace
+}  // namespace sparse_lu_test
 }  // namespace hersey::solver

@@ -10,7 +10,7 @@
 #include "one_coordinate.h"
 
 namespace hersey::solver {
-namespace {
+namespace step_control_test {
 
 Eigen::VectorXd one(double error) { return Eigen::VectorXd::Constant(1, error); }
 
@@ -171,5 +171,5 @@ TEST_CASE("InaccurateStep_LeavesEverythingAsItWas") {
   CHECK(s.v == alone.v);
 }
 
-}  // namespace
+}  // namespace step_control_test
 }  // namespace hersey::solver

@@ -10,7 +10,7 @@
 #include "seeded_random.h"
 
 namespace hersey::solver {
-namespace {
+namespace symmetric_factor_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -111,5 +111,5 @@ TEST_CASE("MatrixWithANotANumber_IsNotFactorised") {
   CHECK(factor.factorise(A).status == FactorStatus::failed);
 }
 
-}  // namespace
+}  // namespace symmetric_factor_test
 }  // namespace hersey::solver

@@ -9,7 +9,7 @@
 #include "hersey/core/input_error.h"
 
 namespace hersey::study {
-namespace {
+namespace bearing_study_test {
 
 constexpr double kRoundOff = 1e-14;  // of a unit
 
@@ -207,5 +207,5 @@ TEST_CASE("LemonBoreMadeRound_HasTheCoefficientsOfLundAndThomsen") {
   }
 }
 
-}  // namespace
+}  // namespace bearing_study_test
 }  // namespace hersey::study

@@ -18,7 +18,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::study {
-namespace {
+namespace elastic_bearing_test {
 
 constexpr double kSolved = 1e-8;  // the search ends at 1e-10 of the load and of the film's largest throughput
 
@@ -392,5 +392,5 @@ TEST_CASE("Sweep_OfElasticBearings_ReducesEachMeshOnce") {
   CHECK(solutions[0].state.d_shell.norm() < solutions[2].state.d_shell.norm());
 }
 
-}  // namespace
+}  // namespace elastic_bearing_test
 }  // namespace hersey::study

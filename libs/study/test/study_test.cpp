@@ -12,7 +12,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::study {
-namespace {
+namespace study_test {
 
 // The command line tests' model with a study of two loads and two clearances, in a folder of its own.
 class StudyFolder {
@@ -94,5 +94,5 @@ TEST_CASE("FailedRun_LeavesTheOthersAlone") {
   for (std::size_t i : {0, 2, 3}) CHECK(results[i].summary.status == run::Status::completed);
 }
 
-}  // namespace
+}  // namespace study_test
 }  // namespace hersey::study
