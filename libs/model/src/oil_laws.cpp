@@ -26,7 +26,7 @@ const std::vector<Alternative<film::ViscosityLaw>>& viscosity_laws() {
 const std::vector<Alternative<film::DensityLaw>>& density_laws() {
   static const std::vector<Alternative<film::DensityLaw>> laws{
       {{"incompressible", "the density does not depend on pressure", {}},
-       [](const Value&) { return film::DensityLaw{}; }},
+       [](const Value&) { return film::Incompressible{}; }},
       {{"dowson_higginson",
         "rho = rho0 (1 + rise p/(1 + saturation p))",
         {defaulted("rise", compressibility(), "0.6e-9 1/Pa", "Compressibility at p = 0."),

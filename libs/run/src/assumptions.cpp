@@ -74,20 +74,28 @@ std::string described(const film::SurfaceFeature& feature) {
                      1e3 * feature.length, depth, feature.is_fed ? "" : ", not fed");
 }
 
+/// What follows the viscosity mu0 in its description. A law without words here does not compile.
+struct WordsOfViscosity {
+  std::string operator()(const film::ConstantViscosity&) const { return ""; }
+  std::string operator()(const film::Barus& law) const { return fmt::format(" exp({:.4g}/Pa p) (Barus)", law.alpha); }
+  std::string operator()(const film::Roelands& law) const {
+    return fmt::format(" at p_cav, Roelands with z = {:.4g}", law.z);
+  }
+};
+
+struct WordsOfDensity {
+  std::string operator()(const film::Incompressible&) const { return "incompressible"; }
+  std::string operator()(const film::DowsonHigginson& law) const {
+    return fmt::format("density rises by {:.4g}/Pa p/(1 + {:.4g}/Pa p) (Dowson-Higginson)", law.rise, law.saturation);
+  }
+  std::string operator()(const film::ConstantBulkModulus& law) const {
+    return fmt::format("bulk modulus {:.4g} GPa", 1e-9 * law.bulk_modulus);
+  }
+};
+
 std::string viscosity(const film::Lubricant& oil) {
-  std::string text = fmt::format("{:.4g} mPa.s", 1e3 * oil.mu0);
-  if (const auto* barus = std::get_if<film::Barus>(&oil.viscosity_law)) {
-    text += fmt::format(" exp({:.4g}/Pa p) (Barus)", barus->alpha);
-  } else if (const auto* roelands = std::get_if<film::Roelands>(&oil.viscosity_law)) {
-    text += fmt::format(" at p_cav, Roelands with z = {:.4g}", roelands->z);
-  }
-  if (const auto* law = std::get_if<film::DowsonHigginson>(&oil.density_law)) {
-    return text + fmt::format(", density rises by {:.4g}/Pa p/(1 + {:.4g}/Pa p) (Dowson-Higginson), isothermal",
-                              law->rise, law->saturation);
-  }
-  if (const auto* law = std::get_if<film::ConstantBulkModulus>(&oil.density_law))
-    return text + fmt::format(", bulk modulus {:.4g} GPa, isothermal", 1e-9 * law->bulk_modulus);
-  return text + ", incompressible, isothermal";
+  return fmt::format("{:.4g} mPa.s{}, {}, isothermal", 1e3 * oil.mu0, std::visit(WordsOfViscosity{}, oil.viscosity_law),
+                     std::visit(WordsOfDensity{}, oil.density_law));
 }
 
 std::string asperities(const film::Asperities& contact) {
