@@ -151,7 +151,9 @@ TEST_CASE("FortyFiveDegreeBend_OfBatheAndBolourchi") {
   // R = 100, section 1 x 1, E = 1e7, nu = 0, P = 600 across the plane; reference on the curved beam with the J stated.
   const std::pair<double, Vector3> reference[] = {{1.0 / 6, {47.1504, 15.6848, 53.4749}},
                                                   {0.1406, {46.8919, 15.5578, 53.6074}}};
-  for (const auto& [J, tip] : reference) {
+  for (const auto& one : reference) {
+    const double J = one.first;
+    const Vector3& tip = one.second;
     CAPTURE(J);
     const auto solve = [&, torsion = J](int n) -> Vector3 {
       Mesh mesh = line(n);

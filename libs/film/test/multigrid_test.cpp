@@ -8,7 +8,7 @@
 namespace hersey::film {
 namespace multigrid_test {
 
-FilmModel big_end(Cavitation cavitation, Grid grid) {
+FilmModel big_end(Cavitation cavitation, const Grid& grid) {
   FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = grid, .cavitation = cavitation};
   m.supply = {SupplyKind::widest_gap, 0, 1e5};
   return m;

@@ -28,6 +28,7 @@ using Vocabulary = std::array<Meaning<T>, n>;
 template <typename T, std::size_t n>
 [[nodiscard]] TypePtr choice(const Vocabulary<T, n>& words) {
   std::vector<Word> all;
+  all.reserve(n);
   for (const Meaning<T>& one : words) all.push_back({std::string(one.word), std::string(one.description)});
   return choice(std::move(all));
 }
@@ -36,6 +37,7 @@ template <typename T, std::size_t n>
 template <typename T, std::size_t n>
 [[nodiscard]] std::vector<Variant> variants_of(const Vocabulary<T, n>& words) {
   std::vector<Variant> all;
+  all.reserve(n);
   for (const Meaning<T>& one : words) all.push_back({std::string(one.word), std::string(one.description), {}});
   return all;
 }
@@ -71,6 +73,7 @@ struct Alternative {
 template <typename T>
 [[nodiscard]] std::vector<Variant> variants_of(const std::vector<Alternative<T>>& alternatives) {
   std::vector<Variant> all;
+  all.reserve(alternatives.size());
   for (const Alternative<T>& one : alternatives) all.push_back(one.format);
   return all;
 }
