@@ -23,7 +23,7 @@ inline constexpr Vocabulary<mbd::Strain, 2> strain_words{{
     {mbd::Strain::small, "small", "displacements against the body's axes strain linearly"},
     {mbd::Strain::finite, "finite",
      "by Green and Lagrange: large bending, stiffening by pull; nodal bodies whose frames but the first are "
-     "`connection: rigid`"},
+     "`connection: rigid`, and whose surfaces deform under no film or contact"},
 }};
 
 inline constexpr Vocabulary<Axes, 2> axes_of_frame_words{{
