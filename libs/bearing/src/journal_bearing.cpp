@@ -372,7 +372,7 @@ void JournalBearing::show_oil(film::FilmObservables& film) const {
 
 film::FilmFields JournalBearing::fields() const {
   film::FilmFields fields = film::film_fields(model(), observed_surfaces_, u_start_);
-  if (model().cavitation == film::Cavitation::mass_conserving && history_start_.theta.size() == u_.size())
+  if (film::cavitation_law(model()).has_fill() && history_start_.theta.size() == u_.size())
     fields.theta = history_start_.theta.cwiseMax(0.0).cwiseMin(1.0);
   fields.depth = film::mean_depth(model(), observed_surfaces_.phi_journal);
   if (options_.shell_surface) fields.d_shell = deforming_->shell_displacement(observed_s_);

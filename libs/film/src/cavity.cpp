@@ -32,7 +32,7 @@ class MiddleRow {
     if (balance_.is_held(node(i))) return 0;
     const double gap = step(sense > 0 ? i : i - 1), back = step(sense > 0 ? i - 1 : i);
     const double last = std::max(value(i), 0.0), before = std::max(value(i - sense), 0.0);
-    if (balance_.model().cavitation == Cavitation::guembel) return gap * last / (last - value(i + sense));
+    if (cavitation_law(balance_.model()).has_tension()) return gap * last / (last - value(i + sense));
     const double rise =
         is_rupture ? std::sqrt(before / std::max(last, 1e-300)) - 1 : before / std::max(last, 1e-300) - 1;
     return rise > 0 ? std::min(back / rise, gap) : gap;

@@ -114,7 +114,7 @@ void FlowBalance::add_face(std::size_t f) {
   const double h = thickness_on(f), drop = a.p - b.p;
   const double fluidity = is_cut(f) ? 0 : 0.5 * (a.fluidity + b.fluidity);
   FaceGap gap = smooth_gap(f, h);
-  if (!rough_.empty()) roughen(f, gap);
+  roughen(f, gap);
   gap.little = gap.full, gap.little_h = gap.full_h;
   if (tube_of_[f] >= 0) deepen(f, h, gap, flow);
 
@@ -163,13 +163,10 @@ std::array<double, 2> FlowBalance::flow_by_u(std::size_t f) const {
 std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speeds) const {
   const Face& face = faces_[f];
   const double h = thickness_on(f);
-  double full = speeds.mean * h;
-  if (!rough_.empty()) {
-    const RoughGap &a = rough_[face.a], &b = rough_[face.b];
-    const int k = axial(f) ? 1 : 0;
-    full += 0.5 * (speeds.mean * (a.mean - nodes_[face.a].h + b.mean - nodes_[face.b].h) +
-                   speeds.half_slip * (a.drag[k] + b.drag[k]));
-  }
+  const RoughGap &a = rough_[face.a], &b = rough_[face.b];
+  const int k = axial(f) ? 1 : 0;
+  double full = speeds.mean * h + 0.5 * (speeds.mean * (a.mean - nodes_[face.a].h + b.mean - nodes_[face.b].h) +
+                                         speeds.half_slip * (a.drag[k] + b.drag[k]));
   double little = full;
   if (tube_of_[f] >= 0) {
     const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];

@@ -27,10 +27,9 @@ Eigen::VectorXd parabolic_shares(const Eigen::VectorXd& length) {
 double couette(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion, int node) {
   const double slip2_phi = std::pow(motion.u_journal - motion.u_shell, 2);
   const double slip2_z = std::pow(motion.w_journal - motion.w_shell, 2);
-  const RoughGaps& rough = balance.rough_gaps();
   const Node& at = balance.nodes()[node];
-  const double slip2 =
-      rough.empty() ? slip2_phi + slip2_z : rough[node].couette[0] * slip2_phi + rough[node].couette[1] * slip2_z;
+  const RoughGap& rough = balance.rough_gaps()[node];
+  const double slip2 = rough.couette[0] * slip2_phi + rough.couette[1] * slip2_z;
   return at.share * slip2 * wrench.relief_factor(node) / (at.fluidity * at.h);
 }
 

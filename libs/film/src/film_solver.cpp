@@ -63,7 +63,7 @@ std::string where(const Grid& grid, int node) {
 }
 
 bool starved(const FilmModel& model, const Eigen::VectorXd& u) {
-  if (model.cavitation != Cavitation::mass_conserving) return false;
+  if (!cavitation_law(model).has_fill()) return false;
   for (int node = 0; node < model.grid.size(); ++node) {
     // On an edge at p_cav, u > 0 is oil that leaves, not pressure.
     if (u[node] > 1e-9 * fill_scale(model) && !open_edge(model, node % model.grid.n_z)) return false;
@@ -73,7 +73,7 @@ bool starved(const FilmModel& model, const Eigen::VectorXd& u) {
 
 // A fill fraction below zero is no film: it says that more oil leaves a node than comes in.
 int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
-  if (model.cavitation != Cavitation::mass_conserving) return -1;
+  if (!cavitation_law(model).has_fill()) return -1;
   int emptiest = -1;
   double least = -fill_scale(model) * (1 + 1e-9);
   for (int node = 0; node < model.grid.size(); ++node) {

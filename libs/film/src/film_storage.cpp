@@ -16,10 +16,9 @@ constexpr double least_start = 0.5;
 }  // namespace
 
 void FlowBalance::evaluate_cell(int i, const SurfaceMotion& motion) {
-  const Node& node = nodes_[i];
   Cell& cell = cells_[i];
   cell = {};
-  const double mean = rough_.empty() ? node.h : rough_[i].mean, mean_h = rough_.empty() ? 1.0 : rough_[i].mean_h;
+  const double mean = rough_[i].mean, mean_h = rough_[i].mean_h;
   const bool limited = excesses_[i] < (least_share - 1) * mean;
   cell.gap = limited ? least_share * mean : mean + excesses_[i];
   cell.gap_h = limited ? least_share * mean_h : mean_h;
@@ -34,7 +33,7 @@ void FlowBalance::evaluate_cell(int i, const SurfaceMotion& motion) {
     return;
   }
   const double h = motion.g[i] - dt_ * motion.g_rate[i] + w_start_[i];
-  const ValueAndSlope from = rough_law_ ? rough_law_->mean(h) : ValueAndSlope{h, 1};
+  const ValueAndSlope from = rough_law_.mean(h);
   cell.start = from.value + excesses_[i] - dt_ * rate_excesses_[i];
   cell.start_slope = from.slope;
   const double least = !knows_gap_ ? 0 : least_start * gap_start_[i];
@@ -54,7 +53,7 @@ double FlowBalance::pocket_rate(int i) const {
 
 double FlowBalance::storage_by_content(int i) const {
   if (dt_ > 0) return area_[i] * oil_gap(i) / dt_;
-  return area_[i] * ((g_rate_[i] + rate_excesses_[i]) * (rough_.empty() ? 1.0 : rough_[i].mean_h) + pocket_rate(i));
+  return area_[i] * ((g_rate_[i] + rate_excesses_[i]) * rough_[i].mean_h + pocket_rate(i));
 }
 
 double FlowBalance::storage_u(int i) const {
@@ -69,7 +68,6 @@ double FlowBalance::storage_h(int i) const {
     return area_[i] * (nodes_[i].content * cell.gap_h - (liner_rests_ ? content_start_[i] * cell.start_slope : 0)) /
            dt_;
   }
-  if (rough_.empty()) return 0;
   return area_[i] * nodes_[i].content * (g_rate_[i] + rate_excesses_[i]) * rough_[i].mean_hh;
 }
 
@@ -86,7 +84,7 @@ double FlowBalance::storage_excess(int i) const {
 
 double FlowBalance::storage_g_rate(int i) const {
   if (dt_ > 0) return area_[i] * content_start_[i] * cells_[i].start_slope;
-  return area_[i] * nodes_[i].content * (rough_.empty() ? 1.0 : rough_[i].mean_h);
+  return area_[i] * nodes_[i].content * rough_[i].mean_h;
 }
 
 double FlowBalance::storage_excess_rate(int i) const {

@@ -79,7 +79,6 @@ void FilmWrench::set_speeds(const SurfaceMotion& motion) {
 
 void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motion, bool want_gradient) {
   const std::vector<Node>& nodes = balance.nodes();
-  const RoughGaps& rough = balance.rough_gaps();
   const Grid& grid = model_.grid;
   take_relief(balance);
   set_speeds(motion);
@@ -92,10 +91,10 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
   }
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
-      add_node(nodes, rough.empty() ? nullptr : &rough[grid.index(i, j)], i, j, want_gradient);
+      add_node(nodes, balance.rough_gaps()[grid.index(i, j)], i, j, want_gradient);
     }
   }
-  if (model_.cavitation == Cavitation::guembel) cut_off(nodes, want_gradient);
+  if (cavitation_law(model_).has_tension()) cut_off(nodes, want_gradient);
   pushes_.clear();
   if (balance.relief().has_pockets()) push_on_pocket_walls(balance, want_gradient);
   if (opening_.size() != 0) push_on_slopes(nodes, want_gradient);
@@ -170,24 +169,23 @@ Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
   return sum;
 }
 
-FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap* rough, const ValueAndSlope& relief) {
+FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief) {
   Shear s;
   const double mu = 1 / node.fluidity, couette = node.share * mu / node.h;
   const double couette_u = (node.share_u * mu - node.share * mu * mu * node.fluidity_u) / node.h;
   for (int k = 0; k < 2; ++k) {
-    const double by_rough = rough == nullptr ? 1 : rough->couette[k];
-    const double factor = by_rough * relief.value;
-    const double factor_h = (rough == nullptr ? 0 : rough->couette_h[k] * relief.value) + by_rough * relief.slope;
+    const double factor = rough.couette[k] * relief.value;
+    const double factor_h = rough.couette_h[k] * relief.value + rough.couette[k] * relief.slope;
     s.couette[k] = couette * factor;
     s.couette_u[k] = couette_u * factor;
     s.couette_h[k] = couette * (factor_h - factor / node.h);
-    s.half_gap[k] = 0.5 * (rough == nullptr ? node.h : rough->mean + rough->drag[k]);
-    s.half_gap_h[k] = 0.5 * (rough == nullptr ? 1 : rough->mean_h + rough->drag_h[k]);
+    s.half_gap[k] = 0.5 * (rough.mean + rough.drag[k]);
+    s.half_gap_h[k] = 0.5 * (rough.mean_h + rough.drag_h[k]);
   }
   return s;
 }
 
-// In guembel the pressure is cut off at p_cav somewhere between two nodes (film.23). The sum over nodes would count the
+// Of a film that bears tension the pressure is cut off at p_cav somewhere between two nodes (film.23). The sum over nodes would count the
 // last one for its whole cell: first order in the derivatives, which jump there. A pressure that falls from u_a > 0 to
 // u_b < 0 over a distance l acts on its positive part, the triangle u_a t l/2 with t = u_a/(u_a - u_b).
 void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
@@ -242,7 +240,7 @@ void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradie
   }
 }
 
-void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient) {
+void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap& rough, int i, int j, bool want_gradient) {
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j);
   const Node& node = nodes[k];

@@ -54,8 +54,8 @@ class FilmWrench {
     Eigen::Vector2d couette, couette_u, couette_h;  ///< [Pa s/m] and slopes at given film thickness and at given u
     Eigen::Vector2d half_gap, half_gap_h;           ///< [m]
   };
-  [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap* rough, const ValueAndSlope& relief);
-  void add_node(const std::vector<Node>& nodes, const RoughGap* rough, int i, int j, bool want_gradient);
+  [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief);
+  void add_node(const std::vector<Node>& nodes, const RoughGap& rough, int i, int j, bool want_gradient);
   void take_relief(const FlowBalance& balance);
   void push_on_pocket_walls(const FlowBalance& balance, bool want_gradient);
   [[nodiscard]] Vector6 pushes_along(const MotionDirection& direction) const;

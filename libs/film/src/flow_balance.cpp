@@ -24,7 +24,9 @@ void check(const FilmModel& m) {
 
 FlowBalance::FlowBalance(const FilmModel& model)
     : model_(model),
+      cavitation_(cavitation_law(model_)),
       law_(model_),
+      rough_law_(model_.roughness),
       geometry_(model_),
       interpolation_(model_.grid, geometry_),
       relief_(model_, geometry_) {
@@ -43,10 +45,7 @@ FlowBalance::FlowBalance(const FilmModel& model)
   };
   ambient_left_ = ambient_unknown_at(0), ambient_right_ = ambient_unknown_at(grid.n_z - 1);
   nodes_.resize(n);
-  if (model_.roughness.counts()) {
-    rough_law_.emplace(model_.roughness);
-    rough_.resize(n);
-  }
+  rough_.resize(n);
   flows_.resize(faces_.size());
   for (auto* field : {&residual_, &balance_, &throughput_, &g_rate_, &w_start_, &u_}) field->setZero(n);
   content_start_.setOnes(n);
@@ -127,7 +126,7 @@ void FlowBalance::take_history(const FilmHistory& history) {
   HERSEY_REQUIRE(history.theta.size() == size() && (liner_rests_ || history.w.size() == size()),
                  "history of shape (grid.size())");
   content_start_.setOnes();
-  if (model_.cavitation == Cavitation::mass_conserving) content_start_ = history.theta;
+  if (cavitation_.has_fill()) content_start_ = history.theta;
   if (history.density.size() != 0) {
     HERSEY_REQUIRE(history.density.size() == size(), "density at the start of shape (grid.size()) or empty");
     content_start_.array() *= history.density.array();
@@ -191,23 +190,22 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
     if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
     if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;
-    if (rough_law_) rough_[i] = rough_law_->state(nodes_[i].h);
+    rough_[i] = rough_law_.state(nodes_[i].h);
   }
   return {};
 }
 
-// What a row carries beside its balance: in reynolds the slack of p >= p_cav, on an open edge the outflow or
-// inflow.
+// What a row carries beside its balance: the slack of p >= p_cav, on an open edge the outflow or inflow.
 double FlowBalance::slack(int node) const {
-  if (model_.cavitation == Cavitation::reynolds) return D0_ * std::min(u_[node], 0.0);
   const int j = node % model_.grid.n_z;
-  return open_row(j) ? D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(j), 0.0)) : 0;
+  if (!open_row(j)) return D0_ * cavitation_.slack(u_[node]).value;
+  return D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(j), 0.0));
 }
 
 double FlowBalance::slack_u(int node) const {
-  if (model_.cavitation == Cavitation::reynolds) return u_[node] < 0 ? D0_ : 0;
   const int j = node % model_.grid.n_z;
-  return open_row(j) && (u_[node] >= 0 || u_[node] < ambient_unknown(j)) ? D0_ : 0;
+  if (!open_row(j)) return D0_ * cavitation_.slack(u_[node]).slope;
+  return u_[node] >= 0 || u_[node] < ambient_unknown(j) ? D0_ : 0;
 }
 
 // A film that does not conserve oil lacks some wherever it is broken: the half volumes on an edge do not draw it in.
@@ -215,7 +213,7 @@ bool FlowBalance::lets_nothing_in(int node) const {
   const int j = node % model_.grid.n_z, inside = j == 0 ? node + 1 : node - 1;
   // A groove at p_cav holds u = 0 to round-off, of either sign.
   const double round_off = 1e-9 * fill_scale(model_);
-  return model_.cavitation == Cavitation::reynolds && edge_unknown(j) == 0 && u_[inside] < round_off;
+  return cavitation_.loses_oil() && edge_unknown(j) == 0 && u_[inside] < round_off;
 }
 
 double FlowBalance::outflow(int node) const {

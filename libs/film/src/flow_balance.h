@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -87,7 +86,7 @@ class FlowBalance {
   void take_stock(OilOfStep& oil) const;
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
-  [[nodiscard]] const RoughGaps& rough_gaps() const { return rough_; }  ///< empty for smooth surfaces
+  [[nodiscard]] const std::vector<RoughGap>& rough_gaps() const { return rough_; }
   [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
   [[nodiscard]] const std::vector<FaceFlow>& flows() const { return flows_; }
   [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
@@ -262,8 +261,9 @@ class FlowBalance {
   [[nodiscard]] std::array<double, 2> carried_at(std::size_t f, const Speeds& speeds) const;
 
   FilmModel model_;
+  const CavitationLaw& cavitation_;
   NodeLaw law_;
-  std::optional<RoughGapLaw> rough_law_;
+  RoughGapLaw rough_law_;
   GridGeometry geometry_;
   double D0_ = 0, unit_conductance_ = 0;
   double ambient_left_ = 0, ambient_right_ = 0;
@@ -274,7 +274,7 @@ class FlowBalance {
   std::vector<std::array<int, 5>> row_slots_;  ///< of every balanced row the slots of its entries
 
   std::vector<Node> nodes_;
-  RoughGaps rough_;
+  std::vector<RoughGap> rough_;
   std::vector<FaceFlow> flows_;
   std::vector<double> values_;  ///< one more than the pattern: rows without a balance scatter there
   Eigen::VectorXd residual_, balance_, throughput_, g_rate_, content_start_, w_start_, gap_start_, u_;

@@ -75,7 +75,7 @@ class Fronts {
 }  // namespace
 
 void let_fronts_follow(const FlowBalance& balance, Eigen::VectorXd& u) {
-  if (balance.model().cavitation == Cavitation::mass_conserving) Fronts(balance, u).sweep();
+  if (cavitation_law(balance.model()).has_fill()) Fronts(balance, u).sweep();
 }
 
 }  // namespace hersey::film

@@ -7,34 +7,20 @@
 #include "hersey/film/greenwood_tripp.h"
 
 namespace hersey::film {
-namespace {
-
-// Without a fill fraction of their own, guembel and reynolds fade Couette shear out over a small range of u < 0, so
-// that the friction has no jump where a node cavitates: guembel over this part of the pressure scale; reynolds, whose u
-// < 0 is missing oil, over this part of what a gap that widens by c in a radian would miss.
-constexpr double fade_of_pressure = 1e-3, fade_of_slack = 1e-3;
-
-// -u where the film of `reynolds` misses all that a gap widening by c in a radian asks for at the fill speed (film.20).
-double slack_scale(const FilmModel& model) {
-  const double dphi = 2 * std::numbers::pi / model.grid.n_phi;
-  const double slenderness = model.R * dphi * (model.grid.n_z - 1) / model.L;
-  return fill_scale(model) * dphi / (1 + slenderness * slenderness);
-}
-
-double shear_fade(const FilmModel& model) {
-  return model.cavitation == Cavitation::reynolds ? fade_of_slack * slack_scale(model)
-                                                  : fade_of_pressure * fill_scale(model);
-}
-
-}  // namespace
-
 double fill_scale(const FilmModel& model) {
   const double slope = model.R / model.c;
   return 6 * model.lubricant.mu0 * model.fill_speed * slope * slope * (2 * std::numbers::pi / model.grid.n_phi);
 }
 
+CavitationScales cavitation_scales(const FilmModel& model) {
+  const double dphi = 2 * std::numbers::pi / model.grid.n_phi;
+  const double slenderness = model.R * dphi * (model.grid.n_z - 1) / model.L;
+  const double fill = fill_scale(model);
+  return {.fill = fill, .slack = fill * dphi / (1 + slenderness * slenderness)};
+}
+
 bool open_edge(const FilmModel& model, int j) {
-  if (model.edges != EdgeKind::pressure || model.cavitation != Cavitation::mass_conserving) return false;
+  if (model.edges != EdgeKind::pressure || !cavitation_law(model).has_fill()) return false;
   return (j == 0 && model.p_edge_left == model.p_cav) || (j == model.grid.n_z - 1 && model.p_edge_right == model.p_cav);
 }
 
@@ -45,8 +31,8 @@ double ambient_fill(const FilmModel& model, int j) {
 
 NodeLaw::NodeLaw(const FilmModel& model)
     : model_(model),
-      fill_scale_(fill_scale(model)),
-      shear_fade_(shear_fade(model)),
+      cavitation_(cavitation_law(model)),
+      scales_(cavitation_scales(model)),
       contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus) {}
 
 Node NodeLaw::state(double g, double u, int j) const {
@@ -58,27 +44,21 @@ Node NodeLaw::state(double g, double u, int j) const {
 }
 
 void NodeLaw::pressure_and_fill(double u, int j, Node& node) const {
-  const bool full = u >= 0, open = open_edge(model_, j);
-  node.p = open ? 0 : std::max(u, 0.0);
-  node.wall = model_.p_cav + node.p;
-  node.wall_u = full && !open ? 1 : 0;
-  node.p_u = node.wall_u;
-  if (model_.cavitation == Cavitation::guembel) node.p = u, node.p_u = 1;
-  if (full) return;
-  if (model_.cavitation == Cavitation::mass_conserving) {
-    node.theta = 1 + u / fill_scale_;
-    node.theta_u = 1 / fill_scale_;
-    const double least = open ? ambient_fill(model_, j) : 0;
-    if (least > 0 && node.theta < least) node.theta = least, node.theta_u = 0;
+  FilmPhase phase = cavitation_.phase(u, scales_);
+  const bool open = open_edge(model_, j);
+  node.wall = model_.p_cav;
+  if (open) {
+    phase.p = {};
+    const double least = ambient_fill(model_, j);
+    if (least > 0 && phase.theta.value < least) phase.theta = {least, 0};
+  } else if (u >= 0) {
+    node.wall += u, node.wall_u = 1;
   }
+  node.p = phase.p.value, node.p_u = phase.p.slope;
+  node.theta = phase.theta.value, node.theta_u = phase.theta.slope;
   if (model_.cavitated_shear == CavitatedShear::full) return;
-  if (model_.cavitation == Cavitation::mass_conserving) {
-    node.share = node.theta;
-    node.share_u = node.theta_u;
-  } else {
-    node.share = std::max(0.0, 1 + u / shear_fade_);
-    node.share_u = node.share > 0 ? 1 / shear_fade_ : 0;
-  }
+  const ValueAndSlope share = cavitation_.share(u, phase.theta, scales_);
+  node.share = share.value, node.share_u = share.slope;
 }
 
 void NodeLaw::rheology(Node& node) const {

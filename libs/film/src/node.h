@@ -18,6 +18,9 @@ struct Node {
   double asperity = 0, asperity_h = 0;  ///< contact pressure [Pa] and its slope in h
 };
 
+/// Scales of what u < 0 tells in this film.
+[[nodiscard]] CavitationScales cavitation_scales(const FilmModel& model);
+
 /// An edge at the cavitation pressure of a film that conserves oil lies in air: oil may leave over it but none comes
 /// in. There p = p_cav whatever u is; u >= 0 stands for the outflow, u < 0 for the fill fraction (film.18).
 [[nodiscard]] bool open_edge(const FilmModel& model, int j);
@@ -42,7 +45,8 @@ class NodeLaw {
   void contact(double h, Node& node) const;
 
   const FilmModel& model_;
-  double fill_scale_, shear_fade_;
+  const CavitationLaw& cavitation_;
+  CavitationScales scales_;
   double contact_scale_;
 };
 

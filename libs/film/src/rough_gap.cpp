@@ -19,18 +19,23 @@ RoughGapLaw::Direction RoughGapLaw::direction(const Roughness& roughness, bool a
 }
 
 RoughGapLaw::RoughGapLaw(const Roughness& roughness)
-    : sigma_(roughness.composite_sigma()),
+    : sigma_(roughness.counts() ? roughness.composite_sigma() : 0),
       shell_share_(sigma_ > 0 ? std::pow(roughness.shell.sigma / sigma_, 2) : 0),
       journal_share_(sigma_ > 0 ? std::pow(roughness.journal.sigma / sigma_, 2) : 0),
       directions_{direction(roughness, false), direction(roughness, true)} {}
 
 ValueAndSlope RoughGapLaw::mean(double h) const {
+  if (sigma_ == 0) return {h, 1};
   const MeanGap gap = mean_gap(h / sigma_);
   return {sigma_ * gap.value, gap.slope};
 }
 
 RoughGap RoughGapLaw::state(double h) const {
   RoughGap r;
+  if (sigma_ == 0) {
+    r.mean = h;
+    return r;
+  }
   const double H = h / sigma_;
   const MeanGap gap = mean_gap(H);
   r.mean = sigma_ * gap.value, r.mean_h = gap.slope, r.mean_hh = gap.curvature / sigma_;

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "flow_factors.h"
 #include "hersey/film/film_model.h"
 
 namespace hersey::film {
 
-/// What roughness makes of the gap at one node, with slopes in h. Index 0: along phi, 1: along z.
+/// What roughness makes of the gap at one node, with slopes in h. Index 0: along phi, 1: along z. Between smooth
+/// surfaces the mean is h itself and the rest stays as it is here.
 struct RoughGap {
   double mean = 0, mean_h = 1, mean_hh = 0;  ///< mean of the local gap [m]: what holds oil
   std::array<double, 2> pressure{1, 1};      ///< phi_p: factor of the pressure flow [-]
@@ -38,8 +38,5 @@ class RoughGapLaw {
   double shell_share_, journal_share_;  ///< of the variance
   std::array<Direction, 2> directions_;
 };
-
-/// The same at every node; empty for smooth surfaces.
-using RoughGaps = std::vector<RoughGap>;
 
 }  // namespace hersey::film

@@ -34,7 +34,7 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
     leaving[face.b] -= q;
   }
   take_stock(oil);
-  const bool conserves = model_.cavitation == Cavitation::mass_conserving;
+  const bool conserves = cavitation_.has_fill();
   std::vector<char> takes_what_comes(static_cast<std::size_t>(size()), 0);
   for (int i = 0; i < size(); ++i) {
     const int j = i % grid.n_z;

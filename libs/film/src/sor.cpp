@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -26,7 +25,12 @@ struct NodeRow {
 class Sor {
  public:
   Sor(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history)
-      : balance_(model), motion_(motion), history_(history), fill_(fill_scale(model)), around_(balance_.size()) {
+      : balance_(model),
+        motion_(motion),
+        history_(history),
+        cavitation_(cavitation_law(model)),
+        scales_(cavitation_scales(model)),
+        around_(balance_.size()) {
     for (std::size_t f = 0; f < balance_.faces().size(); ++f) {
       around_[balance_.faces()[f].a].push_back(static_cast<int>(f));
       around_[balance_.faces()[f].b].push_back(static_cast<int>(f));
@@ -49,7 +53,8 @@ class Sor {
   FlowBalance balance_;
   const SurfaceMotion& motion_;
   const FilmHistory& history_;
-  double fill_;
+  const CavitationLaw& cavitation_;
+  CavitationScales scales_;
   double omega_ = 1;
   std::vector<std::vector<int>> around_;  ///< the faces of every node
   Eigen::VectorXd u_, p_, theta_;         ///< latest unknown, pressure above p_cav and fill fraction
@@ -88,12 +93,10 @@ void Sor::start(const Eigen::VectorXd& u) {
 }
 
 void Sor::place(int node, double u, int j) {
-  const Cavitation cavitation = balance_.model().cavitation;
   u_[node] = u;
-  p_[node] = cavitation == Cavitation::guembel ? u : std::max(u, 0.0);
-  if (balance_.open_row(j)) p_[node] = 0;
-  const double ambient = balance_.open_row(j) ? balance_.ambient_unknown(j) : -std::numeric_limits<double>::infinity();
-  theta_[node] = cavitation == Cavitation::mass_conserving ? 1 + std::min(std::max(u, ambient), 0.0) / fill_ : 1;
+  const bool open = balance_.open_row(j);
+  p_[node] = open ? 0 : cavitation_.phase(u, scales_).p.value;
+  theta_[node] = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(j)) : u, scales_).theta.value;
 }
 
 FilmDomain Sor::update_coefficients(const Eigen::VectorXd& u) {
@@ -149,7 +152,6 @@ NodeRow Sor::row(int node) const {
 }
 
 void Sor::relax(int i, int j) {
-  const Cavitation cavitation = balance_.model().cavitation;
   const int node = balance_.model().grid.index(i, j);
   if (balance_.edge_row(j)) return place(node, balance_.edge_unknown(j), j);
 
@@ -161,19 +163,17 @@ void Sor::relax(int i, int j) {
   const double conductance = own * (open ? balance_.conductance_scale() : r.K) + tie;
   const double target = -full / conductance;
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
-  if (u >= 0 || cavitation == Cavitation::guembel) return place(node, u, j);
+  if (u >= 0 || cavitation_.has_tension()) return place(node, u, j);
 
-  const double drawn = tie * balance_.draws(node);
-  // Cavitated: u is the slack of the row (film.20) or tells the fill fraction, which solves it.
-  if (cavitation == Cavitation::reynolds) {
-    return place(node, std::min(0.0, -full / (own * balance_.conductance_scale() + drawn)), j);
-  }
-  const double slope = own * r.transport / fill_ + drawn;
-  const double filling = slope > 0 ? std::min(0.0, -full / slope) : 0, ambient = balance_.ambient_unknown(j);
+  const BrokenRow broken{.full = full,
+                         .transport = own * r.transport,
+                         .slack = own * balance_.conductance_scale(),
+                         .drawn = tie * balance_.draws(node)};
+  const double filling = cavitation_.broken_unknown(broken, scales_), ambient = balance_.ambient_unknown(j);
   if (!open || filling >= ambient) return place(node, filling, j);
   // Emptier than what lies outside: u is the inflow that keeps it as full (film.19).
-  const double lack = full + slope * ambient;
-  place(node, std::min(ambient, ambient - lack / (balance_.conductance_scale() * own + drawn)), j);
+  const double lack = full + (broken.transport / scales_.fill + broken.drawn) * ambient;
+  place(node, std::min(ambient, ambient - lack / (broken.slack + broken.drawn)), j);
 }
 
 // With the flow, so that the fill fraction is carried around in one sweep.

@@ -28,7 +28,7 @@ double FlowBalance::supply_conductance(int node) const {
 
 double FlowBalance::draws(int node) const {
   const HeldNode* held = held_at(node);
-  if (held == nullptr || held->other < 0 || model_.cavitation == Cavitation::guembel) return 1;
+  if (held == nullptr || held->other < 0 || cavitation_.has_tension()) return 1;
   return (1 - held->way) * (1 - held->way);
 }
 
@@ -57,13 +57,11 @@ FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
   const double bend = line ? bends_[static_cast<Eigen::Index>(line_face(held))] : 0;
   const double h = line ? held.near * node.h + held.far * nodes_[held.other].h + held.bend * bend : node.h;
   const double unit = line ? held.conductance : unit_conductance_ / 12;
-  double k = unit * node.density * h * h * h * node.fluidity, by_h = 3 * k / h, by_node = 0;
-  if (!rough_.empty()) {
-    const RoughGap& rough = rough_[held.node];
-    const double factor = line ? rough.pressure[0] : 0.5 * (rough.pressure[0] + rough.pressure[1]);
-    by_node = k * (line ? rough.pressure_h[0] : 0.5 * (rough.pressure_h[0] + rough.pressure_h[1]));
-    by_h *= factor, k *= factor;
-  }
+  const RoughGap& rough = rough_[held.node];
+  const double smooth = unit * node.density * h * h * h * node.fluidity;
+  const double factor = line ? rough.pressure[0] : 0.5 * (rough.pressure[0] + rough.pressure[1]);
+  const double by_node = smooth * (line ? rough.pressure_h[0] : 0.5 * (rough.pressure_h[0] + rough.pressure_h[1]));
+  const double k = smooth * factor, by_h = 3 * k / h;
   const double by_laws = k * (node.fluidity_u / node.fluidity + node.density_u / node.density);
   if (!line) {
     const double scale = held.chi;
@@ -170,10 +168,7 @@ FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
   const HeldNode& held = *held_at(node);
   const std::size_t f = line_face(held);
   const Face& face = faces_[f];
-  const auto at = [&](int k) {
-    if (rough_.empty()) return speed_phi_ * nodes_[k].h;
-    return speed_phi_ * rough_[k].mean + half_slip_phi_ * rough_[k].drag[0];
-  };
+  const auto at = [&](int k) { return speed_phi_ * rough_[k].mean + half_slip_phi_ * rough_[k].drag[0]; };
   const double sign = node == face.a ? 1 : -1, density = flows_[f].density;
   TowardsLine t;
   t.counts = true;
@@ -208,9 +203,7 @@ void FlowBalance::add_line_by_u(const HeldNode& held) {
   const Node &node = nodes_[held.node], &other = nodes_[held.other];
   const double sign = held.node == face.a ? 1 : -1, density = flows_[f].density;
   const double theta = t.from_node ? node.theta : 1, scale = sign * theta * density * face.width;
-  const auto by_h = [&](int k) {
-    return rough_.empty() ? speed_phi_ : speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0];
-  };
+  const auto by_h = [&](int k) { return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0]; };
   const double by_density = 0.5 * (theta * t.full - t.strip) / density;
   values_[diagonal_slot_[held.node]] += scale * held.near * by_h(held.node) * node.h_u + by_density * node.density_u +
                                         (t.from_node ? t.full * node.theta_u : 0);
@@ -228,11 +221,9 @@ double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& 
   const double speed = 0.5 * (direction.u_shell + direction.u_journal),
                half_slip = 0.5 * (direction.u_shell - direction.u_journal);
   const auto carried = [&](int k, double mean, double half) {
-    return rough_.empty() ? mean * nodes_[k].h : mean * rough_[k].mean + half * rough_[k].drag[0];
+    return mean * rough_[k].mean + half * rough_[k].drag[0];
   };
-  const auto by_h = [&](int k) {
-    return rough_.empty() ? speed_phi_ : speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0];
-  };
+  const auto by_h = [&](int k) { return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0]; };
   double q = held.near * carried(held.node, speed, half_slip) + held.far * carried(held.other, speed, half_slip) +
              held.bend * speed * bends_[bend];
   if (direction.g.size() != 0) {
@@ -256,7 +247,7 @@ double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& 
 /// Change of excess() as the line moves [Pa].
 double FlowBalance::draws_along(const HeldNode& held, const MotionDirection& direction) const {
   const double u = u_[held.node];
-  if (u >= 0 || model_.cavitation == Cavitation::guembel) return 0;
+  if (u >= 0 || cavitation_.has_tension()) return 0;
   return -2 * (1 - held.way) * held.way_line * direction.phi_supply * u;
 }
 

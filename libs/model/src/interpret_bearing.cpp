@@ -65,7 +65,7 @@ class FilmReader {
   /// With mass conserved, oil that nothing presses in above the cavitation pressure does not come back where the film
   /// has once ruptured: the steady film is p = p_cav everywhere and bears nothing.
   void warn_of_starvation() {
-    const bool opens = film_.cavitation == film::Cavitation::mass_conserving && film_.edges == film::EdgeKind::pressure;
+    const bool opens = film::cavitation_law(film_).has_fill() && film_.edges == film::EdgeKind::pressure;
     if (!opens || std::max(film_.p_edge_left, film_.p_edge_right) > film_.p_cav) return;
     if (film_.supply.kind != film::SupplyKind::none) return;
     for (std::size_t f = 0; f < film_.features.size(); ++f) {
@@ -142,7 +142,7 @@ class FilmReader {
                             "edge_pressure: a pressure, or no ambient_fill");
       return;
     }
-    if (film_.cavitation != film::Cavitation::mass_conserving) {
+    if (!film::cavitation_law(film_).has_fill()) {
       context_.fault_at_key(*fill, "a fill fraction outside a film that has none inside",
                             "cavitation: mass_conserving, or no ambient_fill");
       return;

@@ -15,21 +15,12 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 std::string pressure(double p) { return fmt::format("{:.4g} bar", p / 1e5); }
 
 std::string cavitation(const film::FilmModel& film) {
-  const std::string at = " at " + pressure(film.p_cav);
-  switch (film.cavitation) {
-    case film::Cavitation::guembel:
-      return "guembel (half Sommerfeld: negative pressures dropped from the forces)" + at;
-    case film::Cavitation::reynolds:
-      return "reynolds (p and its gradient vanish at rupture; mass not conserved)" + at;
-    case film::Cavitation::mass_conserving:
-      return "mass_conserving (pressure or fill fraction in every node)" + at;
-  }
-  return {};
+  return std::string(film::cavitation_law(film).text()) + " at " + pressure(film.p_cav);
 }
 
 std::string edge(const film::FilmModel& film, double p, double fill) {
   if (film.edges == film::EdgeKind::closed) return "closed: no oil passes";
-  if (film.cavitation != film::Cavitation::mass_conserving || p > film.p_cav) return pressure(p);
+  if (!film::cavitation_law(film).has_fill() || p > film.p_cav) return pressure(p);
   if (fill == 0) return pressure(p) + ", in air: oil may leave, none comes in";
   return pressure(p) + fmt::format(", in {:.3g} of oil: the film draws it in where it would be emptier", fill);
 }

@@ -72,7 +72,7 @@ Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing)
   }
   s.storage_rate = series("storage_rate", "m^3/s", "rate of change of the oil volume in the film, mean of the step");
   s.oil_volume = series("oil_volume", "m^3", "oil volume in the film");
-  if (film.cavitation != film::Cavitation::reynolds)
+  if (!film::cavitation_law(film).loses_oil())
     s.mass_balance_error = series("mass_balance_error", "1",
                                   "oil of the step that is neither stored nor has passed, over the largest flow");
   s.oil_through_flow = series("oil_through_flow", "m^3", "oil that has passed the film since the start");

@@ -150,7 +150,7 @@ void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
   figures.add("oil_volume", "oil in the bearing", kVolume, film.oil_volume);
   // Reynolds' condition lets oil vanish where the film breaks and appear where it forms again: what is missing there is
   // no error of the solution.
-  const bool conserves = s.model.cavitation != film::Cavitation::reynolds;
+  const bool conserves = !film::cavitation_law(s.model).loses_oil();
   figures.add("mass_balance_error", "mass balance error", kNone,
               conserves ? film.mass_balance_error : std::numeric_limits<double>::quiet_NaN());
   if (!conserves) figures.say("oil is not conserved by reynolds");

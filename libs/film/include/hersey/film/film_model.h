@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "hersey/film/cavitation_law.h"
 #include "hersey/film/density_law.h"
 #include "hersey/film/gap_profile.h"
 #include "hersey/film/grid.h"
@@ -38,12 +39,6 @@ struct Lubricant {
   if (p < 0) return p;
   return std::visit([&](const auto& law) { return law.work(p); }, oil.density_law);
 }
-
-enum class Cavitation {
-  guembel,          ///< full film solved, negative pressures dropped from the forces (half Sommerfeld)
-  reynolds,         ///< p >= p_cav with dp/dn = 0 at rupture; mass is lost where the film re-forms
-  mass_conserving,  ///< pressure or fill fraction in each node (Jakobsson-Floberg-Olsson)
-};
 
 enum class SupplyKind { none, fixed_angle, widest_gap };
 
@@ -107,6 +102,11 @@ struct FilmModel {
 /// P0, the constant [Pa] that scales the fill fraction's unknown: theta = 1 + min(u, 0)/P0. It equals the pressure
 /// scale 6 mu0 fill_speed (R/c)^2 dphi and has no influence on the solution (film.6).
 [[nodiscard]] double fill_scale(const FilmModel& model);
+
+/// The law of the model's cavitation.
+[[nodiscard]] inline const CavitationLaw& cavitation_law(const FilmModel& model) {
+  return cavitation_law(model.cavitation);
+}
 
 /// What the film sees of its two surfaces at one instant, in the frame of the grid. The depth of features is no part of
 /// the gap: it comes with the model. The grid may turn in any way: the
