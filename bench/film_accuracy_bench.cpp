@@ -35,7 +35,7 @@ BenchBearing long_bearing(const Grid& grid, double e) {
   BenchBearing b = bench_bearing(grid, 1, e);
   only_pressure(b.model);
   b.model.cavitation = Cavitation::guembel;
-  b.model.edges = EdgeKind::closed;
+  b.model.edge_left.kind = b.model.edge_right.kind = EdgeKind::closed;
   b.model.supply.pressure = 1e9;
   return b;
 }

@@ -36,19 +36,21 @@ std::string error_text(const BearingFigure& figure) {
 
 std::string pressures_of(const film::FilmModel& film) {
   const auto bar = [](double pascal) { return fmt::format("{:.4g} bar", 1e-5 * pascal); };
-  std::string text = film.edges == film::EdgeKind::closed ? "edges closed"
-                     : film.p_edge_left == film.p_edge_right
-                         ? "edges at " + bar(film.p_edge_left)
-                         : "edges at " + bar(film.p_edge_left) + " and " + bar(film.p_edge_right);
+  const auto outside = [&](const film::Edge& edge) {
+    return edge.kind == film::EdgeKind::closed ? std::string("closed") : "at " + bar(edge.pressure);
+  };
+  const std::string left = outside(film.edge_left), right = outside(film.edge_right);
+  std::string text = "edges " + (left == right ? left : left + " and " + right);
   if (film.supply.kind == film::SupplyKind::widest_gap) text += ", fed at the widest gap, " + bar(film.supply.pressure);
   if (film.supply.kind == film::SupplyKind::fixed_angle) {
     text += fmt::format(", fed at {:.4g} deg, {}", film.supply.phi * 57.29577951308232, bar(film.supply.pressure));
   }
-  const auto fill = [&](const char* edge, double p, double ambient) {
-    if (p <= film.p_cav && ambient > 0) text += fmt::format(", {} one in {:.3g} of oil", edge, ambient);
+  const auto fill = [&](const char* name, const film::Edge& edge) {
+    const bool is_open = edge.kind == film::EdgeKind::pressure && edge.pressure <= film.p_cav;
+    if (is_open && edge.ambient_fill > 0) text += fmt::format(", {} one in {:.3g} of oil", name, edge.ambient_fill);
   };
-  fill("left", film.p_edge_left, film.ambient_fill_left);
-  fill("right", film.p_edge_right, film.ambient_fill_right);
+  fill("left", film.edge_left);
+  fill("right", film.edge_right);
   return film.pressures == film::PressureScale::absolute ? text + " (absolute)" : text;
 }
 

@@ -106,7 +106,7 @@ class Bearing:
     viscosity_law: tuple | None = None  # ("barus", alpha) or ("roelands", z)
     is_compressible: bool = False  # by Dowson and Higginson
     bulk_modulus: float | None = None  # constant, in its place
-    is_closed: bool = False  # walls at both edges, whose pressure is then of no account
+    walls: tuple = (False, False)  # closed edges, whose pressure is of no account
     roughness: dict | None = None
     asperities: dict | None = None
     column: tuple | None = None  # (modulus, length)
@@ -131,11 +131,15 @@ class Bearing:
             entry["compressibility"] = {"law": "constant_bulk_modulus", "bulk_modulus": f"{number(1e-9 * self.bulk_modulus)} GPa"}
         return entry
 
+    def edges(self):
+        left, right = ("closed" if wall else bar(p) for p, wall in zip(self.p_edge, self.walls))
+        return {"left": left, "right": right}
+
     def text(self):
         entry = {"diameter": mm(2 * self.R), "width": mm(self.L), "radial_clearance": um(self.c), "lubricant": "oil",
                  "grid": {"circumferential": self.n_phi, "axial": self.n_z},
                  "cavitation": {"model": self.cavitation, "pressure": bar(self.p_cav)},
-                 "edge_pressure": "closed" if self.is_closed else {"left": bar(self.p_edge[0]), "right": bar(self.p_edge[1])}}
+                 "edge_pressure": "closed" if all(self.walls) else self.edges()}
         if self.refine:
             entry["grid"]["refine"] = self.refine
         if any(self.ambient):
@@ -221,7 +225,7 @@ class Bearing:
     def mirrored_z(self):
         """The bearing seen from the other end, with y kept: z -> -z."""
         b = copy.deepcopy(self)
-        b.p_edge, b.ambient = self.p_edge[::-1], self.ambient[::-1]
+        b.p_edge, b.ambient, b.walls = self.p_edge[::-1], self.ambient[::-1], self.walls[::-1]
         for f in b.features:
             f.z = -f.z
         for p in b.profiles:
@@ -401,10 +405,11 @@ def random_bearing(rng, grids, is_plain=False):
 
 
 def close_edges(rng, b):
-    """Walls at the edges of some: oil is at p_cav there where nothing feeds it."""
-    b.is_closed = rng.random() < 0.1
-    if b.is_closed:
-        b.p_edge, b.ambient = (b.p_cav, b.p_cav), (0.0, 0.0)
+    """Walls at both edges of some, at one of others: oil is at p_cav there where nothing feeds it."""
+    draw = rng.random()
+    b.walls = (True, True) if draw < 0.1 else (True, False) if draw < 0.15 else (False, draw < 0.2)
+    b.p_edge = tuple(b.p_cav if wall else p for p, wall in zip(b.p_edge, b.walls))
+    b.ambient = tuple(0.0 if wall else fill for fill, wall in zip(b.ambient, b.walls))
 
 
 def feed_from_line(b):
@@ -432,7 +437,7 @@ def reservoirs_touch(b):
     """Whether places held at different pressures meet, where the flow from one to the other has no limit on finer grids."""
     # Land of less than half a cell is none to the grid: the program warns of it.
     least = b.L / (b.n_z - 1)
-    for edge, side in zip(() if b.is_closed else b.p_edge, (-1, 1)):
+    for edge, side in [(p, side) for p, side, wall in zip(b.p_edge, (-1, 1), b.walls) if not wall]:
         if b.supply and b.supply[1] != edge:
             return True
         if any(f.pressure not in (None, edge) and 2 * side * f.z + f.length > b.L - least for f in b.features):

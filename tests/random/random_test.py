@@ -113,7 +113,7 @@ class TheChecks(unittest.TestCase):
         self.assertIn("asperities by formula", [name for name, _ in steady.check(case, answer)])
 
     def test_oil_through_a_wall_is_found(self):
-        case, answer, steady = self.answer(is_closed=True, p_edge=(0.0, 0.0), supply=("widest_gap", 1e5))
+        case, answer, steady = self.answer(walls=(True, True), p_edge=(0.0, 0.0), supply=("widest_gap", 1e5))
         self.assertEqual(list(steady.check(case, answer)), [])
         answer.values.update(flow_left=1e-9)
         self.assertIn("closed edges", [name for name, _ in steady.check(case, answer)])

@@ -287,8 +287,9 @@ def check_oil(case, a, found):
         if f.pressure is None:
             found.bound("flows add up", abs(a[f"flow_feature_{f.name}"]), 1e-12 * scale, f"m^3/s through {f.name}, not fed")
     moves = (case.journal_speed and b.varies_on("journal")) or (case.shell_speed and b.varies_on("shell"))
-    if b.is_closed:
-        found.bound("closed edges", abs(a["flow_left"]) + abs(a["flow_right"]), 1e-9 * scale, "m^3/s through walls")
+    for edge, is_wall in zip(("left", "right"), b.walls):
+        if is_wall:
+            found.bound("closed edges", abs(a[f"flow_{edge}"]), 1e-9 * scale, "m^3/s through a wall")
     if b.cavitation != "reynolds" and not moves and not case.radial_velocity:
         # the solver's tolerance, 1e-8 of the largest flow through a node's volume, may add up over a row
         out = a["flow_left"] + a["flow_right"]

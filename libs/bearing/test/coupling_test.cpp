@@ -169,7 +169,7 @@ TEST_CASE("StepIsSecondOrderInTime_FullFilm") {
   // A film that stays full (half the supply pressure everywhere keeps it from cavitating): no transported fill, so
   // the order is the integrator's.
   film::FilmModel film = small_film();
-  film.p_edge_left = film.p_edge_right = 40e5;
+  film.edge_left.pressure = film.edge_right.pressure = 40e5;
   film.supply.kind = film::SupplyKind::none;
   const auto position = [&](int n, double rtol = 1e-10) {
     Rig rig(film, 300, {.initial_dt = 1e-4});

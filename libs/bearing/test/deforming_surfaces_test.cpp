@@ -153,7 +153,7 @@ TEST_CASE("ShellThatWidensEverywhere_IsAWiderBearing") {
   // The clearance also scales how strongly a supply line is held.
   for (film::FilmModel* model : {&narrow, &wide}) {
     model->supply.kind = film::SupplyKind::none;
-    model->p_edge_left = model->p_edge_right = 2e5;
+    model->edge_left.pressure = model->edge_right.pressure = 2e5;
   }
   ElasticSurface bore{SurfaceFunctions(9, 4, narrow.L), MatrixXd::Ones(36, 1)};
   JournalBearing elastic("b", narrow, {.shell_surface = std::make_shared<ElasticSurface>(bore)}), rigid("b", wide);

@@ -197,7 +197,7 @@ TEST_CASE("DampingOfAFullFilm_IsSymmetricAndPositive") {
   film::FilmModel model = flooded_film(60, 13);
   model.supply.kind = film::SupplyKind::none;
   model.cavitation = film::Cavitation::mass_conserving;
-  model.p_edge_left = model.p_edge_right = 1e9;  // far above anything that could cavitate
+  model.edge_left.pressure = model.edge_right.pressure = 1e9;  // far above anything that could cavitate
   model.shear_force = film::ShearForce::torque_only;
   OperatingPoint point{.journal_speed = 100};
   point.e = {0.4 * model.c, -0.3 * model.c};

@@ -13,9 +13,10 @@ void check(const FilmModel& m) {
   HERSEY_REQUIRE(m.R > 0 && m.L > 0 && m.c > 0, "a bearing has radius, width and clearance");
   HERSEY_REQUIRE(m.lubricant.mu0 > 0, "viscosity is positive");
   HERSEY_REQUIRE(m.compliance >= 0, "compliance is not negative");
-  HERSEY_REQUIRE(m.p_edge_left >= m.p_cav && m.p_edge_right >= m.p_cav, "edges lie at or above p_cav");
-  const auto is_share = [](double x) { return 0 <= x && x <= 1; };
-  HERSEY_REQUIRE(is_share(m.ambient_fill_left) && is_share(m.ambient_fill_right), "fill lies between 0 and 1");
+  for (const Edge& edge : {m.edge_left, m.edge_right}) {
+    HERSEY_REQUIRE(edge.kind == EdgeKind::closed || edge.pressure >= m.p_cav, "edges lie at or above p_cav");
+    HERSEY_REQUIRE(0 <= edge.ambient_fill && edge.ambient_fill <= 1, "fill lies between 0 and 1");
+  }
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.supply.pressure >= m.p_cav, "supply lies at or above p_cav");
   HERSEY_REQUIRE(m.asperities.model == AsperityModel::none || m.asperities.sigma > 0, "roughness is positive");
 }
@@ -109,11 +110,12 @@ void FlowBalance::lay_pattern() {
 }
 
 bool FlowBalance::edge_row(int j) const {
-  return model_.edges == EdgeKind::pressure && (j == 0 || j == model_.grid.n_z - 1) && !open_row(j);
+  const Edge* edge = edge_of_row(model_, j);
+  return edge != nullptr && edge->kind == EdgeKind::pressure && !open_row(j);
 }
 
 double FlowBalance::edge_unknown(int j) const {
-  return (j == 0 ? model_.p_edge_left : model_.p_edge_right) - model_.p_cav;
+  return edge_of_row(model_, j)->pressure - model_.p_cav;
 }
 
 void FlowBalance::take_history(const FilmHistory& history) {

@@ -20,13 +20,13 @@ CavitationScales cavitation_scales(const FilmModel& model) {
 }
 
 bool open_edge(const FilmModel& model, int j) {
-  if (model.edges != EdgeKind::pressure || !cavitation_law(model).has_fill()) return false;
-  return (j == 0 && model.p_edge_left == model.p_cav) || (j == model.grid.n_z - 1 && model.p_edge_right == model.p_cav);
+  const Edge* edge = edge_of_row(model, j);
+  return edge != nullptr && edge->kind == EdgeKind::pressure && edge->pressure == model.p_cav &&
+         cavitation_law(model).has_fill();
 }
 
 double ambient_fill(const FilmModel& model, int j) {
-  if (!open_edge(model, j)) return 0;
-  return j == 0 ? model.ambient_fill_left : model.ambient_fill_right;
+  return open_edge(model, j) ? edge_of_row(model, j)->ambient_fill : 0;
 }
 
 NodeLaw::NodeLaw(const FilmModel& model)

@@ -61,15 +61,16 @@ class Sor {
   Eigen::VectorXd storage_known_, storage_theta_;
 };
 
-// Young's factor for the five-point operator between two edges at given pressure; a closed bearing has only its
-// periodic direction to bound it.
+// Young's factor for the five-point operator between two edges at given pressure; one wall is the middle of a bearing
+// of twice the width, and with two only the periodic direction bounds it.
 double Sor::over_relaxation() const {
   const Grid& grid = balance_.model().grid;
   const double dphi = 2 * std::numbers::pi / grid.n_phi;
   const double across = std::pow(balance_.model().R * dphi * (grid.n_z - 1) / balance_.model().L, 2);
-  const bool closed = balance_.model().edges == EdgeKind::closed;
-  const double rho =
-      closed ? std::cos(0.5 * dphi) : (1 + across * std::cos(std::numbers::pi / (grid.n_z - 1))) / (1 + across);
+  const FilmModel& model = balance_.model();
+  const bool one_wall = (model.edge_left.kind == EdgeKind::closed) != (model.edge_right.kind == EdgeKind::closed);
+  const double wave = std::numbers::pi / (grid.n_z - 1) * (one_wall ? 0.5 : 1);
+  const double rho = is_closed(model) ? std::cos(0.5 * dphi) : (1 + across * std::cos(wave)) / (1 + across);
   return 2 / (1 + std::sqrt(1 - rho * rho));
 }
 

@@ -23,7 +23,7 @@ TEST_CASE("FloodedEdgesWithoutSupply_HaveNoNetSideFlow") {
   FilmModel m = bearing();
   m.supply = {};
   m.p_cav = 0;
-  m.p_edge_left = m.p_edge_right = 1e5;
+  m.edge_left.pressure = m.edge_right.pressure = 1e5;
   const SolvedFilm film = solve_cold(m, turning(m, 0.6, omega));
   REQUIRE(film.summary.converged);
   CHECK(film.observed.p_max > 1e6);
@@ -50,7 +50,7 @@ TEST_CASE("SteadyFilm_BalancesItsOil") {
   for (const double e : {0.1, 0.5, 0.9, 0.98}) {
     CAPTURE(e);
     FilmModel m = bearing();
-    m.p_edge_right = 2e5;  // from right to left through the bearing, one edge flooded and one in air
+    m.edge_right.pressure = 2e5;  // from right to left through the bearing, one edge flooded and one in air
     m.supply.pressure = 3e5;
     const SolvedFilm film = solve_cold(m, surfaces(m, turning(m, e, omega), 0.03), {-e * m.c, 0});
     REQUIRE(film.summary.converged);
@@ -153,7 +153,7 @@ struct Squeeze {
 Squeeze squeeze(int n, double dt, const SqueezeFront& exact) {
   FilmModel m{.R = 1 / (2 * pi), .L = 0.1, .c = 0.4, .grid = {n, 3}, .lubricant = {.mu0 = 1.0 / 6}};
   m.supply = {SupplyKind::fixed_angle, 0, 0.025};
-  m.edges = EdgeKind::closed;
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   Reynolds reynolds(m);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   FilmHistory history{dt, Eigen::VectorXd::Ones(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
@@ -217,7 +217,7 @@ TEST_CASE("CarriedFill_IsOfFirstOrder") {
   for (int k = 0; k < 2; ++k) {
     const int n = 100 << k;
     FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {n, 3}};
-    m.edges = EdgeKind::closed;
+    m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
     const SurfaceMotion motion = surfaces(m, {.omega_journal = 100});
     const double dt = 0.02 / n;  // a third of a cell
     const auto fill = [](double phi) { return 0.6 + 0.2 * std::sin(phi); };
@@ -246,8 +246,8 @@ TEST_CASE("AmbientFill_IsDrawnIn") {
   m.p_cav = -0.5e5;
   const auto solved = [&](double p_edge, double fill, FilmSolver solver = FilmSolver::newton) {
     FilmModel other = m;
-    other.p_edge_left = other.p_edge_right = p_edge;
-    other.ambient_fill_left = other.ambient_fill_right = fill;
+    other.edge_left.pressure = other.edge_right.pressure = p_edge;
+    other.edge_left.ambient_fill = other.edge_right.ambient_fill = fill;
     other.supply.pressure = m.p_cav;
     const SolvedFilm film = solve_cold(other, turning(other, 0.6, omega), {.solver = solver, .rtol = 1e-10});
     REQUIRE(film.summary.converged);
@@ -282,7 +282,7 @@ TEST_CASE("AmbientFill_IsDrawnIn") {
 TEST_CASE("FilmInOilAtTheCavitationPressure_Starves") {
   FilmModel m = bearing();
   m.supply = {};
-  m.ambient_fill_left = m.ambient_fill_right = 1;
+  m.edge_left.ambient_fill = m.edge_right.ambient_fill = 1;
   const SolvedFilm film = solve_cold(m, turning(m, 0.6, omega));
   CHECK(film.summary.converged);
   CHECK(film.summary.message.find("supply") != std::string::npos);
@@ -295,7 +295,7 @@ TEST_CASE("PartingPlates_DrawInTheAmbient") {
   const double dt = 1e-3, h = 20e-6;
   for (const double fill : {0.0, 0.4, 0.8}) {
     CAPTURE(fill);
-    m.ambient_fill_left = fill;
+    m.edge_left.ambient_fill = fill;
     Reynolds reynolds(m);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
     FilmHistory history{dt, Eigen::VectorXd::Ones(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};

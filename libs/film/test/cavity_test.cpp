@@ -15,7 +15,7 @@ constexpr double omega = 200, epsilon = 0.6;
 FilmModel long_bearing(int n_phi, Cavitation cavitation, double pressure) {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {n_phi, 3}, .cavitation = cavitation};
   m.supply = {SupplyKind::fixed_angle, 0, pressure};
-  m.edges = EdgeKind::closed;
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   return m;
 }
 

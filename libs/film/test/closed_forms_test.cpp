@@ -19,7 +19,7 @@ FilmModel long_bearing(int n_phi, Cavitation cavitation) {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 3e-6, .grid = {n_phi, 3}, .cavitation = cavitation};
   m.supply = {SupplyKind::fixed_angle, 0, 0};
   m.shear_force = ShearForce::torque_only;
-  m.edges = EdgeKind::closed;
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   return m;
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("ShortBearing_TendsToOcvirk") {
   for (const double e : {0.3, 0.6}) {
     CAPTURE(e);
     FilmModel m = long_bearing(360, Cavitation::guembel);
-    m.edges = EdgeKind::pressure;
+    m.edge_left.kind = m.edge_right.kind = EdgeKind::pressure;
     m.supply = {};
     m.grid.n_z = 17;
     m.L = 0.05 * 2 * m.R;
@@ -162,7 +162,7 @@ TEST_CASE("SqueezedPlates_MeetTheClosedForm") {
     std::array<double, 2> error{};
     for (int k = 0; k < 2; ++k) {
       FilmModel m = long_bearing(k == 0 ? 48 : 96, Cavitation::mass_conserving);
-      m.edges = EdgeKind::pressure;
+      m.edge_left.kind = m.edge_right.kind = EdgeKind::pressure;
       m.R = B / (2 * pi), m.L = L_over_B * B, m.c = gap, m.grid.n_z = m.grid.n_phi + 1;
       SurfaceMotion motion = surfaces(m, {});
       motion.g_rate.setConstant(-V);

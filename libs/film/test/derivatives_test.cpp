@@ -27,7 +27,7 @@ struct State {
 State rough_state(Cavitation cavitation, bool all_laws, bool transient, const Grid& grid = {14, 6}) {
   State s;
   s.model = {.R = 0.03, .L = 0.02, .c = 20e-6, .grid = grid, .cavitation = cavitation, .p_cav = 1e4};
-  s.model.p_edge_left = 2e5, s.model.p_edge_right = 3e5;
+  s.model.edge_left.pressure = 2e5, s.model.edge_right.pressure = 3e5;
   s.model.supply = {SupplyKind::widest_gap, 0, 4e5};
   s.model.features = {{.name = "groove", .phi = 4, .arc = 0.7, .length = 0.009, .pressure = 5e5},
                       {.name = "hole",
@@ -88,7 +88,7 @@ std::vector<State> rough_states() {
   s.model.asperities.model = AsperityModel::greenwood_tripp_fit;
   s.model.shear_force = ShearForce::torque_only;
   s.model.cavitated_shear = CavitatedShear::full;
-  s.model.edges = EdgeKind::closed;
+  s.model.edge_left.kind = s.model.edge_right.kind = EdgeKind::closed;
   s.name = "closed edges, torque only, full shear";
   states.push_back(s);
   s = rough_state(Cavitation::mass_conserving, true, true);
@@ -97,8 +97,8 @@ std::vector<State> rough_states() {
   states.push_back(s);
   states.push_back(graded_state());
   s = rough_state(Cavitation::mass_conserving, true, true);
-  s.model.p_edge_left = s.model.p_cav, s.model.p_edge_right = s.model.p_cav;
-  s.model.ambient_fill_left = 0.8, s.model.ambient_fill_right = 1;
+  s.model.edge_left.pressure = s.model.p_cav, s.model.edge_right.pressure = s.model.p_cav;
+  s.model.edge_left.ambient_fill = 0.8, s.model.edge_right.ambient_fill = 1;
   s.name = "edges in oil mist and in oil";
   states.push_back(s);
   for (const bool transient : {false, true}) {

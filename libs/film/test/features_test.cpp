@@ -18,7 +18,7 @@ constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest thro
 // cells.
 TEST_CASE("GrooveEdges_LieWhereTheyAre") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {60, 3}};
-  m.edges = EdgeKind::closed;
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   const SurfaceFeature high{.name = "high", .phi = 0, .arc = 0.5, .length = m.L, .pressure = 3e6};
   for (const double arc : {0.30, 0.33, 0.37, 0.41}) {
     CAPTURE(arc);
@@ -138,7 +138,7 @@ TEST_CASE("PeakBesideWhatHoldsAPressure_IsThatPressure") {
 TEST_CASE("PeakAtThePocketsStep_IsNotExtrapolated") {
   FilmModel m{.R = 0.025, .L = 0.025, .c = 50e-6, .grid = {60, 13}};
   m.lubricant.mu0 = 0.01;
-  m.p_edge_left = m.p_edge_right = 1e6;
+  m.edge_left.pressure = m.edge_right.pressure = 1e6;
   m.features = {{.name = "pocket", .phi = 2, .arc = 0.63, .length = 0.015, .is_fed = false, .depth = 60e-6}};
   const FilmObservables o = solve_cold(m, turning(m, 0, 100)).observed;
   CHECK(o.p_max > 1.001e6);

@@ -11,7 +11,7 @@ namespace invariance_test {
 
 FilmModel flooded(int n_phi, int n_z) {
   FilmModel m{.R = 0.03, .L = 0.03, .c = 30e-6, .grid = {n_phi, n_z}};
-  m.p_edge_left = m.p_edge_right = 5e7;  // full film everywhere: smooth, so that orders can be measured
+  m.edge_left.pressure = m.edge_right.pressure = 5e7;  // full film everywhere: smooth, so that orders can be measured
   return m;
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("FilmForces_DoNotDependOnTheFrame") {
 TEST_CASE("CavitatedFilmForces_DoNotDependOnTheFrame") {
   FilmModel m = flooded(60, 13);
   m.cavitation = Cavitation::reynolds;
-  m.p_edge_left = m.p_edge_right = 0;
+  m.edge_left.pressure = m.edge_right.pressure = 0;
   const Vector6 ground = solve_cold(m, swinging).wrench;
   const Vector6 shell = solve_cold(m, seen_from(swinging, swinging.omega_shell)).wrench;
   CHECK((shell - ground).tail<3>().norm() < 1e-8 * ground.tail<3>().norm());  // what Newton leaves
@@ -54,7 +54,7 @@ TEST_CASE("CarriedOil_DoesNotDependOnTheFrame") {
   // round with the grid at rest. A film that is part cavitated keeps its fill in both; the upwind transport smears it
   // with first order in the step.
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {360, 3}};
-  m.edges = EdgeKind::closed;
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   const double omega = 100, dt = 2 * pi / m.grid.n_phi / omega;  // one node per step
   Eigen::VectorXd fill(m.grid.size());
   for (int i = 0; i < m.grid.n_phi; ++i) {

@@ -100,7 +100,7 @@ TEST_CASE("ColdStarts_TakeEightIterationsAtMost") {
               CAPTURE(flooded);
               FilmModel m = big_end(cavitation, grid);
               m.L = 2 * m.R * L_over_D;
-              if (flooded) m.supply = {}, m.p_edge_left = m.p_edge_right = 1e5;
+              if (flooded) m.supply = {}, m.edge_left.pressure = m.edge_right.pressure = 1e5;
               const SolvedFilm film = solve_cold(m, turning(m, e, omega), {.solver = solver});
               CHECK(film.summary.converged);
               CHECK(film.summary.relative_residual <= 1e-10);  // rtol of the solver

@@ -68,7 +68,7 @@ TEST_CASE("PocketToTheEdge_IsDeepThere") {
 // for no oil. Nothing flows but round and round, whatever the step.
 TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
   FilmModel m = graded();
-  m.p_edge_left = m.p_edge_right = 1e5;
+  m.edge_left.pressure = m.edge_right.pressure = 1e5;
   for (const auto shape : shapes) {
     CAPTURE(static_cast<int>(shape));
     m.features = {pocket(shape, Surface::journal)};
@@ -124,7 +124,7 @@ TEST_CASE("FlowThroughPockets_ConvergesWithTheGrid") {
       for (int k = 0; k < 3; ++k) {
         const int n = 1 << k;
         FilmModel m{.R = 0.03, .L = 0.03, .c = 30e-6, .grid = {61 * n, 12 * n + 1}};
-        m.p_edge_left = 2e6, m.p_edge_right = 1e6;
+        m.edge_left.pressure = 2e6, m.edge_right.pressure = 1e6;
         m.features = {pocket(shape, Surface::shell)};
         m.features[0].length = 0.017, m.features[0].arc = 1.1, m.features[0].depth = depth;
         const SolvedFilm film = solve_cold(m, turning(m, 0.3, 0));
@@ -147,7 +147,7 @@ TEST_CASE("SmallestFilm_IsThatOfTheLand") {
   for (const auto surface : {Surface::shell, Surface::journal}) {
     for (const int n_phi : {60, 61, 120}) {
       FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {n_phi, 13}};
-      m.p_edge_left = m.p_edge_right = 1e6;
+      m.edge_left.pressure = m.edge_right.pressure = 1e6;
       const Journal journal = turning(m, 0.5, 100);  // narrowest at phi = pi: 15 um
       m.features = {
           {.name = "pocket", .surface = surface, .phi = 1, .arc = 0.5, .length = 8e-3, .is_fed = false, .depth = 1e-4}};
@@ -169,7 +169,7 @@ TEST_CASE("SmallestFilmInTheMiddle_IsThatOfItsOwnRow") {
     CAPTURE(off);
     FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}};
     m.grid.heights = {-0.5, -0.25, off, 0.25, 0.5};
-    m.p_edge_left = m.p_edge_right = 1e6;
+    m.edge_left.pressure = m.edge_right.pressure = 1e6;
     m.features = {
         {.name = "groove", .phi = 0, .z = -4e-3, .arc = 2 * pi, .length = 6e-3, .pressure = 1e6, .depth = 1e-4}};
     // Between nodes of 6 degrees: a parabola's error.
@@ -258,7 +258,7 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
 TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {
   const auto whirl_ratio = [](const Grid& grid, double epsilon) {
     FilmModel m{.R = 0.03, .L = 0.03, .c = 30e-6, .grid = grid};
-    m.p_edge_left = m.p_edge_right = 1e8;     // full everywhere
+    m.edge_left.pressure = m.edge_right.pressure = 1e8;     // full everywhere
     m.shear_force = ShearForce::torque_only;  // shear would add c/R
     const double omega = 200;
     const SurfaceMotion motion = surfaces(m, turning(m, epsilon, omega));

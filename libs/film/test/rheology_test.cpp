@@ -75,7 +75,7 @@ TEST_CASE("SummitsAboveTheMeanPlane_TouchSoMuchSooner") {
 // transformation).
 TEST_CASE("BarusFilm_MeetsWeibullsTransformation") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {240, 3}};
-  m.edges = EdgeKind::closed;
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   m.supply = {SupplyKind::fixed_angle, 0, 0};
   m.cavitation = Cavitation::reynolds;
   const SolvedFilm isoviscous = solve_cold(m, turning(m, 0.6, 200));
@@ -95,7 +95,7 @@ TEST_CASE("BarusFilm_MeetsWeibullsTransformation") {
 // Nothing leaves a closed bearing: its oil is as dense as the gap is narrow.
 TEST_CASE("ClosedGap_CompressesItsOil") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {12, 3}};
-  m.edges = EdgeKind::closed;
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   m.lubricant.density_law = DowsonHigginson{};
   SurfaceMotion motion = surfaces(m, {});
   const double dt = 1e-4, closing = 0.002;  // by 0.2 % in one step
@@ -119,7 +119,7 @@ TEST_CASE("CompressibleSteps_ConserveOil") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {40, 9}};
   m.lubricant.viscosity_law = Roelands{0.6};
   m.lubricant.density_law = DowsonHigginson{6e-9, 1.7e-9};
-  m.p_edge_left = m.p_edge_right = 2e5;
+  m.edge_left.pressure = m.edge_right.pressure = 2e5;
   Journal journal{.e = {15e-6, 0}, .e_rate = {0.01, 0.005}, .omega_journal = 300};
   const double dt = 2e-4;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(m.grid.size());

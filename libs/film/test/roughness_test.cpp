@@ -14,7 +14,7 @@ Roughness rough(SurfaceRoughness shell, SurfaceRoughness journal) { return {Flow
 /// Full everywhere: both edges far above the cavitation pressure.
 FilmModel full_bearing(int n_phi, int n_z) {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {n_phi, n_z}};
-  m.p_edge_left = m.p_edge_right = 5e7;
+  m.edge_left.pressure = m.edge_right.pressure = 5e7;
   return m;
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("RoughSlider_MeetsTheIntegralWithOrderTwo") {
       const int n = 60 << k, grooves = 4, all = n + 2 * grooves;
       const double dx = length / n, cell = 2 * pi / all;
       FilmModel m{.R = all * dx / (2 * pi), .L = 0.01, .c = h0, .grid = {all, 3}, .lubricant = {.mu0 = mu}};
-      m.edges = EdgeKind::closed;
+      m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
       m.roughness = roughness;
       m.features = {{.name = "in", .phi = -0.5 * (grooves - 0.5) * cell, .arc = (grooves - 0.5) * cell, .length = m.L},
                     {.name = "out", .phi = (n + 0.5 * grooves) * cell, .arc = grooves * cell, .length = m.L}};
@@ -99,7 +99,7 @@ TEST_CASE("RoughnessInMotion_CarriesOil") {
 TEST_CASE("FineRoughness_TendsToTheSmoothFilm") {
   const auto load = [](double sigma, double gamma, bool is_long) {
     FilmModel m = full_bearing(120, is_long ? 3 : 25);
-    if (is_long) m.edges = EdgeKind::closed, m.supply = {SupplyKind::fixed_angle, 0, 5e7};
+    if (is_long) m.edge_left.kind = m.edge_right.kind = EdgeKind::closed, m.supply = {SupplyKind::fixed_angle, 0, 5e7};
     if (sigma > 0) m.roughness = rough({sigma, gamma}, {sigma, gamma});
     return solve_cold(m, turning(m, 0.7, 200)).wrench.segment<2>(3).norm();
   };

@@ -35,7 +35,7 @@ SolvedSlider solve(const Slider& slider, int n) {
   const int all = n + 2 * groove_cells;
   FilmModel m{.R = all * s.dx / (2 * pi), .L = 0.01, .c = slider.gap(slider.length), .grid = {all, 3}};
   m.lubricant.mu0 = slider.mu;
-  m.edges = EdgeKind::closed;
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   const double cell = 2 * pi / all, arc = groove_cells * cell, inlet = arc - 0.5 * cell;
   m.features = {{.name = "inlet", .phi = -0.5 * inlet, .arc = inlet, .length = m.L, .pressure = slider.end_pressure},
                 {.name = "outlet", .phi = n * cell + 0.5 * arc, .arc = arc, .length = m.L}};

@@ -4,6 +4,7 @@
 
 #include "film_cases.h"
 #include "hersey/core/contract.h"
+#include "relative.h"
 
 namespace hersey::film {
 namespace solver_test {
@@ -15,6 +16,35 @@ FilmModel big_end(Cavitation cavitation) {
 }
 
 constexpr double omega = 374;
+
+// What a relative residual of 1e-10 leaves of pressures and flows.
+constexpr double solved = 1e-7;
+
+// A wall at mid-width changes nothing of a bearing that is the same on both sides of it.
+TEST_CASE("OneWall_IsTheMiddleOfABearingOfTwiceTheWidth") {
+  for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
+    for (const FilmSolver solver : {FilmSolver::newton, FilmSolver::multigrid, FilmSolver::sor}) {
+      CAPTURE(static_cast<int>(cavitation));
+      CAPTURE(static_cast<int>(solver));
+      FilmModel whole = big_end(cavitation);
+      whole.edge_left.ambient_fill = whole.edge_right.ambient_fill = cavitation == Cavitation::mass_conserving ? 0.5 : 0;
+      FilmModel half = whole;
+      half.L = 0.5 * whole.L, half.grid.n_z = whole.grid.n_z / 2 + 1;
+      half.edge_left = {.kind = EdgeKind::closed};
+      const SolvedFilm all = solve_cold(whole, turning(whole, 0.7, omega), {.solver = solver}),
+                       right = solve_cold(half, turning(half, 0.7, omega), {.solver = solver});
+      CHECK(right.summary.converged);
+      double furthest = 0;
+      for (int k = 0; k < half.grid.size(); ++k) {
+        const int i = k / half.grid.n_z, j = k % half.grid.n_z + whole.grid.n_z / 2;
+        furthest = std::max(furthest, std::abs(right.fields.p[k] - all.fields.p[whole.grid.index(i, j)]));
+      }
+      CHECK(furthest <= solved * all.fields.p.maxCoeff());
+      CHECK(right.observed.flow_left == 0);
+      CHECK(right.observed.flow_right == relative(all.observed.flow_right).epsilon(solved));
+    }
+  }
+}
 
 TEST_CASE("Sor_MeetsNewton") {
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
@@ -131,7 +161,7 @@ TEST_CASE("BrokenContracts_AreNamed") {
   m.grid.n_phi = 3;
   CHECK_THROWS_AS(Reynolds{m}, ContractError);
   m = big_end(Cavitation::mass_conserving);
-  m.p_edge_left = -1;
+  m.edge_left.pressure = -1;
   CHECK_THROWS_AS(Reynolds{m}, ContractError);
 }
 

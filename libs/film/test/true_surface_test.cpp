@@ -45,7 +45,7 @@ ShapedFilm shaped(const Grid& grid) {
   film.journal.e = {6e-6, 9e-6};
   film.journal.tilt = {3e-4, -2e-4};
   film.model.shear_force = ShearForce::torque_only;  // shear's net force is left out of the theory's speeds, O(c/R)
-  film.model.p_edge_left = film.model.p_edge_right = 1e8;  // full everywhere
+  film.model.edge_left.pressure = film.model.edge_right.pressure = 1e8;  // full everywhere
   return film;
 }
 
@@ -73,7 +73,7 @@ Moments surface_integrals(const ShapedFilm& film, const FilmFields& fields) {
       const int k = grid.index(i, j), before = grid.index((i + grid.n_phi - 1) % grid.n_phi, j),
                 after = grid.index((i + 1) % grid.n_phi, j);
       const double area = m.R * dphi * dz * (j == 0 || j == grid.n_z - 1 ? 0.5 : 1);
-      const double h = fields.h[k], p = fields.p[k] - m.p_edge_left;
+      const double h = fields.h[k], p = fields.p[k] - m.edge_left.pressure;
       const double p_x = (fields.p[after] - fields.p[before]) / (2 * m.R * dphi);
       total.shell += area * (m.R * (mu * slip / h - h / 2 * p_x) - p * film.at(film.shell, k).phi);
       total.journal += area * (-m.R * (mu * slip / h + h / 2 * p_x) - p * film.at(film.turning, k).phi);
@@ -139,7 +139,7 @@ TEST_CASE("PowerPutIntoAFilm_IsWhatItsFieldsTake") {
       ShapedFilm film = shaped(k == 0 ? Grid{60, 13} : Grid{120, 25});
       film.shell = c.shell, film.turning = c.journal;
       film.model.cavitation = c.cavitation;
-      if (!is_full) film.model.p_edge_left = film.model.p_edge_right = 2e5;
+      if (!is_full) film.model.edge_left.pressure = film.model.edge_right.pressure = 2e5;
       film.journal.e_rate = {2e-4, -1e-4};
       error[k] = power_error(film, 100);
     }

@@ -176,12 +176,14 @@ TypePtr bearings_format() {
   const TypePtr diameter = quantity("m", "45 mm", Range::positive());
   const TypePtr width = quantity("m", "20 mm", Range::positive());
   const TypePtr clearance = quantity("m", "34 um", Range::positive());
+  const TypePtr edge =
+      or_word(pressure(), {{"closed", "no oil passes: at both edges a bearing of infinite width, at one a cap or a "
+                                      "plane of symmetry"}});
   const TypePtr edges = any_of("a pressure such as 2 bar, `closed`, or {left, right}",
-                               {or_word(pressure(), {{"closed", "no oil passes, as in a bearing of infinite width"}}),
-                                object("two pressures", {
-                                                            required("left", pressure(), "At the edge with z < 0."),
-                                                            required("right", pressure(), "At the edge with z > 0."),
-                                                        })});
+                               {edge, object("two edges", {
+                                                              required("left", edge, "At the edge with z < 0."),
+                                                              required("right", edge, "At the edge with z > 0."),
+                                                          })});
   const TypePtr fill = number("0.5", {.low = 0, .high = 1});
   const TypePtr fills =
       any_of("a number from 0 to 1, or {left, right}",

@@ -54,7 +54,7 @@ class FilmReader {
  private:
   /// Between closed edges the pressure is known up to a constant only, unless something holds it.
   void require_a_pressure() {
-    if (film_.edges != film::EdgeKind::closed || film_.supply.kind != film::SupplyKind::none) return;
+    if (!film::is_closed(film_) || film_.supply.kind != film::SupplyKind::none) return;
     for (const film::SurfaceFeature& feature : film_.features) {
       if (feature.is_fed) return;
     }
@@ -65,8 +65,10 @@ class FilmReader {
   /// With mass conserved, oil that nothing presses in above the cavitation pressure does not come back where the film
   /// has once ruptured: the steady film is p = p_cav everywhere and bears nothing.
   void warn_of_starvation() {
-    const bool opens = film::cavitation_law(film_).has_fill() && film_.edges == film::EdgeKind::pressure;
-    if (!opens || std::max(film_.p_edge_left, film_.p_edge_right) > film_.p_cav) return;
+    if (!film::cavitation_law(film_).has_fill() || film::is_closed(film_)) return;
+    for (const film::Edge& edge : {film_.edge_left, film_.edge_right}) {
+      if (edge.kind == film::EdgeKind::pressure && edge.pressure > film_.p_cav) return;
+    }
     if (film_.supply.kind != film::SupplyKind::none) return;
     for (std::size_t f = 0; f < film_.features.size(); ++f) {
       const bool varies = !bearing_.feature_pressures[f].is_constant();
@@ -112,19 +114,16 @@ class FilmReader {
     const Value* edges = value_.find("edge_pressure");
     if (edges == nullptr || edges->broken || edges->members.empty()) return;
     const Value& content = edges->members.front().value;
-    if (content.text == "closed") {
-      // Nothing flows out there; so that the rows have a pressure to start from, it is that of cavitation.
-      film_.edges = film::EdgeKind::closed;
-      film_.p_edge_left = film_.p_edge_right = film_.p_cav;
-      return;
-    }
     const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
-    const Value& left = is_pair ? *content.find("left") : content;
-    const Value& right = is_pair ? *content.find("right") : content;
-    film_.p_edge_left = left.number;
-    film_.p_edge_right = right.number;
-    require_above_cavitation(context_, left, film_);
-    if (is_pair) require_above_cavitation(context_, right, film_);
+    film_.edge_left = edge_of(is_pair ? *content.find("left") : content);
+    film_.edge_right = is_pair ? edge_of(*content.find("right")) : film_.edge_left;
+  }
+
+  [[nodiscard]] film::Edge edge_of(const Value& outside) {
+    // Nothing flows over a wall; so that its row has a pressure to start from, it is that of cavitation.
+    if (outside.text == "closed") return {.kind = film::EdgeKind::closed, .pressure = film_.p_cav};
+    require_above_cavitation(context_, outside, film_);
+    return {.pressure = outside.number};
   }
 
   /// What comes in over an edge at the cavitation pressure. Elsewhere it has no meaning.
@@ -135,13 +134,15 @@ class FilmReader {
     const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
     const Value& left = is_pair ? *content.find("left") : content;
     const Value& right = is_pair ? *content.find("right") : content;
-    film_.ambient_fill_left = left.number;
-    film_.ambient_fill_right = right.number;
-    if (film_.edges == film::EdgeKind::closed) {
+    const auto is_wall = [](const film::Edge& edge) { return edge.kind == film::EdgeKind::closed; };
+    if (film::is_closed(film_) || (is_pair && ((is_wall(film_.edge_left) && left.number > 0) ||
+                                               (is_wall(film_.edge_right) && right.number > 0)))) {
       context_.fault_at_key(*fill, "oil outside edges that are closed",
                             "edge_pressure: a pressure, or no ambient_fill");
       return;
     }
+    if (!is_wall(film_.edge_left)) film_.edge_left.ambient_fill = left.number;
+    if (!is_wall(film_.edge_right)) film_.edge_right.ambient_fill = right.number;
     if (!film::cavitation_law(film_).has_fill()) {
       context_.fault_at_key(*fill, "a fill fraction outside a film that has none inside",
                             "cavitation: mass_conserving, or no ambient_fill");
@@ -153,10 +154,10 @@ class FilmReader {
                      "1: such an edge is flooded", "or the cavitation pressure as this edge's pressure");
     };
     if (is_pair) {
-      check(left, film_.p_edge_left);
-      check(right, film_.p_edge_right);
+      check(left, film_.edge_left.pressure);
+      check(right, film_.edge_right.pressure);
     } else {
-      check(content, std::max(film_.p_edge_left, film_.p_edge_right));
+      check(content, std::max(film_.edge_left.pressure, film_.edge_right.pressure));
     }
   }
 

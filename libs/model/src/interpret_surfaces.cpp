@@ -199,11 +199,12 @@ class SurfaceReader {
   void warn_of_open_edge(const Value& value) {
     const std::size_t last = film_.features.size() - 1;
     const film::SurfaceFeature& feature = film_.features[last];
-    if (!feature.is_fed || film_.edges != film::EdgeKind::pressure || film_.L <= 0) return;
-    const auto meets = [&](double side, double p_edge) {
-      return side * feature.z + 0.5 * feature.length > 0.5 * film_.L * (1 - 1e-9) && !has_pressure(last, p_edge);
+    if (!feature.is_fed || film_.L <= 0) return;
+    const auto meets = [&](double side, const film::Edge& edge) {
+      return edge.kind == film::EdgeKind::pressure &&
+             side * feature.z + 0.5 * feature.length > 0.5 * film_.L * (1 - 1e-9) && !has_pressure(last, edge.pressure);
     };
-    if (!meets(-1, film_.p_edge_left) && !meets(1, film_.p_edge_right)) return;
+    if (!meets(-1, film_.edge_left) && !meets(1, film_.edge_right)) return;
     context_.model.warnings.push_back(
         {value.key_position, value.path, "it is open to an edge that has another pressure",
          fmt::format(
@@ -216,16 +217,17 @@ class SurfaceReader {
   void warn_of_narrow_land(const Value& value, std::ptrdiff_t index) {
     const film::SurfaceFeature& feature = film_.features[static_cast<std::size_t>(index)];
     const film::Grid& grid = film_.grid;
-    if (!feature.is_fed || film_.edges != film::EdgeKind::pressure) return;
+    if (!feature.is_fed) return;
     double narrowest = std::numeric_limits<double>::infinity();
-    const auto look = [&](double side, double p_edge, double cell) {
+    const auto look = [&](double side, const film::Edge& edge, double cell) {
+      if (edge.kind == film::EdgeKind::closed) return;
       const double land = 0.5 * film_.L - side * feature.z - 0.5 * feature.length;
-      if (land <= 1e-9 * film_.L || land >= 0.5 * cell || has_pressure(static_cast<std::size_t>(index), p_edge)) return;
+      if (land <= 1e-9 * film_.L || land >= 0.5 * cell || has_pressure(static_cast<std::size_t>(index), edge.pressure)) return;
       narrowest = std::min(narrowest, land);
     };
     const int last = grid.n_z - 1;
-    look(-1, film_.p_edge_left, film_.L * (grid.z_over_L(1) - grid.z_over_L(0)));
-    look(1, film_.p_edge_right, film_.L * (grid.z_over_L(last) - grid.z_over_L(last - 1)));
+    look(-1, film_.edge_left, film_.L * (grid.z_over_L(1) - grid.z_over_L(0)));
+    look(1, film_.edge_right, film_.L * (grid.z_over_L(last) - grid.z_over_L(last - 1)));
     if (!std::isfinite(narrowest)) return;
     const double enough = std::ceil(0.5 * film_.L / narrowest - 1e-6) + 1;
     context_.model.warnings.push_back(

@@ -186,11 +186,18 @@ TEST_CASE("ClosedEdges_NeedAPressureSomewhere") {
     return edited(bearing_alone, "lubricant: oil", "lubricant: oil\n    " + keys);
   };
   const Model model = read_text(with("edge_pressure: closed\n    supply: {line: widest_gap}"), "m.yaml");
-  CHECK(model.bearings[0].film.edges == film::EdgeKind::closed);
+  CHECK(film::is_closed(model.bearings[0].film));
   CHECK(model.warnings.empty());
   CHECK(faults_of(with("edge_pressure: closed")).find("closed edges and no supply: no place has a given pressure") !=
         std::string::npos);
   CHECK(faults_of(with("edge_pressure: closed\n    supply: {line: 0 deg}\n    ambient_fill: 0.5"))
+            .find("oil outside edges that are closed") != std::string::npos);
+  const film::FilmModel capped =
+      read_text(with("edge_pressure: {left: closed, right: 1 bar}"), "m.yaml").bearings[0].film;
+  CHECK(capped.edge_left.kind == film::EdgeKind::closed);
+  CHECK(capped.edge_right.kind == film::EdgeKind::pressure);
+  CHECK(capped.edge_right.pressure == 1e5);
+  CHECK(faults_of(with("edge_pressure: {left: closed, right: 0 bar}\n    ambient_fill: {left: 0.5, right: 1}"))
             .find("oil outside edges that are closed") != std::string::npos);
   CHECK(faults_of(with("edge_pressure: shut")).find("expected closed or a pressure") != std::string::npos);
 }

@@ -32,7 +32,7 @@ TEST_CASE("KeyPaths_AreReplacedFromOutside") {
   CHECK(model.bearings[0].film.grid.n_phi == 120);
   CHECK(model.bearings[0].film.grid.n_z == 13);
   CHECK(model.bearings[0].film.R == doctest::Approx(0.025).epsilon(1e-15));  // round-off of units
-  CHECK(model.bearings[0].film.p_edge_right == 2e5);
+  CHECK(model.bearings[0].film.edge_right.pressure == 2e5);
   CHECK(model.title == "Another");
   CHECK(model.forces[0].load.functions[0].value->value({}) == 7);
   CHECK(model.gravity.z() == -9.81);

@@ -143,8 +143,8 @@ TEST_CASE("EverythingAboutABearing_IsRead") {
   CHECK(film.grid.n_z == 25);
   CHECK(film.cavitation == film::Cavitation::reynolds);
   CHECK(film.p_cav == -0.5e5);
-  CHECK(film.p_edge_left == 1e5);
-  CHECK(film.p_edge_right == 2e5);
+  CHECK(film.edge_left.pressure == 1e5);
+  CHECK(film.edge_right.pressure == 2e5);
   CHECK(film.supply.kind == film::SupplyKind::fixed_angle);
   CHECK(film.supply.phi == near(pi));
   CHECK(film.supply.pressure == near(3e5));
@@ -174,8 +174,8 @@ TEST_CASE("RoughnessAndSurroundings_AreRead") {
 )");
   const Bearing bearing = read_text(text, "m.yaml").bearings[0];
   CHECK(bearing.film.pressures == film::PressureScale::absolute);
-  CHECK(bearing.film.ambient_fill_left == 0.4);
-  CHECK(bearing.film.ambient_fill_right == 1);
+  CHECK(bearing.film.edge_left.ambient_fill == 0.4);
+  CHECK(bearing.film.edge_right.ambient_fill == 1);
   const film::Roughness& roughness = bearing.film.roughness;
   CHECK(roughness.flow_factors == film::FlowFactors::patir_cheng);
   CHECK(roughness.shell.sigma == near(0.6e-6));
@@ -186,13 +186,13 @@ TEST_CASE("RoughnessAndSurroundings_AreRead") {
 
   const Bearing plain = read_text(good_model, "m.yaml").bearings[0];
   CHECK(plain.film.pressures == film::PressureScale::gauge);
-  CHECK(plain.film.ambient_fill_left == 0);
+  CHECK(plain.film.edge_left.ambient_fill == 0);
   CHECK_FALSE(plain.film.roughness.counts());
   const std::string one = edited(good_model, "    lubricant: oil\n",
                                  "    lubricant: oil\n    ambient_fill: 0.25\n    roughness: {shell: {sigma: 1 um}, "
                                  "flow_factors: none}\n");
   const Bearing other = read_text(one, "m.yaml").bearings[0];
-  CHECK(other.film.ambient_fill_right == 0.25);
+  CHECK(other.film.edge_right.ambient_fill == 0.25);
   CHECK_FALSE(other.film.roughness.counts());
 }
 

@@ -18,8 +18,9 @@ std::string cavitation(const film::FilmModel& film) {
   return std::string(film::cavitation_law(film).text()) + " at " + pressure(film.p_cav);
 }
 
-std::string edge(const film::FilmModel& film, double p, double fill) {
-  if (film.edges == film::EdgeKind::closed) return "closed: no oil passes";
+std::string edge(const film::FilmModel& film, const film::Edge& at) {
+  if (at.kind == film::EdgeKind::closed) return "closed: no oil passes";
+  const double p = at.pressure, fill = at.ambient_fill;
   if (!film::cavitation_law(film).has_fill() || p > film.p_cav) return pressure(p);
   if (fill == 0) return pressure(p) + ", in air: oil may leave, none comes in";
   return pressure(p) + fmt::format(", in {:.3g} of oil: the film draws it in where it would be emptier", fill);
@@ -127,8 +128,8 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   row("cavitation", cavitation(film));
   row("pressures",
       film.pressures == film::PressureScale::absolute ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
-  row("edge pressure left", edge(film, film.p_edge_left, film.ambient_fill_left));
-  row("edge pressure right", edge(film, film.p_edge_right, film.ambient_fill_right));
+  row("edge pressure left", edge(film, film.edge_left));
+  row("edge pressure right", edge(film, film.edge_right));
   row("supply", supply(film));
   for (const film::SurfaceFeature& feature : film.features)
     row(("feature " + feature.name).c_str(), described(feature));

@@ -65,9 +65,17 @@ enum class CavitatedShear { full, film_share };
 enum class ShearForce { full, torque_only };
 enum class FilmSolver { newton, sor, multigrid };
 
-/// What the rows at z = -L/2 and +L/2 are: oil at a given pressure, or a wall no oil passes (a bearing of infinite
-/// width).
+/// Oil at a given pressure, or a wall no oil passes: two of them make a bearing of infinite width, one a plane of
+/// symmetry or a cap.
 enum class EdgeKind { pressure, closed };
+
+/// An edge of the bearing, z = -L/2 or +L/2.
+struct Edge {
+  EdgeKind kind = EdgeKind::pressure;
+  double pressure = 0;  ///< [Pa], >= p_cav; without meaning at a wall
+  /// Fill fraction of what an edge at p_cav lets in, from 0 (air) to 1 (oil); only where oil is conserved [-].
+  double ambient_fill = 0;
+};
 
 /// What the pressure 0 is: the atmosphere or a vacuum. The equations do not ask.
 enum class PressureScale { gauge, absolute };
@@ -82,22 +90,29 @@ struct FilmModel {
   Cavitation cavitation = Cavitation::mass_conserving;
   PressureScale pressures = PressureScale::gauge;
   double p_cav = 0;         ///< cavitation pressure [Pa]
-  double p_edge_left = 0;   ///< pressure at z = -L/2 [Pa], >= p_cav
-  double p_edge_right = 0;  ///< pressure at z = +L/2 [Pa], >= p_cav
-  /// Fill fraction of what an edge at p_cav lets in, from 0 (air) to 1 (oil); only where oil is conserved [-].
-  double ambient_fill_left = 0, ambient_fill_right = 0;
+  Edge edge_left, edge_right;
   SupplyLine supply;
   Asperities asperities;
   Roughness roughness;
   double compliance = 0;  ///< column compliance w/p = length / composite modulus [m/Pa], >= 0; 0: rigid
   CavitatedShear cavitated_shear = CavitatedShear::film_share;
   ShearForce shear_force = ShearForce::full;
-  EdgeKind edges = EdgeKind::pressure;
   double fill_speed =
       1000;  ///< angular speed in P0 (film.6), > 0; one near the film's own keeps Newton's path short [rad/s]
   std::vector<SurfaceFeature> features;  ///< where several lie over a place, the one that holds more of it counts
   std::vector<Profile> profiles;  ///< shapes of bore and journal; whoever places the surfaces adds them (GapShape)
 };
+
+/// The edge on which the axial row j of the grid lies; null for those between.
+[[nodiscard]] inline const Edge* edge_of_row(const FilmModel& model, int j) {
+  if (j == 0) return &model.edge_left;
+  return j == model.grid.n_z - 1 ? &model.edge_right : nullptr;
+}
+
+/// Whether walls close the film on both sides.
+[[nodiscard]] inline bool is_closed(const FilmModel& model) {
+  return model.edge_left.kind == EdgeKind::closed && model.edge_right.kind == EdgeKind::closed;
+}
 
 /// P0, the constant [Pa] that scales the fill fraction's unknown: theta = 1 + min(u, 0)/P0. It equals the pressure
 /// scale 6 mu0 fill_speed (R/c)^2 dphi and has no influence on the solution (film.6).
