@@ -3,8 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "hersey/bearing/journal_kinematics.h"
-
 namespace hersey::bearing {
 
 using Eigen::Index;
@@ -14,7 +12,6 @@ using Eigen::VectorXd;
 DeformingSurfaces::DeformingSurfaces(const film::FilmModel& model, std::shared_ptr<const ElasticSurface> shell,
                                      std::shared_ptr<const ElasticSurface> journal)
     : grid_(model.grid),
-      R_(model.R),
       L_(model.L),
       shell_(std::move(shell)),
       journal_(std::move(journal)),
@@ -62,10 +59,11 @@ void DeformingSurfaces::turn_journal(double phi) {
   curvatures_ = -(fields[2] * journal_->D);
 }
 
-void DeformingSurfaces::place(const VectorXd& s, const VectorXd& s_rate, double phi, double omega,
+void DeformingSurfaces::place(const VectorXd& s, const VectorXd& s_rate, const GapKinematics::Turning& turning,
                               film::SurfaceMotion& motion) {
   if (!deform()) return;
-  if (journal_) turn_journal(phi);
+  const double omega = turning.speed;
+  if (journal_) turn_journal(turning.angle);
   motion.g.noalias() += openings_ * s;
   if (motion.shell_opening.size() == 0) motion.shell_opening.setZero(motion.g.size());
   motion.shell_opening.noalias() += openings_.leftCols(shell_count()) * s.head(shell_count());
@@ -85,7 +83,8 @@ void DeformingSurfaces::place(const VectorXd& s, const VectorXd& s_rate, double 
   }
 }
 
-void DeformingSurfaces::add_turning(std::vector<film::MotionDirection>& of_parameters) const {
+void DeformingSurfaces::add_turning(const GapKinematics::Turning& turning,
+                                    std::vector<film::MotionDirection>& of_parameters) const {
   if (!journal_) return;
   const auto add = [](VectorXd& to, const VectorXd& field) {
     if (to.size() == 0)
@@ -93,15 +92,18 @@ void DeformingSurfaces::add_turning(std::vector<film::MotionDirection>& of_param
     else
       to += field;
   };
-  add(of_parameters[kRotation].g, by_angle_);
-  add(of_parameters[kRotation].g_rate, rate_by_angle_);
-  add(of_parameters[kJournalSpeed].g_rate, by_angle_ / R_);
+  film::MotionDirection &angle = of_parameters[static_cast<std::size_t>(turning.of_angle)],
+                        &speed = of_parameters[static_cast<std::size_t>(turning.of_speed)];
+  add(angle.g, by_angle_);
+  add(angle.g_rate, rate_by_angle_);
+  add(speed.g_rate, by_angle_ / turning.radius);
 }
 
-void DeformingSurfaces::add_turning_forces(const VectorXd& normal_forces, MatrixXd& Q_ds) const {
+void DeformingSurfaces::add_turning_forces(const GapKinematics::Turning& turning, const VectorXd& normal_forces,
+                                           MatrixXd& Q_ds) const {
   if (!journal_) return;
   const Index first = Q_ds.rows() - slopes_.cols();
-  for (Index k = 0; k < slopes_.cols(); ++k) Q_ds(first + k, kRotation) += slopes_.col(k).dot(normal_forces);
+  for (Index k = 0; k < slopes_.cols(); ++k) Q_ds(first + k, turning.of_angle) += slopes_.col(k).dot(normal_forces);
 }
 
 VectorXd DeformingSurfaces::shell_displacement(const VectorXd& s) const {

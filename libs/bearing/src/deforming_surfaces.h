@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hersey/bearing/elastic_surface.h"
+#include "hersey/bearing/gap_kinematics.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/reynolds.h"
 
@@ -27,8 +28,8 @@ class DeformingSurfaces {
   [[nodiscard]] bool shell_deforms() const { return shell_ != nullptr; }
   [[nodiscard]] bool journal_deforms() const { return journal_ != nullptr; }
 
-  /// Adds to gap and rate in `motion`, whose journal has turned by `phi` [rad] and turns at `omega` [rad/s].
-  void place(const Eigen::VectorXd& s, const Eigen::VectorXd& s_rate, double phi, double omega,
+  /// Adds to gap and rate in `motion`.
+  void place(const Eigen::VectorXd& s, const Eigen::VectorXd& s_rate, const GapKinematics::Turning& turning,
              film::SurfaceMotion& motion);
 
   /// Gap opened by unit amplitudes at the journal's angle last placed, (nodes, amplitudes), and how it changes in time.
@@ -36,10 +37,11 @@ class DeformingSurfaces {
   /// What unit changes of the amplitudes, then of their rates, do to the surfaces.
   [[nodiscard]] const std::vector<film::MotionDirection>& directions() const { return directions_; }
 
-  /// What the journal's deformation adds to the directions of Parameters: it turns with the journal.
-  void add_turning(std::vector<film::MotionDirection>& of_parameters) const;
-  /// What it adds to the derivative of forces on amplitudes with the journal's angle, column kRotation of `Q_ds`.
-  void add_turning_forces(const Eigen::VectorXd& normal_forces, Eigen::MatrixXd& Q_ds) const;
+  /// What the journal's deformation adds to the directions of the gap's parameters: it turns with the journal.
+  void add_turning(const GapKinematics::Turning& turning, std::vector<film::MotionDirection>& of_parameters) const;
+  /// What it adds to the derivative of forces on amplitudes with the journal's angle, a column of `Q_ds`.
+  void add_turning_forces(const GapKinematics::Turning& turning, const Eigen::VectorXd& normal_forces,
+                          Eigen::MatrixXd& Q_ds) const;
 
   /// Radial displacement of each surface at the nodes, away from the axis [m]; zero where it is rigid.
   [[nodiscard]] Eigen::VectorXd shell_displacement(const Eigen::VectorXd& s) const;
@@ -53,7 +55,7 @@ class DeformingSurfaces {
   [[nodiscard]] Eigen::Index shell_count() const { return shell_ ? shell_->D.cols() : 0; }
 
   film::Grid grid_;
-  double R_, L_;
+  double L_;
   std::shared_ptr<const ElasticSurface> shell_, journal_;
   Eigen::MatrixXd openings_;
   Eigen::MatrixXd slopes_, curvatures_;  ///< d openings / d phi of the journal's amplitudes, and again

@@ -111,7 +111,7 @@ void SteadyFilm::gather_flexibility(const SteadyElasticity& elasticity) {
 /// A tilt opens the gap at z by -z t . e_r.
 void SteadyFilm::lay_openings() {
   film::SurfaceMotion motion = steady_surfaces(model_, point_, Eigen::Vector2d::Zero());
-  deforming_.place(s_0_, VectorXd::Zero(amplitudes()), point_.journal_angle, 0, motion);
+  deforming_.place(s_0_, VectorXd::Zero(amplitudes()), {.angle = point_.journal_angle}, motion);
   positions_.assign(deforming_.directions().begin(), deforming_.directions().begin() + amplitudes());
   all_openings_ = deforming_.openings();
   for (const int k : {kTx, kTy}) {
@@ -126,7 +126,7 @@ film::SurfaceMotion SteadyFilm::surfaces(const Eigen::Vector2d& e, const VectorX
   tilted.tilt = tilt(x);
   film::SurfaceMotion motion = steady_surfaces(model_, tilted, e);
   // What rests in the bearing's axes opens the gap at no rate, a journal that turns beneath its deformation included.
-  deforming_.place(amplitudes_of(x), VectorXd::Zero(amplitudes()), point_.journal_angle, 0, motion);
+  deforming_.place(amplitudes_of(x), VectorXd::Zero(amplitudes()), {.angle = point_.journal_angle}, motion);
   return motion;
 }
 

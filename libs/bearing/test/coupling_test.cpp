@@ -88,7 +88,7 @@ TEST_CASE("PartitionedAndMonolithic_Agree") {
   Rig partitioned(small_film(), 500, {.coupling = Coupling::partitioned, .initial_dt = dt});
   const int fewer = monolithic.march(dt, 40), more = partitioned.march(dt, 40);
   MESSAGE("Newton iterations ", fewer, ", exchanges ", more);
-  const Eigen::Vector2d e = monolithic.observe().e, difference = partitioned.observe().e - e;
+  const Eigen::Vector2d e = monolithic.observe().position.e, difference = partitioned.observe().position.e - e;
   // Each step is solved to rtol = 1e-8 of its forces; 40 steps leave at most a few 1e-7 of the motion.
   CHECK(difference.norm() <= 1e-6 * e.norm());
   CHECK(fewer < more);
@@ -109,7 +109,7 @@ TEST_CASE("ExchangeWithoutEnd_IsSolvedAsOneSystem") {
     REQUIRE(integrator.step(*partitioned.mechanism, partitioned.state, dt).converged());
     CHECK(partitioned.observe().exchanges == 0);
   }
-  const Eigen::Vector2d e = monolithic.observe().e, difference = partitioned.observe().e - e;
+  const Eigen::Vector2d e = monolithic.observe().position.e, difference = partitioned.observe().position.e - e;
   CHECK(difference.norm() <= 1e-6 * e.norm());  // as above: 20 steps, each solved to 1e-8 of its forces
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("MultigridAndDirect_StepAlike") {
   Rig multigrid(film, 500, {.film = {.solver = film::FilmSolver::multigrid}, .initial_dt = dt});
   const int iterations = direct.march(dt, 30);
   CHECK(multigrid.march(dt, 30) == iterations);
-  const Eigen::Vector2d e = direct.observe().e, difference = multigrid.observe().e - e;
+  const Eigen::Vector2d e = direct.observe().position.e, difference = multigrid.observe().position.e - e;
   // Linear systems to 1e-10, steps to 1e-8, 30 of them.
   CHECK(difference.norm() <= 1e-6 * e.norm());
 }
@@ -175,7 +175,7 @@ TEST_CASE("StepIsSecondOrderInTime_FullFilm") {
     Rig rig(film, 300, {.initial_dt = 1e-4});
     rig.march(4e-3 / n, n, rtol);
     CHECK(rig.observe().film.cavitated_share == 0);
-    return rig.observe().e;
+    return rig.observe().position.e;
   };
   const Eigen::Vector2d coarse = position(40), middle = position(80), fine = position(160);
   const double order = std::log2((coarse - middle).norm() / (middle - fine).norm());

@@ -7,6 +7,7 @@
 
 #include "build_beam.h"
 #include "build_flexible.h"
+#include "hersey/bearing/journal_bearing.h"
 #include "hersey/core/contract.h"
 #include "hersey/fem/surface_loads.h"
 #include "hersey/mbd/bushing.h"

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "film_vocabulary.h"
+#include "hersey/bearing/rigid_surfaces.h"
 #include "interpret.h"
 #include "oil_laws.h"
 
@@ -287,27 +288,14 @@ const Value* given(const Value& parent, const std::string& key) {
   return value != nullptr && (value->broken || value->text != "none") ? value : nullptr;
 }
 
-/// Of the undeformed surfaces, on the grid and at both edges.
+/// Of the undeformed surfaces.
 double smallest_gap(const film::FilmModel& film, const OperatingPoint& point, double epsilon) {
-  const film::Grid& grid = film.grid;
-  const Eigen::Vector2d e =
-      epsilon * film.c * Eigen::Vector2d(std::cos(point.eccentricity_angle), std::sin(point.eccentricity_angle));
-  const Eigen::Vector2d tilt(std::tan(point.tilt_x), std::tan(point.tilt_y));
-  double smallest = film.c;
-  for (int i = 0; i < grid.n_phi; ++i) {
-    const double phi = grid.phi(i);
-    const Eigen::Vector2d radial(std::cos(phi), std::sin(phi));
-    for (int j = 0; j < grid.n_z; ++j) {
-      const double z = film.L * grid.z_over_L(j);
-      double gap = film.c - (e + z * tilt).dot(radial);
-      for (const film::Profile& profile : film.profiles) {
-        const double turned = profile.surface == film::Surface::journal ? point.journal_angle : 0;
-        gap += profile.opening(phi - turned, z, film.L).value;
-      }
-      smallest = std::min(smallest, gap);
-    }
-  }
-  return smallest;
+  bearing::ParameterVector place = bearing::ParameterVector::Zero();
+  place[bearing::kEx] = epsilon * film.c * std::cos(point.eccentricity_angle);
+  place[bearing::kEy] = epsilon * film.c * std::sin(point.eccentricity_angle);
+  place[bearing::kTx] = std::tan(point.tilt_x), place[bearing::kTy] = std::tan(point.tilt_y);
+  place[bearing::kRotation] = point.journal_angle;
+  return bearing::smallest_gap(film, place);
 }
 
 /// A tilted journal, or one beside a narrow place of the bore, may touch the shell at an edge although its middle is

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <limits>
 
-#include "hersey/bearing/journal_bearing.h"
+#include "hersey/bearing/film_force.h"
 #include "hersey/core/archive.h"
 
 namespace hersey::run {

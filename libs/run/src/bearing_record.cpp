@@ -14,8 +14,8 @@ namespace {
 // Attitude: from the load on the journal (the shell's film force turned round) to the line of centres, 0..pi.
 double attitude(const bearing::BearingObservation& seen) {
   const Eigen::Vector2d load = seen.wrench_on_shell.tail<3>().head<2>();
-  const double cross = load.x() * seen.e.y() - load.y() * seen.e.x();
-  return std::abs(std::atan2(cross, load.dot(seen.e)));
+  const double cross = load.x() * seen.position.e.y() - load.y() * seen.position.e.x();
+  return std::abs(std::atan2(cross, load.dot(seen.position.e)));
 }
 
 }  // namespace
@@ -113,12 +113,12 @@ void Recorder::declare_fields(const model::Bearing& bearing, BearingSeries& s) {
   if (start.d_journal.size() > 0) s.journal_displacement = displacement("journal_displacement", "journal's surface");
 }
 
-void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObservation& seen, double clearance) const {
+void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObservation& seen) const {
   const film::FilmObservables& film = seen.film;
-  s.eccentricity.append(seen.e);
-  s.ratio.append(seen.e.norm() / clearance);
+  s.eccentricity.append(seen.position.e);
+  s.ratio.append(seen.position.ratio());
   s.attitude.append(attitude(seen));
-  s.tilt.append(seen.tilt);
+  s.tilt.append(seen.position.tilt);
   s.h_min.append(film.h_min);
   s.h_min_phi.append(film.h_min_phi);
   s.h_min_z.append(film.h_min_z);
@@ -133,7 +133,7 @@ void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObser
   s.force_shear.append(film.force_shear);
   s.force_asperity.append(film.force_asperity);
   s.moment.append(Vector3(seen.wrench_on_shell.head<3>()));
-  s.speed.append(seen.speed);
+  s.speed.append(seen.position.speed);
   s.torque_journal.append(film.torque_journal);
   s.torque_shell.append(film.torque_shell);
   s.power_film.append(film.power_film);

@@ -12,7 +12,7 @@ BearingExtremes::BearingExtremes(std::string name) {
   summary_.pofp = -std::numeric_limits<double>::infinity();
 }
 
-void BearingExtremes::take(double t, double dt, double clearance, const bearing::BearingObservation& seen) {
+void BearingExtremes::take(double t, double dt, const bearing::BearingObservation& seen) {
   const film::FilmObservables& film = seen.film;
   last_thickness_ = film.h_min;
   if (film.h_min < summary_.moft) {
@@ -28,7 +28,7 @@ void BearingExtremes::take(double t, double dt, double clearance, const bearing:
     summary_.pofp_z = film.p_max_z;
   }
   summary_.max_force = std::max(summary_.max_force, seen.wrench_on_shell.tail<3>().norm());
-  summary_.eccentricity_ratio = seen.e.norm() / clearance;
+  summary_.eccentricity_ratio = seen.position.ratio();
   summary_.worst_mass_balance = std::max(summary_.worst_mass_balance, film.mass_balance_error);
   const double put_in = -seen.power_into_bodies, taken = film.power_taken();
   summary_.energy_put_in += 0.5 * dt * (last_put_in_ + put_in);

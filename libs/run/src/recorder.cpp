@@ -305,7 +305,7 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   power_.unexplained.append(power.unexplained());
   double film_friction = 0, asperity_friction = 0;
   for (std::size_t i = 0; i < bearings_.size(); ++i) {
-    write_bearing(bearings_[i], step.bearings[i], model_.bearings[i].film.c);
+    write_bearing(bearings_[i], step.bearings[i]);
     write_around(i);
     film_friction += step.bearings[i].film.power_film;
     asperity_friction += step.bearings[i].film.power_asperity;

@@ -140,7 +140,7 @@ class Recorder {
   [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
   void declare_fields(const model::Bearing& bearing, BearingSeries& series);
   void write_around(std::size_t bearing) const;
-  void write_bearing(const BearingSeries& series, const bearing::BearingObservation& seen, double clearance) const;
+  void write_bearing(const BearingSeries& series, const bearing::BearingObservation& seen) const;
 
   const model::Model& model_;
   const model::Machine& machine_;

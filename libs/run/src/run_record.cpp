@@ -30,7 +30,7 @@ void RunRecord::take(const StepRecord& step) {
   largest_power_ = std::max(largest_power_, step.power.largest());
   largest_error_ = std::max(largest_error_, std::abs(step.power.error()));
   for (std::size_t i = 0; i < extremes_.size(); ++i)
-    extremes_[i].take(t, step.dt, model_.bearings[i].film.c, step.bearings[i]);
+    extremes_[i].take(t, step.dt, step.bearings[i]);
   energy_.take(step);
   settled_ = settling_.settled(step);
   recorder_.gather(step);

@@ -18,13 +18,13 @@ bool SettlingTest::settled(const StepRecord& step) {
 double SettlingTest::change(const StepRecord& step) const {
   double largest = 0;
   for (std::size_t i = 0; i < last_.size(); ++i) {
-    largest = std::max(largest, (step.bearings[i].e - last_[i].e).norm() / model_.bearings[i].film.c);
+    largest = std::max(largest, (step.bearings[i].position.relative - last_[i].position.relative).norm());
   }
   return largest;
 }
 
 void SettlingTest::persist(Archive& archive) {
-  archive.each("last", last_, [](Archive& a, bearing::BearingObservation& seen) { a.io("e", seen.e); });
+  archive.each("last", last_, [](Archive& a, bearing::BearingObservation& seen) { a.io("relative", seen.position.relative); });
   archive.io("next", next_);
 }
 

@@ -20,9 +20,8 @@ const Eigen::VectorXd& StepError::measure(const solver::State& end, const Eigen:
   machine_.mechanism->retract(end.q, error, moved_.q);
   for (std::size_t i = 0; i < machine_.bearings.size(); ++i) {
     const mbd::ForceId force = machine_.bearings[i].force;
-    const Vector3 shift = machine_.mechanism->relative_motion(moved_, force).X_AB.r -
-                          machine_.mechanism->relative_motion(end, force).X_AB.r;
-    const Eigen::Vector2d share = shift.head<2>() / model_.bearings[i].film.c;
+    const Eigen::Vector2d share = machine_.bearings[i].bearing->gap().relative_shift(
+        machine_.mechanism->relative_motion(end, force).X_AB, machine_.mechanism->relative_motion(moved_, force).X_AB);
     errors_.segment<2>(coordinates + 2 * static_cast<Eigen::Index>(i)) = share;
     if (share.norm() <= largest_) continue;
     largest_ = share.norm();

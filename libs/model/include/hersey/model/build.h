@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hersey/bearing/journal_bearing.h"
+#include "hersey/bearing/film_force.h"
 #include "hersey/mbd/beam_segment.h"
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/mechanism.h"
@@ -23,7 +23,7 @@ struct BuiltSurface {
 
 /// A bearing of a machine and the two-body force it is in the mechanism.
 struct BuiltBearing {
-  std::shared_ptr<bearing::JournalBearing> bearing;
+  std::shared_ptr<bearing::FilmForce> bearing;
   mbd::ForceId force;
   std::optional<BuiltSurface> shell, journal;  ///< unset: rigid
 };

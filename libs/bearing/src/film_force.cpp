@@ -1,4 +1,4 @@
-#include "hersey/bearing/journal_bearing.h"
+#include "hersey/bearing/film_force.h"
 
 #include <fmt/format.h>
 
@@ -13,34 +13,22 @@
 namespace hersey::bearing {
 namespace {
 
-// Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
-constexpr double kDirectionFloor = 1e-6;
-
 // Share of a control volume that may be left to the next one at the end of a step.
 constexpr double kMostPassedOn = 0.02;
 
 // Steps taken as one system after an exchange without end, before exchanging is tried again.
 constexpr int kStepsAsOne = 16;
 
-// How many of the parameters act. The angles come last: that of the widest gap matters only where the supply follows
-// it, the journal's only where it carries features or a shape of its own.
-Eigen::Index acting_parameters(const film::FilmModel& model, bool journal_deforms) {
-  const auto is_journals = [](const auto& thing) { return thing.surface == film::Surface::journal; };
-  const bool turns = std::any_of(model.features.begin(), model.features.end(), is_journals) ||
-                     std::any_of(model.profiles.begin(), model.profiles.end(), is_journals);
-  if (turns || journal_deforms) return kParameterCount;
-  return model.supply.kind == film::SupplyKind::widest_gap ? kSupplyAngle + 1 : kSupplyAngle;
-}
-
 }  // namespace
 
-JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, const BearingOptions& options)
+FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique_ptr<GapKinematics> gap,
+                     const BearingOptions& options)
     : name_(std::move(name)),
       options_(options),
       reynolds_(model, film::linear_solver_of(options.film.solver)),
-      rigid_(model),
+      gap_(std::move(gap)),
       deforming_(std::make_unique<DeformingSurfaces>(model, options.shell_surface, options.journal_surface)),
-      acting_(acting_parameters(model, options.journal_surface != nullptr)),
+      acting_(gap_->parameters().size()),
       directions_(static_cast<std::size_t>(acting_ + 2 * deforming_->amplitudes())),
       interface_(options.acceleration, options.relaxation) {
   const int n = model.grid.size();
@@ -53,31 +41,23 @@ JournalBearing::JournalBearing(std::string name, const film::FilmModel& model, c
   given_ = given_start_ = Eigen::VectorXd::Zero(6 + deforming_->amplitudes());
 }
 
-JournalBearing::~JournalBearing() = default;
+FilmForce::~FilmForce() = default;
 
-void JournalBearing::place(const mbd::RelativeMotion& motion) {
-  if (!is_aligned(motion.X_AB)) {
-    domain_error_ =
-        fmt::format("the surfaces do not face each other: the journal's z-axis stands at {:.0f} deg to the shell's",
-                    std::acos(std::abs(motion.X_AB.R(2, 2))) * 180 / std::numbers::pi);
-    return;
-  }
-  kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
-  rigid_.place(kinematics_.value, surfaces_);
+void FilmForce::place(const mbd::RelativeMotion& motion) {
+  domain_error_ = gap_->place(motion, surfaces_);
+  if (!domain_error_.empty()) return;
   HERSEY_REQUIRE(motion.s.size() == deforming_->amplitudes(), "the amplitudes of both surfaces' bodies");
-  parameters_.head(acting_) = kinematics_.value.head(acting_);
+  parameters_.head(acting_) = gap_->parameters();
   parameters_.segment(acting_, motion.s.size()) = motion.s;
   parameters_.tail(motion.s.size()) = motion.s_rate;
-  deforming_->place(motion.s, motion.s_rate, kinematics_.value[kRotation], kinematics_.value[kJournalSpeed] / model().R,
-                    surfaces_);
+  deforming_->place(motion.s, motion.s_rate, gap_->turning(), surfaces_);
   feed(motion.t);
-  domain_error_.clear();
   // A liner may be pushed beyond its undeformed surface; surfaces without one may not meet.
   const double gap = smallest_gap();
   if (!std::isfinite(gap) || (model().compliance == 0 && gap <= 0)) report_contact();
 }
 
-void JournalBearing::feed(double t) {
+void FilmForce::feed(double t) {
   const auto& pressures = options_.feature_pressures;
   surfaces_.feature_pressure.resize(static_cast<Eigen::Index>(pressures.size()));
   for (std::size_t f = 0; f < pressures.size(); ++f) {
@@ -86,26 +66,19 @@ void JournalBearing::feed(double t) {
 }
 
 /// Of the surfaces as their bodies deform, without the liner.
-double JournalBearing::smallest_gap() const {
-  return deforming_->deform() ? surfaces_.g.minCoeff() : rigid_.smallest_gap();
+double FilmForce::smallest_gap() const {
+  return deforming_->deform() ? surfaces_.g.minCoeff() : gap_->smallest_gap();
 }
 
-void JournalBearing::report_contact() {
+void FilmForce::report_contact() {
   Eigen::Index node = 0;
   surfaces_.g.minCoeff(&node);
   const film::Grid& grid = model().grid;
   const int i = static_cast<int>(node) / grid.n_z, j = static_cast<int>(node) % grid.n_z;
   domain_error_ = fmt::format(
-      "the journal touches the shell (smallest undeformed gap {:.4g} um at {:.0f} deg, z = {:.3g} mm; eccentricity "
-      "ratio "
-      "{:.4f}",
+      "the journal touches the shell (smallest undeformed gap {:.4g} um at {:.0f} deg, z = {:.3g} mm; {})",
       1e6 * smallest_gap(), grid.phi(i) * 180 / std::numbers::pi, 1e3 * model().L * grid.z_over_L(j),
-      kinematics_.e().norm() / model().c);
-  // A tilt that closes the gap at the edges of a concentric journal.
-  const double tilt = kinematics_.tilt().norm();
-  domain_error_ += tilt * model().L / 2 > model().c
-                       ? fmt::format(", its axis {:.3g} deg off the bore's)", std::atan(tilt) * 180 / std::numbers::pi)
-                       : ")";
+      gap_->position_text());
   if (model().asperities.model != film::AsperityModel::none) return;
   domain_error_ += model().compliance > 0 ? "; where no film pressure parts them, as at the edges, only `asperities` do"
                                           : "; smooth surfaces have nothing but the film between them: `asperities` "
@@ -113,13 +86,13 @@ void JournalBearing::report_contact() {
 }
 
 // A film that closes where the undeformed surfaces overlap is a journal that touches.
-void JournalBearing::report(const film::FilmDomain& domain) {
+void FilmForce::report(const film::FilmDomain& domain) {
   if (domain.trouble == film::FilmDomain::Trouble::closed && smallest_gap() <= 0) return report_contact();
   domain_error_ = film::text(model(), domain);
 }
 
 // The film of a freshly filled gap; its liner has yielded to it and rests.
-void JournalBearing::fill_gap() {
+void FilmForce::fill_gap() {
   history_.dt = options_.initial_dt;
   history_.theta.setOnes();
   history_.w.resize(0);
@@ -133,7 +106,7 @@ void JournalBearing::fill_gap() {
   domain_error_ = "no film at the start: " + summary.message;
 }
 
-void JournalBearing::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {
+void FilmForce::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {
   // A trial of this step has exchanged wrenches without end, as where the film damps more than inertia holds.
   if (exchanges_ > 0 && !exchange_has_ended_) steps_as_one_left_ = kStepsAsOne;
   exchange_has_ended_ = false;
@@ -149,17 +122,17 @@ void JournalBearing::begin_step(const mbd::RelativeMotion& /*start*/, double dt)
 }
 
 // u += du0 + U (s - s_last): the film's share of the Newton increment the bodies have just taken.
-void JournalBearing::follow_surfaces() {
+void FilmForce::follow_surfaces() {
   if (!linearised_) return;
   parameter_change_ = parameters_ - parameters_linearised_;
-  for (const int angle : {kSupplyAngle, kRotation})
-    if (angle < acting_) parameter_change_[angle] = std::remainder(parameter_change_[angle], 2 * std::numbers::pi);
+  for (Eigen::Index k = 0; k < acting_; ++k)
+    if (gap_->is_angle(k)) parameter_change_[k] = std::remainder(parameter_change_[k], 2 * std::numbers::pi);
   reynolds_.follow(parameter_change_, du_);
   u_ = u_linearised_ + du_;
 }
 
 // Pressures from a linear prediction may lie beyond any film: then the film stays as it was while the surfaces move.
-film::FilmDomain JournalBearing::linearise_film() {
+film::FilmDomain FilmForce::linearise_film() {
   follow_surfaces();
   const film::FilmDomain domain = reynolds_.linearise(surfaces_, history_, u_);
   if (domain.is_inside() || !linearised_) return domain;
@@ -168,37 +141,37 @@ film::FilmDomain JournalBearing::linearise_film() {
 }
 
 // The journal takes the negative of the wrench that the shell takes.
-void JournalBearing::condense_film(mbd::ForceResponse& response) {
+void FilmForce::condense_film(mbd::ForceResponse& response) {
   const Eigen::Index m = deforming_->amplitudes();
   for (Eigen::Index k = 0; k < acting_; ++k)
-    directions_[static_cast<std::size_t>(k)] = rigid_.direction(static_cast<int>(k));
+    directions_[static_cast<std::size_t>(k)] = gap_->direction(k);
   std::copy(deforming_->directions().begin(), deforming_->directions().end(), directions_.begin() + acting_);
-  deforming_->add_turning(directions_);
+  deforming_->add_turning(gap_->turning(), directions_);
   reynolds_.condense(directions_, deforming_->openings(), condensed_);
   response.W_B_A = -condensed_.wrench;
   const auto by_journal = condensed_.wrench_ds.leftCols(acting_);
-  response.dW_dX.noalias() = -by_journal * kinematics_.d_dX.topRows(acting_);
-  response.dW_dV.noalias() = -by_journal * kinematics_.d_dV.topRows(acting_);
+  response.dW_dX.noalias() = -by_journal * gap_->d_dX();
+  response.dW_dV.noalias() = -by_journal * gap_->d_dV();
   if (m == 0) return;
-  deforming_->add_turning_forces(reynolds_.normal_forces().value, condensed_.Q_ds);
+  deforming_->add_turning_forces(gap_->turning(), reynolds_.normal_forces().value, condensed_.Q_ds);
   response.Q = condensed_.Q;
   response.dW_ds = -condensed_.wrench_ds.middleCols(acting_, m);
   response.dW_dr = -condensed_.wrench_ds.rightCols(m);
-  response.dQ_dX.noalias() = condensed_.Q_ds.leftCols(acting_) * kinematics_.d_dX.topRows(acting_);
-  response.dQ_dV.noalias() = condensed_.Q_ds.leftCols(acting_) * kinematics_.d_dV.topRows(acting_);
+  response.dQ_dX.noalias() = condensed_.Q_ds.leftCols(acting_) * gap_->d_dX();
+  response.dQ_dV.noalias() = condensed_.Q_ds.leftCols(acting_) * gap_->d_dV();
   response.dQ_ds = condensed_.Q_ds.middleCols(acting_, m);
   response.dQ_dr = condensed_.Q_ds.rightCols(m);
 }
 
 // Wrench and forces on shapes after the film's own increment (bearing.10), without derivatives.
-void JournalBearing::increment_film(mbd::ForceResponse& response) {
+void FilmForce::increment_film(mbd::ForceResponse& response) {
   reynolds_.newton_increment(du_);
   response.W_B_A = -(reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du_));
   const film::NormalForces& normal = reynolds_.normal_forces();
   response.Q.noalias() = deforming_->openings().transpose() * (normal.value + normal.by_u.cwiseProduct(du_));
 }
 
-void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
+void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
   response.set_zero(deforming_->amplitudes());
   settled_ = false;
   place(motion);
@@ -221,7 +194,7 @@ void JournalBearing::evaluate(const mbd::RelativeMotion& motion, bool want_tange
 
 // The film's rows of (bearing.8): with them condensed the bodies' Newton iteration is that of both together
 // (bearing.7).
-void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
+void FilmForce::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
   if (const film::FilmDomain domain = linearise_film(); !domain.is_inside()) return report(domain);
   internal_residual_ = reynolds_.relative_residual();
   parameters_linearised_ = parameters_;
@@ -236,7 +209,7 @@ void JournalBearing::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& 
   linearised_ = want_tangent;
 }
 
-void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
+void FilmForce::evaluate_partitioned(mbd::ForceResponse& response) {
   // The first surfaces of a step are a prediction, no answer to any wrench yet.
   if (answered_) {
     film::FilmSolveOptions briefly = options_.film;
@@ -269,7 +242,7 @@ void JournalBearing::evaluate_partitioned(mbd::ForceResponse& response) {
   response.Q = given_.tail(deforming_->amplitudes());
 }
 
-bool JournalBearing::step_stands() {
+bool FilmForce::step_stands() {
   exchange_has_ended_ = true;
   if (!started_) return true;
   settle();
@@ -283,13 +256,13 @@ bool JournalBearing::step_stands() {
 }
 
 // Takes the linearisation of the film for it.
-void JournalBearing::settle() {
+void FilmForce::settle() {
   reynolds_.settle(surfaces_, history_, u_, oil_);
   settled_ = true;
   linearised_ = false;
 }
 
-void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
+void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   place(end);
   observed_surfaces_ = surfaces_;
   observed_s_ = end.s;
@@ -305,7 +278,7 @@ void JournalBearing::accept_step(const mbd::RelativeMotion& end) {
 }
 
 // The next step starts from the oil there is, which is what was there before and what has come in since.
-void JournalBearing::close_step() {
+void FilmForce::close_step() {
   const bool is_step = started_;
   if (is_step) {
     if (!settled_) settle();
@@ -329,7 +302,7 @@ void JournalBearing::close_step() {
   oil_of_run_.volume = oil_.volume;
 }
 
-std::string JournalBearing::name_of_internal_residual() const {
+std::string FilmForce::name_of_internal_residual() const {
   if (!is_one_system_) {
     return "wrench exchanged between film and bodies";
   }
@@ -337,13 +310,10 @@ std::string JournalBearing::name_of_internal_residual() const {
   return fmt::format("film node ({}, {})", node / n_z, node % n_z);
 }
 
-BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) const {
-  const JournalKinematics k = journal_kinematics(motion.X_AB, motion.V_AB_A, model().R, kDirectionFloor * model().c);
-  BearingObservation seen;
-  seen.e = k.e();
-  seen.tilt = k.tilt();
-  seen.speed = motion.V_AB_A[2];
-  seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.e, u_start_, seen.tilt);
+BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
+  BearingObservation seen{.position = gap_->position(motion)};
+  seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.position.e, u_start_,
+                                 seen.position.tilt);
   show_oil(seen.film);
   seen.oil = oil_of_run_;
   seen.wrench_on_shell = seen.film.wrench_on_shell;
@@ -356,7 +326,7 @@ BearingObservation JournalBearing::observe(const mbd::RelativeMotion& motion) co
 }
 
 // Flows of the step as a whole, in place of those at its end.
-void JournalBearing::show_oil(film::FilmObservables& film) const {
+void FilmForce::show_oil(film::FilmObservables& film) const {
   film.oil_volume = oil_of_run_.volume;
   if (oil_.flow_features.size() != film.flow_features.size() || observed_history_.dt == 0) return;
   film.flow_left = oil_.flow_left, film.flow_right = oil_.flow_right;
@@ -370,7 +340,7 @@ void JournalBearing::show_oil(film::FilmObservables& film) const {
   film.mass_balance_error = scale > 0 ? std::abs(oil_of_run_.step_error) / (scale * observed_history_.dt) : 0;
 }
 
-film::FilmFields JournalBearing::fields() const {
+film::FilmFields FilmForce::fields() const {
   film::FilmFields fields = film::film_fields(model(), observed_surfaces_, u_start_);
   if (film::cavitation_law(model()).has_fill() && history_start_.theta.size() == u_.size())
     fields.theta = history_start_.theta.cwiseMax(0.0).cwiseMin(1.0);
@@ -381,7 +351,7 @@ film::FilmFields JournalBearing::fields() const {
 }
 
 // What begin_step returns to. What the last step showed is not kept: it has been observed.
-void JournalBearing::persist(Archive& archive) {
+void FilmForce::persist(Archive& archive) {
   archive.io("theta", history_start_.theta);
   archive.io("w", history_start_.w);
   archive.io("density", history_start_.density);

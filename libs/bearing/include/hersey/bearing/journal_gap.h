@@ -1,0 +1,30 @@
+#pragma once
+
+#include "hersey/bearing/gap_kinematics.h"
+#include "hersey/bearing/journal_kinematics.h"
+#include "hersey/bearing/rigid_surfaces.h"
+
+namespace hersey::bearing {
+
+/// The gap between a journal, whose axis is B's z-axis, and the bore it turns in, whose axis is A's.
+class JournalGap final : public GapKinematics {
+ public:
+  /// @param journal_deforms  its shape turns with it, as features and profiles of the journal do
+  JournalGap(const film::FilmModel& model, bool journal_deforms);
+
+  [[nodiscard]] std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
+  [[nodiscard]] const film::MotionDirection& direction(Index parameter) const override;
+  [[nodiscard]] bool is_angle(Index parameter) const override;
+  [[nodiscard]] double smallest_gap() const override { return surfaces_.smallest_gap(); }
+  [[nodiscard]] std::string position_text() const override;
+  [[nodiscard]] Turning turning() const override;
+  [[nodiscard]] GapPosition position(const mbd::RelativeMotion& motion) const override;
+  [[nodiscard]] Eigen::VectorXd relative_shift(const Pose& before, const Pose& after) const override;
+
+ private:
+  double R_, L_, c_;
+  RigidSurfaces surfaces_;
+  JournalKinematics kinematics_;
+};
+
+}  // namespace hersey::bearing
