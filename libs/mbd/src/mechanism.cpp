@@ -370,30 +370,26 @@ void Mechanism::accept_step(const State& end) {
 }
 
 bool Mechanism::has_condensed_unknowns() const {
-  const auto& forces = impl_->spec.forces;
-  const auto& elastics = impl_->elastics;
-  return std::any_of(forces.begin(), forces.end(), [](const auto& f) { return f.force->has_condensed_unknowns(); }) ||
-         std::any_of(elastics.begin(), elastics.end(),
-                     [](const ElasticAssembly& e) { return e.body().has_condensed_unknowns(); });
+  bool any = false;
+  impl_->for_each_part([&](const auto& /*owner*/, const auto& part) { any = any || part.has_condensed_unknowns(); });
+  return any;
 }
 
 double Mechanism::internal_residual() const {
   double worst = 0;
-  for (const auto& f : impl_->spec.forces) worst = std::max(worst, f.force->internal_residual());
-  for (const ElasticAssembly& e : impl_->elastics) worst = std::max(worst, e.body().internal_residual());
+  impl_->for_each_part(
+      [&](const auto& /*owner*/, const auto& part) { worst = std::max(worst, part.internal_residual()); });
   return worst;
 }
 
 std::string Mechanism::name_of_internal_residual() const {
   std::string name;
   double worst = -1;
-  const auto compare = [&](const std::string& owner, const auto& thing) {
-    if (thing.internal_residual() <= worst) return;
-    worst = thing.internal_residual();
-    name = fmt::format("{}, {}", owner, thing.name_of_internal_residual());
-  };
-  for (const auto& f : impl_->spec.forces) compare(f.name, *f.force);
-  for (const ElasticAssembly& e : impl_->elastics) compare("body " + e.name(), e.body());
+  impl_->for_each_part([&](const auto& owner, const auto& part) {
+    if (part.internal_residual() <= worst) return;
+    worst = part.internal_residual();
+    name = fmt::format("{}, {}", owner(), part.name_of_internal_residual());
+  });
   return name;
 }
 
@@ -405,12 +401,12 @@ bool Mechanism::has_whole_tangent() const {
 
 std::string Mechanism::domain_error() const {
   if (!impl_->came_apart.empty()) return impl_->came_apart;
-  for (const auto& f : impl_->spec.forces)
-    if (const std::string text = f.force->domain_error(); !text.empty()) return fmt::format("{}: {}", f.name, text);
-  for (const ElasticAssembly& e : impl_->elastics)
-    if (const std::string text = e.body().domain_error(); !text.empty())
-      return fmt::format("body {}: {}", e.name(), text);
-  return {};
+  std::string first;
+  impl_->for_each_part([&](const auto& owner, const auto& part) {
+    if (!first.empty()) return;
+    if (const std::string text = part.domain_error(); !text.empty()) first = fmt::format("{}: {}", owner(), text);
+  });
+  return first;
 }
 
 State Mechanism::initial_state() const { return impl_->initial_state(); }

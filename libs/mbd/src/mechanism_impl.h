@@ -89,6 +89,12 @@ struct Mechanism::Implementation {
       visit(elastics[i]);
     }
   }
+  /// Calls visit(owner, part) for all that may condense unknowns; owner() is its name in messages.
+  template <class Visit>
+  void for_each_part(Visit visit) {
+    for (const MechanismSpec::Force& force : spec.forces) visit([&] { return force.name; }, *force.force);
+    for (const ElasticAssembly& elastic : elastics) visit([&] { return "body " + elastic.name(); }, elastic.body());
+  }
   void make_patterns();
   void place_surfaces();
   [[nodiscard]] RelativeMotion relative_motion(std::size_t force, double t) const;

@@ -22,7 +22,7 @@ class CoordinateForce {
   /// A step ended here: forces with a memory keep it.
   virtual void accept_step(double t, double position, double rate) { (void)t, (void)position, (void)rate; }
 
-  /// That memory; see solver::Equations.
+  /// That memory; see solver::CondensedPart.
   virtual void persist(Archive& archive) { (void)archive; }
 
   /// Whether its power is put in from outside, as a motor's is; a spring's or a brake's is not.

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "hersey/core/archive.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/spatial.h"
+#include "hersey/solver/condensed.h"
 #include "hersey/mbd/load_axes.h"
 #include "hersey/solver/equations.h"
 
@@ -83,10 +83,8 @@ struct ElasticEnergy {
 /// A body that deforms and touches the rest of a mechanism through frames. Each frame is a massless rigid body of the
 /// mechanism, to which joints and forces attach as to any other; this couples them (theory manual, chapter
 /// flexible-bodies). Frame 0 carries the body's own axes; the others stand at `rest_pose` while it is not deformed.
-class ElasticBody {
+class ElasticBody : public solver::Condensed<ElasticMotion> {
  public:
-  virtual ~ElasticBody() = default;
-
   /// Frames through which it meets the rest, >= 1.
   [[nodiscard]] virtual int frame_count() const = 0;
   /// Coordinates the mechanism integrates for the body, beside those of its frames; each a length [m].
@@ -117,22 +115,6 @@ class ElasticBody {
 
   /// @param gravity  [m/s^2], ground axes
   [[nodiscard]] virtual ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) = 0;
-
-  // Condensed unknowns; see solver::Equations for when each is called.
-  /// As solver::Equations::begin_step; `start` is the motion at the start of the step, `dt` its length [s].
-  virtual void begin_step(const ElasticMotion& start, double dt) { (void)start, (void)dt; }
-  /// As solver::Equations::accept_step.
-  virtual void accept_step(const ElasticMotion& end) { (void)end; }
-  /// As solver::Equations::has_condensed_unknowns.
-  [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
-  /// As solver::Equations::internal_residual.
-  [[nodiscard]] virtual double internal_residual() const { return 0; }
-  /// As solver::Equations::name_of_internal_residual.
-  [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
-  /// As solver::Equations::domain_error.
-  [[nodiscard]] virtual std::string domain_error() const { return {}; }
-  /// As solver::Equations::persist.
-  virtual void persist(Archive& archive) { (void)archive; }
 };
 
 }  // namespace hersey::mbd

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <string>
 
-#include "hersey/core/archive.h"
 #include "hersey/core/spatial.h"
+#include "hersey/solver/condensed.h"
 
 namespace hersey::mbd {
 
@@ -38,10 +37,8 @@ struct ForceResponse {
 
 /// A force that two bodies exert on each other and that depends on their relative motion alone: spring, bushing, film.
 /// Action equals reaction, moment included, by construction. It may keep unknowns of its own and condense them.
-class TwoBodyForce {
+class TwoBodyForce : public solver::Condensed<RelativeMotion> {
  public:
-  virtual ~TwoBodyForce() = default;
-
   /// The wrench and, if `want_tangent`, its derivatives, condensed unknowns included.
   virtual void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) = 0;
 
@@ -57,24 +54,6 @@ class TwoBodyForce {
   /// Power taken from the bodies that `stored_energy` does not hold: dissipated, as a rule [W]. Not from the wrench:
   /// the balance of energy compares both. 0 for a force that shows its losses itself (films, contacts).
   [[nodiscard]] virtual double lost_power(const RelativeMotion&) const { return 0; }
-
-  // Condensed unknowns; see solver::Equations for when each is called.
-  /// As solver::Equations::begin_step; `start` is the motion at the start of the step, `dt` its length [s].
-  virtual void begin_step(const RelativeMotion& start, double dt) { (void)start, (void)dt; }
-  /// As solver::Equations::step_stands.
-  [[nodiscard]] virtual bool step_stands() { return true; }
-  /// As solver::Equations::accept_step.
-  virtual void accept_step(const RelativeMotion& end) { (void)end; }
-  /// As solver::Equations::has_condensed_unknowns.
-  [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
-  /// As solver::Equations::internal_residual.
-  [[nodiscard]] virtual double internal_residual() const { return 0; }
-  /// As solver::Equations::name_of_internal_residual.
-  [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
-  /// As solver::Equations::domain_error.
-  [[nodiscard]] virtual std::string domain_error() const { return {}; }
-  /// As solver::Equations::persist.
-  virtual void persist(Archive& archive) { (void)archive; }
 };
 
 }  // namespace hersey::mbd

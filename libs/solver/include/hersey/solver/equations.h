@@ -4,8 +4,8 @@
 #include <Eigen/SparseCore>
 #include <string>
 
-#include "hersey/core/archive.h"
 #include "hersey/solver/alpha_parameters.h"
+#include "hersey/solver/condensed.h"
 
 namespace hersey::solver {
 
@@ -35,15 +35,12 @@ struct Stage {
 ///     r(q, v, vdot, lambda, t) = M(q) vdot + h(q, v, t) + G(q)^T lambda = 0,      Phi(q, t) = 0,
 ///
 /// as the integrator, the initial assembly and the linearisation see them (theory manual eq. (integrator.1)). Positions
-/// live on a manifold: nq >= nv, and `retract` walks on it. A contributor may keep unknowns of its own (a film) and
-/// condense them exactly; then it owns their history between `begin_step` and `accept_step` and says through
-/// `internal_residual` how well they are solved.
-class Equations {
+/// live on a manifold: nq >= nv, and `retract` walks on it. What contributes to them may have unknowns of
+/// its own, which it condenses.
+class Equations : public Condensed<State> {
  public:
   using Index = Eigen::Index;
   using SparseMatrix = Eigen::SparseMatrix<double>;  ///< compressed columns; its pattern never changes
-
-  virtual ~Equations() = default;
 
   /// Entries of q.
   [[nodiscard]] virtual Index nq() const = 0;
@@ -74,37 +71,8 @@ class Equations {
   /// What row `row` of the residual balances, e.g. "joint main, rotation"; for messages.
   [[nodiscard]] virtual std::string name_of_row(Index row) const = 0;
 
-  /// A step from `start` over `dt` begins (again): condensed unknowns return to their state at `start`.
-  virtual void begin_step(const State& start, double dt) = 0;
-
-  /// Whether the step may end where `assemble` was called last and Newton's method found it solved. False: what belongs
-  /// to the whole of the step changes the equations (a film whose oil the step's end does not account for), and they
-  /// are to be solved once more from there; asked again afterwards.
-  [[nodiscard]] virtual bool step_stands() { return true; }
-
-  /// The step ended in `end`: condensed unknowns keep what they have.
-  virtual void accept_step(const State& end) = 0;
-
-  /// Whether there are condensed unknowns: each `assemble` moves them on, and the tangent is that of the place they
-  /// have reached.
-  [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
-
-  /// Largest relative residual among condensed unknowns at the last `assemble`; 0 where there are none.
-  [[nodiscard]] virtual double internal_residual() const { return 0; }
-
-  /// Name of the condensed equation behind `internal_residual`.
-  [[nodiscard]] virtual std::string name_of_internal_residual() const { return {}; }
-
   /// Whether the tangent is that of all forces: a partitioned coupling leaves some out and iterates on them.
   [[nodiscard]] virtual bool has_whole_tangent() const { return true; }
-
-  /// A state outside the domain of the equations, e.g. "bearing big_end: gap closed (-1.2 um at ...)"; empty if inside.
-  /// The integrator asks after each `assemble` and shortens the Newton increment where it is not empty.
-  [[nodiscard]] virtual std::string domain_error() const { return {}; }
-
-  /// Everything that steps to come depend on beside the state: histories of condensed unknowns, and what is kept from
-  /// one solution to the next if it changes their round-off. After restoring, steps are those of the run that saved.
-  virtual void persist(Archive& archive) { (void)archive; }
 };
 
 }  // namespace hersey::solver
