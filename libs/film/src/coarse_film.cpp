@@ -57,6 +57,10 @@ CoarseFilm coarsened(const FilmModel& model, const SurfaceMotion& motion, const 
   coarse.motion.g = to_coarse(motion.g);
   coarse.motion.g_rate = to_coarse(motion.g_rate);
   coarse.motion.shell_opening.resize(0);  // matters to forces alone
+  if (history.viscosity.fluidity.size() != 0) {
+    coarse.history.viscosity = {to_coarse(history.viscosity.fluidity), to_coarse(history.viscosity.shear_fluidity),
+                                to_coarse(history.viscosity.skew)};
+  }
   if (history.dt == 0) return coarse;
   coarse.history.theta = to_coarse(history.theta);
   if (history.w.size() != 0) coarse.history.w = to_coarse(history.w);

@@ -23,26 +23,27 @@ Eigen::VectorXd parabolic_shares(const Eigen::VectorXd& length) {
   return shares;
 }
 
+}  // namespace
+
 // Sliding shears the oil: share mu slip^2/h, more of it between rough surfaces.
-double couette(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion, int node) {
+double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
+                     int node) {
   const double slip2_phi = std::pow(motion.u_journal - motion.u_shell, 2);
   const double slip2_z = std::pow(motion.w_journal - motion.w_shell, 2);
   const Node& at = balance.nodes()[node];
   const RoughGap& rough = balance.rough_gaps()[node];
   const double slip2 = rough.couette[0] * slip2_phi + rough.couette[1] * slip2_z;
-  return at.share * slip2 * wrench.relief_factor(node) / (at.fluidity * at.h);
+  return at.share * at.shear_viscosity * slip2 * wrench.relief_factor(node) / (at.fluidity * at.h);
 }
 
 // Pressure drives oil through the gap: over a face, volume flow times drop. In guembel a face where the pressure is cut
 // off counts the part before the cut.
-double poiseuille(const FlowBalance& balance, std::size_t f) {
+double pressure_power(const FlowBalance& balance, std::size_t f) {
   const Face& face = balance.faces()[f];
   const Node &a = balance.nodes()[face.a], &b = balance.nodes()[face.b];
   const FaceFlow& flow = balance.flows()[f];
   return flow.K / flow.density * (a.p - b.p) * (a.wall - b.wall) + flow.recirculation;
 }
-
-}  // namespace
 
 void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench, FilmObservables& o) {
   const double friction = wrench.friction_power_per_contact();
@@ -59,9 +60,9 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
       const Node& node = balance.nodes()[k];
       const double area = geometry.weight_phi[i] * geometry.weight_z[j];
       const double work = oil_work(model.lubricant, node.wall - model.p_cav);
-      o.power_film += area * couette(balance, wrench, motion, k) +
-                      around[j] * (poiseuille(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
-      if (j + 1 < grid.n_z) o.power_film += axial[j] * poiseuille(balance, balance.face_above(i, j));
+      o.power_film += area * sliding_power(balance, wrench, motion, k) +
+                      around[j] * (pressure_power(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
+      if (j + 1 < grid.n_z) o.power_film += axial[j] * pressure_power(balance, balance.face_above(i, j));
       o.power_asperity += area * node.asperity * friction;
       // What the supply feeds comes at its own pressure: the way to the node dissipates (FlowBalance::power_of_tie).
       if (balance.is_held(k)) o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);

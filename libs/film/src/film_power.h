@@ -11,4 +11,11 @@ namespace hersey::film {
 /// @param wrench  evaluated: what it knows of relief and boundary friction.
 void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench, FilmObservables& o);
 
+/// Viscous dissipation by sliding, per area at a node [W/m^2].
+[[nodiscard]] double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
+                                   int node);
+
+/// Viscous dissipation by flow along pressure over a face [W].
+[[nodiscard]] double pressure_power(const FlowBalance& balance, std::size_t f);
+
 }  // namespace hersey::film

@@ -122,6 +122,9 @@ void FlowBalance::take_history(const FilmHistory& history) {
   HERSEY_REQUIRE(history.dt >= 0, "time runs forwards");
   dt_ = history.dt;
   phi_start_ = history.phi_journal;
+  viscosity_ = history.viscosity;
+  HERSEY_REQUIRE(viscosity_.fluidity.size() == 0 || viscosity_.fluidity.size() == size(),
+                 "viscosities of shape (grid.size()) or empty");
   knows_gap_ = false;
   if (dt_ == 0) return;
   liner_rests_ = history.w.size() == 0;
@@ -185,14 +188,26 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   return {};
 }
 
+// Where the oil is thinner at one of the surfaces, sliding carries along more of it with the other, as between rough
+// surfaces (thermal.5).
+void FlowBalance::skew(double skew, double h, RoughGap& gap) {
+  for (const int k : {0, 1}) {
+    gap.drag[k] += skew * h;
+    gap.drag_h[k] += skew;
+  }
+}
+
 FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
   if (const FilmDomain domain = judge_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
-    nodes_[i] = law_.state(motion.g[i], u[i], i % model_.grid.n_z);
+    const int j = i % model_.grid.n_z;
+    nodes_[i] = is_layered() ? law_.state(motion.g[i], u[i], j, {viscosity_.fluidity[i], viscosity_.shear_fluidity[i]})
+                             : law_.state(motion.g[i], u[i], j);
     if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
     if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;
     rough_[i] = rough_law_.state(nodes_[i].h);
+    if (is_layered()) skew(viscosity_.skew[i], nodes_[i].h, rough_[i]);
   }
   return {};
 }

@@ -231,6 +231,8 @@ class FlowBalance {
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
+  [[nodiscard]] bool is_layered() const { return viscosity_.fluidity.size() != 0; }
+  static void skew(double skew, double h, RoughGap& gap);
   void evaluate_cell(int node, const SurfaceMotion& motion);
   void add_face(std::size_t f);
   [[nodiscard]] FaceGap smooth_gap(std::size_t f, double h) const;
@@ -278,6 +280,7 @@ class FlowBalance {
   std::vector<FaceFlow> flows_;
   std::vector<double> values_;  ///< one more than the pattern: rows without a balance scatter there
   Eigen::VectorXd residual_, balance_, throughput_, g_rate_, content_start_, w_start_, gap_start_, u_;
+  LayeredViscosity viscosity_;
   GapInterpolation interpolation_;
   PocketRelief relief_;
   Eigen::VectorXd bends_, excesses_, rate_excesses_;  ///< of gap, gap and its rate

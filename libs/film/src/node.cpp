@@ -33,12 +33,13 @@ NodeLaw::NodeLaw(const FilmModel& model)
     : model_(model),
       cavitation_(cavitation_law(model)),
       scales_(cavitation_scales(model)),
-      contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus) {}
+      contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus),
+      uniform_{1 / model.lubricant.mu0, 1 / model.lubricant.mu0} {}
 
-Node NodeLaw::state(double g, double u, int j) const {
+Node NodeLaw::state(double g, double u, int j, const NodeViscosity& viscosity) const {
   Node node;
   pressure_and_fill(u, j, node);
-  rheology(node);
+  rheology(viscosity, node);
   film_thickness(g, node);
   return node;
 }
@@ -61,11 +62,13 @@ void NodeLaw::pressure_and_fill(double u, int j, Node& node) const {
   node.share = share.value, node.share_u = share.slope;
 }
 
-void NodeLaw::rheology(Node& node) const {
+void NodeLaw::rheology(const NodeViscosity& viscosity, Node& node) const {
   const Lubricant& oil = model_.lubricant;
-  const ValueAndSlope viscosity = log_viscosity_ratio(oil, node.p), density = density_ratio(oil, node.p);
-  node.fluidity = (viscosity.value == 0 ? 1 : std::exp(-viscosity.value)) / oil.mu0;
-  node.fluidity_u = -viscosity.slope * node.fluidity * node.p_u;
+  const ValueAndSlope ratio = log_viscosity_ratio(oil, node.p, 1 / viscosity.shear_fluidity),
+                      density = density_ratio(oil, node.p);
+  node.fluidity = (ratio.value == 0 ? 1 : std::exp(-ratio.value)) * viscosity.fluidity;
+  node.fluidity_u = -ratio.slope * node.fluidity * node.p_u;
+  node.shear_viscosity = viscosity.fluidity / viscosity.shear_fluidity;
   node.density = density.value;
   node.density_u = density.slope * node.p_u;
   node.content = node.density * node.theta;

@@ -10,7 +10,8 @@ struct Node {
   double wall = 0, wall_u = 0;          ///< pressure the walls feel, p_cav + max(u, 0) [Pa]
   double theta = 1, theta_u = 0;        ///< fill fraction [-]
   double share = 1, share_u = 0;        ///< share of the gap that carries Couette shear [-]
-  double fluidity = 0, fluidity_u = 0;  ///< 1/mu [1/(Pa s)]
+  double fluidity = 0, fluidity_u = 0;  ///< 1/mu, as flow along pressure sees it [1/(Pa s)]
+  double shear_viscosity = 1;           ///< mu as sliding sees it, over 1/fluidity [-]
   double density = 1, density_u = 0;    ///< rho/rho0 [-]
   double content = 1, content_u = 0;    ///< oil in the gap, density theta [-]
   double h = 0, h_u = 0, h_g = 1;       ///< film thickness [m]
@@ -29,6 +30,11 @@ struct Node {
 /// in what it lacks: u then stands for the inflow (film.19).
 [[nodiscard]] double ambient_fill(const FilmModel& model, int j);
 
+/// Viscosity at one node at the cavitation pressure; LayeredViscosity.
+struct NodeViscosity {
+  double fluidity = 1, shear_fluidity = 1;  ///< [1/(Pa s)]
+};
+
 /// The laws that hold at every node of one film.
 class NodeLaw {
  public:
@@ -36,11 +42,13 @@ class NodeLaw {
 
   /// State of a node in axial row j with undeformed gap g [m] and unknown u [Pa]. h <= 0 is left to the caller to
   /// judge.
-  [[nodiscard]] Node state(double g, double u, int j) const;
+  [[nodiscard]] Node state(double g, double u, int j) const { return state(g, u, j, uniform_); }
+  /// The same where the oil has a viscosity of its own.
+  [[nodiscard]] Node state(double g, double u, int j, const NodeViscosity& viscosity) const;
 
  private:
   void pressure_and_fill(double u, int j, Node& node) const;
-  void rheology(Node& node) const;
+  void rheology(const NodeViscosity& viscosity, Node& node) const;
   void film_thickness(double g, Node& node) const;
   void contact(double h, Node& node) const;
 
@@ -48,6 +56,7 @@ class NodeLaw {
   const CavitationLaw& cavitation_;
   CavitationScales scales_;
   double contact_scale_;
+  NodeViscosity uniform_;  ///< the model's
 };
 
 }  // namespace hersey::film

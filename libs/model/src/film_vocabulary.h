@@ -59,11 +59,11 @@ inline constexpr Vocabulary<film::Surface, 2> profile_surface_words{{
     {film::Surface::journal, "journal", "the journal: it turns with it"},
 }};
 
-inline constexpr Vocabulary<bearing::Acceleration, 3> acceleration_words{{
-    {bearing::Acceleration::quasi_newton, "quasi_newton",
+inline constexpr Vocabulary<solver::Acceleration, 3> acceleration_words{{
+    {solver::Acceleration::quasi_newton, "quasi_newton",
      "the interface's Jacobian is learnt from the steps taken (IQN-ILS)"},
-    {bearing::Acceleration::aitken, "aitken", "the share taken follows the last two corrections"},
-    {bearing::Acceleration::constant, "constant", "the same share of every correction"},
+    {solver::Acceleration::aitken, "aitken", "the share taken follows the last two corrections"},
+    {solver::Acceleration::constant, "constant", "the same share of every correction"},
 }};
 
 }  // namespace hersey::model

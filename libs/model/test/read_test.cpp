@@ -158,7 +158,7 @@ TEST_CASE("EverythingAboutABearing_IsRead") {
   CHECK(film.shear_force == film::ShearForce::torque_only);
   CHECK(bearing.solver == film::FilmSolver::sor);
   CHECK(bearing.coupling.scheme == CouplingScheme::partitioned);
-  CHECK(bearing.coupling.acceleration == bearing::Acceleration::aitken);
+  CHECK(bearing.coupling.acceleration == solver::Acceleration::aitken);
   CHECK(bearing.coupling.relaxation == 0.5);
   CHECK(bearing.coupling.max_iterations == 7);
 }

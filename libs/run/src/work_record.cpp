@@ -15,11 +15,11 @@ double sum(const std::vector<double>& values) { return std::accumulate(values.be
 std::string scheme_of(const model::Coupling& coupling) {
   if (coupling.scheme == model::CouplingScheme::monolithic) return "monolithic";
   switch (coupling.acceleration) {
-    case bearing::Acceleration::constant:
+    case solver::Acceleration::constant:
       return "partitioned, constant relaxation";
-    case bearing::Acceleration::aitken:
+    case solver::Acceleration::aitken:
       return "partitioned, Aitken";
-    case bearing::Acceleration::quasi_newton:
+    case solver::Acceleration::quasi_newton:
       return "partitioned, quasi-Newton";
   }
   return {};

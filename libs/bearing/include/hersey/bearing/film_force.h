@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hersey/bearing/elastic_surface.h"
-#include "hersey/bearing/interface_iteration.h"
+#include "hersey/solver/fixed_point_iteration.h"
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/film/film_solver.h"
@@ -24,7 +24,7 @@ enum class Coupling {
 
 struct BearingOptions {
   Coupling coupling = Coupling::monolithic;
-  Acceleration acceleration = Acceleration::quasi_newton;  ///< partitioned: how the exchanged wrench is corrected
+  solver::Acceleration acceleration = solver::Acceleration::quasi_newton;  ///< partitioned: how the exchanged wrench is corrected
   double relaxation = 0.1;  ///< partitioned: share of the first correction taken, in (0, 1]
   /// The film's own solver: initial film, and every film solve of a partitioned coupling. `multigrid` also solves the
   /// linear systems of a monolithic one.
@@ -65,7 +65,7 @@ class DeformingSurfaces;
 /// change of the surfaces since the last call through the last linearisation, u += du0 + (du/ds) (s - s_last), are
 /// linearised anew, and the wrench is returned with the film eliminated: the exact Schur complement of the full system.
 /// Partitioned: `evaluate` takes the surfaces to be the bodies' answer to the wrench it returned last, solves the film
-/// there to the end, corrects the wrench by what the film says (InterfaceIteration) and returns it without derivatives.
+/// there to the end, corrects the wrench by what the film says (FixedPointIteration) and returns it without derivatives.
 /// Where its exchange has come to no end, that step, shorter, and some more are taken monolithically: `exchanges` of
 /// their observations is 0.
 class FilmForce : public mbd::TwoBodyForce {
@@ -149,7 +149,7 @@ class FilmForce : public mbd::TwoBodyForce {
   Eigen::VectorXd u_start_;
 
   // Partitioned: the wrench on the journal and the forces on shapes that the bodies have been given.
-  InterfaceIteration interface_;
+  solver::FixedPointIteration interface_;
   Eigen::VectorXd given_, given_start_;
   bool answered_ = false;
   bool exchange_has_ended_ = false;

@@ -9,6 +9,7 @@
 #include "hersey/film/grid.h"
 #include "hersey/film/roughness.h"
 #include "hersey/film/surface_feature.h"
+#include "hersey/film/temperature_law.h"
 #include "hersey/film/viscosity_law.h"
 
 namespace hersey::film {
@@ -19,13 +20,23 @@ struct Lubricant {
   ViscosityLaw viscosity_law;   ///< mu(p)/mu0
   double density = 850;         ///< at the cavitation pressure [kg/m^3], > 0
   DensityLaw density_law = {};  ///< rho(p)/rho0
+  /// mu at the cavitation pressure over temperature; only a film with a temperature (FilmHeat) asks it.
+  TemperatureLaw temperature_law = {};
+  double specific_heat = 2000;  ///< [J/(kg K)], > 0
+  double conductivity = 0.13;   ///< of heat [W/(m K)], >= 0
 };
+
+/// ln of the viscosity over that at the cavitation pressure, `mu` [Pa s] there by its temperature, and its slope
+/// [1/Pa]; as below.
+[[nodiscard]] inline ValueAndSlope log_viscosity_ratio(const Lubricant& oil, double p, double mu) {
+  if (p < 0) return {};
+  return saturated(std::visit([&](const auto& law) { return law.log_ratio(p, mu); }, oil.viscosity_law));
+}
 
 /// ln(mu/mu0) and its slope [1/Pa] at a pressure above the cavitation pressure, saturated where no oil is meant;
 /// tension, which guembel cuts off, does not thin the oil.
 [[nodiscard]] inline ValueAndSlope log_viscosity_ratio(const Lubricant& oil, double p) {
-  if (p < 0) return {};
-  return saturated(std::visit([&](const auto& law) { return law.log_ratio(p, oil.mu0); }, oil.viscosity_law));
+  return log_viscosity_ratio(oil, p, oil.mu0);
 }
 
 /// rho/rho0 and its slope [1/Pa] at a pressure above the cavitation pressure; tension does not thin the oil.
@@ -141,6 +152,14 @@ struct SurfaceMotion {
   Eigen::VectorXd feature_pressure = {};  ///< of each feature now [Pa], below p_cav counts as p_cav; empty: the model's
 };
 
+/// Viscosities of an oil whose temperature differs from place to place, at the cavitation pressure: what the film's
+/// flows and shear see of its layers (theory manual, thermal.4 to thermal.6). They stand still while the film is solved.
+struct LayeredViscosity {
+  Eigen::VectorXd fluidity;        ///< 12 F2/h^3, of flow along pressure [1/(Pa s)], shape (grid.size())
+  Eigen::VectorXd shear_fluidity;  ///< F0/h, of sliding [1/(Pa s)], same shape
+  Eigen::VectorXd skew;  ///< 2 F1/(F0 h) - 1, by which sliding carries more oil with the shell [-], same shape
+};
+
 /// The film at the start of the step being solved. dt = 0 leaves theta g_rate as the only storage: a steady film under
 /// the given g_rate. The fill fraction is first order in time, a full film follows the exact g_rate (film.12).
 struct FilmHistory {
@@ -153,6 +172,7 @@ struct FilmHistory {
   Eigen::VectorXd gap = {};
   bool by_gap = false;     ///< a full film follows the change of the gap over the step instead of the rate (film.15)
   double phi_journal = 0;  ///< by which the journal had turned at the start [rad]; moves its pockets
+  LayeredViscosity viscosity = {};  ///< empty: that of the model everywhere
 };
 
 }  // namespace hersey::film

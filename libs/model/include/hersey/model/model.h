@@ -266,7 +266,7 @@ enum class CouplingScheme { monolithic, partitioned };
 struct Coupling {
   CouplingScheme scheme = CouplingScheme::monolithic;
   double relaxation = 0.1;  ///< partitioned: share of the first correction taken, in (0, 1]
-  bearing::Acceleration acceleration = bearing::Acceleration::quasi_newton;  ///< partitioned
+  solver::Acceleration acceleration = solver::Acceleration::quasi_newton;  ///< partitioned
   int max_iterations = 50;                                                   ///< partitioned: exchanges per step
 };
 

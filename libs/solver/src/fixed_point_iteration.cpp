@@ -1,11 +1,11 @@
-#include "hersey/bearing/interface_iteration.h"
+#include "hersey/solver/fixed_point_iteration.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "hersey/core/contract.h"
 
-namespace hersey::bearing {
+namespace hersey::solver {
 namespace {
 
 // Differences kept over the steps: twice the six components of a bearing's wrench for a pair of bearings.
@@ -25,14 +25,14 @@ Eigen::MatrixXd columns(const std::vector<Eigen::VectorXd>& vectors) {
 
 }  // namespace
 
-InterfaceIteration::InterfaceIteration(Acceleration acceleration, double relaxation)
+FixedPointIteration::FixedPointIteration(Acceleration acceleration, double relaxation)
     : acceleration_(acceleration), relaxation_(relaxation), omega_(relaxation) {
   HERSEY_REQUIRE(relaxation > 0 && relaxation <= 1, "a relaxation factor lies in (0, 1]");
 }
 
-void InterfaceIteration::begin_step() { has_last_ = false; }
+void FixedPointIteration::begin_step() { has_last_ = false; }
 
-Eigen::VectorXd InterfaceIteration::next(const Eigen::VectorXd& x, const Eigen::VectorXd& image) {
+Eigen::VectorXd FixedPointIteration::next(const Eigen::VectorXd& x, const Eigen::VectorXd& image) {
   const Eigen::VectorXd residual = image - x;
   Eigen::VectorXd result;
   switch (acceleration_) {
@@ -53,7 +53,7 @@ Eigen::VectorXd InterfaceIteration::next(const Eigen::VectorXd& x, const Eigen::
   return result;
 }
 
-Eigen::VectorXd InterfaceIteration::aitken(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) {
+Eigen::VectorXd FixedPointIteration::aitken(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) {
   if (has_last_) {
     const Eigen::VectorXd change = residual - last_residual_;
     const double square = change.squaredNorm();
@@ -65,9 +65,9 @@ Eigen::VectorXd InterfaceIteration::aitken(const Eigen::VectorXd& x, const Eigen
   return x + omega_ * residual;
 }
 
-void InterfaceIteration::remember(const Eigen::VectorXd& residual, const Eigen::VectorXd& image) {
+void FixedPointIteration::remember(const Eigen::VectorXd& residual, const Eigen::VectorXd& image) {
   if (!has_last_) return;
-  // The difference of two nearly equal images tells of their solver's tolerance, not of the interface.
+  // The difference of two nearly equal images tells of their solver's tolerance, not of the map.
   if ((residual - last_residual_).norm() <= kNoise * image.norm()) return;
   residual_changes_.insert(residual_changes_.begin(), residual - last_residual_);
   image_changes_.insert(image_changes_.begin(), image - last_image_);
@@ -78,7 +78,7 @@ void InterfaceIteration::remember(const Eigen::VectorXd& residual, const Eigen::
 }
 
 // The combination of known changes that would cancel the residual takes the image along.
-Eigen::VectorXd InterfaceIteration::quasi_newton(const Eigen::VectorXd& image, const Eigen::VectorXd& residual) const {
+Eigen::VectorXd FixedPointIteration::quasi_newton(const Eigen::VectorXd& image, const Eigen::VectorXd& residual) const {
   const Eigen::MatrixXd V = columns(residual_changes_), W = columns(image_changes_);
   // Newest changes first, so that old ones only fill directions the new ones leave open (Gram-Schmidt, filtered).
   Eigen::MatrixXd Q(V.rows(), 0), C(W.rows(), 0);
@@ -95,7 +95,7 @@ Eigen::VectorXd InterfaceIteration::quasi_newton(const Eigen::VectorXd& image, c
   return image - C * (Q.transpose() * residual);
 }
 
-void InterfaceIteration::persist(Archive& archive) {
+void FixedPointIteration::persist(Archive& archive) {
   const auto vector = [](Archive& a, Eigen::VectorXd& item) { a.io("change", item); };
   archive.io("omega", omega_);
   archive.each("residual_changes", residual_changes_, vector);
@@ -103,4 +103,4 @@ void InterfaceIteration::persist(Archive& archive) {
   has_last_ = false;
 }
 
-}  // namespace hersey::bearing
+}  // namespace hersey::solver

@@ -1,11 +1,11 @@
-#include "hersey/bearing/interface_iteration.h"
+#include "hersey/solver/fixed_point_iteration.h"
 
 #include <doctest/doctest.h>
 
 #include "hersey/core/contract.h"
 
-namespace hersey::bearing {
-namespace interface_iteration_test {
+namespace hersey::solver {
+namespace fixed_point_iteration_test {
 
 // F(x) = A x + b with eigenvalues of A like those of a loaded film under light bodies: -30, -8, -2, 0.5.
 struct StiffExchange {
@@ -25,7 +25,7 @@ struct StiffExchange {
 
 int iterations_to(double tolerance, Acceleration acceleration, double relaxation, int most) {
   const StiffExchange F;
-  InterfaceIteration iteration(acceleration, relaxation);
+  FixedPointIteration iteration(acceleration, relaxation);
   iteration.begin_step();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
   for (int k = 0; k < most; ++k) {
@@ -52,7 +52,7 @@ TEST_CASE("Aitken_ConvergesWhereTheFullStepDiverges") {
 
 TEST_CASE("Memory_CarriesOverToTheNextStep") {
   const StiffExchange F;
-  InterfaceIteration iteration(Acceleration::quasi_newton, 0.05);
+  FixedPointIteration iteration(Acceleration::quasi_newton, 0.05);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
   iteration.begin_step();
   for (int k = 0; k < 8; ++k) x = iteration.next(x, F(x));
@@ -65,9 +65,9 @@ TEST_CASE("Memory_CarriesOverToTheNextStep") {
 }
 
 TEST_CASE("RelaxationOutsideItsRange_IsRejected") {
-  CHECK_THROWS_AS(InterfaceIteration(Acceleration::constant, 0), ContractError);
-  CHECK_THROWS_AS(InterfaceIteration(Acceleration::constant, 1.5), ContractError);
+  CHECK_THROWS_AS(FixedPointIteration(Acceleration::constant, 0), ContractError);
+  CHECK_THROWS_AS(FixedPointIteration(Acceleration::constant, 1.5), ContractError);
 }
 
-}  // namespace interface_iteration_test
-}  // namespace hersey::bearing
+}  // namespace fixed_point_iteration_test
+}  // namespace hersey::solver

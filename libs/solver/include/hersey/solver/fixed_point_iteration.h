@@ -5,9 +5,9 @@
 
 #include "hersey/core/archive.h"
 
-namespace hersey::bearing {
+namespace hersey::solver {
 
-/// How a partitioned coupling corrects the wrench it exchanges.
+/// How a fixed-point iteration corrects what it exchanges.
 enum class Acceleration {
   constant,      ///< x + omega (F(x) - x), omega fixed
   aitken,        ///< omega from the last two residuals (Kuettler and Wall 2008)
@@ -15,10 +15,10 @@ enum class Acceleration {
 };
 
 /// Fixed-point iteration x = F(x) with a memory (theory manual, (bearing.16)). One object per coupled system.
-class InterfaceIteration {
+class FixedPointIteration {
  public:
   /// @param relaxation  omega of the first correction, and of all of them in `constant`; in (0, 1].
-  InterfaceIteration(Acceleration acceleration, double relaxation);
+  FixedPointIteration(Acceleration acceleration, double relaxation);
 
   /// A new time step begins: residuals of the last one are no longer neighbours, its differences still are.
   void begin_step();
@@ -42,4 +42,4 @@ class InterfaceIteration {
   std::vector<Eigen::VectorXd> residual_changes_, image_changes_;  // newest first
 };
 
-}  // namespace hersey::bearing
+}  // namespace hersey::solver

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace hersey::film {
+
+/// How many layers a film is divided into across its thickness, at most.
+inline constexpr int most_layers = 64;
+
+/// What viscosities that differ across the film make of its flow and shear at one place, at the cavitation pressure
+/// (theory manual, thermal.4 to thermal.6). Layers of the same thickness, from the shell to the journal.
+struct LayerProfile {
+  double fluidity = 0;        ///< 12 F2/h^3: of the flow along pressure [1/(Pa s)]
+  double shear_fluidity = 0;  ///< F0/h: of sliding [1/(Pa s)]
+  double skew = 0;            ///< 2 F1/(F0 h) - 1: by which sliding surfaces carry more with the shell [-]
+};
+
+/// Integrals of the layers' viscosities [Pa s].
+[[nodiscard]] LayerProfile profile_of(std::span<const double> mu);
+
+/// What of flow and heat belongs to each layer, all without dimension but `mixed`.
+struct LayerShares {
+  std::vector<double> pressure_flow;  ///< of the flow along pressure; sum 1
+  std::vector<double> sliding_flow;   ///< of U h, which the journal's speed U over the shell's carries; sum (1 - skew)/2
+  std::vector<double> sliding_heat;   ///< of the dissipation by sliding; sum 1
+  std::vector<double> pressure_heat;  ///< of that by flow along pressure; sum 1
+  std::vector<double> mixed_heat;     ///< by both at once, over h U dp/dx; sum 0
+};
+
+/// Shares of the layers; the vectors are made as long as `mu`.
+void find_shares(std::span<const double> mu, LayerShares& shares);
+
+}  // namespace hersey::film

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "film_cases.h"
+#include "hersey/film/film_heat.h"
+#include "hersey/solver/fixed_point_iteration.h"
+
+namespace hersey::film {
+
+/// A steady film that agrees with its temperature.
+struct HotFilm {
+  int iterations = 0;
+  double change = 0;  ///< of temperature in the last iteration [K]
+  HeatObservables heat;
+  TemperatureFields temperatures;
+  FilmObservables film;
+  FilmFields fields;
+};
+
+/// Film and heat in turn until temperatures change by less than `tolerance` [K].
+inline HotFilm solve_hot(const FilmModel& model, const ThermalModel& thermal, const SurfaceMotion& motion,
+                         const Eigen::Vector2d& e, double tolerance = 1e-7) {
+  Reynolds reynolds(model);
+  FilmHeat heat(model, thermal);
+  solver::FixedPointIteration mixing(solver::Acceleration::quasi_newton, 1);
+  mixing.begin_step();
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(model.grid.size());
+  HotFilm hot;
+  FilmHistory history;
+  for (hot.iterations = 1; hot.iterations <= 100; ++hot.iterations) {
+    history.viscosity = heat.viscosity();
+    const FilmSolveSummary solved = solve_film(reynolds, motion, history, {}, u);
+    if (!solved.converged) throw std::runtime_error(solved.message);
+    const HeatState before = heat.state();
+    heat.advance(motion, history, u);
+    const Eigen::VectorXd x = before.film.array() - thermal.T_supply, image = heat.state().film.array() - thermal.T_supply;
+    if (std::getenv("DBG")) MESSAGE(hot.iterations << " T " << heat.state().film.minCoeff() << " " << heat.state().film.maxCoeff() << " umin " << u.minCoeff() << " err " << heat.observables().balance.error() << " sup " << heat.state().supplies.transpose() << " change " << hot.change);
+    hot.change = (image - x).cwiseAbs().maxCoeff();
+    if (hot.change < tolerance) break;
+    HeatState next = heat.state();
+    next.film = mixing.next(x, image).array() + thermal.T_supply;
+    heat.set_state(next);
+  }
+  hot.heat = heat.observables();
+  hot.temperatures = heat.fields();
+  hot.film = observe_film(model, motion, history, e, u);
+  hot.fields = film_fields(model, motion, u);
+  return hot;
+}
+
+}  // namespace hersey::film
