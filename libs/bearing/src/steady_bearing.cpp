@@ -15,6 +15,7 @@
 #include "hersey/film/film_solver.h"
 #include "hersey/film/gap_shape.h"
 #include "hersey/film/reynolds.h"
+#include "hersey/solver/fixed_point_iteration.h"
 #include "steady_film.h"
 
 namespace hersey::bearing {
@@ -52,6 +53,13 @@ constexpr double kAligned = 0.02;
 
 // Beyond this turn the film at the last position is no start for the next [rad].
 constexpr double kFreshTurn = 0.2;
+
+// Turns of film and temperature, and the change of temperatures over the largest rise (plus 1 K) at which they end.
+constexpr int kMostHeatIterations = 60;
+constexpr double kHeatTolerance = 1e-8;
+
+// No trial on the way to an answer is colder or hotter [K]: laws of viscosity mean nothing there.
+constexpr double kColdest = 200, kHottest = 800;
 
 using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
@@ -106,6 +114,8 @@ class Search {
     return false;
   }
 
+  [[nodiscard]] SteadySummary solve() { return point_.load ? under_load() : at_given_position(); }
+
   [[nodiscard]] SteadySummary at_given_position() {
     summary_.converged = film_at(point_.e);
     if (summary_.converged) x_ += film_.increment();  // beyond the tolerance: derivatives and differences then agree
@@ -131,6 +141,25 @@ class Search {
     summary_.message.clear();
     return summary_;
   }
+
+  // The same with other viscosities, from the film and the position there are.
+  [[nodiscard]] SteadySummary once_more() {
+    if (!point_.load) return at_given_position();
+    summary_.converged = false;
+    budget_ = summary_.iterations + options_.max_linearisations;
+    const Eigen::Vector2d e = e_;
+    if (film_at(e) && together(*point_.load)) {
+      summary_.converged = true;
+      summary_.message.clear();
+      return summary_;
+    }
+    return under_load();
+  }
+
+  void set_viscosity(film::LayeredViscosity viscosity) { film_.set_viscosity(std::move(viscosity)); }
+
+  // Temperatures by the film found.
+  void heat(film::FilmHeat& heat) { heat.advance(film_.surfaces(e_, x_), film_.history(), film_.film_of(x_)); }
 
   // Derivatives at the film found (bearing.21): one solve with four right-hand sides each on the factor of the last
   // linearisation. What a motion of the journal does to surfaces that deform, they do at its rate (bearing.29).
@@ -165,7 +194,7 @@ class Search {
     state.turn = film_.turn(x_);
     state.d_shell = film_.shell_displacement(x_);
     state.d_journal = film_.journal_displacement(x_);
-    state.film = film::observe_film(model_, film_.surfaces(e_, x_), {}, e_, state.u, state.tilt);
+    state.film = film::observe_film(model_, film_.surfaces(e_, x_), film_.history(), e_, state.u, state.tilt);
     state.load = state.film.wrench_on_shell.segment<2>(3);
     state.coefficients = coefficients();
     return state;
@@ -539,6 +568,39 @@ class Search {
   int budget_ = 0;            // of linearisations
 };
 
+// Film and temperature in turn, accelerated, until the film's temperatures stay (thermal.16).
+SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalModel& thermal,
+                              const SteadyOptions& options, Search& search, SteadyState& state) {
+  film::FilmHeat heat(model, thermal);
+  if (options.start_heat) heat.set_state(*options.start_heat);
+  solver::FixedPointIteration mixing(solver::Acceleration::quasi_newton, 1);
+  SteadySummary summary;
+  for (int k = 0; k < kMostHeatIterations; ++k) {
+    search.set_viscosity(heat.viscosity());
+    summary = k == 0 ? search.solve() : search.once_more();
+    summary.heat_iterations = k + 1;
+    if (!summary.converged) return summary;
+    const Eigen::VectorXd x = heat.state().film.array() - thermal.T_supply;
+    search.heat(heat);
+    film::HeatState next = heat.state();
+    const Eigen::VectorXd image = next.film.array() - thermal.T_supply;
+    const double change = (image - x).cwiseAbs().maxCoeff();
+    if (change <= kHeatTolerance * (1 + image.cwiseAbs().maxCoeff())) {
+      state = search.state();
+      state.heat = SteadyHeat{heat.state(), heat.observables(), heat.fields()};
+      return summary;
+    }
+    next.film = mixing.next(x, image).array() + thermal.T_supply;
+    next.film = next.film.cwiseMax(kColdest).cwiseMin(kHottest);
+    heat.set_state(next);
+  }
+  summary.converged = false;
+  const film::HeatObservables& seen = heat.observables();
+  summary.message = fmt::format("film and temperature do not come together in {} turns; hottest oil {:.0f} degC at {:.0f} deg",
+                                kMostHeatIterations, seen.T_max - 273.15, seen.T_max_phi * 180 / std::numbers::pi);
+  return summary;
+}
+
 }  // namespace
 
 film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point) {
@@ -590,7 +652,8 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   const double gap = smallest_gap(model, parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e));
   HERSEY_REQUIRE(gap > 0, "a journal inside its bore");
   Search search(model, point, options);
-  const SteadySummary summary = point.load ? search.under_load() : search.at_given_position();
+  if (options.thermal) return solve_with_heat(model, *options.thermal, options, search, state);
+  const SteadySummary summary = search.solve();
   if (summary.converged) state = search.state();
   return summary;
 }

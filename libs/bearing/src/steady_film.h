@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "deforming_surfaces.h"
@@ -35,6 +36,11 @@ class SteadyFilm {
 
   /// Surfaces with the journal at `e` and deformed as x says.
   [[nodiscard]] film::SurfaceMotion surfaces(const Eigen::Vector2d& e, const Eigen::VectorXd& x);
+
+  /// Viscosities by the oil's temperatures from now on.
+  void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
+  /// Of a steady film, with its viscosities.
+  [[nodiscard]] const film::FilmHistory& history() const { return history_; }
 
   /// No film known, the bodies deformed by their spin alone.
   [[nodiscard]] Eigen::VectorXd start() const;

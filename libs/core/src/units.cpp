@@ -243,6 +243,11 @@ const std::vector<Dimension>& dimensions() {
       {"s/m", "an inverse velocity", "0.5 s/m", {"s/m", "s/mm"}},
       {"Hz", "a frequency", "50 Hz", {"Hz", "kHz", "1/s"}},
       {"K", "a temperature", "60 degC", {"degC", "K"}},
+      {"1/K", "an inverse temperature", "0.034 1/K", {"1/K"}},
+      {"J/kg/K", "a specific heat", "2000 J/kg/K", {"J/kg/K", "kJ/kg/K"}},
+      {"W/m/K", "a thermal conductivity", "0.13 W/m/K", {"W/m/K"}},
+      {"W/m^2/K", "a heat transfer coefficient", "80 W/m^2/K", {"W/m^2/K"}},
+      {"J/K", "a heat capacity", "500 J/K", {"J/K", "kJ/K"}},
       {"W", "a power", "2 kW", {"W", "kW"}},
   };
   return all;

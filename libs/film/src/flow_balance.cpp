@@ -189,7 +189,7 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
 }
 
 // Where the oil is thinner at one of the surfaces, sliding carries along more of it with the other, as between rough
-// surfaces (thermal.5).
+// surfaces (thermal.6).
 void FlowBalance::skew(double skew, double h, RoughGap& gap) {
   for (const int k : {0, 1}) {
     gap.drag[k] += skew * h;

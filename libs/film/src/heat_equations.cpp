@@ -122,7 +122,7 @@ HeatState HeatEquations::with_corrections(const CarryingFilm& film, const HeatSt
   return end;
 }
 
-// (thermal.12): without flow a steady film would have no temperature, so that a thread of storage is left to it.
+// (thermal.10): without flow a steady film would have no temperature, so that a thread of storage is left to it.
 void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start) {
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double thread = least_fill * film.balance.largest_throughput();
@@ -149,7 +149,7 @@ void HeatEquations::add_flows(const CarryingFilm& film) {
   }
 }
 
-// Oil comes with the temperature of where it has been (thermal.12).
+// Oil comes with the temperature of where it has been (thermal.10).
 void HeatEquations::add_flow(int from, int to, int layer, double q) {
   const int n_z = model_.grid.n_z, n_phi = model_.grid.n_phi;
   const int step = to - from;
@@ -165,7 +165,7 @@ void HeatEquations::add_flow(int from, int to, int layer, double q) {
   inflow_[static_cast<std::size_t>(to)] += q;
 }
 
-// On the face oil has the temperature that the last two nodes extrapolate to (thermal.13). Beside a supply, an edge or
+// On the face oil has the temperature that the last two nodes extrapolate to (thermal.11). Beside a supply, an edge or
 // an empty node it has that of the last node.
 void HeatEquations::add_second_order(const CarryingFilm& film, std::size_t f, int layer, double q) {
   if (q == 0) return;
@@ -249,7 +249,7 @@ void HeatEquations::add_conduction(const CarryingFilm& film) {
   }
 }
 
-// Half of what asperities dissipate goes into either wall; one without heat leaves it to the oil (thermal.16).
+// Half of what asperities dissipate goes into either wall; one without heat leaves it to the oil (thermal.13).
 void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) {
   const bool is_insulated = !conducts(thermal_.shell);
   const auto* ring = std::get_if<RingWall>(&thermal_.shell);
@@ -305,7 +305,7 @@ void HeatEquations::add_journal(const CarryingFilm& film) {
 }
 
 // Oil comes out of a supply with the temperature there; of what passes a node, the supply's share takes it on
-// (thermal.17).
+// (thermal.14).
 void HeatEquations::add_supplies(const CarryingFilm& film) {
   held_.clear();
   for (int node = 0; node < model_.grid.size(); ++node) {
@@ -360,7 +360,7 @@ double HeatEquations::renewed(const HeatState& state, int supply) const {
   return heat;
 }
 
-// The journal's balance (thermal.15) and those of the supplies (thermal.17), once the film's answers to them are known.
+// The journal's balance (thermal.13) and those of the supplies (thermal.15), once the film's answers to them are known.
 HeatEquations::Remainder HeatEquations::remainder(const CarryingFilm& film, const HeatState& start,
                                                   const Eigen::VectorXd& lagged) const {
   const int n = 1 + supplies();
@@ -414,7 +414,7 @@ HeatEquations::Remainder HeatEquations::remainder(const CarryingFilm& film, cons
 }
 
 // Each term by its own integral; temperatures count from that of the supply, so that a missing drop of oil brings no
-// heat (thermal.18).
+// heat (thermal.17).
 void HeatEquations::take_balance(const CarryingFilm& film, const HeatState& start, const HeatState& end) {
   const double T0 = thermal_.T_supply;
   balance_ = {};

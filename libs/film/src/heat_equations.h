@@ -21,7 +21,7 @@ struct CarryingFilm {
 };
 
 /// The energy balance of every layer, of the walls and of the oil in supplies, as one linear system (theory manual,
-/// thermal.12 to thermal.17). Layers and ring are solved for known journal and supplies, for a unit of each of these,
+/// thermal.10 to thermal.15). Layers and ring are solved for known journal and supplies, for a unit of each of these,
 /// and what is left is a small system for them.
 class HeatEquations {
  public:

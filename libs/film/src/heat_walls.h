@@ -7,7 +7,7 @@
 
 namespace hersey::film {
 
-/// A ring's conductances (theory manual, thermal.14), angle by angle.
+/// A ring's conductances (theory manual, thermal.12), angle by angle.
 struct RingConductances {
   double inside = 0;             ///< resistance from the bore to the ring's middle, per area of the bore [m^2 K/W]
   std::vector<double> around;    ///< to the next angle [W/K]

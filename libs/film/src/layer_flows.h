@@ -9,7 +9,7 @@
 
 namespace hersey::film {
 
-/// How the oil of a solved film flows in its layers, and what they dissipate (theory manual, thermal.7 to thermal.11).
+/// How the oil of a solved film flows in its layers, and what they dissipate (theory manual, thermal.7 to thermal.9).
 /// Flows of all layers of a face add up to the film's own, dissipation to the film's power.
 class LayerFlows {
  public:

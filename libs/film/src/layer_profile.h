@@ -5,11 +5,8 @@
 
 namespace hersey::film {
 
-/// How many layers a film is divided into across its thickness, at most.
-inline constexpr int most_layers = 64;
-
 /// What viscosities that differ across the film make of its flow and shear at one place, at the cavitation pressure
-/// (theory manual, thermal.4 to thermal.6). Layers of the same thickness, from the shell to the journal.
+/// (theory manual, thermal.4, thermal.5). Layers of the same thickness, from the shell to the journal.
 struct LayerProfile {
   double fluidity = 0;        ///< 12 F2/h^3: of the flow along pressure [1/(Pa s)]
   double shear_fluidity = 0;  ///< F0/h: of sliding [1/(Pa s)]

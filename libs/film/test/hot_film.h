@@ -35,7 +35,6 @@ inline HotFilm solve_hot(const FilmModel& model, const ThermalModel& thermal, co
     const HeatState before = heat.state();
     heat.advance(motion, history, u);
     const Eigen::VectorXd x = before.film.array() - thermal.T_supply, image = heat.state().film.array() - thermal.T_supply;
-    if (std::getenv("DBG")) MESSAGE(hot.iterations << " T " << heat.state().film.minCoeff() << " " << heat.state().film.maxCoeff() << " umin " << u.minCoeff() << " err " << heat.observables().balance.error() << " sup " << heat.state().supplies.transpose() << " change " << hot.change);
     hot.change = (image - x).cwiseAbs().maxCoeff();
     if (hot.change < tolerance) break;
     HeatState next = heat.state();

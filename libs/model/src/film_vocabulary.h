@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hersey/bearing/interface_iteration.h"
+#include "hersey/solver/fixed_point_iteration.h"
 #include "hersey/film/film_model.h"
 #include "vocabulary.h"
 

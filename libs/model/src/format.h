@@ -19,6 +19,7 @@ namespace hersey::model {
 [[nodiscard]] TypePtr contacts_format();
 [[nodiscard]] TypePtr lubricants_format();
 [[nodiscard]] TypePtr bearings_format();
+[[nodiscard]] TypePtr thermal_format();
 [[nodiscard]] TypePtr features_format();
 [[nodiscard]] TypePtr shape_format();
 [[nodiscard]] TypePtr grid_format();

@@ -1,6 +1,5 @@
 #include "film_vocabulary.h"
 #include "format.h"
-#include "oil_laws.h"
 
 namespace hersey::model {
 namespace {
@@ -126,14 +125,6 @@ TypePtr operating_point_format() {
       });
 }
 
-TypePtr pressure_viscosity_format() {
-  const TypePtr alpha = quantity("1/Pa", "1.28e-10 1/Pa", Range::not_negative());
-  return any_of("a coefficient such as 1.28e-10 1/Pa, or {law, ...}",
-                {alpha, variant("a pressure-viscosity law", "law", {}, variants_of(viscosity_laws()))});
-}
-
-TypePtr compressibility_format() { return variant("a density law", "law", {}, variants_of(density_laws())); }
-
 TypePtr deforming_surface_format() {
   const TypePtr on_mesh = with_exactly_one(
       object("a surface on the mesh of a flexible body",
@@ -155,22 +146,6 @@ TypePtr deforming_surface_format() {
 }
 
 }  // namespace
-
-TypePtr lubricants_format() {
-  const TypePtr lubricant = object(
-      "a lubricant", {
-                         required("viscosity", quantity("Pa.s", "15 mPa.s", Range::positive()),
-                                  "Dynamic viscosity mu0 at ambient pressure."),
-                         defaulted("pressure_viscosity", pressure_viscosity_format(), "0",
-                                   "How the viscosity rises with pressure: alpha in mu = mu0 exp(alpha p) (Barus), or "
-                                   "a law. p counts from the cavitation pressure."),
-                         defaulted("density", quantity("kg/m^3", "850 kg/m^3", Range::positive()), "850 kg/m^3",
-                                   "Density of the liquid at ambient pressure."),
-                         defaulted("compressibility", compressibility_format(), "incompressible",
-                                   "How the density rises with pressure."),
-                     });
-  return named("a mapping from names to lubricants", lubricant);
-}
 
 TypePtr bearings_format() {
   const TypePtr diameter = quantity("m", "45 mm", Range::positive());
@@ -221,6 +196,7 @@ TypePtr bearings_format() {
                    "Share of oil in what surrounds an edge at the cavitation pressure and is drawn in there: 0 air, 1 "
                    "oil. An edge above that pressure is always flooded.",
                    "0"),
+          defaulted("thermal", thermal_format(), "isothermal", "Temperature of the film."),
           optional("supply", supply, "A line along the whole width that is held full at a given pressure.", "none"),
           optional("features", features_format(), "Holes and grooves through which oil is fed.", "none"),
           optional("shape", shape_format(), "What makes bore and journal differ from cylinders; all add up.",

@@ -67,6 +67,10 @@ struct JointCoordinate {
 /// Reports a pressure of a bearing that lies below its cavitation pressure.
 void require_above_cavitation(Context& context, const Value& pressure, const film::FilmModel& film);
 
+/// The film's heat, and its oil at its temperature, of a bearing all else of which has been read. @param lubricant  its
+/// oil; null where there is none of that name
+void read_thermal(Context& context, const Value& value, const Lubricant* lubricant, Bearing& bearing);
+
 /// Features, grid and shape of a bearing whose size and cavitation have been read.
 void read_surfaces(Context& context, const Value& value, Bearing& bearing);
 

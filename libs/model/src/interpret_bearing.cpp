@@ -8,7 +8,6 @@
 #include "film_vocabulary.h"
 #include "hersey/bearing/rigid_surfaces.h"
 #include "interpret.h"
-#include "oil_laws.h"
 
 namespace hersey::model {
 namespace {
@@ -44,6 +43,7 @@ class FilmReader {
     read_roughness();
     read_asperities();
     read_compliance();
+    read_thermal(context_, value_, lubricant_, bearing_);
     check_pressure_scale();
     film_.cavitated_shear = meaning_of(value_, "cavitated_shear", cavitated_shear_words);
     film_.shear_force = meaning_of(value_, "shear_force", shear_force_words);
@@ -100,7 +100,9 @@ class FilmReader {
     bearing_.lubricant = name->text;
     require_name(context_, *name, "lubricants", "lubricant");
     for (const Lubricant& lubricant : context_.model.lubricants) {
-      if (lubricant.name == name->text) film_.lubricant = lubricant.data;
+      if (lubricant.name != name->text) continue;
+      lubricant_ = &lubricant;
+      film_.lubricant = lubricant.data;
     }
   }
 
@@ -269,6 +271,7 @@ class FilmReader {
   const Value& value_;
   Bearing& bearing_;
   film::FilmModel& film_;
+  const Lubricant* lubricant_ = nullptr;
 };
 
 Coupling coupling_of(const Value& bearing) {
@@ -347,72 +350,7 @@ std::optional<OperatingPoint> operating_point_of(Context& context, const Value& 
   return point;
 }
 
-film::ViscosityLaw viscosity_law_of(Context& context, const Value& lubricant, double mu0) {
-  const Value* given = lubricant.find("pressure_viscosity");
-  if (given == nullptr || given->broken || given->members.empty()) return {};
-  const Value& law = given->members.front().value;
-  if (law.type->kind == Type::Kind::quantity) {
-    if (law.number == 0) return film::ConstantViscosity{};
-    return film::Barus{law.number};
-  }
-  if (law.broken) return {};
-  film::ViscosityLaw read = read_alternative(law, viscosity_laws());
-  const Value* viscosity = lubricant.find("viscosity");
-  if (std::holds_alternative<film::Roelands>(read) && viscosity != nullptr && !viscosity->broken &&
-      mu0 <= film::Roelands::smallest_viscosity) {
-    context.fault(*viscosity, "a viscosity at or below Roelands' 0.0632 mPa.s",
-                  "a larger one, or another law in pressure_viscosity");
-  }
-  return read;
-}
-
-/// A value that no oil has is most often one in the wrong unit.
-void warn_outside(Context& context, const Value& parent, const std::string& key, double low, double high,
-                  const char* expected) {
-  const Value* value = parent.find(key);
-  if (value == nullptr || value->broken || !value->given) return;
-  const Value& number = value->members.empty() ? *value : value->members.front().value;
-  const Value* inner = number.find("alpha");
-  const Value& tested = inner != nullptr ? *inner : number;
-  if (tested.broken || tested.type->kind != Type::Kind::quantity || (tested.number >= low && tested.number <= high))
-    return;
-  context.model.warnings.push_back(
-      {tested.position, tested.path, "a value that no lubricant has", expected, "is it in the right unit?"});
-}
-
-void warn_of_unphysical(Context& context, const Value& lubricant) {
-  warn_outside(context, lubricant, "viscosity", 1e-5, 1e3, "about 1 mPa.s to 10 Pa.s for oils, 0.01 mPa.s for gases");
-  warn_outside(context, lubricant, "density", 0.1, 5000, "about 800 to 1000 kg/m^3 for oils");
-  warn_outside(context, lubricant, "pressure_viscosity", 0, 1e-7, "at most about 4e-8 1/Pa (40 1/GPa) for oils");
-  const Value* law = lubricant.find("compressibility");
-  if (law == nullptr || law->broken || law->text != "dowson_higginson") return;
-  const double rise = number_of(*law, "rise"), saturation = number_of(*law, "saturation");
-  if (rise <= 5e-9 && rise <= saturation) return;
-  context.model.warnings.push_back({law->key_position, law->path,
-                                    "an oil that more than doubles its density under pressure",
-                                    "a rise below saturation, such as 0.6 and 1.7 1/GPa", ""});
-}
-
-film::DensityLaw density_law_of(const Context& context, const Value& lubricant) {
-  const Value* law = lubricant.find("compressibility");
-  if (law == nullptr || law->broken || context.has_fault_in(law->path)) return {};
-  return read_alternative(*law, density_laws());
-}
-
 }  // namespace
-
-void interpret_lubricants(Context& context) {
-  for (const auto& [name, value] : section(context.root, "lubricants")) {
-    Lubricant lubricant{name, {}, value.key_position};
-    const double mu0 = number_of(value, "viscosity");
-    lubricant.data = {.mu0 = mu0,
-                      .viscosity_law = viscosity_law_of(context, value, mu0),
-                      .density = number_of(value, "density"),
-                      .density_law = density_law_of(context, value)};
-    warn_of_unphysical(context, value);
-    context.model.lubricants.push_back(std::move(lubricant));
-  }
-}
 
 void interpret_bearings(Context& context) {
   for (const auto& [name, value] : section(context.root, "bearings")) {

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
@@ -62,7 +63,12 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     if (start->u.size() == bearing.film.grid.size()) steady.start_film = start->u;
     steady.start_deformation = start->s;
   }
-  solution.summary = bearing::solve_steady(solution.model, point, steady, solution.state);
+  if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) steady.thermal = *heat;
+  if (const auto* heat = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
+    solution.summary = bearing::solve_global(solution.model, point, *heat, steady, solution.state);
+  } else {
+    solution.summary = bearing::solve_steady(solution.model, point, steady, solution.state);
+  }
   if (!solution.summary.converged) {
     solution.error = fmt::format("bearing {}: {}", bearing.name, solution.summary.message);
     return;

@@ -7,7 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "hersey/bearing/global_heat.h"
 #include "hersey/bearing/surface_flexibility.h"
+#include "hersey/film/film_heat.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/observables.h"
@@ -42,8 +44,10 @@ struct SteadyOptions {
   /// Of the film; `sor` solves it anew at every position. Between surfaces that deform always `newton`.
   film::FilmSolver solver = film::FilmSolver::newton;
   std::shared_ptr<const SteadyElasticity> elasticity = {};  ///< of the surfaces; null: both rigid
+  std::optional<film::ThermalModel> thermal = {};  ///< of a film with temperatures; unset: one temperature, the model's
   std::optional<Eigen::Vector2d> start;    ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
   Eigen::VectorXd start_film = {};         ///< the film's unknowns there; empty: none known
+  std::optional<film::HeatState> start_heat = {};  ///< temperatures there; unset: those of the supply
   Eigen::VectorXd start_deformation = {};  ///< amplitudes of the surfaces' bodies there; empty: none known
 };
 
@@ -51,6 +55,7 @@ struct SteadySummary {
   bool converged = false;
   int iterations = 0;       ///< linearisations of the film on the way
   int film_iterations = 0;  ///< SOR sweeps or multigrid cycles of film solves on the way
+  int heat_iterations = 0;  ///< of film and temperature in turn
   double force_error = 0;   ///< |force - load| / |load|; 0 where the position is given
   std::string message;      ///< why there is no answer; also a remark on the answer, such as a film without oil
 };
@@ -61,6 +66,13 @@ struct SteadySummary {
 struct DynamicCoefficients {
   Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();
   Eigen::Matrix4d damping = Eigen::Matrix4d::Zero();
+};
+
+/// Temperatures of a solved operating point.
+struct SteadyHeat {
+  film::HeatState state;
+  film::HeatObservables seen;
+  film::TemperatureFields fields;
 };
 
 /// A solved operating point.
@@ -74,7 +86,9 @@ struct SteadyState {
   Eigen::VectorXd s;  ///< amplitudes of the shapes of both surfaces' bodies, shell first; empty: both rigid
   Eigen::VectorXd d_shell, d_journal;  ///< radial displacement at the nodes, away from the axis [m]; empty where rigid
   film::FilmObservables film;
-  DynamicCoefficients coefficients;
+  DynamicCoefficients coefficients;  ///< with the temperatures, and so the viscosities, as they are
+  std::optional<SteadyHeat> heat;    ///< of a film with temperatures
+  std::optional<EffectiveTemperature> effective;  ///< of a film with one, by a balance of heat
 };
 
 /// The same film with its fill fraction scaled for the speed of the point, which keeps the search short down to the
@@ -90,6 +104,11 @@ struct SteadyState {
 /// @throws ContractError for a load of zero, speeds that drag no oil, a rigid journal placed outside its bore, or a
 /// velocity of the journal, or a shell that turns, together with surfaces that deform.
 [[nodiscard]] SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point,
+                                         const SteadyOptions& options, SteadyState& state);
+
+/// The same with one temperature of the oil, at which heat is in balance (theory manual, thermal.18). @param model  its
+/// oil is left at that temperature
+[[nodiscard]] SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, const GlobalHeat& heat,
                                          const SteadyOptions& options, SteadyState& state);
 
 /// Surfaces of the film with the journal at `e`.

@@ -25,7 +25,7 @@ struct TemperatureFields {
   Eigen::VectorXd hottest;  ///< largest of all layers
 };
 
-/// Where a film's heat comes from and goes (theory manual, thermal.18), powers in W.
+/// Where a film's heat comes from and goes (theory manual, thermal.17), powers in W.
 struct HeatBalance {
   double power = 0;       ///< dissipated in the film, and by asperities
   double to_oil = 0;      ///< carried away by the oil that leaves, over that of the oil that comes
@@ -68,7 +68,7 @@ class FilmHeat {
   /// Takes these for the temperatures now. @throws ContractError on a wrong shape
   void set_state(const HeatState& state);
 
-  /// Viscosities by the temperatures now (thermal.4 to thermal.6).
+  /// Viscosities by the temperatures now (thermal.4, thermal.5).
   [[nodiscard]] LayeredViscosity viscosity() const;
 
   /// Temperatures at the end of a step of the film `u`, solved with `history` (its viscosities included); of a steady

@@ -26,6 +26,15 @@ struct Lubricant {
   double conductivity = 0.13;   ///< of heat [W/(m K)], >= 0
 };
 
+/// An oil whose viscosity knows temperatures, at one of them [K]; any other as it is. The density of one known by its
+/// kinematic viscosities falls with it.
+[[nodiscard]] inline Lubricant at_temperature(Lubricant oil, double T) {
+  if (!depends_on_temperature(oil.temperature_law)) return oil;
+  oil.mu0 = viscosity_at(oil.temperature_law, T);
+  if (const auto* walther = std::get_if<WaltherViscosity>(&oil.temperature_law)) oil.density = walther->density(T);
+  return oil;
+}
+
 /// ln of the viscosity over that at the cavitation pressure, `mu` [Pa s] there by its temperature, and its slope
 /// [1/Pa]; as below.
 [[nodiscard]] inline ValueAndSlope log_viscosity_ratio(const Lubricant& oil, double p, double mu) {
@@ -153,7 +162,7 @@ struct SurfaceMotion {
 };
 
 /// Viscosities of an oil whose temperature differs from place to place, at the cavitation pressure: what the film's
-/// flows and shear see of its layers (theory manual, thermal.4 to thermal.6). They stand still while the film is solved.
+/// flows and shear see of its layers (theory manual, thermal.4, thermal.5). They stand still while the film is solved.
 struct LayeredViscosity {
   Eigen::VectorXd fluidity;        ///< 12 F2/h^3, of flow along pressure [1/(Pa s)], shape (grid.size())
   Eigen::VectorXd shear_fluidity;  ///< F0/h, of sliding [1/(Pa s)], same shape

@@ -8,7 +8,7 @@
 
 namespace hersey::film {
 
-// Each law (thermal.1) gives ln mu and its slope [1/K] at a temperature T [K], mu in Pa s at the cavitation pressure. A
+// Each law (thermal.1 to thermal.3) gives ln mu and its slope [1/K] at a temperature T [K], mu in Pa s at the cavitation pressure. A
 // new law is a struct like these and its name in TemperatureLaw.
 
 /// The same viscosity at every temperature.

@@ -6,6 +6,9 @@
 
 namespace hersey::film {
 
+/// How many layers a film is divided into across its thickness, at most.
+inline constexpr int most_layers = 64;
+
 /// No heat passes.
 struct InsulatedWall {};
 
@@ -16,7 +19,7 @@ struct WallAtTemperature {
 };
 
 /// A shell that is a ring around the film: heat is conducted around it and through it to its surroundings
-/// (theory manual, thermal.14).
+/// (theory manual, thermal.12).
 struct RingWall {
   double outer_radius = 0;        ///< [m], > R
   double conductivity = 50;       ///< [W/(m K)], > 0
@@ -26,7 +29,7 @@ struct RingWall {
 };
 
 /// A journal of one temperature that gives off no heat but to the film: turning fast, every point of it sees the mean
-/// (theory manual, thermal.15).
+/// (theory manual, thermal.13).
 struct FreeJournal {
   double heat_capacity = 0;  ///< of the whole journal [J/K], > 0; of no account to a steady film
 };

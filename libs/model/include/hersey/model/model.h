@@ -6,9 +6,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
-#include "hersey/bearing/interface_iteration.h"
+#include "hersey/solver/fixed_point_iteration.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/core/spatial.h"
@@ -17,6 +18,7 @@
 #include "hersey/fem/film_surface.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/thermal_model.h"
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/nodal_body.h"
 #include "hersey/mbd/shape.h"
@@ -257,9 +259,14 @@ struct Contact {
 
 struct Lubricant {
   std::string name;
-  film::Lubricant data;
+  film::Lubricant data;               ///< at `temperature`, where there is one
+  std::string grade;                  ///< by which it can be bought; empty: by its own numbers
+  std::optional<double> temperature;  ///< where a bearing has none of its own [K]
   SourcePosition position;
 };
+
+/// How a bearing's film is heated.
+using Heat = std::variant<std::monostate, bearing::GlobalHeat, film::ThermalModel>;
 
 enum class CouplingScheme { monolithic, partitioned };
 
@@ -296,6 +303,7 @@ struct Bearing {
   FrameName shell, journal;  ///< empty in a model of bearings alone
   std::string lubricant;
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
+  Heat heat;                                ///< none: one temperature
   std::vector<Function> feature_pressures;  ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;

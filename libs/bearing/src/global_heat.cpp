@@ -1,0 +1,65 @@
+#include "hersey/bearing/global_heat.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/bearing/steady_bearing.h"
+#include "hersey/solver/fixed_point_iteration.h"
+
+namespace hersey::bearing {
+namespace {
+
+constexpr int most_iterations = 40;
+constexpr double tolerance = 1e-8;
+
+// No trial is colder or hotter [K]: laws of viscosity mean nothing there.
+constexpr double coldest = 200, hottest = 800;
+
+/// The balance of heat of a bearing solved (thermal.18).
+EffectiveTemperature balance(const film::Lubricant& oil, const GlobalHeat& heat, const film::FilmObservables& film) {
+  const double power = film.power_film + film.power_asperity;
+  if (heat.cools_by_surroundings) {
+    const double T = heat.T_ambient + power / (heat.transfer * heat.area);
+    return {T, T};
+  }
+  const double rise = power / (oil.density * oil.specific_heat * (film.flow_left + film.flow_right));
+  return {heat.T_supply + 0.5 * rise, heat.T_supply + rise};
+}
+
+}  // namespace
+
+SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, const GlobalHeat& heat,
+                           const SteadyOptions& options, SteadyState& state) {
+  const double from = heat.cools_by_surroundings ? heat.T_ambient : heat.T_supply;
+  solver::FixedPointIteration mixing(solver::Acceleration::quasi_newton, 0.5);
+  SteadyOptions next = options;
+  SteadySummary summary;
+  double rise = 0;
+  int linearisations = 0;
+  for (int k = 1; k <= most_iterations; ++k) {
+    model.lubricant = film::at_temperature(model.lubricant, from + rise);
+    summary = solve_steady(model, point, next, state);
+    linearisations += summary.iterations;
+    summary.iterations = linearisations, summary.heat_iterations = k;
+    if (!summary.converged) return summary;
+    if (!heat.cools_by_surroundings && !(state.film.flow_left + state.film.flow_right > 0)) {
+      summary.converged = false;
+      summary.message = "no oil leaves over the edges to take the heat along: give `cooling` by the surroundings";
+      return summary;
+    }
+    state.effective = balance(model.lubricant, heat, state.film);
+    const double found = state.effective->T - from;
+    if (std::abs(found - rise) <= tolerance * (1 + std::abs(found))) return summary;
+    next.start = state.e, next.start_film = state.u, next.start_deformation = state.s;
+    const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, rise), image = Eigen::VectorXd::Constant(1, found);
+    rise = std::clamp(mixing.next(x, image)[0], coldest - from, hottest - from);
+  }
+  summary.converged = false;
+  summary.message = fmt::format("the balance of heat finds no temperature in {} turns; last {:.0f} degC",
+                                most_iterations, from + rise - 273.15);
+  return summary;
+}
+
+}  // namespace hersey::bearing
