@@ -35,6 +35,10 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
   u_ = u_start_ = du_ = Eigen::VectorXd::Zero(n);
   history_.theta = Eigen::VectorXd::Ones(n);
   history_.w = Eigen::VectorXd::Zero(n);
+  if (options_.thermal) {
+    heat_.emplace(model, *options_.thermal);
+    history_.viscosity = heat_->viscosity();
+  }
   history_start_ = observed_history_ = history_;
   observed_s_ = Eigen::VectorXd::Zero(deforming_->amplitudes());
   parameters_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions_.size()));
@@ -287,6 +291,11 @@ void FilmForce::close_step() {
     oil_of_run_ = {};
     started_ = true;
   }
+  // Temperatures follow the film by a step, so that its derivatives are those of what is solved.
+  if (heat_) {
+    heat_->advance(surfaces_, history_, u_);
+    history_start_.viscosity = heat_->viscosity();
+  }
   const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
   history_start_.w = fields.w;
   history_start_.density = fields.density;
@@ -315,6 +324,7 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.position.e, u_start_,
                                  seen.position.tilt);
   show_oil(seen.film);
+  if (heat_) seen.heat = heat_->observables();
   seen.oil = oil_of_run_;
   seen.wrench_on_shell = seen.film.wrench_on_shell;
   seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
@@ -350,6 +360,10 @@ film::FilmFields FilmForce::fields() const {
   return fields;
 }
 
+std::optional<film::TemperatureFields> FilmForce::temperatures() const {
+  return heat_ ? std::optional(heat_->fields()) : std::nullopt;
+}
+
 // What begin_step returns to. What the last step showed is not kept: it has been observed.
 void FilmForce::persist(Archive& archive) {
   archive.io("theta", history_start_.theta);
@@ -360,6 +374,11 @@ void FilmForce::persist(Archive& archive) {
   archive.io("oil_volume", oil_of_run_.volume);
   archive.io("oil_through_flow", oil_of_run_.through_flow);
   archive.io("oil_unexplained", oil_of_run_.unexplained);
+  if (heat_) {
+    const Archive::Group heat(archive, "heat");
+    heat_->persist(archive);
+    history_start_.viscosity = heat_->viscosity();
+  }
   archive.io("started", started_);
   archive.io("u", u_start_);
   archive.io("given_wrench", given_start_);

@@ -590,7 +590,11 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
       state.heat = SteadyHeat{heat.state(), heat.observables(), heat.fields()};
       return summary;
     }
-    next.film = mixing.next(x, image).array() + thermal.T_supply;
+    if (k == 0 && !options.start_heat) {
+      next = film::first_guess(model, thermal, next);
+    } else {
+      next.film = mixing.next(x, image).array() + thermal.T_supply;
+    }
     next.film = next.film.cwiseMax(kColdest).cwiseMin(kHottest);
     heat.set_state(next);
   }

@@ -40,6 +40,17 @@ double HeatBalance::error() const {
   return scale > 0 ? std::abs(power - to_oil - to_shell - to_journal - stored) / scale : 0;
 }
 
+HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, HeatState image) {
+  const double T = thermal.T_supply;
+  const double beta = -std::visit([T](const auto& law) { return law.log_viscosity(T).slope; }, model.lubricant.temperature_law);
+  if (!(beta > 0)) return image;
+  image.film = image.film.unaryExpr([&](double hot) {
+    const double rise = hot - T;
+    return T + (rise > 0 ? std::log1p(beta * rise) / beta : rise);
+  });
+  return image;
+}
+
 struct FilmHeat::Impl {
   Impl(const FilmModel& film, const ThermalModel& given)
       : thermal((check(film, given), given)),

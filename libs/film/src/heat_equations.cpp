@@ -14,7 +14,7 @@ namespace {
 constexpr double least_fill = 1e-6;
 
 // Second differences of a steady film are found to this share of the change there was, in so many iterations at most.
-constexpr double steady_share = 1e-3;
+constexpr double steady_share = 1e-5;
 constexpr int most_corrections = 30;
 
 // Columns of the right-hand side: what is known, the journal's temperature, and from there on those of supplies.

@@ -38,7 +38,11 @@ inline HotFilm solve_hot(const FilmModel& model, const ThermalModel& thermal, co
     hot.change = (image - x).cwiseAbs().maxCoeff();
     if (hot.change < tolerance) break;
     HeatState next = heat.state();
-    next.film = mixing.next(x, image).array() + thermal.T_supply;
+    if (hot.iterations == 1) {
+      next = first_guess(model, thermal, next);
+    } else {
+      next.film = mixing.next(x, image).array() + thermal.T_supply;
+    }
     heat.set_state(next);
   }
   hot.heat = heat.observables();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "hersey/solver/fixed_point_iteration.h"
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/core/scalar_function.h"
+#include "hersey/film/film_heat.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/observables.h"
 #include "hersey/film/reynolds.h"
@@ -32,6 +34,8 @@ struct BearingOptions {
   double initial_dt = 1e-4;  ///< the film at the start is that of a full gap after a step of this length [s], > 0
   /// Pressure of each of the film's features over time [Pa]; empty: the pressures of the film model.
   std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
+  /// Of a film with temperatures, which move on with each accepted step; unset: one temperature, the model's.
+  std::optional<film::ThermalModel> thermal = {};
   /// Surfaces of elastic bodies; null: rigid. Their amplitudes come with the motion, the shell's before the journal's.
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
@@ -50,6 +54,7 @@ struct BearingObservation {
   Vector6 wrench_on_shell = Vector6::Zero();       ///< [moment about the bearing's origin; force], bearing frame
   double power_into_bodies = 0;  ///< of wrench and forces on shapes [W]; negative: the film takes power
   film::FilmObservables film;
+  std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
   OilOfRun oil;
   int film_iterations = 0;  ///< film linearisations in the last step
   int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step
@@ -107,6 +112,9 @@ class FilmForce : public mbd::TwoBodyForce {
   /// Fields at the nodes at the state last accepted.
   [[nodiscard]] film::FilmFields fields() const;
 
+  /// Temperatures at the nodes at the state last accepted; none of a film without.
+  [[nodiscard]] std::optional<film::TemperatureFields> temperatures() const;
+
  private:
   void place(const mbd::RelativeMotion& motion);
   void feed(double t);
@@ -127,6 +135,7 @@ class FilmForce : public mbd::TwoBodyForce {
   std::string name_;
   BearingOptions options_;
   film::Reynolds reynolds_;
+  std::optional<film::FilmHeat> heat_;  // at the state last accepted
   std::unique_ptr<GapKinematics> gap_;
   std::unique_ptr<DeformingSurfaces> deforming_;
   film::SurfaceMotion surfaces_;

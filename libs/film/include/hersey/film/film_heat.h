@@ -48,6 +48,11 @@ struct HeatObservables {
   HeatBalance balance;
 };
 
+/// A start for film and heat in turn: what is left of temperatures `image`, found with the viscosity of the supply's
+/// temperature, once the oil thins as it warms. Of an adiabatic film between walls a constant distance apart exactly:
+/// there exp(beta rise) - 1 is beta times the rise at constant viscosity.
+[[nodiscard]] HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, HeatState image);
+
 /// Energy equation of a film across and along its thickness (theory manual, chapter thermal): finite volumes, layers of
 /// equal thickness at each node, implicit in time, with the walls and the stirred oil of grooves as parts of one linear
 /// system. Viscosities follow its temperatures through viscosity(); pressure and flow are the film's own and given.

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "hersey/bearing/global_heat.h"
 #include "hersey/solver/fixed_point_iteration.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/scalar_function.h"
