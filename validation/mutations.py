@@ -3,7 +3,8 @@
 
 Works on a copy of the sources and a build of its own below build/mutations, so that neither sources nor build of the
 user are touched. A fault is tried on the tests most likely to see it first, then on those of every module that depends
-on the one that has it. All faults are real changes of behaviour: one that survives is a test that is missing.
+on the one that has it, then on those of the program. All faults are real changes of behaviour: one that survives is a test
+that is missing.
 
 Usage: mutations.py [--only REGEX] [--jobs N] [--list] [--check]     as `make mutations`
 exit code 0 if all faults were caught, 1 if any survives, 2 if a fault has to be re-pointed or does not compile
@@ -23,6 +24,7 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 WORK = os.path.join(SOURCE, "build/mutations")
 COPY, LOG = os.path.join(WORK, "sources"), os.path.join(WORK, "log")
 BUILD = os.path.join(COPY, "build/release")  # where a clone has it: ccache knows what the user has compiled
+PROGRAM = ["results_file", "defects", "cli"]  # tests of the whole, tried last
 TIME_LIMIT = 120  # s of one test: a fault may turn an iteration into an endless one
 
 
@@ -132,7 +134,7 @@ FAULTS = [
           "cycle_.energy_film += 0.5 * dt * (last_.power_film + next.power_film);",
           "cycle_.energy_film += dt * (last_.power_film + next.power_film);"),
     Fault("results: unit of the oil's volume", "run/src/bearing_record.cpp",
-          's.oil_volume = series("oil_volume", "m^3",', 's.oil_volume = series("oil_volume", "m^3/s",', r"^run\."),
+          's.oil_volume = series("oil_volume", "m^3",', 's.oil_volume = series("oil_volume", "m^3/s",', r"^results_file\."),
     Fault("study: revolutions per minute", "study/src/bearing_figures.cpp",
           'kRpm{"rpm", "rad/s", std::numbers::pi / 30};', 'kRpm{"rpm", "rad/s", std::numbers::pi / 60};'),
 ]
@@ -222,7 +224,7 @@ class Trial:
             raise Trouble(f"the copy cannot be configured, see {LOG}:\n{run.stdout[-2000:]}")
 
     def build(self, title, modules):
-        targets = [f"{module}_test" for module in modules]
+        targets = sorted({"hersey" if module in PROGRAM else f"{module}_test" for module in modules})
         return logged(title, ["cmake", "--build", BUILD, "-j", self.jobs, "--target", *targets])
 
     def test(self, title, regex):
@@ -249,7 +251,7 @@ class Trial:
     def verdict(self, fault, modules_above):
         """What became of a fault: caught, survived or broken, and the tests that caught it."""
         first = fault.tests or rf"^{fault.module}\."
-        rest = modules_above[fault.module]
+        rest = modules_above[fault.module] + PROGRAM
         likely = [module for module in rest if re.search(first, module + ".")] or rest[:1]
         stages = {first: likely}
         for module in rest:
