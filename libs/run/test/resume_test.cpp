@@ -118,9 +118,10 @@ TEST_CASE("ResumedRunOfControlledError_IsTheSame") {
 // There the method starts afresh from accelerations under the film as the last step has left it: its rates of filling
 // are changes over that step's length.
 TEST_CASE("RunResumedAtAKinkOfADrive_StartsAfreshFromTheSameFilm") {
-  const std::string text = edited(rig_with("step: 2 deg", "step: {tolerance: 1e-4}"), "rotation, speed: 3000 rpm}",
-                                  "rotation, speed: {table: {points: [[0, 3000], [0.002, 3000], [0.004, 4500]], "
-                                  "x_unit: s, y_unit: rpm}}}");
+  std::string text = edited(rig_with("  crank: main\n", ""), "step: 2 deg", "step: {tolerance: 1e-4}");
+  text = edited(text, "rotation, speed: 3000 rpm}",
+                "rotation, speed: {table: {points: [[0, 3000], [0.002, 3000], [0.004, 4500]], "
+                "x_unit: s, y_unit: rpm}}}");
   const TemporaryDirectory scratch;
   REQUIRE(simulate(rig(text), {.results = scratch / "steps.h5"}).status == Status::completed);
   const std::vector<double> t = results::Reader(scratch / "steps.h5").read("/time").values;
