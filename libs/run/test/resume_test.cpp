@@ -115,19 +115,24 @@ TEST_CASE("ResumedRunOfControlledError_IsTheSame") {
   check_resumed(text + "output: {interval: 3 ms}\n", 5, 40);
 }
 
-// There the method starts afresh from accelerations under the film as the last step has left it: its rates of filling
-// are changes over that step's length.
+// There the method starts afresh, from accelerations that follow from the last step: its length and the oil it began
+// with.
 TEST_CASE("RunResumedAtAKinkOfADrive_StartsAfreshFromTheSameFilm") {
-  std::string text = edited(rig_with("  crank: main\n", ""), "step: 2 deg", "step: {tolerance: 1e-4}");
-  text = edited(text, "rotation, speed: 3000 rpm}",
-                "rotation, speed: {table: {points: [[0, 3000], [0.002, 3000], [0.004, 4500]], "
-                "x_unit: s, y_unit: rpm}}}");
-  const TemporaryDirectory scratch;
-  REQUIRE(simulate(rig(text), {.results = scratch / "steps.h5"}).status == Status::completed);
-  const std::vector<double> t = results::Reader(scratch / "steps.h5").read("/time").values;
-  const auto kink = std::find(t.begin(), t.end(), 0.002);
-  REQUIRE(kink != t.end());
-  check_resumed(text, static_cast<int>(kink - t.begin()), 3);
+  for (const char* coupling : {"monolithic", "{scheme: partitioned, acceleration: quasi_newton}",
+                               "{scheme: partitioned, acceleration: aitken}"}) {
+    CAPTURE(coupling);
+    std::string text = edited(rig_with("  crank: main\n", ""), "step: 2 deg", "step: {tolerance: 1e-4}");
+    text = edited(text, "rotation, speed: 3000 rpm}",
+                  "rotation, speed: {table: {points: [[0, 3000], [0.002, 3000], [0.004, 4500]], "
+                  "x_unit: s, y_unit: rpm}}}");
+    text = edited(text, "    lubricant: oil\n", std::string("    lubricant: oil\n    coupling: ") + coupling + "\n");
+    const TemporaryDirectory scratch;
+    REQUIRE(simulate(rig(text), {.results = scratch / "steps.h5"}).status == Status::completed);
+    const std::vector<double> t = results::Reader(scratch / "steps.h5").read("/time").values;
+    const auto kink = std::find(t.begin(), t.end(), 0.002);
+    REQUIRE(kink != t.end());
+    check_resumed(text, static_cast<int>(kink - t.begin()), 3);
+  }
 }
 
 TEST_CASE("ResumedFilm_IsTheSame") {
