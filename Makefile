@@ -1,17 +1,18 @@
 # Everything from a bare checkout: each target installs what it needs (scripts/setup), configures, builds and runs.
 # Logs: build/log/. Settings: JOBS=n, PRESET=release|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test, fuzz), TIME=n (fuzz),
-# UNITY=OFF (the first time: each source by itself, for who works on the code).
+# ONLY=regex (mutations), UNITY=OFF (the first time: each source by itself, for who works on the code).
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
 FILTER ?= .
+ONLY ?=
 TIME ?= 60
 UNITY ?= ON
 BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help program demo test bench validate fuzz random-models web web-check web-test docs format lint install clean
+.PHONY: help program demo test bench validate mutations fuzz random-models web web-check web-test docs format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -36,6 +37,10 @@ bench:  ## builds and runs the benchmarks
 validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
+
+mutations:  ## plants faults one at a time in a copy and tells which no test notices; an hour (ONLY=regex: some of them)
+	@scripts/setup build test
+	@validation/mutations.py --jobs $(JOBS) --only '$(ONLY)'
 
 fuzz: program  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some; SEED=n)
 	@scripts/setup build test fuzz

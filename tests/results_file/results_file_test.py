@@ -121,7 +121,19 @@ class ResultsFile(unittest.TestCase):
             with h5py.File(results(example)) as file:
                 for path in datasets(file):
                     with self.subTest(example=example, dataset=path):
-                        self.assertTrue(any(re.fullmatch(pattern, path) for pattern in patterns), path)
+                        self.assertTrue(any(re.fullmatch(pattern, path) for pattern, _ in patterns), path)
+
+    def test_units_are_those_of_the_reference_page(self):
+        rows = documented()
+        for example in RUNS:
+            with h5py.File(results(example)) as file:
+                for path, data in datasets(file).items():
+                    # A row of its own tells more than one of all names in a group.
+                    found = [row for row in rows if re.fullmatch(row[0], path)]
+                    found = [row for row in found if ".+" not in row[0]] or found
+                    with self.subTest(example=example, dataset=path, documented=found):
+                        unit = data.attrs["units"]
+                        self.assertTrue(any(not units or unit in units for _, units in found), unit)
 
     def test_results_are_the_same_for_any_number_of_threads(self):
         files = [run("engine", f"threads{n}", *ENGINE, "--threads", str(n))
@@ -145,8 +157,17 @@ class ResultsFile(unittest.TestCase):
                                 self.assertTrue(np.array_equal(data[()], expected[path][()], equal_nan=True))
 
 
+def units_of(cell, count):
+    """What the page's column of units allows each of `count` names; nothing where it does not say."""
+    cell, _, mixed = cell.replace("²", "^2").replace("³", "^3").partition("; ")
+    each = [set(part.split()) - {"or"} for part in cell.split(",")]
+    if mixed:
+        each = [units | {mixed.split()[0]} for units in each]
+    return each if len(each) == count else count * [set.union(*each)]
+
+
 def documented():
-    """Regular expressions of the paths in the page's tables: <b> is one name, ... any number of them."""
+    """Regular expressions of the paths in the page's tables, with units: <b> is one name, ... any number of them."""
     patterns, prefix = [], ""
     with open(PAGE, encoding="utf-8") as page:
         for line in page:
@@ -157,11 +178,12 @@ def documented():
                 prefix = heading[1]
                 continue
             folder = prefix
-            for name in re.findall(r"`([^`]+)`", cells[1]):
+            names = re.findall(r"`([^`]+)`", cells[1])
+            for name, units in zip(names, units_of(cells[3] if len(cells) > 4 else "", len(names))):
                 path = name if name.startswith("/") else (prefix if "/" in name else folder) + name
                 folder = path[: path.rfind("/") + 1]  # of the names that follow in this row
                 escaped = re.escape(path).replace(re.escape("..."), ".+")
-                patterns.append(re.sub(r"<[a-z_]+>", "[^/]+", escaped))
+                patterns.append((re.sub(r"<[a-z_]+>", "[^/]+", escaped), units))
     return patterns
 
 

@@ -19,6 +19,15 @@ constexpr double kMostPassedOn = 0.02;
 // Steps taken as one system after an exchange without end, before exchanging is tried again.
 constexpr int kStepsAsOne = 16;
 
+void persist_history(Archive& archive, film::FilmHistory& history) {
+  archive.io("dt", history.dt), archive.io("by_gap", history.by_gap);
+  archive.io("theta", history.theta), archive.io("w", history.w), archive.io("density", history.density);
+  archive.io("gap", history.gap), archive.io("phi_journal", history.phi_journal);
+  film::LayeredViscosity& viscosity = history.viscosity;
+  archive.io("fluidity", viscosity.fluidity), archive.io("shear_fluidity", viscosity.shear_fluidity);
+  archive.io("skew", viscosity.skew);
+}
+
 }  // namespace
 
 FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique_ptr<GapKinematics> gap,
@@ -70,19 +79,17 @@ void FilmForce::feed(double t) {
 }
 
 /// Of the surfaces as their bodies deform, without the liner.
-double FilmForce::smallest_gap() const {
-  return deforming_->deform() ? surfaces_.g.minCoeff() : gap_->smallest_gap();
-}
+double FilmForce::smallest_gap() const { return deforming_->deform() ? surfaces_.g.minCoeff() : gap_->smallest_gap(); }
 
 void FilmForce::report_contact() {
   Eigen::Index node = 0;
   surfaces_.g.minCoeff(&node);
   const film::Grid& grid = model().grid;
   const int i = static_cast<int>(node) / grid.n_z, j = static_cast<int>(node) % grid.n_z;
-  domain_error_ = fmt::format(
-      "the journal touches the shell (smallest undeformed gap {:.4g} um at {:.0f} deg, z = {:.3g} mm; {})",
-      1e6 * smallest_gap(), grid.phi(i) * 180 / std::numbers::pi, 1e3 * model().L * grid.z_over_L(j),
-      gap_->position_text());
+  domain_error_ =
+      fmt::format("the journal touches the shell (smallest undeformed gap {:.4g} um at {:.0f} deg, z = {:.3g} mm; {})",
+                  1e6 * smallest_gap(), grid.phi(i) * 180 / std::numbers::pi, 1e3 * model().L * grid.z_over_L(j),
+                  gap_->position_text());
   if (model().asperities.model != film::AsperityModel::none) return;
   domain_error_ += model().compliance > 0 ? "; where no film pressure parts them, as at the edges, only `asperities` do"
                                           : "; smooth surfaces have nothing but the film between them: `asperities` "
@@ -147,8 +154,7 @@ film::FilmDomain FilmForce::linearise_film() {
 // The journal takes the negative of the wrench that the shell takes.
 void FilmForce::condense_film(mbd::ForceResponse& response) {
   const Eigen::Index m = deforming_->amplitudes();
-  for (Eigen::Index k = 0; k < acting_; ++k)
-    directions_[static_cast<std::size_t>(k)] = gap_->direction(k);
+  for (Eigen::Index k = 0; k < acting_; ++k) directions_[static_cast<std::size_t>(k)] = gap_->direction(k);
   std::copy(deforming_->directions().begin(), deforming_->directions().end(), directions_.begin() + acting_);
   deforming_->add_turning(gap_->turning(), directions_);
   reynolds_.condense(directions_, deforming_->openings(), condensed_);
@@ -277,6 +283,7 @@ void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   linearised_ = false;
   u_start_ = u_;
   given_start_ = given_;
+  interface_.begin_step();
   exchanges_ = 0;
   steps_as_one_left_ = std::max(steps_as_one_left_ - 1, 0);
 }
@@ -321,8 +328,8 @@ std::string FilmForce::name_of_internal_residual() const {
 
 BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   BearingObservation seen{.position = gap_->position(motion)};
-  seen.film = film::observe_film(model(), observed_surfaces_, observed_history_, seen.position.e, u_start_,
-                                 seen.position.tilt);
+  seen.film =
+      film::observe_film(model(), observed_surfaces_, observed_history_, seen.position.e, u_start_, seen.position.tilt);
   show_oil(seen.film);
   if (heat_) seen.heat = heat_->observables();
   seen.oil = oil_of_run_;
@@ -364,20 +371,24 @@ std::optional<film::TemperatureFields> FilmForce::temperatures() const {
   return heat_ ? std::optional(heat_->fields()) : std::nullopt;
 }
 
-// What begin_step returns to. What the last step showed is not kept: it has been observed.
+// What begin_step returns to, and the oil that the last step began with: where the method starts afresh, accelerations
+// at the step's end follow from it (solver::solve_accelerations). What the step showed is not kept: it has been
+// observed.
 void FilmForce::persist(Archive& archive) {
-  archive.io("theta", history_start_.theta);
-  archive.io("w", history_start_.w);
-  archive.io("density", history_start_.density);
-  archive.io("gap", history_start_.gap);
-  archive.io("phi_journal", history_start_.phi_journal);
+  persist_history(archive, history_start_);
+  {
+    const Archive::Group group(archive, "last_step");
+    persist_history(archive, history_);
+    archive.io("is_one_system", is_one_system_);
+    archive.io("answered", answered_);
+    archive.io("exchange_has_ended", exchange_has_ended_);
+  }
   archive.io("oil_volume", oil_of_run_.volume);
   archive.io("oil_through_flow", oil_of_run_.through_flow);
   archive.io("oil_unexplained", oil_of_run_.unexplained);
   if (heat_) {
     const Archive::Group heat(archive, "heat");
     heat_->persist(archive);
-    history_start_.viscosity = heat_->viscosity();
   }
   archive.io("started", started_);
   archive.io("u", u_start_);
@@ -387,6 +398,7 @@ void FilmForce::persist(Archive& archive) {
     const Archive::Group group(archive, "exchange");
     interface_.persist(archive);
   }
+  if (archive.restores()) u_ = u_start_, given_ = given_start_;
   const Archive::Group group(archive, "film");
   reynolds_.persist(archive);
 }

@@ -196,6 +196,19 @@ TEST_CASE("FrameOnANodeOrAnEdge_MovesWithItAndTurnsWithTheElementsAround") {
   }
 }
 
+// The frames share an edge: what the rigid one does to it is a part of the average.
+TEST_CASE("AveragingFrameOnNodesOfARigidOne_IsTheirAverageStill") {
+  const ElasticBody body = bar(ElementType::hex20, {6, 2, 2});
+  const InterfaceFrame root = frame_on(body.mesh, "x0", Connection::rigid),
+                       top = frame_on(body.mesh, "z1", Connection::average);
+  const ReducedBody reduced = must_reduce(body, {root, top}, {.modes = 4}).body;
+  REQUIRE(reduced.size() == 16);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(6, 16);
+  expected.middleCols<6>(6).setIdentity();
+  const Eigen::MatrixXd average = frame_motion(body.mesh, top) * reduced.Phi;
+  CHECK((average - expected).cwiseAbs().maxCoeff() < kCondition * reduced.Phi.cwiseAbs().maxCoeff());
+}
+
 TEST_CASE("FramesThatCannotHoldTheBody_AreToldByName") {
   const ElasticBody body = bar(ElementType::tet4, {2, 1, 1});
   InterfaceFrame good = frame_on(body.mesh, "x0", Connection::rigid),

@@ -67,6 +67,22 @@ TEST_CASE("LongFullBearing_MeetsSommerfeldWithOrderTwo") {
   }
 }
 
+// A journal at rest in the middle: q = c^3/(12 mu) dp/L per unit of the way around, in over one edge and out over the
+// other.
+TEST_CASE("PressureOnOneEdge_DrivesOilOutOverTheOther") {
+  for (const bool from_left : {true, false}) {
+    FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {12, 5}};
+    m.edge_left.pressure = from_left ? 3e5 : 1e5;
+    m.edge_right.pressure = from_left ? 1e5 : 3e5;
+    const SolvedFilm film = solve_cold(m, Journal{});
+    REQUIRE(film.summary.converged);
+    const double Q = 2 * pi * m.R * std::pow(m.c, 3) / (12 * m.lubricant.mu0) * 2e5 / m.L;
+    constexpr double solved = 1e-9;  // the solver leaves 1e-10
+    CHECK(film.observed.flow_left == relative(from_left ? -Q : Q).epsilon(solved));
+    CHECK(film.observed.flow_right == relative(from_left ? Q : -Q).epsilon(solved));
+  }
+}
+
 TEST_CASE("LongHalfBearing_MeetsGuembel") {
   for (const double e : {0.2, 0.5, 0.8}) {
     CAPTURE(e);

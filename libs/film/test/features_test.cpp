@@ -33,6 +33,22 @@ TEST_CASE("GrooveEdges_LieWhereTheyAre") {
   }
 }
 
+// All pressures are told on one scale: that of the cavity is one on it, and a full film does not see it.
+TEST_CASE("FedGroove_HoldsItsPressureWhateverThatOfTheCavity") {
+  for (const double p_cav : {-5e4, 0.0, 2e4}) {
+    CAPTURE(p_cav);
+    FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {24, 9}, .p_cav = p_cav};
+    m.edge_left.pressure = m.edge_right.pressure = 1e5;
+    m.features = {{.name = "groove", .phi = pi, .arc = 1, .length = 8e-3, .pressure = 3e5}};
+    const SolvedFilm film = solve_cold(m, Journal{});
+    REQUIRE(film.summary.converged);
+    CHECK(film.fields.p[m.grid.index(12, 4)] == relative(3e5).epsilon(kSolved));
+    CHECK(film.fields.p[m.grid.index(12, 0)] == relative(1e5).epsilon(kSolved));
+    m.p_cav = 0;
+    CHECK(film.observed.flow_supply == relative(solve_cold(m, Journal{}).observed.flow_supply).epsilon(kSolved));
+  }
+}
+
 TEST_CASE("HeldShares_HaveTheirDerivative") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
   m.grid = graded_grid(40, 9, {{.place = 0.2, .reach = 0.5, .factor = 3}}, {{.place = 0.1, .reach = 0.2, .factor = 2}});

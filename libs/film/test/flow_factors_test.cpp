@@ -53,6 +53,38 @@ TEST_CASE("FlowFactors_HaveTheirPublishedValues") {
   CHECK_THROWS(PatirCheng(0.1));
 }
 
+// All seven ratios of Patir and Cheng (1978, table 1; 1979, tables 1 and 2), from the tables as printed by a program of
+// its own. Each constant of a row shows in one of these: a digit of the last place changes it by more than 1e-5.
+TEST_CASE("FlowFactors_OfEveryRatioAreThosePublished") {
+  struct Row {
+    std::array<double, 2> pressure;  // at H = 1.5, 4
+    std::array<double, 5> shear;     // at H = 0.5, 1, 2, 4, 6: the last of the second branch
+    std::array<double, 4> stress;    // at H = 0.5, 1, 2, 4
+  };
+  const std::array<Row, 7> published{
+      {{{0.21176, 0.72417}, {0.64215, 0.96646, 1.05360, 0.68972, 0.41413}, {0.83775, 1.56232, 1.15533, 0.21068}},
+       {{0.26502, 0.74280}, {0.63627, 0.93610, 1.00257, 0.65127, 0.39137}, {0.81289, 1.48476, 1.07538, 0.19207}},
+       {{0.37154, 0.78008}, {0.63567, 0.89539, 0.92273, 0.58255, 0.34831}, {0.79971, 1.36288, 0.92100, 0.15348}},
+       {{0.61146, 0.90419}, {0.61542, 0.79559, 0.72659, 0.41474, 0.25124}, {0.69997, 1.14677, 0.73207, 0.11640}},
+       {{1.12247, 1.02812}, {0.50183, 0.54590, 0.40408, 0.19850, 0.12406}, {0.53142, 0.71347, 0.35415, 0.05402}},
+       {{1.28305, 1.06500}, {0.49653, 0.46984, 0.30863, 0.14004, 0.08657}, {0.52098, 0.66534, 0.29883, 0.03732}},
+       {{1.47357, 1.10875}, {0.41546, 0.37566, 0.23817, 0.10641, 0.06582}, {0.46443, 0.53436, 0.20879, 0.02115}}}};
+  constexpr double half_a_digit = 0.5001e-5;  // of the last one above
+  constexpr std::array<double, 2> pressure_at{1.5, 4};
+  constexpr std::array<double, 5> at{0.5, 1, 2, 4, 6};
+  for (std::size_t row = 0; row < published.size(); ++row) {
+    CAPTURE(tabulated[row]);
+    const PatirCheng law(tabulated[row]);
+    for (std::size_t k = 0; k < pressure_at.size(); ++k)
+      CHECK(std::abs(law.pressure(pressure_at[k]).value - published[row].pressure[k]) < half_a_digit);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      CAPTURE(at[k]);
+      CHECK(std::abs(law.shear(at[k]).value - published[row].shear[k]) < half_a_digit);
+      if (k < 4) CHECK(std::abs(law.stress(at[k]).value - published[row].stress[k]) < half_a_digit);
+    }
+  }
+}
+
 TEST_CASE("FlowFactors_HaveTheSlopesTheyClaim") {
   constexpr double d = 1e-5;  // differences of fourth order; kinks of the second derivative cost d
   for (const double gamma : {1.0 / 9, 0.2, 1.0, 2.0, 9.0}) {

@@ -436,6 +436,7 @@ class Builder {
     options.relaxation = bearing.coupling.relaxation;
     options.film.solver = bearing.solver;
     options.initial_dt = model_.simulation.step;
+    if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) options.thermal = *heat;
     for (const Function& pressure : bearing.feature_pressures) {
       options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
     }

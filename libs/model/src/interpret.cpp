@@ -134,6 +134,12 @@ void check_completeness(Context& context) {
   for (const auto& [name, bearing] : section(context.root, "bearings")) {
     require(bearing, "shell");
     require(bearing, "journal");
+    const Value* thermal = bearing.find("thermal");
+    if (thermal != nullptr && !thermal->broken && thermal->text == "global") {
+      context.fault_at_key(*thermal, "one effective temperature by a balance of heat, in a machine",
+                           "`model: film`, or `isothermal` with a temperature",
+                           "the balance is one of steady bearings, by themselves");
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include "hersey/model/read.h"
 
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "model_text.h"
@@ -48,6 +49,25 @@ TEST_CASE("GoodModel_IsReadInSI") {
   CHECK(bearing.film.L == near(0.0156));
   CHECK(bearing.film.c == near(34e-6));
   CHECK(bearing.film.lubricant.mu0 == near(0.015));
+}
+
+// Six different elements: each is found on both sides of the diagonal.
+TEST_CASE("Inertia_HasEachElementWhereItsNameSays") {
+  const std::string given =
+      "{xx: 5 kg.m^2, yy: 6 kg.m^2, zz: 7 kg.m^2, xy: 0.1 kg.m^2, yz: 0.2 kg.m^2, zx: 0.3 kg.m^2}";
+  const Matrix3 inertia =
+      read_text(edited(good_model, "{xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}", given), "m.yaml")
+          .bodies[0]
+          .inertia;
+  const std::string axes = "xyz";
+  for (const auto& [name, value] :
+       std::map<std::string, double>{{"xx", 5}, {"yy", 6}, {"zz", 7}, {"xy", 0.1}, {"yz", 0.2}, {"zx", 0.3}}) {
+    CAPTURE(name);
+    const auto row = static_cast<Eigen::Index>(axes.find(name[0])),
+               column = static_cast<Eigen::Index>(axes.find(name[1]));
+    CHECK(inertia(row, column) == value);
+    CHECK(inertia(column, row) == value);
+  }
 }
 
 TEST_CASE("Defaults_AreThoseOfTheReference") {

@@ -1,6 +1,7 @@
 // Interrupted runs that go on, against runs that were never interrupted: the same numbers to the last bit.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -112,6 +113,26 @@ TEST_CASE("ResumedRunOfControlledError_IsTheSame") {
                                          "{table: {points: [[0, 5], [0.04, 20], [0.1, 8]], x_unit: s, y_unit: rad/s}}"),
                                   "step: 0.5 ms", "step: {tolerance: 1e-6}");
   check_resumed(text + "output: {interval: 3 ms}\n", 5, 40);
+}
+
+// There the method starts afresh, from accelerations that follow from the last step: its length and the oil it began
+// with.
+TEST_CASE("RunResumedAtAKinkOfADrive_StartsAfreshFromTheSameFilm") {
+  for (const char* coupling : {"monolithic", "{scheme: partitioned, acceleration: quasi_newton}",
+                               "{scheme: partitioned, acceleration: aitken}"}) {
+    CAPTURE(coupling);
+    std::string text = edited(rig_with("  crank: main\n", ""), "step: 2 deg", "step: {tolerance: 1e-4}");
+    text = edited(text, "rotation, speed: 3000 rpm}",
+                  "rotation, speed: {table: {points: [[0, 3000], [0.002, 3000], [0.004, 4500]], "
+                  "x_unit: s, y_unit: rpm}}}");
+    text = edited(text, "    lubricant: oil\n", std::string("    lubricant: oil\n    coupling: ") + coupling + "\n");
+    const TemporaryDirectory scratch;
+    REQUIRE(simulate(rig(text), {.results = scratch / "steps.h5"}).status == Status::completed);
+    const std::vector<double> t = results::Reader(scratch / "steps.h5").read("/time").values;
+    const auto kink = std::find(t.begin(), t.end(), 0.002);
+    REQUIRE(kink != t.end());
+    check_resumed(text, static_cast<int>(kink - t.begin()), 3);
+  }
 }
 
 TEST_CASE("ResumedFilm_IsTheSame") {

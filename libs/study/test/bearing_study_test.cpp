@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include "hersey/core/input_error.h"
@@ -45,6 +47,23 @@ TEST_CASE("MassBalance_OfReynoldsIsNoNumberButWords") {
   const BearingFigure conserving = figure_of(solved_with({}), "mass_balance_error");
   CHECK(conserving.value < 1e-8);  // the solver leaves 1e-10 of the largest throughput
   CHECK(conserving.words.empty());
+}
+
+TEST_CASE("Speeds_AreToldInRevolutionsPerMinute") {
+  const BearingSolution turning = solved_with(
+      {"bearings.main.operating_point.journal_speed=1500 rpm", "bearings.main.operating_point.shell_speed=-10 rad/s",
+       "bearings.main.operating_point.load=none", "bearings.main.operating_point.eccentricity_ratio=0.3"});
+  // A turn is 2 pi, a minute 60 s.
+  CHECK(figure_of(turning, "journal_speed").value == doctest::Approx(1500).epsilon(kRoundOff));
+  CHECK(figure_of(turning, "shell_speed").value == doctest::Approx(-300 / std::numbers::pi).epsilon(kRoundOff));
+  REQUIRE_FALSE(turning.whirl.always_stable);
+  CHECK(figure_of(turning, "threshold_speed").value ==
+        doctest::Approx(turning.whirl.threshold_speed * 60 / (2 * std::numbers::pi)).epsilon(kRoundOff));
+  for (const char* key : {"journal_speed", "shell_speed", "threshold_speed"}) {
+    const BearingFigure figure = figure_of(turning, key);
+    CHECK(figure.unit == std::string("rpm"));
+    CHECK(figure.si_unit == std::string("rad/s"));
+  }
 }
 
 TEST_CASE("CriticalMass_ThatIsInfiniteIsWords") {

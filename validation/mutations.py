@@ -1,0 +1,330 @@
+#!/usr/bin/python3
+"""Plants faults, one at a time, each in one line of physics or numerics, and tells which of them no test notices.
+
+Works on a copy of the sources and a build of its own below build/mutations, so that neither sources nor build of the
+user are touched. A fault is tried on the tests most likely to see it first, then on those of every module that depends
+on the one that has it, then on those of the program. All faults are real changes of behaviour: one that survives is a test
+that is missing.
+
+Usage: mutations.py [--only REGEX] [--jobs N] [--list] [--check]     as `make mutations`
+exit code 0 if all faults were caught, 1 if any survives, 2 if a fault has to be re-pointed or does not compile
+--only: faults whose names match; --list: the faults, nothing else; --check: that each is found where it says
+"""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from typing import NamedTuple
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+WORK = os.path.join(SOURCE, "build/mutations")
+COPY, LOG = os.path.join(WORK, "sources"), os.path.join(WORK, "log")
+BUILD = os.path.join(COPY, "build/release")  # where a clone has it: ccache knows what the user has compiled
+PROGRAM = ["results_file", "defects", "cli"]  # tests of the whole, tried last
+TIME_LIMIT = 120  # s of one test: a fault may turn an iteration into an endless one
+
+
+class Fault(NamedTuple):
+    name: str    # "module: what"
+    file: str    # below libs/
+    old: str     # text that occurs once in it
+    new: str
+    tests: str = ""  # regex of the tests tried first; of the fault's own module where empty
+
+    @property
+    def module(self):
+        return self.file.split("/")[0]
+
+
+FAULTS = [
+    # -- film
+    Fault("film: sign of squeeze", "film/src/film_storage.cpp",
+          "return area_[i] * ((g_rate_[i] + rate_excesses_[i])",
+          "return area_[i] * (-(g_rate_[i] + rate_excesses_[i])"),
+    Fault("film: wedge of a shell that turns", "film/src/flow_balance.cpp",
+          "speed_phi_ = 0.5 * (motion.u_shell + motion.u_journal);",
+          "speed_phi_ = 0.5 * (motion.u_journal - motion.u_shell);"),
+    Fault("film: twelve of the pressure flow", "film/src/face_flow.cpp",
+          "const double unit = face.width / (12 * face.length);",
+          "const double unit = face.width / (6 * face.length);"),
+    Fault("film: slope of the gap's cube", "film/src/face_flow.cpp",
+          "gap.cube_h = 3 * h * h;", "gap.cube_h = 2 * h * h;"),
+    Fault("film: shear in the cavity", "film/src/film_wrench.cpp",
+          "couette = node.share * mu / node.h;", "couette = mu / node.h;"),
+    Fault("film: flow factor of Patir and Cheng, digits", "film/src/flow_factors.cpp",
+          "{1.38, 0.42, 1.0}", "{1.39, 0.42, 1.0}"),
+    Fault("film: stress factor of Patir and Cheng, digits", "film/src/flow_factors.cpp",
+          "{10.1, 2.25, 2.90, 0.18}", "{10.1, 2.25, 2.80, 0.18}"),
+    Fault("film: power of Greenwood and Tripp's fit", "film/src/greenwood_tripp.cpp", "b = 6.804;", "b = 6.408;"),
+    Fault("film: viscosity falls with pressure", "film/src/node.cpp",
+          "std::exp(-viscosity.value)", "std::exp(viscosity.value)"),
+    Fault("film: dense oil is stored as light oil", "film/src/node.cpp",
+          "node.content = node.density * node.theta;", "node.content = node.theta;"),
+    Fault("film: liner gives way to the oil only", "film/src/node.cpp",
+          "node.w = C * (node.wall + node.asperity);", "node.w = C * node.wall;"),
+    Fault("film: side flows change places", "film/src/observables.cpp",
+          "(j == 0 ? o.flow_left : o.flow_right)", "(j == 0 ? o.flow_right : o.flow_left)"),
+    Fault("film: feature's pressure is taken for that above the cavity's", "film/src/supply_rows.cpp",
+          ".u = std::max(0.0, pressure - model_.p_cav)});", ".u = std::max(0.0, pressure)});"),
+    Fault("film: conductance between supply line and node", "film/src/supply_rows.cpp",
+          ".conductance = geometry_.width_z[j] / (12 * geometry_.dx[i]),",
+          ".conductance = geometry_.width_z[j] / (6 * geometry_.dx[i]),"),
+    # -- bearing
+    Fault("bearing: sign of the shear by pressure", "film/src/film_wrench.cpp",
+          "area * sheared(s.couette[0] * slip_[0] - s.half_gap[0] * p_phi,",
+          "area * sheared(s.couette[0] * slip_[0] + s.half_gap[0] * p_phi,", r"^(film|bearing)\."),
+    Fault("bearing: lever of the load about the journal's axis", "film/src/observables.cpp",
+          "+ e.x() * on_shell[4] - e.y() * on_shell[3];", "- e.x() * on_shell[4] + e.y() * on_shell[3];",
+          r"^(film|bearing)\."),
+    Fault("bearing: force on the journal is that on the shell", "bearing/src/film_force.cpp",
+          "response.W_B_A = -condensed_.wrench;", "response.W_B_A = condensed_.wrench;"),
+    Fault("bearing: relative velocity along z off the centre", "bearing/src/journal_kinematics.cpp",
+          "velocity.z() + omega.x() * k.value[kEy] - omega.y() * k.value[kEx];",
+          "velocity.z() - omega.x() * k.value[kEy] + omega.y() * k.value[kEx];"),
+    Fault("bearing: a journal's shape turns backwards", "bearing/src/rigid_surfaces.cpp",
+          "motion.g_rate += omega * first_;", "motion.g_rate -= omega * first_;"),
+    Fault("bearing: damping over the load without the speed", "bearing/src/bearing_numbers.cpp",
+          "(model.c * omega / W);", "(model.c / W);"),
+    # -- mbd
+    Fault("mbd: gyroscopic term", "mbd/src/inertia.cpp", "F_[l] = IA + Vh;", "F_[l] = IA;"),
+    Fault("mbd: row of a universal joint", "mbd/src/constraint_row.cpp",
+          "return {position(t1), position(t2), position(n), orientation(t1, t2)};",
+          "return {position(t1), position(t2), position(n), orientation(t1, n)};"),
+    Fault("mbd: lever of a reaction", "mbd/src/observe.cpp",
+          "(through[j].head<3>() - X_WI.r.cross(f));", "through[j].head<3>();"),
+    Fault("mbd: Coriolis force of a deforming body", "mbd/src/modal_body.cpp",
+          "w.Omega * w.S + 2 * omega.cross(w.S_rate) + w.S_acc;", "w.Omega * w.S + omega.cross(w.S_rate) + w.S_acc;"),
+    Fault("mbd: moment of a contact", "mbd/src/contact.cpp",
+          "response.W_B_A.head<3>() += spot.position.cross(f);", "response.W_B_A.head<3>() -= spot.position.cross(f);"),
+    Fault("mbd: curvature of a coupling", "mbd/src/coupling.cpp",
+          "bias -= input.curvature(state) * v * v;", "bias += input.curvature(state) * v * v;"),
+    # -- solver
+    Fault("solver: gamma of the integrator", "solver/include/hersey/solver/alpha_parameters.h",
+          "gamma(0.5 + alpha_f - alpha_m),", "gamma(0.5 - alpha_f + alpha_m),"),
+    Fault("solver: beta of the integrator", "solver/include/hersey/solver/alpha_parameters.h",
+          "beta(0.25 * (gamma + 0.5) * (gamma + 0.5)) {}", "beta(0.25 * gamma * gamma) {}"),
+    Fault("solver: share of the estimated error", "solver/src/generalized_alpha.cpp",
+          "0.5 * gamma - beta - 1.0 / 12;", "0.5 * gamma - beta - 1.0 / 6;"),
+    Fault("solver: order of the step's error", "solver/src/step_control.cpp",
+          "constexpr double kOrder = 3; ", "constexpr double kOrder = 2; "),
+    # -- fem
+    Fault("fem: averaging frames beside rigid ones", "fem/src/frame_interface.cpp",
+          "interface.motion - interface.C * interface.prescribed;", "interface.motion;"),
+    Fault("fem: slope of a quadratic shape function", "fem/src/shape_functions.cpp",
+          "s.dN.row(a) = (4 * b.L[a] - 1) * b.dL.row(a);", "s.dN.row(a) = (4 * b.L[a] - 2) * b.dL.row(a);"),
+    Fault("fem: mass without the element's size", "fem/src/solid_element.cpp",
+          "m.noalias() += weight * J.determinant() * shape.N", "m.noalias() += weight * shape.N"),
+    Fault("fem: shift of the natural modes", "fem/src/vibration.cpp",
+          "const double omega_squared = shift + 1 / lanczos.theta[k];",
+          "const double omega_squared = 1 / lanczos.theta[k];"),
+    # -- model
+    Fault("model: products of inertia change places", "model/src/interpret_mechanism.cpp",
+          "(Matrix3() << xx, xy, zx, xy, yy, yz, zx, yz, zz).finished();",
+          "(Matrix3() << xx, zx, xy, zx, yy, yz, xy, yz, zz).finished();"),
+    Fault("model: diametral clearance is taken for radial", "model/src/interpret_bearing.cpp",
+          'number_of(value_, "diametral_clearance") / 2', 'number_of(value_, "diametral_clearance")'),
+    # -- run, results, study
+    Fault("run: a checkpoint forgets the last step's length", "run/src/step_march.cpp",
+          'archive.io("length", last_dt_), archive.io("rejected", rejected_);', 'archive.io("rejected", rejected_);'),
+    Fault("run: energy of a cycle", "run/src/bearing_cycle.cpp",
+          "cycle_.energy_film += 0.5 * dt * (last_.power_film + next.power_film);",
+          "cycle_.energy_film += dt * (last_.power_film + next.power_film);"),
+    Fault("results: unit of the oil's volume", "run/src/bearing_record.cpp",
+          's.oil_volume = series("oil_volume", "m^3",', 's.oil_volume = series("oil_volume", "m^3/s",', r"^results_file\."),
+    Fault("study: revolutions per minute", "study/src/bearing_figures.cpp",
+          'kRpm{"rpm", "rad/s", std::numbers::pi / 30};', 'kRpm{"rpm", "rad/s", std::numbers::pi / 60};'),
+]
+
+
+class Trouble(Exception):
+    """Says what the script cannot go on with."""
+
+
+def sources():
+    """Files that a clone has or will have, with changes that are not committed yet."""
+    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=SOURCE,
+                            capture_output=True, check=True).stdout.decode()
+    return [path for path in listed.split("\0") if path and os.path.isfile(os.path.join(SOURCE, path))]
+
+
+def content_of(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def copy_sources():
+    """Brings the copy up to date and touches nothing that is: what was built of it serves."""
+    wanted = set(sources())
+    for folder, folders, names in os.walk(COPY):
+        if folder == COPY and "build" in folders:
+            folders.remove("build")
+        for name in names:
+            path = os.path.join(folder, name)
+            if os.path.relpath(path, COPY) not in wanted:
+                os.remove(path)
+    for path in wanted:
+        here, there = os.path.join(SOURCE, path), os.path.join(COPY, path)
+        if os.path.isfile(there) and content_of(here) == content_of(there):
+            continue
+        os.makedirs(os.path.dirname(there), exist_ok=True)
+        shutil.copy(here, there)
+
+
+def dependents():
+    """module -> itself and those that depend on it and have tests, from the lowest floor to the highest."""
+    with open(os.path.join(SOURCE, "CMakeLists.txt"), encoding="utf-8") as file:
+        text = re.sub(r"#.*", "", file.read())
+    below = {}
+    for name, rest in re.findall(r"^hersey_module\((\w+)([^)]*)\)", text, re.MULTILINE):
+        named = re.search(r"DEPENDS((?:\s+[a-z]+)*)", rest)
+        below[name] = {name}.union(*(below[m] for m in (named[1].split() if named else [])))
+    tested = [name for name in below if os.path.isdir(os.path.join(SOURCE, "libs", name, "test"))]
+    return {name: [m for m in tested if name in below[m]] for name in below}
+
+
+def misplaced(fault):
+    """Why the fault cannot be planted, or nothing."""
+    path = os.path.join(SOURCE, "libs", fault.file)
+    if not os.path.isfile(path):
+        return "there is no such file"
+    with open(path, encoding="utf-8") as file:
+        count = file.read().count(fault.old)
+    return "" if count == 1 else f"{count} times in it, expected once: '{fault.old}'"
+
+
+def check_places(faults):
+    wrong = [(fault, why) for fault in faults if (why := misplaced(fault))]
+    if wrong:
+        raise Trouble("faults to re-point in validation/mutations.py:\n" +
+                      "\n".join(f"  {fault.name}\n    libs/{fault.file}: {why}" for fault, why in wrong))
+
+
+def logged(title, command):
+    """Runs a command, its output to the log too."""
+    run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+                         cwd=COPY, check=False)
+    with open(LOG, "a", encoding="utf-8") as log:
+        log.write(f"\n==== {title}: {' '.join(command)}\n{run.stdout}")
+    return run
+
+
+class Trial:
+    """The copy, with one fault or none."""
+
+    def __init__(self, jobs):
+        self.jobs = str(jobs)
+
+    def configure(self):
+        run = logged("configure", ["cmake", "--preset", "release", "-DHERSEY_UNITY=ON"])
+        if run.returncode:
+            raise Trouble(f"the copy cannot be configured, see {LOG}:\n{run.stdout[-2000:]}")
+
+    def build(self, title, modules):
+        targets = sorted({"hersey" if module in PROGRAM else f"{module}_test" for module in modules})
+        return logged(title, ["cmake", "--build", BUILD, "-j", self.jobs, "--target", *targets])
+
+    def test(self, title, regex):
+        """The first tests that fail of those whose names match."""
+        run = logged(title, ["ctest", "--test-dir", BUILD, "-j", self.jobs, "--stop-on-failure", "--timeout",
+                             str(TIME_LIMIT), "--no-tests=error", "--output-on-failure", "-R", regex])
+        if "***Not Run" in run.stdout or "No tests were found" in run.stdout:
+            raise Trouble(f"{title}: tests that cannot run, see {LOG}")
+        failed = re.findall(r"Test +#\d+: (\S+) \.+[^*\n]*\*\*\*", run.stdout)
+        if run.returncode and not failed:
+            raise Trouble(f"{title}: ctest ended with {run.returncode}, see {LOG}")
+        return failed
+
+    def plant(self, fault):
+        path = os.path.join(COPY, "libs", fault.file)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace(fault.old, fault.new))
+
+    def mend(self, fault):
+        shutil.copyfile(os.path.join(SOURCE, "libs", fault.file), os.path.join(COPY, "libs", fault.file))
+
+    def verdict(self, fault, modules_above):
+        """What became of a fault: caught, survived or broken, and the tests that caught it."""
+        first = fault.tests or rf"^{fault.module}\."
+        rest = modules_above[fault.module] + PROGRAM
+        likely = [module for module in rest if re.search(first, module + ".")] or rest[:1]
+        stages = {first: likely}
+        for module in rest:
+            stages.setdefault(rf"^{module}\.", [module])
+        self.plant(fault)
+        try:
+            for regex, modules in stages.items():
+                build = self.build(fault.name, modules)
+                if build.returncode:
+                    return "broken", [line for line in build.stdout.splitlines() if "error" in line][:3]
+                if failed := self.test(fault.name, regex):
+                    return "caught", failed
+            return "survived", []
+        finally:
+            self.mend(fault)
+
+
+def try_all(faults, jobs):
+    modules_above = dependents()
+    trial = Trial(jobs)
+    copy_sources()
+    trial.configure()
+    verdicts, catching = [], {}
+    for fault in faults:
+        began = time.monotonic()
+        what, tests = trial.verdict(fault, modules_above)
+        verdicts.append(what)
+        catching.update({test: fault.name for test in tests if what == "caught"})
+        told = {"caught": "caught by " + ", ".join(tests[:2]), "survived": "SURVIVED",
+                "broken": "DOES NOT COMPILE: " + " / ".join(tests)}[what]
+        print(f"{fault.name:<66} {told}  ({time.monotonic() - began:.0f} s)", flush=True)
+    return verdicts, failing_anyway(trial, catching)
+
+
+def failing_anyway(trial, catching):
+    """Tests that have caught faults and fail without any."""
+    if not catching:
+        return []
+    modules = sorted({test.split(".")[0] for test in catching})
+    if trial.build("no fault", modules).returncode:
+        raise Trouble(f"the copy does not compile without a fault, see {LOG}")
+    return trial.test("no fault", "^(" + "|".join(re.escape(test) for test in catching) + ")$")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", default="", metavar="REGEX")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args()
+    faults = [fault for fault in FAULTS if re.search(options.only, fault.name)]
+    if options.list:
+        print("\n".join(f"{fault.name:<66} libs/{fault.file}" for fault in faults))
+        return 0
+    try:
+        check_places(FAULTS)
+        if options.check or not faults:
+            print(f"{len(faults)} faults" + (", each where it says" if faults else f" match '{options.only}'"))
+            return 0 if faults else 2
+        os.makedirs(WORK, exist_ok=True)
+        open(LOG, "w", encoding="utf-8").close()
+        verdicts, anyway = try_all(faults, options.jobs)
+    except Trouble as trouble:
+        print(f"mutations: {trouble}", file=sys.stderr)
+        return 2
+    print(f"{verdicts.count('caught')} of {len(verdicts)} caught")
+    if anyway:
+        print("these fail without any fault: " + ", ".join(anyway))
+    if anyway or "broken" in verdicts:
+        return 2
+    return 1 if "survived" in verdicts else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
