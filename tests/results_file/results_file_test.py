@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The results file as other programs see it: units, names, dimensions, xarray, the reference page, equal bits."""
 
+import json
 import os
 import re
 import subprocess
@@ -26,7 +27,7 @@ RUNS = {
     "flexible_slider_crank": ["--set", "simulation.duration=1ms"],
 }
 _folder = tempfile.TemporaryDirectory(prefix="hersey-results-")
-_files = {}
+_files, _lines = {}, []
 
 
 def run(example, name, *arguments, **environment):
@@ -123,6 +124,37 @@ class ResultsFile(unittest.TestCase):
                     with self.subTest(example=example, dataset=path):
                         self.assertTrue(any(re.fullmatch(pattern, path) for pattern in patterns), path)
 
+    def test_every_dataset_is_in_the_tables_with_its_unit_and_text(self):
+        for example in RUNS:
+            with h5py.File(results(example)) as file:
+                for path, data in datasets(file).items():
+                    lines = [line for line in tables() if line.kind != "attribute" and re.fullmatch(line.path, path)]
+                    unit, text = data.attrs["units"], data.attrs["long_name"]
+                    with self.subTest(example=example, dataset=path, unit=unit, text=text):
+                        self.assertTrue(any(unit in line.units and (line.is_dimension or re.fullmatch(line.text, text))
+                                            for line in lines))
+
+    def test_every_attribute_of_a_group_is_in_the_tables(self):
+        attributes = [line.path for line in tables() if line.kind == "attribute"]
+        for example in RUNS:
+            with h5py.File(results(example)) as file:
+                for path in groups(file):
+                    for name in file[path].attrs:
+                        with self.subTest(example=example, group=path, attribute=name):
+                            name = f"{path.rstrip('/')}/{name}"
+                            self.assertTrue(any(re.fullmatch(pattern, name) for pattern in attributes))
+
+    def test_every_line_of_the_tables_is_in_some_run(self):
+        found = set()
+        for example in RUNS:
+            with h5py.File(results(example)) as file:
+                found |= set(datasets(file))
+                for path in groups(file):
+                    found |= {f"{path.rstrip('/')}/{name}" for name in file[path].attrs}
+        for line in tables():
+            with self.subTest(line=line.name):
+                self.assertTrue(line.name in RARE or any(re.fullmatch(line.path, path) for path in found))
+
     def test_results_are_the_same_for_any_number_of_threads(self):
         files = [run("engine", f"threads{n}", *ENGINE, "--threads", str(n))
                  for n in (1, 2, 5)]
@@ -145,13 +177,43 @@ class ResultsFile(unittest.TestCase):
                                 self.assertTrue(np.array_equal(data[()], expected[path][()], equal_nan=True))
 
 
+class Line:
+    """A quantity of the tables that results are written by, its paths and texts as regular expressions."""
+
+    def __init__(self, group, quantity):
+        self.kind, self.units, self.name = quantity["kind"], quantity["units"], group["path"] + quantity["name"]
+        self.path, self.text = pattern_of(self.name), pattern_of(quantity["text"])
+        self.is_dimension = quantity.get("note", "").startswith("dimension of")
+
+
+def pattern_of(text):
+    """<b> stands for one name."""
+    return re.sub(r"<[a-z_]+>", "[^/]+", re.escape(text))
+
+
+def tables():
+    """All lines of `hersey schema --results`."""
+    if not _lines:
+        done = subprocess.run([HERSEY, "schema", "--results"], capture_output=True, text=True, check=True)
+        _lines.extend(Line(group, quantity) for group in json.loads(done.stdout)["groups"]
+                      for quantity in group["quantities"])
+    return _lines
+
+
+def groups(file):
+    """Paths of all groups."""
+    found = ["/"]
+    file.visititems(lambda name, item: found.append("/" + name) if isinstance(item, h5py.Group) else None)
+    return found
+
+
 def documented():
     """Regular expressions of the paths in the page's tables: <b> is one name, ... any number of them."""
     patterns, prefix = [], ""
     with open(PAGE, encoding="utf-8") as page:
         for line in page:
             cells = line.split("|")
-            if len(cells) < 3:
+            if len(cells) < 3 or cells[2].strip() == "attribute":
                 continue
             if heading := re.search(r"in `(/[^`]*/)`", cells[1]):
                 prefix = heading[1]

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace hersey::run {
 namespace {
@@ -130,9 +131,6 @@ const QuantityTable<BeamRow, BeamPlan>& beam_quantities() {
 }
 
 const std::vector<Constant<BeamPlan>>& beam_constants() {
-  const auto of_surface = [](std::vector<double> BeamSurface::*member) {
-    return [member](const BeamPlan& plan) { return surface_of(plan.beam).*member; };
-  };
   static const std::vector<Constant<BeamPlan>> table{
       {"nodes",
        "m",
@@ -145,34 +143,21 @@ const std::vector<Constant<BeamPlan>>& beam_constants() {
        },
        {},
        {.note = "of a beam"}},
-      {"shapes/surface/corners",
-       "m",
-       "x, y, z of each corner",
-       "[3 corners]",
-       of_surface(&BeamSurface::corners),
-       {},
-       {.note = "of a beam"}},
-      {"shapes/surface/triangles",
-       "1",
-       "corners of each triangle, counted from 0",
-       "[3 triangles]",
-       of_surface(&BeamSurface::triangles),
-       {},
-       {.note = "of a beam"}},
-      {"shapes/surface/node",
-       "1",
-       "that each corner follows, counted from 0",
-       "[corners]",
-       of_surface(&BeamSurface::node),
-       {},
-       {.note = "of a beam"}},
-      {"shapes/surface/offset",
-       "m",
-       "x, y, z of each corner from its node",
-       "[3 corners]",
-       of_surface(&BeamSurface::offset),
-       {},
-       {.note = "of a beam"}},
+  };
+  return table;
+}
+
+/// Of its surface, a shape.
+const std::vector<Constant<BeamPlan>>& surface_constants() {
+  const auto of_surface = [](std::vector<double> BeamSurface::*member) {
+    return [member](const BeamPlan& plan) { return surface_of(plan.beam).*member; };
+  };
+  static const std::vector<Constant<BeamPlan>> table{
+      {"corners", "m", "x, y, z of each corner", "[3 corners]", of_surface(&BeamSurface::corners)},
+      {"triangles", "1", "corners of each triangle, counted from 0", "[3 triangles]",
+       of_surface(&BeamSurface::triangles)},
+      {"node", "1", "that each corner follows, counted from 0", "[corners]", of_surface(&BeamSurface::node)},
+      {"offset", "m", "x, y, z of each corner from its node", "[3 corners]", of_surface(&BeamSurface::offset)},
   };
   return table;
 }
@@ -227,6 +212,7 @@ BeamRecord::BeamRecord(const model::Model& model, const model::Machine& machine,
   write_once(beam_attributes(), group_of(built), plan_, writer);
   write_once(beam_constants(), group_of(built), plan_, writer);
   write_once(surface_attributes(), group_of(built) + "shapes/surface/", plan_, writer);
+  write_once(surface_constants(), group_of(built) + "shapes/surface/", plan_, writer);
 }
 
 void BeamRecord::append(const mbd::Observation& seen) const {
@@ -245,6 +231,16 @@ void BeamRecord::describe(QuantityGroup& group) {
   run::describe(beam_attributes(), "n", group);
   run::describe(beam_quantities(), "n", group);
   run::describe(beam_constants(), "n", group);
+}
+
+void BeamRecord::describe_surface(QuantityGroup& group) {
+  QuantityGroup surface;
+  run::describe(surface_attributes(), "n", surface);
+  run::describe(surface_constants(), "n", surface);
+  for (QuantityInfo& quantity : surface.quantities) {
+    quantity.note = "of a beam's surface, the shape `surface`";
+    group.quantities.push_back(std::move(quantity));
+  }
 }
 
 }  // namespace hersey::run

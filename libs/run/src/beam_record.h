@@ -41,6 +41,8 @@ class BeamRecord {
   void append(const mbd::Observation& seen) const;
   /// Adds its quantities.
   static void describe(QuantityGroup& group);
+  /// Adds what is said of its surface, a shape of the body.
+  static void describe_surface(QuantityGroup& group);
 
  private:
   BeamPlan plan_;

@@ -35,6 +35,12 @@ QuantityGroup body_group() {
   return group;
 }
 
+QuantityGroup shapes_of_bodies() {
+  QuantityGroup group = describe_shapes("/bodies/<b>/shapes/<s>/");
+  BeamRecord::describe_surface(group);
+  return group;
+}
+
 QuantityGroup joint_group() {
   QuantityGroup group{.path = "/joints/<j>/", .heading = "of a joint", .quantities = {}};
   describe_joint_place(group);
@@ -90,8 +96,7 @@ const std::vector<QuantityGroup>& result_quantities() {
     add(describe_work());
     add({describe_step_errors(), SystemRecord::describe(), CycleRecord::describe()});
     add(BearingRecord::describe());
-    add({body_group(), describe_shapes("/bodies/<b>/shapes/<s>/"), describe_ground(),
-         describe_shapes("/ground/shapes/<s>/"), joint_group()});
+    add({body_group(), shapes_of_bodies(), describe_ground(), describe_shapes("/ground/shapes/<s>/"), joint_group()});
     add(EffortRecord::describe());
     add({force_group(), ContactRecord::describe(), SurfaceLoadRecord::describe(), ModeRecord::describe()});
     for (QuantityGroup& group : groups) add_dimensions(group);
