@@ -33,7 +33,8 @@ _files, _lines = {}, []
 def run(example, name, *arguments, **environment):
     """Runs an example, as `name`, and returns its results file."""
     out = os.path.join(_folder.name, name)
-    done = subprocess.run([HERSEY, "run", os.path.join(SOURCE, "examples", example, "model.yaml"), "--output", out,
+    model = os.path.join(SOURCE, "examples", example if "/" in example else f"{example}/model") + ".yaml"
+    done = subprocess.run([HERSEY, "run", model, "--output", out,
                            "--force", *arguments], capture_output=True, text=True, timeout=600, check=False,
                           env={**os.environ, **environment})
     if done.returncode != 0:
@@ -43,7 +44,7 @@ def run(example, name, *arguments, **environment):
 
 def results(example):
     if example not in _files:
-        _files[example] = run(example, example, *RUNS[example])
+        _files[example] = run(example, example.replace("/", "_"), *RUNS[example])
     return _files[example]
 
 
