@@ -46,7 +46,7 @@ class BeamRecord {
 
  private:
   BeamPlan plan_;
-  Rows<BeamRow, BeamPlan> rows_;
+  QuantityRows<BeamRow, BeamPlan> rows_;
 };
 
 }  // namespace hersey::run

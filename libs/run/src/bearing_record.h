@@ -42,8 +42,8 @@ class BearingRecord {
 
  private:
   const bearing::FilmForce& film_;
-  Rows<BearingRow, BearingPlan> rows_;
-  Rows<FilmInstant, BearingPlan> fields_;
+  QuantityRows<BearingRow, BearingPlan> rows_;
+  QuantityRows<FilmInstant, BearingPlan> fields_;
 };
 
 }  // namespace hersey::run

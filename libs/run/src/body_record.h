@@ -18,7 +18,7 @@ class BodyRecord {
  private:
   struct Plan {};
   [[nodiscard]] static const QuantityTable<mbd::FrameMotion, Plan>& table();
-  Rows<mbd::FrameMotion, Plan> rows_;
+  QuantityRows<mbd::FrameMotion, Plan> rows_;
 };
 
 }  // namespace hersey::run

@@ -15,7 +15,7 @@ class ContactRecord {
   [[nodiscard]] static QuantityGroup describe();
 
  private:
-  Rows<mbd::ContactObservation, model::Contact> rows_;
+  QuantityRows<mbd::ContactObservation, model::Contact> rows_;
 };
 
 }  // namespace hersey::run

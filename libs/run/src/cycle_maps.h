@@ -39,7 +39,7 @@ class CycleMaps {
   std::vector<BearingCycle> write(bool is_complete);
 
   const model::Machine& machine_;
-  std::vector<Rows<CycleRow, model::Bearing>> series_;
+  std::vector<QuantityRows<CycleRow, model::Bearing>> series_;
   std::vector<CycleSums> sums_;
   int rows_ = 0;
 };

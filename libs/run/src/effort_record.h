@@ -29,7 +29,7 @@ class EffortRecord {
   [[nodiscard]] static const Table& of_couplings();
   [[nodiscard]] static const Table& of_forces();
 
-  std::vector<Rows<Effort, Coordinate>> drives_, couplings_, forces_;
+  std::vector<QuantityRows<Effort, Coordinate>> drives_, couplings_, forces_;
 };
 
 }  // namespace hersey::run

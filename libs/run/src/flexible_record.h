@@ -22,7 +22,7 @@ class FlexibleRecord {
 
  private:
   const model::BuiltFlexible& body_;
-  Rows<FlexibleRow, model::BuiltFlexible> rows_;
+  QuantityRows<FlexibleRow, model::BuiltFlexible> rows_;
 };
 
 }  // namespace hersey::run

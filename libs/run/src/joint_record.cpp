@@ -69,7 +69,8 @@ const std::vector<Attribute<mbd::JointSpec>>& joint_name_attributes() {
 
 std::string group_of(const mbd::JointSpec& joint) { return "/joints/" + joint.name + "/"; }
 
-Rows<mbd::JointObservation, mbd::JointSpec> declare_joint(const mbd::JointSpec& joint, results::Writer& writer) {
+QuantityRows<mbd::JointObservation, mbd::JointSpec> declare_joint(const mbd::JointSpec& joint,
+                                                                  results::Writer& writer) {
   if (degrees_of(joint) > 1)
     writer.labels(group_of(joint) + "coordinate", coordinate_names(joint), "joint coordinates");
   write_once(joint_name_attributes(), group_of(joint), joint, writer);

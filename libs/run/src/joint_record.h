@@ -17,7 +17,7 @@ class JointRecord {
   static void describe(QuantityGroup& group);
 
  private:
-  Rows<mbd::JointObservation, mbd::JointSpec> rows_;
+  QuantityRows<mbd::JointObservation, mbd::JointSpec> rows_;
 };
 
 }  // namespace hersey::run

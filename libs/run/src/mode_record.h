@@ -30,7 +30,7 @@ class ModeRecord {
   const model::Model& model_;
   const model::Machine& machine_;
   results::Writer& writer_;
-  Rows<ModeRow, model::Machine> rows_;
+  QuantityRows<ModeRow, model::Machine> rows_;
 };
 
 }  // namespace hersey::run

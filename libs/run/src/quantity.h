@@ -208,12 +208,13 @@ void write_once(const std::vector<Line>& table, const std::string& group, const 
 
 /// The series of one thing in the results file.
 template <class Thing, class Plan>
-class Rows {
+class QuantityRows {
  public:
   /// Declares those that the thing has.
   /// @param table  outlives this
   /// @param group  of the thing, ends with "/"
-  Rows(const QuantityTable<Thing, Plan>& table, const std::string& group, const Plan& plan, results::Writer& writer) {
+  QuantityRows(const QuantityTable<Thing, Plan>& table, const std::string& group, const Plan& plan,
+               results::Writer& writer) {
     for (const Quantity<Thing, Plan>& quantity : table) {
       const std::vector<std::string> names = quantity.names(plan);
       for (std::size_t k = 0; k < names.size(); ++k)

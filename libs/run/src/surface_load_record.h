@@ -24,7 +24,7 @@ class SurfaceLoadRecord {
   [[nodiscard]] static const std::vector<Attribute<Plan>>& attributes();
 
   const model::Machine& machine_;
-  std::vector<Rows<mbd::ElasticLoad, Plan>> loads_;
+  std::vector<QuantityRows<mbd::ElasticLoad, Plan>> loads_;
 };
 
 }  // namespace hersey::run

@@ -22,7 +22,7 @@ class SystemRecord {
   [[nodiscard]] static QuantityGroup describe();
 
  private:
-  Rows<SystemRow, model::Model> rows_;
+  QuantityRows<SystemRow, model::Model> rows_;
 };
 
 /// How cycles of the machine repeat each other, in the results file.
@@ -40,7 +40,7 @@ class CycleRecord {
     double t = 0, change = 0;
   };
   [[nodiscard]] static const QuantityTable<Row, model::Model>& table();
-  Rows<Row, model::Model> rows_;
+  QuantityRows<Row, model::Model> rows_;
 };
 
 }  // namespace hersey::run

@@ -108,7 +108,7 @@ TEST_CASE("TableOfQuantities_WritesAFileThatSaysWhatItSays") {
   const TemporaryDirectory directory;
   const auto write = [&](const char* name, int wheels) {
     results::Writer writer(directory / name);
-    const Rows<Seen, Machine> rows(table, "/machines/m/", Machine{wheels}, writer);
+    const QuantityRows<Seen, Machine> rows(table, "/machines/m/", Machine{wheels}, writer);
     rows.append({3, {0.5, 1.5, 2.5}});
     rows.append({4, {0.25, 1.25, 2.25}});
     writer.finish(results::Status::completed);
