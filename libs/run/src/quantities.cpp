@@ -172,10 +172,20 @@ nlohmann::ordered_json json_of(const QuantityInfo& quantity) {
   return entry;
 }
 
-/// Text inside a cell of a table.
-std::string cell(std::string text) {
-  for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
-  return text;
+/// Text inside a cell of a table: names in angle brackets are no tags.
+std::string cell(const std::string& text) {
+  std::string safe;
+  bool is_code = false;
+  for (const char sign : text) {
+    if (sign == '`') is_code = !is_code;
+    if (sign == '|')
+      safe += "\\|";
+    else if (sign == '<' && !is_code)
+      safe += "&lt;";
+    else
+      safe += sign;
+  }
+  return safe;
 }
 
 /// "m^3/s" as it is printed.

@@ -48,7 +48,7 @@ beside. A page is never written over what it is made from.
 
 ## Layout
 
-`n` is the number of stored instants, `m` that of stored fields. Vectors of bodies and joints are in ground or joint
+`n` is the number of stored instants, `m` that of stored fields, `c` that of cycles; `<...>` stands for a name. Vectors of bodies and joints are in ground or joint
 axes, those of bearings in the bearing's axes: z along the axis, angle φ from x towards y
 ([definitions and signs](conventions.md)).
 )md";
