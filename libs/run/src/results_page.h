@@ -104,6 +104,8 @@ that still reads the old file keeps it.
 | a kill inside a flush leaves a readable file | `crash_test.cpp: KilledAtAnyMoment_LeavesAReadableFile`, `IndexNodes_LieInOneMemoryPageEach` |
 | a flush reads nothing back, however many series | `writer_test.cpp: Flush_ReadsNothingBack` |
 | units, names, dimensions, xarray; this page lists every dataset | `tests/results_file/results_file_test.py` |
+| every dataset and attribute is in the tables with its unit, and every line of them in some run | `results_file_test.py: test_every_dataset_is_in_the_tables_with_its_unit_and_text`, `test_every_line_of_the_tables_is_in_some_run` |
+| this page is made from the tables | `libs/run/test/quantities_test.cpp: CommittedReferenceOfResults_IsFresh` |
 | the same bits for any number of threads, of the program and of BLAS | `results_file_test.py: test_results_are_the_same_for_any_number_of_..._threads` |
 | a full disk is told and costs the unflushed rows only | `crash_test.cpp: FullDisk_IsToldAndKeepsFlushedRows` |
 | results appear with their model; a run that could not begin leaves nothing | `libs/run/test/resume_test.cpp: ResultsAppear_WithTheirModel` |
