@@ -61,7 +61,7 @@ class Quantity {
  public:
   /// @param get  from a thing, or of a family from thing and place: number, vector of fixed length, or any row
   template <class Get>
-  Quantity(std::string name, std::string unit, std::string text, Get get, More<Plan> more = {})
+  Quantity(const std::string& name, const std::string& unit, const std::string& text, Get get, More<Plan> more = {})
       : more_(std::move(more)) {
     constexpr bool is_family = std::is_invocable_v<Get, const Thing&, std::size_t>;
     const auto value = [get](const Thing& thing, [[maybe_unused]] std::size_t k) -> decltype(auto) {
@@ -82,8 +82,8 @@ class Quantity {
     };
     const bool is_numbered = columns_ == 0 && more_.extent.dimensions.empty();
     info_ = {.name = name,
-             .unit = std::move(unit),
-             .text = std::move(text),
+             .unit = unit,
+             .text = text,
              .shape = columns_ > 1 ? std::to_string(columns_) : more_.extent.text,
              .symbol = more_.symbol,
              .note = more_.note,
@@ -125,18 +125,17 @@ class Constant {
  public:
   /// @param dimension  of its numbers, as in results::Writer::constant; empty: it is one
   template <class Get>
-  Constant(std::string name, std::string unit, std::string text, std::string shape, Get get,
+  Constant(const std::string& name, const std::string& unit, const std::string& text, const std::string& shape, Get get,
            std::string_view dimension = {}, More<Plan> more = {})
       : more_(std::move(more)) {
-    info_ = {.name = std::move(name),
-             .unit = std::move(unit),
-             .text = std::move(text),
-             .shape = std::move(shape),
+    info_ = {.name = name,
+             .unit = unit,
+             .text = text,
+             .shape = shape,
              .symbol = more_.symbol,
              .note = more_.note,
              .kind = QuantityInfo::Kind::constant};
-    write_ = [get, dimension, unit = info_.unit, text = info_.text](const Plan& plan, const std::string& path,
-                                                                    results::Writer& writer) {
+    write_ = [get, dimension, unit, text](const Plan& plan, const std::string& path, results::Writer& writer) {
       const auto values = std::invoke(get, plan);
       if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(values)>>) {
         const double value = values;
@@ -164,11 +163,11 @@ class Attribute {
  public:
   /// @param get  as of a Quantity
   template <class Get>
-  Attribute(std::string name, std::string unit, std::string text, Get get, More<Plan> more = {})
+  Attribute(const std::string& name, const std::string& unit, const std::string& text, Get get, More<Plan> more = {})
       : more_(std::move(more)) {
-    info_ = {.name = std::move(name),
-             .unit = std::move(unit),
-             .text = std::move(text),
+    info_ = {.name = name,
+             .unit = unit,
+             .text = text,
              .symbol = more_.symbol,
              .note = more_.note,
              .kind = QuantityInfo::Kind::attribute,
