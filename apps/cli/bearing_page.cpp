@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <ctime>
+#include <utility>
 
 #include "bearing_table.h"
 #include "hersey/core/version.h"
-#include "hersey/film/observables.h"
 #include "hersey/model/read.h"
 #include "hersey/run/assumptions.h"
+#include "hersey/run/film_fields.h"
 
 namespace hersey::cli {
 namespace {
@@ -25,12 +26,9 @@ void add_fields(const BearingSolution& solution, PageSolution& page) {
   page.z.resize(model.grid.n_z);
   for (int i = 0; i < model.grid.n_phi; ++i) page.phi[i] = model.grid.phi(i);
   for (int j = 0; j < model.grid.n_z; ++j) page.z[j] = model.L * model.grid.z_over_L(j);
-  page.pressure = fields.p;
-  page.thickness = fields.thickness();
-  page.fill = fields.theta;
-  page.asperity_pressure = fields.p_asperity;
-  page.shell_displacement = fields.d_shell;
-  page.journal_displacement = fields.d_journal;
+  for (const run::FilmField& field : run::film_fields())
+    if (Eigen::VectorXd values = field.values(fields); values.size() > 0)
+      page.fields.push_back({field.name, field.unit, field.text, std::move(values)});
 }
 
 void add_features(const BearingSolution& solution, PageSolution& page) {

@@ -7,7 +7,9 @@
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "hersey/run/film_fields.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -184,20 +186,23 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
   const film::FilmModel& model = solution.model;
   const bearing::SteadyState& state = solution.state;
   const film::FilmFields fields = bearing::steady_fields(model, state);
-  const Eigen::VectorXd thickness = fields.thickness();
-  const bool has_shell = fields.d_shell.size() > 0, has_journal = fields.d_journal.size() > 0;
-  std::string text = "angle [deg], z [mm], pressure [MPa], asperity pressure [MPa], film thickness [um], fill fraction";
-  if (has_shell) text += ", shell displacement [um]";
-  if (has_journal) text += ", journal displacement [um]";
+  std::vector<const run::FilmField*> shown;
+  std::vector<Eigen::VectorXd> columns;
+  std::string text = "angle [deg], z [mm]";
+  for (const run::FilmField& field : run::film_fields()) {
+    Eigen::VectorXd values = field.values(fields);
+    if (values.size() == 0) continue;
+    text += ", " + with_unit(field.label, field.shown_unit);
+    shown.push_back(&field);
+    columns.push_back(std::move(values));
+  }
   text += "\n";
   for (int i = 0; i < model.grid.n_phi; ++i) {
     for (int j = 0; j < model.grid.n_z; ++j) {
-      const int k = model.grid.index(i, j);
-      text += fmt::format("{:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}, {:.8g}", 180 / std::numbers::pi * model.grid.phi(i),
-                          1e3 * model.L * model.grid.z_over_L(j), 1e-6 * fields.p[k], 1e-6 * fields.p_asperity[k],
-                          1e6 * thickness[k], fields.theta[k]);
-      if (has_shell) text += fmt::format(", {:.8g}", 1e6 * fields.d_shell[k]);
-      if (has_journal) text += fmt::format(", {:.8g}", 1e6 * fields.d_journal[k]);
+      text += fmt::format("{:.8g}, {:.8g}", 180 / std::numbers::pi * model.grid.phi(i),
+                          1e3 * model.L * model.grid.z_over_L(j));
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        text += fmt::format(", {:.8g}", shown[k]->shown_per_si * columns[k][model.grid.index(i, j)]);
       text += "\n";
     }
   }

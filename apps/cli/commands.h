@@ -111,7 +111,7 @@ struct SolidArguments {
 /// Tells what the model computes but hardly means, one a line on stderr.
 void warn(const std::vector<Fault>& warnings);
 
-/// `hersey schema`: the model file's format. @returns an ExitCode.
-[[nodiscard]] int schema_command(bool markdown);
+/// `hersey schema`: the model file's format, or that of results files. @returns an ExitCode.
+[[nodiscard]] int schema_command(bool results, bool markdown);
 
 }  // namespace hersey::cli

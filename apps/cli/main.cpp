@@ -257,8 +257,9 @@ int dispatch(int argc, char** argv) {
   const CLI::App* modes_app = add_modes_command(app, modes);
   const CLI::App* stress_app = add_stress_command(app, stress);
 
-  bool markdown = false;
+  bool markdown = false, of_results = false;
   CLI::App* schema_app = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
+  schema_app->add_flag("--results", of_results, "Print what results files hold, as JSON for programs, instead");
   schema_app->add_flag("--markdown", markdown, "Print it as the reference page of the documentation instead");
 
   try {
@@ -279,7 +280,7 @@ int dispatch(int argc, char** argv) {
   if (*reduce_app) return reduce_command(reduce);
   if (*modes_app) return modes_command(modes);
   if (*stress_app) return stress_command(stress);
-  return schema_command(markdown);
+  return schema_command(of_results, markdown);
 }
 
 }  // namespace

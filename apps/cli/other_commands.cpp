@@ -10,6 +10,7 @@
 #include "hersey/model/schema.h"
 #include "hersey/model/study.h"
 #include "hersey/report/report.h"
+#include "hersey/run/quantities.h"
 #include "hersey/run/simulate.h"
 #include "output_file.h"
 #include "standard_streams.h"
@@ -94,8 +95,11 @@ int report_command(const ReportArguments& arguments) {
   return kOk;
 }
 
-int schema_command(bool markdown) {
-  fmt::print("{}", markdown ? model::schema_markdown() : model::schema_json());
+int schema_command(bool results, bool markdown) {
+  if (results)
+    fmt::print("{}", markdown ? run::results_schema_markdown() : run::results_schema_json());
+  else
+    fmt::print("{}", markdown ? model::schema_markdown() : model::schema_json());
   return kOk;
 }
 

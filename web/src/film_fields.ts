@@ -1,7 +1,7 @@
 // The fields of one bearing's film at its stored instants, on the unwrapped bearing.
 
 import type { Dataset, Numbers, Run } from "./data";
-import { megapascal, micrometre, percent, type Display } from "./units";
+import { displayOf, megapascal, micrometre, percent, type Display } from "./units";
 
 export interface FieldKind {
   key: string;
@@ -9,7 +9,8 @@ export interface FieldKind {
   display: Display;
 }
 
-export const fieldKinds: FieldKind[] = [
+/** Fields with units of their own, in the order in which they are shown; others follow as their file describes them. */
+const fieldKinds: FieldKind[] = [
   { key: "pressure", label: "Film pressure", display: megapascal },
   { key: "thickness", label: "Film thickness", display: micrometre },
   { key: "fill", label: "Fill fraction", display: percent },
@@ -33,7 +34,7 @@ export class FilmFields {
     const z = run.dataset(path("z"))?.values;
     if (!time || !phi || !z) return null;
     const fields = new Map<string, Dataset>();
-    for (const { key } of fieldKinds) {
+    for (const key of run.namesAfter(path(""))) {
       const dataset = run.dataset(path(key));
       if (dataset && dataset.width === phi.length * z.length) fields.set(key, dataset);
     }
@@ -50,10 +51,12 @@ export class FilmFields {
 
   /** The kinds of field stored, without an asperity pressure that is zero throughout. */
   kinds(): FieldKind[] {
-    return fieldKinds.filter(({ key }) => {
+    const known = fieldKinds.filter(({ key }) => {
       const dataset = this.fields.get(key);
       return dataset !== undefined && (key !== "asperity_pressure" || dataset.values.some((v) => v > 0));
     });
+    const others = [...this.fields].filter(([key]) => !fieldKinds.some((kind) => kind.key === key));
+    return [...known, ...others.map(([key, { description, unit }]) => ({ key, label: description, display: displayOf(unit) }))];
   }
 
   get instants(): number {

@@ -17,9 +17,10 @@ json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
   return result;
 }
 
-json dataset(const Eigen::VectorXd& values, const std::vector<Eigen::Index>& shape, const std::string& unit) {
+json dataset(const Eigen::VectorXd& values, const std::vector<Eigen::Index>& shape, const std::string& unit,
+             const std::string& text = "") {
   const std::vector<double> numbers(values.data(), values.data() + values.size());
-  return {{"unit", unit}, {"description", ""}, {"shape", shape}, {"type", "f4"}, {"data", base64_float32(numbers)}};
+  return {{"unit", unit}, {"description", text}, {"shape", shape}, {"type", "f4"}, {"data", base64_float32(numbers)}};
 }
 
 // The film as a results file stores it, with a single instant.
@@ -30,14 +31,8 @@ json datasets(const PageSolution& solution, const std::string& bearing) {
   result[fields + "time"] = dataset(Eigen::VectorXd::Zero(1), {1}, "s");
   result[fields + "phi"] = dataset(solution.phi, {n_phi}, "rad");
   result[fields + "z"] = dataset(solution.z, {n_z}, "m");
-  result[fields + "pressure"] = dataset(solution.pressure, {1, n_phi, n_z}, "Pa");
-  result[fields + "thickness"] = dataset(solution.thickness, {1, n_phi, n_z}, "m");
-  result[fields + "fill"] = dataset(solution.fill, {1, n_phi, n_z}, "1");
-  result[fields + "asperity_pressure"] = dataset(solution.asperity_pressure, {1, n_phi, n_z}, "Pa");
-  if (solution.shell_displacement.size() > 0)
-    result[fields + "shell_displacement"] = dataset(solution.shell_displacement, {1, n_phi, n_z}, "m");
-  if (solution.journal_displacement.size() > 0)
-    result[fields + "journal_displacement"] = dataset(solution.journal_displacement, {1, n_phi, n_z}, "m");
+  for (const PageField& field : solution.fields)
+    result[fields + field.name] = dataset(field.values, {1, n_phi, n_z}, field.unit, field.text);
   return result;
 }
 

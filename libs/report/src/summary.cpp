@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "hersey/run/quantities.h"
 #include "run_names.h"
 
 namespace hersey::report {
@@ -16,8 +17,40 @@ namespace {
 
 using results::Array;
 using results::Reader;
+using run::QuantityInfo;
+using run::Told;
 
 constexpr double degrees = 180 / std::numbers::pi;
+
+/// What one of the units of the closing table is in SI, the name there, and how many of it are one of SI.
+struct SiUnit {
+  const char* unit;
+  const char* name;
+  double size;
+  double per_si;
+};
+
+SiUnit si_of(const std::string& unit) {
+  constexpr std::array<SiUnit, 10> known{{{"µm", "m", 1e-6, 1e6},
+                                          {"MPa", "Pa", 1e6, 1e-6},
+                                          {"N·mm", "N.m", 1e-3, 1e3},
+                                          {"mm³/s", "m^3/s", 1e-9, 1e9},
+                                          {"°", "rad", std::numbers::pi / 180, degrees},
+                                          {"ms", "s", 1e-3, 1e3},
+                                          {"µs", "s", 1e-6, 1e6},
+                                          {"mJ", "J", 1e-3, 1e3},
+                                          {"%", "", 1e-2, 1e2},
+                                          {"W/mm²", "W/m^2", 1e6, 1e-6}}};
+  const auto* const found =
+      std::find_if(known.begin(), known.end(), [&](const SiUnit& candidate) { return candidate.unit == unit; });
+  return found == known.end() ? SiUnit{unit.c_str(), unit.c_str(), 1, 1} : *found;
+}
+
+/// `text` with `name` in place of what stands in angle brackets.
+std::string filled_in(const std::string& text, const std::string& name) {
+  const std::size_t from = text.find('<');
+  return from == std::string::npos ? text : text.substr(0, from) + name + text.substr(text.find('>', from) + 1);
+}
 
 /// Builds the rows of one file; every method adds a row if the file has the numbers for it.
 class Summary {
@@ -38,46 +71,72 @@ class Summary {
 
  private:
   void bearing_rows() {
+    using As = Told::As;
+    const std::vector<QuantityInfo> quantities = run::quantities_of("/bearings/<b>/");
     for (const std::string& bearing : reader_.children("/bearings")) {
       group_ = bearing;
       path_ = "/bearings/" + bearing + "/";
-      extreme("minimum film thickness (MOFT)", "h_min", smallest, 1e6, "µm", true);
-      extreme("minimum film thickness at the centreline", "h_min_centre", smallest, 1e6, "µm", false);
-      extreme("peak film pressure (POFP)", "p_max", largest, 1e-6, "MPa", true);
-      load();
-      extreme("largest eccentricity ratio", "eccentricity_ratio", largest, 1, "", false);
-      mean("mean power loss in the film", "power_film", 1, "W");
-      mean("mean power loss in asperity contact", "power_asperity", 1, "W");
-      mean("mean friction torque on the journal", "torque_journal", 1e3, "N·mm");
-      mean("mean side flow, left", "flow_left", 1e9, "mm³/s");
-      mean("mean side flow, right", "flow_right", 1e9, "mm³/s");
-      mean("mean supply flow", "flow_supply", 1e9, "mm³/s");
-      feature_flows(bearing);
-      last("eccentricity ratio at the end", "eccentricity_ratio", 1, "");
-      last("attitude angle at the end", "attitude", degrees, "°");
-      last("minimum film thickness at the end", "h_min", 1e6, "µm");
-      last("peak film pressure at the end", "p_max", 1e-6, "MPa");
-      extreme("worst mass-balance error of the film", "mass_balance_error", largest_size, 1, "", false);
+      tell(quantities, {As::smallest, As::largest, As::longest});
+      tell(quantities, {As::mean, As::integral});
+      tell(quantities, {As::at_end});
+      tell(quantities, {As::largest_in_size});
       film_energy_error();
       step_error_rows();
       cycle_rows();
     }
   }
 
+  /// The rows that the table of quantities makes of those told in one of these ways.
+  void tell(const std::vector<QuantityInfo>& quantities, std::initializer_list<Told::As> ways) {
+    for (const QuantityInfo& quantity : quantities)
+      for (const Told& told : quantity.told)
+        if (std::find(ways.begin(), ways.end(), told.as) != ways.end())
+          for (const std::string& name : names_in_file(quantity.name))
+            tell(filled_in(quantity.name, name), filled_in(told.name, name), told);
+  }
+
+  void tell(const std::string& series, const std::string& name, const Told& told) {
+    const double factor = si_of(told.unit).per_si;
+    switch (told.as) {
+      case Told::As::smallest:
+        return extreme(name, series, smallest, factor, told.unit, told.has_place);
+      case Told::As::largest:
+        return extreme(name, series, largest, factor, told.unit, told.has_place);
+      case Told::As::largest_in_size:
+        return extreme(name, series, largest_size, factor, told.unit, told.has_place);
+      case Told::As::longest:
+        return longest(name, series, factor, told.unit);
+      case Told::As::mean:
+        return mean(name, series, factor, told.unit);
+      case Told::As::integral:
+        return total(name, series, factor, told.unit);
+      case Told::As::at_end:
+        return last(name, series, factor, told.unit);
+    }
+  }
+
+  /// What stands in place of <...> in the names of this thing's series; one empty name where nothing does.
+  std::vector<std::string> names_in_file(const std::string& pattern) const {
+    const std::size_t from = pattern.find('<');
+    if (from == std::string::npos) return {""};
+    const std::string prefix = pattern.substr(0, from), suffix = pattern.substr(pattern.find('>') + 1);
+    std::vector<std::string> names;
+    for (const std::string& series : reader_.children(path_.substr(0, path_.size() - 1)))
+      if (series.starts_with(prefix) && series.ends_with(suffix))
+        names.push_back(series.substr(from, series.size() - prefix.size() - suffix.size()));
+    return names;
+  }
+
   /// What the length of the steps has done to the figures, where the run was asked.
   void step_error_rows() {
     const std::string group = "/step_errors/" + group_;
     if (!reader_.has(group)) return;
-    const auto row = [&](const std::string& of, const std::string& attribute, double factor, const std::string& unit) {
-      const auto error = reader_.number_attribute(group, attribute);
-      if (!error || !std::isfinite(*error)) return;
-      add("error by the step: " + of, factor * *error, unit, "estimated by a run with steps twice as long");
-    };
-    row("minimum film thickness (MOFT)", "moft", 1e6, "µm");
-    row("peak film pressure (POFP)", "pofp", 1e-6, "MPa");
-    row("largest film force", "max_force", 1, "N");
-    row("mean power loss", "mean_power", 1, "W");
-    row("mean side flow, both sides", "mean_flow", 1e9, "mm³/s");
+    for (const QuantityInfo& quantity : run::quantities_of("/step_errors/<bearing>/")) {
+      const auto error = reader_.number_attribute(group, quantity.name);
+      if (!error || !std::isfinite(*error)) continue;
+      for (const Told& told : quantity.told)
+        add(told.name, si_of(told.unit).per_si * *error, told.unit, "estimated by a run with steps twice as long");
+    }
   }
 
   /// Losses and loads of the surfaces over the last cycle, or over the whole run where the model has none.
@@ -88,21 +147,21 @@ class Summary {
     const std::string over = is_cycle ? ", last cycle" : "";
     const std::string when =
         is_cycle ? fmt::format("t = {:.4g} to {:.4g} ms", begin.back() * 1e3, end.back() * 1e3) : std::string{};
-    if (is_cycle) {
-      of_cycle("minimum film thickness (MOFT)" + over, "moft", 1e6, "µm");
-      of_cycle("peak film pressure (POFP)" + over, "pofp", 1e-6, "MPa");
-    }
-    last_of("energy lost in the film" + over, "energy_film", 1, "J", when);
-    last_of("energy lost in asperity contact" + over, "energy_asperity", 1, "J", when);
-    if (is_cycle) {
-      last_of("mean power loss in the film" + over, "power_film", 1, "W", when);
-      last_of("mean power loss in asperity contact" + over, "power_asperity", 1, "W", when);
-    }
     const std::vector<double> contact = cycle("contact");
-    if (contact.empty() || contact.back() < 1) return;  // [Pa]: the tail of a distribution of heights, no contact
-    of_cycle("largest contact pressure" + over, "contact", 1e-6, "MPa");
-    largest_of_map("largest mean contact pressure" + over, "asperity_pressure_mean", "MPa");
-    largest_of_map("largest wear load" + over, "wear_load", "W/mm²");
+    const bool touches = !contact.empty() && contact.back() >= 1;  // [Pa]: else the tail of a distribution of heights
+    for (const QuantityInfo& quantity : run::quantities_of("/bearings/<b>/cycles/fields/")) {
+      for (const Told& told : quantity.told) {
+        if (told.only == Told::Only::of_a_cycle && !is_cycle) continue;
+        if (told.only == Told::Only::with_contact && !touches) continue;
+        const double factor = si_of(told.unit).per_si;
+        if (told.as == Told::As::largest)
+          largest_of_map(told.name + over, quantity.name, factor, told.unit);
+        else if (told.has_place)
+          of_cycle(told.name + over, quantity.name, factor, told.unit);
+        else
+          last_of(told.name + over, quantity.name, factor, told.unit, when);
+      }
+    }
   }
 
   std::vector<double> cycle(const std::string& name) const { return values("cycles/fields/" + name); }
@@ -121,14 +180,14 @@ class Summary {
     add(name, factor * all.back(), unit, where + place("cycles/fields/" + series, all.size() - 1));
   }
 
-  /// The largest value of the last cycle's map, in 1e-6 of its unit, and where.
-  void largest_of_map(const std::string& name, const std::string& map, const std::string& unit) {
+  /// The largest value of the last cycle's map, and where.
+  void largest_of_map(const std::string& name, const std::string& map, double factor, const std::string& unit) {
     const std::vector<double> phi = values("fields/phi"), z = values("fields/z"), all = cycle(map);
     const std::size_t n = phi.size() * z.size();
     if (n == 0 || all.size() < n) return;
     const auto last = all.end() - static_cast<std::ptrdiff_t>(n), most = std::max_element(last, all.end());
     const auto k = static_cast<std::size_t>(most - last);
-    add(name, 1e-6 * *most, unit,
+    add(name, factor * *most, unit,
         fmt::format("φ = {:.1f}°, z = {:.2f} mm", phi[k / z.size()] * degrees, z[k % z.size()] * 1e3));
   }
 
@@ -140,23 +199,13 @@ class Summary {
   }
 
   void contact_rows() {
+    using As = Told::As;
+    const std::vector<QuantityInfo> quantities = run::quantities_of("/contacts/<c>/");
     for (const std::string& contact : reader_.children("/contacts")) {
       group_ = "contact " + contact;
       path_ = "/contacts/" + contact + "/";
-      extreme("largest normal force", "normal_force", largest, 1, "N", false);
-      extreme("largest friction force", "friction_force", largest, 1, "N", false);
-      extreme("smallest distance", "gap", smallest, 1e6, "µm", false);
-      total("energy lost in damping", "damping_power", 1e3, "mJ");
-      total("energy lost in friction", "friction_power", 1e3, "mJ");
-    }
-  }
-
-  void feature_flows(const std::string& bearing) {
-    const std::string prefix = "flow_feature_";
-    for (const std::string& series : reader_.children("/bearings/" + bearing)) {
-      if (series.starts_with(prefix)) {
-        mean("mean flow through " + series.substr(prefix.size()), series, 1e9, "mm³/s");
-      }
+      tell(quantities, {As::smallest, As::largest, As::longest});
+      tell(quantities, {As::mean, As::integral});
     }
   }
 
@@ -168,13 +217,8 @@ class Summary {
     mean_of_rows("mean Newton iterations per step", "solver/newton_iterations");
     newton_row();
     step_rows();
-    const std::string error = "power/balance_error";
-    if (reader_.has(path_ + error)) {
-      const std::string unit = reader_.info(path_ + error).unit;
-      extreme("largest residual power of the equations of motion", error, largest_size, 1, unit == "1" ? "" : unit,
-              false);
-      relative_power_error();
-    }
+    tell(run::quantities_of("/"), {Told::As::largest_in_size});
+    relative_power_error();
     energy_rows();
     group_ = "computing";
     if (const double wall = reader_.number_attribute("/", "wall_time").value_or(0); wall > 0) {
@@ -266,7 +310,7 @@ class Summary {
       }
     }
     const std::vector<double> rejected = values("solver/rejected_steps"), drift = values("solver/constraint_drift");
-    extreme("largest estimated error of one step", "solver/step_error", largest, 1, "", false);
+    tell(run::quantities_of("/"), {Told::As::largest});
     if (!rejected.empty() && rejected.back() > 0) add("rejected steps", rejected.back(), "");
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }
@@ -308,6 +352,7 @@ class Summary {
   }
 
   void relative_power_error() {
+    if (!reader_.has("/power/balance_error")) return;
     const auto most = [&](const std::string& name) {
       double size = 0;
       for (const double value : values("power/" + name))
@@ -358,8 +403,9 @@ class Summary {
     return text;
   }
 
-  void load() {
-    const std::vector<double> force = values("force");
+  /// Of a vector with three components.
+  void longest(const std::string& name, const std::string& series, double factor, const std::string& unit) {
+    const std::vector<double> force = values(series);
     double most = -1;
     std::size_t at = 0;
     for (std::size_t k = 0; 3 * k + 2 < force.size(); ++k) {
@@ -369,7 +415,7 @@ class Summary {
         at = k;
       }
     }
-    if (most >= 0) add("largest load", most, "N", instant(at));
+    if (most >= 0) add(name, factor * most, unit, instant(at));
   }
 
   /// Integral over time by the trapezoidal rule: steps may differ in length.
@@ -435,33 +481,6 @@ std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& 
   }
   return rows;
 }
-
-namespace {
-
-/// What one of the units of the closing table is in SI, and the name there.
-struct SiUnit {
-  const char* unit;
-  const char* name;
-  double size;
-};
-
-SiUnit si_of(const std::string& unit) {
-  constexpr std::array<SiUnit, 10> known{{{"µm", "m", 1e-6},
-                                          {"MPa", "Pa", 1e6},
-                                          {"N·mm", "N.m", 1e-3},
-                                          {"mm³/s", "m^3/s", 1e-9},
-                                          {"°", "rad", std::numbers::pi / 180},
-                                          {"ms", "s", 1e-3},
-                                          {"µs", "s", 1e-6},
-                                          {"mJ", "J", 1e-3},
-                                          {"%", "", 1e-2},
-                                          {"W/mm²", "W/m^2", 1e6}}};
-  const auto* const found =
-      std::find_if(known.begin(), known.end(), [&](const SiUnit& candidate) { return candidate.unit == unit; });
-  return found == known.end() ? SiUnit{unit.c_str(), unit.c_str(), 1} : *found;
-}
-
-}  // namespace
 
 std::string summary_json(const std::vector<std::filesystem::path>& results) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -29,9 +29,8 @@ PageSolution small_solution() {
   solution.load = {0, -100};
   solution.phi = Eigen::VectorXd::LinSpaced(4, 0, 3);
   solution.z = Eigen::VectorXd::LinSpaced(3, -0.01, 0.01);
-  for (auto* field : {&solution.pressure, &solution.thickness, &solution.fill, &solution.asperity_pressure}) {
-    *field = Eigen::VectorXd::Constant(12, 0.5);
-  }
+  for (const char* name : {"pressure", "thickness", "fill", "asperity_pressure"})
+    solution.fields.push_back({name, "1", "what it is", Eigen::VectorXd::Constant(12, 0.5)});
   return solution;
 }
 
@@ -59,6 +58,7 @@ TEST_CASE("BearingPage_HoldsFiguresFeaturesAndFields") {
   CHECK(solution["features"][0]["name"] == "inlet");
   CHECK(solution["features"][0]["round"] == true);
   CHECK(solution["datasets"]["/bearings/main/fields/pressure"]["shape"] == json{1, 4, 3});
+  CHECK(solution["datasets"]["/bearings/main/fields/fill"]["description"] == "what it is");
   CHECK(data["bearing"]["solutions"][1]["error"] == "no equilibrium");
   CHECK(data["bearing"]["solutions"][1]["datasets"].empty());
 }

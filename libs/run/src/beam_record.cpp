@@ -1,7 +1,9 @@
-// Beams in the results file.
-#include <algorithm>
+#include "beam_record.h"
 
-#include "recorder.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace hersey::run {
 namespace {
@@ -47,28 +49,6 @@ BeamSurface surface_of(const model::Beam& beam) {
   return surface;
 }
 
-const model::Beam& beam_called(const model::Model& model, const std::string& name) {
-  const auto body = std::find_if(model.bodies.begin(), model.bodies.end(),
-                                 [&](const model::Body& candidate) { return candidate.name == name; });
-  return *body->beam;
-}
-
-/// How far nodes and their axes have moved, seen from the first node.
-Eigen::VectorXd amplitudes_of(const model::Beam& beam, const model::BuiltBeam& built, const mbd::Observation& seen) {
-  const auto pose = [&](std::size_t node) -> const Pose& {
-    return seen.bodies[static_cast<std::size_t>(built.ids.bodies[node].index)].X_WF;
-  };
-  const Pose X_0W = pose(0).inverse();
-  Eigen::VectorXd amplitudes(kPerNode * static_cast<Eigen::Index>(beam.nodes.size()));
-  for (std::size_t i = 0; i < beam.nodes.size(); ++i) {
-    const Pose X = X_0W * pose(i);
-    const Matrix3 turned = X.R - Matrix3::Identity();
-    amplitudes.segment<kPerNode>(kPerNode * static_cast<Eigen::Index>(i)) << X.r - beam.nodes[i], turned.col(0),
-        turned.col(1), turned.col(2);
-  }
-  return amplitudes;
-}
-
 /// Whether a joint or force between bodies holds a node, beyond the beam itself.
 bool is_held(const mbd::MechanismSpec& spec, mbd::BodyId node) {
   const auto on_node = [&](mbd::FrameId frame) {
@@ -83,101 +63,183 @@ bool is_held(const mbd::MechanismSpec& spec, mbd::BodyId node) {
                      [&](const mbd::MechanismSpec::Force& force) { return on_node(force.a) || on_node(force.b); });
 }
 
+Eigen::VectorXd node_positions(const BeamRow& row) {
+  const std::vector<mbd::BodyId>& nodes = row.plan.built.ids.bodies;
+  Eigen::VectorXd positions(3 * static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    positions.segment<3>(3 * static_cast<Eigen::Index>(k)) =
+        row.seen.bodies[static_cast<std::size_t>(nodes[k].index)].X_WF.r;
+  return positions;
+}
+
+/// @param first  of three components
+auto sections(Eigen::Index first) {
+  return [first](const BeamRow& row) { return Eigen::VectorXd(row.sections.middleRows<3>(first).reshaped()); };
+}
+
+auto sum_of_segments(double mbd::ElasticEnergy::*energy) {
+  return [energy](const BeamRow& row) {
+    double sum = 0;
+    for (const mbd::ElasticId id : row.plan.built.ids.segments)
+      sum += row.seen.elastics[static_cast<std::size_t>(id.index)].energy.*energy;
+    return sum;
+  };
+}
+
+/// So many numbers for each node or element.
+Extent<BeamPlan> per_node(int numbers) {
+  return {fmt::format("{} nodes", numbers), [numbers](const BeamPlan& plan, std::size_t /*k*/) {
+            return std::vector{numbers * static_cast<int>(plan.beam.nodes.size())};
+          }};
+}
+Extent<BeamPlan> per_element(int numbers) {
+  return {fmt::format("{} elements", numbers), [numbers](const BeamPlan& plan, std::size_t /*k*/) {
+            return std::vector{numbers * (static_cast<int>(plan.beam.nodes.size()) - 1)};
+          }};
+}
+
+const QuantityTable<BeamRow, BeamPlan>& beam_quantities() {
+  static const QuantityTable<BeamRow, BeamPlan> table{
+      {"strain_energy", "J", "strain energy", sum_of_segments(&mbd::ElasticEnergy::strain), {.note = "of a beam"}},
+      {"dissipation",
+       "W",
+       "power lost to the material's damping",
+       sum_of_segments(&mbd::ElasticEnergy::dissipation),
+       {.note = "of a beam"}},
+      {"amplitudes",
+       "SI",
+       "per node: displacement [m] and change of its x-, y- and z-axis, seen from the first node",
+       [](const BeamRow& row) { return beam_amplitudes(row.plan.beam, row.plan.built, row.seen); },
+       {.note = "of a beam", .extent = per_node(kPerNode)}},
+      {"node_position",
+       "m",
+       "of each node in ground: x, y, z",
+       node_positions,
+       {.note = "of a beam; nodes with frames are bodies `<b>.<frame>` too", .extent = per_node(3)}},
+      {"section_force",
+       "N",
+       "per element in the axes of its middle section: normal force, shear along y and z",
+       sections(0),
+       {.note = "of a beam", .extent = per_element(3)}},
+      {"section_moment",
+       "N.m",
+       "the same: torque, moments about y and z",
+       sections(3),
+       {.note = "of a beam", .extent = per_element(3)}},
+  };
+  return table;
+}
+
+const std::vector<Constant<BeamPlan>>& beam_constants() {
+  static const std::vector<Constant<BeamPlan>> table{
+      {"nodes",
+       "m",
+       "x, y, z of each node undeformed, body axes",
+       "[3 nodes]",
+       [](const BeamPlan& plan) {
+         std::vector<double> places;
+         for (const Vector3& node : plan.beam.nodes) places.insert(places.end(), node.data(), node.data() + 3);
+         return places;
+       },
+       {},
+       {.note = "of a beam"}},
+  };
+  return table;
+}
+
+/// Of its surface, a shape.
+const std::vector<Constant<BeamPlan>>& surface_constants() {
+  const auto of_surface = [](std::vector<double> BeamSurface::*member) {
+    return [member](const BeamPlan& plan) { return surface_of(plan.beam).*member; };
+  };
+  static const std::vector<Constant<BeamPlan>> table{
+      {"corners", "m", "x, y, z of each corner", "[3 corners]", of_surface(&BeamSurface::corners)},
+      {"triangles", "1", "corners of each triangle, counted from 0", "[3 triangles]",
+       of_surface(&BeamSurface::triangles)},
+      {"node", "1", "that each corner follows, counted from 0", "[corners]", of_surface(&BeamSurface::node)},
+      {"offset", "m", "x, y, z of each corner from its node", "[3 corners]", of_surface(&BeamSurface::offset)},
+  };
+  return table;
+}
+
+const std::vector<Attribute<BeamPlan>>& beam_attributes() {
+  static const std::vector<Attribute<BeamPlan>> table{{"beam_nodes", "1", "nodes of a beam", [](const BeamPlan& plan) {
+                                                         return static_cast<int>(plan.beam.nodes.size());
+                                                       }}};
+  return table;
+}
+
+/// Of its surface, a shape.
+const std::vector<Attribute<BeamPlan>>& surface_attributes() {
+  static const std::vector<Attribute<BeamPlan>> table{
+      {"shape", "", "`mesh`", [](const BeamPlan& /*plan*/) { return "mesh"; }},
+      {"held_at_both_ends", "1", "1: a joint or force holds the last node of the beam",
+       [](const BeamPlan& plan) { return plan.is_held_at_both_ends ? 1 : 0; }}};
+  return table;
+}
+
+std::string group_of(const model::BuiltBeam& built) { return "/bodies/" + built.name + "/"; }
+
 }  // namespace
 
-void Recorder::hide_inner_nodes() {
-  const mbd::MechanismSpec& spec = machine_.mechanism->spec();
-  hidden_bodies_.assign(spec.bodies.size(), false);
-  hidden_joints_.assign(spec.joints.size(), false);
-  for (const model::BuiltBeam& beam : machine_.beams) {
-    for (std::size_t i = 0; i < beam.is_named.size(); ++i)
-      hidden_bodies_[static_cast<std::size_t>(beam.ids.bodies[i].index)] = !beam.is_named[i];
-    for (const mbd::JointId joint : beam.ids.freedoms) hidden_joints_[static_cast<std::size_t>(joint.index)] = true;
-  }
-}
+int beam_amplitude_count(const model::BuiltBeam& built) { return kPerNode * static_cast<int>(built.is_named.size()); }
 
-void Recorder::declare_beams() {
-  for (const model::BuiltBeam& built : machine_.beams) {
-    const std::string group = "/bodies/" + built.name, path = group + "/";
-    const model::Beam& beam = beam_called(model_, built.name);
-    const auto nodes = static_cast<int>(beam.nodes.size()), elements = nodes - 1;
-    beams_.push_back(
-        {writer_.series(path + "strain_energy", 1, "J", "strain energy"),
-         writer_.series(path + "dissipation", 1, "W", "power lost to the material's damping"),
-         writer_.series(path + "amplitudes", kPerNode * nodes, "SI",
-                        "per node: displacement [m] and change of its x-, y- and z-axis, seen from the first node"),
-         writer_.series(path + "node_position", 3 * nodes, "m", "of each node in ground: x, y, z"),
-         writer_.series(path + "section_force", 3 * elements, "N",
-                        "per element in the axes of its middle section: normal force, shear along y and z"),
-         writer_.series(path + "section_moment", 3 * elements, "N.m", "the same: torque, moments about y and z")});
-    writer_.attribute(group, "beam_nodes", nodes);
-    std::vector<double> places;
-    for (const Vector3& node : beam.nodes) places.insert(places.end(), node.data(), node.data() + 3);
-    writer_.constant(path + "nodes", places, "m", "x, y, z of each node undeformed, body axes");
-    const BeamSurface surface = surface_of(beam);
-    const std::string shape = group + "/shapes/surface";
-    writer_.attribute(shape, "shape", "mesh");
-    writer_.constant(shape + "/corners", surface.corners, "m", "x, y, z of each corner");
-    writer_.constant(shape + "/triangles", surface.triangles, "1", "corners of each triangle, counted from 0");
-    writer_.attribute(shape, "held_at_both_ends", is_held(machine_.mechanism->spec(), built.ids.bodies.back()) ? 1 : 0);
-    writer_.constant(shape + "/node", surface.node, "1", "that each corner follows, counted from 0");
-    writer_.constant(shape + "/offset", surface.offset, "m", "x, y, z of each corner from its node");
-  }
-}
-
-void Recorder::write_beams(const mbd::Observation& seen) {
-  for (std::size_t i = 0; i < beams_.size(); ++i) {
-    const model::BuiltBeam& built = machine_.beams[i];
-    const auto elements = static_cast<Eigen::Index>(built.segments.size());
-    Eigen::VectorXd forces(3 * elements), moments(3 * elements), positions(3 * (elements + 1));
-    double strain = 0, dissipation = 0;
-    for (Eigen::Index k = 0; k < elements; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const mbd::ElasticObservation& segment = seen.elastics[static_cast<std::size_t>(built.ids.segments[at].index)];
-      const fem::BeamMotionResponse section = built.segments[at]->section(segment.motion);
-      forces.segment<3>(3 * k) = (section.elastic + section.viscous).head<3>();
-      moments.segment<3>(3 * k) = (section.elastic + section.viscous).tail<3>();
-      strain += segment.energy.strain;
-      dissipation += segment.energy.dissipation;
-    }
-    for (Eigen::Index k = 0; k <= elements; ++k)
-      positions.segment<3>(3 * k) =
-          seen.bodies[static_cast<std::size_t>(built.ids.bodies[static_cast<std::size_t>(k)].index)].X_WF.r;
-    beams_[i].strain.append(strain);
-    beams_[i].dissipation.append(dissipation);
-    beams_[i].amplitudes.append(amplitudes_of(beam_called(model_, built.name), built, seen));
-    beams_[i].positions.append(positions);
-    beams_[i].forces.append(forces);
-    beams_[i].moments.append(moments);
-  }
-}
-
-void Recorder::declare_beam_modes() {
-  for (const model::BuiltBeam& built : machine_.beams) {
-    const int width = kPerNode * static_cast<int>(built.is_named.size());
-    const std::string path = "/modes/fields/" + built.name + "_amplitudes_";
-    modes_.beams_real.push_back(writer_.series(path + "real", width, "SI", "mode shape in the beam's amplitudes"));
-    modes_.beams_imaginary.push_back(writer_.series(path + "imaginary", width, "SI", "the same, imaginary part"));
-  }
-}
-
-void Recorder::write_beam_mode(const solver::State& state, const Eigen::VectorXcd& shape) {
-  constexpr double step = 1e-6;  // amplitudes are smooth, and of a mode linear: their difference loses six digits
-  mbd::Mechanism& mechanism = *machine_.mechanism;
-  const auto seen_after = [&](const Eigen::VectorXd& increment) {
-    solver::State moved = state;
-    mechanism.retract(state.q, increment, moved.q);
-    return mechanism.observe(moved);
+Eigen::VectorXd beam_amplitudes(const model::Beam& beam, const model::BuiltBeam& built, const mbd::Observation& seen) {
+  const auto pose = [&](std::size_t node) -> const Pose& {
+    return seen.bodies[static_cast<std::size_t>(built.ids.bodies[node].index)].X_WF;
   };
-  if (machine_.beams.empty()) return;
-  const mbd::Observation here = seen_after(Eigen::VectorXd::Zero(shape.size())), real = seen_after(step * shape.real()),
-                         imaginary = seen_after(step * shape.imag());
-  for (std::size_t i = 0; i < machine_.beams.size(); ++i) {
-    const model::BuiltBeam& built = machine_.beams[i];
-    const model::Beam& beam = beam_called(model_, built.name);
-    const Eigen::VectorXd rest = amplitudes_of(beam, built, here);
-    modes_.beams_real[i].append(Eigen::VectorXd((amplitudes_of(beam, built, real) - rest) / step));
-    modes_.beams_imaginary[i].append(Eigen::VectorXd((amplitudes_of(beam, built, imaginary) - rest) / step));
+  const Pose X_0W = pose(0).inverse();
+  Eigen::VectorXd amplitudes(beam_amplitude_count(built));
+  for (std::size_t i = 0; i < beam.nodes.size(); ++i) {
+    const Pose X = X_0W * pose(i);
+    const Matrix3 turned = X.R - Matrix3::Identity();
+    amplitudes.segment<kPerNode>(kPerNode * static_cast<Eigen::Index>(i)) << X.r - beam.nodes[i], turned.col(0),
+        turned.col(1), turned.col(2);
+  }
+  return amplitudes;
+}
+
+const model::Beam& beam_of(const model::Model& model, const model::BuiltBeam& built) {
+  const auto body = std::find_if(model.bodies.begin(), model.bodies.end(),
+                                 [&](const model::Body& candidate) { return candidate.name == built.name; });
+  return *body->beam;
+}
+
+BeamRecord::BeamRecord(const model::Model& model, const model::Machine& machine, const model::BuiltBeam& built,
+                       results::Writer& writer)
+    : plan_{beam_of(model, built), built, is_held(machine.mechanism->spec(), built.ids.bodies.back())},
+      rows_(beam_quantities(), group_of(built), plan_, writer) {
+  write_once(beam_attributes(), group_of(built), plan_, writer);
+  write_once(beam_constants(), group_of(built), plan_, writer);
+  write_once(surface_attributes(), group_of(built) + "shapes/surface/", plan_, writer);
+  write_once(surface_constants(), group_of(built) + "shapes/surface/", plan_, writer);
+}
+
+void BeamRecord::append(const mbd::Observation& seen) const {
+  const auto& segments = plan_.built.segments;
+  BeamRow row{plan_, seen, {}};
+  row.sections.resize(6, static_cast<Eigen::Index>(segments.size()));
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    const auto elastic = static_cast<std::size_t>(plan_.built.ids.segments[k].index);
+    const fem::BeamMotionResponse section = segments[k]->section(seen.elastics[elastic].motion);
+    row.sections.col(static_cast<Eigen::Index>(k)) = section.elastic + section.viscous;
+  }
+  rows_.append(row);
+}
+
+void BeamRecord::describe(QuantityGroup& group) {
+  run::describe(beam_attributes(), "n", group);
+  run::describe(beam_quantities(), "n", group);
+  run::describe(beam_constants(), "n", group);
+}
+
+void BeamRecord::describe_surface(QuantityGroup& group) {
+  QuantityGroup surface;
+  run::describe(surface_attributes(), "n", surface);
+  run::describe(surface_constants(), "n", surface);
+  for (QuantityInfo& quantity : surface.quantities) {
+    quantity.note = "of a beam's surface, the shape `surface`";
+    group.quantities.push_back(std::move(quantity));
   }
 }
 

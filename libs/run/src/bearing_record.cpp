@@ -1,188 +1,345 @@
-// What the results file keeps of bearings.
-#include <fmt/format.h>
+#include "bearing_record.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "cycle_maps.h"
+#include "geometry_record.h"
 #include "hersey/run/assumptions.h"
-#include "recorder.h"
+#include "hersey/run/film_fields.h"
 
 namespace hersey::run {
 namespace {
 
+using Film = film::FilmObservables;
+using As = Told::As;
+
+/// Of what is seen of the bearing.
+template <class Member>
+auto of_bearing(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, row.seen); };
+}
+
+/// Of where its journal is.
+template <class Member>
+auto of_position(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, row.seen.position); };
+}
+
+/// Of its film.
+template <class Member>
+auto of_film(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, row.seen.film); };
+}
+
+template <class Member>
+auto of_oil(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, row.seen.oil); };
+}
+
+Vector3 force_on_shell(const BearingRow& row) { return row.seen.wrench_on_shell.tail<3>(); }
+Vector3 moment_on_shell(const BearingRow& row) { return row.seen.wrench_on_shell.head<3>(); }
+
 // Attitude: from the load on the journal (the shell's film force turned round) to the line of centres, 0..pi.
-double attitude(const bearing::BearingObservation& seen) {
-  const Eigen::Vector2d load = seen.wrench_on_shell.tail<3>().head<2>();
-  const double cross = load.x() * seen.position.e.y() - load.y() * seen.position.e.x();
-  return std::abs(std::atan2(cross, load.dot(seen.position.e)));
+double attitude(const BearingRow& row) {
+  const Eigen::Vector2d load = force_on_shell(row).head<2>(), e = row.seen.position.e;
+  return std::abs(std::atan2(load.x() * e.y() - load.y() * e.x(), load.dot(e)));
+}
+
+double power_error(const BearingRow& row) { return -row.seen.power_into_bodies - row.seen.film.power_taken(); }
+
+bool has_depth(const BearingPlan& plan) {
+  const std::vector<film::SurfaceFeature>& features = plan.bearing.film.features;
+  return std::any_of(features.begin(), features.end(), [](const film::SurfaceFeature& f) { return f.depth > 0; });
+}
+
+bool conserves_oil(const BearingPlan& plan) { return !film::cavitation_law(plan.bearing.film).loses_oil(); }
+
+bool is_partitioned(const BearingPlan& plan) {
+  return plan.bearing.coupling.scheme == model::CouplingScheme::partitioned;
+}
+
+std::vector<std::string> feature_names(const BearingPlan& plan) {
+  std::vector<std::string> names;
+  for (const film::SurfaceFeature& feature : plan.bearing.film.features) names.push_back(feature.name);
+  return names;
+}
+
+double flow_of_feature(const BearingRow& row, std::size_t k) {
+  return row.seen.film.flow_features[static_cast<Eigen::Index>(k)];
+}
+
+/// A field with one column for each angle: index i n_z + j is angle i, height j.
+Eigen::Map<const Eigen::MatrixXd> by_angle(const Eigen::VectorXd& field, const film::Grid& grid) {
+  return {field.data(), grid.n_z, grid.n_phi};
+}
+
+Eigen::VectorXd h_min_around(const BearingRow& row) {
+  const Eigen::VectorXd thickness = row.fields.thickness();
+  return by_angle(thickness, row.grid).colwise().minCoeff();
+}
+
+Eigen::VectorXd p_max_around(const BearingRow& row) { return by_angle(row.fields.p, row.grid).colwise().maxCoeff(); }
+
+/// The table of what is known of a bearing over time. What is told comes in this order, extremes first.
+const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
+  static const Extent<BearingPlan> around{
+      "n_phi",
+      [](const BearingPlan& plan, std::size_t /*k*/) { return std::vector{plan.bearing.film.grid.n_phi}; },
+      {"fields/phi"}};
+  static const std::string per_angle = "four bytes a number";
+  static const QuantityTable<BearingRow, BearingPlan> table{
+      {"h_min",
+       "m",
+       "smallest film thickness beside features with depth, edges included",
+       of_film(&Film::h_min),
+       {.symbol = "h_min",
+        .told = {{As::smallest, "minimum film thickness (MOFT)", "µm", true},
+                 {As::at_end, "minimum film thickness at the end", "µm"}}}},
+      {"h_min_phi", "rad", "where: bearing angle", of_film(&Film::h_min_phi)},
+      {"h_min_z", "m", "where: axial", of_film(&Film::h_min_z)},
+      {"h_min_centre",
+       "m",
+       "smallest film thickness at z = 0",
+       of_film(&Film::h_min_centre),
+       {.told = {{As::smallest, "minimum film thickness at the centreline", "µm"}}}},
+      {"h_min_features",
+       "m",
+       "smallest thickness over features with depth, that included",
+       of_film(&Film::h_min_features),
+       {.note = "only where there are any", .only = has_depth}},
+      {"p_max",
+       "Pa",
+       "peak film pressure, interpolated",
+       of_film(&Film::p_max),
+       {.symbol = "p_max",
+        .told = {{As::largest, "peak film pressure (POFP)", "MPa", true},
+                 {As::at_end, "peak film pressure at the end", "MPa"}}}},
+      {"p_max_phi", "rad", "where: bearing angle", of_film(&Film::p_max_phi)},
+      {"p_max_z", "m", "where: axial", of_film(&Film::p_max_z)},
+      {"p_max_node", "Pa", "largest nodal film pressure", of_film(&Film::p_max_node)},
+      {"force",
+       "N",
+       "film force on the shell, bearing frame",
+       force_on_shell,
+       {.symbol = "F", .told = {{As::longest, "largest load", "N"}}}},
+      {"force_pressure", "N", "its part from film pressure", of_film(&Film::force_pressure)},
+      {"force_shear", "N", "its part from shear", of_film(&Film::force_shear)},
+      {"force_asperity", "N", "its part from asperity contact", of_film(&Film::force_asperity)},
+      {"moment", "N.m", "film moment on the shell about the bearing's origin", moment_on_shell},
+      {"eccentricity",
+       "m",
+       "journal axis from bore axis at z = 0, bearing frame",
+       of_position(&bearing::GapPosition::e),
+       {.symbol = "e"}},
+      {"eccentricity_ratio",
+       "1",
+       "eccentricity over radial clearance",
+       of_position(&bearing::GapPosition::ratio),
+       {.symbol = "epsilon",
+        .told = {{As::largest, "largest eccentricity ratio"}, {As::at_end, "eccentricity ratio at the end"}}}},
+      {"attitude",
+       "rad",
+       "angle between load and line of centres",
+       attitude,
+       {.note = "from the load to the line of centres", .told = {{As::at_end, "attitude angle at the end", "°"}}}},
+      {"tilt", "1", "slope of the journal's axis in the bearing frame", of_position(&bearing::GapPosition::tilt)},
+      {"speed",
+       "rad/s",
+       "journal's angular velocity relative to the shell",
+       of_position(&bearing::GapPosition::speed),
+       {.symbol = "omega"}},
+      {"power_film",
+       "W",
+       "viscous dissipation in the film",
+       of_film(&Film::power_film),
+       {.told = {{As::mean, "mean power loss in the film", "W"}}}},
+      {"power_asperity",
+       "W",
+       "boundary friction",
+       of_film(&Film::power_asperity),
+       {.told = {{As::mean, "mean power loss in asperity contact", "W"}}}},
+      {"power_stored", "W", "rate of the energy in liner, asperities and compressed oil", of_film(&Film::power_stored)},
+      {"power_oil", "W", "taken along by oil over the edges less what feeds bring", of_film(&Film::power_oil)},
+      {"power_into_bodies", "W", "film wrench times relative velocity (negative: taken)",
+       of_bearing(&bearing::BearingObservation::power_into_bodies)},
+      {"power_error",
+       "W",
+       "put in by the bodies less dissipated, stored and carried out",
+       power_error,
+       {.note = "what the bodies put in less `power_film`, `power_asperity`, `power_stored` and `power_oil`"}},
+      {"torque_journal",
+       "N.m",
+       "friction torque on the journal about its own axis",
+       of_film(&Film::torque_journal),
+       {.told = {{As::mean, "mean friction torque on the journal", "N·mm"}}}},
+      {"torque_shell", "N.m", "friction torque on the shell about its own axis", of_film(&Film::torque_shell)},
+      {"flow_left",
+       "m^3/s",
+       "oil leaving over the edge z = -L/2, mean of the step",
+       of_film(&Film::flow_left),
+       {.told = {{As::mean, "mean side flow, left", "mm³/s"}}}},
+      {"flow_right",
+       "m^3/s",
+       "oil leaving over the edge z = +L/2, mean of the step",
+       of_film(&Film::flow_right),
+       {.told = {{As::mean, "mean side flow, right", "mm³/s"}}}},
+      {"flow_supply",
+       "m^3/s",
+       "oil entering through the supply, mean of the step",
+       of_film(&Film::flow_supply),
+       {.told = {{As::mean, "mean supply flow", "mm³/s"}}}},
+      {"flow_feature_<name>",
+       "m^3/s",
+       "oil entering through this feature, mean of the step",
+       flow_of_feature,
+       {.note = "one hole or groove; part of `flow_supply`",
+        .each = feature_names,
+        .told = {{As::mean, "mean flow through <name>", "mm³/s"}}}},
+      {"storage_rate", "m^3/s", "rate of change of the oil volume in the film, mean of the step",
+       of_film(&Film::storage_rate)},
+      {"oil_volume", "m^3", "oil volume in the film", of_film(&Film::oil_volume)},
+      {"mass_balance_error",
+       "1",
+       "oil of the step that is neither stored nor has passed, over the largest flow",
+       of_film(&Film::mass_balance_error),
+       {.note = "not of `reynolds` films, which do not conserve oil",
+        .only = conserves_oil,
+        .told = {{As::largest_in_size, "worst mass-balance error of the film"}}}},
+      {"oil_through_flow", "m^3", "oil that has passed the film since the start",
+       of_oil(&bearing::OilOfRun::through_flow)},
+      {"oil_unexplained", "m^3", "growth of the oil volume since the start less what has come in",
+       of_oil(&bearing::OilOfRun::unexplained)},
+      {"cavitated_share", "1", "share of the area that is cavitated", of_film(&Film::cavitated_share)},
+      {"rupture_angle",
+       "rad",
+       "where the film at mid-width ruptures; NaN where it is whole",
+       of_film(&Film::rupture_angle),
+       {.note = "with the flow, of its widest cavity"}},
+      {"reformation_angle", "rad", "where it re-forms; NaN where it is whole", of_film(&Film::reformation_angle)},
+      {"film_iterations", "1", "film linearisations in the step",
+       of_bearing(&bearing::BearingObservation::film_iterations)},
+      {"exchanges",
+       "1",
+       "wrenches that film and bodies exchanged in the step; 0: it was solved as one system",
+       of_bearing(&bearing::BearingObservation::exchanges),
+       {.note = "of a partitioned coupling", .only = is_partitioned}},
+      {"h_min_around",
+       "m",
+       "smallest film thickness over the width at each angle of fields/phi",
+       h_min_around,
+       {.note = per_angle, .extent = around, .precision = results::Precision::float32}},
+      {"p_max_around",
+       "Pa",
+       "largest film pressure over the width at each angle of fields/phi",
+       p_max_around,
+       {.note = per_angle, .extent = around, .precision = results::Precision::float32}},
+  };
+  return table;
+}
+
+/// The lines of film_fields() as series.
+const QuantityTable<FilmInstant, BearingPlan>& film_field_quantities() {
+  static const QuantityTable<FilmInstant, BearingPlan> table = [] {
+    const Extent<BearingPlan> nodes{"n_phi, n_z",
+                                    [](const BearingPlan& plan, std::size_t /*k*/) {
+                                      const film::Grid& grid = plan.bearing.film.grid;
+                                      return std::vector{grid.n_phi, grid.n_z};
+                                    },
+                                    {"fields/phi", "fields/z"}};
+    QuantityTable<FilmInstant, BearingPlan> lines{{"fields/time", "s", "time of the fields", &FilmInstant::t}};
+    for (const FilmField& field : film_fields())
+      lines.push_back({"fields/" + field.name,
+                       field.unit,
+                       field.text,
+                       [&field](const FilmInstant& instant) { return field.values(instant.fields); },
+                       {.symbol = field.symbol,
+                        .note = field.note,
+                        .only = [&field](const BearingPlan& plan) { return field.values(plan.start).size() > 0; },
+                        .extent = nodes}});
+    return lines;
+  }();
+  return table;
+}
+
+/// Where the nodes lie: the dimensions of all fields.
+const std::vector<Constant<BearingPlan>>& film_nodes() {
+  static const std::vector<Constant<BearingPlan>> table{
+      {"fields/phi", "rad", "bearing angle of the nodes", "[n_phi]",
+       [](const BearingPlan& plan) {
+         const film::Grid& grid = plan.bearing.film.grid;
+         std::vector<double> phi(static_cast<std::size_t>(grid.n_phi));
+         for (int i = 0; i < grid.n_phi; ++i) phi[static_cast<std::size_t>(i)] = grid.phi(i);
+         return phi;
+       }},
+      {"fields/z", "m", "axial position of the nodes", "[n_z]",
+       [](const BearingPlan& plan) {
+         const film::FilmModel& film = plan.bearing.film;
+         std::vector<double> z(static_cast<std::size_t>(film.grid.n_z));
+         for (int j = 0; j < film.grid.n_z; ++j) z[static_cast<std::size_t>(j)] = film.L * film.grid.z_over_L(j);
+         return z;
+       }},
+  };
+  return table;
+}
+
+/// What decides the results of this bearing.
+std::vector<std::pair<std::string, std::string>> own_assumptions(const BearingPlan& plan) {
+  std::vector<std::pair<std::string, std::string>> own;
+  const std::string prefix = plan.bearing.name + ": ";
+  for (const auto& [name, text] : assumptions(plan.model))
+    if (name.starts_with(prefix)) own.emplace_back(name.substr(prefix.size()), text);
+  return own;
+}
+
+const std::vector<Attribute<BearingPlan>>& bearing_attributes() {
+  const auto of_model = [](auto member) {
+    return [member](const BearingPlan& plan) { return std::invoke(member, plan.bearing.film); };
+  };
+  const auto names = [](const BearingPlan& plan) {
+    std::vector<std::string> all;
+    for (const auto& [name, text] : own_assumptions(plan)) all.push_back(name);
+    return all;
+  };
+  static const std::vector<Attribute<BearingPlan>> table{
+      {"radius", "m", "of the bore", of_model(&film::FilmModel::R), {.symbol = "R"}},
+      {"width", "m", "of the bearing", of_model(&film::FilmModel::L), {.symbol = "L"}},
+      {"radial_clearance", "m", "of the bearing", of_model(&film::FilmModel::c), {.symbol = "c"}},
+      {"n_phi", "1", "nodes around", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_phi; }},
+      {"n_z", "1", "nodes along", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_z; }},
+      {"<assumption>",
+       "",
+       "what decides the results of this bearing",
+       [](const BearingPlan& plan, std::size_t k) { return own_assumptions(plan)[k].second; },
+       {.note = "its rows of `/assumptions`", .each = names}},
+  };
+  return table;
+}
+
+std::string group_of(const model::Bearing& bearing) { return "/bearings/" + bearing.name + "/"; }
+
+/// What is written once comes first: series name the nodes as their dimensions.
+const BearingPlan& written(const BearingPlan& plan, results::Writer& writer) {
+  write_once(bearing_attributes(), group_of(plan.bearing), plan, writer);
+  write_once(film_nodes(), group_of(plan.bearing), plan, writer);
+  return plan;
 }
 
 }  // namespace
 
-Recorder::BearingSeries Recorder::declare_bearing(const model::Bearing& bearing) {
-  const std::string group = "/bearings/" + bearing.name, path = group + "/";
-  const film::FilmModel& film = bearing.film;
-  writer_.attribute(group, "radius", film.R);
-  writer_.attribute(group, "width", film.L);
-  writer_.attribute(group, "radial_clearance", film.c);
-  writer_.attribute(group, "n_phi", film.grid.n_phi);
-  writer_.attribute(group, "n_z", film.grid.n_z);
-  for (const auto& [name, text] : assumptions(model_)) {
-    if (name.starts_with(bearing.name + ": ")) writer_.attribute(group, name.substr(bearing.name.size() + 2), text);
-  }
-  const auto series = [&](const char* name, const char* unit, const char* description, int columns = 1) {
-    return writer_.series(path + name, columns, unit, description);
-  };
-  BearingSeries s;
-  s.eccentricity = series("eccentricity", "m", "journal axis from bore axis at z = 0, bearing frame", 2);
-  s.ratio = series("eccentricity_ratio", "1", "eccentricity over radial clearance");
-  s.attitude = series("attitude", "rad", "angle between load and line of centres");
-  s.tilt = series("tilt", "1", "slope of the journal's axis in the bearing frame", 2);
-  s.h_min = series("h_min", "m", "smallest film thickness beside features with depth, edges included");
-  s.h_min_phi = series("h_min_phi", "rad", "where: bearing angle");
-  s.h_min_z = series("h_min_z", "m", "where: axial");
-  s.h_min_centre = series("h_min_centre", "m", "smallest film thickness at z = 0");
-  if (std::any_of(film.features.begin(), film.features.end(), [](const auto& f) { return f.depth > 0; }))
-    s.h_min_features = series("h_min_features", "m", "smallest thickness over features with depth, that included");
-  s.p_max = series("p_max", "Pa", "peak film pressure, interpolated");
-  s.p_max_phi = series("p_max_phi", "rad", "where: bearing angle");
-  s.p_max_z = series("p_max_z", "m", "where: axial");
-  s.p_max_node = series("p_max_node", "Pa", "largest nodal film pressure");
-  s.force = series("force", "N", "film force on the shell, bearing frame", 3);
-  s.force_pressure = series("force_pressure", "N", "its part from film pressure", 3);
-  s.force_shear = series("force_shear", "N", "its part from shear", 3);
-  s.force_asperity = series("force_asperity", "N", "its part from asperity contact", 3);
-  s.moment = series("moment", "N.m", "film moment on the shell about the bearing's origin", 3);
-  s.speed = series("speed", "rad/s", "journal's angular velocity relative to the shell");
-  s.torque_journal = series("torque_journal", "N.m", "friction torque on the journal about its own axis");
-  s.torque_shell = series("torque_shell", "N.m", "friction torque on the shell about its own axis");
-  s.power_film = series("power_film", "W", "viscous dissipation in the film");
-  s.power_asperity = series("power_asperity", "W", "boundary friction");
-  s.power_stored = series("power_stored", "W", "rate of the energy in liner, asperities and compressed oil");
-  s.power_oil = series("power_oil", "W", "taken along by oil over the edges less what feeds bring");
-  s.power_into_bodies = series("power_into_bodies", "W", "film wrench times relative velocity (negative: taken)");
-  s.power_error = series("power_error", "W", "put in by the bodies less dissipated, stored and carried out");
-  s.flow_left = series("flow_left", "m^3/s", "oil leaving over the edge z = -L/2, mean of the step");
-  s.flow_right = series("flow_right", "m^3/s", "oil leaving over the edge z = +L/2, mean of the step");
-  s.flow_supply = series("flow_supply", "m^3/s", "oil entering through the supply, mean of the step");
-  for (const film::SurfaceFeature& feature : film.features) {
-    s.flow_features.push_back(series(("flow_feature_" + feature.name).c_str(), "m^3/s",
-                                     "oil entering through this feature, mean of the step"));
-  }
-  s.storage_rate = series("storage_rate", "m^3/s", "rate of change of the oil volume in the film, mean of the step");
-  s.oil_volume = series("oil_volume", "m^3", "oil volume in the film");
-  if (!film::cavitation_law(film).loses_oil())
-    s.mass_balance_error = series("mass_balance_error", "1",
-                                  "oil of the step that is neither stored nor has passed, over the largest flow");
-  s.oil_through_flow = series("oil_through_flow", "m^3", "oil that has passed the film since the start");
-  s.oil_unexplained =
-      series("oil_unexplained", "m^3", "growth of the oil volume since the start less what has come in");
-  s.cavitated_share = series("cavitated_share", "1", "share of the area that is cavitated");
-  s.rupture_angle = series("rupture_angle", "rad", "where the film at mid-width ruptures; NaN where it is whole");
-  s.reformation_angle = series("reformation_angle", "rad", "where it re-forms; NaN where it is whole");
-  s.film_iterations = series("film_iterations", "1", "film linearisations in the step");
-  if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
-    s.exchanges =
-        series("exchanges", "1", "wrenches that film and bodies exchanged in the step; 0: it was solved as one system");
-  const auto around = [&](const char* name, const char* unit, const char* description) {
-    return writer_.series(path + name, film.grid.n_phi, unit, description, results::Precision::float32,
-                          path + "fields/phi");
-  };
-  s.h_min_around = around("h_min_around", "m", "smallest film thickness over the width at each angle of fields/phi");
-  s.p_max_around = around("p_max_around", "Pa", "largest film pressure over the width at each angle of fields/phi");
-  declare_fields(bearing, s);
-  return s;
-}
+BearingRecord::BearingRecord(const BearingPlan& plan, const bearing::FilmForce& film, results::Writer& writer)
+    : film_(film),
+      rows_(bearing_quantities(), group_of(plan.bearing), written(plan, writer), writer),
+      fields_(film_field_quantities(), group_of(plan.bearing), plan, writer) {}
 
-void Recorder::declare_fields(const model::Bearing& bearing, BearingSeries& s) {
-  const std::string path = "/bearings/" + bearing.name + "/fields/";
-  const film::Grid& grid = bearing.film.grid;
-  const std::array<int, 2> shape{grid.n_phi, grid.n_z};
-  const std::array<std::string, 2> nodes{path + "phi", path + "z"};
-  s.field_time = writer_.series(path + "time", 1, "s", "time of the fields");
-  s.pressure = writer_.field(path + "pressure", shape, "Pa", "film pressure", nodes);
-  s.thickness = writer_.field(path + "thickness", shape, "m", "film thickness, depth of features included", nodes);
-  s.fill = writer_.field(path + "fill", shape, "1", "fill fraction", nodes);
-  s.asperity_pressure = writer_.field(path + "asperity_pressure", shape, "Pa", "asperity contact pressure", nodes);
-  const film::FilmFields start = machine_.bearings[bearings_.size()].bearing->fields();
-  const auto displacement = [&](const char* name, const char* whose) {
-    return writer_.field(path + name, shape, "m", fmt::format("radial displacement of the {}, outward", whose), nodes);
-  };
-  if (start.d_shell.size() > 0) s.shell_displacement = displacement("shell_displacement", "shell's surface");
-  if (start.d_journal.size() > 0) s.journal_displacement = displacement("journal_displacement", "journal's surface");
-}
-
-void Recorder::write_bearing(const BearingSeries& s, const bearing::BearingObservation& seen) const {
-  const film::FilmObservables& film = seen.film;
-  s.eccentricity.append(seen.position.e);
-  s.ratio.append(seen.position.ratio());
-  s.attitude.append(attitude(seen));
-  s.tilt.append(seen.position.tilt);
-  s.h_min.append(film.h_min);
-  s.h_min_phi.append(film.h_min_phi);
-  s.h_min_z.append(film.h_min_z);
-  s.h_min_centre.append(film.h_min_centre);
-  if (s.h_min_features) s.h_min_features->append(film.h_min_features);
-  s.p_max.append(film.p_max);
-  s.p_max_phi.append(film.p_max_phi);
-  s.p_max_z.append(film.p_max_z);
-  s.p_max_node.append(film.p_max_node);
-  s.force.append(Vector3(seen.wrench_on_shell.tail<3>()));
-  s.force_pressure.append(film.force_pressure);
-  s.force_shear.append(film.force_shear);
-  s.force_asperity.append(film.force_asperity);
-  s.moment.append(Vector3(seen.wrench_on_shell.head<3>()));
-  s.speed.append(seen.position.speed);
-  s.torque_journal.append(film.torque_journal);
-  s.torque_shell.append(film.torque_shell);
-  s.power_film.append(film.power_film);
-  s.power_asperity.append(film.power_asperity);
-  s.power_stored.append(film.power_stored);
-  s.power_oil.append(film.power_oil);
-  s.power_into_bodies.append(seen.power_into_bodies);
-  s.power_error.append(-seen.power_into_bodies - film.power_taken());
-  s.flow_left.append(film.flow_left);
-  s.flow_right.append(film.flow_right);
-  s.flow_supply.append(film.flow_supply);
-  for (std::size_t f = 0; f < s.flow_features.size(); ++f) {
-    s.flow_features[f].append(film.flow_features[static_cast<Eigen::Index>(f)]);
-  }
-  s.storage_rate.append(film.storage_rate);
-  s.oil_volume.append(film.oil_volume);
-  if (s.mass_balance_error) s.mass_balance_error->append(film.mass_balance_error);
-  s.oil_through_flow.append(seen.oil.through_flow);
-  s.oil_unexplained.append(seen.oil.unexplained);
-  s.cavitated_share.append(film.cavitated_share);
-  s.rupture_angle.append(film.rupture_angle);
-  s.reformation_angle.append(film.reformation_angle);
-  s.film_iterations.append(seen.film_iterations);
-  if (s.exchanges) s.exchanges->append(seen.exchanges);
-}
-
-// Over the width at each angle: index i n_z + j of a field is angle i, height j.
-void Recorder::write_around(std::size_t bearing) const {
-  const film::FilmFields fields = machine_.bearings[bearing].bearing->fields();
-  const film::Grid& grid = model_.bearings[bearing].film.grid;
-  const Eigen::VectorXd thickness = fields.thickness();
-  using Map = Eigen::Map<const Eigen::MatrixXd>;
-  const Eigen::VectorXd h = Map(thickness.data(), grid.n_z, grid.n_phi).colwise().minCoeff();
-  const Eigen::VectorXd p = Map(fields.p.data(), grid.n_z, grid.n_phi).colwise().maxCoeff();
-  bearings_[bearing].h_min_around.append(h);
-  bearings_[bearing].p_max_around.append(p);
-}
-
-void Recorder::write_fields(const StepRecord& step) {
-  for (std::size_t i = 0; i < bearings_.size(); ++i) {
-    const film::FilmFields fields = machine_.bearings[i].bearing->fields();
-    bearings_[i].field_time.append(step.mechanism.t);
-    bearings_[i].pressure.append(fields.p);
-    bearings_[i].thickness.append(fields.thickness());
-    bearings_[i].fill.append(fields.theta);
-    bearings_[i].asperity_pressure.append(fields.p_asperity);
-    if (bearings_[i].shell_displacement) bearings_[i].shell_displacement->append(fields.d_shell);
-    if (bearings_[i].journal_displacement) bearings_[i].journal_displacement->append(fields.d_journal);
-  }
+std::vector<QuantityGroup> BearingRecord::describe() {
+  QuantityGroup figures{.path = "/bearings/<b>/", .heading = "of a bearing", .quantities = {}};
+  run::describe(bearing_attributes(), "n", figures);
+  describe_link(figures);
+  run::describe(bearing_quantities(), "n", figures);
+  run::describe(film_nodes(), "m", figures);
+  run::describe(film_field_quantities(), "m", figures);
+  return {figures, CycleMaps::describe()};
 }
 
 }  // namespace hersey::run

@@ -1,41 +1,71 @@
-// What the results file keeps of contacts.
-#include "recorder.h"
+#include "contact_record.h"
+
+#include "geometry_record.h"
 
 namespace hersey::run {
+namespace {
 
-void Recorder::declare_contacts() {
-  for (const model::Contact& contact : model_.contacts) {
-    const std::string group = "/contacts/" + contact.name, path = group + "/";
-    writer_.attribute(group, "first", contact.first.body + "." + contact.first.shape);
-    writer_.attribute(group, "second", contact.second.body + "." + contact.second.shape);
-    writer_.attribute(group, "stiffness", contact.law.stiffness);
-    writer_.attribute(group, "exponent", contact.law.exponent);
-    writer_.attribute(group, "damping", contact.law.damping);
-    const auto series = [&](const char* name, const char* unit, const char* description, int columns = 1) {
-      return writer_.series(path + name, columns, unit, description);
-    };
-    contacts_.push_back(
-        {series("gap", "m", "smallest distance of the shapes, negative where they overlap"),
-         series("normal_force", "N", "sum of the normal forces of all spots"),
-         series("friction_force", "N", "size of the friction force"),
-         series("force", "N", "on the second shape's body, ground axes", 3),
-         series("position", "m", "centre of the normal forces in ground; not a number without contact", 3),
-         series("damping_power", "W", "taken by the contact's damping"),
-         series("friction_power", "W", "taken by friction"), series("spots", "1", "number of spots that touch")});
-  }
+const std::vector<Attribute<model::Contact>>& contact_attributes() {
+  static const auto name_of = [](const model::ShapeName& shape) { return shape.body + "." + shape.shape; };
+  static const std::vector<Attribute<model::Contact>> table{
+      {"first", "", "shape as `body.shape`", [](const model::Contact& contact) { return name_of(contact.first); }},
+      {"second", "", "the other one", [](const model::Contact& contact) { return name_of(contact.second); }},
+      {"stiffness", "SI", "of the law, as worked out", part(&model::Contact::law, &mbd::ContactLaw::stiffness)},
+      {"exponent", "1", "of the law", part(&model::Contact::law, &mbd::ContactLaw::exponent)},
+      {"damping", "SI", "of the law", part(&model::Contact::law, &mbd::ContactLaw::damping)},
+  };
+  return table;
 }
 
-void Recorder::write_contacts(const std::vector<mbd::ContactObservation>& seen) const {
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    contacts_[i].gap.append(seen[i].gap);
-    contacts_[i].normal_force.append(seen[i].normal_force);
-    contacts_[i].friction_force.append(seen[i].friction.norm());
-    contacts_[i].force.append(seen[i].force);
-    contacts_[i].position.append(seen[i].position);
-    contacts_[i].damping_power.append(seen[i].damping_power);
-    contacts_[i].friction_power.append(seen[i].friction_power);
-    contacts_[i].spots.append(seen[i].spots);
-  }
+const QuantityTable<mbd::ContactObservation, model::Contact>& contact_quantities() {
+  using As = Told::As;
+  static const QuantityTable<mbd::ContactObservation, model::Contact> table{
+      {"normal_force",
+       "N",
+       "sum of the normal forces of all spots",
+       &mbd::ContactObservation::normal_force,
+       {.told = {{.as = As::largest, .name = "largest normal force", .unit = "N"}}}},
+      {"friction_force",
+       "N",
+       "size of the friction force",
+       [](const mbd::ContactObservation& seen) { return seen.friction.norm(); },
+       {.told = {{.as = As::largest, .name = "largest friction force", .unit = "N"}}}},
+      {"gap",
+       "m",
+       "smallest distance of the shapes, negative where they overlap",
+       &mbd::ContactObservation::gap,
+       {.told = {{.as = As::smallest, .name = "smallest distance", .unit = "µm"}}}},
+      {"force", "N", "on the second shape's body, ground axes", &mbd::ContactObservation::force},
+      {"position", "m", "centre of the normal forces in ground; not a number without contact",
+       &mbd::ContactObservation::position},
+      {"damping_power",
+       "W",
+       "taken by the contact's damping",
+       &mbd::ContactObservation::damping_power,
+       {.told = {{.as = As::integral, .name = "energy lost in damping", .unit = "mJ"}}}},
+      {"friction_power",
+       "W",
+       "taken by friction",
+       &mbd::ContactObservation::friction_power,
+       {.told = {{.as = As::integral, .name = "energy lost in friction", .unit = "mJ"}}}},
+      {"spots", "1", "number of spots that touch", &mbd::ContactObservation::spots},
+  };
+  return table;
+}
+
+}  // namespace
+
+ContactRecord::ContactRecord(const model::Contact& contact, results::Writer& writer)
+    : rows_(contact_quantities(), "/contacts/" + contact.name + "/", contact, writer) {
+  write_once(contact_attributes(), "/contacts/" + contact.name + "/", contact, writer);
+}
+
+QuantityGroup ContactRecord::describe() {
+  QuantityGroup group{.path = "/contacts/<c>/", .heading = "of a contact", .quantities = {}};
+  run::describe(contact_attributes(), "n", group);
+  describe_link(group);
+  run::describe(contact_quantities(), "n", group);
+  return group;
 }
 
 }  // namespace hersey::run

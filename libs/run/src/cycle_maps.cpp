@@ -1,68 +1,119 @@
 #include "cycle_maps.h"
 
-#include <array>
 #include <string>
-
-#include "film_nodes.h"
 
 namespace hersey::run {
 namespace {
 
-template <class Series>
-void append(const Series& series, const FilmExtreme& extreme) {
-  series.value.append(extreme.value);
-  series.t.append(extreme.t);
-  series.phi.append(extreme.phi);
-  series.z.append(extreme.z);
+using As = Told::As;
+using Only = Told::Only;
+using CycleLine = Quantity<CycleRow, model::Bearing>;
+using CycleTable = QuantityTable<CycleRow, model::Bearing>;
+
+template <class Member>
+auto of_cycle(Member member) {
+  return [member](const CycleRow& row) { return std::invoke(member, row.cycle); };
 }
+
+/// Energy over the cycle's duration.
+auto mean_power(double BearingCycle::*energy) {
+  return [energy](const CycleRow& row) {
+    const double duration = row.cycle.duration();
+    return duration > 0 ? row.cycle.*energy / duration : 0;
+  };
+}
+
+/// Four lines: the value, when and where.
+void add_extreme(const std::string& name, const char* unit, const char* text, FilmExtreme BearingCycle::*extreme,
+                 const Told& told, CycleTable& table) {
+  const auto of = [extreme](double FilmExtreme::*member) {
+    return [extreme, member](const CycleRow& row) { return row.cycle.*extreme.*member; };
+  };
+  table.push_back({name, unit, text, of(&FilmExtreme::value), {.told = {told}}});
+  table.push_back({name + "_time", "s", "when", of(&FilmExtreme::t)});
+  table.push_back({name + "_phi", "rad", "where: bearing angle", of(&FilmExtreme::phi)});
+  table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z)});
+}
+
+CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::VectorXd BearingCycle::*values,
+                   const char* note = "", std::vector<Told> told = {}) {
+  return {name,
+          unit,
+          text,
+          of_cycle(values),
+          {.note = note,
+           .extent = {"n_phi, n_z",
+                      [](const model::Bearing& bearing, std::size_t /*k*/) {
+                        return std::vector{bearing.film.grid.n_phi, bearing.film.grid.n_z};
+                      },
+                      {"../../fields/phi", "../../fields/z"}},
+           .told = std::move(told)}};
+}
+
+const CycleTable& cycle_quantities() {
+  static const CycleTable table = [] {
+    using C = BearingCycle;
+    CycleTable lines{
+        {"begin", "s", "time at the beginning of the cycle", of_cycle(&C::begin)},
+        {"end", "s", "time at its end", of_cycle(&C::end)},
+        {"complete", "1", "1: a cycle of the model; 0: the whole run", &CycleRow::is_complete},
+    };
+    add_extreme("moft", "m", "minimum oil film thickness, edges included", &C::moft,
+                {As::at_end, "minimum film thickness (MOFT)", "µm", true, Only::of_a_cycle}, lines);
+    add_extreme("pofp", "Pa", "peak oil film pressure, interpolated", &C::pofp,
+                {As::at_end, "peak film pressure (POFP)", "MPa", true, Only::of_a_cycle}, lines);
+    lines.insert(lines.end(),
+                 {{"energy_film",
+                   "J",
+                   "viscous dissipation in the film over the cycle",
+                   of_cycle(&C::energy_film),
+                   {.told = {{As::at_end, "energy lost in the film", "J"}}}},
+                  {"energy_asperity",
+                   "J",
+                   "boundary friction over the cycle",
+                   of_cycle(&C::energy_asperity),
+                   {.told = {{As::at_end, "energy lost in asperity contact", "J"}}}},
+                  {"power_film",
+                   "W",
+                   "viscous dissipation, mean over the cycle",
+                   mean_power(&C::energy_film),
+                   {.told = {{As::at_end, "mean power loss in the film", "W", false, Only::of_a_cycle}}}},
+                  {"power_asperity",
+                   "W",
+                   "boundary friction, mean over the cycle",
+                   mean_power(&C::energy_asperity),
+                   {.told = {{As::at_end, "mean power loss in asperity contact", "W", false, Only::of_a_cycle}}}}});
+    add_extreme("contact", "Pa", "largest contact pressure of a node", &C::contact,
+                {As::at_end, "largest contact pressure", "MPa", true, Only::with_contact}, lines);
+    const auto told_of_map = [](const char* name, const char* unit) {
+      return std::vector<Told>{{As::largest, name, unit, true, Only::with_contact}};
+    };
+    lines.insert(lines.end(),
+                 {map_line("asperity_pressure_mean", "Pa", "contact pressure, mean over the cycle", &C::mean_contact,
+                           "", told_of_map("largest mean contact pressure", "MPa")),
+                  map_line("wear_load", "W/m^2", "contact pressure times sliding speed, mean over the cycle",
+                           &C::wear_load, "times the friction coefficient it is the mean heat of contact",
+                           told_of_map("largest wear load", "W/mm²")),
+                  map_line("thickness_min", "m", "smallest film thickness in the cycle", &C::h_min, "MOFT map"),
+                  map_line("thickness_min_time", "s", "when", &C::t_h_min),
+                  map_line("pressure_max", "Pa", "largest film pressure in the cycle", &C::p_max, "POFP map"),
+                  map_line("pressure_max_time", "s", "when", &C::t_p_max)});
+    return lines;
+  }();
+  return table;
+}
+
+// A group called fields counts its rows by itself: cycles are no instants.
+const char* const group_of_cycles = "cycles/fields/";
 
 }  // namespace
 
 CycleMaps::CycleMaps(const model::Model& model, const model::Machine& machine, results::Writer& writer)
     : machine_(machine) {
-  series_.reserve(model.bearings.size());
-  sums_.reserve(model.bearings.size());
   for (const model::Bearing& bearing : model.bearings) {
-    series_.push_back(declare(bearing, writer));
+    series_.emplace_back(cycle_quantities(), "/bearings/" + bearing.name + "/" + group_of_cycles, bearing, writer);
     sums_.emplace_back(bearing.film);
   }
-}
-
-// A group called fields counts its rows by itself: cycles are no instants.
-CycleMaps::BearingSeries CycleMaps::declare(const model::Bearing& bearing, results::Writer& writer) {
-  write_film_nodes(bearing, writer);
-  const std::string path = "/bearings/" + bearing.name + "/cycles/fields/";
-  const auto series = [&](const std::string& name, const char* unit, const std::string& description) {
-    return writer.series(path + name, 1, unit, description);
-  };
-  const auto extreme = [&](const std::string& name, const char* unit, const std::string& description) {
-    return ExtremeSeries{.value = series(name, unit, description),
-                         .t = series(name + "_time", "s", "when"),
-                         .phi = series(name + "_phi", "rad", "where: bearing angle"),
-                         .z = series(name + "_z", "m", "where: axial")};
-  };
-  const std::array<int, 2> shape{bearing.film.grid.n_phi, bearing.film.grid.n_z};
-  const std::string fields = "/bearings/" + bearing.name + "/fields/";
-  const std::array<std::string, 2> nodes{fields + "phi", fields + "z"};
-  const auto map = [&](const char* name, const char* unit, const char* description) {
-    return writer.field(path + name, shape, unit, description, nodes);
-  };
-  return {.begin = series("begin", "s", "time at the beginning of the cycle"),
-          .end = series("end", "s", "time at its end"),
-          .is_complete = series("complete", "1", "1: a cycle of the model; 0: the whole run"),
-          .energy_film = series("energy_film", "J", "viscous dissipation in the film over the cycle"),
-          .energy_asperity = series("energy_asperity", "J", "boundary friction over the cycle"),
-          .power_film = series("power_film", "W", "viscous dissipation, mean over the cycle"),
-          .power_asperity = series("power_asperity", "W", "boundary friction, mean over the cycle"),
-          .moft = extreme("moft", "m", "minimum oil film thickness, edges included"),
-          .pofp = extreme("pofp", "Pa", "peak oil film pressure, interpolated"),
-          .contact = extreme("contact", "Pa", "largest contact pressure of a node"),
-          .mean_contact = map("asperity_pressure_mean", "Pa", "contact pressure, mean over the cycle"),
-          .wear_load = map("wear_load", "W/m^2", "contact pressure times sliding speed, mean over the cycle"),
-          .h_min = map("thickness_min", "m", "smallest film thickness in the cycle"),
-          .t_h_min = map("thickness_min_time", "s", "when"),
-          .p_max = map("pressure_max", "Pa", "largest film pressure in the cycle"),
-          .t_p_max = map("pressure_max_time", "s", "when")};
 }
 
 void CycleMaps::take(double t, const std::vector<bearing::BearingObservation>& seen) {
@@ -88,27 +139,20 @@ std::vector<BearingCycle> CycleMaps::write(bool is_complete) {
   cycles.reserve(sums_.size());
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     const BearingCycle& cycle = cycles.emplace_back(sums_[i].close());
-    const BearingSeries& s = series_[i];
-    const double duration = cycle.duration();
-    s.begin.append(cycle.begin);
-    s.end.append(cycle.end);
-    s.is_complete.append(is_complete ? 1 : 0);
-    s.energy_film.append(cycle.energy_film);
-    s.energy_asperity.append(cycle.energy_asperity);
-    s.power_film.append(duration > 0 ? cycle.energy_film / duration : 0);
-    s.power_asperity.append(duration > 0 ? cycle.energy_asperity / duration : 0);
-    append(s.moft, cycle.moft);
-    append(s.pofp, cycle.pofp);
-    append(s.contact, cycle.contact);
-    s.mean_contact.append(cycle.mean_contact);
-    s.wear_load.append(cycle.wear_load);
-    s.h_min.append(cycle.h_min);
-    s.t_h_min.append(cycle.t_h_min);
-    s.p_max.append(cycle.p_max);
-    s.t_p_max.append(cycle.t_p_max);
+    series_[i].append({cycle, is_complete});
   }
   ++rows_;
   return cycles;
+}
+
+QuantityGroup CycleMaps::describe() {
+  QuantityGroup group{.path = std::string("/bearings/<b>/") + group_of_cycles,
+                      .heading =
+                          "of a bearing's cycles: one row per complete cycle of the machine; without one, a single row "
+                          "over the whole run",
+                      .quantities = {}};
+  run::describe(cycle_quantities(), "c", group);
+  return group;
 }
 
 }  // namespace hersey::run

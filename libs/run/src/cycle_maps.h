@@ -5,9 +5,15 @@
 #include "bearing_cycle.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
-#include "hersey/results/writer.h"
+#include "quantity.h"
 
 namespace hersey::run {
+
+/// A cycle of a bearing that has ended.
+struct CycleRow {
+  const BearingCycle& cycle;
+  bool is_complete = false;  ///< a cycle of the model; else the whole run
+};
 
 /// The bearings' cycles in the results file: losses, extremes and maps, one row per cycle (docs/results-file.md).
 class CycleMaps {
@@ -27,21 +33,13 @@ class CycleMaps {
   /// The cycles under way.
   void persist(Archive& archive);
 
- private:
-  struct ExtremeSeries {
-    results::Series value, t, phi, z;
-  };
-  struct BearingSeries {
-    results::Series begin, end, is_complete, energy_film, energy_asperity, power_film, power_asperity;
-    ExtremeSeries moft, pofp, contact;
-    results::Series mean_contact, wear_load, h_min, t_h_min, p_max, t_p_max;
-  };
+  [[nodiscard]] static QuantityGroup describe();
 
-  [[nodiscard]] static BearingSeries declare(const model::Bearing& bearing, results::Writer& writer);
+ private:
   std::vector<BearingCycle> write(bool is_complete);
 
   const model::Machine& machine_;
-  std::vector<BearingSeries> series_;
+  std::vector<QuantityRows<CycleRow, model::Bearing>> series_;
   std::vector<CycleSums> sums_;
   int rows_ = 0;
 };

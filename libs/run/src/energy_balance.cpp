@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "recorder.h"
+#include "step_record.h"
 
 namespace hersey::run {
 

@@ -4,7 +4,7 @@
 
 #include "hersey/mbd/mechanism_builder.h"
 #include "hersey/model/model.h"
-#include "hersey/results/writer.h"
+#include "quantity.h"
 
 namespace hersey::run {
 
@@ -13,5 +13,15 @@ namespace hersey::run {
 /// @param hidden_joints  those of the mechanism that the file does not show
 void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, const std::vector<bool>& hidden_joints,
                     results::Writer& writer);
+
+/// Adds the place of a force between two bodies, a bearing or a contact.
+void describe_link(QuantityGroup& group);
+/// The same of a joint, with its type.
+void describe_joint_place(QuantityGroup& group);
+/// Adds mass and centre of a body.
+void describe_mass(QuantityGroup& group);
+[[nodiscard]] QuantityGroup describe_ground();
+/// Parts of shapes. @param path  of a shape's group
+[[nodiscard]] QuantityGroup describe_shapes(const char* path);
 
 }  // namespace hersey::run

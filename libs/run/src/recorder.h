@@ -1,39 +1,33 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "beam_record.h"
+#include "bearing_record.h"
+#include "body_record.h"
+#include "contact_record.h"
 #include "cycle_maps.h"
-#include "hersey/mbd/mechanism.h"
+#include "effort_record.h"
+#include "flexible_record.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/results/writer.h"
 #include "hersey/run/simulate.h"
-#include "hersey/solver/linearise.h"
-#include "power_balance.h"
+#include "joint_record.h"
+#include "mode_record.h"
+#include "step_record.h"
+#include "surface_load_record.h"
+#include "system_record.h"
 
 namespace hersey::run {
-
-/// Everything seen of an accepted step: what the summary, the settling test and the results file are made of.
-struct StepRecord {
-  double dt = 0;
-  int newton_iterations = 0;
-  double newton_residual = 0;
-  double error = 0;             ///< estimated, over the tolerance; 0 with a fixed step
-  double step_error = 0;        ///< the same, not over the tolerance; of fixed steps too
-  int rejected_steps = 0;       ///< since the start of the run
-  double constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares
-  mbd::Observation mechanism;
-  std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
-  std::vector<bearing::BearingObservation> bearings;
-  std::vector<mbd::ContactObservation> contacts;  ///< in ground's axes
-  PowerBalance power;
-};
 
 /// Where the results of a resumed run are gathered until they hold all that the interrupted one had.
 [[nodiscard]] std::filesystem::path unfinished_file(const std::filesystem::path& results);
 
-/// Puts steps into the results file (layout: docs/results-file.md).
+/// Puts steps into the results file (layout: docs/results-file.md), each kind of thing by a record of its own.
 class Recorder {
  public:
   /// @param start    what the run starts from, to tell where that is not what the model gives
@@ -46,17 +40,17 @@ class Recorder {
   void write_row(const StepRecord& step, const EnergySummary& energy);
   void write_fields(const StepRecord& step);
   /// What the bearings' maps and losses over a cycle are made of: every accepted step.
-  void gather(const StepRecord& step) { cycles_.take(step.mechanism.t, step.bearings); }
+  void gather(const StepRecord& step) { cycle_maps_->take(step.mechanism.t, step.bearings); }
   /// A cycle of the machine ends with the step last gathered.
-  std::vector<BearingCycle> close_cycle() { return cycles_.close(); }
+  std::vector<BearingCycle> close_cycle() { return cycle_maps_->close(); }
   /// Small motions about `state`.
-  void write_modes(const solver::State& state, const solver::Modes& found);
+  void write_modes(const solver::State& state, const solver::Modes& found) { modes_->append(state, found); }
   void flush_if_due() { writer_.flush_if_due(); }
   /// How many rows there are; restoring takes so many from the results of the run that was interrupted.
   /// @throws results::ReadError where these have fewer
   void persist(Archive& archive, const std::filesystem::path& results);
   /// How far the cycle that ended at `t` repeats the one before: CycleChange::value.
-  void write_cycle(double t, double change) const;
+  void write_cycle(double t, double change) const { cycles_->append(t, change); }
   /// Makes room for what `finish` writes, so that it changes nothing of the file's structure: a program killed then
   /// leaves a file that can be read. Before the first row.
   /// @param work  of no steps yet
@@ -65,103 +59,24 @@ class Recorder {
   void finish(results::Status status, const std::string& message, double wall_time, const Work& work, int steps);
 
  private:
-  void write_cost(double wall_time, const Work& work, int steps);
-
-  struct BodySeries {
-    results::Series position, orientation, velocity, angular_velocity, acceleration;
-  };
-  struct JointSeries {
-    results::Series coordinates, rates, force, torque;
-  };
-  struct FlexibleSeries {
-    results::Series strain, dissipation, amplitudes;
-  };
-  struct SurfaceLoadSeries {
-    results::Series force, moment, power;
-  };
-  struct BeamSeries {
-    results::Series strain, dissipation, amplitudes, positions, forces, moments;
-  };
-  struct DriveSeries {
-    results::Series effort, power;
-  };
-  struct ContactSeries {
-    results::Series gap, normal_force, friction_force, force, position, damping_power, friction_power, spots;
-  };
-  struct EnergySeries {
-    results::Series kinetic, potential, springs, strain;
-    results::Series put_in, films, boundary_friction, contacts, dampers, oil, film_storage, unexplained;
-  };
-  struct PowerSeries {
-    results::Series drives, loads, gravity, springs, contacts, bearings, elastic, kinetic_rate, balance_error,
-        unexplained, film_friction, asperity_friction;
-  };
-  struct BearingSeries {
-    results::Series eccentricity, ratio, attitude, tilt, h_min, h_min_phi, h_min_z, h_min_centre, p_max, p_max_phi,
-        p_max_z, p_max_node, force, force_pressure, force_shear, force_asperity, moment, speed, torque_journal,
-        torque_shell, power_film, power_asperity, power_stored, power_oil, power_into_bodies, power_error, flow_left,
-        flow_right, flow_supply, storage_rate, oil_volume, oil_through_flow, oil_unexplained, cavitated_share,
-        rupture_angle, reformation_angle, film_iterations;
-    std::optional<results::Series> mass_balance_error;  // of films that conserve oil: all but Reynolds'
-    std::optional<results::Series> h_min_features;      // where features have depth
-    std::vector<results::Series> flow_features;
-    std::optional<results::Series> exchanges;  // of a partitioned coupling
-    results::Series h_min_around, p_max_around;
-    results::Series field_time, pressure, thickness, fill, asperity_pressure;
-    std::optional<results::Series> shell_displacement, journal_displacement;  // of surfaces of elastic bodies
-  };
-
-  struct ModeSeries {
-    results::Series frequency, damped_frequency, damping_ratio, real, imaginary, shape_real, shape_imaginary, body_real,
-        body_imaginary;
-    std::vector<results::Series> amplitudes_real, amplitudes_imaginary;  // of flexible bodies
-    std::vector<results::Series> beams_real, beams_imaginary;            // the same of beams
-  };
-
-  void declare_cycles();
-  void declare_modes();
-  void declare_flexible_modes();
-  void write_flexible_mode(const solver::State& state, const Eigen::VectorXcd& shape);
-  [[nodiscard]] Eigen::VectorXd body_increments(const solver::State& state, const Eigen::VectorXd& shape) const;
-  void declare_run(const solver::State& start, const Options& options);
-  void declare_machine();
-  void declare_flexible_bodies();
-  void write_flexible_bodies(const mbd::Observation& seen);
-  void declare_surface_loads();
-  void write_surface_loads(const mbd::Observation& seen);
-  [[nodiscard]] bool integrates() const { return model_.simulation.analysis == model::Analysis::dynamics; }
-  void hide_inner_nodes();
-  void declare_beams();
-  void write_beams(const mbd::Observation& seen);
-  void declare_beam_modes();
-  void write_beam_mode(const solver::State& state, const Eigen::VectorXcd& shape);
-  void declare_contacts();
-  void write_contacts(const std::vector<mbd::ContactObservation>& seen) const;
-  [[nodiscard]] BearingSeries declare_bearing(const model::Bearing& bearing);
-  void declare_fields(const model::Bearing& bearing, BearingSeries& series);
-  void write_around(std::size_t bearing) const;
-  void write_bearing(const BearingSeries& series, const bearing::BearingObservation& seen) const;
+  void declare();
 
   const model::Model& model_;
   const model::Machine& machine_;
   results::Writer writer_;
-  CycleMaps cycles_;
-  results::Series time_, crank_angle_, dt_, newton_iterations_, residual_, error_, step_error_, rejected_, drift_;
-  std::vector<FlexibleSeries> flexibles_;
-  std::vector<SurfaceLoadSeries> surface_loads_;
-  std::vector<BeamSeries> beams_;
-  std::vector<bool> hidden_bodies_, hidden_joints_;  ///< inner nodes of beams: not written one by one
-  EnergySeries energy_;
-  PowerSeries power_;
-  ModeSeries modes_;
-  results::Series cycle_end_, cycle_change_;
-  std::vector<BodySeries> bodies_;
-  std::vector<JointSeries> joints_;
-  std::vector<DriveSeries> drives_;
-  std::vector<results::Series> couplings_;  ///< their efforts
-  std::vector<DriveSeries> coordinate_forces_;
-  std::vector<ContactSeries> contacts_;
-  std::vector<BearingSeries> bearings_;
+  std::vector<std::size_t> shown_bodies_, shown_joints_;  ///< of the mechanism: all but the inner nodes of beams
+  std::optional<SystemRecord> system_;
+  std::vector<BodyRecord> bodies_;
+  std::vector<JointRecord> joints_;
+  std::optional<EffortRecord> efforts_;
+  std::vector<FlexibleRecord> flexibles_;
+  std::optional<SurfaceLoadRecord> surface_loads_;
+  std::vector<BeamRecord> beams_;
+  std::vector<ContactRecord> contacts_;
+  std::vector<BearingRecord> bearings_;
+  std::optional<CycleMaps> cycle_maps_;
+  std::optional<CycleRecord> cycles_;
+  std::optional<ModeRecord> modes_;
 };
 
 }  // namespace hersey::run

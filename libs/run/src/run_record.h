@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "cycle_convergence.h"
+#include "deformed_meshes.h"
 #include "energy_balance.h"
 #include "extremes.h"
-#include "flexible_record.h"
 #include "hersey/core/archive.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"

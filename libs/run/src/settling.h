@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hersey/core/archive.h"
-#include "recorder.h"
+#include "step_record.h"
 
 namespace hersey::run {
 

@@ -1,20 +1,36 @@
-// Pressures and forces on the meshes of flexible bodies, in the results file.
-#include "recorder.h"
+#include "surface_load_record.h"
 
 namespace hersey::run {
 
-void Recorder::declare_surface_loads() {
-  for (const model::BuiltSurfaceLoad& load : machine_.surface_loads) {
-    const std::string path = "/surface_loads/" + load.name + "/";
-    writer_.attribute("/surface_loads/" + load.name, "body", machine_.flexibles[load.flexible].name);
-    surface_loads_.push_back({writer_.series(path + "force", 3, "N", "resultant, ground axes"),
-                              writer_.series(path + "moment", 3, "N.m", "about the body's origin, ground axes"),
-                              writer_.series(path + "power", 1, "W", "put into the machine")});
+const QuantityTable<mbd::ElasticLoad, SurfaceLoadRecord::Plan>& SurfaceLoadRecord::table() {
+  using Load = mbd::ElasticLoad;
+  static const QuantityTable<Load, Plan> table{
+      {"force", "N", "resultant, ground axes", [](const Load& load) { return Vector3(load.wrench.tail<3>()); }},
+      {"moment", "N.m", "about the body's origin, ground axes",
+       [](const Load& load) { return Vector3(load.wrench.head<3>()); }},
+      {"power", "W", "put into the machine", &Load::power},
+  };
+  return table;
+}
+
+const std::vector<Attribute<SurfaceLoadRecord::Plan>>& SurfaceLoadRecord::attributes() {
+  static const std::vector<Attribute<Plan>> table{{"body", "", "on whose mesh it acts", [](const Plan& plan) {
+                                                     return plan.machine.flexibles[plan.load.flexible].name;
+                                                   }}};
+  return table;
+}
+
+SurfaceLoadRecord::SurfaceLoadRecord(const model::Machine& machine, results::Writer& writer) : machine_(machine) {
+  for (const model::BuiltSurfaceLoad& load : machine.surface_loads) {
+    const std::string group = "/surface_loads/" + load.name + "/";
+    const Plan plan{machine, load};
+    write_once(attributes(), group, plan, writer);
+    loads_.emplace_back(table(), group, plan, writer);
   }
 }
 
-void Recorder::write_surface_loads(const mbd::Observation& seen) {
-  for (std::size_t i = 0; i < surface_loads_.size(); ++i) {
+void SurfaceLoadRecord::append(const mbd::Observation& seen) const {
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
     const model::BuiltSurfaceLoad& load = machine_.surface_loads[i];
     const auto elastic = static_cast<std::size_t>(machine_.flexibles[load.flexible].elastic.index);
     mbd::ElasticLoad sum;
@@ -23,10 +39,17 @@ void Recorder::write_surface_loads(const mbd::Observation& seen) {
       sum.power += part.power;
       sum.wrench += part.wrench;
     }
-    surface_loads_[i].force.append(Vector3(sum.wrench.tail<3>()));
-    surface_loads_[i].moment.append(Vector3(sum.wrench.head<3>()));
-    surface_loads_[i].power.append(sum.power);
+    loads_[i].append(sum);
   }
+}
+
+QuantityGroup SurfaceLoadRecord::describe() {
+  QuantityGroup group{.path = "/surface_loads/<f>/",
+                      .heading = "of a `pressure` or `surface_force` on the mesh of a flexible body",
+                      .quantities = {}};
+  run::describe(attributes(), "n", group);
+  run::describe(table(), "n", group);
+  return group;
 }
 
 }  // namespace hersey::run

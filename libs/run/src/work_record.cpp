@@ -146,30 +146,106 @@ void WorkRecord::persist(Archive& archive) {
   spent_before_ = seconds;
 }
 
-void write_work(const Work& work, int steps, results::Writer& writer) {
-  const std::string group = "/timing";
-  writer.attribute(group, "start_up", work.start_up);
-  writer.attribute(group, "stepping", work.stepping);
-  writer.attribute(group, "steps", steps);
-  const auto figures = [&](const std::string& object, const std::string& name, const PerStep& of) {
-    writer.attribute(object, name + "_median", of.median);
-    writer.attribute(object, name + "_mean", of.mean);
-    writer.attribute(object, name + "_most", of.most);
-  };
-  figures(group, "newton_iterations", work.newton_iterations);
-  std::vector<std::string> names;
-  for (const WorkPart& part : work.parts) {
-    names.push_back(part.name);
-    writer.attribute(group + "/parts", part.name, part.seconds);
-  }
-  writer.attribute(group, "part_names", names);
-  for (const CouplingWork& coupling : work.couplings) {
-    const std::string bearing = group + "/couplings/" + coupling.bearing;
-    writer.attribute(bearing, "scheme", coupling.scheme);
-    figures(bearing, "film_iterations", coupling.film_iterations);
-    figures(bearing, "exchanges", coupling.exchanges);
-    writer.attribute(bearing, "steps_as_one", coupling.steps_as_one);
-  }
+namespace {
+
+struct Cost {
+  const Work& work;
+  double wall_time = 0;  ///< [s]
+  int steps = 0;
+};
+
+/// The three figures of a number per step.
+template <class Plan>
+void add_per_step(const std::string& name, const char* of, std::function<PerStep(const Plan&)> get,
+                  std::vector<Attribute<Plan>>& table) {
+  table.push_back({name + "_median", "1", std::string(of) + ", median of accepted steps",
+                   [get](const Plan& plan) { return get(plan).median; }});
+  table.push_back({name + "_mean", "1", "the same, mean", [get](const Plan& plan) { return get(plan).mean; }});
+  table.push_back({name + "_most", "1", "the same, most", [get](const Plan& plan) { return get(plan).most; }});
+}
+
+const std::vector<Attribute<Cost>>& of_run() {
+  static const std::vector<Attribute<Cost>> table{
+      {"wall_time", "s", "computing time", &Cost::wall_time, {.note = "of a finished run; 0 before its end"}}};
+  return table;
+}
+
+const std::vector<Attribute<Cost>>& of_timing() {
+  static const std::vector<Attribute<Cost>> table = [] {
+    std::vector<Attribute<Cost>> lines{
+        {"start_up", "s", "reading, meshes, reduction, the starting state",
+         [](const Cost& cost) { return cost.work.start_up; }},
+        {"stepping", "s", "all steps, rejected ones and recording included",
+         [](const Cost& cost) { return cost.work.stepping; }},
+        {"steps", "1", "number of steps", &Cost::steps},
+        {"part_names", "", "names of the parts of `stepping`",
+         [](const Cost& cost) {
+           std::vector<std::string> names;
+           for (const WorkPart& part : cost.work.parts) names.push_back(part.name);
+           return names;
+         }},
+    };
+    add_per_step<Cost>(
+        "newton_iterations", "Newton iterations of a step",
+        [](const Cost& cost) { return cost.work.newton_iterations; }, lines);
+    return lines;
+  }();
+  return table;
+}
+
+const std::vector<Attribute<Cost>>& of_parts() {
+  static const std::vector<Attribute<Cost>> table{
+      {"<part>",
+       "s",
+       "its share of `stepping`",
+       [](const Cost& cost, std::size_t k) { return cost.work.parts[k].seconds; },
+       {.note = "each film, elastic bodies, other bodies and forces, linear solve, recording, rest",
+        .each = [](const Cost& cost) {
+          std::vector<std::string> names;
+          for (const WorkPart& part : cost.work.parts) names.push_back(part.name);
+          return names;
+        }}}};
+  return table;
+}
+
+const std::vector<Attribute<CouplingWork>>& of_coupling() {
+  static const std::vector<Attribute<CouplingWork>> table = [] {
+    std::vector<Attribute<CouplingWork>> lines{
+        {"scheme", "", "of the coupling of film and bodies", &CouplingWork::scheme},
+        {"steps_as_one", "1", "steps of a partitioned coupling solved as one system, as their exchange came to no end",
+         &CouplingWork::steps_as_one},
+    };
+    add_per_step<CouplingWork>("film_iterations", "linearisations of the film in a step",
+                               &CouplingWork::film_iterations, lines);
+    add_per_step<CouplingWork>("exchanges", "wrenches that film and bodies exchange in a step",
+                               &CouplingWork::exchanges, lines);
+    return lines;
+  }();
+  return table;
+}
+
+}  // namespace
+
+void write_work(const Work& work, double wall_time, int steps, results::Writer& writer) {
+  const Cost cost{work, wall_time, steps};
+  write_once(of_run(), "/", cost, writer);
+  write_once(of_timing(), "/timing/", cost, writer);
+  write_once(of_parts(), "/timing/parts/", cost, writer);
+  for (const CouplingWork& coupling : work.couplings)
+    write_once(of_coupling(), "/timing/couplings/" + coupling.bearing + "/", coupling, writer);
+}
+
+std::vector<QuantityGroup> describe_work() {
+  QuantityGroup run{.path = "/", .heading = "of the run", .quantities = {}};
+  QuantityGroup timing{.path = "/timing/", .heading = "of a run over time, zeros before its end", .quantities = {}};
+  QuantityGroup parts{.path = "/timing/parts/", .heading = "of the parts of the computing time", .quantities = {}};
+  QuantityGroup couplings{
+      .path = "/timing/couplings/<bearing>/", .heading = "of the coupling of a bearing", .quantities = {}};
+  describe(of_run(), "n", run);
+  describe(of_timing(), "n", timing);
+  describe(of_parts(), "n", parts);
+  describe(of_coupling(), "n", couplings);
+  return {run, timing, parts, couplings};
 }
 
 }  // namespace hersey::run

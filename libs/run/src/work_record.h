@@ -6,10 +6,10 @@
 #include "hersey/core/archive.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
-#include "hersey/results/writer.h"
 #include "hersey/run/work.h"
 #include "hersey/solver/generalized_alpha.h"
-#include "recorder.h"
+#include "quantity.h"
+#include "step_record.h"
 
 namespace hersey::run {
 
@@ -60,7 +60,10 @@ class WorkRecord {
   std::vector<StepCounts> film_iterations_, exchanges_;
 };
 
-/// The group /timing of the results file (docs/results-file.md). Attributes, as computing times differ from run to run.
-void write_work(const Work& work, int steps, results::Writer& writer);
+/// What the run has cost, in the results file: attributes, as computing times differ from run to run.
+/// @param wall_time  of the whole run [s]
+void write_work(const Work& work, double wall_time, int steps, results::Writer& writer);
+
+[[nodiscard]] std::vector<QuantityGroup> describe_work();
 
 }  // namespace hersey::run

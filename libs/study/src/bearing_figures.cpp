@@ -1,6 +1,11 @@
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "hersey/study/bearing_study.h"
 
@@ -21,73 +26,134 @@ constexpr Unit kMicrometre{"um", "m", 1e-6}, kMillimetre{"mm", "m", 1e-3}, kMega
 constexpr Unit kMicrometrePerMetre{"um/m", "1", 1e-6};
 constexpr Unit kFlow{"mm^3/s", "m^3/s", 1e-9}, kVolume{"mm^3", "m^3", 1e-9};
 
-// Collects figures in users' units.
-class Figures {
- public:
-  explicit Figures(bool has_errors) : has_errors_(has_errors) {}
-  /// What is added from here on belongs to `name`.
-  void group(std::string name) { group_ = std::move(name); }
-  /// A value in SI.
-  void add(std::string key, std::string name, const Unit& unit, double value) {
-    list_.push_back({.key = std::move(key),
-                     .name = std::move(name),
-                     .unit = unit.name,
-                     .si_unit = unit.si,
-                     .si = unit.size,
-                     .value = value / unit.size,
-                     .grid_error = -1,
-                     .words = {},
-                     .group = group_});
-  }
-  /// A negative error is none.
-  void add_with_error(std::string key, std::string name, const Unit& unit, double value, double error) {
-    add(std::move(key), std::move(name), unit, value);
-    if (has_errors_ && error >= 0) list_.back().grid_error = error / unit.size;
-  }
-  /// What there is no number of: words in its place, if any, and a value that is infinite or none.
-  void say(const std::string& words) { list_.back().words = words; }
-  [[nodiscard]] std::vector<BearingFigure> take() { return std::move(list_); }
+using Solution = BearingSolution;
 
- private:
-  bool has_errors_;
-  std::string group_;
-  std::vector<BearingFigure> list_;
+/// What is said of some figures only.
+struct More {
+  /// Estimated error of the grid; negative: none. Empty: the figure has none.
+  std::function<double(const Solution&)> grid_error = {};
+  /// Whether a solution has the figure; empty: every one has.
+  std::function<bool(const Solution&)> only = {};
+  /// Said in place of a value that is no number.
+  std::function<std::string(const Solution&)> words = {};
+  /// Of a family: what stands for <...> in key and name.
+  std::function<std::vector<std::string>(const Solution&)> each = {};
 };
+
+/// A line of the table: a figure, or a family of them.
+struct Line {
+  template <class Get>
+  Line(std::string key_, std::string name_, Unit unit_, Get get, More more_ = {})
+      : key(std::move(key_)), name(std::move(name_)), unit(unit_), more(std::move(more_)) {
+    value = [get](const Solution& s, [[maybe_unused]] std::size_t k) -> double {
+      if constexpr (std::is_invocable_v<Get, const Solution&, std::size_t>)
+        return std::invoke(get, s, k);
+      else
+        return std::invoke(get, s);
+    };
+  }
+
+  std::string key, name;
+  Unit unit;
+  std::function<double(const Solution&, std::size_t)> value;  ///< in SI
+  More more;
+};
+
+/// Figures that stand together.
+struct Group {
+  std::string name;
+  std::vector<Line> lines;
+};
+
+template <class Member>
+auto film(Member member) {
+  return [member](const Solution& s) -> double { return std::invoke(member, s.state.film); };
+}
+
+template <class Member>
+auto numbers(Member member) {
+  return [member](const Solution& s) -> double { return std::invoke(member, s.numbers); };
+}
+
+template <class Member>
+auto point(Member member) {
+  return [member](const Solution& s) -> double { return std::invoke(member, s.state.point); };
+}
+
+template <class Member>
+auto whirl(Member member) {
+  return [member](const Solution& s) -> double { return std::invoke(member, s.whirl); };
+}
+
+auto error_of(double bearing::GridError::*member) {
+  return [member](const Solution& s) { return s.grid_error.*member; };
+}
 
 // What is zero by symmetry comes out as the round-off of its parts, which tells nothing.
 double without_round_off(double value, double parts) { return std::abs(value) < 1e-12 * parts ? 0.0 : value; }
 
-void add_state(const BearingSolution& s, Figures& figures) {
-  const bearing::BearingNumbers& n = s.numbers;
-  const bearing::GridError& error = s.grid_error;
-  const film::FilmObservables& film = s.state.film;
-  figures.group("operating point");
-  figures.add("journal_speed", "journal speed", kRpm, s.state.point.journal_speed);
-  figures.add("shell_speed", "shell speed", kRpm, s.state.point.shell_speed);
+bool is_load_given(const Solution& s) { return s.state.point.load.has_value(); }
+bool squeezes(const Solution& s) { return s.state.point.e_rate.norm() > 0; }
+
+/// @param axis  of the moment on the shell; what is round-off beside the load over the width is zero
+auto moment(int axis) {
+  return [axis](const Solution& s) {
+    return without_round_off(s.state.film.wrench_on_shell[axis], s.numbers.load * s.model.L);
+  };
+}
+
+auto height(double film::FilmObservables::*z) {
+  return [z](const Solution& s) { return without_round_off(s.state.film.*z, s.model.L); };
+}
+
+Group operating_point() {
+  using Number = bearing::BearingNumbers;
+  using Error = bearing::GridError;
   // What is given has no error.
-  const bool is_load_given = s.state.point.load.has_value();
-  figures.add_with_error("load", "load", kNewton, n.load, is_load_given ? -1 : error.load);
-  figures.add("load_angle", "direction of the load", kDegree, n.load_angle);
-  figures.add_with_error("eccentricity_ratio", "eccentricity ratio", kNone, n.eccentricity_ratio,
-                         is_load_given ? error.eccentricity_ratio : -1);
-  figures.add("eccentricity_angle", "direction of the eccentricity", kDegree, n.eccentricity_angle);
-  const bool squeezes = s.state.point.e_rate.norm() > 0;
-  if (squeezes)
-    figures.add("radial_velocity", "velocity along the eccentricity", kMillimetrePerSecond, s.numbers.radial_velocity);
-  figures.add_with_error("attitude", "attitude angle", kDegree, n.attitude, error.attitude);
-  figures.group("film");
-  figures.add_with_error("h_min", "minimum film thickness", kMicrometre, film.h_min, error.h_min);
-  figures.add("h_min_angle", "  at the angle", kDegree, film.h_min_phi);
-  figures.add("h_min_z", "  at z", kMillimetre, without_round_off(film.h_min_z, s.model.L));
-  figures.add("h_min_centre", "minimum film thickness at mid-width", kMicrometre, film.h_min_centre);
-  if (std::isfinite(film.h_min_features))
-    figures.add("h_min_features", "minimum thickness over features with depth", kMicrometre, film.h_min_features);
-  figures.add_with_error("p_max", "peak film pressure", kMegapascal, film.p_max, error.p_max);
-  figures.add("p_max_angle", "  at the angle", kDegree, film.p_max_phi);
-  figures.add("p_max_z", "  at z", kMillimetre, without_round_off(film.p_max_z, s.model.L));
-  const double moment = n.load * s.model.L;
-  figures.add("moment_x", "moment on the shell, x", kNewtonMetre, without_round_off(film.wrench_on_shell[0], moment));
-  figures.add("moment_y", "moment on the shell, y", kNewtonMetre, without_round_off(film.wrench_on_shell[1], moment));
+  const auto load_error = [](const Solution& s) { return is_load_given(s) ? -1 : s.grid_error.load; };
+  const auto ratio_error = [](const Solution& s) { return is_load_given(s) ? s.grid_error.eccentricity_ratio : -1; };
+  return {"operating point",
+          {{"journal_speed", "journal speed", kRpm, point(&bearing::OperatingPoint::journal_speed)},
+           {"shell_speed", "shell speed", kRpm, point(&bearing::OperatingPoint::shell_speed)},
+           {"load", "load", kNewton, numbers(&Number::load), {.grid_error = load_error}},
+           {"load_angle", "direction of the load", kDegree, numbers(&Number::load_angle)},
+           {"eccentricity_ratio",
+            "eccentricity ratio",
+            kNone,
+            numbers(&Number::eccentricity_ratio),
+            {.grid_error = ratio_error}},
+           {"eccentricity_angle", "direction of the eccentricity", kDegree, numbers(&Number::eccentricity_angle)},
+           {"radial_velocity",
+            "velocity along the eccentricity",
+            kMillimetrePerSecond,
+            numbers(&Number::radial_velocity),
+            {.only = squeezes}},
+           {"attitude",
+            "attitude angle",
+            kDegree,
+            numbers(&Number::attitude),
+            {.grid_error = error_of(&Error::attitude)}}}};
+}
+
+Group film_figures() {
+  using Film = film::FilmObservables;
+  using Error = bearing::GridError;
+  return {
+      "film",
+      {{"h_min", "minimum film thickness", kMicrometre, film(&Film::h_min), {.grid_error = error_of(&Error::h_min)}},
+       {"h_min_angle", "  at the angle", kDegree, film(&Film::h_min_phi)},
+       {"h_min_z", "  at z", kMillimetre, height(&Film::h_min_z)},
+       {"h_min_centre", "minimum film thickness at mid-width", kMicrometre, film(&Film::h_min_centre)},
+       {"h_min_features",
+        "minimum thickness over features with depth",
+        kMicrometre,
+        film(&Film::h_min_features),
+        {.only = [](const Solution& s) { return std::isfinite(s.state.film.h_min_features); }}},
+       {"p_max", "peak film pressure", kMegapascal, film(&Film::p_max), {.grid_error = error_of(&Error::p_max)}},
+       {"p_max_angle", "  at the angle", kDegree, film(&Film::p_max_phi)},
+       {"p_max_z", "  at z", kMillimetre, height(&Film::p_max_z)},
+       {"moment_x", "moment on the shell, x", kNewtonMetre, moment(0)},
+       {"moment_y", "moment on the shell, y", kNewtonMetre, moment(1)}}};
 }
 
 /// Where a surface lies furthest off its rest, away from the axis (> 0) or towards it.
@@ -97,114 +163,216 @@ double largest_of(const Eigen::VectorXd& displacement) {
   return displacement[node];
 }
 
-void add_deformation(const BearingSolution& s, Figures& figures) {
-  if (!s.elasticity) return;
-  const bearing::SteadyState& state = s.state;
-  figures.group("deformation");
-  if (state.d_shell.size() > 0)
-    figures.add("deformation_shell", "largest displacement of the shell, outward", kMicrometre,
-                largest_of(state.d_shell));
-  if (state.d_journal.size() > 0)
-    figures.add("deformation_journal", "largest displacement of the journal, outward", kMicrometre,
-                largest_of(state.d_journal));
-  figures.add("tilt_x", "slope of the journal against the shell under load, x", kMicrometrePerMetre, state.tilt.x());
-  figures.add("tilt_y", "slope of the journal against the shell under load, y", kMicrometrePerMetre, state.tilt.y());
-  if (state.d_shell.size() > 0) figures.add("shell_turn", "turn of the bearing's axes under load", kDegree, state.turn);
+Group deformation() {
+  const auto is_elastic = [](const Solution& s) { return s.elasticity != nullptr; };
+  const auto shell = [](const Solution& s) { return s.elasticity != nullptr && s.state.d_shell.size() > 0; };
+  const auto journal = [](const Solution& s) { return s.elasticity != nullptr && s.state.d_journal.size() > 0; };
+  return {"deformation",
+          {{"deformation_shell",
+            "largest displacement of the shell, outward",
+            kMicrometre,
+            [](const Solution& s) { return largest_of(s.state.d_shell); },
+            {.only = shell}},
+           {"deformation_journal",
+            "largest displacement of the journal, outward",
+            kMicrometre,
+            [](const Solution& s) { return largest_of(s.state.d_journal); },
+            {.only = journal}},
+           {"tilt_x",
+            "slope of the journal against the shell under load, x",
+            kMicrometrePerMetre,
+            [](const Solution& s) { return s.state.tilt.x(); },
+            {.only = is_elastic}},
+           {"tilt_y",
+            "slope of the journal against the shell under load, y",
+            kMicrometrePerMetre,
+            [](const Solution& s) { return s.state.tilt.y(); },
+            {.only = is_elastic}},
+           {"shell_turn",
+            "turn of the bearing's axes under load",
+            kDegree,
+            [](const Solution& s) { return s.state.turn; },
+            {.only = shell}}}};
 }
 
-void add_oil_and_friction(const BearingSolution& s, Figures& figures) {
-  const bearing::BearingNumbers& n = s.numbers;
+Group dimensionless() {
+  using Number = bearing::BearingNumbers;
+  return {"numbers",
+          {{"sommerfeld_S", "Sommerfeld number S = mu N (R/c)^2 L D/W", kNone, numbers(&Number::sommerfeld_S)},
+           {"sommerfeld_So", "Sommerfeld number So = W (c/R)^2/(L D mu omega)", kNone, numbers(&Number::sommerfeld_So)},
+           {"sommerfeld_squeeze",
+            "Sommerfeld number of squeeze W (c/R)^2/(L D mu d(eps)/dt)",
+            kNone,
+            numbers(&Number::sommerfeld_squeeze),
+            {.only = [](const Solution& s) { return s.numbers.radial_velocity != 0; }}},
+           {"hersey", "Hersey number mu N L D/W", kNone, numbers(&Number::hersey)}}};
+}
+
+/// The bearing's axes rest: power comes through the torques, and through the load where the journal gives way to it.
+double power_put_in(const Solution& s) {
   const film::FilmObservables& film = s.state.film;
-  figures.group("numbers");
-  figures.add("sommerfeld_S", "Sommerfeld number S = mu N (R/c)^2 L D/W", kNone, n.sommerfeld_S);
-  figures.add("sommerfeld_So", "Sommerfeld number So = W (c/R)^2/(L D mu omega)", kNone, n.sommerfeld_So);
-  if (n.radial_velocity != 0)
-    figures.add("sommerfeld_squeeze", "Sommerfeld number of squeeze W (c/R)^2/(L D mu d(eps)/dt)", kNone,
-                n.sommerfeld_squeeze);
-  figures.add("hersey", "Hersey number mu N L D/W", kNone, n.hersey);
-  figures.group("friction");
-  figures.add_with_error("friction_journal", "friction coefficient, journal", kNone, n.friction_journal,
-                         s.grid_error.friction_journal);
-  figures.add("friction_shell", "friction coefficient, shell", kNone, n.friction_shell);
-  figures.add("torque_journal", "friction torque on the journal", kNewtonMetre, film.torque_journal);
-  figures.add("torque_shell", "friction torque on the shell", kNewtonMetre, film.torque_shell);
-  figures.add("power_film", "friction power, film", kWatt, film.power_film);
-  figures.add("power_asperity", "friction power, asperities", kWatt, film.power_asperity);
-  // The bearing's axes rest: power comes through the torques, and through the load where the journal gives way to it.
-  const double put_in = -film.torque_journal * s.state.point.journal_speed -
-                        film.torque_shell * s.state.point.shell_speed + s.state.load.dot(s.state.point.e_rate);
-  figures.add("power_put_in", "power put in by torques and load", kWatt, put_in);
-  if (film.power_taken() > 0)
-    figures.add("power_error", "  of it not explained by the film's integrals", kNone, put_in / film.power_taken() - 1);
-  figures.add("asperity_share", "share of the load on asperities", kNone, n.asperity_share);
-  figures.add("film_ratio", "film ratio h_min/sigma", kNone, n.film_ratio);
-  figures.group("oil");
-  figures.add_with_error("side_flow", "side flow", kFlow, film.flow_left + film.flow_right, s.grid_error.side_flow);
-  figures.add("flow_left", "flow over the edge z < 0", kFlow, film.flow_left);
-  figures.add("flow_right", "flow over the edge z > 0", kFlow, film.flow_right);
-  figures.add("flow_supply", "flow through the supply", kFlow, film.flow_supply);
-  for (Eigen::Index f = 0; f < film.flow_features.size(); ++f) {
-    const std::string& name = s.model.features[static_cast<std::size_t>(f)].name;
-    figures.add("flow_feature_" + name, "  through " + name, kFlow, film.flow_features[f]);
-  }
-  figures.add("oil_volume", "oil in the bearing", kVolume, film.oil_volume);
-  // Reynolds' condition lets oil vanish where the film breaks and appear where it forms again: what is missing there is
-  // no error of the solution.
-  const bool conserves = !film::cavitation_law(s.model).loses_oil();
-  figures.add("mass_balance_error", "mass balance error", kNone,
-              conserves ? film.mass_balance_error : std::numeric_limits<double>::quiet_NaN());
-  if (!conserves) figures.say("oil is not conserved by reynolds");
-  figures.add("cavitated_share", "cavitated share of the area", kNone, film.cavitated_share);
-  if (std::isfinite(film.rupture_angle)) {
-    figures.add("rupture_angle", "the film ruptures at mid-width at", kDegree, film.rupture_angle);
-    figures.add("reformation_angle", "  and re-forms at", kDegree, film.reformation_angle);
-  }
+  return -film.torque_journal * s.state.point.journal_speed - film.torque_shell * s.state.point.shell_speed +
+         s.state.load.dot(s.state.point.e_rate);
 }
 
-void add_matrix(const std::string& key, const std::string& name, const Unit& unit, const Eigen::Matrix2d& M,
-                Figures& figures) {
-  const char* axes = "xy";
-  for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 2; ++j) {
-      const std::string index{axes[i], axes[j]};
-      figures.add(key + "_" + index, name + " " + index, unit, M(i, j));
-    }
-  }
+Group friction() {
+  using Film = film::FilmObservables;
+  using Number = bearing::BearingNumbers;
+  return {"friction",
+          {{"friction_journal",
+            "friction coefficient, journal",
+            kNone,
+            numbers(&Number::friction_journal),
+            {.grid_error = error_of(&bearing::GridError::friction_journal)}},
+           {"friction_shell", "friction coefficient, shell", kNone, numbers(&Number::friction_shell)},
+           {"torque_journal", "friction torque on the journal", kNewtonMetre, film(&Film::torque_journal)},
+           {"torque_shell", "friction torque on the shell", kNewtonMetre, film(&Film::torque_shell)},
+           {"power_film", "friction power, film", kWatt, film(&Film::power_film)},
+           {"power_asperity", "friction power, asperities", kWatt, film(&Film::power_asperity)},
+           {"power_put_in", "power put in by torques and load", kWatt, power_put_in},
+           {"power_error",
+            "  of it not explained by the film's integrals",
+            kNone,
+            [](const Solution& s) { return power_put_in(s) / s.state.film.power_taken() - 1; },
+            {.only = [](const Solution& s) { return s.state.film.power_taken() > 0; }}},
+           {"asperity_share", "share of the load on asperities", kNone, numbers(&Number::asperity_share)},
+           {"film_ratio", "film ratio h_min/sigma", kNone, numbers(&Number::film_ratio)}}};
 }
 
-// Numbers of a threshold that is not there are words.
-void add_stability(const bearing::WhirlStability& whirl, Figures& figures) {
-  figures.group("stability");
-  figures.add("critical_mass", "critical mass of a rigid rotor", kKilogram, whirl.critical_mass);
-  if (whirl.always_stable) figures.say("none: stable at every mass");
-  if (whirl.never_stable) figures.say("none: unstable at every mass");
-  figures.add("whirl_ratio", "whirl frequency ratio", kNone, whirl.whirl_ratio);
-  if (whirl.always_stable) figures.say("no whirl");
-  figures.add("stability_number", "omega sqrt(c/g) at the threshold", kNone, whirl.stability_number);
-  if (whirl.always_stable) figures.say("no threshold");
-  figures.add("threshold_speed", "threshold speed under the load's own weight", kRpm, whirl.threshold_speed);
-  if (whirl.always_stable) figures.say("none: stable at every speed");
+std::vector<std::string> feature_names(const Solution& s) {
+  std::vector<std::string> names;
+  for (Eigen::Index f = 0; f < s.state.film.flow_features.size(); ++f)
+    names.push_back(s.model.features[static_cast<std::size_t>(f)].name);
+  return names;
 }
 
-void add_dynamics(const BearingSolution& s, Figures& figures) {
-  const bearing::DynamicCoefficients& all = s.state.coefficients;
-  figures.group("stiffness and damping");
-  add_matrix("stiffness", "stiffness, bearing axes,", kStiffness, all.stiffness.topLeftCorner<2, 2>(), figures);
-  add_matrix("damping", "damping, bearing axes,", kDamping, all.damping.topLeftCorner<2, 2>(), figures);
-  add_matrix("K", "K = k c/W, x along the load,", kNone, s.coefficients.K, figures);
-  add_matrix("C", "C = b c omega/W, x along the load,", kNone, s.coefficients.C, figures);
-  add_stability(s.whirl, figures);
+/// Reynolds' condition lets oil vanish where the film breaks and appear where it forms again: what is missing there is
+/// no error of the solution.
+bool conserves_oil(const Solution& s) { return !film::cavitation_law(s.model).loses_oil(); }
+
+Group oil() {
+  using Film = film::FilmObservables;
+  const auto ruptures = [](const Solution& s) { return std::isfinite(s.state.film.rupture_angle); };
+  return {
+      "oil",
+      {{"side_flow",
+        "side flow",
+        kFlow,
+        [](const Solution& s) { return s.state.film.flow_left + s.state.film.flow_right; },
+        {.grid_error = error_of(&bearing::GridError::side_flow)}},
+       {"flow_left", "flow over the edge z < 0", kFlow, film(&Film::flow_left)},
+       {"flow_right", "flow over the edge z > 0", kFlow, film(&Film::flow_right)},
+       {"flow_supply", "flow through the supply", kFlow, film(&Film::flow_supply)},
+       {"flow_feature_<name>",
+        "  through <name>",
+        kFlow,
+        [](const Solution& s, std::size_t k) { return s.state.film.flow_features[static_cast<Eigen::Index>(k)]; },
+        {.each = feature_names}},
+       {"oil_volume", "oil in the bearing", kVolume, film(&Film::oil_volume)},
+       {"mass_balance_error",
+        "mass balance error",
+        kNone,
+        [](const Solution& s) {
+          return conserves_oil(s) ? s.state.film.mass_balance_error : std::numeric_limits<double>::quiet_NaN();
+        },
+        {.words = [](const Solution& s) { return conserves_oil(s) ? "" : "oil is not conserved by reynolds"; }}},
+       {"cavitated_share", "cavitated share of the area", kNone, film(&Film::cavitated_share)},
+       {"rupture_angle", "the film ruptures at mid-width at", kDegree, film(&Film::rupture_angle), {.only = ruptures}},
+       {"reformation_angle", "  and re-forms at", kDegree, film(&Film::reformation_angle), {.only = ruptures}}}};
+}
+
+/// The four entries of a matrix over x and y, row by row.
+/// @param get  the matrix of a solution
+template <class Get>
+Line matrix(const std::string& key, const std::string& name, const Unit& unit, Get get) {
+  return {key + "_<ij>",
+          name + " <ij>",
+          unit,
+          [get](const Solution& s, std::size_t k) {
+            return get(s)(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2));
+          },
+          {.each = [](const Solution& /*s*/) {
+            return std::vector<std::string>{"xx", "xy", "yx", "yy"};
+          }}};
+}
+
+Group dynamics() {
+  using Matrix = Eigen::Matrix2d;
+  return {
+      "stiffness and damping",
+      {matrix("stiffness", "stiffness, bearing axes,", kStiffness,
+              [](const Solution& s) -> Matrix { return s.state.coefficients.stiffness.topLeftCorner<2, 2>(); }),
+       matrix("damping", "damping, bearing axes,", kDamping,
+              [](const Solution& s) -> Matrix { return s.state.coefficients.damping.topLeftCorner<2, 2>(); }),
+       matrix("K", "K = k c/W, x along the load,", kNone, [](const Solution& s) -> Matrix { return s.coefficients.K; }),
+       matrix("C", "C = b c omega/W, x along the load,", kNone,
+              [](const Solution& s) -> Matrix { return s.coefficients.C; })}};
+}
+
+/// Numbers of a threshold that is not there are words.
+Group stability() {
+  using Whirl = bearing::WhirlStability;
+  const auto if_stable = [](const char* words) {
+    return [words](const Solution& s) -> std::string { return s.whirl.always_stable ? words : ""; };
+  };
+  const auto of_mass = [](const Solution& s) -> std::string {
+    if (s.whirl.never_stable) return "none: unstable at every mass";
+    return s.whirl.always_stable ? "none: stable at every mass" : "";
+  };
+  return {
+      "stability",
+      {{"critical_mass", "critical mass of a rigid rotor", kKilogram, whirl(&Whirl::critical_mass), {.words = of_mass}},
+       {"whirl_ratio", "whirl frequency ratio", kNone, whirl(&Whirl::whirl_ratio), {.words = if_stable("no whirl")}},
+       {"stability_number",
+        "omega sqrt(c/g) at the threshold",
+        kNone,
+        whirl(&Whirl::stability_number),
+        {.words = if_stable("no threshold")}},
+       {"threshold_speed",
+        "threshold speed under the load's own weight",
+        kRpm,
+        whirl(&Whirl::threshold_speed),
+        {.words = if_stable("none: stable at every speed")}}}};
+}
+
+/// The table of all figures, in the order in which they are told.
+const std::vector<Group>& table() {
+  static const std::vector<Group> groups{operating_point(), film_figures(), deformation(), dimensionless(),
+                                         friction(),        oil(),          dynamics(),    stability()};
+  return groups;
+}
+
+/// `text` with `name` in place of what stands in angle brackets.
+std::string filled_in(const std::string& text, const std::string& name) {
+  const std::size_t from = text.find('<'), to = text.find('>');
+  return name.empty() || from == std::string::npos ? text : text.substr(0, from) + name + text.substr(to + 1);
 }
 
 }  // namespace
 
 std::vector<BearingFigure> figures_of(const BearingSolution& solution) {
-  Figures figures(solution.grid_error.known);
-  add_state(solution, figures);
-  add_deformation(solution, figures);
-  add_oil_and_friction(solution, figures);
-  add_dynamics(solution, figures);
-  return figures.take();
+  std::vector<BearingFigure> figures;
+  for (const Group& group : table()) {
+    for (const Line& line : group.lines) {
+      if (line.more.only && !line.more.only(solution)) continue;
+      const std::vector<std::string> names = line.more.each ? line.more.each(solution) : std::vector<std::string>{""};
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        const double size = line.unit.size;
+        BearingFigure& figure =
+            figures.emplace_back(BearingFigure{.key = filled_in(line.key, names[k]),
+                                               .name = filled_in(line.name, names[k]),
+                                               .unit = line.unit.name,
+                                               .si_unit = line.unit.si,
+                                               .si = size,
+                                               .value = line.value(solution, k) / size,
+                                               .words = line.more.words ? line.more.words(solution) : "",
+                                               .group = group.name});
+        const double error = line.more.grid_error ? line.more.grid_error(solution) : -1;
+        if (solution.grid_error.known && error >= 0) figure.grid_error = error / size;
+      }
+    }
+  }
+  return figures;
 }
 
 }  // namespace hersey::study

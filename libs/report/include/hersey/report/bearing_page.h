@@ -23,6 +23,13 @@ struct PageFeature {
   double phi = 0, z = 0, arc = 0, length = 0;  ///< middle and whole extent [rad, m]
 };
 
+/// A field of the film at the nodes.
+struct PageField {
+  std::string name, unit;  ///< as in a results file: "pressure", SI
+  std::string text;        ///< what it is
+  Eigen::VectorXd values;  ///< at the nodes, index i z.size() + j
+};
+
 /// One operating point of a bearing by itself.
 struct PageSolution {
   std::string label;                                        ///< what tells it from the others; empty if alone
@@ -31,12 +38,11 @@ struct PageSolution {
   std::string remark;                                       ///< about its stability and the like
   std::vector<PageFigure> figures;
   std::vector<PageFeature> features;
-  double clearance = 0;                                          ///< radial [m]
-  Eigen::Vector2d e = Eigen::Vector2d::Zero();                   ///< position of the journal [m]
-  Eigen::Vector2d load = Eigen::Vector2d::Zero();                ///< on the journal [N]
-  Eigen::VectorXd phi, z;                                        ///< places of the nodes [rad, m]
-  Eigen::VectorXd pressure, thickness, fill, asperity_pressure;  ///< at the nodes, index i z.size() + j [Pa, m, -, Pa]
-  Eigen::VectorXd shell_displacement, journal_displacement;      ///< outward, at the nodes [m]; empty where it is rigid
+  double clearance = 0;                            ///< radial [m]
+  Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
+  Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< on the journal [N]
+  Eigen::VectorXd phi, z;                          ///< places of the nodes [rad, m]
+  std::vector<PageField> fields;
 };
 
 /// What the report of a bearing by itself shows.

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hersey/film/observables.h"
+
+namespace hersey::run {
+
+/// A field of a film: a line of their one table.
+struct FilmField {
+  std::string name;         ///< in the results file, "asperity_pressure"
+  std::string unit;         ///< SI
+  std::string text;         ///< what it is
+  std::string label;        ///< in tables, "asperity pressure"
+  std::string shown_unit;   ///< in tables, "MPa"; empty for a pure number
+  double shown_per_si = 1;  ///< how many of that unit one of SI is, 1e-6
+  /// At the nodes, shape (n_phi n_z); empty where the film has none.
+  std::function<Eigen::VectorXd(const film::FilmFields&)> values;
+  std::string symbol = {}, note = {};  ///< QuantityInfo
+};
+
+/// All fields that are stored over time and shown of a bearing by itself.
+[[nodiscard]] const std::vector<FilmField>& film_fields();
+
+}  // namespace hersey::run

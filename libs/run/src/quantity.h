@@ -1,0 +1,255 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "hersey/core/contract.h"
+#include "hersey/results/writer.h"
+#include "hersey/run/quantities.h"
+
+/// Tables of quantities. A `Thing` is what is seen of something in one row of the file; its `Plan` is what is known of
+/// it before the first row.
+namespace hersey::run {
+
+/// Shape of a row that only the plan tells, and what its columns are.
+template <class Plan>
+struct Extent {
+  std::string text = {};  ///< of the shape, "3 nodes" or "n_phi, n_z"
+  /// @param k  of a family, which one
+  std::function<std::vector<int>(const Plan&, std::size_t k)> shape = {};
+  std::vector<std::string> dimensions = {};  ///< seen from the thing's group, one for each number; empty: their numbers
+};
+
+/// What is said of some quantities only.
+template <class Plan>
+struct More {
+  std::string symbol = {}, note = {};
+  std::function<bool(const Plan&)> only = {};  ///< whether a thing has it; empty: each has
+  Extent<Plan> extent = {};                    ///< of rows whose length their type leaves open
+  results::Precision precision = results::Precision::float64;
+  std::function<std::string(const Plan&)> unit = {};  ///< which, where there are several
+  /// What stands for <...> in name and text: of a family one for each member.
+  std::function<std::vector<std::string>(const Plan&)> each = {};
+  std::vector<Told> told = {};
+};
+
+/// `text` with `name` in place of what stands in angle brackets.
+[[nodiscard]] std::string filled_in(const std::string& text, const std::string& name);
+
+/// Path of `name` seen from `group`, which ends with "/"; each "../" before it is a group up.
+[[nodiscard]] std::string below(std::string group, std::string name);
+
+/// Numbers in a row of type T; 0 where only the plan tells.
+template <class T>
+constexpr int columns_of() {
+  if constexpr (std::is_arithmetic_v<T>)
+    return 1;
+  else if constexpr (requires { T::SizeAtCompileTime; })
+    return T::SizeAtCompileTime == Eigen::Dynamic ? 0 : static_cast<int>(T::SizeAtCompileTime);
+  else
+    return 0;
+}
+
+/// A line of a table: a quantity that grows by one row whenever its thing is written down.
+template <class Thing, class Plan>
+class Quantity {
+ public:
+  /// @param get  from a thing, or of a family from thing and place: number, vector of fixed length, or any row
+  template <class Get>
+  Quantity(const std::string& name, const std::string& unit, const std::string& text, Get get, More<Plan> more = {})
+      : more_(std::move(more)) {
+    constexpr bool is_family = std::is_invocable_v<Get, const Thing&, std::size_t>;
+    const auto value = [get](const Thing& thing, [[maybe_unused]] std::size_t k) -> decltype(auto) {
+      if constexpr (is_family)
+        return std::invoke(get, thing, k);
+      else
+        return std::invoke(get, thing);
+    };
+    using Row = std::remove_cvref_t<decltype(value(std::declval<const Thing&>(), 0))>;
+    columns_ = columns_of<Row>();
+    HERSEY_REQUIRE((columns_ == 0) == static_cast<bool>(more_.extent.shape), "a row has one shape: " + name);
+    HERSEY_REQUIRE(!is_family || more_.each, "a family has names: " + name);
+    append_ = [value](const Thing& thing, std::size_t k, const results::Series& series) {
+      if constexpr (std::is_arithmetic_v<Row>)
+        series.append(static_cast<double>(value(thing, k)));
+      else
+        series.append(value(thing, k));
+    };
+    const bool is_numbered = columns_ == 0 && more_.extent.dimensions.empty();
+    info_ = {.name = name,
+             .unit = unit,
+             .text = text,
+             .shape = columns_ > 1 ? std::to_string(columns_) : more_.extent.text,
+             .symbol = more_.symbol,
+             .note = more_.note,
+             .kind = QuantityInfo::Kind::series,
+             .dimensions = is_numbered ? std::vector{name + "_column"} : more_.extent.dimensions,
+             .told = more_.told};
+  }
+
+  [[nodiscard]] const QuantityInfo& info() const { return info_; }
+  /// The names for which it is there.
+  [[nodiscard]] std::vector<std::string> names(const Plan& plan) const {
+    if (more_.only && !more_.only(plan)) return {};
+    return more_.each ? more_.each(plan) : std::vector<std::string>{""};
+  }
+  [[nodiscard]] results::Series declare(const std::string& group, const std::string& name, std::size_t k,
+                                        const Plan& plan, results::Writer& writer) const {
+    const std::string path = group + filled_in(info_.name, name), text = filled_in(info_.text, name);
+    const std::string unit = more_.unit ? more_.unit(plan) : info_.unit;
+    const std::vector<int> shape = columns_ > 0 ? std::vector<int>{columns_} : more_.extent.shape(plan, k);
+    std::vector<std::string> dimensions;
+    for (const std::string& dimension : more_.extent.dimensions)
+      dimensions.push_back(below(group, filled_in(dimension, name)));
+    dimensions.resize(shape.size());
+    if (shape.size() == 2) return writer.field(path, {shape[0], shape[1]}, unit, text, {dimensions[0], dimensions[1]});
+    return writer.series(path, shape[0], unit, text, more_.precision, dimensions[0]);
+  }
+  void append(const Thing& thing, std::size_t k, const results::Series& series) const { append_(thing, k, series); }
+
+ private:
+  More<Plan> more_;
+  int columns_ = 0;
+  std::function<void(const Thing&, std::size_t, const results::Series&)> append_;
+  QuantityInfo info_;
+};
+
+/// A line of a table: what is written once, before the first row, a dataset of numbers.
+template <class Plan>
+class Constant {
+ public:
+  /// @param dimension  of its numbers, as in results::Writer::constant; empty: it is one
+  template <class Get>
+  Constant(const std::string& name, const std::string& unit, const std::string& text, const std::string& shape, Get get,
+           std::string_view dimension = {}, More<Plan> more = {})
+      : more_(std::move(more)) {
+    info_ = {.name = name,
+             .unit = unit,
+             .text = text,
+             .shape = shape,
+             .symbol = more_.symbol,
+             .note = more_.note,
+             .kind = QuantityInfo::Kind::constant};
+    write_ = [get, dimension, unit, text](const Plan& plan, const std::string& path, results::Writer& writer) {
+      const auto values = std::invoke(get, plan);
+      if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(values)>>) {
+        const double value = values;
+        writer.constant(path, {&value, 1}, unit, text, dimension);
+      } else {
+        writer.constant(path, {values.data(), static_cast<std::size_t>(values.size())}, unit, text, dimension);
+      }
+    };
+  }
+
+  [[nodiscard]] const QuantityInfo& info() const { return info_; }
+  void write(const std::string& group, const Plan& plan, results::Writer& writer) const {
+    if (!more_.only || more_.only(plan)) write_(plan, group + info_.name, writer);
+  }
+
+ private:
+  More<Plan> more_;
+  std::function<void(const Plan&, const std::string&, results::Writer&)> write_;
+  QuantityInfo info_;
+};
+
+/// A line of a table: an attribute of a thing's group, text, number or a list of texts.
+template <class Plan>
+class Attribute {
+ public:
+  /// @param get  as of a Quantity
+  template <class Get>
+  Attribute(const std::string& name, const std::string& unit, const std::string& text, Get get, More<Plan> more = {})
+      : more_(std::move(more)) {
+    info_ = {.name = name,
+             .unit = unit,
+             .text = text,
+             .symbol = more_.symbol,
+             .note = more_.note,
+             .kind = QuantityInfo::Kind::attribute,
+             .told = more_.told};
+    write_ = [get](const Plan& plan, [[maybe_unused]] std::size_t k, const std::string& object, const std::string& as,
+                   results::Writer& writer) {
+      if constexpr (std::is_invocable_v<Get, const Plan&, std::size_t>)
+        writer.attribute(object, as, std::invoke(get, plan, k));
+      else
+        writer.attribute(object, as, std::invoke(get, plan));
+    };
+  }
+
+  [[nodiscard]] const QuantityInfo& info() const { return info_; }
+  void write(const std::string& group, const Plan& plan, results::Writer& writer) const {
+    if (more_.only && !more_.only(plan)) return;
+    const std::string object = group.size() > 1 && group.ends_with('/') ? group.substr(0, group.size() - 1) : group;
+    const std::vector<std::string> names = more_.each ? more_.each(plan) : std::vector<std::string>{""};
+    for (std::size_t k = 0; k < names.size(); ++k) write_(plan, k, object, filled_in(info_.name, names[k]), writer);
+  }
+
+ private:
+  More<Plan> more_;
+  std::function<void(const Plan&, std::size_t, const std::string&, const std::string&, results::Writer&)> write_;
+  QuantityInfo info_;
+};
+
+template <class Thing, class Plan>
+using QuantityTable = std::vector<Quantity<Thing, Plan>>;
+
+/// Writes all lines of a table of constants or attributes.
+/// @param group  of the thing, ends with "/"
+template <class Line, class Plan>
+void write_once(const std::vector<Line>& table, const std::string& group, const Plan& plan, results::Writer& writer) {
+  for (const Line& line : table) line.write(group, plan, writer);
+}
+
+/// The series of one thing in the results file.
+template <class Thing, class Plan>
+class QuantityRows {
+ public:
+  /// Declares those that the thing has.
+  /// @param table  outlives this
+  /// @param group  of the thing, ends with "/"
+  QuantityRows(const QuantityTable<Thing, Plan>& table, const std::string& group, const Plan& plan,
+               results::Writer& writer) {
+    for (const Quantity<Thing, Plan>& quantity : table) {
+      const std::vector<std::string> names = quantity.names(plan);
+      for (std::size_t k = 0; k < names.size(); ++k)
+        entries_.push_back({&quantity, k, quantity.declare(group, names[k], k, plan, writer)});
+    }
+  }
+  /// Adds a row to each.
+  void append(const Thing& thing) const {
+    for (const Entry& entry : entries_) entry.quantity->append(thing, entry.place, entry.series);
+  }
+
+ private:
+  struct Entry {
+    const Quantity<Thing, Plan>* quantity;
+    std::size_t place;  ///< in a family
+    results::Series series;
+  };
+  std::vector<Entry> entries_;
+};
+
+/// Adds what is said of all lines of a table to `group`.
+/// @param rows  what its series grow with, "n": the first number of their shape
+template <class Line>
+void describe(const std::vector<Line>& table, const std::string& rows, QuantityGroup& group) {
+  for (const Line& line : table) {
+    QuantityInfo info = line.info();
+    if (info.kind == QuantityInfo::Kind::series)
+      info.shape = "[" + rows + (info.shape.empty() ? "" : ", " + info.shape) + "]";
+    group.quantities.push_back(std::move(info));
+  }
+}
+
+/// The member of a part: `inner` of `outer`, both pointers to members.
+template <class Outer, class Inner>
+[[nodiscard]] auto part(Outer outer, Inner inner) {
+  return [outer, inner](const auto& thing) { return std::invoke(inner, std::invoke(outer, thing)); };
+}
+
+}  // namespace hersey::run
