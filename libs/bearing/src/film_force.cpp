@@ -362,13 +362,10 @@ film::FilmFields FilmForce::fields() const {
   if (film::cavitation_law(model()).has_fill() && history_start_.theta.size() == u_.size())
     fields.theta = history_start_.theta.cwiseMax(0.0).cwiseMin(1.0);
   fields.depth = film::mean_depth(model(), observed_surfaces_.phi_journal);
+  if (heat_) heat_->fields().show_in(fields);
   if (options_.shell_surface) fields.d_shell = deforming_->shell_displacement(observed_s_);
   if (options_.journal_surface) fields.d_journal = deforming_->journal_displacement(observed_s_);
   return fields;
-}
-
-std::optional<film::TemperatureFields> FilmForce::temperatures() const {
-  return heat_ ? std::optional(heat_->fields()) : std::nullopt;
 }
 
 // What begin_step returns to, and the oil that the last step began with: where the method starts afresh, accelerations

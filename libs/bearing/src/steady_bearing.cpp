@@ -670,6 +670,7 @@ film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& 
   if (state.d_journal.size() > 0) motion.g -= state.d_journal;
   film::FilmFields fields = film::film_fields(model, motion, state.u);
   fields.depth = film::mean_depth(model, motion.phi_journal);
+  if (state.heat) state.heat->fields.show_in(fields);
   fields.d_shell = state.d_shell;
   fields.d_journal = state.d_journal;
   return fields;

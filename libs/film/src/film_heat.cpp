@@ -60,6 +60,7 @@ struct FilmHeat::Impl {
         equations(film, given) {}
 
   [[nodiscard]] HeatState start() const;
+  void show_rest();
   void observe(const CarryingFilm& film);
   void show_surfaces(const CarryingFilm& film);
   void find_hottest();
@@ -92,8 +93,23 @@ HeatState FilmHeat::Impl::start() const {
   return first;
 }
 
+void FilmHeat::Impl::show_rest() {
+  const Eigen::VectorXd everywhere = Eigen::VectorXd::Constant(flow.size(), thermal.T_supply);
+  shown = {everywhere, everywhere, everywhere, everywhere};
+  if (conducts(thermal.journal)) shown.journal.setConstant(state.journal);
+  for (int node = 0; conducts(thermal.shell) && node < flow.size(); ++node)
+    shown.shell[node] = state.shell[node / flow.model().grid.n_z];
+  seen = {};
+  seen.T_supplies = state.supplies;
+  seen.T_film_mean = seen.T_side = thermal.T_supply;
+  seen.T_shell_mean = shown.shell.mean();
+  seen.T_journal = shown.journal.mean();
+  find_hottest();
+}
+
 FilmHeat::FilmHeat(const FilmModel& model, const ThermalModel& thermal) : impl_(std::make_unique<Impl>(model, thermal)) {
   impl_->state = impl_->start();
+  impl_->show_rest();
 }
 FilmHeat::~FilmHeat() = default;
 FilmHeat::FilmHeat(FilmHeat&&) noexcept = default;

@@ -9,8 +9,6 @@
 namespace hersey::film {
 namespace heat_test {
 
-constexpr double zero_celsius = 273.15;
-
 /// mu = 0.0277 exp(-0.034 (T - 40 degC)) Pa s, as in all reference cases.
 Lubricant thinning_oil() {
   Lubricant oil{.mu0 = 0.0277, .density = 860};

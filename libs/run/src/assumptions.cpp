@@ -85,9 +85,73 @@ struct WordsOfDensity {
   }
 };
 
-std::string viscosity(const film::Lubricant& oil) {
-  return fmt::format("{:.4g} mPa.s{}, {}, isothermal", 1e3 * oil.mu0, std::visit(WordsOfViscosity{}, oil.viscosity_law),
-                     std::visit(WordsOfDensity{}, oil.density_law));
+double celsius(double T) { return T - film::zero_celsius; }
+
+/// How the viscosity falls with temperature. A law without words here does not compile.
+struct WordsOfTemperature {
+  std::string operator()(const film::FixedViscosity&) const { return "the same at every temperature"; }
+  std::string operator()(const film::ExponentialViscosity& law) const {
+    return fmt::format("{:.4g} mPa.s exp[-{:.4g}/K (T - {:.4g} degC)]", 1e3 * law.mu_ref, law.beta, celsius(law.T_ref));
+  }
+  std::string operator()(const film::VogelViscosity& law) const {
+    return fmt::format("{:.4g} mPa.s exp[{:.4g} K/(T - {:.4g} K)] (Vogel)", 1e3 * law.a, law.b, law.c);
+  }
+  std::string operator()(const film::WaltherViscosity& law) const {
+    return fmt::format("{:.4g} and {:.4g} mm^2/s at 40 and 100 degC (ASTM D341), {:.4g} kg/m^3 at 15 degC",
+                       1e6 * law.kinematic(313.15).value, 1e6 * law.kinematic(373.15).value, law.rho15);
+  }
+  std::string operator()(const film::TabledViscosity& law) const {
+    return fmt::format("a table of {} rows from {:.4g} to {:.4g} degC", law.T.size(), celsius(law.T.front()),
+                       celsius(law.T.back()));
+  }
+};
+
+struct WordsOfShell {
+  std::string operator()(const film::InsulatedWall&) const { return "takes no heat"; }
+  std::string operator()(const film::WallAtTemperature& wall) const {
+    return fmt::format("at {:.4g} degC", celsius(wall.T));
+  }
+  std::string operator()(const film::RingWall& ring) const {
+    return fmt::format("a ring to {:.4g} mm, {:.4g} W/m/K, {:.4g} W/m^2/K to surroundings at {:.4g} degC",
+                       2e3 * ring.outer_radius, ring.conductivity, ring.transfer, celsius(ring.T_ambient));
+  }
+};
+
+struct WordsOfJournal {
+  std::string operator()(const film::InsulatedWall&) const { return "takes no heat"; }
+  std::string operator()(const film::WallAtTemperature& wall) const {
+    return fmt::format("at {:.4g} degC", celsius(wall.T));
+  }
+  std::string operator()(const film::FreeJournal&) const { return "at one temperature, without net heat when steady"; }
+};
+
+/// What the film's temperature is; empty where nothing depends on one.
+std::string heat(const model::Bearing& bearing) {
+  const film::Lubricant& oil = bearing.film.lubricant;
+  const std::string law = std::visit(WordsOfTemperature{}, oil.temperature_law);
+  if (const auto* film = std::get_if<film::ThermalModel>(&bearing.heat)) {
+    return fmt::format("film in {} layers, viscosity {}, oil supplied at {:.4g} degC, {:.4g} J/kg/K, {:.4g} W/m/K; shell {}; journal "
+                       "{}; grooves carry over {:.3g} of the film's oil",
+                       film->layers, law, celsius(film->T_supply), oil.specific_heat, oil.conductivity,
+                       std::visit(WordsOfShell{}, film->shell), std::visit(WordsOfJournal{}, film->journal),
+                       film->carry_over);
+  }
+  if (const auto* one = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
+    const std::string by =
+        one->cools_by_surroundings
+            ? fmt::format("housing of {:.4g} m^2 at {:.4g} W/m^2/K to {:.4g} degC", one->area, one->transfer, celsius(one->T_ambient))
+            : fmt::format("the oil, supplied at {:.4g} degC", celsius(one->T_supply));
+    return fmt::format("one effective temperature, viscosity {}; cooled by {}", law, by);
+  }
+  return film::depends_on_temperature(oil.temperature_law) ? "one temperature; " + law : "";
+}
+
+std::string viscosity(const model::Bearing& bearing) {
+  const film::Lubricant& oil = bearing.film.lubricant;
+  const bool varies = !std::holds_alternative<std::monostate>(bearing.heat);
+  return fmt::format("{:.4g} mPa.s{}{}, {}{}", 1e3 * oil.mu0, varies ? " as supplied" : "",
+                     std::visit(WordsOfViscosity{}, oil.viscosity_law), std::visit(WordsOfDensity{}, oil.density_law),
+                     varies ? "" : ", isothermal");
 }
 
 std::string asperities(const film::Asperities& contact) {
@@ -140,7 +204,8 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
                              film.profiles.size(), 1e6 * opening.minCoeff(), 1e6 * opening.maxCoeff()));
   }
   row("grid", grid(film));
-  row("viscosity", viscosity(film.lubricant));
+  row("viscosity", viscosity(bearing));
+  if (std::string text = heat(bearing); !text.empty()) row("temperature", std::move(text));
   row("roughness", roughness(film));
   row("contact", asperities(film.asperities));
   row("compliance", compliance(bearing));

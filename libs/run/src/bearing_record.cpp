@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "cycle_maps.h"
 #include "geometry_record.h"
@@ -69,6 +70,35 @@ double flow_of_feature(const BearingRow& row, std::size_t k) {
   return row.seen.film.flow_features[static_cast<Eigen::Index>(k)];
 }
 
+bool has_heat(const BearingPlan& plan) { return std::holds_alternative<film::ThermalModel>(plan.bearing.heat); }
+
+using Heat = film::HeatObservables;
+
+/// Of the film's heat, a temperature in degC.
+auto celsius(double Heat::*T) {
+  return [T](const BearingRow& row) { return *row.seen.heat.*T - film::zero_celsius; };
+}
+
+template <class Member>
+auto of_heat(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, *row.seen.heat); };
+}
+
+auto of_heat_balance(double film::HeatBalance::*member) {
+  return [member](const BearingRow& row) { return row.seen.heat->balance.*member; };
+}
+
+/// Line and features, in the order of HeatObservables::T_supplies.
+std::vector<std::string> supply_names(const BearingPlan& plan) {
+  std::vector<std::string> names = feature_names(plan);
+  if (plan.bearing.film.supply.kind != film::SupplyKind::none) names.insert(names.begin(), "line");
+  return has_heat(plan) ? names : std::vector<std::string>{};
+}
+
+double supply_temperature(const BearingRow& row, std::size_t k) {
+  return row.seen.heat->T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+}
+
 /// A field with one column for each angle: index i n_z + j is angle i, height j.
 Eigen::Map<const Eigen::MatrixXd> by_angle(const Eigen::VectorXd& field, const film::Grid& grid) {
   return {field.data(), grid.n_z, grid.n_phi};
@@ -87,6 +117,7 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       "n_phi",
       [](const BearingPlan& plan, std::size_t /*k*/) { return std::vector{plan.bearing.film.grid.n_phi}; },
       {"fields/phi"}};
+  static const std::string of_film_heat = "this and the following: of films with `thermal: {model: film}`";
   static const std::string per_angle = "four bytes a number";
   static const QuantityTable<BearingRow, BearingPlan> table{
       {"h_min",
@@ -217,6 +248,63 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        of_film(&Film::rupture_angle),
        {.note = "with the flow, of its widest cavity"}},
       {"reformation_angle", "rad", "where it re-forms; NaN where it is whole", of_film(&Film::reformation_angle)},
+      {"T_max",
+       "degC",
+       "temperature of the hottest oil",
+       celsius(&Heat::T_max),
+       {.symbol = "T_max",
+        .note = of_film_heat,
+        .only = has_heat,
+        .told = {{As::largest, "hottest oil", "°C", true}, {As::at_end, "hottest oil at the end", "°C"}}}},
+      {"T_max_phi", "rad", "where: bearing angle", of_heat(&Heat::T_max_phi), {.only = has_heat}},
+      {"T_max_z", "m", "where: axial", of_heat(&Heat::T_max_z), {.only = has_heat}},
+      {"T_shell_max",
+       "degC",
+       "highest temperature of the shell's surface",
+       celsius(&Heat::T_shell_max),
+       {.only = has_heat, .told = {{As::largest, "hottest place of the shell", "°C"}}}},
+      {"T_shell_mean", "degC", "mean temperature of the shell's surface", celsius(&Heat::T_shell_mean),
+       {.only = has_heat}},
+      {"T_journal",
+       "degC",
+       "mean temperature of the journal's surface",
+       celsius(&Heat::T_journal),
+       {.symbol = "T_J", .only = has_heat, .told = {{As::at_end, "temperature of the journal at the end", "°C"}}}},
+      {"T_film", "degC", "mean temperature of the oil in the film", celsius(&Heat::T_film_mean), {.only = has_heat}},
+      {"T_side",
+       "degC",
+       "temperature of the oil that leaves over the edges; NaN where none does",
+       celsius(&Heat::T_side),
+       {.only = has_heat, .told = {{As::at_end, "temperature of the side flow at the end", "°C"}}}},
+      {"T_supply_<name>",
+       "degC",
+       "temperature of the stirred oil in this supply",
+       supply_temperature,
+       {.note = "the line, or one hole or groove", .only = has_heat, .each = supply_names}},
+      {"heat_dissipated", "W", "made in the film and by asperities", of_heat_balance(&film::HeatBalance::power),
+       {.only = has_heat}},
+      {"heat_to_oil",
+       "W",
+       "carried away by oil that leaves, over that of the oil that comes",
+       of_heat_balance(&film::HeatBalance::to_oil),
+       {.only = has_heat, .told = {{As::mean, "mean heat carried away by the oil", "W"}}}},
+      {"heat_to_shell",
+       "W",
+       "into the shell",
+       of_heat_balance(&film::HeatBalance::to_shell),
+       {.only = has_heat, .told = {{As::mean, "mean heat into the shell", "W"}}}},
+      {"heat_to_journal",
+       "W",
+       "into the journal",
+       of_heat_balance(&film::HeatBalance::to_journal),
+       {.only = has_heat, .told = {{As::mean, "mean heat into the journal", "W"}}}},
+      {"heat_stored", "W", "rate of the heat in the film's oil", of_heat_balance(&film::HeatBalance::stored),
+       {.only = has_heat}},
+      {"heat_balance_error",
+       "1",
+       "what is missing in the balance of heat, over its largest term",
+       [](const BearingRow& row) { return row.seen.heat->balance.error(); },
+       {.only = has_heat, .told = {{As::largest_in_size, "worst error of the film's heat balance"}}}},
       {"film_iterations", "1", "film linearisations in the step",
        of_bearing(&bearing::BearingObservation::film_iterations)},
       {"exchanges",

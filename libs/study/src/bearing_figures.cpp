@@ -24,6 +24,7 @@ constexpr Unit kDegree{"deg", "rad", std::numbers::pi / 180}, kRpm{"rpm", "rad/s
 constexpr Unit kMillimetrePerSecond{"mm/s", "m/s", 1e-3};
 constexpr Unit kMicrometre{"um", "m", 1e-6}, kMillimetre{"mm", "m", 1e-3}, kMegapascal{"MPa", "Pa", 1e6};
 constexpr Unit kMicrometrePerMetre{"um/m", "1", 1e-6};
+constexpr Unit kCelsius{"degC", "degC", 1};
 constexpr Unit kFlow{"mm^3/s", "m^3/s", 1e-9}, kVolume{"mm^3", "m^3", 1e-9};
 
 using Solution = BearingSolution;
@@ -281,6 +282,72 @@ Group oil() {
        {"reformation_angle", "  and re-forms at", kDegree, film(&Film::reformation_angle), {.only = ruptures}}}};
 }
 
+/// Names of HeatObservables::T_supplies.
+std::vector<std::string> supply_names(const Solution& s) {
+  std::vector<std::string> names;
+  if (s.model.supply.kind != film::SupplyKind::none) names.emplace_back("line");
+  for (const film::SurfaceFeature& feature : s.model.features) names.push_back(feature.name);
+  return names;
+}
+
+Group heat() {
+  using Seen = film::HeatObservables;
+  using Balance = film::HeatBalance;
+  const auto has_heat = [](const Solution& s) { return s.state.heat.has_value(); };
+  const auto has_one = [](const Solution& s) { return s.state.effective.has_value(); };
+  const auto celsius = [](double Seen::*T) {
+    return [T](const Solution& s) { return s.state.heat->seen.*T - film::zero_celsius; };
+  };
+  const auto of_heat = [](double Seen::*member) {
+    return [member](const Solution& s) { return s.state.heat->seen.*member; };
+  };
+  const auto balance = [](double Balance::*member) {
+    return [member](const Solution& s) {
+      const Balance& b = s.state.heat->seen.balance;
+      return without_round_off(b.*member, b.power);
+    };
+  };
+  return {
+      "heat",
+      {{"T_effective",
+        "effective temperature of the oil",
+        kCelsius,
+        [](const Solution& s) { return s.state.effective->T - film::zero_celsius; },
+        {.only = has_one}},
+       {"T_out",
+        "temperature of the oil that leaves",
+        kCelsius,
+        [](const Solution& s) { return s.state.effective->T_out - film::zero_celsius; },
+        {.only = has_one}},
+       {"T_max", "hottest oil", kCelsius, celsius(&Seen::T_max), {.only = has_heat}},
+       {"T_max_angle", "  at the angle", kDegree, of_heat(&Seen::T_max_phi), {.only = has_heat}},
+       {"T_max_z", "  at z", kMillimetre, of_heat(&Seen::T_max_z), {.only = has_heat}},
+       {"T_shell_max", "hottest place of the shell", kCelsius, celsius(&Seen::T_shell_max), {.only = has_heat}},
+       {"T_shell_max_angle", "  at the angle", kDegree, of_heat(&Seen::T_shell_max_phi), {.only = has_heat}},
+       {"T_shell_mean", "mean temperature of the shell's surface", kCelsius, celsius(&Seen::T_shell_mean),
+        {.only = has_heat}},
+       {"T_journal", "mean temperature of the journal's surface", kCelsius, celsius(&Seen::T_journal),
+        {.only = has_heat}},
+       {"T_film", "mean temperature of the oil in the film", kCelsius, celsius(&Seen::T_film_mean), {.only = has_heat}},
+       {"T_side", "temperature of the side flow", kCelsius, celsius(&Seen::T_side), {.only = has_heat}},
+       {"T_supply_<name>",
+        "temperature in <name>",
+        kCelsius,
+        [](const Solution& s, std::size_t k) {
+          return s.state.heat->seen.T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+        },
+        {.only = has_heat, .each = supply_names}},
+       {"heat_dissipated", "heat made", kWatt, balance(&Balance::power), {.only = has_heat}},
+       {"heat_to_oil", "  carried away by the oil", kWatt, balance(&Balance::to_oil), {.only = has_heat}},
+       {"heat_to_shell", "  into the shell", kWatt, balance(&Balance::to_shell), {.only = has_heat}},
+       {"heat_to_journal", "  into the journal", kWatt, balance(&Balance::to_journal), {.only = has_heat}},
+       {"heat_balance_error",
+        "  error of the balance of heat",
+        kNone,
+        [](const Solution& s) { return s.state.heat->seen.balance.error(); },
+        {.only = has_heat}}}};
+}
+
 /// The four entries of a matrix over x and y, row by row.
 /// @param get  the matrix of a solution
 template <class Get>
@@ -338,7 +405,8 @@ Group stability() {
 /// The table of all figures, in the order in which they are told.
 const std::vector<Group>& table() {
   static const std::vector<Group> groups{operating_point(), film_figures(), deformation(), dimensionless(),
-                                         friction(),        oil(),          dynamics(),    stability()};
+                                         friction(),        oil(),          heat(),        dynamics(),
+                                         stability()};
   return groups;
 }
 

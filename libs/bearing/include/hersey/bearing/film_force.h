@@ -112,9 +112,6 @@ class FilmForce : public mbd::TwoBodyForce {
   /// Fields at the nodes at the state last accepted.
   [[nodiscard]] film::FilmFields fields() const;
 
-  /// Temperatures at the nodes at the state last accepted; none of a film without.
-  [[nodiscard]] std::optional<film::TemperatureFields> temperatures() const;
-
  private:
   void place(const mbd::RelativeMotion& motion);
   void feed(double t);

@@ -5,6 +5,7 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/observables.h"
 #include "hersey/film/thermal_model.h"
 
 namespace hersey::film {
@@ -23,6 +24,11 @@ struct TemperatureFields {
   Eigen::VectorXd shell;    ///< on the shell's surface
   Eigen::VectorXd journal;  ///< on the journal's surface
   Eigen::VectorXd hottest;  ///< largest of all layers
+
+  /// Puts them beside the film's other fields.
+  void show_in(FilmFields& fields) const {
+    fields.T = middle, fields.T_shell = shell, fields.T_journal = journal, fields.T_hottest = hottest;
+  }
 };
 
 /// Where a film's heat comes from and goes (theory manual, thermal.17), powers in W.
@@ -81,7 +87,7 @@ class FilmHeat {
   /// that is renewed are taken from.
   void advance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
-  /// After advance(): fields and numbers of that film.
+  /// After advance(): fields and numbers of that film; before, of one at the temperatures of its supply and walls.
   [[nodiscard]] TemperatureFields fields() const;
   /// Likewise.
   [[nodiscard]] const HeatObservables& observables() const;

@@ -21,6 +21,9 @@ struct FilmFields {
   /// Radial displacement of the surfaces of elastic bodies against their frames, away from the bearing's axis [m];
   /// empty where a surface is rigid. Whoever places the surfaces fills them in.
   Eigen::VectorXd d_shell, d_journal;
+  /// Temperatures: mean over the thickness, of both surfaces, of the hottest layer [K]; empty without. Whoever has them
+  /// fills them in (TemperatureFields).
+  Eigen::VectorXd T, T_shell, T_journal, T_hottest;
 };
 
 /// What an engineer asks of a film (docs: definitions as in theory manual, chapter film). Flows and volumes of oil are

@@ -8,6 +8,9 @@
 
 namespace hersey::film {
 
+/// 0 degC [K].
+inline constexpr double zero_celsius = 273.15;
+
 // Each law (thermal.1 to thermal.3) gives ln mu and its slope [1/K] at a temperature T [K], mu in Pa s at the cavitation pressure. A
 // new law is a struct like these and its name in TemperatureLaw.
 
