@@ -58,6 +58,9 @@ constexpr double kFreshTurn = 0.2;
 constexpr int kMostHeatIterations = 60;
 constexpr double kHeatTolerance = 1e-8;
 
+// The film is solved to this share of how far its temperatures still move.
+constexpr double kShareOfNearness = 1e-3;
+
 // No trial on the way to an answer is colder or hotter [K]: laws of viscosity mean nothing there.
 constexpr double kColdest = 200, kHottest = 800;
 
@@ -99,7 +102,7 @@ class Search {
   // Whether a solver has not arrived. A film that closes, starves or has an oil that stiffens without bound is none.
   [[nodiscard]] bool is_unsolved(const film::FilmSolveSummary& solved) const {
     using Trouble = film::FilmDomain::Trouble;
-    if (solved.domain.is_inside()) return solved.relative_residual > options_.rtol;
+    if (solved.domain.is_inside()) return solved.relative_residual > rtol_;
     const bool stiffens = !std::holds_alternative<film::ConstantViscosity>(model_.lubricant.viscosity_law);
     return solved.domain.trouble != Trouble::closed && !(solved.domain.trouble == Trouble::pressure && stiffens);
   }
@@ -145,18 +148,26 @@ class Search {
   // The same with other viscosities, from the film and the position there are.
   [[nodiscard]] SteadySummary once_more() {
     if (!point_.load) return at_given_position();
-    summary_.converged = false;
     budget_ = summary_.iterations + options_.max_linearisations;
     const Eigen::Vector2d e = e_;
-    if (film_at(e) && together(*point_.load)) {
-      summary_.converged = true;
-      summary_.message.clear();
-      return summary_;
+    const Eigen::VectorXd x = x_;
+    summary_.converged = linearise() && together(*point_.load);
+    if (!summary_.converged) {
+      x_ = x;
+      summary_.converged = film_at(e) && together(*point_.load);
     }
-    return under_load();
+    if (!summary_.converged) return under_load();
+    summary_.message.clear();
+    return summary_;
   }
 
   void set_viscosity(film::LayeredViscosity viscosity) { film_.set_viscosity(std::move(viscosity)); }
+
+  // How near to an answer it comes, on the way to one of film and temperature.
+  void set_tolerance(double rtol) {
+    rtol_ = rtol;
+    film_.set_tolerance(rtol);
+  }
 
   // Temperatures by the film found.
   void heat(film::FilmHeat& heat) { heat.advance(film_.surfaces(e_, x_), film_.history(), film_.film_of(x_)); }
@@ -361,7 +372,7 @@ class Search {
 
   [[nodiscard]] bool settled(const Eigen::Vector2d& target) {
     summary_.force_error = (force_ - target).norm() / target.norm();
-    if (summary_.force_error > options_.rtol || film_.relative_residual() > options_.rtol) return false;
+    if (summary_.force_error > rtol_ || film_.relative_residual() > rtol_) return false;
     x_ += film_.increment();
     return true;
   }
@@ -564,6 +575,7 @@ class Search {
   Eigen::MatrixXd dx_de_;
   SteadySummary summary_;
   Limit limit_;
+  double rtol_ = options_.rtol;
   bool is_unsolved_ = false;  // the solver has not found the film last sought
   int budget_ = 0;            // of linearisations
 };
@@ -575,7 +587,9 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
   if (options.start_heat) heat.set_state(*options.start_heat);
   solver::FixedPointIteration mixing(solver::Acceleration::quasi_newton, 1);
   SteadySummary summary;
+  double nearness = 1;
   for (int k = 0; k < kMostHeatIterations; ++k) {
+    search.set_tolerance(std::max(options.rtol, kShareOfNearness * nearness));
     search.set_viscosity(heat.viscosity());
     summary = k == 0 ? search.solve() : search.once_more();
     summary.heat_iterations = k + 1;
@@ -585,7 +599,8 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
     film::HeatState next = heat.state();
     const Eigen::VectorXd image = next.film.array() - thermal.T_supply;
     const double change = (image - x).cwiseAbs().maxCoeff();
-    if (change <= kHeatTolerance * (1 + image.cwiseAbs().maxCoeff())) {
+    nearness = std::min(1.0, change / (1 + image.cwiseAbs().maxCoeff()));
+    if (nearness <= kHeatTolerance) {
       state = search.state();
       state.heat = SteadyHeat{heat.state(), heat.observables(), heat.fields()};
       return summary;

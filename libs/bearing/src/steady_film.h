@@ -39,6 +39,8 @@ class SteadyFilm {
 
   /// Viscosities by the oil's temperatures from now on.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
+  /// On the film's relative residual, instead of SteadyOptions::rtol.
+  void set_tolerance(double rtol) { film_options_.rtol = rtol; }
   /// Of a steady film, with its viscosities.
   [[nodiscard]] const film::FilmHistory& history() const { return history_; }
 

@@ -5,7 +5,6 @@
 #include <variant>
 
 #include "hersey/core/contract.h"
-#include "hersey/solver/fixed_point_iteration.h"
 
 namespace hersey::film {
 namespace {
@@ -13,12 +12,10 @@ namespace {
 // Nodes without oil keep heat as if they held so small a share of what the clearance does.
 constexpr double least_fill = 1e-6;
 
-// Second differences of a steady film are found to this share of the change there was, in so many iterations at most.
-constexpr double steady_share = 1e-5;
-constexpr int most_corrections = 30;
-
-// Columns of the right-hand side: what is known, the journal's temperature, and from there on those of supplies.
-constexpr int known = 0, by_journal = 1, by_supplies = 2;
+// How far the equations are solved, as a share of what is missing at the start: of a steady film, which is taken in turn
+// with its temperature, and of a step.
+constexpr double steady_share = 1e-5, step_share = 1e-9;
+constexpr int most_iterations = 120;
 
 double oil_share(const Node& node) { return std::clamp(node.theta, least_fill, 1.0); }
 
@@ -74,8 +71,11 @@ double HeatEquations::start_volume(const CarryingFilm& film, int node) const {
 }
 
 HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start) {
+  const int rows = system_.size();
   system_.set_zero();
-  rhs_.setZero(system_.size(), by_supplies + supplies());
+  known_.setZero(rows + 1 + supplies());
+  by_journal_.setZero(rows);
+  by_supply_.assign(static_cast<std::size_t>(start.film.size()), 0.0);
   add_storage(film, start);
   add_flows(film);
   add_flow_upwards(film);
@@ -85,41 +85,84 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   add_journal(film);
   add_supplies(film);
   renew(film);
-  HERSEY_REQUIRE(system_.factorise(), "every layer exchanges heat with something");
-  answers_ = rhs_;
-  system_.solve(answers_);
+  add_remainder(film, start);
+  prepare_sweeps(film);
 
-  HeatState end = with_corrections(film, start, start.film);
-  if (film.dt == 0) {
-    solver::FixedPointIteration mixing(solver::Acceleration::quasi_newton, 1);
-    Eigen::VectorXd lagged = start.film;
-    const double enough = steady_share * (end.film - lagged).norm();
-    for (int k = 0; k < most_corrections && (end.film - lagged).norm() > enough; ++k) {
-      lagged = mixing.next(lagged.array() - thermal_.T_supply, end.film.array() - thermal_.T_supply).array() +
-               thermal_.T_supply;
-      end = with_corrections(film, start, lagged);
-    }
-  }
+  Eigen::VectorXd x(known_.size()), missing, change;
+  x.head(start.film.size()) = start.film;
+  if (rows > start.film.size()) x.segment(start.film.size(), model_.grid.n_phi) = start.shell;
+  x[rows] = start.journal;
+  x.tail(supplies()) = start.supplies;
+  multiply(x, missing);
+  missing = known_ - missing;
+  const auto A = [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) { multiply(v, y); };
+  const auto M = [this](const Eigen::VectorXd& b, Eigen::VectorXd& v) { precondition(b, v); };
+  const solver::GmresOptions wanted{.rtol = film.dt == 0 ? steady_share : step_share,
+                                    .max_iterations = most_iterations,
+                                    .restart = most_iterations / 2};
+  (void)gmres_.solve(A, M, missing, wanted, change);
+  x += change;
+
+  HeatState end = start;
+  end.film = x.head(start.film.size());
+  if (rows > start.film.size()) end.shell = x.segment(start.film.size(), model_.grid.n_phi);
+  end.journal = x[rows];
+  end.supplies = x.tail(supplies());
   take_balance(film, start, end);
   return end;
 }
 
-// The system with second differences of `lagged`.
-HeatState HeatEquations::with_corrections(const CarryingFilm& film, const HeatState& start,
-                                          const Eigen::VectorXd& lagged) {
-  Eigen::MatrixXd known_side = rhs_.col(known);
-  known_side.col(0) += corrections(lagged);
-  system_.solve(known_side);
-  answers_.col(known) = known_side;
-  const Remainder rest = remainder(film, start, lagged);
-  const Eigen::VectorXd y = rest.A.partialPivLu().solve(rest.b);
-  const Eigen::VectorXd x = answers_.col(known) + answers_.rightCols(y.size()) * y;
-  HeatState end = start;
-  end.film = x.head(start.film.size());
-  if (x.size() > end.film.size()) end.shell = x.tail(model_.grid.n_phi);
-  end.journal = y[0];
-  end.supplies = y.tail(supplies());
-  return end;
+void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  const int rows = system_.size();
+  system_.multiply(x, y);
+  const double journal = x[rows];
+  y -= by_journal_ * journal;
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    if (supply_of_[node] < 0) continue;
+    for (int row = node * layers(); row < (node + 1) * layers(); ++row)
+      y[row] -= by_supply_[row] * x[rows + 1 + supply_of_[node]];
+  }
+  y.conservativeResize(known_.size());
+  y.tail(1 + supplies()).setZero();
+  y[rows] = journal_self_ * journal;
+  for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
+    y[rows] -= into_journal_[node] * x[system_.row(node, top())];
+  for (int s = 0; s < supplies(); ++s) y[rows + 1 + s] = supply_self_[s] * x[rows + 1 + s];
+  for (const Held& held : held_) {
+    double& sum = y[rows + 1 + held.supply];
+    for (const Held::Row& row : held.rows) {
+      for (const auto& [column, entry] : row.entries) sum += entry * x[column];
+      sum -= row.by_journal * journal;
+    }
+  }
+  for (const Renewal& renewal : renewals_) y[rows + 1 + renewal.supply] += renewal.heat * x[renewal.row];
+  subtract_corrections(x, y);
+}
+
+// Journal and supplies by themselves, then along the flow, then what the film gives back to the journal.
+void HeatEquations::precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  const int rows = system_.size();
+  Eigen::VectorXd rest = b.head(rows), ends(1 + supplies()), swept;
+  ends[0] = b[rows] / journal_self_;
+  for (int s = 0; s < supplies(); ++s) ends[1 + s] = b[rows + 1 + s] / supply_diagonal_[s];
+  rest += by_journal_ * ends[0];
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    if (supply_of_[node] < 0) continue;
+    for (int row = node * layers(); row < (node + 1) * layers(); ++row)
+      rest[row] += by_supply_[row] * ends[1 + supply_of_[node]];
+  }
+  system_.sweep(rest, swept);
+  x.resize(b.size());
+  x.head(rows) = swept;
+  x.tail(1 + supplies()) = ends;
+}
+
+// The sweep begins at a supply, where temperatures are known best.
+void HeatEquations::prepare_sweeps(const CarryingFilm& film) {
+  int first = 0;
+  for (const Held& held : held_)
+    if (held.chi > 0.5) first = held.node / model_.grid.n_z;
+  system_.prepare(first, film.balance.speed_phi() >= 0);
 }
 
 // (thermal.10): without flow a steady film would have no temperature, so that a thread of storage is left to it.
@@ -130,7 +173,7 @@ void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start
       const int row = system_.row(node, l);
       const double rate = film.dt > 0 ? start_volume(film, node) / film.dt : thread * 1e-6;
       system_.diagonal(row) += rc_ * rate / layers();
-      rhs_(row, known) += rc_ * rate / layers() * start.film[row] + film.flows.dissipation(node, l);
+      known_[row] += rc_ * rate / layers() * start.film[row] + film.flows.dissipation(node, l);
     }
   }
 }
@@ -198,14 +241,13 @@ void HeatEquations::add_second_order(const CarryingFilm& film, std::size_t f, in
                           .heat = rc_ * std::abs(q) * 0.5 * face.length / length});
 }
 
-Eigen::VectorXd HeatEquations::corrections(const Eigen::VectorXd& film) const {
-  Eigen::VectorXd heat = Eigen::VectorXd::Zero(system_.size());
+void HeatEquations::subtract_corrections(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   for (const Correction& c : corrections_) {
-    const double carried = c.heat * (film[c.from] - film[c.behind]);
-    heat[c.from] -= c.share_from * carried;
-    heat[c.to] += c.share_to * carried;
+    const double carried = c.heat * (x[c.from] - x[c.behind]);
+    y[c.from] += c.share_from * carried;
+    y[c.to] -= c.share_to * carried;
+    if (c.supply >= 0) y[system_.size() + 1 + c.supply] -= carried;
   }
-  return heat;
 }
 
 void HeatEquations::add_flow_upwards(const CarryingFilm& film) {
@@ -231,7 +273,7 @@ void HeatEquations::add_edges(const CarryingFilm& film) {
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       system_.diagonal(row) += rc_ * in / layers();
-      rhs_(row, known) += rc_ * in / layers() * thermal_.T_edges;
+      known_[row] += rc_ * in / layers() * thermal_.T_edges;
     }
   }
 }
@@ -254,22 +296,22 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
   const bool is_insulated = !conducts(thermal_.shell);
   const auto* ring = std::get_if<RingWall>(&thermal_.shell);
   for (int node = 0; node < model_.grid.size(); ++node) {
-    const int row = system_.row(node, 0), i = node / model_.grid.n_z, j = node % model_.grid.n_z;
+    const int row = system_.row(node, 0), i = node / model_.grid.n_z;
     const double friction = 0.5 * asperity_power(film, node);
     if (is_insulated) {
-      rhs_(row, known) += friction;
+      known_[row] += friction;
       continue;
     }
     const double G = to_shell(film, node);
     system_.diagonal(row) += G;
     if (ring == nullptr) {
-      rhs_(row, known) += G * start.shell[i];
+      known_[row] += G * start.shell[i];
       continue;
     }
     system_.to_ring(node) -= G;
     system_.diagonal(system_.ring_row(i)) += G;
-    system_.from_film(i, j) -= G;
-    rhs_(system_.ring_row(i), known) += friction;
+    system_.from_film(node) -= G;
+    known_[system_.ring_row(i)] += friction;
   }
   if (ring != nullptr) add_ring(*ring, film, start);
 }
@@ -283,10 +325,10 @@ void HeatEquations::add_ring(const RingWall& ring, const CarryingFilm& film, con
     system_.diagonal(system_.ring_row(next)) += ring_.around[i];
     system_.ring_before(next) -= ring_.around[i];
     system_.diagonal(row) += ring_.outside[i];
-    rhs_(row, known) += ring_.outside[i] * ring.T_ambient;
+    known_[row] += ring_.outside[i] * ring.T_ambient;
     if (film.dt == 0) continue;
     system_.diagonal(row) += ring_.capacity[i] / film.dt;
-    rhs_(row, known) += ring_.capacity[i] / film.dt * start.shell[i];
+    known_[row] += ring_.capacity[i] / film.dt * start.shell[i];
   }
 }
 
@@ -295,12 +337,12 @@ void HeatEquations::add_journal(const CarryingFilm& film) {
   for (int node = 0; node < model_.grid.size(); ++node) {
     const int row = system_.row(node, top());
     if (is_insulated) {
-      rhs_(row, known) += 0.5 * asperity_power(film, node);
+      known_[row] += 0.5 * asperity_power(film, node);
       continue;
     }
     const double G = to_journal(film, node);
     system_.diagonal(row) += G;
-    rhs_(row, by_journal) += G;
+    by_journal_[row] += G;
   }
 }
 
@@ -308,26 +350,27 @@ void HeatEquations::add_journal(const CarryingFilm& film) {
 // (thermal.14).
 void HeatEquations::add_supplies(const CarryingFilm& film) {
   held_.clear();
+  supply_of_.assign(static_cast<std::size_t>(model_.grid.size()), -1);
   for (int node = 0; node < model_.grid.size(); ++node) {
     if (!film.balance.is_held(node)) continue;
     Held held{.node = node,
               .supply = film.balance.feature_at(node) + (has_line() ? 1 : 0),
               .chi = 1 - film.balance.balance_share(node),
               .flow = film.balance.supply(node)};
-    const int column = by_supplies + held.supply;
+    supply_of_[node] = held.supply;
     const double passing = std::max(inflow_[static_cast<std::size_t>(node)] + std::max(held.flow, 0.0),
                                     least_fill * film.balance.largest_throughput());
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double share = held.flow > 0 ? 1.0 / layers() : film.flows.leaving_share(node, l);
-      held.rows.push_back({system_.entries(row), rhs_(row, known), rhs_(row, by_journal), rc_ * held.flow * share});
+      held.rows.push_back({system_.entries(node, l), known_[row], by_journal_[row]});
+      held.rows.back().entries.front().second += rc_ * held.flow * share;
       const double in = rc_ * std::max(held.flow, 0.0) * share, taken_on = held.chi * rc_ * passing / layers();
       system_.diagonal(row) += in;
-      rhs_(row, column) += in;
       system_.scale(row, 1 - held.chi);
-      rhs_.row(row) *= 1 - held.chi;
+      known_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
       system_.diagonal(row) += taken_on;
-      rhs_(row, column) += taken_on;
+      by_supply_[row] = (1 - held.chi) * in + taken_on;
     }
     held_.push_back(std::move(held));
   }
@@ -360,57 +403,42 @@ double HeatEquations::renewed(const HeatState& state, int supply) const {
   return heat;
 }
 
-// The journal's balance (thermal.13) and those of the supplies (thermal.15), once the film's answers to them are known.
-HeatEquations::Remainder HeatEquations::remainder(const CarryingFilm& film, const HeatState& start,
-                                                  const Eigen::VectorXd& lagged) const {
-  const int n = 1 + supplies();
-  Remainder rest{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
-  if (const auto* free = std::get_if<FreeJournal>(&thermal_.journal)) {
+// The journal's balance (thermal.13) and those of the supplies (thermal.15).
+void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& start) {
+  const int journal = system_.size();
+  const auto* free = std::get_if<FreeJournal>(&thermal_.journal);
+  journal_is_free_ = free != nullptr;
+  journal_self_ = 0;
+  into_journal_.assign(static_cast<std::size_t>(model_.grid.size()), 0.0);
+  if (journal_is_free_) {
     for (int node = 0; node < model_.grid.size(); ++node) {
-      const double G = to_journal(film, node);
-      const int row = system_.row(node, top());
-      rest.A(0, 0) += G;
-      rest.A.row(0) -= G * answers_.row(row).tail(n);
-      rest.b[0] += G * answers_(row, known) + 0.5 * asperity_power(film, node);
+      journal_self_ += into_journal_[node] = to_journal(film, node);
+      known_[journal] += 0.5 * asperity_power(film, node);
     }
     if (film.dt > 0) {
-      rest.A(0, 0) += free->heat_capacity / film.dt;
-      rest.b[0] += free->heat_capacity / film.dt * start.journal;
-    }
-    if (rest.A(0, 0) == 0) rest.A(0, 0) = 1, rest.b[0] = start.journal;
-  } else {
-    rest.A(0, 0) = 1, rest.b[0] = start.journal;
-  }
-  Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
-  for (const Held& held : held_) {
-    const int s = 1 + held.supply;
-    flow[held.supply] += held.flow;
-    for (int l = 0; l < layers(); ++l) {
-      const Held::Row& row = held.rows[static_cast<std::size_t>(l)];
-      const auto add = [&](int column, double entry) {
-        rest.A.row(s) += entry * answers_.row(column).tail(n);
-        rest.b[s] -= entry * answers_(column, known);
-      };
-      for (const auto& [column, entry] : row.entries) add(column, entry);
-      add(system_.row(held.node, l), row.flow);
-      rest.A(s, 0) -= row.by_journal;
-      rest.b[s] += row.known;
+      journal_self_ += free->heat_capacity / film.dt;
+      known_[journal] += free->heat_capacity / film.dt * start.journal;
     }
   }
-  for (const Correction& c : corrections_)
-    if (c.supply >= 0) rest.b[1 + c.supply] += c.heat * (lagged[c.from] - lagged[c.behind]);
-  for (const Renewal& renewal : renewals_) {
-    const int s = 1 + renewal.supply;
-    rest.A.row(s) += renewal.heat * answers_.row(renewal.row).tail(n);
-    rest.b[s] += renewal.heat * (fresh(renewal.supply) - answers_(renewal.row, known));
-  }
+  if (journal_self_ == 0) journal_self_ = 1, journal_is_free_ = false, known_[journal] = start.journal;
   const double thread = rc_ * 1e-9 * film.balance.largest_throughput();
-  for (int k = 0; k < supplies(); ++k) {
-    const int s = 1 + k;
-    rest.A(s, s) += rc_ * std::max(-flow[k], 0.0) + thread;
-    rest.b[s] += (rc_ * std::max(flow[k], 0.0) + thread) * fresh(k);
+  std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
+  supply_diagonal_.assign(flow.size(), thread);
+  for (const Held& held : held_) {
+    flow[held.supply] += held.flow;
+    for (const Held::Row& row : held.rows) {
+      known_[journal + 1 + held.supply] += row.known;
+      supply_diagonal_[held.supply] += held.chi * row.entries.front().second;
+    }
   }
-  return rest;
+  for (const Renewal& renewal : renewals_)
+    known_[journal + 1 + renewal.supply] += renewal.heat * fresh(renewal.supply);
+  supply_self_.assign(flow.size(), 0.0);
+  for (int s = 0; s < supplies(); ++s) {
+    supply_self_[s] = rc_ * std::max(-flow[s], 0.0) + thread;
+    supply_diagonal_[s] += supply_self_[s];
+    known_[journal + 1 + s] += (rc_ * std::max(flow[s], 0.0) + thread) * fresh(s);
+  }
 }
 
 // Each term by its own integral; temperatures count from that of the supply, so that a missing drop of oil brings no

@@ -8,6 +8,7 @@
 #include "heat_system.h"
 #include "heat_walls.h"
 #include "hersey/film/film_heat.h"
+#include "hersey/solver/gmres.h"
 #include "layer_flows.h"
 
 namespace hersey::film {
@@ -21,8 +22,7 @@ struct CarryingFilm {
 };
 
 /// The energy balance of every layer, of the walls and of the oil in supplies, as one linear system (theory manual,
-/// thermal.10 to thermal.15). Layers and ring are solved for known journal and supplies, for a unit of each of these,
-/// and what is left is a small system for them.
+/// thermal.10 to thermal.15), solved by GMRES with sweeps along the flow.
 class HeatEquations {
  public:
   HeatEquations(const FilmModel& model, const ThermalModel& thermal);
@@ -48,17 +48,11 @@ class HeatEquations {
     double chi = 0;   ///< share of the supply [-]
     double flow = 0;  ///< of oil out of it [m^3/s]
     struct Row {
-      HeatSystem::Row entries;
-      double known = 0, by_journal = 0, flow = 0;
+      HeatSystem::Row entries;  ///< its own first; what oil from the supply brings included
+      double known = 0, by_journal = 0;
     };
     std::vector<Row> rows;
   };
-  /// What the temperatures of journal and supplies, y, have to obey: A y = b.
-  struct Remainder {
-    Eigen::MatrixXd A;
-    Eigen::VectorXd b;
-  };
-
   [[nodiscard]] bool has_line() const { return model_.supply.kind != SupplyKind::none; }
   [[nodiscard]] int layers() const { return thermal_.layers; }
   [[nodiscard]] int top() const { return thermal_.layers - 1; }
@@ -73,7 +67,7 @@ class HeatEquations {
   void add_flows(const CarryingFilm& film);
   void add_flow(int from, int to, int layer, double q);
   void add_second_order(const CarryingFilm& film, std::size_t f, int layer, double q);
-  [[nodiscard]] Eigen::VectorXd corrections(const Eigen::VectorXd& film) const;
+  void subtract_corrections(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   void add_flow_upwards(const CarryingFilm& film);
   void add_edges(const CarryingFilm& film);
   void add_conduction(const CarryingFilm& film);
@@ -83,9 +77,12 @@ class HeatEquations {
   void add_supplies(const CarryingFilm& film);
   void renew(const CarryingFilm& film);
   [[nodiscard]] double renewed(const HeatState& state, int supply) const;
-  [[nodiscard]] HeatState with_corrections(const CarryingFilm& film, const HeatState& start, const Eigen::VectorXd& lagged);
-  [[nodiscard]] Remainder remainder(const CarryingFilm& film, const HeatState& start,
-                                    const Eigen::VectorXd& lagged) const;
+  void add_remainder(const CarryingFilm& film, const HeatState& start);
+  /// y = A x, x = [layers; ring; journal; supplies].
+  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  /// Nearly x = A^-1 b.
+  void precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
+  void prepare_sweeps(const CarryingFilm& film);
   void take_balance(const CarryingFilm& film, const HeatState& start, const HeatState& end);
 
   const FilmModel model_;
@@ -93,8 +90,15 @@ class HeatEquations {
   double rc_ = 0;  ///< heat capacity of the oil per volume [J/(m^3 K)]
   RingConductances ring_;
   HeatSystem system_;
-  Eigen::MatrixXd rhs_;  ///< of everything known; of the journal's temperature; of each supply's
-  Eigen::MatrixXd answers_;  ///< to each of these
+  Eigen::VectorXd known_;            ///< right-hand sides of all rows [W]
+  Eigen::VectorXd by_journal_;       ///< of the rows of layers and ring, by the journal's temperature [W/K]
+  std::vector<double> by_supply_;    ///< of the rows of layers, by that of the supply that holds the node [W/K]
+  std::vector<int> supply_of_;       ///< of each node, -1 for none
+  double journal_self_ = 0;          ///< entry of the journal's row by itself [W/K]
+  std::vector<double> into_journal_;  ///< of a journal that is free, by the layers beside it [W/K]
+  bool journal_is_free_ = false;
+  std::vector<double> supply_self_;      ///< of the supplies' rows
+  std::vector<double> supply_diagonal_;  ///< the same, and what of their nodes' rows follows them
   /// Heat that the temperature between two nodes, beyond that of the first, carries from one to the next.
   struct Correction {
     int behind = 0, from = 0, to = 0;  ///< rows
@@ -109,6 +113,7 @@ class HeatEquations {
     double heat = 0;  ///< by its temperature [W/K]
   };
   std::vector<Renewal> renewals_;
+  solver::Gmres gmres_;
   std::vector<Held> held_;
   std::vector<double> inflow_;  ///< of each node over its faces and edges [m^3/s]
   HeatBalance balance_;

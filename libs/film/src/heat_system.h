@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "hersey/film/grid.h"
-#include "hersey/solver/sparse_lu.h"
 
 namespace hersey::film {
 
 /// The linear system of a film's layers and of a ring around it, row by row: each layer is coupled to those below and
 /// above it, to the same one of the four neighbouring nodes, and the lowest to the ring. Rows: layers node by node, then
 /// the ring's angles.
+///
+/// Oil flows one way: a sweep over the nodes in that direction, each column of layers solved as a whole, all but solves
+/// the system, as a preconditioner should.
 class HeatSystem {
  public:
   /// Neighbours of a node: before and after it around the bearing and along the axis.
@@ -20,39 +22,60 @@ class HeatSystem {
 
   HeatSystem(const Grid& grid, int layers, bool has_ring);
 
-  [[nodiscard]] int size() const { return static_cast<int>(row_start_.size()) - 1; }
+  [[nodiscard]] int size() const { return film_rows() + ring_rows(); }
   [[nodiscard]] int row(int node, int layer) const { return node * layers_ + layer; }
-  [[nodiscard]] int ring_row(int i) const { return nodes_ * layers_ + i; }
+  [[nodiscard]] int ring_row(int i) const { return film_rows() + i; }
 
   void set_zero();
-  [[nodiscard]] double& diagonal(int row) { return values_[diagonal_[row]]; }
-  [[nodiscard]] double& below(int node, int layer) { return values_[layer_[row(node, layer)][4]]; }
-  [[nodiscard]] double& above(int node, int layer) { return values_[layer_[row(node, layer)][5]]; }
-  [[nodiscard]] double& beside(int node, int layer, Side side) { return values_[layer_[row(node, layer)][side]]; }
-  [[nodiscard]] double& to_ring(int node) { return values_[layer_[row(node, 0)][6]]; }
-  [[nodiscard]] double& from_film(int i, int j) { return values_[ring_[i][2 + j]]; }
-  [[nodiscard]] double& ring_before(int i) { return values_[ring_[i][0]]; }
-  [[nodiscard]] double& ring_after(int i) { return values_[ring_[i][1]]; }
+  [[nodiscard]] double& diagonal(int row) { return row < film_rows() ? layer_[row].self : ring_[row - film_rows()].self; }
+  [[nodiscard]] double& below(int node, int layer) { return layer_[row(node, layer)].below; }
+  [[nodiscard]] double& above(int node, int layer) { return layer_[row(node, layer)].above; }
+  [[nodiscard]] double& beside(int node, int layer, Side side) { return layer_[row(node, layer)].beside[side]; }
+  [[nodiscard]] double& to_ring(int node) { return layer_[row(node, 0)].ring; }
+  [[nodiscard]] double& from_film(int node) { return from_film_[node]; }
+  [[nodiscard]] double& ring_before(int i) { return ring_[i].before; }
+  [[nodiscard]] double& ring_after(int i) { return ring_[i].after; }
 
-  /// One row by itself: columns and entries.
+  /// One row of the film by itself: columns and entries.
   using Row = std::vector<std::pair<int, double>>;
-  [[nodiscard]] Row entries(int row) const;
-  /// Multiplies a row.
+  [[nodiscard]] Row entries(int node, int layer) const;
+  /// Multiplies a row of the film.
   void scale(int row, double factor);
 
-  /// False where the system is singular.
-  [[nodiscard]] bool factorise();
-  /// Overwrites right-hand sides, a column each, with their solutions.
-  void solve(Eigen::MatrixXd& b) const;
+  /// y = A x.
+  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+
+  /// Makes ready for sweeps that begin at angle `first` and go towards growing angles, or falling ones.
+  void prepare(int first, bool forwards);
+  /// x with A x = b but for what flows against the sweep and what the ring gives back to it.
+  void sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 
  private:
-  int nodes_, layers_;
-  std::vector<int> row_start_, column_;
-  std::vector<int> diagonal_;
-  std::vector<std::array<int, 7>> layer_;  ///< slots of the four sides, below, above, ring; one beyond where there is none
-  std::vector<std::vector<int>> ring_;     ///< slots of before, after, then of the nodes at that angle
-  std::vector<double> values_;             ///< one more than the pattern
-  solver::SparseLu lu_;
+  struct Layer {
+    double self = 0, below = 0, above = 0, ring = 0;
+    std::array<double, 4> beside{};
+  };
+  struct Ring {
+    double self = 0, before = 0, after = 0;
+  };
+  [[nodiscard]] int film_rows() const { return static_cast<int>(layer_.size()); }
+  [[nodiscard]] int ring_rows() const { return static_cast<int>(ring_.size()); }
+  [[nodiscard]] int neighbour(int node, int side) const { return neighbours_[node][side]; }
+  void solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
+  void prepare_ring();
+  void solve_ring(Eigen::VectorXd& x) const;
+
+  Grid grid_;
+  int layers_;
+  std::vector<Layer> layer_;
+  std::vector<Ring> ring_;
+  std::vector<double> from_film_;              ///< entries of the ring's rows by node
+  std::vector<std::array<int, 4>> neighbours_;  ///< itself where there is none
+  std::vector<int> order_;                      ///< of nodes in a sweep
+  std::vector<std::pair<double, double>> pivots_;  ///< of every layer: 1/pivot, entry above over the pivot
+  std::vector<std::pair<double, double>> ring_pivots_;
+  Eigen::VectorXd closing_;  ///< answer of the open ring to what closes it
+  double closing_share_ = 0;
 };
 
 }  // namespace hersey::film

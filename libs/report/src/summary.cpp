@@ -31,7 +31,8 @@ struct SiUnit {
 };
 
 SiUnit si_of(const std::string& unit) {
-  constexpr std::array<SiUnit, 10> known{{{"µm", "m", 1e-6, 1e6},
+  constexpr std::array<SiUnit, 11> known{{{"°C", "degC", 1, 1},
+                                          {"µm", "m", 1e-6, 1e6},
                                           {"MPa", "Pa", 1e6, 1e-6},
                                           {"N·mm", "N.m", 1e-3, 1e3},
                                           {"mm³/s", "m^3/s", 1e-9, 1e9},
