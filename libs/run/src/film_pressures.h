@@ -7,7 +7,7 @@
 #include "hersey/fem/surface_pressure.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
-#include "recorder.h"
+#include "step_record.h"
 
 namespace hersey::run {
 

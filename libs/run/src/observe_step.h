@@ -5,7 +5,7 @@
 #include "hersey/model/build.h"
 #include "hersey/solver/equations.h"
 #include "power_balance.h"
-#include "recorder.h"
+#include "step_record.h"
 
 namespace hersey::run {
 

@@ -8,27 +8,13 @@
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/results/writer.h"
-#include "hersey/run/simulate.h"
+#include "hersey/run/options.h"
+#include "hersey/run/summary.h"
 #include "hersey/solver/linearise.h"
 #include "power_balance.h"
+#include "step_record.h"
 
 namespace hersey::run {
-
-/// Everything seen of an accepted step: what the summary, the settling test and the results file are made of.
-struct StepRecord {
-  double dt = 0;
-  int newton_iterations = 0;
-  double newton_residual = 0;
-  double error = 0;             ///< estimated, over the tolerance; 0 with a fixed step
-  double step_error = 0;        ///< the same, not over the tolerance; of fixed steps too
-  int rejected_steps = 0;       ///< since the start of the run
-  double constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares
-  mbd::Observation mechanism;
-  std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
-  std::vector<bearing::BearingObservation> bearings;
-  std::vector<mbd::ContactObservation> contacts;  ///< in ground's axes
-  PowerBalance power;
-};
 
 /// Where the results of a resumed run are gathered until they hold all that the interrupted one had.
 [[nodiscard]] std::filesystem::path unfinished_file(const std::filesystem::path& results);

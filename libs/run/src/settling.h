@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "hersey/core/archive.h"
-#include "recorder.h"
+#include "hersey/model/model.h"
+#include "step_record.h"
 
 namespace hersey::run {
 

@@ -9,7 +9,7 @@
 #include "hersey/results/writer.h"
 #include "hersey/run/work.h"
 #include "hersey/solver/generalized_alpha.h"
-#include "recorder.h"
+#include "step_record.h"
 
 namespace hersey::run {
 

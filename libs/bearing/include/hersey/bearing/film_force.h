@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "hersey/bearing/elastic_surface.h"
-#include "hersey/bearing/interface_iteration.h"
 #include "hersey/bearing/gap_kinematics.h"
+#include "hersey/bearing/interface_iteration.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/observables.h"
@@ -46,9 +46,9 @@ struct OilOfRun {
 
 /// What one bearing shows at an accepted state.
 struct BearingObservation {
-  GapPosition position;  ///< of the journal, or what moves in its place
-  Vector6 wrench_on_shell = Vector6::Zero();       ///< [moment about the bearing's origin; force], bearing frame
-  double power_into_bodies = 0;  ///< of wrench and forces on shapes [W]; negative: the film takes power
+  GapPosition position;                       ///< of the journal, or what moves in its place
+  Vector6 wrench_on_shell = Vector6::Zero();  ///< [moment about the bearing's origin; force], bearing frame
+  double power_into_bodies = 0;               ///< of wrench and forces on shapes [W]; negative: the film takes power
   film::FilmObservables film;
   OilOfRun oil;
   int film_iterations = 0;  ///< film linearisations in the last step
