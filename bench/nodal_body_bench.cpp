@@ -14,6 +14,7 @@
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/held_stiffness.h"
 #include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "hersey/mbd/nodal_body.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/initialise.h"

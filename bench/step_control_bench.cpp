@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "benchmark_mechanisms.h"
+#include "hersey/mbd/mechanism.h"
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"

@@ -3,7 +3,7 @@
 import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardMaterial, Quaternion, Vector3 } from "three";
 import { colour } from "./colormap";
 import type { Numbers, Run } from "./data";
-import type { ShapeData } from "./machine_geometry";
+import type { ShapeData } from "./shape_data";
 
 /** Writes u, three numbers per corner, for given amplitudes. */
 type Mover = (amplitudes: ArrayLike<number>, u: Float32Array) => void;

@@ -3,6 +3,7 @@
 import { Matrix4, Quaternion, Vector3 } from "three";
 import type { Numbers, Run } from "./data";
 import { Deformation } from "./deformed_mesh";
+import type { ShapeData } from "./shape_data";
 
 export interface BodyMotion {
   name: string;
@@ -19,16 +20,6 @@ export interface Link {
   inboardPlace: Vector3;
   outboardPlace: Vector3;
   axis: Vector3;
-}
-
-export interface ShapeData {
-  name: string;
-  kind: string;
-  point: (name: string) => Vector3;
-  number: (name: string) => number;
-  list: (name: string) => Numbers;
-  /** Of a beam. */
-  heldAtBothEnds: boolean;
 }
 
 export class MachineGeometry {

@@ -16,7 +16,7 @@ import {
   Vector3,
   type Material,
 } from "three";
-import type { ShapeData } from "./machine_geometry";
+import type { ShapeData } from "./shape_data";
 
 const up = new Vector3(0, 1, 0);
 

@@ -13,7 +13,6 @@
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 #include "hersey/film/film_solver.h"
-#include "hersey/film/gap_shape.h"
 #include "hersey/film/reynolds.h"
 #include "hersey/solver/fixed_point_iteration.h"
 #include "steady_film.h"
@@ -65,17 +64,6 @@ constexpr double kShareOfNearness = 1e-3;
 constexpr double kColdest = 200, kHottest = 800;
 
 using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-
-ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point, const Eigen::Vector2d& e) {
-  ParameterVector parameters = ParameterVector::Zero();
-  parameters.segment<2>(kEx) = e;
-  parameters.segment<2>(kTx) = point.tilt;
-  parameters.segment<2>(kExRate) = point.e_rate;
-  parameters[kJournalSpeed] = model.R * point.journal_speed;
-  parameters[kRotation] = point.journal_angle;
-  parameters[kSupplyAngle] = e.squaredNorm() > 0 ? std::atan2(-e.y(), -e.x()) : 0.0;
-  return parameters;
-}
 
 // Film and position of one bearing (bearing.17), and the Newton iterations that bring them together.
 class Search {
@@ -621,22 +609,6 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
 }
 
 }  // namespace
-
-film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point) {
-  const double omega = point.film_speed(model.c);
-  if (omega > 0) model.fill_speed = omega;
-  return model;
-}
-
-film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
-                                    const Eigen::Vector2d& e) {
-  film::SurfaceMotion motion;
-  place_surfaces(model, parameters_of(model, point, e), motion);
-  motion.u_shell = model.R * point.shell_speed;
-  // The bearing's axes rest: a shell that turns takes its shape along.
-  if (point.shell_speed != 0) motion.g_rate -= point.shell_speed * film::GapShape(model).shell_slope();
-  return motion;
-}
 
 Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoint& point) {
   HERSEY_REQUIRE(point.load && point.load->norm() > 0, "a load that is not zero");

@@ -7,6 +7,7 @@
 
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
+#include "hersey/film/observables.h"
 
 namespace hersey::bearing {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "deforming_surfaces.h"
-#include "hersey/bearing/steady_bearing.h"
+#include "hersey/bearing/operating_point.h"
 #include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/reynolds.h"

@@ -6,6 +6,7 @@
 
 #include "hersey/bearing/journal_bearing.h"
 #include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/initialise.h"
 

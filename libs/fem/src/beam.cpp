@@ -1,123 +1,215 @@
 #include "hersey/fem/beam.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
+#include <array>
 
+#include "beam_dual.h"
 #include "hersey/core/contract.h"
-#include "hersey/core/input_error.h"
-#include "hersey/solver/sparse_lu.h"
-#include "hersey/solver/symmetric_factor.h"
 
 namespace hersey::fem {
 namespace {
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
+using Vec3 = std::array<Dual, 3>;
 
-constexpr double smallest_part = 1e-4;  // of the load
-constexpr double largest_turn = 1.0;    // rad, of a node in one iteration: beyond, Newton's method is lost
-
-/// Places of the free unknowns; -1: held.
-std::vector<int> free_places(const BeamBody& body, const std::vector<int>& held, int& count) {
-  std::vector<int> place(6 * body.nodes.size(), 0);
-  for (const int dof : held) place[static_cast<std::size_t>(dof)] = -1;
-  count = 0;
-  for (int& p : place)
-    if (p == 0) p = count++;
-  return place;
+Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec3 operator*(const Dual& s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }
+Dual dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Residual (inner minus outer forces) and its derivative on the free unknowns.
-class Balance {
- public:
-  Balance(const BeamBody& body, const std::vector<int>& held, const std::vector<BeamLoad>& loads)
-      : body_(body), loads_(loads), place_(free_places(body, held, size_)) {}
-
-  void evaluate(const BeamState& state, double share) {
-    residual = Eigen::VectorXd::Zero(size_);
-    entries_.clear();
-    for (const BeamElement& element : body_.elements) add_element(element, state);
-    for (const BeamLoad& load : loads_) add_load(load, state, share);
-    tangent.resize(size_, size_);
-    tangent.setFromTriplets(entries_.begin(), entries_.end());
-  }
-
-  [[nodiscard]] Eigen::VectorXd spread(const Eigen::VectorXd& x) const {
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(place_.size()));
-    for (std::size_t i = 0; i < place_.size(); ++i)
-      if (place_[i] >= 0) all[static_cast<Eigen::Index>(i)] = x[place_[i]];
-    return all;
-  }
-
-  [[nodiscard]] int size() const { return size_; }
-
-  Eigen::VectorXd residual;
-  Eigen::SparseMatrix<double> tangent;
-
- private:
-  [[nodiscard]] int place(int node, int i) const { return place_[static_cast<std::size_t>(6 * node + i)]; }
-
-  void add_element(const BeamElement& element, const BeamState& state) {
-    const BeamResponse response = beam_response(element, state);
-    const auto at = [&](int i) { return place(i < 6 ? element.a : element.b, i % 6); };
-    for (int i = 0; i < 12; ++i) {
-      if (at(i) < 0) continue;
-      residual[at(i)] += response.force[i];
-      for (int j = 0; j < 12; ++j)
-        if (at(j) >= 0) entries_.emplace_back(at(i), at(j), response.tangent(i, j));
-    }
-  }
-
-  // A moment m in space is R^T m in the node's axes, and turns with theta as -theta x R^T m.
-  void add_load(const BeamLoad& load, const BeamState& state, double share) {
-    const Vector3 moment = share * (state.R[static_cast<std::size_t>(load.node)].conjugate() * load.moment);
-    const Matrix3 turned = skew(moment);
-    for (int i = 0; i < 3; ++i) {
-      if (const int p = place(load.node, 3 + i); p >= 0) residual[p] -= share * load.force[i];
-      const int row = place(load.node, i);
-      if (row < 0) continue;
-      residual[row] -= moment[i];
-      for (int j = 0; j < 3; ++j)
-        if (const int column = place(load.node, j); column >= 0) entries_.emplace_back(row, column, -turned(i, j));
-    }
-  }
-
-  const BeamBody& body_;
-  const std::vector<BeamLoad>& loads_;
-  int size_ = 0;
-  std::vector<int> place_;
-  Triplets entries_;
+/// Unit quaternion w + v.
+struct Rotation {
+  Dual w;
+  Vec3 v;
 };
 
-double size_of(const BeamBody& body) {
-  double size = 0;
-  for (const Vector3& x : body.nodes) size = std::max(size, (x - body.nodes[0]).norm());
-  return size;
+Rotation operator*(const Rotation& a, const Rotation& b) {
+  return {a.w * b.w - dot(a.v, b.v), cross(a.v, b.v) + a.w * b.v + b.w * a.v};
+}
+Rotation inverse(const Rotation& q) { return {q.w, Dual(-1) * q.v}; }
+Vec3 operator*(const Rotation& q, const Vec3& x) {
+  const Vec3 t = cross(q.v, x);
+  return x + Dual(2) * (q.w * t + cross(q.v, t));
 }
 
-/// Newton's method for one share of the load; false: no equilibrium was found, `state` is of no use.
-bool equilibrate(Balance& balance, solver::SparseLu& lu, double size, double share, const BeamStaticOptions& options,
-                 BeamState& state, int& iterations) {
-  for (int i = 0; i < options.most_iterations; ++i) {
-    ++iterations;
-    balance.evaluate(state, share);
-    if (lu.size() != balance.size()) lu.analyse(balance.tangent);
-    const auto nonzeros = static_cast<std::size_t>(balance.tangent.nonZeros());
-    if (!lu.factorise({balance.tangent.valuePtr(), nonzeros})) return false;
-    Eigen::VectorXd x = -balance.residual;
-    lu.solve({x.data(), static_cast<std::size_t>(x.size())});
-    const Eigen::VectorXd correction = balance.spread(x);
-    double turn = 0, moved = 0;
-    for (Eigen::Index node = 0; 6 * node < correction.size(); ++node) {
-      turn = std::max(turn, correction.segment<3>(6 * node).norm());
-      moved = std::max(moved, correction.segment<3>(6 * node + 3).norm());
-    }
-    if (!(turn < largest_turn) || !(moved < size)) return false;
-    move(state, correction);
-    if (std::max(turn, moved / size) < options.tolerance) return true;
+// Below this square of an angle series are used: the first term they leave out is below 1e-16.
+constexpr double small_square = 1e-3;
+
+/// Rotation vector of q, w >= 0.
+Vec3 log(const Rotation& q) {
+  const Dual s = dot(q.v, q.v);  // sin^2 of half the angle
+  if (s.value < small_square)    // 2 asin(x)/x with x^2 = s
+    return (Dual(2) + s * (1.0 / 3 + s * (3.0 / 20 + s * (5.0 / 56 + s * (35.0 / 576 + s * (63.0 / 1408)))))) * q.v;
+  const Dual sine = sqrt(s);
+  return (Dual(2) * atan2(sine, q.w) / sine) * q.v;
+}
+
+/// Half of the rotation q, w >= 0.
+Rotation half_of(const Rotation& q) {
+  const Dual w = sqrt((Dual(1) + q.w) / 2);
+  return {w, (Dual(0.5) / w) * q.v};
+}
+
+/// (1 - (phi/2) cot(phi/2))/phi^2 of s = phi^2.
+Dual inverse_tangent_coefficient(const Dual& s) {
+  if (s.value < small_square)
+    return 1.0 / 12 + s * (1.0 / 720 + s * (1.0 / 30240 + s * (1.0 / 1209600 + s * (1.0 / 47900160))));
+  const Dual half = sqrt(s) / 2;
+  return (Dual(1) - half * cos(half) / sin(half)) / s;
+}
+
+/// T^-1(psi) x = x + psi x x/2 + c psi x (psi x x); T^-T is T^-1(-psi).
+Vec3 inverse_tangent(const Vec3& psi, const Vec3& x) {
+  const Vec3 t = cross(psi, x);
+  return x + Dual(0.5) * t + inverse_tangent_coefficient(dot(psi, psi)) * cross(psi, t);
+}
+
+/// T^T(psi) x = x + a psi x x + b psi x (psi x x), a = (1 - cos phi)/phi^2, b = (phi - sin phi)/phi^3.
+Vec3 transposed_tangent(const Vec3& psi, const Vec3& x) {
+  const Dual s = dot(psi, psi);
+  Dual a = 0.5 - s * (1.0 / 24 - s * (1.0 / 720 - s * (1.0 / 40320 - s * (1.0 / 3628800))));
+  Dual b = 1.0 / 6 - s * (1.0 / 120 - s * (1.0 / 5040 - s * (1.0 / 362880 - s * (1.0 / 39916800))));
+  if (s.value > small_square) {
+    const Dual phi = sqrt(s);
+    a = (Dual(1) - cos(phi)) / s;
+    b = (phi - sin(phi)) / (s * phi);
   }
-  return false;
+  const Vec3 t = cross(psi, x);
+  return x + a * t + b * cross(psi, t);
+}
+
+/// Sections and positions of both ends.
+struct Ends {
+  Rotation R_a, R_b;
+  Vec3 r_a, r_b;
+};
+
+/// How an element is deformed, and what its forces need of that.
+struct Deformation {
+  Rotation half, R_m;  ///< from the section at a to the middle one; of that
+  Vec3 psi, along;     ///< along: from a to b in the axes of the middle section
+  Vec3 Gamma;
+};
+
+/// (elastic.18).
+Deformation deformation(const BeamElement& element, const Ends& ends) {
+  Rotation relative = inverse(ends.R_a) * ends.R_b;
+  if (relative.w.value < 0) relative = {-relative.w, Dual(-1) * relative.v};
+  Deformation d{.half = half_of(relative), .psi = log(relative)};
+  d.R_m = ends.R_a * d.half;
+  d.along = inverse(d.R_m) * (ends.r_b - ends.r_a);
+  const double L = element.length;
+  d.Gamma = {d.along[0] / L - 1, d.along[1] / L, d.along[2] / L};
+  return d;
+}
+
+/// Forces in the middle section.
+struct SectionForces {
+  Vec3 N, M;
+};
+SectionForces section_forces(const BeamStiffness& c, const Vec3& Gamma, const Vec3& kappa) {
+  return {.N = {c.EA * Gamma[0], c.GA_y * Gamma[1], c.GA_z * Gamma[2]},
+          .M = {c.GJ * kappa[0], c.EI_y * kappa[1], c.EI_z * kappa[2]}};
+}
+
+/// Wrenches on both ends, moments in their sections' axes, forces in space.
+struct EndForces {
+  Vec3 moment_a, force_a, moment_b, force_b;
+};
+
+/// (elastic.19). d Gamma = (R_m^T d(r_b - r_a) + along x dtheta_m)/L, d psi = T^-1(psi) dtheta_b - T^-T(psi) dtheta_a,
+/// dtheta_m = exp(-psi/2) dtheta_a + T(psi/2) d psi/2: the forces are what stands before each of them in d energy.
+EndForces end_forces(const Deformation& d, const SectionForces& section) {
+  const Vec3 couple = cross(section.N, d.along);
+  const Vec3 on_psi = section.M + Dual(0.5) * transposed_tangent(Dual(0.5) * d.psi, couple);
+  const Vec3 force = d.R_m * section.N;
+  return {.moment_a = d.half * couple - inverse_tangent(d.psi, on_psi),
+          .force_a = Dual(-1) * force,
+          .moment_b = inverse_tangent(Dual(-1) * d.psi, on_psi),
+          .force_b = force};
+}
+
+/// Rates of Gamma and kappa, by the same differentials: theory manual eq. (beams.2).
+struct StrainRates {
+  Vec3 Gamma, kappa;
+};
+StrainRates strain_rates(const BeamElement& element, const Ends& ends, const Deformation& d, const BeamVector& V) {
+  const auto given = [&](int first) { return Vec3{Dual(V[first]), Dual(V[first + 1]), Dual(V[first + 2])}; };
+  const Vec3 omega_a = given(0), omega_b = given(6);
+  const Vec3 psi_rate = inverse_tangent(d.psi, omega_b) - inverse_tangent(Dual(-1) * d.psi, omega_a);
+  const Vec3 omega_m =
+      inverse(d.half) * omega_a + Dual(0.5) * transposed_tangent(Dual(-0.5) * d.psi, psi_rate);  // T(x) = T^T(-x)
+  const Vec3 along_rate = inverse(d.R_m) * (ends.R_b * given(9) - ends.R_a * given(3)) + cross(d.along, omega_m);
+  const Dual by_length = 1 / element.length;
+  return {by_length * along_rate, by_length * psi_rate};
+}
+
+double energy_of(const BeamElement& element, const Deformation& d, const SectionForces& section) {
+  return (element.length * dot(d.Gamma, section.N) + dot(d.psi, section.M)).value / 2;
+}
+
+SectionForces elastic_forces(const BeamElement& element, const Deformation& d) {
+  return section_forces(element.stiffness, d.Gamma, Dual(1 / element.length) * d.psi);
+}
+
+/// The section's rotation with its derivatives: q (1 + theta/2) to the first order.
+Rotation varied(const Eigen::Quaterniond& q, int first) {
+  Rotation turn{.w = 1};
+  for (int k = 0; k < 3; ++k) turn.v[static_cast<std::size_t>(k)] = Dual(0, 0.5 * BeamVector::Unit(first + k));
+  return Rotation{q.w(), {q.x(), q.y(), q.z()}} * turn;
+}
+
+/// Values and derivatives of the four parts of a wrench on each end.
+void put(const EndForces& forces, BeamVector& values, BeamMatrix& derivatives) {
+  int row = 0;
+  for (const Vec3* part : {&forces.moment_a, &forces.force_a, &forces.moment_b, &forces.force_b})
+    for (const Dual& component : *part) {
+      values[row] = component.value;
+      derivatives.row(row++) = component.d.transpose();
+    }
+}
+
+Vector6 values(const Vec3& a, const Vec3& b) {
+  return (Vector6() << a[0].value, a[1].value, a[2].value, b[0].value, b[1].value, b[2].value).finished();
+}
+
+/// From each node's axes to those of its section, in all four parts.
+BeamMatrix sections_from_nodes(const BeamElement& element) {
+  BeamMatrix to_section = BeamMatrix::Zero();
+  for (int i = 0; i < 12; i += 3) to_section.block<3, 3>(i, i) = element.frame.transpose();
+  return to_section;
+}
+
+/// A displacement in the axes of the section: r + R d to the first order.
+Vec3 varied_along(const Vector3& r, const Rotation& section, int first) {
+  const Vec3 d = {Dual(0, BeamVector::Unit(first)), Dual(0, BeamVector::Unit(first + 1)),
+                  Dual(0, BeamVector::Unit(first + 2))};
+  const Vec3 turned = section * d;
+  return {Dual(r[0]) + turned[0], Dual(r[1]) + turned[1], Dual(r[2]) + turned[2]};
+}
+
+/// Both ends with all derivatives in section axes, seen from node a's place and axes.
+Ends ends_of(const BeamElement& element, const BeamMotion& motion) {
+  const Eigen::Quaterniond E(element.frame);
+  const Matrix3 R_ab = motion.X_a.R.transpose() * motion.X_b.R;
+  Ends ends;
+  ends.R_a = varied(E, 0);
+  ends.R_b = varied(Eigen::Quaterniond(R_ab).normalized() * E, 6);
+  ends.r_a = varied_along(Vector3::Zero(), ends.R_a, 3);
+  ends.r_b = varied_along(motion.X_a.R.transpose() * (motion.X_b.r - motion.X_a.r), ends.R_b, 9);
+  return ends;
+}
+
+/// Rows of d[Gamma; kappa].
+Eigen::Matrix<double, 6, 12> strain_derivatives(const Deformation& d, double length) {
+  Eigen::Matrix<double, 6, 12> B;
+  for (int i = 0; i < 3; ++i) {
+    B.row(i) = d.Gamma[static_cast<std::size_t>(i)].d.transpose();
+    B.row(3 + i) = d.psi[static_cast<std::size_t>(i)].d.transpose() / length;
+  }
+  return B;
 }
 
 }  // namespace
@@ -128,83 +220,38 @@ BeamStiffness beam_stiffness(const BeamSection& s, const ElasticMaterial& materi
   return {E * s.area, G * s.shear_y, G * s.shear_z, G * s.J, E * s.I_y, E * s.I_z};
 }
 
-BeamBody beam_body(const Mesh& mesh, const BeamStiffness& stiffness, const Vector3& up) {
-  BeamBody body{.nodes = mesh.nodes};
-  std::vector<Fault> faults;
-  for (const Element& e : mesh.elements) {
-    if (e.type != ElementType::beam2) continue;
-    const int* node = mesh.nodes_of(e);
-    const Vector3 along = mesh.nodes[static_cast<std::size_t>(node[1])] - mesh.nodes[static_cast<std::size_t>(node[0])];
-    const Vector3 y = up.cross(along);
-    if (!(y.norm() > 1e-6 * up.norm() * along.norm())) {
-      faults.push_back(
-          {.found = fmt::format("beam element {} has no length or lies along the section's z-axis", e.label),
-           .expected = "an element across that axis",
-           .suggestion = "give another direction for the section's z-axis"});
-      continue;
-    }
-    BeamElement element{.a = node[0], .b = node[1], .length = along.norm(), .stiffness = stiffness};
-    element.frame.col(0) = along.normalized();
-    element.frame.col(1) = y.normalized();
-    element.frame.col(2) = element.frame.col(0).cross(element.frame.col(1));
-    body.elements.push_back(element);
-  }
-  if (!faults.empty()) throw InputError(std::move(faults));
-  return body;
-}
+BeamMotionResponse beam_response(const BeamElement& element, const BeamMotion& motion, double damping) {
+  const Ends ends = ends_of(element, motion);
+  const Deformation d = deformation(element, ends);
+  const BeamMatrix to_section = sections_from_nodes(element);
+  BeamVector V;
+  V << motion.V_a, motion.V_b;
+  const StrainRates rates = strain_rates(element, ends, d, to_section * V);
+  const SectionForces elastic = elastic_forces(element, d);
+  const SectionForces viscous =
+      section_forces(element.stiffness, Dual(damping) * rates.Gamma, Dual(damping) * rates.kappa);
 
-BeamState undeformed(const BeamBody& body) {
-  return {body.nodes, std::vector<Eigen::Quaterniond>(body.nodes.size(), Eigen::Quaterniond::Identity())};
-}
+  BeamMotionResponse response;
+  response.energy = energy_of(element, d, elastic);
+  response.strain = values(d.Gamma, Dual(1 / element.length) * d.psi);
+  response.elastic = values(elastic.N, elastic.M);
+  response.viscous = values(viscous.N, viscous.M);
+  const Vector6 rate = values(rates.Gamma, rates.kappa);
+  response.energy_rate = element.length * rate.dot(response.elastic);
+  response.dissipation = element.length * rate.dot(response.viscous);
+  EndForces forces = end_forces(d, {elastic.N + viscous.N, elastic.M + viscous.M});
+  forces.force_a = inverse(ends.R_a) * forces.force_a;
+  forces.force_b = inverse(ends.R_b) * forces.force_b;
+  put(forces, response.force, response.K);
+  const BeamStiffness& c = element.stiffness;
+  const Vector6 D = (Vector6() << c.EA, c.GA_y, c.GA_z, c.GJ, c.EI_y, c.EI_z).finished();
+  const Eigen::Matrix<double, 6, 12> B = strain_derivatives(d, element.length);
+  response.C = damping * element.length * B.transpose() * D.asDiagonal() * B;
 
-void move(BeamState& state, const Eigen::VectorXd& small) {
-  HERSEY_REQUIRE(small.size() == 6 * static_cast<Eigen::Index>(state.r.size()), "six unknowns per node");
-  for (std::size_t a = 0; a < state.r.size(); ++a) {
-    const auto first = 6 * static_cast<Eigen::Index>(a);
-    state.R[a] = (state.R[a] * rotation_exp(small.segment<3>(first))).normalized();
-    state.r[a] += small.segment<3>(first + 3);
-  }
-}
-
-BeamStaticSummary solve_beam(const BeamBody& body, const std::vector<int>& held, const std::vector<BeamLoad>& loads,
-                             BeamState& state, const BeamStaticOptions& options) {
-  HERSEY_REQUIRE(options.steps > 0 && state.r.size() == body.nodes.size(), "a state of this body");
-  Balance balance(body, held, loads);
-  solver::SparseLu lu;
-  const double size = size_of(body);
-  BeamStaticSummary summary;
-  if (balance.size() == 0) return {.ok = true, .load = 1};
-  double part = 1.0 / options.steps;
-  while (summary.load < 1) {
-    // The last part ends on the whole load, not on a sum of parts.
-    const double next = summary.load + part > 1 - 1e-9 ? 1 : summary.load + part;
-    BeamState trial = state;
-    if (equilibrate(balance, lu, size, next, options, trial, summary.iterations)) {
-      state = std::move(trial);
-      summary.load = next;
-    } else if ((part /= 2) < smallest_part) {
-      summary.message =
-          fmt::format("no equilibrium beyond {:.4g} of the load: the beam is not held, or it buckles", summary.load);
-      return summary;
-    }
-  }
-  summary.ok = true;
-  return summary;
-}
-
-int unstable_motions(const BeamBody& body, const std::vector<int>& held, const std::vector<BeamLoad>& loads,
-                     const BeamState& state) {
-  Balance balance(body, held, loads);
-  if (balance.size() == 0) return 0;
-  balance.evaluate(state, 1);
-  // In equilibrium the derivative in turning axes differs from the symmetric second derivative of the energy by
-  // round-off.
-  const Eigen::SparseMatrix<double> transposed = balance.tangent.transpose();
-  const Eigen::SparseMatrix<double> symmetric = (balance.tangent + transposed) / 2;
-  solver::SymmetricFactor factor;
-  factor.analyse(symmetric);
-  const solver::FactorSummary summary = factor.factorise(symmetric);
-  return summary.ok() ? summary.negative_pivots : -1;
+  response.force = to_section.transpose() * response.force;
+  response.K = to_section.transpose() * response.K * to_section;
+  response.C = to_section.transpose() * response.C * to_section;
+  return response;
 }
 
 }  // namespace hersey::fem

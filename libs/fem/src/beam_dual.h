@@ -1,20 +1,20 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
-
-#include "hersey/fem/beam.h"
 
 namespace hersey::fem {
 
 /// A number that carries its derivatives with respect to the twelve unknowns of a beam element: what is computed with
 /// it comes with exact derivatives (forward mode).
 struct Dual {
+  using Gradient = Eigen::Matrix<double, 12, 1>;
   double value = 0;
-  BeamVector d = BeamVector::Zero();
+  Gradient d = Gradient::Zero();
 
   Dual() = default;
   Dual(double x) : value(x) {}  // NOLINT: a constant is a Dual
-  Dual(double x, const BeamVector& gradient) : value(x), d(gradient) {}
+  Dual(double x, const Gradient& gradient) : value(x), d(gradient) {}
 
   friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.d + b.d}; }
   friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.d - b.d}; }

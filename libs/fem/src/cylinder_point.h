@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "hersey/fem/film_surface.h"
+#include "hersey/fem/film_cylinder.h"
 #include "hersey/fem/skin.h"
 
 namespace hersey::fem {

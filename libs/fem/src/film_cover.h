@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "hersey/fem/film_surface.h"
+#include "hersey/fem/film_cylinder.h"
+#include "hersey/fem/mesh.h"
 
 namespace hersey::fem {
 

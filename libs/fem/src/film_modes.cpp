@@ -1,7 +1,8 @@
+#include "hersey/fem/film_modes.h"
+
 #include <algorithm>
 
 #include "hersey/core/contract.h"
-#include "hersey/fem/film_surface.h"
 
 namespace hersey::fem {
 namespace {
@@ -24,6 +25,8 @@ MatrixXd compliance_of(const HeldStiffness& stiffness, const SurfaceMap& surface
 }
 
 }  // namespace
+
+MatrixXd SurfaceMap::coefficients(const MatrixXd& U) const { return G.llt().solve(T.transpose() * U); }
 
 FilmModes film_modes(const HeldStiffness& stiffness, const SurfaceMap& surface, int most, double tolerance) {
   HERSEY_REQUIRE(most >= 0 && tolerance > 0 && tolerance < 1, "a number of modes and a share of the largest");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cylinder_point.h"
+#include "hersey/fem/element_point.h"
 #include "hersey/fem/quadrature.h"
 
 namespace hersey::fem {

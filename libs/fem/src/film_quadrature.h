@@ -4,7 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "hersey/fem/film_surface.h"
+#include "hersey/fem/film_cylinder.h"
+#include "hersey/fem/mesh.h"
 #include "hersey/fem/shape_functions.h"
 
 namespace hersey::fem {

@@ -139,8 +139,6 @@ void integrate(const Mesh& mesh, int parts, FilmSurface& surface) {
 
 }  // namespace
 
-MatrixXd SurfaceMap::coefficients(const MatrixXd& U) const { return G.llt().solve(T.transpose() * U); }
-
 MatrixXd coefficients_from_frame(const FilmSurface& surface, const Mesh& mesh, const MatrixXd& U, const Vector3& origin,
                                  Index first) {
   HERSEY_REQUIRE(first >= 0 && first + 6 <= U.cols(), "a frame has six unit motions");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "hersey/fem/frame_motion.h"
 #include "interface_motion.h"
 
 namespace hersey::fem {

@@ -7,7 +7,7 @@
 
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/held_stiffness.h"
-#include "hersey/fem/reduction.h"
+#include "hersey/fem/interface_frame.h"
 
 namespace hersey::fem {
 

@@ -1,5 +1,7 @@
 #include "incompatible_modes.h"
 
+#include "hersey/fem/quadrature.h"
+
 namespace hersey::fem {
 
 IncompatibleModes::IncompatibleModes(const NodeColumns& x) {

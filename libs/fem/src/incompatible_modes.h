@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hersey/fem/solid_element.h"
+#include "hersey/fem/element_point.h"
 
 namespace hersey::fem {
 

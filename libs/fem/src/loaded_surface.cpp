@@ -1,9 +1,10 @@
+#include "hersey/fem/loaded_surface.h"
+
 #include <cmath>
 
 #include "hersey/core/contract.h"
-#include "hersey/fem/reduction.h"
+#include "hersey/fem/loads.h"
 #include "hersey/fem/surface_loads.h"
-#include "interface_motion.h"
 
 namespace hersey::fem {
 namespace {

@@ -1,7 +1,5 @@
 #include "hersey/fem/loads.h"
 
-#include "interface_motion.h"
-
 namespace hersey::fem {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "hersey/fem/mesh_file.h"
+#include "hersey/fem/include_loader.h"
 #include "raw_mesh.h"
 
 namespace hersey::fem {

@@ -7,6 +7,8 @@
 
 #include "frame_interface.h"
 #include "hersey/core/contract.h"
+#include "hersey/fem/contact_modes.h"
+#include "hersey/fem/frame_motion.h"
 #include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/vibration.h"
 #include "static_error.h"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "hersey/fem/held_stiffness.h"
-#include "hersey/fem/reduction.h"
+#include "hersey/fem/reduction_options.h"
 #include "hersey/fem/vibration.h"
 
 namespace hersey::fem {

@@ -52,8 +52,6 @@ void fill_holes(Eigen::MatrixXd& deviation) {
 
 double SurfaceRadii::phi_of(int i) { return (i + 0.5) * turn / around; }
 
-double SurfaceRadii::z_of(int k) const { return ((k + 0.5) / along - 0.5) * width; }
-
 double SurfaceRadii::at(double phi, double z) const { return deviation(column_of(phi), row_of(z, width)); }
 
 SurfaceRadii surface_radii(const Mesh& mesh, const FilmSurface& surface) {

@@ -2,7 +2,7 @@
 
 #include "film_wrench.h"
 #include "flow_balance.h"
-#include "hersey/film/observables.h"
+#include "hersey/film/film_observables.h"
 
 namespace hersey::film {
 

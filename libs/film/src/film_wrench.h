@@ -6,7 +6,8 @@
 #include "flow_balance.h"
 #include "grid_geometry.h"
 #include "hersey/core/spatial.h"
-#include "hersey/film/reynolds.h"
+#include "hersey/film/film_exchange.h"
+#include "hersey/film/film_model.h"
 #include "node.h"
 #include "rough_gap.h"
 

@@ -8,7 +8,8 @@
 #include "gap_interpolation.h"
 #include "grid_geometry.h"
 #include "hersey/film/film_domain.h"
-#include "hersey/film/reynolds.h"
+#include "hersey/film/film_exchange.h"
+#include "hersey/film/film_model.h"
 #include "node.h"
 #include "pocket_relief.h"
 #include "rough_gap.h"
@@ -101,19 +102,15 @@ class FlowBalance {
   [[nodiscard]] double storage_by_content(int node) const;  ///< its derivative with the oil's content [m^3/s]
   /// The gap that holds oil over a control volume, mean depth of pockets included [m].
   [[nodiscard]] double oil_gap(int node) const { return cells_[node].gap + cells_[node].depth; }
-  /// Of it what belongs to the film, without pockets [m].
-  [[nodiscard]] double film_gap(int node) const { return cells_[node].gap; }
   /// Change of the thickness on face f with that at both its nodes, each, and with its bend [-].
   [[nodiscard]] std::array<double, 2> thickness_shares(std::size_t f) const;
   [[nodiscard]] const PocketRelief& relief() const { return relief_; }
   [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }  ///< without fields
-  [[nodiscard]] double largest_throughput() const { return largest_throughput_; }
   [[nodiscard]] double relative_residual() const;
   [[nodiscard]] int worst_node() const;
   [[nodiscard]] double area(int node) const { return area_[node]; }  ///< of the control volume [m^2]
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] double speed_phi() const { return speed_phi_; }
-  [[nodiscard]] double speed_z() const { return speed_z_; }
   [[nodiscard]] bool edge_row(int j) const;  ///< an edge whose pressure is given: no balance there
   [[nodiscard]] bool open_row(int j) const { return open_edge(model_, j); }  ///< an edge at p_cav
   /// u at which an edge at p_cav is as full as what lies outside; -infinity where nothing comes in [Pa].
@@ -148,7 +145,6 @@ class FlowBalance {
   [[nodiscard]] int diagonal_slot(int node) const { return diagonal_slot_[node]; }
   /// Change of the flow over face f with a change of u at its nodes.
   [[nodiscard]] std::array<double, 2> flow_by_u(std::size_t f) const;
-  [[nodiscard]] double slack_by_u(int node) const { return slack_u(node); }
   /// Conductance scale of the model, c^3/(12 mu0) (2 dz/dx + 2 dx/dz) [m^3/(Pa s)].
   [[nodiscard]] double conductance_scale() const { return D0_; }
 

@@ -344,8 +344,4 @@ void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, c
   m.linearised = m.summed = m.factorised = m.set_up = false;
 }
 
-void Reynolds::residual_derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
-  impl_->balance.derivative(direction, dr);
-}
-
 }  // namespace hersey::film

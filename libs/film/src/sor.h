@@ -1,6 +1,9 @@
 #pragma once
 
-#include "hersey/film/film_solver.h"
+#include <Eigen/Dense>
+
+#include "hersey/film/film_solve_summary.h"
+#include "hersey/film/reynolds.h"
 
 namespace hersey::film {
 

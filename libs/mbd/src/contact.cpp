@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "contact_law.h"
 #include "contact_spots.h"
 #include "hersey/core/contract.h"
+#include "spot_force.h"
 
 namespace hersey::mbd {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "hersey/mbd/mechanism_builder.h"
+#include "hersey/mbd/mechanism_spec.h"
 #include "hersey/solver/equations.h"
 #include "tree.h"
 

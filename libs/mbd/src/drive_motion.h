@@ -4,7 +4,7 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/core/scalar_function.h"
-#include "hersey/mbd/mechanism_builder.h"
+#include "hersey/mbd/mechanism_spec.h"
 
 namespace hersey::mbd {
 

@@ -7,7 +7,7 @@
 
 #include "assembly.h"
 #include "hersey/mbd/elastic_body.h"
-#include "hersey/mbd/mechanism_builder.h"
+#include "hersey/mbd/mechanism_spec.h"
 
 namespace hersey::mbd {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "assembly.h"
-#include "hersey/mbd/mechanism_builder.h"
+#include "hersey/mbd/mechanism_spec.h"
 
 namespace hersey::mbd {
 

@@ -7,14 +7,14 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/core/stopwatch.h"
-#include "mechanism_impl.h"
+#include "mechanism_parts.h"
 
 namespace hersey::mbd {
 
 using solver::Stage;
 using solver::State;
 
-Mechanism::Implementation::Implementation(MechanismSpec given)
+MechanismParts::MechanismParts(MechanismSpec given)
     : spec(std::move(given)),
       tree(build_tree(spec)),
       motion(tree, spec.gravity),
@@ -40,7 +40,7 @@ Mechanism::Implementation::Implementation(MechanismSpec given)
   timing.elastic.assign(elastics.size(), 0);
 }
 
-void Mechanism::Implementation::place_elastic_bodies() {
+void MechanismParts::place_elastic_bodies() {
   nq = tree.nq;
   nv = tree.nv;
   for (const MechanismSpec::Elastic& elastic : spec.elastics) {
@@ -50,34 +50,34 @@ void Mechanism::Implementation::place_elastic_bodies() {
   }
 }
 
-double Mechanism::Implementation::initial_value(const CoordinateRef& coordinate) const {
+double MechanismParts::initial_value(const CoordinateRef& coordinate) const {
   const std::vector<double>& initial = spec.joints[coordinate.joint.index].initial;
   return initial.empty() ? 0.0 : initial[coordinate.value];
 }
 
-double Mechanism::Implementation::initial_rate(const CoordinateRef& coordinate) const {
+double MechanismParts::initial_rate(const CoordinateRef& coordinate) const {
   const std::vector<double>& initial = spec.joints[coordinate.joint.index].initial_rate;
   return initial.empty() ? 0.0 : initial[coordinate.value];
 }
 
-Mechanism::Mechanism(MechanismSpec spec) : impl_(std::make_unique<Implementation>(std::move(spec))) {}
+Mechanism::Mechanism(MechanismSpec spec) : parts_(std::make_unique<MechanismParts>(std::move(spec))) {}
 Mechanism::~Mechanism() = default;
 
-Mechanism::Index Mechanism::nq() const { return impl_->nq; }
-Mechanism::Index Mechanism::nv() const { return impl_->nv; }
-Mechanism::Index Mechanism::nlambda() const { return impl_->nlambda(); }
-const MechanismSpec& Mechanism::spec() const { return impl_->spec; }
-const MechanismTiming& Mechanism::timing() const { return impl_->timing; }
+Mechanism::Index Mechanism::nq() const { return parts_->nq; }
+Mechanism::Index Mechanism::nv() const { return parts_->nv; }
+Mechanism::Index Mechanism::nlambda() const { return parts_->nlambda(); }
+const MechanismSpec& Mechanism::spec() const { return parts_->spec; }
+const MechanismTiming& Mechanism::timing() const { return parts_->timing; }
 
 std::vector<JointId> Mechanism::closing_joints() const {
   std::vector<JointId> ids;
-  for (const Closure& closure : impl_->tree.closures) ids.push_back({closure.joint});
+  for (const Closure& closure : parts_->tree.closures) ids.push_back({closure.joint});
   return ids;
 }
 
 void Mechanism::retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Eigen::VectorXd& q) const {
   q.resize(q0.size());
-  for (const Link& link : impl_->tree.links) {
+  for (const Link& link : parts_->tree.links) {
     if (link.motion == Motion::ball) {
       const Eigen::Vector4d p = q0.segment<4>(link.first_q);
       const Eigen::Quaterniond R =
@@ -87,13 +87,13 @@ void Mechanism::retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Ei
       q[link.first_q] = q0[link.first_q] + dq[link.first_v];
     }
   }
-  const Index own = impl_->nv - impl_->tree.nv;
-  q.tail(own) = q0.tail(own) + dq.segment(impl_->tree.nv, own);
+  const Index own = parts_->nv - parts_->tree.nv;
+  q.tail(own) = q0.tail(own) + dq.segment(parts_->tree.nv, own);
 }
 
 void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd& residual, Eigen::VectorXd& scale,
                          SparseMatrix* tangent) {
-  Implementation& m = *impl_;
+  MechanismParts& m = *parts_;
   const Stopwatch all(m.timing.total);
   const Index n = nv() + nlambda();
   residual.setZero(n);
@@ -119,7 +119,7 @@ void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd
   m.floor_scales(scale);
 }
 
-void Mechanism::Implementation::add_coordinate_springs(Assembly& assembly, const State& state) const {
+void MechanismParts::add_coordinate_springs(Assembly& assembly, const State& state) const {
   for (std::size_t i = 0; i < spec.springs.size(); ++i) {
     const CoordinateSpringSpec& spring = spec.springs[i];
     const int k = spring_columns[i];
@@ -131,7 +131,7 @@ void Mechanism::Implementation::add_coordinate_springs(Assembly& assembly, const
   }
 }
 
-void Mechanism::Implementation::add_coordinate_forces(Assembly& assembly, const State& state) const {
+void MechanismParts::add_coordinate_forces(Assembly& assembly, const State& state) const {
   for (std::size_t i = 0; i < spec.coordinate_forces.size(); ++i) {
     const int k = coordinate_force_columns[i];
     const CoordinateEffort effort = spec.coordinate_forces[i].force->evaluate(state.t, state.q[q_of(k)], state.v[k]);
@@ -153,12 +153,12 @@ ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const E
 
 /// Lengths that positional rows compare. What a cut brings together are places in ground, whose round-off is that of
 /// their distance from its origin.
-double Mechanism::Implementation::closure_length(const Closure& closure, const Pose& X_WA) const {
+double MechanismParts::closure_length(const Closure& closure, const Pose& X_WA) const {
   return closure.first_row < 6 * static_cast<int>(tree.cuts.size()) ? std::max(tree.length, X_WA.r.norm())
                                                                     : tree.length;
 }
 
-void Mechanism::Implementation::add_closures(Assembly& assembly, const State& state) const {
+void MechanismParts::add_closures(Assembly& assembly, const State& state) const {
   for (const Closure& closure : tree.closures) {
     const Pose X_WA = motion.pose(closure.pair.a);
     const Pose X_AB = X_WA.inverse() * motion.pose(closure.pair.b);
@@ -178,12 +178,12 @@ void Mechanism::Implementation::add_closures(Assembly& assembly, const State& st
   }
 }
 
-double Mechanism::Implementation::coupling_scale(const Coupling& coupling, const State& state) const {
+double MechanismParts::coupling_scale(const Coupling& coupling, const State& state) const {
   const bool linear = tree.links[tree.columns[coupling.output()].link].motion == Motion::prismatic;
   return std::max(linear ? tree.length : 1.0, coupling.magnitude(state));
 }
 
-void Mechanism::Implementation::add_couplings(Assembly& assembly, const State& state) const {
+void MechanismParts::add_couplings(Assembly& assembly, const State& state) const {
   for (std::size_t i = 0; i < couplings.size(); ++i) {
     const Coupling& coupling = couplings[i];
     const Index row = nv + row_of_coupling(i);
@@ -202,7 +202,7 @@ void Mechanism::Implementation::add_couplings(Assembly& assembly, const State& s
   }
 }
 
-void Mechanism::Implementation::add_drives(Assembly& assembly, const State& state) const {
+void MechanismParts::add_drives(Assembly& assembly, const State& state) const {
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const BoundDrive& drive = drives[i];
     const Index row = nv + row_of_drive(i);
@@ -217,7 +217,7 @@ void Mechanism::Implementation::add_drives(Assembly& assembly, const State& stat
   }
 }
 
-void Mechanism::Implementation::floor_scales(Eigen::VectorXd& scale) const {
+void MechanismParts::floor_scales(Eigen::VectorXd& scale) const {
   // A row with next to no load of its own (a planar mechanism's transverse rows) is measured against its largest
   // companion of the same unit, three decades down: otherwise it would have to be solved to the round-off of nothing.
   constexpr double fraction = 1e-3;
@@ -240,7 +240,7 @@ void Mechanism::Implementation::floor_scales(Eigen::VectorXd& scale) const {
 }
 
 void Mechanism::constraints(const State& state, Eigen::VectorXd& phi, Eigen::VectorXd& scale, SparseMatrix* jacobian) {
-  Implementation& m = *impl_;
+  MechanismParts& m = *parts_;
   phi.setZero(nlambda());
   scale.setOnes(nlambda());
   if (jacobian) *jacobian = m.constraint_pattern;
@@ -278,7 +278,7 @@ void Mechanism::constraints(const State& state, Eigen::VectorXd& phi, Eigen::Vec
 }
 
 void Mechanism::constraint_rates(const State& state, Eigen::VectorXd& velocity, Eigen::VectorXd& bias) {
-  Implementation& m = *impl_;
+  MechanismParts& m = *parts_;
   velocity.setZero(nlambda());
   bias.setZero(nlambda());
   m.motion.update_positions(state);
@@ -313,7 +313,7 @@ void Mechanism::constraint_rates(const State& state, Eigen::VectorXd& velocity, 
 }
 
 Eigen::VectorXd Mechanism::position_scales() const {
-  const Tree& tree = impl_->tree;
+  const Tree& tree = parts_->tree;
   Eigen::VectorXd scales = Eigen::VectorXd::Ones(nv());
   for (const Link& link : tree.links)
     if (link.motion == Motion::prismatic) scales.segment(link.first_v, link.columns).setConstant(tree.length);
@@ -322,7 +322,7 @@ Eigen::VectorXd Mechanism::position_scales() const {
 }
 
 void Mechanism::begin_step(const State& start, double dt) {
-  Implementation& m = *impl_;
+  MechanismParts& m = *parts_;
   if (m.spec.forces.empty() && m.elastics.empty()) return;
   const Stopwatch all(m.timing.total);
   m.motion.update(start);
@@ -333,7 +333,7 @@ void Mechanism::begin_step(const State& start, double dt) {
 }
 
 bool Mechanism::step_stands() {
-  Implementation& m = *impl_;
+  MechanismParts& m = *parts_;
   const Stopwatch all(m.timing.total), forces(m.timing.forces);
   bool stands = true;
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
@@ -344,7 +344,7 @@ bool Mechanism::step_stands() {
 }
 
 void Mechanism::accept_step(const State& end) {
-  Implementation& m = *impl_;
+  MechanismParts& m = *parts_;
   const Stopwatch all(m.timing.total);
   for (BoundDrive& drive : m.drives) drive.motion.anchor(end.t);
   for (std::size_t i = 0; i < m.spec.coordinate_forces.size(); ++i) {
@@ -371,13 +371,13 @@ void Mechanism::accept_step(const State& end) {
 
 bool Mechanism::has_condensed_unknowns() const {
   bool any = false;
-  impl_->for_each_part([&](const auto& /*owner*/, const auto& part) { any = any || part.has_condensed_unknowns(); });
+  parts_->for_each_part([&](const auto& /*owner*/, const auto& part) { any = any || part.has_condensed_unknowns(); });
   return any;
 }
 
 double Mechanism::internal_residual() const {
   double worst = 0;
-  impl_->for_each_part(
+  parts_->for_each_part(
       [&](const auto& /*owner*/, const auto& part) { worst = std::max(worst, part.internal_residual()); });
   return worst;
 }
@@ -385,7 +385,7 @@ double Mechanism::internal_residual() const {
 std::string Mechanism::name_of_internal_residual() const {
   std::string name;
   double worst = -1;
-  impl_->for_each_part([&](const auto& owner, const auto& part) {
+  parts_->for_each_part([&](const auto& owner, const auto& part) {
     if (part.internal_residual() <= worst) return;
     worst = part.internal_residual();
     name = fmt::format("{}, {}", owner(), part.name_of_internal_residual());
@@ -395,43 +395,43 @@ std::string Mechanism::name_of_internal_residual() const {
 
 bool Mechanism::has_whole_tangent() const {
   bool whole = true;
-  for (const auto& f : impl_->spec.forces) whole = whole && f.force->has_tangent();
+  for (const auto& f : parts_->spec.forces) whole = whole && f.force->has_tangent();
   return whole;
 }
 
 std::string Mechanism::domain_error() const {
-  if (!impl_->came_apart.empty()) return impl_->came_apart;
+  if (!parts_->came_apart.empty()) return parts_->came_apart;
   std::string first;
-  impl_->for_each_part([&](const auto& owner, const auto& part) {
+  parts_->for_each_part([&](const auto& owner, const auto& part) {
     if (!first.empty()) return;
     if (const std::string text = part.domain_error(); !text.empty()) first = fmt::format("{}: {}", owner(), text);
   });
   return first;
 }
 
-State Mechanism::initial_state() const { return impl_->initial_state(); }
+State Mechanism::initial_state() const { return parts_->initial_state(); }
 
-std::vector<Mechanism::Index> Mechanism::given_coordinates() const { return impl_->given_coordinates(); }
-std::vector<Mechanism::Index> Mechanism::given_rates() const { return impl_->given_rates(); }
+std::vector<Mechanism::Index> Mechanism::given_coordinates() const { return parts_->given_coordinates(); }
+std::vector<Mechanism::Index> Mechanism::given_rates() const { return parts_->given_rates(); }
 
-std::vector<Mechanism::Index> Mechanism::elastic_coordinates() const { return impl_->elastic_coordinates(); }
-std::vector<Mechanism::Index> Mechanism::internal_coordinates() const { return impl_->internal_coordinates(); }
+std::vector<Mechanism::Index> Mechanism::elastic_coordinates() const { return parts_->elastic_coordinates(); }
+std::vector<Mechanism::Index> Mechanism::internal_coordinates() const { return parts_->internal_coordinates(); }
 
 FrameMotion Mechanism::frame_motion(const State& state, FrameId frame) {
-  HERSEY_REQUIRE(0 <= frame.index && frame.index < static_cast<int>(impl_->tree.frames.size()), "the frame exists");
-  impl_->motion.update(state);
-  return impl_->frame_motion(impl_->tree.frames[frame.index]);
+  HERSEY_REQUIRE(0 <= frame.index && frame.index < static_cast<int>(parts_->tree.frames.size()), "the frame exists");
+  parts_->motion.update(state);
+  return parts_->frame_motion(parts_->tree.frames[frame.index]);
 }
 
 RelativeMotion Mechanism::relative_motion(const State& state, ForceId force) {
-  HERSEY_REQUIRE(0 <= force.index && force.index < static_cast<int>(impl_->tree.forces.size()), "the force exists");
-  impl_->motion.update(state);
-  impl_->read_elastic_bodies(state);
-  return impl_->relative_motion(static_cast<std::size_t>(force.index), state.t);
+  HERSEY_REQUIRE(0 <= force.index && force.index < static_cast<int>(parts_->tree.forces.size()), "the force exists");
+  parts_->motion.update(state);
+  parts_->read_elastic_bodies(state);
+  return parts_->relative_motion(static_cast<std::size_t>(force.index), state.t);
 }
 
 void Mechanism::persist(Archive& archive) {
-  Implementation& m = *impl_;
+  MechanismParts& m = *parts_;
   archive.each("accepted_forces", m.accepted, [](Archive& a, ForceResponse& response) {
     a.io("wrench", response.W_B_A);
     a.io("shape_forces", response.Q);

@@ -1,7 +1,8 @@
 // Names of rows and the fixed patterns of the mechanism's matrices.
 #include <fmt/format.h>
 
-#include "mechanism_impl.h"
+#include "hersey/mbd/mechanism.h"
+#include "mechanism_parts.h"
 
 namespace hersey::mbd {
 namespace {
@@ -18,7 +19,7 @@ std::string name_of_value(JointType type, int value) {
 
 }  // namespace
 
-std::string Mechanism::Implementation::name_of_velocity(Index row) const {
+std::string MechanismParts::name_of_velocity(Index row) const {
   for (const ElasticAssembly& elastic : elastics)
     if (const Index own = row - elastic.own_v(); row >= tree.nv && own < elastic.own_count())
       return fmt::format("body {}, mode {}", elastic.name(), own + 1);
@@ -32,7 +33,7 @@ std::string Mechanism::Implementation::name_of_velocity(Index row) const {
 }
 
 std::string Mechanism::name_of_row(Index row) const {
-  const Implementation& m = *impl_;
+  const MechanismParts& m = *parts_;
   if (row < nv()) return m.name_of_velocity(row);
   row -= nv();
   if (row >= m.row_of_drive(0)) return fmt::format("drive {}", m.spec.drives[row - m.row_of_drive(0)].name);
@@ -48,7 +49,7 @@ std::string Mechanism::name_of_row(Index row) const {
 }
 
 template <class Visit>
-void Mechanism::Implementation::visit_surface_columns(std::size_t i, Visit visit) const {
+void MechanismParts::visit_surface_columns(std::size_t i, Visit visit) const {
   std::vector<int> own, pair;
   for (const int side : {sides[i].a, sides[i].b}) {
     if (side < 0) continue;
@@ -65,7 +66,7 @@ void Mechanism::Implementation::visit_surface_columns(std::size_t i, Visit visit
   }
 }
 
-void Mechanism::Implementation::make_patterns() {
+void MechanismParts::make_patterns() {
   std::vector<Eigen::Triplet<double>> entries, constraint_entries;
   const auto visit = [&](Index row, Index column) { entries.emplace_back(row, column, 0.0); };
   const auto visit_constraint = [&](Index row, Index column) {

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <numeric>
 
-#include "mechanism_impl.h"
+#include "hersey/mbd/mechanism.h"
+#include "mechanism_parts.h"
 #include "redundancy.h"
 
 namespace hersey::mbd {
 
 using solver::State;
 
-solver::State Mechanism::Implementation::initial_state() const {
+solver::State MechanismParts::initial_state() const {
   solver::State state;
   state.q.setZero(nq);
   state.v.setZero(nv);
@@ -40,7 +41,7 @@ solver::State Mechanism::Implementation::initial_state() const {
 }
 
 /// Bodies beyond a cut start where the coordinates of the joints put them: the cuts are closed from the outset.
-void Mechanism::Implementation::place_cut_bodies(solver::State& state) const {
+void MechanismParts::place_cut_bodies(solver::State& state) const {
   TreeMotion at(tree, spec.gravity);
   const auto follow = [&](int link) {
     std::vector<int> path;
@@ -66,17 +67,17 @@ void Mechanism::Implementation::place_cut_bodies(solver::State& state) const {
   }
 }
 
-std::vector<Mechanism::Index> Mechanism::Implementation::given_coordinates() const {
+std::vector<Mechanism::Index> MechanismParts::given_coordinates() const {
   return columns_where([](const JointSpec& joint, int value) { return joint.is_given(value); });
 }
 
-std::vector<Mechanism::Index> Mechanism::Implementation::given_rates() const {
+std::vector<Mechanism::Index> MechanismParts::given_rates() const {
   return columns_where([](const JointSpec& joint, int value) { return joint.is_rate_given(value); });
 }
 
 /// Columns of the joints' values for which is_chosen(joint, value), those of deformations left out.
 template <class Choose>
-std::vector<Mechanism::Index> Mechanism::Implementation::columns_where(Choose is_chosen) const {
+std::vector<Mechanism::Index> MechanismParts::columns_where(Choose is_chosen) const {
   std::vector<Index> chosen;
   for (const Link& link : tree.links) {
     if (link.joint < 0 || is_deformation(link.joint) || !is_chosen(spec.joints[link.joint], link.value)) continue;
@@ -101,7 +102,7 @@ double distance(const Coordinate& coordinate, bool is_rate, const std::vector<do
 
 std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
   constexpr double round_off = 1e-10;
-  Implementation& m = *impl_;
+  MechanismParts& m = *parts_;
   m.motion.update(start);
   Observation seen;
   seen.joints.resize(m.spec.joints.size());
@@ -130,7 +131,7 @@ std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
 }
 
 /// Of the rates given and of those at `start`, lengths over the mechanism's size [1/s].
-double Mechanism::Implementation::largest_rate(const State& start) const {
+double MechanismParts::largest_rate(const State& start) const {
   const State given = initial_state();
   double largest = 0;
   for (int k = 0; k < tree.nv; ++k) {
@@ -140,11 +141,11 @@ double Mechanism::Implementation::largest_rate(const State& start) const {
   return largest;
 }
 
-bool Mechanism::Implementation::is_deformation(int joint) const {
+bool MechanismParts::is_deformation(int joint) const {
   return std::find(spec.deforming.begin(), spec.deforming.end(), JointId{joint}) != spec.deforming.end();
 }
 
-std::vector<Mechanism::Index> Mechanism::Implementation::elastic_coordinates() const {
+std::vector<Mechanism::Index> MechanismParts::elastic_coordinates() const {
   std::vector<Index> stiff;
   for (const Link& link : tree.links)
     if (link.joint >= 0 && is_deformation(link.joint))
@@ -154,13 +155,13 @@ std::vector<Mechanism::Index> Mechanism::Implementation::elastic_coordinates() c
   return stiff;
 }
 
-std::vector<Mechanism::Index> Mechanism::Implementation::internal_coordinates() const {
+std::vector<Mechanism::Index> MechanismParts::internal_coordinates() const {
   std::vector<Index> internal(static_cast<std::size_t>(nv - tree.nv));
   std::iota(internal.begin(), internal.end(), tree.nv);
   return internal;
 }
 
-void Mechanism::Implementation::release_redundant_rows() {
+void MechanismParts::release_redundant_rows() {
   const solver::State start = initial_state();
   const std::vector<int> rows = redundant_rows(tree, motion, start, given_coordinates());
   if (rows.empty()) return;
@@ -184,7 +185,7 @@ void Mechanism::Implementation::release_redundant_rows() {
   shared_reactions.emplace(spec, tree, redundant);
 }
 
-double Mechanism::Implementation::opening_of(const Closure& closure) const {
+double MechanismParts::opening_of(const Closure& closure) const {
   const Pose X_AB = motion.pose(closure.pair.a).inverse() * motion.pose(closure.pair.b);
   double worst = 0;
   for (const std::vector<ConstraintRow>* rows : {&closure.rows, &closure.dropped})
@@ -196,7 +197,7 @@ double Mechanism::Implementation::opening_of(const Closure& closure) const {
 }
 
 /// A redundant row holds by itself; if it does not, the loop is not the one it was taken for.
-void Mechanism::Implementation::watch_dropped_rows() {
+void MechanismParts::watch_dropped_rows() {
   constexpr double tolerance = 1e-5;
   for (const Redundancy& redundancy : redundancies) {
     const Closure& closure = tree.closures[tree.joints[redundancy.joint.index].closure];
@@ -209,6 +210,6 @@ void Mechanism::Implementation::watch_dropped_rows() {
   }
 }
 
-const std::vector<Redundancy>& Mechanism::redundancies() const { return impl_->redundancies; }
+const std::vector<Redundancy>& Mechanism::redundancies() const { return parts_->redundancies; }
 
 }  // namespace hersey::mbd

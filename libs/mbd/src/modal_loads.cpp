@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
+#include "hersey/mbd/modal_body.h"
 #include "modal_workspace.h"
 
 namespace hersey::mbd {

@@ -4,7 +4,6 @@
 #include <array>
 #include <vector>
 
-#include "hersey/mbd/modal_body.h"
 #include "relative_deformation.h"
 
 namespace hersey::mbd {
@@ -12,8 +11,8 @@ namespace hersey::mbd {
 /// Sum over material points of y x z for the matrix N = sum of y z^T.
 inline Vector3 cross_moment(const Matrix3& N) { return {N(1, 2) - N(2, 1), N(2, 0) - N(0, 2), N(0, 1) - N(1, 0)}; }
 
-/// Everything at one motion. The unknowns of the body in its own axes are [frame 0 (6); amplitudes].
-struct ModalBody::Workspace {
+/// Everything of a ModalBody at one motion. The unknowns of the body in its own axes are [frame 0 (6); amplitudes].
+struct ModalWorkspace {
   Eigen::VectorXd q, rate, acceleration;            // amplitudes, with q_0 = 1 for the points themselves
   std::array<Eigen::VectorXd, 9> h, h_rate, h_acc;  // sums over b of G_ab q_b, component by component
   std::vector<Matrix3> H, H_rate, H_acc;            // the same per shape: sums of rho Y_a y^T

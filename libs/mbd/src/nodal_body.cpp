@@ -44,7 +44,7 @@ NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, con
       body_(std::move(body)),
       damping_(damping),
       strain_(strain),
-      fields_(std::make_unique<Fields>()) {
+      fields_(std::make_unique<NodalFields>()) {
   HERSEY_REQUIRE(static_cast<std::size_t>(body_.node_count()) == reduced.nodes.size(), "both of one mesh");
   x_.resize(3, body_.node_count());
   for (Index i = 0; i < x_.cols(); ++i) x_.col(i) = reduced.nodes[static_cast<std::size_t>(i)];

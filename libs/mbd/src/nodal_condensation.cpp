@@ -1,5 +1,6 @@
 // How the answer of the nodes changes the derivatives of a nodal body's forces, theory manual eq. (flexible-bodies.18)
 // and (flexible-bodies.19).
+#include "hersey/mbd/nodal_body.h"
 #include "modal_workspace.h"
 #include "nodal_factors.h"
 #include "nodal_fields.h"

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "hersey/mbd/nodal_body.h"
+#include <Eigen/Dense>
 
 namespace hersey::mbd {
 
-/// Where the nodes are and how they move against the body's axes, and their accelerations in space, in these axes.
-struct NodalBody::Fields {
+/// Where the nodes of a NodalBody are and how they move against the body's axes, and their accelerations in space, in
+/// these axes.
+struct NodalFields {
   Eigen::Matrix3Xd y, y_rate, y_acc, acceleration;
   Eigen::VectorXd u;  ///< displacements of the nodes, of which y holds what round-off of their places leaves
   /// Of the static shapes alone: displacements, rates and accelerations (3 nodes, 3) for these amplitudes of theirs.

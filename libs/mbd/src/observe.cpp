@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanism_impl.h"
+#include "hersey/mbd/mechanism.h"
+#include "mechanism_parts.h"
 
 namespace hersey::mbd {
 namespace {
@@ -82,7 +83,7 @@ void measure_joint(JointType type, const Vector3& axis, const RelativeMotion& re
 
 }  // namespace
 
-FrameMotion Mechanism::Implementation::frame_motion(const Attachment& frame) const {
+FrameMotion MechanismParts::frame_motion(const Attachment& frame) const {
   FrameMotion seen;
   seen.X_WF = motion.pose(frame);
   const Vector3& r = seen.X_WF.r;
@@ -96,7 +97,7 @@ FrameMotion Mechanism::Implementation::frame_motion(const Attachment& frame) con
   return seen;
 }
 
-void Mechanism::Implementation::observe_joint_coordinates(const solver::State& state, Observation& seen) const {
+void MechanismParts::observe_joint_coordinates(const solver::State& state, Observation& seen) const {
   for (std::size_t j = 0; j < spec.joints.size(); ++j) {
     const JointSpec& joint = spec.joints[j];
     const JointPlace& place = tree.joints[j];
@@ -126,7 +127,7 @@ void Mechanism::Implementation::observe_joint_coordinates(const solver::State& s
   }
 }
 
-void Mechanism::Implementation::observe_efforts(const solver::State& state, Observation& seen) {
+void MechanismParts::observe_efforts(const solver::State& state, Observation& seen) {
   for (std::size_t i = 0; i < drives.size(); ++i) {
     seen.drive_efforts.push_back(-state.lambda[row_of_drive(i)]);
     seen.drive_powers.push_back(seen.drive_efforts.back() * state.v[drives[i].column]);
@@ -159,7 +160,7 @@ void Mechanism::Implementation::observe_efforts(const solver::State& state, Obse
   }
 }
 
-void Mechanism::Implementation::observe_reactions(const solver::State& state, Observation& seen) {
+void MechanismParts::observe_reactions(const solver::State& state, Observation& seen) {
   // Balance of each body: what is left of inertia and weight after the known forces comes through its joints
   // (mechanisms.21).
   std::vector<Vector6> need(spec.bodies.size(), Vector6::Zero());
@@ -232,7 +233,7 @@ void Mechanism::Implementation::observe_reactions(const solver::State& state, Ob
   }
 }
 
-void Mechanism::Implementation::observe_drift(const solver::State& state, Observation& seen) const {
+void MechanismParts::observe_drift(const solver::State& state, Observation& seen) const {
   double& drift = seen.constraint_drift;
   for (const Closure& closure : tree.closures) drift = std::max(drift, opening_of(closure));
   for (const Coupling& coupling : couplings)
@@ -244,7 +245,7 @@ void Mechanism::Implementation::observe_drift(const solver::State& state, Observ
   }
 }
 
-void Mechanism::Implementation::observe_energies(Observation& seen) const {
+void MechanismParts::observe_energies(Observation& seen) const {
   for (std::size_t l = 1; l < tree.links.size(); ++l) {
     const Link& link = tree.links[l];
     const Pose& X_WL = motion.X(static_cast<int>(l));
@@ -253,7 +254,7 @@ void Mechanism::Implementation::observe_energies(Observation& seen) const {
   }
 }
 
-void Mechanism::Implementation::observe_elastic_bodies(Observation& seen) {
+void MechanismParts::observe_elastic_bodies(Observation& seen) {
   for (ElasticAssembly& elastic : elastics) {
     ElasticObservation o;
     o.motion = elastic.motion();
@@ -267,7 +268,7 @@ void Mechanism::Implementation::observe_elastic_bodies(Observation& seen) {
 }
 
 Observation Mechanism::observe(const solver::State& state) {
-  Implementation& m = *impl_;
+  MechanismParts& m = *parts_;
   m.motion.update(state);
   Observation seen;
   seen.t = state.t;

@@ -4,7 +4,8 @@
 
 #include "hersey/core/stopwatch.h"
 #include "hersey/core/task_pool.h"
-#include "mechanism_impl.h"
+#include "hersey/mbd/mechanism.h"
+#include "mechanism_parts.h"
 #include "surface_force.h"
 
 namespace hersey::mbd {
@@ -24,7 +25,7 @@ void ForceResponse::set_zero(Index amplitudes) {
   dQ_dr.setZero(amplitudes, amplitudes);
 }
 
-void Mechanism::Implementation::place_surfaces() {
+void MechanismParts::place_surfaces() {
   seen_deforming.assign(elastics.size(), 0);
   const auto place = [&](const std::optional<ElasticId>& id) {
     if (!id) return -1;
@@ -38,7 +39,7 @@ void Mechanism::Implementation::place_surfaces() {
 }
 
 /// With the shapes of elastic bodies as last found.
-RelativeMotion Mechanism::Implementation::relative_motion(std::size_t force, double t) const {
+RelativeMotion MechanismParts::relative_motion(std::size_t force, double t) const {
   RelativeMotion relative = motion.relative(tree.forces[force]);
   relative.t = t;
   Index count = 0;
@@ -57,7 +58,7 @@ RelativeMotion Mechanism::Implementation::relative_motion(std::size_t force, dou
   return relative;
 }
 
-void Mechanism::Implementation::read_elastic_bodies(const solver::State& state) {
+void MechanismParts::read_elastic_bodies(const solver::State& state) {
   for (std::size_t i = 0; i < elastics.size(); ++i) {
     elastics[i].read(motion, state, {}, true);
     if (seen_deforming[i] != 0) elastics[i].find_shapes();
@@ -66,7 +67,7 @@ void Mechanism::Implementation::read_elastic_bodies(const solver::State& state) 
 
 /// Costly ones side by side; each writes to its own response, so that their order does not matter. Given by std::cref,
 /// `act` takes nothing from the heap.
-void Mechanism::Implementation::for_each_force(const std::function<void(std::size_t)>& act) {
+void MechanismParts::for_each_force(const std::function<void(std::size_t)>& act) {
   const Stopwatch all(timing.forces);
   const auto timed = [&](std::size_t i) {
     const Stopwatch one(timing.force[i]);
@@ -76,7 +77,7 @@ void Mechanism::Implementation::for_each_force(const std::function<void(std::siz
   TaskPool::shared().run(costly.size(), [&](std::size_t c) { timed(costly[c]); });
 }
 
-void Mechanism::Implementation::evaluate_two_body_forces(const Assembly& assembly, const solver::State& state) {
+void MechanismParts::evaluate_two_body_forces(const Assembly& assembly, const solver::State& state) {
   const bool want_tangent = assembly.tangent != nullptr;
   for (std::size_t i = 0; i < elastics.size(); ++i) {
     const Stopwatch one(timing.elastic[i]);
@@ -93,7 +94,7 @@ void Mechanism::Implementation::evaluate_two_body_forces(const Assembly& assembl
   hand_out_shape_forces(responses);
 }
 
-void Mechanism::Implementation::hand_out_shape_forces(const std::vector<ForceResponse>& of_forces) {
+void MechanismParts::hand_out_shape_forces(const std::vector<ForceResponse>& of_forces) {
   for (std::size_t i = 0; i < of_forces.size(); ++i) {
     Index at = 0;
     for (const int side : {sides[i].a, sides[i].b}) {
@@ -106,7 +107,7 @@ void Mechanism::Implementation::hand_out_shape_forces(const std::vector<ForceRes
   }
 }
 
-void Mechanism::Implementation::add_two_body_forces(Assembly& assembly) const {
+void MechanismParts::add_two_body_forces(Assembly& assembly) const {
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
     add_pair_force(assembly, tree.forces[i], responses[i]);
     if (assembly.tangent == nullptr) continue;

@@ -6,6 +6,7 @@
 
 #include "hersey/mbd/beam_segment.h"
 #include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/mechanism_builder.h"
 
 namespace hersey::mbd::test {
 

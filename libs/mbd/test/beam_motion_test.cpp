@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "beam_cases.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "hersey/solver/equilibrium.h"
 #include "hersey/solver/linearise.h"
 #include "simulate.h"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "hersey/mbd/spring_damper.h"
 
 /// Mechanisms of the IFToMM library of benchmark problems (University of A Coruna, lim.ii.udc.es/mbsbenchmark), for

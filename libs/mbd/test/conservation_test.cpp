@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "hersey/mbd/mechanism_builder.h"
 #include "mechanisms_top.h"
 #include "simulate.h"
 #include "test_mechanisms.h"

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "contact_cases.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "hersey/mbd/restitution.h"
 #include "simulate.h"
 

@@ -6,6 +6,7 @@
 
 #include "drive_motion.h"
 #include "hersey/mbd/bushing.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "simulate.h"
 #include "test_mechanisms.h"
 

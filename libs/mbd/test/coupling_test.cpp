@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hersey/mbd/mechanism_builder.h"
 #include "simulate.h"
 #include "test_mechanisms.h"
 

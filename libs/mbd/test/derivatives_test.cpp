@@ -1,11 +1,13 @@
 // Every derivative a mechanism hands to the solver against finite differences of the function it is the derivative of.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "hersey/mbd/bushing.h"
-#include "hersey/mbd/recursive_kinematics.h"
+#include "mechanisms_recursive_velocity.h"
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
@@ -182,9 +184,37 @@ TEST_CASE("B1AndB2_MatchFiniteDifferences") {
     Vector6 numeric;
     numeric << now.R.transpose() * rotation_log(Eigen::Quaterniond(after.R * before.R.transpose())) / (2 * kStep),
         now.R.transpose() * (after.r - before.r) / (2 * kStep);
-    const RecursiveVelocity relation = recursive_velocity(type, axis, X_iI, X_jO, q, lead);
+    const auto relation = verification::recursive_velocity(type, axis, X_iI, X_jO, q, lead);
     CHECK((relation.B1 * Y_i + relation.B2 * qdot - numeric).norm() < kRelative);
   }
+}
+
+TEST_CASE("AcrossEveryJointOfTheTree_VelocitiesObeyB1AndB2") {
+  const auto m = test::nasty_mechanism();
+  const Observation seen = m->observe(test::wild_state(*m));
+  const MechanismSpec& spec = m->spec();
+  const std::vector<JointId> closing = m->closing_joints();
+  const auto Y = [&](int body) {
+    const FrameMotion& motion = seen.bodies[static_cast<std::size_t>(body)];
+    return (Vector6() << motion.X_WF.R.transpose() * motion.omega, motion.X_WF.R.transpose() * motion.v).finished();
+  };
+  int in_tree = 0;
+  for (std::size_t j = 0; j < spec.joints.size(); ++j) {
+    const JointSpec& joint = spec.joints[j];
+    CAPTURE(joint.name);
+    const auto is_this = [&](JointId id) { return id.index == static_cast<int>(j); };
+    if (std::any_of(closing.begin(), closing.end(), is_this)) continue;  // open: the state is no assembly
+    ++in_tree;
+    const FrameSpec& I = spec.frames[static_cast<std::size_t>(joint.inboard.index)];
+    const FrameSpec& O = spec.frames[static_cast<std::size_t>(joint.outboard.index)];
+    const JointValues &q = seen.joints[j].position, &rate = seen.joints[j].rate;
+    const auto relation = verification::recursive_velocity(joint.type, joint.axis, I.X_BF, O.X_BF,
+                                                           {q.data(), static_cast<std::size_t>(q.size())}, joint.lead);
+    const Vector6 expected = relation.B1 * Y(I.body.index) + relation.B2 * rate, found = Y(O.body.index);
+    // Round-off of chains of some twenty transformations.
+    CHECK((found - expected).norm() < 1000 * std::numeric_limits<double>::epsilon() * (1 + found.norm()));
+  }
+  CHECK(in_tree > 10);
 }
 
 /// Both derivatives of a force between two frames, at a large rotation and a brisk motion.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "drive_motion.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "simulate.h"
 #include "test_mechanisms.h"
 

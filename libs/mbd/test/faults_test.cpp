@@ -6,6 +6,7 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "hersey/solver/initialise.h"
 #include "test_mechanisms.h"
 

@@ -9,6 +9,7 @@
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "hersey/mbd/modal_body.h"
 #include "hersey/mbd/nodal_body.h"
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "flexible_beam.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "hersey/solver/equilibrium.h"
 #include "hersey/solver/linearise.h"
 #include "simulate.h"

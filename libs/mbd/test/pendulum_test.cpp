@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hersey/core/input_error.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "mechanisms_pendulum.h"
 #include "simulate.h"
 #include "test_mechanisms.h"

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "benchmark_mechanisms.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "simulate.h"
 #include "test_mechanisms.h"
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hersey/mbd/mechanism_builder.h"
 #include "mechanisms_slider_crank.h"
 #include "simulate.h"
 #include "test_mechanisms.h"

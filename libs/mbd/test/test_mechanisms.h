@@ -10,6 +10,7 @@
 #include "hersey/mbd/beam_segment.h"
 #include "hersey/mbd/coordinate_laws.h"
 #include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/mechanism_builder.h"
 #include "hersey/mbd/modal_body.h"
 #include "hersey/mbd/spring_damper.h"
 

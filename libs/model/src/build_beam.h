@@ -1,6 +1,7 @@
 #pragma once
 
-#include "hersey/model/build.h"
+#include "hersey/mbd/mechanism_builder.h"
+#include "hersey/model/machine.h"
 
 namespace hersey::model {
 

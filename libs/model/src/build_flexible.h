@@ -3,7 +3,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/reduction.h"
-#include "hersey/model/build.h"
+#include "hersey/model/machine.h"
 
 namespace hersey::model {
 

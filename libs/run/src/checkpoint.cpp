@@ -16,7 +16,7 @@
 #include "hersey/results/checkpoint.h"
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
-#include "hersey/run/simulate.h"
+#include "hersey/run/checkpoint.h"
 
 namespace hersey::run {
 namespace {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "step_record.h"
-
 namespace hersey::run {
 
 EnergyBalance::Instant EnergyBalance::seen(const StepRecord& step) const {

@@ -2,12 +2,10 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/mbd/mechanism.h"
-#include "hersey/run/simulate.h"
-#include "power_balance.h"
+#include "hersey/run/summary.h"
+#include "step_record.h"
 
 namespace hersey::run {
-
-struct StepRecord;
 
 /// Where the energy put into a machine has gone since the start of a run, each part from an integral of its own (theory
 /// manual, bearing.6): none from the forces that the equations of motion know.

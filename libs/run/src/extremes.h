@@ -4,7 +4,7 @@
 
 #include "hersey/bearing/film_force.h"
 #include "hersey/core/archive.h"
-#include "hersey/run/simulate.h"
+#include "hersey/run/summary.h"
 
 namespace hersey::run {
 

@@ -11,7 +11,8 @@
 #include "hersey/core/archive.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
-#include "hersey/run/simulate.h"
+#include "hersey/run/options.h"
+#include "hersey/run/summary.h"
 #include "recorder.h"
 #include "settling.h"
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hersey/core/archive.h"
+#include "hersey/model/model.h"
 #include "step_record.h"
 
 namespace hersey::run {

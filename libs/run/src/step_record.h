@@ -4,7 +4,7 @@
 
 #include "hersey/bearing/film_force.h"
 #include "hersey/mbd/contact.h"
-#include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/observation.h"
 #include "power_balance.h"
 
 namespace hersey::run {

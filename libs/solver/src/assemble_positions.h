@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 
 #include "hersey/solver/equations.h"
-#include "hersey/solver/initialise.h"
+#include "hersey/solver/initialise_options.h"
 
 namespace hersey::solver {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "hersey/bearing/elastic_surface.h"
-#include "hersey/solver/fixed_point_iteration.h"
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/film/film_heat.h"
@@ -15,6 +14,7 @@
 #include "hersey/film/observables.h"
 #include "hersey/film/reynolds.h"
 #include "hersey/mbd/two_body_force.h"
+#include "hersey/solver/fixed_point_iteration.h"
 
 namespace hersey::bearing {
 
@@ -50,9 +50,9 @@ struct OilOfRun {
 
 /// What one bearing shows at an accepted state.
 struct BearingObservation {
-  GapPosition position;  ///< of the journal, or what moves in its place
-  Vector6 wrench_on_shell = Vector6::Zero();       ///< [moment about the bearing's origin; force], bearing frame
-  double power_into_bodies = 0;  ///< of wrench and forces on shapes [W]; negative: the film takes power
+  GapPosition position;                       ///< of the journal, or what moves in its place
+  Vector6 wrench_on_shell = Vector6::Zero();  ///< [moment about the bearing's origin; force], bearing frame
+  double power_into_bodies = 0;               ///< of wrench and forces on shapes [W]; negative: the film takes power
   film::FilmObservables film;
   std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
   OilOfRun oil;

@@ -13,8 +13,9 @@ namespace hersey::bearing {
 struct GapPosition {
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< its axis at z = 0 in the bearing frame [m]
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of its axis [-]
-  double speed = 0;                                ///< angular velocity about the bearing's axis against the other [rad/s]
-  Eigen::VectorXd relative;  ///< how far it is off its middle place, over the clearance; of length 1 where it touches [-]
+  double speed = 0;  ///< angular velocity about the bearing's axis against the other [rad/s]
+  Eigen::VectorXd
+      relative;  ///< how far it is off its middle place, over the clearance; of length 1 where it touches [-]
 
   /// Length of `relative`: for a journal the eccentricity ratio [-].
   [[nodiscard]] double ratio() const { return relative.norm(); }

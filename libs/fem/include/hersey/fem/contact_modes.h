@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "hersey/fem/film_surface.h"
+#include "hersey/fem/film_modes.h"
+#include "hersey/fem/mesh.h"
 
 namespace hersey::fem {
 

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "hersey/fem/elastic_body.h"
-#include "hersey/fem/held_stiffness.h"
 
 namespace hersey::fem {
 
@@ -33,6 +29,7 @@ struct FiniteStress {
                                                 const NodeColumns& u, Integration rule = Integration::full);
 
 /// The same of a whole body; `tangent` has the pattern of ElasticBody::K and is K where u = 0.
+/// @verified_by finite_strain_test.cpp
 struct FiniteStrain {
   double energy = 0;
   Eigen::VectorXd force, rate;
@@ -41,26 +38,5 @@ struct FiniteStrain {
 /// @param u_rate  (3 n); null: `rate` is left zero
 void finite_strain(const ElasticBody& body, const Eigen::VectorXd& u, FiniteStrain& out, bool want_tangent = true,
                    const Eigen::VectorXd* u_rate = nullptr);
-
-struct LargeDisplacementOptions {
-  int steps = 5;  ///< load and prescribed displacements grow in as many equal parts, halved where Newton's method fails
-  int most_iterations = 25;  ///< of one part
-  double tolerance = 1e-10;  ///< of the last correction, over the body's size
-};
-
-struct LargeDisplacement {
-  bool ok = false;
-  std::string message;  ///< why not; u is then that of the largest load reached
-  double load = 0;      ///< share of the load reached
-  int iterations = 0;
-  Eigen::VectorXd u;  ///< (3 n) [m]
-};
-
-/// Equilibrium with forces `f` (3 n) that keep their directions, displacements as large as they like, strains moderate:
-/// beyond some ten percent of compression the material itself gives way.
-/// @verified_by finite_strain_test.cpp
-[[nodiscard]] LargeDisplacement solve_large_displacement(const ElasticBody& body, const std::vector<Support>& supports,
-                                                         const Eigen::VectorXd& f,
-                                                         const LargeDisplacementOptions& options = {});
 
 }  // namespace hersey::fem

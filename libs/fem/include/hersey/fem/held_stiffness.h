@@ -42,8 +42,6 @@ class HeldStiffness {
 
   /// Degrees of freedom, held ones included.
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(place_.size()); }
-  /// Places of those that are not held, ascending.
-  [[nodiscard]] const std::vector<int>& free_dofs() const { return free_; }
 
   /// Dimension of the displacements that supports and constraints leave.
   [[nodiscard]] Eigen::Index freedom() const { return static_cast<Eigen::Index>(free_.size()) - constraints_; }

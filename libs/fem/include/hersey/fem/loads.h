@@ -23,6 +23,11 @@ using Traction = std::function<Vector3(const Vector3& x, const Vector3& normal)>
 /// Outward normals of faces at their nodes times the area that each node stands for [m^2], (3, nodes); zero elsewhere.
 [[nodiscard]] Eigen::Matrix3Xd nodal_normals(const Mesh& mesh, const std::vector<ElementFace>& faces);
 
+/// Areas of `faces` shared out among `count` nodes, node a at place[a], in the proportions of int N_a^2 dA on each
+/// face: positive, which int N_a dA is not in the corners of quadratic faces.
+[[nodiscard]] std::vector<double> nodal_areas(const Mesh& mesh, const std::vector<ElementFace>& faces,
+                                              const std::vector<int>& place, std::size_t count);
+
 /// Area of faces [m^2].
 [[nodiscard]] double area_of(const Mesh& mesh, const std::vector<ElementFace>& faces);
 

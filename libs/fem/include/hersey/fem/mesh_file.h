@@ -1,13 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "hersey/core/input_error.h"
+#include "hersey/fem/include_loader.h"
 #include "hersey/fem/mesh.h"
 
 namespace hersey::fem {
@@ -17,10 +17,6 @@ enum class MeshFormat { gmsh, abaqus, nastran };
 
 /// The format that a file's ending tells; none for an unknown ending.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);
-
-/// Content of a file that a mesh file includes, by the name it is included with.
-/// @throws std::runtime_error telling what is there instead: "no readable file"
-using IncludeLoader = std::function<std::string(const std::string& name)>;
 
 /// Reads a mesh file in the format that its ending tells (docs/mesh-files.md says what of each format is read).
 ///

@@ -19,7 +19,6 @@ struct SurfaceRadii {
   /// The field that holds a place of the film; z beyond the width belongs to its edge.
   [[nodiscard]] double at(double phi, double z) const;
   [[nodiscard]] static double phi_of(int i);  ///< in the middle of a field, 0..2 pi
-  [[nodiscard]] double z_of(int k) const;     ///< the same along [m]
 };
 
 /// @verified_by surface_radii_test.cpp

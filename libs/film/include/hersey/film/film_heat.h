@@ -5,7 +5,7 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/film/film_model.h"
-#include "hersey/film/observables.h"
+#include "hersey/film/film_observables.h"
 #include "hersey/film/thermal_model.h"
 
 namespace hersey::film {

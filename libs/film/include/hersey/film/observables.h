@@ -2,63 +2,10 @@
 
 #include <Eigen/Dense>
 
-#include "hersey/core/spatial.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_observables.h"
 
 namespace hersey::film {
-
-/// Fields of a solved film at the nodes, shape (n_phi n_z) each.
-struct FilmFields {
-  Eigen::VectorXd p;        ///< film pressure [Pa]
-  Eigen::VectorXd theta;    ///< fill fraction [-]
-  Eigen::VectorXd density;  ///< rho/rho0 [-]
-  Eigen::VectorXd h;        ///< film thickness, deformation included, depth of features apart [m]
-  Eigen::VectorXd depth;    ///< mean depth of features over the node's control volume [m]; empty: none counted
-  /// Film thickness with the depth of features [m].
-  [[nodiscard]] Eigen::VectorXd thickness() const { return depth.size() == 0 ? h : Eigen::VectorXd(h + depth); }
-  Eigen::VectorXd w;           ///< column deformation [m]
-  Eigen::VectorXd p_asperity;  ///< asperity contact pressure [Pa]
-  /// Radial displacement of the surfaces of elastic bodies against their frames, away from the bearing's axis [m];
-  /// empty where a surface is rigid. Whoever places the surfaces fills them in.
-  Eigen::VectorXd d_shell, d_journal;
-  /// Temperatures: mean over the thickness, of both surfaces, of the hottest layer [K]; empty without. Whoever has them
-  /// fills them in (TemperatureFields).
-  Eigen::VectorXd T, T_shell, T_journal, T_hottest;
-};
-
-/// What an engineer asks of a film (docs: definitions as in theory manual, chapter film). Flows and volumes of oil are
-/// those at the density rho0: masses over rho0.
-struct FilmObservables {
-  double h_min = 0, h_min_phi = 0,
-         h_min_z = 0;  ///< smallest film thickness beside features with depth, edges included, and where [m, rad, m]
-  double h_min_features = 0;  ///< smallest thickness over features with depth, that included [m]; NaN without any
-  double h_min_centre = 0;    ///< smallest film thickness at z = 0 [m]
-  double p_max = 0, p_max_phi = 0, p_max_z = 0;  ///< interpolated peak of the film pressure and where [Pa, rad, m]
-  double p_max_node = 0;                         ///< largest nodal pressure [Pa]
-  Vector6 wrench_on_shell =
-      Vector6::Zero();  ///< [moment about the grid's origin; force], grid axes; the journal takes its negative
-  Eigen::VectorXd normal_forces;  ///< by which film and contact push the surfaces apart at the nodes [N]
-  Vector3 force_pressure, force_shear, force_asperity;  ///< parts of the force on the shell [N], grid axes
-  double torque_journal = 0;                            ///< friction torque on the journal about its own axis [N m]
-  double torque_shell = 0;                              ///< friction torque on the shell about its own axis [N m]
-  double sliding_speed = 0;                             ///< of the surfaces against each other [m/s], >= 0
-  double power_film = 0;                                ///< viscous dissipation: Couette and Poiseuille [W]
-  double power_asperity = 0;                            ///< boundary friction [W]
-  double power_stored = 0;  ///< rate of the energy in liner, asperities and compressed oil, and work against p_cav [W]
-  double power_oil = 0;     ///< taken along by oil that leaves over the edges less what feeds bring [W]
-  /// All of the power that the bodies put into the film, by integrals over its fields (theory manual, film.54) [W].
-  [[nodiscard]] double power_taken() const { return power_film + power_asperity + power_stored + power_oil; }
-  double flow_left = 0, flow_right = 0;  ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]
-  double flow_supply = 0;                ///< oil entering through supply line and features [m^3/s]
-  Eigen::VectorXd flow_features;         ///< oil entering through each feature [m^3/s]
-  double storage_rate = 0;               ///< rate of change of the oil volume in the film [m^3/s]
-  double oil_volume = 0;                 ///< integral of theta h [m^3]
-  double mass_balance_error = 0;  ///< |supply - left - right - storage| over the largest of the flows and U c L [-]
-  /// Where the film at mid-width ruptures and re-forms, with the flow, of its widest cavity [rad]; NaN without one.
-  double rupture_angle = 0, reformation_angle = 0;
-  double cavitated_share =
-      0;  ///< share of the area with theta < 1 or (other models) p <= p_cav without film action [-]
-};
 
 /// Fields at the nodes from the unknown u.
 [[nodiscard]] FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u);

@@ -8,17 +8,10 @@
 #include "hersey/core/archive.h"
 #include "hersey/core/spatial.h"
 #include "hersey/film/film_domain.h"
+#include "hersey/film/film_exchange.h"
 #include "hersey/film/film_model.h"
 
 namespace hersey::film {
-
-/// A one-parameter change of the surfaces, for derivatives along it: the film's answer to it is a column.
-struct MotionDirection {
-  Eigen::VectorXd g;       ///< d gap / d parameter at the nodes; empty means zero
-  Eigen::VectorXd g_rate;  ///< d gap rate / d parameter; empty means zero
-  double u_shell = 0, u_journal = 0, w_shell = 0, w_journal = 0, phi_supply = 0, phi_journal = 0;
-  double shell_share = 0;  ///< of `g`, which opens the gap by the shell's surface; the rest by the journal's [-]
-};
 
 /// How the linear systems of a film are solved: by a sparse factorisation, or by GMRES with multigrid, whose cost grows
 /// with the number of nodes only. Where the latter does not arrive, the former takes over.
@@ -30,34 +23,6 @@ struct LinearSolverCounts {
   int setups = 0;          ///< of multigrid
   int iterations = 0;      ///< of GMRES, over all right-hand sides
   int rescues = 0;         ///< right-hand sides that multigrid left to the direct solver
-};
-
-/// Forces that push the surfaces apart at the nodes, film and asperities together: pressure times the node's area,
-/// shape (n) each.
-struct NormalForces {
-  Eigen::VectorXd value;       ///< [N]
-  Eigen::VectorXd by_u, by_g;  ///< derivatives with the node's unknown [m^2] and gap [N/m]
-};
-
-/// The oil of one step: flows as means over it, with which what is in the film at its end is what was there at its
-/// start and what has come in since, to round-off (theory manual, film.15). Volumes are masses over rho0.
-struct OilOfStep {
-  Eigen::VectorXd content;  ///< oil in each control volume over the volume itself, rho theta [-], shape (n)
-  Eigen::VectorXd gap;      ///< that volume per area, without pockets [m], shape (n)
-  double volume = 0;  ///< in the film, every control volume counted as no emptier than empty, no fuller than full [m^3]
-  double flow_left = 0, flow_right = 0;  ///< out over the edges [m^3/s]
-  double flow_supply = 0;                ///< in through line and features [m^3/s]
-  Eigen::VectorXd flow_features;         ///< in through each feature [m^3/s]
-  /// Largest share of a control volume that the linear way through the film left over [-]; 1 where some found no place.
-  double passed_on = 0;
-};
-
-/// Forces of a film whose unknowns are eliminated, and their derivatives with directions in which the surfaces move.
-struct CondensedFilm {
-  Vector6 wrench = Vector6::Zero();                    ///< on the shell
-  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds;  ///< a column per direction
-  Eigen::VectorXd Q;                                   ///< forces on shapes
-  Eigen::MatrixXd Q_ds;                                ///< (shapes, directions)
 };
 
 /// Reynolds' equation on the grid with its derivatives (theory manual, chapter film): residual and Jacobian at a state,
@@ -150,9 +115,6 @@ class Reynolds {
   /// rate; flows are to bring what the gap has gained over the whole step. Their difference is led through the film
   /// along the last linearisation. linearise() comes next.
   void settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, OilOfStep& oil);
-
-  /// dr/d(parameter) alone, for tests and un-condensed systems.
-  void residual_derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
 
   /// The pivot order in use; linearise() comes next.
   void persist(Archive& archive);

@@ -7,7 +7,7 @@ namespace hersey::mbd {
 
 /// A straight piece of a beam between two frames.
 struct BeamSegmentData {
-  fem::BeamElement element;                      ///< its frame in the axes both frames have at rest; nodes do not count
+  fem::BeamElement element;                      ///< its frame in the axes both frames have at rest
   double mass_per_length = 0;                    ///< [kg/m]
   Vector3 inertia_per_length = Vector3::Zero();  ///< of the section about its own x, y and z [kg m]
   double damping = 0;                            ///< forces of strain rates over those of strains [s]

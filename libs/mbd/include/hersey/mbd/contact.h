@@ -5,22 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "hersey/mbd/contact_law.h"
 #include "hersey/mbd/shape.h"
 #include "hersey/mbd/two_body_force.h"
 
 namespace hersey::mbd {
-
-/// What two surfaces do to each other where they overlap by delta > 0 (theory manual eqs. (contact.6) to (contact.8)):
-///
-///     N = stiffness delta^exponent (1 + damping ddelta/dt), never below 0,
-///     friction = -friction N v_t / sqrt(v_t^2 + slip_speed^2).
-struct ContactLaw {
-  double stiffness = 0;   ///< [N/m^exponent]; of a mesh's corners on a solid [Pa/m^exponent]; > 0
-  double exponent = 1.5;  ///< >= 1
-  double damping = 0;     ///< of Hunt and Crossley [s/m], >= 0
-  double friction = 0;    ///< coefficient of Coulomb friction, >= 0
-  double slip_speed = 0;  ///< speed below which friction gives way [m/s]; > 0 where there is friction
-};
 
 struct SpotId;
 

@@ -11,6 +11,8 @@
 
 namespace hersey::mbd {
 
+struct ModalWorkspace;
+
 /// A body reduced to shapes: a material point at x moves to x + sum over a of q_a Phi_a(x) in the body's own axes,
 /// which are those of frame 0. The first 6 (frames - 1) shapes are the static answers to a unit [rotation;
 /// displacement] of frames 1, 2, ... with the others held; further ones are motions with all frames held. None moves
@@ -82,7 +84,7 @@ class ModalBody : public ElasticBody {
   [[nodiscard]] const ModalBodyData& data() const { return data_; }
 
  protected:
-  struct Workspace;
+  using Workspace = ModalWorkspace;
   [[nodiscard]] Workspace& work() { return *work_; }
   /// Amplitudes and sums over shapes at a motion.
   virtual void gather(const ElasticMotion& motion, bool want_tangent);

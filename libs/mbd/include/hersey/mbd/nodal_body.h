@@ -16,6 +16,7 @@ namespace hersey::mbd {
 
 class NodalFactors;
 struct NodalFactor;
+struct NodalFields;
 
 /// How displacements strain a body.
 enum class Strain {
@@ -79,7 +80,6 @@ class NodalBody final : public ModalBody {
   void add_elasticity(bool want_tangent) override;
 
  private:
-  struct Fields;
   /// Static shapes, (3 nodes, shapes).
   [[nodiscard]] const Eigen::MatrixXd& Psi() const { return data().displacements; }
   [[nodiscard]] Eigen::Matrix3Xd loads_on_nodes(const ElasticMotion& motion) const;
@@ -119,7 +119,7 @@ class NodalBody final : public ModalBody {
   std::vector<NodalLoad> loads_;
   solver::SecondOrderHistory w_;
   std::unique_ptr<NodalFactors> factors_;
-  std::unique_ptr<Fields> fields_;
+  std::unique_ptr<NodalFields> fields_;
   fem::FiniteStrain finite_;             ///< at the last displacement looked at
   Eigen::VectorXd elastic_;              ///< forces of the material there
   Eigen::MatrixXd stiffness_of_shapes_;  ///< Psi^T K(u) Psi, of the state the matrix is of

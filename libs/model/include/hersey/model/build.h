@@ -1,78 +1,9 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "hersey/bearing/film_force.h"
-#include "hersey/mbd/beam_segment.h"
-#include "hersey/mbd/contact.h"
-#include "hersey/mbd/mechanism.h"
+#include "hersey/model/machine.h"
 #include "hersey/model/model.h"
 
 namespace hersey::model {
-
-/// A bearing's surface on a flexible body.
-struct BuiltSurface {
-  std::string body;
-  int around = 0, along = 0;  ///< functions
-  int modes = 0;              ///< answers to film pressure that the body keeps of this surface
-  double lost = 0;            ///< largest compliance left out over the largest
-};
-
-/// A bearing of a machine and the two-body force it is in the mechanism.
-struct BuiltBearing {
-  std::shared_ptr<bearing::FilmForce> bearing;
-  mbd::ForceId force;
-  std::optional<BuiltSurface> shell, journal;  ///< unset: rigid
-};
-
-/// A contact of a machine, the two-body force it is, and the body of its first shape.
-struct BuiltContact {
-  std::shared_ptr<mbd::Contact> contact;
-  mbd::ForceId force;
-  mbd::BodyId first;
-};
-
-/// A flexible body of a machine.
-struct BuiltFlexible {
-  std::string name;
-  std::shared_ptr<mbd::ModalBody> body;
-  std::shared_ptr<const fem::Mesh> mesh;
-  Eigen::MatrixXd shapes;                     ///< displacements of the nodes per amplitude, shape (3 nodes, shapes)
-  std::vector<double> frequencies;            ///< with all frames held [Hz]
-  std::vector<fem::SolidMaterial> materials;  ///< of the mesh's elements; none: unknown
-  mbd::Strain strain = mbd::Strain::small;
-  std::vector<fem::StaticError> static_errors;  ///< of the surfaces that carry load
-  mbd::ElasticId elastic;
-};
-
-/// A pressure or force on the mesh of a flexible body: `count` nodal loads from `first` on.
-struct BuiltSurfaceLoad {
-  std::string name;
-  std::size_t flexible = 0;  ///< place in Machine::flexibles
-  std::size_t first = 0, count = 0;
-};
-
-/// A beam of a machine.
-struct BuiltBeam {
-  std::string name;
-  std::vector<std::shared_ptr<mbd::BeamSegment>> segments;
-  mbd::BeamBodyIds ids;
-  std::vector<bool> is_named;  ///< of each node: a frame sits on it, or the beam's own
-};
-
-/// A model turned into equations. Bodies, joints, drives, contacts and bearings keep the order of the model; body 0 of
-/// the mechanism is ground, and a flexible body is followed by bodies and free joints of its further frames.
-struct Machine {
-  std::unique_ptr<mbd::Mechanism> mechanism;
-  std::vector<BuiltContact> contacts;
-  std::vector<BuiltBearing> bearings;
-  std::vector<BuiltFlexible> flexibles;
-  std::vector<BuiltSurfaceLoad> surface_loads;
-  std::vector<BuiltBeam> beams;
-};
 
 /// @throws InputError where the parts make no mechanism: impossible inertia, a joint between a body and itself, two
 /// drives on one

@@ -1,11 +1,32 @@
-#include "hersey/mbd/recursive_kinematics.h"
+#pragma once
 
+#include <Eigen/Dense>
 #include <numbers>
+#include <span>
 
-namespace hersey::mbd {
+#include "hersey/core/spatial.h"
+#include "hersey/mbd/joint.h"
 
-RecursiveVelocity recursive_velocity(JointType type, const Vector3& axis, const Pose& X_iI, const Pose& X_jO,
-                                     std::span<const double> values, double lead) {
+/// The recursive velocity relation across one joint as Choi et al. (2012), Eq. 5-7, have it: in the bodies' own axes,
+/// where the program works in ground's.
+namespace hersey::verification {
+
+/// Theory manual eq. (mechanisms.1): Y_j = B1 Y_i + B2 qdot, Y the velocity [omega; v] of a body at its own origin and
+/// in its own axes, i inboard, j outboard; both matrices depend on the joint's values alone.
+struct RecursiveVelocity {
+  Matrix6 B1 = Matrix6::Identity();
+  Eigen::Matrix<double, 6, Eigen::Dynamic> B2;  ///< shape (6, degrees of freedom), columns in the order of the values
+};
+
+/// @param X_iI    inboard joint frame on body i
+/// @param X_jO    outboard joint frame on body j
+/// @param values  joint values, an orientation as rotation vector; its rate is the angular velocity in O's axes
+/// @param lead    of a screw, see mbd::joint_pose
+/// @verified_by derivatives_test.cpp: B1AndB2_MatchFiniteDifferences
+[[nodiscard]] inline RecursiveVelocity recursive_velocity(mbd::JointType type, const Vector3& axis, const Pose& X_iI,
+                                                          const Pose& X_jO, std::span<const double> values,
+                                                          double lead = 0) {
+  using mbd::JointType;
   const Pose X_IO = joint_pose(type, axis, values, lead);
   const Pose X_Oj = X_jO.inverse();
   const Pose X_ji = (X_iI * X_IO * X_Oj).inverse();
@@ -14,7 +35,7 @@ RecursiveVelocity recursive_velocity(JointType type, const Vector3& axis, const 
 
   // Columns at O's origin: translations run along the inboard axes, so turn into O's with R_OI; rotations run about
   // O's.
-  const Matrix3 axes = joint_axes(axis);
+  const Matrix3 axes = mbd::joint_axes(axis);
   const Vector3 n = axes.col(2);
   const Matrix3 R_OI = X_IO.R.transpose();
   const int dof = degrees_of_freedom(type);
@@ -56,4 +77,4 @@ RecursiveVelocity recursive_velocity(JointType type, const Vector3& axis, const 
   return relation;
 }
 
-}  // namespace hersey::mbd
+}  // namespace hersey::verification

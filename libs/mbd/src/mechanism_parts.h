@@ -9,7 +9,8 @@
 #include "drive_motion.h"
 #include "elastic_assembly.h"
 #include "hersey/core/stopwatch.h"
-#include "hersey/mbd/mechanism.h"
+#include "hersey/mbd/mechanism_spec.h"
+#include "hersey/mbd/observation.h"
 #include "load.h"
 #include "shared_reactions.h"
 #include "tree.h"
@@ -24,8 +25,12 @@ struct BoundDrive {
   DriveMotion motion;
 };
 
-struct Mechanism::Implementation {
-  explicit Implementation(MechanismSpec given);
+/// What a Mechanism works with: its tree, the parts as the tree sees them, scratch.
+struct MechanismParts {
+  using Index = solver::Equations::Index;
+  using SparseMatrix = solver::Equations::SparseMatrix;
+
+  explicit MechanismParts(MechanismSpec given);
 
   MechanismSpec spec;
   Tree tree;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "contact_spots.h"
-#include "hersey/mbd/contact.h"
+#include "hersey/mbd/contact_law.h"
 
 namespace hersey::mbd {
 

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "hersey/bearing/rigid_surfaces.h"
+#include "hersey/bearing/surface_flexibility.h"
+#include "hersey/film/film_heat.h"
+#include "hersey/film/film_model.h"
+
+namespace hersey::bearing {
+
+/// What acts on a bearing by itself. Bearing axes rest; angles count from x towards y.
+struct OperatingPoint {
+  double journal_speed = 0;  ///< angular velocity of the journal about z [rad/s]
+  double shell_speed = 0;    ///< angular velocity of the shell about z [rad/s]
+  /// On the journal [N], not zero, in the bearing's axes while nothing deforms; without it the position is given.
+  std::optional<Eigen::Vector2d> load;
+  Eigen::Vector2d e = Eigen::Vector2d::Zero();       ///< position of the journal, where no load is given [m]
+  Eigen::Vector2d e_rate = Eigen::Vector2d::Zero();  ///< velocity of the journal's centre [m/s]
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();    ///< slope of the journal's axis while nothing deforms [-]
+  double journal_angle = 0;                          ///< by which the journal, with its holes, stands turned [rad]
+
+  /// Sum of both speeds, which drags the oil [rad/s].
+  [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed; }
+  /// What the film's fill scales with: the entraining speed, or where the journal is pressed outwards twice the speed
+  /// of the eccentricity ratio, if that is more (in Reynolds' equation it counts so) [rad/s].
+  [[nodiscard]] double film_speed(double c) const {
+    return std::max(std::abs(entraining_speed()), 2 * e_rate.norm() / c);
+  }
+};
+
+struct SteadyOptions {
+  double rtol = 1e-10;      ///< on the film's relative residual, and on force over load, > 0
+  int max_iterations = 40;  ///< of one Newton iteration on film and position
+  int max_linearisations =
+      1000;  ///< of the film on paths from the start; the search from inside out adds 0.6 of it; > 0
+  /// Of the film; `sor` solves it anew at every position. Between surfaces that deform always `newton`.
+  film::FilmSolver solver = film::FilmSolver::newton;
+  std::shared_ptr<const SteadyElasticity> elasticity = {};  ///< of the surfaces; null: both rigid
+  std::optional<film::ThermalModel> thermal = {};  ///< of a film with temperatures; unset: one temperature, the model's
+  std::optional<Eigen::Vector2d> start;    ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
+  Eigen::VectorXd start_film = {};         ///< the film's unknowns there; empty: none known
+  std::optional<film::HeatState> start_heat = {};  ///< temperatures there; unset: those of the supply
+  Eigen::VectorXd start_deformation = {};  ///< amplitudes of the surfaces' bodies there; empty: none known
+};
+
+/// The same film with its fill fraction scaled for the speed of the point, which keeps the search short down to the
+/// slowest (film.6).
+[[nodiscard]] film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point);
+
+/// Surfaces of the film with the journal at `e`.
+[[nodiscard]] film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
+                                                  const Eigen::Vector2d& e);
+
+/// Where the bodies of rigid surfaces stand and how they move with the journal at `e`.
+[[nodiscard]] ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point,
+                                            const Eigen::Vector2d& e);
+
+}  // namespace hersey::bearing

@@ -1,0 +1,36 @@
+#include "hersey/bearing/operating_point.h"
+
+#include <cmath>
+
+#include "hersey/film/gap_shape.h"
+
+namespace hersey::bearing {
+
+film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point) {
+  const double omega = point.film_speed(model.c);
+  if (omega > 0) model.fill_speed = omega;
+  return model;
+}
+
+film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
+                                    const Eigen::Vector2d& e) {
+  film::SurfaceMotion motion;
+  place_surfaces(model, parameters_of(model, point, e), motion);
+  motion.u_shell = model.R * point.shell_speed;
+  // The bearing's axes rest: a shell that turns takes its shape along.
+  if (point.shell_speed != 0) motion.g_rate -= point.shell_speed * film::GapShape(model).shell_slope();
+  return motion;
+}
+
+ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point, const Eigen::Vector2d& e) {
+  ParameterVector parameters = ParameterVector::Zero();
+  parameters.segment<2>(kEx) = e;
+  parameters.segment<2>(kTx) = point.tilt;
+  parameters.segment<2>(kExRate) = point.e_rate;
+  parameters[kJournalSpeed] = model.R * point.journal_speed;
+  parameters[kRotation] = point.journal_angle;
+  parameters[kSupplyAngle] = e.squaredNorm() > 0 ? std::atan2(-e.y(), -e.x()) : 0.0;
+  return parameters;
+}
+
+}  // namespace hersey::bearing

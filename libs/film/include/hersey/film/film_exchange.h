@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "hersey/core/spatial.h"
+
+/// What a film and the surfaces around it give to each other: directions in which these move, forces, oil.
+namespace hersey::film {
+
+/// A one-parameter change of the surfaces, for derivatives along it: the film's answer to it is a column.
+struct MotionDirection {
+  Eigen::VectorXd g;       ///< d gap / d parameter at the nodes; empty means zero
+  Eigen::VectorXd g_rate;  ///< d gap rate / d parameter; empty means zero
+  double u_shell = 0, u_journal = 0, w_shell = 0, w_journal = 0, phi_supply = 0, phi_journal = 0;
+  double shell_share = 0;  ///< of `g`, which opens the gap by the shell's surface; the rest by the journal's [-]
+};
+
+/// Forces that push the surfaces apart at the nodes, film and asperities together: pressure times the node's area,
+/// shape (n) each.
+struct NormalForces {
+  Eigen::VectorXd value;       ///< [N]
+  Eigen::VectorXd by_u, by_g;  ///< derivatives with the node's unknown [m^2] and gap [N/m]
+};
+
+/// The oil of one step: flows as means over it, with which what is in the film at its end is what was there at its
+/// start and what has come in since, to round-off (theory manual, film.15). Volumes are masses over rho0.
+struct OilOfStep {
+  Eigen::VectorXd content;  ///< oil in each control volume over the volume itself, rho theta [-], shape (n)
+  Eigen::VectorXd gap;      ///< that volume per area, without pockets [m], shape (n)
+  double volume = 0;  ///< in the film, every control volume counted as no emptier than empty, no fuller than full [m^3]
+  double flow_left = 0, flow_right = 0;  ///< out over the edges [m^3/s]
+  double flow_supply = 0;                ///< in through line and features [m^3/s]
+  Eigen::VectorXd flow_features;         ///< in through each feature [m^3/s]
+  /// Largest share of a control volume that the linear way through the film left over [-]; 1 where some found no place.
+  double passed_on = 0;
+};
+
+/// Forces of a film whose unknowns are eliminated, and their derivatives with directions in which the surfaces move.
+struct CondensedFilm {
+  Vector6 wrench = Vector6::Zero();                    ///< on the shell
+  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds;  ///< a column per direction
+  Eigen::VectorXd Q;                                   ///< forces on shapes
+  Eigen::MatrixXd Q_ds;                                ///< (shapes, directions)
+};
+
+}  // namespace hersey::film

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/mbd/elastic_body.h"
+#include "hersey/mbd/mechanism_spec.h"
+
+/// What a mechanism shows of itself.
+namespace hersey::mbd {
+
+/// Motion of a frame relative to ground, in ground's axes.
+struct FrameMotion {
+  Pose X_WF;
+  Vector3 omega = Vector3::Zero();  ///< angular velocity [rad/s]
+  Vector3 v = Vector3::Zero();      ///< velocity of the frame's origin [m/s]
+  Vector3 alpha = Vector3::Zero();  ///< angular acceleration [rad/s^2]
+  Vector3 a = Vector3::Zero();      ///< acceleration of the frame's origin [m/s^2]
+};
+
+/// Values of a joint, one for each of its coordinates: none to six.
+using JointValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+
+/// Coordinates of a joint and what it transmits.
+struct JointObservation {
+  JointValues position;  ///< as in coordinates_of; of a closing joint in (-pi, pi]
+  JointValues rate;
+  Vector3 force = Vector3::Zero();   ///< of the inboard on the outboard body, in the inboard frame's axes [N]
+  Vector3 torque = Vector3::Zero();  ///< the same about the inboard frame's origin [N m]; drives and springs excluded
+};
+
+/// Constraints of a joint that closes a loop which follow from the rest of the mechanism wherever it can go. They are
+/// left out of the equations; reactions that they leave undetermined are the ones of smallest norm.
+struct Redundancy {
+  JointId joint;              ///< the closing joint
+  std::vector<JointId> loop;  ///< the joints of its loop, itself last
+  int positions = 0;          ///< how many of its constraints on positions were left out
+  int orientations = 0;       ///< and on orientations
+};
+
+/// A value of a joint at the start that could not be the one given.
+struct ChangedStart {
+  JointId joint;
+  Coordinate coordinate;
+  bool is_rate = false;
+  std::vector<double> given, found;  ///< SI
+  double share = 0;  ///< of the change: in rad or of the mechanism's size; of a rate, relative to the largest one
+};
+
+/// What an elastic body shows.
+struct ElasticObservation {
+  ElasticEnergy energy;
+  std::vector<Vector6> wrenches;  ///< that the mechanism puts on each frame, at the frame, in its axes [N m; N]
+  ElasticMotion motion;
+};
+
+/// Everything known about a mechanism at one state. Indices are those of the ids.
+struct Observation {
+  double t = 0;
+  std::vector<FrameMotion> bodies;  ///< of each body's own frame
+  std::vector<JointObservation> joints;
+  std::vector<double> drive_efforts;             ///< force or torque each drive exerts on its coordinate [N; N m]
+  std::vector<double> drive_powers;              ///< [W], > 0 puts energy in
+  std::vector<double> coupling_efforts;          ///< force or torque each coupling exerts on its output [N; N m]
+  std::vector<double> load_powers;               ///< [W]
+  std::vector<double> coordinate_force_efforts;  ///< [N; N m]
+  std::vector<double> coordinate_force_powers;   ///< [W]
+  std::vector<double> spring_powers;             ///< [W], stored and dissipated together
+  std::vector<Vector6> force_wrenches;           ///< of each two-body force on b, at a's origin, a's axes [N m; N]
+  std::vector<double> force_powers;              ///< of wrenches and of forces on shapes [W]
+  std::vector<ElasticObservation> elastics;
+  double kinetic_energy = 0;    ///< [J], of elastic bodies too
+  double potential_energy = 0;  ///< of gravity, zero at ground's origin [J]
+  double spring_energy = 0;     ///< stored in springs on coordinates and in two-body forces [J]
+  double damper_power = 0;      ///< lost in dampers on coordinates and in two-body forces, TwoBodyForce::lost_power [W]
+  double constraint_drift = 0;  ///< largest violation, redundant rows included, relative to size or radian
+};
+
+/// Computing time since the mechanism was made, looking at it (`observe`) excluded [s].
+struct MechanismTiming {
+  double total = 0;             ///< of its equations: assembling them, beginning and accepting steps
+  double forces = 0;            ///< of that, until all two-body forces are known, costly ones side by side
+  std::vector<double> force;    ///< of each of them by itself, in the thread it has
+  std::vector<double> elastic;  ///< of the total, in each elastic body
+};
+
+}  // namespace hersey::mbd

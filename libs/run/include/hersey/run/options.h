@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace hersey::run {
+
+/// How far a run has come; handed to Options::on_progress after every accepted step.
+struct Progress {
+  double t = 0, t_start = 0, t_end = 0;                   ///< [s]
+  double dt = 0;                                          ///< step just taken [s]
+  int newton_iterations = 0;                              ///< of that step
+  double moft = std::numeric_limits<double>::infinity();  ///< minimum oil film thickness so far, all bearings [m]
+  double elapsed = 0;                                     ///< wall time since the start of the run [s]
+};
+
+/// A cycle that has just ended; handed to Options::on_cycle.
+struct CycleProgress {
+  int number = 0;       ///< from 1
+  double change = 0;    ///< largest difference from the cycle before, relative; not a number in the first
+  std::string largest;  ///< of what, "film thickness of big_end"
+};
+
+struct StudyParameterValue {
+  std::string name, text;
+};
+
+struct Options {
+  std::filesystem::path results;                       ///< the HDF5 file to write
+  bool overwrite = false;                              ///< replace an existing one
+  bool step_error = false;                             ///< run with steps twice as long first, and compare
+  bool resume = false;                                 ///< go on where `results` and its checkpoint end
+  std::function<void(const Progress&)> on_progress;    ///< may be empty
+  std::function<void(const CycleProgress&)> on_cycle;  ///< may be empty
+  const std::atomic<bool>* stop = nullptr;             ///< set from a signal handler: end after the current step
+  std::function<void()> on_stopping;  ///< it ends so: checkpoint and results are yet to be written; may be empty
+  std::vector<StudyParameterValue> study_parameters;  ///< of this run, for the results file
+};
+
+}  // namespace hersey::run

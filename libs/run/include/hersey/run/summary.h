@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hersey/run/work.h"
+
+namespace hersey::run {
+
+enum class Status {
+  completed,  ///< reached the end, or settled
+  stopped,    ///< asked to stop; results up to then are complete
+  failed,     ///< no convergence at the smallest step, or the results file could not be written
+};
+
+/// What the length of the steps has done to the figures of one bearing: the size of their errors, estimated; not a
+/// number where it was not asked for.
+struct StepErrors {
+  double moft = std::numeric_limits<double>::quiet_NaN();        ///< [m]
+  double pofp = std::numeric_limits<double>::quiet_NaN();        ///< [Pa]
+  double max_force = std::numeric_limits<double>::quiet_NaN();   ///< [N]
+  double mean_power = std::numeric_limits<double>::quiet_NaN();  ///< [W]
+  double mean_flow = std::numeric_limits<double>::quiet_NaN();   ///< [m^3/s]
+};
+
+/// The extremes and balances of one bearing over a run.
+struct BearingSummary {
+  std::string name;
+  double moft = 0, moft_t = 0, moft_phi = 0, moft_z = 0;  ///< minimum oil film thickness [m], when [s], where [rad, m]
+  double pofp = 0, pofp_t = 0, pofp_phi = 0, pofp_z = 0;  ///< peak oil film pressure [Pa], when, where
+  double max_force = 0;                                   ///< largest film force on the shell [N]
+  double eccentricity_ratio = 0;                          ///< at the end [-]
+  double mean_power = 0;                                  ///< mean friction power, film and asperities [W]
+  double mean_flow = 0;                                   ///< mean oil flow over both edges [m^3/s]
+  double worst_mass_balance = 0;                          ///< largest mass_balance_error of a step [-]
+  double energy_put_in = 0;                               ///< by the bodies, through the film's forces on them [J]
+  double energy_taken = 0;  ///< by shear, flow, friction, storage and oil, each an integral over the film [J]
+  double energy_error = 0;  ///< their difference over what the film dissipates [-]
+  StepErrors step_error;    ///< where Options::step_error asks for it
+};
+
+/// Where the energy put into a machine has gone since the start of the run [J]. Each part is an integral of its own: of
+/// a film's shear, of its flows, of what dampers and contacts lose, of what is stored. What they do not explain tells
+/// of a force that does not do the work of its losses, of steps too long, or of the integrator's own damping.
+struct EnergySummary {
+  double put_in = 0;             ///< by drives, motors, loads and pressures
+  double films = 0;              ///< dissipated by shear and flow of the oil
+  double boundary_friction = 0;  ///< dissipated where asperities touch
+  double contacts = 0;           ///< lost in contacts of bodies
+  double dampers = 0;            ///< lost in dampers, joint friction and the material of flexible bodies
+  double oil = 0;                ///< taken along by oil that leaves the films less what feeds bring
+  double film_storage = 0;       ///< more in liners, asperities and compressed oil than at the start
+  double stored = 0;             ///< more kinetic, potential, spring and strain energy than at the start
+  double largest =
+      0;  ///< the largest that energy put in or lost has been, or any kind of it has changed: errors are its shares
+  /// Dissipated by films, asperities, contacts and dampers.
+  [[nodiscard]] double lost() const { return films + boundary_friction + contacts + dampers; }
+  /// What all the parts leave of put_in.
+  [[nodiscard]] double unexplained() const { return put_in - lost() - oil - film_storage - stored; }
+  /// |unexplained| over the largest [-].
+  [[nodiscard]] double error() const { return largest > 0 ? std::abs(unexplained()) / largest : 0; }
+};
+
+struct Summary {
+  Status status = Status::completed;
+  std::string message;   ///< why it ended early; "settled" where it did because nothing changed any more
+  std::string warning;   ///< what the user should know about a resumed run
+  double t_end = 0;      ///< last accepted time [s]
+  double t_results = 0;  ///< last time in the results file [s]
+  int steps = 0, rejected_steps = 0;
+  int newton_iterations = 0;
+  int cycles = 0;                     ///< that ended, where the model asks for cycles
+  double cycle_change = 0;            ///< of the last of them: CycleProgress::change
+  double worst_step_error = 0;        ///< largest local error of a step: angles [rad], lengths over sizes, StepError
+  double worst_constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares [-]
+  double worst_power_balance = 0;     ///< largest residual power of the equations of motion over the largest power [-]
+  EnergySummary energy;               ///< where the energy went
+  double wall_time = 0;               ///< [s]
+  Work work;                          ///< where it went
+  std::vector<BearingSummary> bearings;
+  std::filesystem::path results;
+};
+
+}  // namespace hersey::run
