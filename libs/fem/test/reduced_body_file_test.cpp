@@ -7,10 +7,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "hdf5_file.h"
 #include "hersey/core/input_error.h"
 #include "hersey/fem/imported_body.h"
 #include "hersey/fem/matrix_market.h"
+#include "reduction/hdf5_file.h"
 #include "temporary_directory.h"
 
 namespace hersey::fem {

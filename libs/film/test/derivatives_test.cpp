@@ -3,9 +3,9 @@
 #include <limits>
 #include <random>
 
+#include "balance/flow_balance.h"
 #include "film_cases.h"
-#include "film_wrench.h"
-#include "flow_balance.h"
+#include "observe/film_wrench.h"
 #include "seeded_random.h"
 
 // Every derivative against central differences: residual and wrench, with respect to the unknown and to every change of

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "feature_cover.h"
 #include "film_cases.h"
+#include "gap/feature_cover.h"
 #include "relative.h"
 
 // Holes and grooves: where their edges lie, how smoothly they travel, and published bearings with grooves.

@@ -1,4 +1,4 @@
-#include "flow_factors.h"
+#include "gap/flow_factors.h"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "film_cases.h"
-#include "grid_geometry.h"
+#include "gap/grid_geometry.h"
 #include "hersey/film/gap_shape.h"
 #include "relative.h"
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "film_cases.h"
-#include "grid_geometry.h"
+#include "gap/grid_geometry.h"
 #include "relative.h"
 
 // Graded grids: their spacing, their integrals, and what they gain.

@@ -1,4 +1,4 @@
-#include "layer_profile.h"
+#include "heat/layer_profile.h"
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,8 @@ TEST_CASE("OneViscosity_IsThatOfTheParabola") {
   for (int l = 0; l < 4; ++l) {
     const double a = l / 4.0, b = (l + 1) / 4.0;
     // Integrals of 6 eta (1 - eta) and of eta over the layer.
-    CHECK(shares.pressure_flow[l] == doctest::Approx(3 * (b * b - a * a) - 2 * (b * b * b - a * a * a)).epsilon(round_off));
+    CHECK(shares.pressure_flow[l] ==
+          doctest::Approx(3 * (b * b - a * a) - 2 * (b * b * b - a * a * a)).epsilon(round_off));
     CHECK(shares.sliding_flow[l] == doctest::Approx((b * b - a * a) / 2).epsilon(round_off));
     CHECK(shares.sliding_heat[l] == doctest::Approx(0.25).epsilon(round_off));
   }
@@ -69,7 +70,8 @@ TEST_CASE("SharesOfLayers_AreIntegralsOfTheVelocity") {
   for (int l = 0; l < 5; ++l) {
     CHECK(by_pressure[l] == doctest::Approx(-shares.pressure_flow[l] * profile.fluidity / 12).epsilon(strip).scale(1));
     CHECK(by_sliding[l] == doctest::Approx(shares.sliding_flow[l]).epsilon(strip));
-    CHECK(heat_by_pressure[l] == doctest::Approx(shares.pressure_heat[l] * profile.fluidity / 12).epsilon(strip).scale(1));
+    CHECK(heat_by_pressure[l] ==
+          doctest::Approx(shares.pressure_heat[l] * profile.fluidity / 12).epsilon(strip).scale(1));
     CHECK(heat_by_sliding[l] == doctest::Approx(shares.sliding_heat[l] / profile.shear_fluidity).epsilon(strip));
     const double mixed = heat_by_both[l] - heat_by_pressure[l] - heat_by_sliding[l];
     CHECK(mixed == doctest::Approx(shares.mixed_heat[l]).epsilon(strip).scale(1));

@@ -1,13 +1,13 @@
-#include "pocket_relief.h"
+#include "gap/pocket_relief.h"
 
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
 
+#include "balance/flow_balance.h"
 #include "film_cases.h"
-#include "flow_balance.h"
-#include "gap_interpolation.h"
+#include "gap/gap_interpolation.h"
 #include "relative.h"
 
 // Depth of features: volume, flow over their steps, and what the film beside them feels.
@@ -258,8 +258,8 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
 TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {
   const auto whirl_ratio = [](const Grid& grid, double epsilon) {
     FilmModel m{.R = 0.03, .L = 0.03, .c = 30e-6, .grid = grid};
-    m.edge_left.pressure = m.edge_right.pressure = 1e8;     // full everywhere
-    m.shear_force = ShearForce::torque_only;  // shear would add c/R
+    m.edge_left.pressure = m.edge_right.pressure = 1e8;  // full everywhere
+    m.shear_force = ShearForce::torque_only;             // shear would add c/R
     const double omega = 200;
     const SurfaceMotion motion = surfaces(m, turning(m, epsilon, omega));
     Reynolds reynolds(m);

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "film_cases.h"
-#include "flow_factors.h"
+#include "gap/flow_factors.h"
 
 // Oil between rough surfaces: flow factors in the film.
 namespace hersey::film {

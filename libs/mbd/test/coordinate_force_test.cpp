@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "drive_motion.h"
 #include "hersey/mbd/bushing.h"
 #include "hersey/mbd/mechanism_builder.h"
 #include "simulate.h"
 #include "test_mechanisms.h"
+#include "tree/drive_motion.h"
 
 namespace hersey::mbd {
 namespace coordinate_force_test {

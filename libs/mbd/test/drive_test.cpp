@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "drive_motion.h"
 #include "hersey/mbd/mechanism_builder.h"
 #include "simulate.h"
 #include "test_mechanisms.h"
+#include "tree/drive_motion.h"
 
 namespace hersey::mbd {
 namespace drive_test {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "interpret/stl_file.h"
 #include "model_text.h"
-#include "stl_file.h"
 #include "temporary_directory.h"
 
 // Shapes of bodies: from the model file and from STL files.

@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "format.h"
 #include "hersey/model/read.h"
+#include "schema/format.h"
 
 namespace hersey::model {
 namespace schema_test {

@@ -1,10 +1,10 @@
 #include <doctest/doctest.h>
 
-#include "film_vocabulary.h"
-#include "interpret.h"
-#include "machine_vocabulary.h"
-#include "oil_laws.h"
-#include "source_tree.h"
+#include "interpret/interpret.h"
+#include "interpret/source_tree.h"
+#include "schema/film_vocabulary.h"
+#include "schema/machine_vocabulary.h"
+#include "schema/oil_laws.h"
 
 // Words of the model file: format and reading are one table.
 namespace hersey::model {

@@ -8,8 +8,8 @@
 #include "hersey/core/input_error.h"
 #include "hersey/model/build.h"
 #include "hersey/run/simulate.h"
+#include "march/start.h"
 #include "small_rig.h"
-#include "start.h"
 
 namespace hersey::run {
 namespace assembly_test {

@@ -1,4 +1,4 @@
-#include "bearing_axes.h"
+#include "record/bearing_axes.h"
 
 #include <doctest/doctest.h>
 

@@ -12,9 +12,9 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
 #include "hersey/solver/generalized_alpha.h"
+#include "march/start.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
-#include "start.h"
 #include "temporary_directory.h"
 
 namespace hersey::run {

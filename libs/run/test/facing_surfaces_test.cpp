@@ -1,5 +1,5 @@
 // Bearings whose surfaces do not fit each other at the start: what is told.
-#include "facing_surfaces.h"
+#include "record/facing_surfaces.h"
 
 #include <doctest/doctest.h>
 

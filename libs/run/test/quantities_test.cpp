@@ -9,7 +9,7 @@
 
 #include "hersey/results/reader.h"
 #include "hersey/run/film_fields.h"
-#include "quantity.h"
+#include "record/quantity.h"
 #include "temporary_directory.h"
 
 namespace hersey::run {

@@ -7,13 +7,13 @@
 #include <cstring>
 #include <fstream>
 
-#include "checkpoint.h"
 #include "hersey/core/input_error.h"
 #include "hersey/model/read.h"
 #include "hersey/results/checkpoint.h"
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/run/simulate.h"
+#include "march/checkpoint.h"
 #include "small_bar.h"
 #include "small_rig.h"
 #include "temporary_directory.h"

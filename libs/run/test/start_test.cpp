@@ -1,4 +1,4 @@
-#include "start.h"
+#include "march/start.h"
 
 #include <doctest/doctest.h>
 

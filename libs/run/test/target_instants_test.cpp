@@ -1,4 +1,4 @@
-#include "target_instants.h"
+#include "march/target_instants.h"
 
 #include <doctest/doctest.h>
 

@@ -5,9 +5,9 @@
 
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
+#include "record/work_record.h"
 #include "small_rig.h"
 #include "temporary_directory.h"
-#include "work_record.h"
 
 namespace hersey::run {
 namespace work_test {

@@ -1,0 +1,70 @@
+#include "hersey/fem/solid_element.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "element/incompatible_modes.h"
+
+namespace hersey::fem {
+
+double smallest_jacobian(ElementType type, const NodeColumns& x) {
+  double smallest = std::numeric_limits<double>::infinity();
+  const auto see = [&](const Vector3& xi) {
+    const Matrix3 J = x * shape_functions(type, xi).dN;
+    smallest = std::min(smallest, J.determinant());
+  };
+  for (const QuadraturePoint& point : stiffness_points(type)) see(point.xi);
+  for (const QuadraturePoint& point : mass_points(type)) see(point.xi);
+  return smallest;
+}
+
+ElementMatrix element_stiffness(ElementType type, const NodeColumns& x, const SolidMaterial& material,
+                                Integration rule) {
+  if (type == ElementType::hex8) {
+    const IncompatibleModes::Stiffness k = IncompatibleModes(x).stiffness(x, material.D);
+    return k.K_uu - k.K_au.transpose() * k.K_aa.llt().solve(k.K_au);
+  }
+  const Eigen::Index dofs = 3 * x.cols();
+  ElementMatrix K = ElementMatrix::Zero(dofs, dofs);
+  for (const auto& [xi, weight] : stiffness_points(type, rule)) {
+    const ElementPoint point = element_point(shape_functions(type, xi), x);
+    const StrainMatrix B = strain_matrix(point.gradients);
+    const StrainMatrix stress = weight * point.jacobian * material.D * B;
+    K.noalias() += B.transpose() * stress;
+  }
+  return K;
+}
+
+ElementMatrix element_mass(ElementType type, const NodeColumns& x) {
+  ElementMatrix m = ElementMatrix::Zero(x.cols(), x.cols());
+  for (const auto& [xi, weight] : mass_points(type)) {
+    const ShapeFunctions shape = shape_functions(type, xi);
+    const Matrix3 J = x * shape.dN;
+    m.noalias() += weight * J.determinant() * shape.N * shape.N.transpose();
+  }
+  return m;
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> element_strain(ElementType type, const NodeColumns& x,
+                                                        const SolidMaterial& material, const NodeColumns& u,
+                                                        const std::vector<Vector3>& points) {
+  const Eigen::Map<const Eigen::VectorXd> displacement(u.data(), u.size());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> strain(6, points.size());
+  const std::optional<IncompatibleModes> modes =
+      type == ElementType::hex8 ? std::optional<IncompatibleModes>(x) : std::nullopt;
+  Eigen::Matrix<double, 9, 1> amplitude = Eigen::Matrix<double, 9, 1>::Zero();
+  if (modes) {
+    const IncompatibleModes::Stiffness k = modes->stiffness(x, material.D);
+    amplitude = -k.K_aa.llt().solve(k.K_au * displacement);
+  }
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const ElementPoint at = element_point(shape_functions(type, points[p]), x);
+    Vector6 e = strain_matrix(at.gradients) * displacement;
+    if (modes) e += modes->strain(points[p], at.jacobian) * amplitude;
+    strain.col(static_cast<Eigen::Index>(p)) = e;
+  }
+  return strain;
+}
+
+}  // namespace hersey::fem

@@ -1,0 +1,124 @@
+#include "mesh/mesh_materials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hersey/core/spelling.h"
+
+namespace hersey::fem {
+namespace {
+
+constexpr std::size_t kMostLabels = 5;  // told in one message
+
+constexpr int kNone = -1, kUnknown = -2;
+
+class Assignment {
+ public:
+  Assignment(RawMesh& raw, const std::map<std::string, std::vector<int>>& marks, Mesh& mesh)
+      : raw_(raw), marks_(marks), mesh_(mesh), material_(mesh.elements.size(), kNone) {
+    for (const MeshMaterial& material : raw_.materials) names_.push_back(material.name);
+  }
+
+  void run() {
+    if (raw_.sections.empty() && names_.size() == 1) return take_the_only_one();
+    for (const RawSection& section : raw_.sections) apply(section);
+    for (std::size_t e = 0; e < material_.size(); ++e) mesh_.elements[e].material = std::max(material_[e], kNone);
+    if (!names_.empty() || !raw_.sections.empty()) tell_of_missing();
+  }
+
+ private:
+  void take_the_only_one() {
+    for (Element& element : mesh_.elements) element.material = 0;
+    raw_.warn(raw_.material_places[0], fmt::format("material '{}', which no section gives to elements", names_[0]),
+              "a section for the elements", "all elements are taken to be of it: the file has no other");
+  }
+
+  void apply(const RawSection& section) {
+    const int material = place_of(section);
+    const auto elements = mesh_.element_sets.find(section.element_set);
+    if (elements == mesh_.element_sets.end()) {
+      if (!section.may_be_unused && !marks_.contains(section.element_set)) tell_of_set(section);
+      return;
+    }
+    if (material == kUnknown && !elements->second.empty()) tell_of_material(section);
+    bool is_told = false;
+    for (const int e : elements->second) {
+      int& given = material_[static_cast<std::size_t>(e)];
+      const bool has_another = given >= 0 && material >= 0 && given != material;
+      if (has_another && !is_told) tell_of_second(section, e);
+      is_told = is_told || has_another;
+      given = material;
+    }
+  }
+
+  [[nodiscard]] int place_of(const RawSection& section) const {
+    const auto found = std::find(names_.begin(), names_.end(), section.material);
+    return found == names_.end() ? kUnknown : static_cast<int>(found - names_.begin());
+  }
+
+  void tell_of_material(const RawSection& section) {
+    add(section.place,
+        section.material.empty()
+            ? fmt::format("the section of '{}' names no material", section.element_set)
+            : fmt::format("the section of '{}' names the material '{}', which the file does not define",
+                          section.element_set, section.material),
+        names_.empty() ? "a material that the file defines; it has none" : "a material of the file: " + one_of(names_),
+        did_you_mean(section.material, names_));
+  }
+
+  void tell_of_set(const RawSection& section) {
+    std::vector<std::string> sets;
+    for (const auto& [name, elements] : mesh_.element_sets) sets.push_back(name);
+    add(section.place,
+        fmt::format("a section of the element set '{}', which the file does not define", section.element_set),
+        sets.empty() ? "a set of elements; the file has none" : "a set of elements: " + one_of(sets),
+        did_you_mean(section.element_set, sets));
+  }
+
+  void tell_of_second(const RawSection& section, int element) {
+    const auto e = static_cast<std::size_t>(element);
+    add(section.place,
+        fmt::format("element {} gets the material '{}', but has '{}' by another section", mesh_.elements[e].label,
+                    section.material, names_[static_cast<std::size_t>(material_[e])]),
+        "one material for each element");
+  }
+
+  void tell_of_missing() {
+    std::vector<long> labels;
+    Place first;
+    for (std::size_t e = 0; e < material_.size(); ++e) {
+      const bool is_solid = mesh_.elements[e].type != ElementType::beam2;
+      if (material_[e] != kNone || !is_solid) continue;
+      if (labels.empty()) first = raw_.elements[e].place;
+      labels.push_back(mesh_.elements[e].label);
+    }
+    if (labels.empty()) return;
+    const std::size_t told = std::min(labels.size(), kMostLabels);
+    add(first,
+        fmt::format("{} {} no material by any section: {}{}", labels.size(),
+                    labels.size() == 1 ? "element has" : "elements have",
+                    fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(told), ", "),
+                    told < labels.size() ? ", ..." : ""),
+        "a section with a material for each element");
+  }
+
+  void add(Place place, std::string found, std::string expected, std::string suggestion = {}) {
+    raw_.material_faults.push_back(raw_.fault(place, std::move(found), std::move(expected), std::move(suggestion)));
+  }
+
+  RawMesh& raw_;
+  const std::map<std::string, std::vector<int>>& marks_;
+  Mesh& mesh_;
+  std::vector<std::string> names_;
+  std::vector<int> material_;  ///< by element: place in the file's materials, or why there is none
+};
+
+}  // namespace
+
+void assign_materials(RawMesh& raw, const std::map<std::string, std::vector<int>>& marks, Mesh& mesh) {
+  mesh.materials = raw.materials;
+  Assignment(raw, marks, mesh).run();
+}
+
+}  // namespace hersey::fem

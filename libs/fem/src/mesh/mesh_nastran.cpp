@@ -1,0 +1,385 @@
+// Entries as in the quick reference guide of MSC Nastran (2012): GRID, CTETRA, CHEXA, CPENTA, CBAR, CBEAM, MAT1,
+// PSOLID, PBAR, PBARL, PBEAM, PBEAML, GRDSET, PARAM, SET1, SET3, and SET of the case control section.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "mesh/mesh_readers.h"
+#include "mesh/nastran_cards.h"
+#include "mesh/nastran_entries.h"
+
+namespace hersey::fem {
+namespace {
+
+constexpr double kSameModulus = 0.01;  // of G and E / (2 (1 + nu)), from which on Nastran warns too
+constexpr const char* kBasicSystem = "the basic system, 0 or empty";
+constexpr const char* kWriteBasic = "let the program that made the file write all points in basic coordinates";
+
+/// A solid's entry: its shapes of first and second order, and the place in Nastran's numbering of each node in ours.
+struct NastranSolid {
+  ElementType linear, quadratic;
+  std::vector<std::size_t> order;
+};
+
+const std::map<std::string_view, NastranSolid>& solids() {
+  static const std::map<std::string_view, NastranSolid> all = {
+      {"CTETRA", {ElementType::tet4, ElementType::tet10, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}},
+      {"CPENTA", {ElementType::wedge6, ElementType::wedge15, {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11}}},
+      {"CHEXA",
+       {ElementType::hex8, ElementType::hex20, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15}}},
+  };
+  return all;
+}
+
+int face_corners(const std::string& name) {
+  if (name == "CTRIA3" || name == "CTRIA6" || name == "CTRIAR") return 3;
+  if (name == "CQUAD4" || name == "CQUAD8" || name == "CQUADR") return 4;
+  return 0;
+}
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::toupper(c); });
+  return result;
+}
+
+class NastranReader {
+ public:
+  explicit NastranReader(const IncludeLoader& include) : include_(include) {}
+
+  RawMesh read(std::string_view text, const std::string& name) {
+    read_file(text, name, 0, begins_with_case_control(text));
+    check_default_system();
+    scale_densities();
+    for (const auto& [kind, left] : left_out_)
+      raw_.warn(left.place, fmt::format("{} {}", left.count, kind.substr(0, 8)), "grid points, solids and beams",
+                "left out of the mesh; write masses, springs and couplings in the model file");
+    return std::move(raw_);
+  }
+
+ private:
+  [[noreturn]] void fail(const NastranCard& card, std::string found, std::string expected,
+                         std::string suggestion = {}) const {
+    raw_.fail({file_, card.line}, std::move(found), std::move(expected), std::move(suggestion));
+  }
+
+  void read_file(std::string_view text, const std::string& name, int depth, bool begins_with_case_control) {
+    const int outer = std::exchange(file_, static_cast<int>(raw_.files.size()));
+    raw_.files.push_back(name);
+    LineScanner lines(text);
+    if (begins_with_case_control) read_case_control(lines);
+    NastranCards cards(lines);
+    NastranCard card;
+    while (!has_ended_ && cards.next(card)) {
+      if (card.name.starts_with("INCLUDE"))
+        read_include(card, text, depth);
+      else
+        read_card(card);
+    }
+    if (depth == 0 && !has_ended_)
+      raw_.warn({file_, lines.number()}, "no ENDDATA at the end", "ENDDATA behind the last entry",
+                "the file may be cut short: compare it with its source");
+    file_ = outer;
+  }
+
+  static bool begins_with_case_control(std::string_view text) {
+    LineScanner lines(text);
+    std::string_view line;
+    while (lines.next(line))
+      if (is_begin_bulk(line)) return true;
+    return false;
+  }
+
+  static bool is_begin_bulk(std::string_view line) {
+    const std::string word = upper(trimmed(line.substr(0, line.find('$'))).substr(0, 20));
+    return word.starts_with("BEGIN") && trimmed(std::string_view(word).substr(5)).starts_with("BULK");
+  }
+
+  // Up to BEGIN BULK: "SET 4 = 1 THRU 10, 15", continued after a comma.
+  void read_case_control(LineScanner& lines) {
+    std::string_view line;
+    while (lines.next(line)) {
+      line = trimmed(line.substr(0, line.find('$')));
+      const std::string word = upper(line.substr(0, 10));
+      if (is_begin_bulk(line)) return;
+      if (word.starts_with("INCLUDE"))
+        raw_.warn({file_, lines.number()}, "INCLUDE before BEGIN BULK", "INCLUDE in the bulk data",
+                  "passed over: sets of the case control section that it holds are not in the mesh");
+      if (!word.starts_with("SET ") || line.find('=') == std::string_view::npos) continue;
+      NastranCard card;
+      card.line = lines.number();
+      std::string whole(line);
+      while (whole.ends_with(',') && lines.next(line)) whole += trimmed(line.substr(0, line.find('$')));
+      add_case_set(card, whole);
+    }
+  }
+
+  void add_case_set(const NastranCard& card, const std::string& line) {
+    const std::size_t equals = line.find('=');
+    const long number_of_set = integer(card, trimmed(std::string_view(line).substr(4, equals - 4)));
+    std::vector<std::string_view> words;
+    std::string_view rest = std::string_view(line).substr(equals + 1);
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find_first_of(", \t"), rest.size());
+      if (end > 0) words.push_back(rest.substr(0, end));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    if (words.empty() || equal_ignoring_case(words[0], "ALL")) return;
+    add_set(card, number_of_set, words);
+  }
+
+  // INCLUDE 'file': the name is longer than a field, so it is taken from the line itself.
+  void read_include(const NastranCard& card, std::string_view text, int depth) {
+    LineScanner again(text);
+    std::string_view line;
+    while (again.number() < card.line && again.next(line)) continue;
+    std::string name(trimmed(line).substr(7));
+    name = std::string(trimmed(name));
+    std::erase_if(name, [](char c) { return c == '\'' || c == '"'; });
+    std::string content;
+    try {
+      content = included_text(include_, name, depth);
+    } catch (const std::runtime_error& error) {
+      fail(card, fmt::format("INCLUDE of '{}': {}", name, error.what()), kIncludeExpected);
+    }
+    read_file(content, name, depth + 1, false);
+  }
+
+  void read_card(const NastranCard& card) {
+    if (!concerns_no_bulk(card.name)) require_sound(card);
+    if (card.name == "GRID") return read_grid(card);
+    if (solids().contains(card.name)) return read_solid(card);
+    if (card.name == "CBAR" || card.name == "CBEAM") return read_beam(card);
+    if (const int corners = face_corners(card.name); corners > 0) return read_face(card, corners);
+    if (card.name == "MAT1") return read_material(card);
+    if (card.name == "PSOLID" || card.name == "PBAR" || card.name == "PBARL" || card.name == "PBEAM" ||
+        card.name == "PBEAML")
+      return read_property(card);
+    if (card.name == "SET1") return add_set(card, integer(card, card.field(0)), members(card, 1));
+    if (card.name == "SET3") return add_set(card, integer(card, card.field(0)), members(card, 2));
+    check_other(card);
+  }
+
+  void require_sound(const NastranCard& card) const {
+    if (card.mistake.empty()) return;
+    raw_.fail({file_, card.line_of_mistake}, fmt::format("{} ({})", card.mistake, card.name.substr(0, 8)),
+              "an entry's lines one after the other, eight fields of data in each (four where they are large)",
+              "let the program that made the file write it anew");
+  }
+
+  void check_other(const NastranCard& card) {
+    if (card.name == "ENDDATA") has_ended_ = true;
+    if (card.name == "GRDSET") return read_default_system(card);
+    if (card.name == "PARAM" && equal_ignoring_case(card.field(0), "WTMASS")) read_mass_factor(card);
+    if (changes_the_bulk(card.name))
+      fail(card, card.name.substr(0, 20), "GRID, CTETRA, CPENTA, CHEXA, CBAR or CBEAM, each written out",
+           "mesh the body with these");
+    if (is_other_material(card.name)) return read_other_material(card);
+    if (concerns_no_bulk(card.name)) return;
+    LeftOut& left = left_out_[card.name];
+    if (left.count++ == 0) left.place = {file_, card.line};
+  }
+
+  // It may stand behind the grid points it concerns: they are checked at the end.
+  void read_default_system(const NastranCard& card) {
+    default_system_ = card.field(1).empty() ? 0 : integer(card, card.field(1));
+    default_place_ = {file_, card.line};
+  }
+
+  void check_default_system() const {
+    if (default_system_ == 0 || !first_default_) return;
+    raw_.fail(default_place_,
+              fmt::format("GRDSET puts grid points in the coordinate system {}, the first in line {}", default_system_,
+                          first_default_->line),
+              kBasicSystem, kWriteBasic);
+  }
+
+  // PARAM,WTMASS turns densities of weight into densities of mass.
+  void read_mass_factor(const NastranCard& card) {
+    mass_factor_ = number(card, card.field(1));
+    if (!(mass_factor_ > 0)) fail(card, fmt::format("WTMASS = {}", mass_factor_), "a factor > 0");
+  }
+
+  void scale_densities() {
+    for (MeshMaterial& material : raw_.materials)
+      if (material.density) *material.density *= mass_factor_;
+  }
+
+  long integer(const NastranCard& card, std::string_view text) const {
+    long value = 0;
+    if (!parse_integer(text, value))
+      fail(card, fmt::format("'{}' in {}", text.substr(0, 20), card.name.empty() ? "SET" : card.name),
+           "a whole number");
+    return value;
+  }
+
+  double number(const NastranCard& card, std::string_view text) const {
+    double value = 0;
+    if (text.empty()) return 0;
+    if (!parse_number(text, value)) fail(card, fmt::format("'{}' in {}", text.substr(0, 20), card.name), "a number");
+    return value;
+  }
+
+  void read_grid(const NastranCard& card) {
+    const std::string_view system = card.field(1);
+    if (!system.empty() && integer(card, system) != 0)
+      fail(card, fmt::format("a grid point in the coordinate system {}", system), kBasicSystem, kWriteBasic);
+    if (system.empty() && !first_default_) first_default_ = {file_, card.line};
+    raw_.add_node(integer(card, card.field(0)),
+                  {number(card, card.field(2)), number(card, card.field(3)), number(card, card.field(4))},
+                  {file_, card.line});
+  }
+
+  // A field counts up to the last that is not empty.
+  static std::size_t used_fields(const NastranCard& card, std::size_t from) {
+    std::size_t end = card.fields.size();
+    while (end > from && card.fields[end - 1].empty()) --end;
+    return end - from;
+  }
+
+  void read_solid(const NastranCard& card) {
+    const NastranSolid& solid = solids().at(card.name);
+    const int linear = node_count(solid.linear), quadratic = node_count(solid.quadratic);
+    const int given = static_cast<int>(used_fields(card, 2));
+    if (given != linear && given != quadratic)
+      fail(card, fmt::format("{} {} with {} nodes", card.name, card.field(0), given),
+           fmt::format("{} or {} nodes", linear, quadratic));
+    std::array<long, 20> nodes{};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(given); ++k)
+      nodes[k] = integer(card, card.field(2 + solid.order[k]));
+    add_element(card, given == linear ? solid.linear : solid.quadratic,
+                std::span<const long>(nodes.data(), static_cast<std::size_t>(given)));
+  }
+
+  void read_beam(const NastranCard& card) {
+    add_element(card, ElementType::beam2, std::array{integer(card, card.field(2)), integer(card, card.field(3))});
+  }
+
+  void add_element(const NastranCard& card, ElementType type, std::span<const long> nodes) {
+    const long label = integer(card, card.field(0));
+    raw_.add_element(type, label, nodes, {file_, card.line});
+    add_to_property(card, label);
+  }
+
+  void add_to_property(const NastranCard& card, long label) {
+    RawSet& set = raw_.element_sets[property_name(card)];
+    if (set.labels.empty()) set.place = {file_, card.line};
+    set.labels.push_back({label, label, 1});
+  }
+
+  // The property's number is the element's own where the field is empty.
+  std::string property_name(const NastranCard& card) const {
+    return fmt::format("pid_{}", integer(card, card.field(1).empty() ? card.field(0) : card.field(1)));
+  }
+
+  void read_face(const NastranCard& card, int corners) {
+    std::array<long, 4> nodes{};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(corners); ++c) nodes[c] = integer(card, card.field(2 + c));
+    const long label = integer(card, card.field(0));
+    raw_.add_mark(label, std::span<const long>(nodes.data(), static_cast<std::size_t>(corners)), corners,
+                  {file_, card.line});
+    add_to_property(card, label);
+  }
+
+  // MID, E, G, nu, rho; of E, G and nu one may be empty.
+  void read_material(const NastranCard& card) {
+    const double E = number(card, card.field(1)), G = number(card, card.field(2)), rho = number(card, card.field(4));
+    const bool has_nu = !card.field(3).empty();
+    const double nu = has_nu ? number(card, card.field(3)) : G > 0 && E > 0 ? E / (2 * G) - 1 : 0;
+    const double modulus = E > 0 ? E : 2 * G * (1 + nu);
+    if (!(modulus > 0) || !(nu > -1 && nu < 0.5))
+      fail(card, fmt::format("MAT1 with E = {}, nu = {}", modulus, nu), "E > 0 and nu between -1 and 0.5");
+    if (!(rho >= 0)) fail(card, fmt::format("MAT1 with the density {}", rho), "a density >= 0");
+    const Place place{file_, card.line};
+    MeshMaterial& material = raw_.add_material(material_name(card, 0), place);
+    material.youngs_modulus = modulus;
+    material.poisson_ratio = nu;
+    if (rho > 0) material.density = rho;
+    const double G_isotropic = modulus / (2 * (1 + nu));
+    if (G > 0 && std::abs(G - G_isotropic) > kSameModulus * G_isotropic)
+      raw_.warn(place, fmt::format("MAT1 with E = {}, G = {}, nu = {}", modulus, G, nu), "G = E / (2 (1 + nu))",
+                "G is left out");
+    if (!has_nu && !(E > 0 && G > 0))
+      raw_.warn(place, "MAT1 with one elastic constant", "two of E, G and nu", "nu is taken as 0");
+    if (number(card, card.field(7)) != 0)
+      raw_.warn(place, "MAT1 with structural damping GE", "E, G, nu and the density",
+                "it is left out; give the body's damping in the model file");
+  }
+
+  // Its elements have no elastic constants then, which is told where they are needed.
+  void read_other_material(const NastranCard& card) {
+    const Place place{file_, card.line};
+    raw_.add_material(material_name(card, 0), place);
+    raw_.warn(place, card.name, "MAT1, an isotropic material", "give the body's material in the model file");
+  }
+
+  std::string material_name(const NastranCard& card, std::size_t field) const {
+    return fmt::format("mid_{}", integer(card, card.field(field)));
+  }
+
+  void read_property(const NastranCard& card) {
+    if (card.name == "PSOLID" && equal_ignoring_case(card.field(6), "PFLUID"))
+      fail(card, "PSOLID of a fluid", "solids alone");
+    RawSection section{{file_, card.line},
+                       fmt::format("pid_{}", integer(card, card.field(0))),
+                       card.field(1).empty() ? "" : material_name(card, 1),
+                       true};
+    const auto [first, is_new] = properties_.try_emplace(section.element_set, card.line);
+    if (!is_new)
+      fail(card, fmt::format("property {} stands in line {} already", card.field(0), first->second),
+           "each property once");
+    raw_.sections.push_back(std::move(section));
+  }
+
+  static std::vector<std::string_view> members(const NastranCard& card, std::size_t from) {
+    std::vector<std::string_view> words;
+    for (std::size_t k = from; k < card.fields.size(); ++k)
+      if (!card.fields[k].empty()) words.push_back(card.fields[k]);
+    return words;
+  }
+
+  // A set does not say whether its numbers are of grid points or of elements: both readings are kept.
+  void add_set(const NastranCard& card, long number_of_set, const std::vector<std::string_view>& words) {
+    RawSet set;
+    set.place = {file_, card.line};
+    set.is_of_either_kind = true;
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      const bool is_range = k + 2 < words.size() && equal_ignoring_case(words[k + 1], "THRU");
+      const long first = integer(card, words[k]);
+      const long last = is_range ? integer(card, words[k + 2]) : first;
+      if (first < 0 || last < first) fail(card, fmt::format("the range {} THRU {}", first, last), "first <= last");
+      set.labels.push_back({first, last, 1});
+      if (is_range) k += 2;
+    }
+    const std::string name = fmt::format("set_{}", number_of_set);
+    raw_.node_sets[name] = set;
+    raw_.element_sets[name] = std::move(set);
+  }
+
+  const IncludeLoader& include_;
+  int file_ = 0;
+  bool has_ended_ = false;  ///< by ENDDATA
+  double mass_factor_ = 1;  ///< PARAM,WTMASS
+  long default_system_ = 0;
+  Place default_place_;
+  std::optional<Place> first_default_;     ///< of the first grid point without a system of its own
+  std::map<std::string, int> properties_;  ///< line of each by its name
+  struct LeftOut {
+    Place place;  ///< of the first
+    int count = 0;
+  };
+  std::map<std::string, LeftOut> left_out_;
+  RawMesh raw_;
+};
+
+}  // namespace
+
+RawMesh read_nastran(std::string_view text, const std::string& name, const IncludeLoader& include) {
+  return NastranReader(include).read(text, name);
+}
+
+}  // namespace hersey::fem

@@ -1,0 +1,60 @@
+#include "mesh/raw_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hersey::fem {
+void RawMesh::add_node(long label, const Vector3& r, Place place) {
+  nodes.push_back(r);
+  node_labels.push_back(label);
+  node_places.push_back(place);
+}
+
+void RawMesh::add_element(ElementType type, long label, std::span<const long> element_nodes, Place place) {
+  RawElement element;
+  element.type = type;
+  element.label = label;
+  element.place = place;
+  element.first = connectivity.size();
+  elements.push_back(element);
+  connectivity.insert(connectivity.end(), element_nodes.begin(), element_nodes.end());
+}
+
+void RawMesh::add_mark(long label, std::span<const long> mark_nodes, int corner_count, Place place) {
+  RawMark mark;
+  mark.label = label;
+  mark.place = place;
+  mark.node_count = static_cast<int>(mark_nodes.size());
+  mark.corner_count = corner_count;
+  std::copy(mark_nodes.begin(), mark_nodes.end(), mark.nodes.begin());
+  marks.push_back(mark);
+}
+
+MeshMaterial& RawMesh::add_material(const std::string& name, Place place) {
+  for (std::size_t m = 0; m < materials.size(); ++m)
+    if (materials[m].name == name)
+      fail(place, fmt::format("material '{}' stands in line {} already", name, material_places[m].line),
+           "each material once");
+  material_places.push_back(place);
+  materials.emplace_back().name = name;
+  return materials.back();
+}
+
+Fault RawMesh::fault(Place place, std::string found, std::string expected, std::string suggestion) const {
+  return {{files[static_cast<std::size_t>(place.file)], place.line, 0},
+          "",
+          std::move(found),
+          std::move(expected),
+          std::move(suggestion)};
+}
+
+void RawMesh::warn(Place place, std::string found, std::string expected, std::string suggestion) {
+  warnings.push_back(fault(place, std::move(found), std::move(expected), std::move(suggestion)));
+}
+
+void RawMesh::fail(Place place, std::string found, std::string expected, std::string suggestion) const {
+  throw InputError(fault(place, std::move(found), std::move(expected), std::move(suggestion)));
+}
+
+}  // namespace hersey::fem

@@ -1,0 +1,70 @@
+#include "reduction/frame_interface.h"
+
+#include <fmt/format.h>
+
+#include "hersey/fem/frame_motion.h"
+#include "reduction/interface_motion.h"
+
+namespace hersey::fem {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+std::string fault_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames) {
+  std::vector<const InterfaceFrame*> owner(mesh.nodes.size(), nullptr);
+  for (const InterfaceFrame& frame : frames) {
+    if (frame.nodes.empty()) return fmt::format("frame '{}' sits on no node", frame.name);
+    if (!nodes_span_rotations(mesh, frame))
+      return fmt::format(
+          "the nodes of frame '{}' lie on one line, about which nothing would hold it; take a face or an edge that "
+          "bends, or the connection `average`, which turns with the elements around",
+          frame.name);
+    if (frame.connection == Connection::average) continue;
+    for (const int node : frame.nodes) {
+      const InterfaceFrame*& taken = owner[static_cast<std::size_t>(node)];
+      if (taken && taken != &frame)
+        return fmt::format("frames '{}' and '{}' are both rigid and share node {}", taken->name, frame.name,
+                           mesh.node_labels.empty() ? node + 1 : mesh.node_labels[static_cast<std::size_t>(node)]);
+      taken = &frame;
+    }
+  }
+  return {};
+}
+
+Interface interface_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames) {
+  Interface interface;
+  const auto dofs = 3 * static_cast<Index>(mesh.nodes.size()), coordinates = 6 * static_cast<Index>(frames.size());
+  interface.prescribed = MatrixXd::Zero(dofs, coordinates);
+  interface.motion = MatrixXd::Zero(coordinates, coordinates);
+  std::vector<Eigen::Triplet<double>> entries;
+  Index rows = 0;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const InterfaceFrame& frame = frames[f];
+    const auto first = 6 * static_cast<Index>(f);
+    if (frame.connection == Connection::rigid) {
+      for (const int node : frame.nodes)
+        interface.prescribed.block<3, 6>(3 * node, first) =
+            frame_to_node(frame, mesh.nodes[static_cast<std::size_t>(node)]);
+      const std::vector<int> held = dofs_of(frame.nodes);
+      interface.held.insert(interface.held.end(), held.begin(), held.end());
+      continue;
+    }
+    const Eigen::SparseMatrix<double> C = frame_motion(mesh, frame);
+    for (Index j = 0; j < C.outerSize(); ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(C, j); entry; ++entry)
+        entries.emplace_back(static_cast<int>(rows + entry.row()), static_cast<int>(j), entry.value());
+    interface.motion.block<6, 6>(rows, first).setIdentity();
+    rows += 6;
+  }
+  interface.C.resize(rows, dofs);
+  interface.C.setFromTriplets(entries.begin(), entries.end());
+  interface.motion.conservativeResize(rows, coordinates);
+  return interface;
+}
+
+MatrixXd constraint_modes(const ElasticBody& body, const Interface& interface, const HeldStiffness& stiffness) {
+  const MatrixXd d = interface.motion - interface.C * interface.prescribed;
+  return interface.prescribed + stiffness.solve(-(body.K * interface.prescribed), d);
+}
+
+}  // namespace hersey::fem

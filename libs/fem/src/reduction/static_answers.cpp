@@ -1,0 +1,66 @@
+#include "hersey/fem/static_answers.h"
+
+#include <algorithm>
+
+#include "hersey/fem/held_stiffness.h"
+#include "reduction/frame_interface.h"
+
+namespace hersey::fem {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index at_once = 48;  // solutions kept, as of film modes
+
+/// G^-1 T^T K^-1 T G^-1.
+MatrixXd compliance_of(const HeldStiffness& stiffness, const SurfaceMap& surface) {
+  const Index count = surface.T.cols();
+  MatrixXd C(count, count);
+  for (Index first = 0; first < count; first += at_once) {
+    const Index columns = std::min(at_once, count - first);
+    C.middleCols(first, columns) =
+        surface.T.transpose() * stiffness.solve(MatrixXd(surface.T.middleCols(first, columns)));
+  }
+  const Eigen::LDLT<MatrixXd> G(surface.G);
+  C = G.solve(C).eval();
+  C = G.solve(C.transpose()).eval();
+  return 0.5 * (C + C.transpose());
+}
+
+/// -M a of turning at 1 rad/s: what pulls the nodes outwards.
+VectorXd centrifugal(const ElasticBody& body, const Vector3& centre, const Vector3& axis) {
+  VectorXd a(body.size());
+  for (Index n = 0; n < body.node_count(); ++n)
+    a.segment<3>(3 * n) = axis.cross(axis.cross(body.mesh.nodes[static_cast<std::size_t>(n)] - centre));
+  return -mass_times(body.m, a);
+}
+
+}  // namespace
+
+StaticAnswers static_answers(const ElasticBody& body, const std::vector<InterfaceFrame>& frames,
+                             const SurfaceMap& surface, const Vector3& centre, const Vector3& axis) {
+  StaticAnswers answers;
+  answers.message = fault_of(body.mesh, frames);
+  if (!answers.message.empty()) return answers;
+  const Interface interface = interface_of(body.mesh, frames);
+  HeldStiffness stiffness(body.K, body.m, interface.held, interface.C);
+  if (const solver::FactorSummary summary = stiffness.factorise(); !summary.ok()) {
+    answers.message = summary.status == solver::FactorStatus::singular
+                          ? "a part of the body is not connected to the frames"
+                          : summary.message;
+    return answers;
+  }
+  answers.ok = true;
+  answers.shapes = constraint_modes(body, interface, stiffness);
+  answers.stiffness = answers.shapes.transpose() * (body.K * answers.shapes);
+  answers.stiffness = (0.5 * (answers.stiffness + answers.stiffness.transpose())).eval();
+  answers.compliance = compliance_of(stiffness, surface);
+  const VectorXd pull = centrifugal(body, centre, axis);
+  answers.spin_on_frames = answers.shapes.transpose() * pull;
+  answers.spin = surface.coefficients(stiffness.solve(pull));
+  return answers;
+}
+
+}  // namespace hersey::fem

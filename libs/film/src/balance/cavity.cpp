@@ -1,0 +1,74 @@
+#include "balance/cavity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/core/turn.h"
+
+namespace hersey::film {
+namespace {
+
+/// The unknowns of the row nearest to mid-width.
+class MiddleRow {
+ public:
+  MiddleRow(const FlowBalance& balance, const Eigen::VectorXd& u)
+      : balance_(balance), u_(u), at_(balance.geometry()), n_(balance.model().grid.n_phi) {
+    const Eigen::Index rows = balance.model().grid.n_z;
+    for (Eigen::Index j = 1; j < rows; ++j) {
+      if (std::abs(at_.z[j]) < std::abs(at_.z[row_]) - 1e-9 * balance.model().L) row_ = static_cast<int>(j);
+    }
+  }
+
+  [[nodiscard]] int size() const { return n_; }
+  [[nodiscard]] bool is_cavity(int i) const { return value(i) < -1e-9 * fill_scale(balance_.model()); }
+  /// From node i on to the next one [rad].
+  [[nodiscard]] double step(int i) const { return at_.dx[wrapped(i)] / balance_.model().R; }
+  [[nodiscard]] double angle(int i) const { return at_.phi[wrapped(i)]; }
+
+  /// Distance from the last node i of the film to its end, which lies before the next one in the direction of `sense`
+  /// [rad]. The pressure goes to zero there: with no slope where the film ruptures, straight where it re-forms or is
+  /// merely cut off. A node that holds a pressure ends the film itself.
+  [[nodiscard]] double reach(int i, int sense, bool is_rupture) const {
+    if (balance_.is_held(node(i))) return 0;
+    const double gap = step(sense > 0 ? i : i - 1), back = step(sense > 0 ? i - 1 : i);
+    const double last = std::max(value(i), 0.0), before = std::max(value(i - sense), 0.0);
+    if (cavitation_law(balance_.model()).has_tension()) return gap * last / (last - value(i + sense));
+    const double rise =
+        is_rupture ? std::sqrt(before / std::max(last, 1e-300)) - 1 : before / std::max(last, 1e-300) - 1;
+    return rise > 0 ? std::min(back / rise, gap) : gap;
+  }
+
+ private:
+  [[nodiscard]] int wrapped(int i) const { return ((i % n_) + n_) % n_; }
+  [[nodiscard]] int node(int i) const { return balance_.model().grid.index(wrapped(i), row_); }
+  [[nodiscard]] double value(int i) const { return u_[node(i)]; }
+
+  const FlowBalance& balance_;
+  const Eigen::VectorXd& u_;
+  const GridGeometry& at_;
+  int n_, row_ = 0;
+};
+
+}  // namespace
+
+Cavity widest_cavity(const FlowBalance& balance, const Eigen::VectorXd& u, bool backwards) {
+  const MiddleRow row(balance, u);
+  double widest = 0;
+  Cavity cavity;
+  for (int first = 0; first < row.size(); ++first) {
+    if (!row.is_cavity(first) || row.is_cavity(first - 1)) continue;  // a cavity begins here, or the film is nowhere
+    int last = first;
+    double width = row.step(first - 1);
+    for (; row.is_cavity(last + 1); ++last) width += row.step(last);
+    width += row.step(last);
+    if (width <= widest) continue;
+    widest = width;
+    const double low = row.angle(first - 1) + row.reach(first - 1, +1, !backwards);
+    const double high = row.angle(last + 1) - row.reach(last + 1, -1, backwards);
+    cavity.rupture = std::fmod((backwards ? high : low) + turn, turn);
+    cavity.reformation = std::fmod((backwards ? low : high) + turn, turn);
+  }
+  return cavity;
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <cmath>
+
+#include "balance/flow_balance.h"
+
+// Flows over the faces between control volumes (film.16, film.43, film.13, film.26, film.28).
+namespace hersey::film {
+namespace {
+
+// As for the control volumes: interpolation leaves a face at least this share of the gap at its nodes.
+constexpr double least_face_share = 0.25;
+
+}  // namespace
+
+// As long as a node is nearly empty its whole content is carried on; when it is full, as much as the gap behind lets
+// through. Between both the smooth monotone law with these limits; without pockets both are one.
+Carried FaceFlow::carried(double theta) const {
+  if (little == couette) return {theta * couette, couette, theta, 0};
+  if (theta < 0) return {theta * little, little, 0, theta};
+  const double sum = couette * (1 - theta) + theta * little, part = theta * little / sum, rest = couette / sum;
+  return {part * couette, little * rest * rest, part * part, theta * (1 - theta) * rest * rest};
+}
+
+bool FlowBalance::is_limited(std::size_t f) const {
+  if (axial(f)) return false;
+  const Face& face = faces_[f];
+  return bends_[static_cast<Eigen::Index>(f)] < (least_face_share - 1) * 0.5 * (nodes_[face.a].h + nodes_[face.b].h);
+}
+
+double FlowBalance::thickness_on(std::size_t f) const {
+  const Face& face = faces_[f];
+  const double mean = 0.5 * (nodes_[face.a].h + nodes_[face.b].h);
+  if (axial(f)) return mean;
+  return is_limited(f) ? least_face_share * mean : mean + bends_[static_cast<Eigen::Index>(f)];
+}
+
+FlowBalance::FaceGap FlowBalance::smooth_gap(std::size_t f, double h) const {
+  const double speed = entrainment(f);
+  FaceGap gap;
+  gap.cube = h * h * h, gap.cube_h = 3 * h * h;
+  gap.full = speed * h, gap.full_h = speed;
+  return gap;
+}
+
+// Between rough surfaces (film.43): factors are means of those at both nodes.
+void FlowBalance::roughen(std::size_t f, FaceGap& gap) const {
+  const Face& face = faces_[f];
+  const RoughGap &a = rough_[face.a], &b = rough_[face.b];
+  const int k = axial(f) ? 1 : 0;
+  const double factor = 0.5 * (a.pressure[k] + b.pressure[k]);
+  gap.cube_at = {0.5 * gap.cube * a.pressure_h[k], 0.5 * gap.cube * b.pressure_h[k]};
+  gap.cube *= factor, gap.cube_h *= factor;
+  // The surfaces carry the mean gap, and drag more or less of it as they slide.
+  const double speed = entrainment(f), half_slip = axial(f) ? half_slip_z_ : half_slip_phi_;
+  const double beyond = speed * (0.5 * (a.mean + b.mean) - 0.5 * (nodes_[face.a].h + nodes_[face.b].h));
+  gap.full += beyond + 0.5 * (a.drag[k] + b.drag[k]) * half_slip;
+  gap.full_at = {0.5 * (speed * (a.mean_h - 1) + half_slip * a.drag_h[k]),
+                 0.5 * (speed * (b.mean_h - 1) + half_slip * b.drag_h[k])};
+}
+
+// Over pockets (film.26, film.28).
+void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) const {
+  const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
+  const Face& face = faces_[f];
+  const TubeGap deep = relief_.gap(tube, h);
+  const double factor = gap.cube / (h * h * h);
+  const double cube_h = gap.cube_h - 3 * factor * h * h;  // what roughness itself changes
+  gap.cube_at[0] *= deep.cube.value / (h * h * h), gap.cube_at[1] *= deep.cube.value / (h * h * h);
+  gap.cube = factor * deep.cube.value;
+  gap.cube_h = factor * deep.cube.h + cube_h * deep.cube.value / (h * h * h);
+  gap.cube_journal = factor * deep.cube.journal;
+
+  // Past a step the oil is carried at the surfaces' mean speed relative to the step.
+  const double past = entrainment(f) - step_speed(f, tube), thin = gap.full;
+  gap.full += past * (deep.carry.value - h) + tube.swept / face.width;
+  gap.full_h += past * (deep.carry.h - 1);
+  gap.full_journal = past * deep.carry.journal + tube.swept_journal / face.width;
+  const int from = gap.full >= 0 ? face.a : face.b;
+  const double speed = entrainment(f), little = thin + speed * cells_[from].depth;
+  gap.little = gap.full, gap.little_h = gap.full_h, gap.little_journal = gap.full_journal;
+  if (little * gap.full > 0 && std::abs(little) > std::abs(gap.full)) {
+    gap.little = little, gap.little_h = speed;
+    gap.little_journal = speed * relief_.depth_by_journal()[from];
+  }
+  const double mu = 2 / (nodes_[face.a].fluidity + nodes_[face.b].fluidity), volume = face.width * face.length;
+  const double drop = nodes_[face.b].wall - nodes_[face.a].wall, drag = 12 * mu * volume;
+  flow.recirculation = drag * past * past * deep.excess.value;
+  FaceFlow::Moment& m = flow.moment;
+  m.drop = face.width * (deep.carry.value - h);
+  m.past = drag * deep.excess.value;
+  m.value = m.past * past + m.drop * drop;
+  m.h = drag * past * deep.excess.h + face.width * (deep.carry.h - 1) * drop;
+  m.fluidity = -mu * m.past * past;
+  m.journal = drag * past * deep.excess.journal + face.width * deep.carry.journal * drop;
+}
+
+std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
+  if (is_limited(f)) return {0.5 * least_face_share, 0};
+  return {0.5, axial(f) ? 0.0 : 1.0};
+}
+
+double FlowBalance::step_speed(std::size_t f, const PocketTube& tube) const {
+  if (axial(f) || !tube.in_journal) return 0;
+  return tube.in_shell ? speed_phi_ : speeds_.u_journal;
+}
+
+void FlowBalance::add_face(std::size_t f) {
+  const Face& face = faces_[f];
+  const Node &a = nodes_[face.a], &b = nodes_[face.b];
+  FaceFlow& flow = flows_[f];
+  flow = {};
+  flow.density = 0.5 * (a.density + b.density);
+  // No pressure passes a supply line: both sides are tied to the line itself.
+  const double h = thickness_on(f), drop = a.p - b.p;
+  const double fluidity = is_cut(f) ? 0 : 0.5 * (a.fluidity + b.fluidity);
+  FaceGap gap = smooth_gap(f, h);
+  roughen(f, gap);
+  gap.little = gap.full, gap.little_h = gap.full_h;
+  if (tube_of_[f] >= 0) deepen(f, h, gap, flow);
+
+  // Flow (film.16): q = rho [h^3/(12 mu) b/l (p_a - p_b) + what the surfaces carry].
+  const double unit = face.width / (12 * face.length);
+  flow.K = flow.density * unit * gap.cube * fluidity;
+  flow.couette = flow.density * face.width * gap.full;
+  flow.little = flow.density * face.width * gap.little;
+  flow.q_fluidity = is_cut(f) ? 0 : flow.density * unit * gap.cube * drop;
+  const Carried carried = flow.carried(upstream(f).theta);
+  flow.q_density = unit * gap.cube * fluidity * drop + carried.value / flow.density;
+  const double by_cube = flow.density * unit * fluidity * drop;
+  const double by_full = flow.density * face.width * carried.full,
+               by_little = flow.density * face.width * carried.little;
+  const bool single = flow.little == flow.couette;
+  const double by_h = by_cube * gap.cube_h + by_full * gap.full_h + (single ? 0 : by_little * gap.little_h);
+  const auto [share, by_bend] = thickness_shares(f);
+  const double both = by_full + (single ? 0 : by_little);
+  flow.q_h_a = share * by_h + by_cube * gap.cube_at[0] + both * gap.full_at[0];
+  flow.q_h_b = share * by_h + by_cube * gap.cube_at[1] + both * gap.full_at[1];
+  flow.q_bend = by_bend * by_h;
+  flow.q_journal =
+      by_cube * gap.cube_journal + by_full * gap.full_journal + (single ? 0 : by_little * gap.little_journal);
+  const double poiseuille = flow.K * (a.p - b.p), entrained = flow.carried(upstream(f).theta).value;
+  balance_[face.a] += poiseuille + entrained;
+  balance_[face.b] -= poiseuille + entrained;
+  const double passing = 0.5 * (std::abs(poiseuille) + std::abs(entrained));
+  throughput_[face.a] += passing;
+  throughput_[face.b] += passing;
+}
+
+std::array<double, 2> FlowBalance::flow_by_u(std::size_t f) const {
+  const Face& face = faces_[f];
+  const FaceFlow& flow = flows_[f];
+  const Node &a = nodes_[face.a], &b = nodes_[face.b];
+  const bool from_a = flow.couette >= 0;
+  const double by_theta = flow.carried(upstream(f).theta).theta;
+  const auto by_laws = [&](const Node& node, double q_h) {
+    return q_h * node.h_u + 0.5 * (flow.q_fluidity * node.fluidity_u + flow.q_density * node.density_u);
+  };
+  return {flow.K * a.p_u + by_laws(a, flow.q_h_a) + (from_a ? by_theta * a.theta_u : 0),
+          -flow.K * b.p_u + by_laws(b, flow.q_h_b) + (from_a ? 0 : by_theta * b.theta_u)};
+}
+
+/// Of a full gap and of little oil, both without density; swept volumes apart, which the step has fixed.
+std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speeds) const {
+  const Face& face = faces_[f];
+  const double h = thickness_on(f);
+  const RoughGap &a = rough_[face.a], &b = rough_[face.b];
+  const int k = axial(f) ? 1 : 0;
+  double full = speeds.mean * h + 0.5 * (speeds.mean * (a.mean - nodes_[face.a].h + b.mean - nodes_[face.b].h) +
+                                         speeds.half_slip * (a.drag[k] + b.drag[k]));
+  double little = full;
+  if (tube_of_[f] >= 0) {
+    const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
+    const double step = axial(f) || !tube.in_journal ? 0 : tube.in_shell ? speeds.mean : speeds.journal;
+    little += speeds.mean * cells_[flows_[f].couette >= 0 ? face.a : face.b].depth;
+    full +=
+        (speeds.mean - step) * (relief_.gap(tube, h).carry.value - h) + tube.swept_speed * speeds.journal / face.width;
+    if (flows_[f].little == flows_[f].couette) little = full;
+  }
+  return {face.width * full, face.width * little};
+}
+
+double FlowBalance::flow_along(std::size_t f, const MotionDirection& direction) const {
+  const Face& face = faces_[f];
+  const FaceFlow& flow = flows_[f];
+  const bool z = axial(f);
+  const Speeds speeds{0.5 * (z ? direction.w_shell + direction.w_journal : direction.u_shell + direction.u_journal),
+                      0.5 * (z ? direction.w_shell - direction.w_journal : direction.u_shell - direction.u_journal),
+                      z ? direction.w_journal : direction.u_journal};
+  double q = 0;
+  if (speeds.mean != 0 || speeds.half_slip != 0) {
+    const auto [full, little] = carried_at(f, speeds);
+    const Carried carried = flow.carried(upstream(f).theta);
+    q += flow.density * (carried.full * full + carried.little * little);
+  }
+  const bool gap = direction.g.size() != 0;
+  if (gap) {
+    q += flow.q_h_a * nodes_[face.a].h_g * direction.g[face.a] + flow.q_h_b * nodes_[face.b].h_g * direction.g[face.b];
+    if (!z) q += flow.q_bend * direction_bends_[static_cast<Eigen::Index>(f)];
+  }
+  return q + flow.q_journal * direction.phi_journal;
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,45 @@
+#include "hersey/film/film_domain.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "balance/node.h"
+
+namespace hersey::film {
+
+FilmDomain judge_unknowns(const FilmModel& model, const Eigen::VectorXd& u) {
+  int highest = -1;
+  double most = 0;
+  for (int node = 0; node < u.size(); ++node) {
+    if (!std::isfinite(u[node])) return {FilmDomain::Trouble::not_finite, node};
+    // On an edge at p_cav, u > 0 is oil that leaves, not pressure.
+    if (u[node] > most && !open_edge(model, node % model.grid.n_z)) most = u[node], highest = node;
+  }
+  const bool is_meant =
+      most < largest_pressure && log_viscosity_ratio(model.lubricant, most).value <= largest_log_viscosity;
+  return is_meant ? FilmDomain{} : FilmDomain{FilmDomain::Trouble::pressure, highest};
+}
+
+std::string place_of_node(const FilmModel& model, int node) {
+  const Grid& grid = model.grid;
+  const double phi = grid.phi(node / grid.n_z) * 180 / std::numbers::pi;
+  return fmt::format("{:.1f} deg, z = {:.3g} mm", phi, 1e3 * model.L * grid.z_over_L(node % grid.n_z));
+}
+
+std::string text(const FilmModel& model, const FilmDomain& domain) {
+  using Trouble = FilmDomain::Trouble;
+  if (domain.is_inside()) return {};
+  const std::string where = domain.node < 0 ? "" : " at " + place_of_node(model, domain.node);
+  if (domain.trouble == Trouble::closed) return "the film closes" + where;
+  if (domain.trouble == Trouble::not_finite) return "the film has no finite pressure" + where;
+  const bool stiffens = !std::holds_alternative<ConstantViscosity>(model.lubricant.viscosity_law);
+  if (!stiffens) return "the film's pressure rises without bound" + where;
+  return fmt::format(
+      "the film's pressure runs away with its viscosity{}: beyond {:.0e} times that at rest, the "
+      "pressure-viscosity law means no oil",
+      where, std::exp(largest_log_viscosity));
+}
+
+}  // namespace hersey::film

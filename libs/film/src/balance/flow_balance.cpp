@@ -1,0 +1,351 @@
+#include "balance/flow_balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::film {
+namespace {
+
+void check(const FilmModel& m) {
+  HERSEY_REQUIRE(m.R > 0 && m.L > 0 && m.c > 0, "a bearing has radius, width and clearance");
+  HERSEY_REQUIRE(m.lubricant.mu0 > 0, "viscosity is positive");
+  HERSEY_REQUIRE(m.compliance >= 0, "compliance is not negative");
+  for (const Edge& edge : {m.edge_left, m.edge_right}) {
+    HERSEY_REQUIRE(edge.kind == EdgeKind::closed || edge.pressure >= m.p_cav, "edges lie at or above p_cav");
+    HERSEY_REQUIRE(0 <= edge.ambient_fill && edge.ambient_fill <= 1, "fill lies between 0 and 1");
+  }
+  HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.supply.pressure >= m.p_cav, "supply lies at or above p_cav");
+  HERSEY_REQUIRE(m.asperities.model == AsperityModel::none || m.asperities.sigma > 0, "roughness is positive");
+}
+
+}  // namespace
+
+FlowBalance::FlowBalance(const FilmModel& model)
+    : model_(model),
+      cavitation_(cavitation_law(model_)),
+      law_(model_),
+      rough_law_(model_.roughness),
+      geometry_(model_),
+      interpolation_(model_.grid, geometry_),
+      relief_(model_, geometry_) {
+  check(model_);
+  const Grid& grid = model_.grid;
+  unit_conductance_ = unit_conductance(geometry_);
+  D0_ = model_.c * model_.c * model_.c / (12 * model_.lubricant.mu0) * unit_conductance_;
+  area_.resize(grid.size());
+  for (int k = 0; k < grid.size(); ++k) area_[k] = geometry_.area(k / grid.n_z, k % grid.n_z);
+  lay_faces();
+  lay_pattern();
+  const int n = grid.size();
+  const auto ambient_unknown_at = [&](int j) {
+    const double fill = ambient_fill(model_, j);
+    return fill > 0 ? (fill - 1) * fill_scale(model_) : -std::numeric_limits<double>::infinity();
+  };
+  ambient_left_ = ambient_unknown_at(0), ambient_right_ = ambient_unknown_at(grid.n_z - 1);
+  nodes_.resize(n);
+  rough_.resize(n);
+  flows_.resize(faces_.size());
+  for (auto* field : {&residual_, &balance_, &throughput_, &g_rate_, &w_start_, &u_}) field->setZero(n);
+  content_start_.setOnes(n);
+  cells_.resize(static_cast<std::size_t>(n));
+  tube_of_.assign(faces_.size(), -1);
+  held_index_.assign(n, -1);
+}
+
+void FlowBalance::lay_faces() {
+  const Grid& grid = model_.grid;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int next = grid.index((i + 1) % grid.n_phi, j);
+      faces_.push_back({grid.index(i, j), next, geometry_.width_z[j], geometry_.dx[i], {}});
+    }
+  }
+  first_axial_face_ = faces_.size();
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j + 1 < grid.n_z; ++j) {
+      faces_.push_back({grid.index(i, j), grid.index(i, j + 1), geometry_.width_phi[i], geometry_.dz[j], {}});
+    }
+  }
+}
+
+void FlowBalance::lay_pattern() {
+  const Grid& grid = model_.grid;
+  const int n = size(), n_z = grid.n_z;
+  const auto balanced = [&](int node) { return !edge_row(node % n_z); };
+  column_start_.reserve(static_cast<std::size_t>(n) + 1);
+  row_index_.reserve(5 * static_cast<std::size_t>(n));
+  column_start_.assign(1, 0);
+  for (int column = 0; column < n; ++column) {
+    const int i = column / n_z, j = column % n_z;
+    std::array<int, 5> rows{grid.index((i + grid.n_phi - 1) % grid.n_phi, j), j > 0 ? column - 1 : column, column,
+                            j + 1 < n_z ? column + 1 : column, grid.index((i + 1) % grid.n_phi, j)};
+    std::sort(rows.begin(), rows.end());
+    const auto end = std::unique(rows.begin(), rows.end());
+    for (auto row = rows.begin(); row != end; ++row) {
+      if (*row == column || balanced(*row)) row_index_.push_back(*row);
+    }
+    column_start_.push_back(static_cast<int>(row_index_.size()));
+  }
+  const int nowhere = static_cast<int>(row_index_.size());
+  const auto find = [&](int row, int column) {
+    const auto begin = row_index_.begin() + column_start_[column];
+    return static_cast<int>(std::find(begin, row_index_.end(), row) - row_index_.begin());
+  };
+  const auto slot = [&](int row, int column) { return balanced(row) ? find(row, column) : nowhere; };
+  for (Face& f : faces_) f.slots = {slot(f.a, f.a), slot(f.a, f.b), slot(f.b, f.a), slot(f.b, f.b)};
+  diagonal_slot_.reserve(static_cast<std::size_t>(n));
+  for (int node = 0; node < n; ++node) diagonal_slot_.push_back(find(node, node));
+  row_slots_.resize(static_cast<std::size_t>(n));
+  for (int row = 0; row < n; ++row) {
+    if (!balanced(row)) continue;
+    const int i = row / n_z, j = row % n_z;
+    row_slots_[row] = {find(row, grid.index((i + grid.n_phi - 1) % grid.n_phi, j)),
+                       j > 0 ? find(row, row - 1) : nowhere, diagonal_slot_[row],
+                       j + 1 < n_z ? find(row, row + 1) : nowhere, find(row, grid.index((i + 1) % grid.n_phi, j))};
+  }
+  values_.resize(row_index_.size() + 1);
+}
+
+bool FlowBalance::edge_row(int j) const {
+  const Edge* edge = edge_of_row(model_, j);
+  return edge != nullptr && edge->kind == EdgeKind::pressure && !open_row(j);
+}
+
+double FlowBalance::edge_unknown(int j) const { return edge_of_row(model_, j)->pressure - model_.p_cav; }
+
+void FlowBalance::take_history(const FilmHistory& history) {
+  HERSEY_REQUIRE(history.dt >= 0, "time runs forwards");
+  dt_ = history.dt;
+  phi_start_ = history.phi_journal;
+  viscosity_ = history.viscosity;
+  HERSEY_REQUIRE(viscosity_.fluidity.size() == 0 || viscosity_.fluidity.size() == size(),
+                 "viscosities of shape (grid.size()) or empty");
+  knows_gap_ = false;
+  if (dt_ == 0) return;
+  liner_rests_ = history.w.size() == 0;
+  HERSEY_REQUIRE(history.theta.size() == size() && (liner_rests_ || history.w.size() == size()),
+                 "history of shape (grid.size())");
+  content_start_.setOnes();
+  if (cavitation_.has_fill()) content_start_ = history.theta;
+  if (history.density.size() != 0) {
+    HERSEY_REQUIRE(history.density.size() == size(), "density at the start of shape (grid.size()) or empty");
+    content_start_.array() *= history.density.array();
+  }
+  if (!liner_rests_) w_start_ = history.w;
+  HERSEY_REQUIRE(history.gap.size() == 0 || history.gap.size() == size(),
+                 "gap at the start of shape (grid.size()) or empty");
+  gap_start_ = history.gap;
+  knows_gap_ = gap_start_.size() != 0;
+  follows_gap_ = history.by_gap && knows_gap_;
+}
+
+void FlowBalance::take_motion(const SurfaceMotion& motion) {
+  const int n = size();
+  HERSEY_REQUIRE(motion.g.size() == n && motion.g_rate.size() == n, "gap and rate of shape (grid.size())");
+  const auto features = static_cast<Eigen::Index>(model_.features.size());
+  HERSEY_REQUIRE(motion.feature_pressure.size() == 0 || motion.feature_pressure.size() == features,
+                 "a pressure for each feature or none");
+  g_rate_ = motion.g_rate;
+  interpolation_.bends(motion.g, bends_);
+  interpolation_.excesses(motion.g, excesses_);
+  interpolation_.excesses(motion.g_rate, rate_excesses_);
+  speed_phi_ = 0.5 * (motion.u_shell + motion.u_journal);
+  speed_z_ = 0.5 * (motion.w_shell + motion.w_journal);
+  half_slip_phi_ = 0.5 * (motion.u_shell - motion.u_journal);
+  half_slip_z_ = 0.5 * (motion.w_shell - motion.w_journal);
+  speeds_.u_shell = motion.u_shell, speeds_.u_journal = motion.u_journal;
+  speeds_.w_shell = motion.w_shell, speeds_.w_journal = motion.w_journal;
+  if (relief_.is_empty()) return;
+  relief_.place(motion.phi_journal, phi_start_, dt_, motion.u_journal);
+  std::fill(tube_of_.begin(), tube_of_.end(), -1);
+  for (std::size_t t = 0; t < relief_.tubes().size(); ++t) tube_of_[relief_.tubes()[t].face] = static_cast<int>(t);
+}
+
+FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
+  const int n = size();
+  HERSEY_REQUIRE(u.size() == n, "u of shape (grid.size())");
+  take_history(history);
+  take_motion(motion);
+  find_supply(motion);
+  u_ = u;
+  if (const FilmDomain domain = evaluate_nodes(motion, u); !domain.is_inside()) return domain;
+  for (int i = 0; i < n; ++i) {
+    evaluate_cell(i, motion);
+    balance_[i] = storage(i);
+    throughput_[i] = std::max(std::abs(balance_[i]), std::abs(storage_g_rate(i) * g_rate_[i]));
+  }
+  for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
+  replace_boundary_rows();
+  // A film without oil has no throughput to measure by: a thousandth of what its surfaces would carry in a full gap.
+  const double carried =
+      model_.c * std::max(std::abs(speed_phi_) * geometry_.mean_dz, std::abs(speed_z_) * geometry_.mean_dx);
+  largest_throughput_ = std::max(throughput_.maxCoeff(), 1e-3 * carried);
+  return {};
+}
+
+// Where the oil is thinner at one of the surfaces, sliding carries along more of it with the other, as between rough
+// surfaces (thermal.6).
+void FlowBalance::skew(double skew, double h, RoughGap& gap) {
+  for (const int k : {0, 1}) {
+    gap.drag[k] += skew * h;
+    gap.drag_h[k] += skew;
+  }
+}
+
+FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+  if (const FilmDomain domain = judge_unknowns(model_, u); !domain.is_inside()) return domain;
+  for (int i = 0; i < size(); ++i) {
+    const int j = i % model_.grid.n_z;
+    nodes_[i] = is_layered() ? law_.state(motion.g[i], u[i], j, {viscosity_.fluidity[i], viscosity_.shear_fluidity[i]})
+                             : law_.state(motion.g[i], u[i], j);
+    if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
+    if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
+    if (liner_rests_) w_start_[i] = nodes_[i].w;
+    rough_[i] = rough_law_.state(nodes_[i].h);
+    if (is_layered()) skew(viscosity_.skew[i], nodes_[i].h, rough_[i]);
+  }
+  return {};
+}
+
+// What a row carries beside its balance: the slack of p >= p_cav, on an open edge the outflow or inflow.
+double FlowBalance::slack(int node) const {
+  const int j = node % model_.grid.n_z;
+  if (!open_row(j)) return D0_ * cavitation_.slack(u_[node]).value;
+  return D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(j), 0.0));
+}
+
+double FlowBalance::slack_u(int node) const {
+  const int j = node % model_.grid.n_z;
+  if (!open_row(j)) return D0_ * cavitation_.slack(u_[node]).slope;
+  return u_[node] >= 0 || u_[node] < ambient_unknown(j) ? D0_ : 0;
+}
+
+// A film that does not conserve oil lacks some wherever it is broken: the half volumes on an edge do not draw it in.
+bool FlowBalance::lets_nothing_in(int node) const {
+  const int j = node % model_.grid.n_z, inside = j == 0 ? node + 1 : node - 1;
+  // A groove at p_cav holds u = 0 to round-off, of either sign.
+  const double round_off = 1e-9 * fill_scale(model_);
+  return cavitation_.loses_oil() && edge_unknown(j) == 0 && u_[inside] < round_off;
+}
+
+double FlowBalance::outflow(int node) const {
+  const int j = node % model_.grid.n_z;
+  if (open_row(j)) return slack(node);
+  if (!edge_row(j)) return 0;
+  return lets_nothing_in(node) ? 0 : -balance_[node];
+}
+
+double FlowBalance::supply(int node) const { return is_held(node) ? balance_[node] + outflow(node) : 0; }
+
+void FlowBalance::replace_boundary_rows() {
+  const Grid& grid = model_.grid;
+  for (int i = 0; i < size(); ++i) residual_[i] = balance_[i] + slack(i);
+  for (const HeldNode& held : held_) {
+    const int i = held.node;
+    const double given = tie(held).k * excess(held).value;
+    residual_[i] = (1 - held.chi) * (line_balance(i) + slack(i)) + given;
+    throughput_[i] = std::max(throughput_[i], D0_ * std::abs(held.u));
+  }
+  for (int j = 0; j < grid.n_z; ++j) {
+    if (!edge_row(j)) continue;
+    for (int i = 0; i < grid.n_phi; ++i) {
+      const int node = grid.index(i, j);
+      residual_[node] = D0_ * (u_[node] - edge_unknown(j));
+      throughput_[node] = std::max(throughput_[node], D0_ * std::abs(edge_unknown(j)));
+    }
+  }
+}
+
+double FlowBalance::relative_residual() const {
+  const double largest = residual_.cwiseAbs().maxCoeff();
+  return largest == 0 ? 0 : largest / largest_throughput_;
+}
+
+int FlowBalance::worst_node() const {
+  int worst = 0;
+  residual_.cwiseAbs().maxCoeff(&worst);
+  return worst;
+}
+
+void FlowBalance::assemble_jacobian() {
+  const Grid& grid = model_.grid;
+  std::fill(values_.begin(), values_.end(), 0.0);
+  for (int i = 0; i < size(); ++i) values_[diagonal_slot_[i]] = storage_u(i) + slack_u(i);
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
+    const auto [q_a, q_b] = flow_by_u(f);
+    const bool cut = is_cut(f);
+    if (!cut || !has_line_row(face.a)) {
+      values_[face.slots[0]] += q_a;
+      values_[face.slots[1]] += q_b;
+    }
+    if (cut && has_line_row(face.b)) continue;
+    values_[face.slots[2]] -= q_a;
+    values_[face.slots[3]] -= q_b;
+  }
+  for (const HeldNode& held : held_) {
+    const int i = held.node;
+    const Tie t = tie(held);
+    const auto [above, slope] = excess(held);
+    if (held.other >= 0) add_line_by_u(held);
+    for (int slot : row_slots_[i]) values_[slot] *= 1 - held.chi;
+    values_[diagonal_slot_[i]] += t.k * slope + t.k_u * above;
+    if (held.other >= 0) values_[slot_to_other(held)] += t.k_u_other * above;
+  }
+  for (int j = 0; j < grid.n_z; ++j) {
+    if (!edge_row(j)) continue;
+    for (int i = 0; i < grid.n_phi; ++i) values_[diagonal_slot_[grid.index(i, j)]] = D0_;
+  }
+}
+
+void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
+  const Grid& grid = model_.grid;
+  const int n = size();
+  const bool gap = direction.g.size() != 0, rate = direction.g_rate.size() != 0;
+  HERSEY_REQUIRE(!gap || direction.g.size() == n, "direction of shape (grid.size()) or empty");
+  HERSEY_REQUIRE(!rate || direction.g_rate.size() == n, "direction of shape (grid.size()) or empty");
+  dr.setZero(n);
+  if (gap) {
+    interpolation_.bends(direction.g, direction_bends_);
+    interpolation_.excesses(direction.g, direction_excesses_);
+  }
+  if (rate) interpolation_.excesses(direction.g_rate, direction_rate_excesses_);
+  for (int i = 0; i < n; ++i) {
+    if (gap) dr[i] += storage_g(i) * direction.g[i] + storage_excess(i) * direction_excesses_[i];
+    if (rate) dr[i] += storage_g_rate(i) * direction.g_rate[i] + storage_excess_rate(i) * direction_rate_excesses_[i];
+  }
+  if (relief_.has_pockets()) add_turning_pockets(direction, dr);
+  const bool speeds =
+      direction.u_shell != 0 || direction.u_journal != 0 || direction.w_shell != 0 || direction.w_journal != 0;
+  const bool turns = direction.phi_journal != 0 && relief_.has_pockets();
+  for (std::size_t f = 0; (gap || speeds || turns) && f < faces_.size(); ++f) {
+    const double q = flow_along(f, direction);
+    const bool cut = is_cut(f);
+    if (!cut || !has_line_row(faces_[f].a)) dr[faces_[f].a] += q;
+    if (!cut || !has_line_row(faces_[f].b)) dr[faces_[f].b] -= q;
+  }
+  for (const HeldNode& held : held_) {
+    const int i = held.node;
+    const Tie t = tie(held);
+    const auto [above, slope] = excess(held);
+    if (held.other >= 0) dr[i] += line_row_along(held, direction);
+    const double chi = held.chi_line * direction.phi_supply + held.chi_journal * direction.phi_journal;
+    dr[i] = (1 - held.chi) * dr[i] - chi * (line_balance(i) + slack(i));
+    double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal;
+    if (gap) {
+      k += t.k_g * direction.g[i];
+      if (held.other >= 0) k += t.k_g_other * direction.g[held.other] + t.k_bend * direction_bends_[line_face(held)];
+    }
+    dr[i] += k * above;
+    if (held.other >= 0) dr[i] += t.k * draws_along(held, direction);
+  }
+  for (int j = 0; j < grid.n_z; ++j) {
+    if (!edge_row(j)) continue;
+    for (int i = 0; i < grid.n_phi; ++i) dr[grid.index(i, j)] = 0;
+  }
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,298 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "balance/node.h"
+#include "gap/feature_cover.h"
+#include "gap/gap_interpolation.h"
+#include "gap/grid_geometry.h"
+#include "gap/pocket_relief.h"
+#include "gap/rough_gap.h"
+#include "hersey/film/film_domain.h"
+#include "hersey/film/film_exchange.h"
+#include "hersey/film/film_model.h"
+
+namespace hersey::film {
+
+/// A face between the control volumes of the nodes `a` and `b`; its flow counts positive from a to b.
+struct Face {
+  int a = 0, b = 0;
+  double width = 0;            ///< across the flow [m]
+  double length = 0;           ///< from a to b [m]
+  std::array<int, 4> slots{};  ///< where (a,a), (a,b), (b,a), (b,b) stand among the Jacobian's values
+};
+
+/// What surfaces carry over a face from a node filled to theta, with derivatives (film.28).
+struct Carried {
+  double value = 0;   ///< [m^3/s]
+  double theta = 0;   ///< with theta [m^3/s]
+  double full = 0;    ///< with what passes when the gap is full [-]
+  double little = 0;  ///< with what passes per fill fraction when there is little oil [-]
+};
+
+/// The flow over a face, linearised (film.16): dq = K d(p_a - p_b) + q_h_a dh_a + q_h_b dh_b + q_bend d bend +
+/// q_fluidity d(1/mu) + q_density d density + carried.theta d theta_upwind. Flows are of mass over rho0.
+struct FaceFlow {
+  double K = 0;           ///< conductance [m^3/(Pa s)]
+  double density = 1;     ///< rho/rho0 on the face [-]
+  double q_density = 0;   ///< with it: the volume that flows [m^3/s]
+  double q_h_a = 0;       ///< with the film thickness at a [m^2/s]
+  double q_h_b = 0;       ///< with that at b [m^2/s]
+  double q_bend = 0;      ///< with what the gap on the face has over the mean of both nodes [m^2/s]
+  double q_journal = 0;   ///< with phi_journal [m^3/(s rad)]
+  double q_fluidity = 0;  ///< with the face's 1/mu
+  double couette = 0;     ///< entrained flow of a full gap [m^3/s]
+  double little = 0;      ///< entrained flow per fill fraction where there is little oil: pockets hold it back [m^3/s]
+  double recirculation = 0;  ///< power of the oil that turns in pockets under the tube [W]
+  /// What pockets add to the integral of h dp over the tube and its width [N], with derivatives by the thickness on the
+  /// face, the mean of 1/mu, the drop of the walls' pressure, the speed past the pockets' steps and phi_journal.
+  struct Moment {
+    double value = 0, h = 0, fluidity = 0, drop = 0, past = 0, journal = 0;
+  };
+  Moment moment;
+
+  [[nodiscard]] Carried carried(double theta) const;
+};
+
+/// Balance of oil (film.2) in every control volume, with the flows (film.1) over its faces, its Jacobian in u and its
+/// derivative along any change of the surfaces.
+///
+/// Rows of the residual [m^3/s]: outflow plus storage in the film, u - u_given times a conductance on an edge at given
+/// pressure, a blend of both beside the supply line and on features (film.17 to film.22).
+class FlowBalance {
+ public:
+  explicit FlowBalance(const FilmModel& model);
+  FlowBalance(const FlowBalance&) = delete;
+  FlowBalance& operator=(const FlowBalance&) = delete;
+
+  [[nodiscard]] const FilmModel& model() const { return model_; }
+  [[nodiscard]] int size() const { return model_.grid.size(); }
+
+  /// Nodes, flows and residual at `u`. Outside the domain nothing of them is to be used.
+  FilmDomain evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
+
+  /// Values of the Jacobian at the state of the last evaluate(), in the order of the pattern.
+  void assemble_jacobian();
+
+  void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
+
+  /// Takes from a right-hand side what the rate at the end of the step brings into the rows beyond what the gap has
+  /// gained over the step (film.15).
+  void subtract_defect(Eigen::VectorXd& rhs) const;
+  /// Oil of the step whose state was last evaluated, with flows changed along `du`.
+  void settle(const Eigen::VectorXd& du, OilOfStep& oil) const;
+  /// Oil there is, without any flow.
+  void take_stock(OilOfStep& oil) const;
+
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<RoughGap>& rough_gaps() const { return rough_; }
+  [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
+  [[nodiscard]] const std::vector<FaceFlow>& flows() const { return flows_; }
+  [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
+  /// Outflow plus storage of every control volume, boundary nodes included: there it is the oil fed from outside.
+  [[nodiscard]] const Eigen::VectorXd& balance() const { return balance_; }
+  /// The face from node (i, j) to the next around the bearing, and to the next along the axis.
+  [[nodiscard]] std::size_t face_after(int i, int j) const { return static_cast<std::size_t>(model_.grid.index(i, j)); }
+  [[nodiscard]] std::size_t face_above(int i, int j) const {
+    return first_axial_face_ + static_cast<std::size_t>(i * (model_.grid.n_z - 1) + j);
+  }
+  [[nodiscard]] double storage(int node) const;             ///< [m^3/s]
+  [[nodiscard]] double storage_by_content(int node) const;  ///< its derivative with the oil's content [m^3/s]
+  /// The gap that holds oil over a control volume, mean depth of pockets included [m].
+  [[nodiscard]] double oil_gap(int node) const { return cells_[node].gap + cells_[node].depth; }
+  /// Change of the thickness on face f with that at both its nodes, each, and with its bend [-].
+  [[nodiscard]] std::array<double, 2> thickness_shares(std::size_t f) const;
+  [[nodiscard]] const PocketRelief& relief() const { return relief_; }
+  [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }  ///< without fields
+  [[nodiscard]] double largest_throughput() const { return largest_throughput_; }  ///< of a control volume [m^3/s]
+  [[nodiscard]] double relative_residual() const;
+  [[nodiscard]] int worst_node() const;
+  [[nodiscard]] double area(int node) const { return area_[node]; }  ///< of the control volume [m^2]
+  [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
+  [[nodiscard]] double speed_phi() const { return speed_phi_; }
+  [[nodiscard]] bool edge_row(int j) const;  ///< an edge whose pressure is given: no balance there
+  [[nodiscard]] bool open_row(int j) const { return open_edge(model_, j); }  ///< an edge at p_cav
+  /// u at which an edge at p_cav is as full as what lies outside; -infinity where nothing comes in [Pa].
+  [[nodiscard]] double ambient_unknown(int j) const { return j == 0 ? ambient_left_ : ambient_right_; }
+  [[nodiscard]] double outflow(int node) const;       ///< oil leaving over the edge at this node [m^3/s]
+  [[nodiscard]] double supply(int node) const;        ///< oil entering from line or feature at this node [m^3/s]
+  [[nodiscard]] double power_of_tie(int node) const;  ///< dissipated between the node and what holds it [W]
+  [[nodiscard]] int feature_at(int node) const;       ///< the feature that feeds this node; -1 for none
+  /// Whether line or feature have a part in a node's row.
+  [[nodiscard]] bool is_held(int node) const { return held_index_[node] >= 0; }
+  /// Share of a node's own balance in its row: 1 away from line and features, 0 on them.
+  [[nodiscard]] double balance_share(int node) const;
+  [[nodiscard]] double supply_conductance(int node) const;  ///< what ties u to the supply in that row [m^3/(Pa s)]
+  [[nodiscard]] double supply_unknown(int node) const;      ///< u that the supply gives [Pa]
+  /// By how much of itself a u < 0, missing oil, draws on the supply [-]: wholly on line and features, not at all from
+  /// the next node.
+  [[nodiscard]] double draws(int node) const;
+  /// What the surfaces carry from a node towards the supply line beside it.
+  struct TowardsLine {
+    bool counts = false;     ///< whether the line has a part in the node's row
+    double full = 0;         ///< out of the node, of a full gap [m^3/s]
+    bool from_node = false;  ///< filled as the node is; else the line fills it
+    double strip = 0;        ///< squeezed beyond the middle of the way: the line's, not the node's [m^3/s]
+  };
+  [[nodiscard]] TowardsLine towards_line(int node) const;
+  [[nodiscard]] bool is_cut(std::size_t f) const;  ///< by the supply line
+  [[nodiscard]] double edge_unknown(int j) const;  ///< u on an edge [Pa]
+
+  [[nodiscard]] const std::vector<int>& column_start() const { return column_start_; }
+  [[nodiscard]] const std::vector<int>& row_index() const { return row_index_; }
+  [[nodiscard]] std::span<const double> values() const { return {values_.data(), row_index_.size()}; }
+  [[nodiscard]] int diagonal_slot(int node) const { return diagonal_slot_[node]; }
+  /// Change of the flow over face f with a change of u at its nodes.
+  [[nodiscard]] std::array<double, 2> flow_by_u(std::size_t f) const;
+  /// Conductance scale of the model, c^3/(12 mu0) (2 dz/dx + 2 dx/dz) [m^3/(Pa s)].
+  [[nodiscard]] double conductance_scale() const { return D0_; }
+
+ private:
+  /// A node whose row the supply holds wholly or in part (film.21, film.22):
+  /// r = (1 - chi) (balance + slack) + tie (u - u_given); beside the line the balance is that up to the middle of the
+  /// way.
+  struct HeldNode {
+    int node = 0;
+    double chi = 0;          ///< share that the node's own balance loses [-]
+    double chi_line = 0;     ///< with phi_supply [1/rad]
+    double chi_journal = 0;  ///< with phi_journal [1/rad]
+    int feature = -1;        ///< -1: the line
+    double u = 0;            ///< given [Pa]
+    int other = -1;          ///< line: the node on its other side
+    double near = 1, far = 0,
+           bend = 0;  ///< line: weights by which h on the way to it follows from here, there and bend
+    double near_line = 0, bend_line = 0;  ///< line: with phi_supply [1/rad]
+    double conductance = 0;               ///< line: width/(12 length of the tube) [-]
+    double way = 0;                       ///< line: to it, as a share of the tube [-]
+    double way_line = 0;                  ///< with phi_supply [1/rad]
+  };
+  /// What ties a held node to its u [m^3/(Pa s)], with derivatives.
+  struct Tie {
+    double k = 0, k_u = 0, k_g = 0;
+    double k_u_other = 0, k_g_other = 0, k_bend = 0, k_line = 0, k_journal = 0;
+  };
+  /// Where a supply line cuts the tubes between two columns of nodes.
+  struct Line {
+    bool cuts = false;
+    int column = 0;     ///< the nodes before it
+    double share = 0;   ///< of the way to the next [-]
+    double by_phi = 0;  ///< with phi_supply [1/rad]
+  };
+  /// Gap that a control volume holds oil in, with derivatives (film.14).
+  struct Cell {
+    double gap = 0, gap_h = 1, gap_excess = 1;            ///< [m]
+    double depth = 0, depth_start = 0;                    ///< mean depth of pockets [m]
+    double start = 0, start_slope = 1, start_excess = 1;  ///< gap from which the rate leads to the present one [m]
+  };
+  /// The gap between two nodes: what of it counts for flow along pressure and with the surfaces, with derivatives by
+  /// the thickness on the face, those at both nodes by themselves, and phi_journal.
+  struct FaceGap {
+    double cube = 0, cube_h = 0, cube_journal = 0;
+    std::array<double, 2> cube_at{};
+    double full = 0, full_h = 0, full_journal = 0;
+    std::array<double, 2> full_at{};
+    double little = 0, little_h = 0, little_journal = 0;
+  };
+
+  /// Speeds across a face: mean of both surfaces, half their difference, the journal's [m/s].
+  struct Speeds {
+    double mean = 0, half_slip = 0, journal = 0;
+  };
+
+  void lay_faces();
+  void lay_pattern();
+  void find_supply(const SurfaceMotion& motion);
+  void hold_line(double phi);
+  void hold(const HeldNode& held);
+  [[nodiscard]] std::size_t line_face(const HeldNode& held) const;
+  [[nodiscard]] bool has_line_row(int node) const;
+  [[nodiscard]] double line_balance(int node) const;
+  [[nodiscard]] double strip_area(const HeldNode& held) const;  ///< beyond the middle of the way to the line [m^2]
+  void add_line_by_u(const HeldNode& held);
+  [[nodiscard]] double line_row_along(const HeldNode& held, const MotionDirection& direction) const;
+  /// u - u_given as the tie sees it [Pa], and its slope.
+  [[nodiscard]] ValueAndSlope excess(const HeldNode& held) const;
+  [[nodiscard]] double draws_along(const HeldNode& held, const MotionDirection& direction) const;
+  [[nodiscard]] int slot_to_other(const HeldNode& held) const;
+  void add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const;
+  [[nodiscard]] double step_speed(std::size_t f, const PocketTube& tube) const;  ///< of a pocket's steps [m/s]
+  [[nodiscard]] const Node& upstream(std::size_t f) const {
+    return nodes_[flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b];
+  }
+  /// Change of the flow over face f with the surfaces.
+  [[nodiscard]] double flow_along(std::size_t f, const MotionDirection& direction) const;
+  [[nodiscard]] const HeldNode* held_at(int node) const;
+  [[nodiscard]] Tie tie(const HeldNode& held) const;
+  void take_history(const FilmHistory& history);
+  void take_motion(const SurfaceMotion& motion);
+  [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
+  [[nodiscard]] bool is_layered() const { return viscosity_.fluidity.size() != 0; }
+  static void skew(double skew, double h, RoughGap& gap);
+  void evaluate_cell(int node, const SurfaceMotion& motion);
+  void add_face(std::size_t f);
+  [[nodiscard]] FaceGap smooth_gap(std::size_t f, double h) const;
+  void roughen(std::size_t f, FaceGap& gap) const;
+  void deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) const;
+  [[nodiscard]] double thickness_on(std::size_t f) const;
+  [[nodiscard]] bool is_limited(std::size_t f) const;
+  void replace_boundary_rows();
+  [[nodiscard]] double slack(int node) const;
+  [[nodiscard]] bool lets_nothing_in(int node) const;  ///< on a flooded edge
+  [[nodiscard]] double slack_u(int node) const;
+  [[nodiscard]] double storage_u(int node) const;
+  [[nodiscard]] double storage_h(int node) const;
+  [[nodiscard]] double storage_g(int node) const;
+  [[nodiscard]] double storage_excess(int node) const;
+  [[nodiscard]] double storage_g_rate(int node) const;
+  [[nodiscard]] double storage_excess_rate(int node) const;
+  void pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const;
+  double pass_along(int j, double carry, const std::vector<char>& takes_what_comes, OilOfStep& oil,
+                    bool for_good) const;
+  [[nodiscard]] double start_of(int node) const;  ///< film's gap at the start of the step, pockets apart [m]
+  [[nodiscard]] double oil_shown(int node, double content) const;  ///< per area, with a fill fraction of 0 to 1 [m]
+  [[nodiscard]] double pocket_rate(int node) const;                ///< of its mean depth in a steady film [m/s]
+  [[nodiscard]] bool axial(std::size_t f) const { return f >= first_axial_face_; }
+  /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
+  [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : speed_phi_; }
+  /// Flows over face f, of a full gap and of little oil, that belong to a set of speeds.
+  [[nodiscard]] std::array<double, 2> carried_at(std::size_t f, const Speeds& speeds) const;
+
+  FilmModel model_;
+  const CavitationLaw& cavitation_;
+  NodeLaw law_;
+  RoughGapLaw rough_law_;
+  GridGeometry geometry_;
+  double D0_ = 0, unit_conductance_ = 0;
+  double ambient_left_ = 0, ambient_right_ = 0;
+  std::vector<double> area_;  ///< of the control volumes [m^2]
+  std::vector<Face> faces_;
+  std::size_t first_axial_face_ = 0;
+  std::vector<int> column_start_, row_index_, diagonal_slot_;
+  std::vector<std::array<int, 5>> row_slots_;  ///< of every balanced row the slots of its entries
+
+  std::vector<Node> nodes_;
+  std::vector<RoughGap> rough_;
+  std::vector<FaceFlow> flows_;
+  std::vector<double> values_;  ///< one more than the pattern: rows without a balance scatter there
+  Eigen::VectorXd residual_, balance_, throughput_, g_rate_, content_start_, w_start_, gap_start_, u_;
+  LayeredViscosity viscosity_;
+  GapInterpolation interpolation_;
+  PocketRelief relief_;
+  Eigen::VectorXd bends_, excesses_, rate_excesses_;  ///< of gap, gap and its rate
+  mutable Eigen::VectorXd direction_bends_, direction_excesses_, direction_rate_excesses_;
+  std::vector<Cell> cells_;
+  std::vector<int> tube_of_;  ///< of every face its pocket tube, -1 for none
+  Line line_;
+  SurfaceMotion speeds_;
+  std::vector<HeldNode> held_;
+  std::vector<int> held_index_;  ///< of every node its place in held_, -1 for none
+  std::vector<CoveredNode> covered_;
+  bool liner_rests_ = false;  ///< the step starts with the deformation it ends with
+  double phi_start_ = 0;
+  bool knows_gap_ = false, follows_gap_ = false;
+  double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, half_slip_phi_ = 0, half_slip_z_ = 0, largest_throughput_ = 0;
+};
+
+}  // namespace hersey::film

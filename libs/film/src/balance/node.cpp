@@ -1,0 +1,115 @@
+#include "balance/node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hersey/film/greenwood_tripp.h"
+
+namespace hersey::film {
+double fill_scale(const FilmModel& model) {
+  const double slope = model.R / model.c;
+  return 6 * model.lubricant.mu0 * model.fill_speed * slope * slope * (2 * std::numbers::pi / model.grid.n_phi);
+}
+
+CavitationScales cavitation_scales(const FilmModel& model) {
+  const double dphi = 2 * std::numbers::pi / model.grid.n_phi;
+  const double slenderness = model.R * dphi * (model.grid.n_z - 1) / model.L;
+  const double fill = fill_scale(model);
+  return {.fill = fill, .slack = fill * dphi / (1 + slenderness * slenderness)};
+}
+
+bool open_edge(const FilmModel& model, int j) {
+  const Edge* edge = edge_of_row(model, j);
+  return edge != nullptr && edge->kind == EdgeKind::pressure && edge->pressure == model.p_cav &&
+         cavitation_law(model).has_fill();
+}
+
+double ambient_fill(const FilmModel& model, int j) {
+  return open_edge(model, j) ? edge_of_row(model, j)->ambient_fill : 0;
+}
+
+NodeLaw::NodeLaw(const FilmModel& model)
+    : model_(model),
+      cavitation_(cavitation_law(model)),
+      scales_(cavitation_scales(model)),
+      contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus),
+      uniform_{1 / model.lubricant.mu0, 1 / model.lubricant.mu0} {}
+
+Node NodeLaw::state(double g, double u, int j, const NodeViscosity& viscosity) const {
+  Node node;
+  pressure_and_fill(u, j, node);
+  rheology(viscosity, node);
+  film_thickness(g, node);
+  return node;
+}
+
+void NodeLaw::pressure_and_fill(double u, int j, Node& node) const {
+  FilmPhase phase = cavitation_.phase(u, scales_);
+  const bool open = open_edge(model_, j);
+  node.wall = model_.p_cav;
+  if (open) {
+    phase.p = {};
+    const double least = ambient_fill(model_, j);
+    if (least > 0 && phase.theta.value < least) phase.theta = {least, 0};
+  } else if (u >= 0) {
+    node.wall += u, node.wall_u = 1;
+  }
+  node.p = phase.p.value, node.p_u = phase.p.slope;
+  node.theta = phase.theta.value, node.theta_u = phase.theta.slope;
+  if (model_.cavitated_shear == CavitatedShear::full) return;
+  const ValueAndSlope share = cavitation_.share(u, phase.theta, scales_);
+  node.share = share.value, node.share_u = share.slope;
+}
+
+void NodeLaw::rheology(const NodeViscosity& viscosity, Node& node) const {
+  const Lubricant& oil = model_.lubricant;
+  const ValueAndSlope ratio = log_viscosity_ratio(oil, node.p, 1 / viscosity.shear_fluidity),
+                      density = density_ratio(oil, node.p);
+  node.fluidity = (ratio.value == 0 ? 1 : std::exp(-ratio.value)) * viscosity.fluidity;
+  node.fluidity_u = -ratio.slope * node.fluidity * node.p_u;
+  node.shear_viscosity = viscosity.fluidity / viscosity.shear_fluidity;
+  node.density = density.value;
+  node.density_u = density.slope * node.p_u;
+  node.content = node.density * node.theta;
+  node.content_u = node.density_u * node.theta + node.density * node.theta_u;
+}
+
+void NodeLaw::film_thickness(double g, Node& node) const {
+  const double C = model_.compliance;
+  // h - g - C (p + p_a(h)) = 0 is increasing and concave in h: Newton from its left side rises to the root. No root
+  // above zero is sought below it, where asperities would be squeezed beyond themselves.
+  node.h = g + C * node.wall;
+  if (node.h < 0 && C > 0) {
+    contact(0, node);
+    if (node.h + C * node.asperity > 0) node.h = 0;
+  }
+  contact(node.h, node);
+  double slope = 1 - C * node.asperity_h;
+  if (C > 0 && node.asperity > 0) {
+    for (int i = 0; i < 50; ++i) {
+      const double excess = node.h - g - C * (node.wall + node.asperity);
+      const double step = -excess / slope;
+      node.h += step;
+      contact(node.h, node);
+      slope = 1 - C * node.asperity_h;
+      if (std::abs(step) <= 1e-15 * model_.c) break;
+    }
+  }
+  node.h_g = 1 / slope;
+  node.h_u = C * node.wall_u / slope;
+  node.w = C * (node.wall + node.asperity);
+}
+
+void NodeLaw::contact(double h, Node& node) const {
+  const Asperities& a = model_.asperities;
+  if (a.model == AsperityModel::none) return;
+  // A film of h <= 0 is closed: what it bears is nobody's to say.
+  const double H = (std::max(h, 0.0) - a.mean_summit_height) / a.sigma;
+  const ValueAndSlope F =
+      a.model == AsperityModel::greenwood_tripp_fit ? greenwood_tripp_fit(H) : greenwood_tripp_exact(H);
+  node.asperity = contact_scale_ * F.value;
+  node.asperity_h = contact_scale_ * F.slope / a.sigma;
+}
+
+}  // namespace hersey::film

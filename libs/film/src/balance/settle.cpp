@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+
+#include "balance/flow_balance.h"
+
+// Oil over a whole step (film.15).
+namespace hersey::film {
+namespace {
+
+// Share of a control volume that may be left at the end of a row in which nothing can take it.
+constexpr double round_off = 1e-9;
+
+}  // namespace
+
+double FlowBalance::start_of(int i) const { return !knows_gap_ ? cells_[i].start : gap_start_[i]; }
+
+void FlowBalance::subtract_defect(Eigen::VectorXd& rhs) const {
+  for (int i = 0; i < size(); ++i) {
+    if (edge_row(i % model_.grid.n_z)) continue;
+    rhs[i] -= balance_share(i) * area_[i] * content_start_[i] * (cells_[i].start - start_of(i)) / dt_;
+  }
+}
+
+void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
+  const Grid& grid = model_.grid;
+  Eigen::VectorXd leaving = Eigen::VectorXd::Zero(size());
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
+    const FaceFlow& flow = flows_[f];
+    const auto [by_a, by_b] = flow_by_u(f);
+    const double q = flow.K * (nodes_[face.a].p - nodes_[face.b].p) + flow.carried(upstream(f).theta).value +
+                     by_a * du[face.a] + by_b * du[face.b];
+    leaving[face.a] += q;
+    leaving[face.b] -= q;
+  }
+  take_stock(oil);
+  const bool conserves = cavitation_.has_fill();
+  std::vector<char> takes_what_comes(static_cast<std::size_t>(size()), 0);
+  for (int i = 0; i < size(); ++i) {
+    const int j = i % grid.n_z;
+    const double start = area_[i] * content_start_[i] * (start_of(i) + cells_[i].depth_start);
+    const double whole = area_[i] * oil_gap(i);
+    double out = open_row(j) ? slack(i) + slack_u(i) * du[i] : 0;
+    // Held rows take what their state needs; the others have what is left to them.
+    const bool given = is_held(i) || edge_row(j) || !conserves;
+    takes_what_comes[static_cast<std::size_t>(i)] = given ? 1 : 0;
+    const double end = given ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
+    const double coming = (end - start) / dt_ + leaving[i];
+    if (edge_row(j)) out = lets_nothing_in(i) ? 0 : -coming;
+    (j == 0 ? oil.flow_left : oil.flow_right) += out;
+    if (is_held(i)) oil.flow_supply += coming + out;
+    if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] += coming + out;
+    oil.content[i] = end / whole;
+  }
+  if (conserves) pass_on(takes_what_comes, oil);
+  oil.volume = 0;
+  for (int i = 0; i < size(); ++i) oil.volume += area_[i] * oil_shown(i, oil.content[i]);
+}
+
+// What a full control volume cannot hold, and what an empty one has not, goes on with the flow to the next that can: a
+// film in which pressure carries oil knows no delay. Lines and features take what comes. A first round only finds what
+// arrives where the rows begin, so that no place around the bearing is the first.
+void FlowBalance::pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const {
+  for (int j = 0; j < model_.grid.n_z; ++j) {
+    const double arriving = pass_along(j, 0, takes_what_comes, oil, false);
+    const double left = pass_along(j, arriving, takes_what_comes, oil, true) - arriving;
+    const int last = model_.grid.index(0, j);
+    const double homeless = left / (area_[last] * oil_gap(last));
+    if (takes_what_comes[static_cast<std::size_t>(last)] == 0) oil.content[last] += homeless;
+    if (std::abs(homeless) > round_off) oil.passed_on = 1;
+  }
+}
+
+// Once around with the flow; what is carried on at the end [m^3]. It is handed out where it is meant `for_good`.
+double FlowBalance::pass_along(int j, double carry, const std::vector<char>& takes_what_comes, OilOfStep& oil,
+                               bool for_good) const {
+  const Grid& grid = model_.grid;
+  const bool forwards = speed_phi_ >= 0;
+  for (int step = 0; step < grid.n_phi; ++step) {
+    const int i = grid.index(forwards ? step : grid.n_phi - 1 - step, j);
+    if (takes_what_comes[static_cast<std::size_t>(i)] != 0) {
+      const double flow = for_good ? carry / dt_ : 0;
+      if (is_held(i)) oil.flow_supply -= flow;
+      if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] -= flow;
+      if (!is_held(i)) (j == 0 ? oil.flow_left : oil.flow_right) += flow;
+      carry = 0;
+      continue;
+    }
+    const double whole = area_[i] * oil_gap(i), full = nodes_[i].density * whole;
+    const double there = oil.content[i] * whole + carry;
+    const double holds = u_[i] >= 0 ? full : std::clamp(there, 0.0, full);
+    carry = there - holds;
+    if (!for_good) continue;
+    oil.content[i] = holds / whole;
+    oil.passed_on = std::max(oil.passed_on, std::abs(carry) / whole);
+  }
+  return carry;
+}
+
+void FlowBalance::take_stock(OilOfStep& oil) const {
+  oil = {};
+  oil.content.resize(size()), oil.gap.resize(size());
+  oil.flow_features.setZero(static_cast<Eigen::Index>(model_.features.size()));
+  for (int i = 0; i < size(); ++i) {
+    oil.content[i] = nodes_[i].content;
+    oil.gap[i] = cells_[i].gap;
+    oil.volume += area_[i] * oil_shown(i, oil.content[i]);
+  }
+}
+
+double FlowBalance::oil_shown(int i, double content) const {
+  return std::clamp(content, 0.0, nodes_[i].density) * oil_gap(i);
+}
+
+}  // namespace hersey::film

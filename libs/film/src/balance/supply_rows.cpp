@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+
+#include "balance/flow_balance.h"
+
+// Rows of the residual that supply line and features have a part in (film.21, film.22).
+namespace hersey::film {
+
+const FlowBalance::HeldNode* FlowBalance::held_at(int node) const {
+  const int index = held_index_[node];
+  return index < 0 ? nullptr : &held_[index];
+}
+
+double FlowBalance::balance_share(int node) const {
+  const HeldNode* held = held_at(node);
+  return held == nullptr ? 1 : 1 - held->chi;
+}
+
+double FlowBalance::supply_unknown(int node) const {
+  const HeldNode* held = held_at(node);
+  return held == nullptr ? 0 : held->u;
+}
+
+double FlowBalance::supply_conductance(int node) const {
+  const HeldNode* held = held_at(node);
+  return held == nullptr ? 0 : tie(*held).k;
+}
+
+double FlowBalance::draws(int node) const {
+  const HeldNode* held = held_at(node);
+  if (held == nullptr || held->other < 0 || cavitation_.has_tension()) return 1;
+  return (1 - held->way) * (1 - held->way);
+}
+
+// Between line and next node only pressure drives oil. On the line itself the gap is full, whatever comes.
+ValueAndSlope FlowBalance::excess(const HeldNode& held) const {
+  const double u = u_[held.node], share = u < 0 ? draws(held.node) : 1;
+  return {share * u - held.u, share};
+}
+
+double FlowBalance::power_of_tie(int node) const {
+  const HeldNode* held = held_at(node);
+  if (held == nullptr || held->chi == 1) return 0;
+  const double drop = nodes_[node].wall - model_.p_cav - held->u;
+  return tie(*held).k / (nodes_[node].density * (1 - held->chi)) * drop * drop;
+}
+
+int FlowBalance::feature_at(int node) const {
+  const HeldNode* held = held_at(node);
+  return held == nullptr ? -1 : held->feature;
+}
+
+// The film's own conductance: what lies between node and line, or node and edge of the feature, is film.
+FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
+  const Node& node = nodes_[held.node];
+  const bool line = held.other >= 0;
+  const double bend = line ? bends_[static_cast<Eigen::Index>(line_face(held))] : 0;
+  const double h = line ? held.near * node.h + held.far * nodes_[held.other].h + held.bend * bend : node.h;
+  const double unit = line ? held.conductance : unit_conductance_ / 12;
+  const RoughGap& rough = rough_[held.node];
+  const double smooth = unit * node.density * h * h * h * node.fluidity;
+  const double factor = line ? rough.pressure[0] : 0.5 * (rough.pressure[0] + rough.pressure[1]);
+  const double by_node = smooth * (line ? rough.pressure_h[0] : 0.5 * (rough.pressure_h[0] + rough.pressure_h[1]));
+  const double k = smooth * factor, by_h = 3 * k / h;
+  const double by_laws = k * (node.fluidity_u / node.fluidity + node.density_u / node.density);
+  if (!line) {
+    const double scale = held.chi;
+    return {.k = scale * k,
+            .k_u = scale * ((by_h + by_node) * node.h_u + by_laws),
+            .k_g = scale * (by_h + by_node) * node.h_g,
+            .k_journal = held.chi_journal * k};
+  }
+  const Node& other = nodes_[held.other];
+  const double near = by_h * held.near + by_node;
+  return {.k = k,
+          .k_u = near * node.h_u + by_laws,
+          .k_g = near * node.h_g,
+          .k_u_other = by_h * held.far * other.h_u,
+          .k_g_other = by_h * held.far * other.h_g,
+          .k_bend = by_h * held.bend,
+          .k_line = by_h * (held.near_line * (node.h - other.h) + held.bend_line * bend)};
+}
+
+// Edges win where they meet a line or a feature. One in air is filled there, but its pressure cannot rise.
+void FlowBalance::hold(const HeldNode& held) {
+  const int j = held.node % model_.grid.n_z;
+  if (edge_row(j)) return;
+  int& index = held_index_[held.node];
+  if (index >= 0 && held_[index].chi >= held.chi) return;
+  if (index < 0) {
+    index = static_cast<int>(held_.size());
+    held_.emplace_back();
+  }
+  held_[index] = held;
+  if (open_row(j)) held_[index].u = 0;
+}
+
+// The line cuts the tubes between two columns of nodes. Each side is tied to it by what of the tube lies on its side,
+// K/t at a share t of the way; the row counts t times, so that a line on a node is a given pressure there.
+void FlowBalance::hold_line(double phi) {
+  const Grid& grid = model_.grid;
+  const auto place = geometry_.place_of(phi);
+  const int i = place.node;
+  const double t = place.share;
+  const int next = (i + 1) % grid.n_phi;
+  line_ = {true, i, t, model_.R / geometry_.dx[i]};
+  const double u = model_.supply.pressure - model_.p_cav;
+  const auto side = [&](int here, int there, int j, double way, double by_phi) {
+    hold({.node = grid.index(here, j),
+          .chi = 1 - way,
+          .chi_line = -by_phi,
+          .u = u,
+          .other = grid.index(there, j),
+          .near = 1 - 0.5 * way,
+          .far = 0.5 * way,
+          .bend = way * (2 - way),
+          .near_line = -0.5 * by_phi,
+          .bend_line = 2 * (1 - way) * by_phi,
+          .conductance = geometry_.width_z[j] / (12 * geometry_.dx[i]),
+          .way = way,
+          .way_line = by_phi});
+  };
+  for (int j = 0; j < grid.n_z; ++j) {
+    side(i, next, j, t, line_.by_phi);
+    side(next, i, j, 1 - t, -line_.by_phi);
+  }
+}
+
+void FlowBalance::find_supply(const SurfaceMotion& motion) {
+  for (const HeldNode& held : held_) held_index_[held.node] = -1;
+  held_.clear();
+  line_ = {};
+  if (model_.supply.kind != SupplyKind::none) hold_line(motion.phi_supply);
+  for (std::size_t f = 0; f < model_.features.size(); ++f) {
+    const SurfaceFeature& feature = model_.features[f];
+    if (!feature.is_fed) continue;
+    const auto index = static_cast<Eigen::Index>(f);
+    const double pressure = motion.feature_pressure.size() == 0 ? feature.pressure : motion.feature_pressure[index];
+    covered_.clear();
+    cover(model_, geometry_, feature, motion.phi_journal, covered_);
+    for (const CoveredNode& node : covered_) {
+      hold({.node = node.node,
+            .chi = node.share,
+            .chi_journal = node.share_phi,
+            .feature = static_cast<int>(f),
+            .u = std::max(0.0, pressure - model_.p_cav)});
+    }
+  }
+}
+
+bool FlowBalance::is_cut(std::size_t f) const {
+  return line_.cuts && !axial(f) && static_cast<int>(f) / model_.grid.n_z == line_.column;
+}
+
+std::size_t FlowBalance::line_face(const HeldNode& held) const {
+  return face_after(line_.column, held.node % model_.grid.n_z);
+}
+
+bool FlowBalance::has_line_row(int node) const {
+  const HeldNode* held = held_at(node);
+  return held != nullptr && held->other >= 0;
+}
+
+// A control volume ends in the middle of the way to the line. What the surfaces carry there leaves it, or comes from
+// the line, which fills the gap; what is squeezed between there and the face goes to the line.
+FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
+  if (!has_line_row(node)) return {};
+  const HeldNode& held = *held_at(node);
+  const std::size_t f = line_face(held);
+  const Face& face = faces_[f];
+  const auto at = [&](int k) { return speed_phi_ * rough_[k].mean + half_slip_phi_ * rough_[k].drag[0]; };
+  const double sign = node == face.a ? 1 : -1, density = flows_[f].density;
+  TowardsLine t;
+  t.counts = true;
+  t.full = sign * density * face.width *
+           (held.near * at(node) + held.far * at(held.other) +
+            held.bend * speed_phi_ * bends_[static_cast<Eigen::Index>(f)]);
+  if (tube_of_[f] >= 0) t.full += sign * density * relief_.tubes()[static_cast<std::size_t>(tube_of_[f])].swept;
+  t.from_node = t.full >= 0;
+  t.strip = density * strip_area(held) * g_rate_[node];
+  return t;
+}
+
+double FlowBalance::strip_area(const HeldNode& held) const {
+  const Face& face = faces_[line_face(held)];
+  return 0.5 * (1 - held.way) * face.length * face.width;
+}
+
+/// Of a node as its row counts it: beside the line up to the middle of the way there.
+double FlowBalance::line_balance(int node) const {
+  const TowardsLine t = towards_line(node);
+  if (!t.counts) return balance_[node];
+  const std::size_t f = line_face(*held_at(node));
+  const double carried = flows_[f].carried(upstream(f).theta).value;
+  const double conserved = node == faces_[f].a ? carried : -carried;
+  return balance_[node] - conserved + t.full * (t.from_node ? nodes_[node].theta : 1) - t.strip;
+}
+
+void FlowBalance::add_line_by_u(const HeldNode& held) {
+  const std::size_t f = line_face(held);
+  const Face& face = faces_[f];
+  const TowardsLine t = towards_line(held.node);
+  const Node &node = nodes_[held.node], &other = nodes_[held.other];
+  const double sign = held.node == face.a ? 1 : -1, density = flows_[f].density;
+  const double theta = t.from_node ? node.theta : 1, scale = sign * theta * density * face.width;
+  const auto by_h = [&](int k) { return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0]; };
+  const double by_density = 0.5 * (theta * t.full - t.strip) / density;
+  values_[diagonal_slot_[held.node]] += scale * held.near * by_h(held.node) * node.h_u + by_density * node.density_u +
+                                        (t.from_node ? t.full * node.theta_u : 0);
+  values_[slot_to_other(held)] += scale * held.far * by_h(held.other) * other.h_u + by_density * other.density_u;
+}
+
+/// Change of what towards_line() tells with the surfaces.
+double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& direction) const {
+  const std::size_t f = line_face(held);
+  const Face& face = faces_[f];
+  const auto bend = static_cast<Eigen::Index>(f);
+  const TowardsLine t = towards_line(held.node);
+  const double sign = held.node == face.a ? 1 : -1, density = flows_[f].density;
+  const double scale = sign * density * face.width * (t.from_node ? nodes_[held.node].theta : 1);
+  const double speed = 0.5 * (direction.u_shell + direction.u_journal),
+               half_slip = 0.5 * (direction.u_shell - direction.u_journal);
+  const auto carried = [&](int k, double mean, double half) {
+    return mean * rough_[k].mean + half * rough_[k].drag[0];
+  };
+  const auto by_h = [&](int k) { return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0]; };
+  double q = held.near * carried(held.node, speed, half_slip) + held.far * carried(held.other, speed, half_slip) +
+             held.bend * speed * bends_[bend];
+  if (direction.g.size() != 0) {
+    q += held.near * by_h(held.node) * nodes_[held.node].h_g * direction.g[held.node] +
+         held.far * by_h(held.other) * nodes_[held.other].h_g * direction.g[held.other] +
+         held.bend * speed_phi_ * direction_bends_[bend];
+  }
+  const double turn = direction.phi_supply;
+  q += turn * (held.near_line *
+                   (carried(held.node, speed_phi_, half_slip_phi_) - carried(held.other, speed_phi_, half_slip_phi_)) +
+               held.bend_line * speed_phi_ * bends_[bend]);
+  if (tube_of_[f] >= 0) {
+    const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
+    q += (tube.swept_journal * direction.phi_journal + tube.swept_speed * direction.u_journal) / face.width;
+  }
+  double row = scale * q;
+  if (direction.g_rate.size() != 0) row -= density * strip_area(held) * direction.g_rate[held.node];
+  return row + 0.5 * held.way_line * turn * density * face.length * face.width * g_rate_[held.node];
+}
+
+/// Change of excess() as the line moves [Pa].
+double FlowBalance::draws_along(const HeldNode& held, const MotionDirection& direction) const {
+  const double u = u_[held.node];
+  if (u >= 0 || cavitation_.has_tension()) return 0;
+  return -2 * (1 - held.way) * held.way_line * direction.phi_supply * u;
+}
+
+int FlowBalance::slot_to_other(const HeldNode& held) const {
+  const Face& face = faces_[line_face(held)];
+  return held.node == face.a ? face.slots[1] : face.slots[2];
+}
+
+}  // namespace hersey::film

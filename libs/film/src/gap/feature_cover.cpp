@@ -1,0 +1,168 @@
+#include "gap/feature_cover.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hersey/core/turn.h"
+
+namespace hersey::film {
+namespace {
+
+/// A share of a cell and its derivative with the feature's angle.
+struct Share {
+  double value = 0;
+  double phi = 0;
+};
+
+/// A node's surroundings: how far its neighbours are and how wide its control volume is [m, m], seen by a feature whose
+/// middle lies at a distance `d` around the bearing [rad] and `z` along it [m] behind the node.
+struct Surroundings {
+  double d = 0, z = 0;
+  double to_phi = 0, to_z = 0;        ///< distance of the neighbours towards the feature [m]
+  double width_phi = 0, width_z = 0;  ///< of the control volume [m]
+  double back = 0, ahead = 0;         ///< half-way to the neighbours around the bearing [rad]
+  double below = 0, above = 0;        ///< likewise along it [m]; mirrored at an edge
+};
+
+Surroundings surroundings(const GridGeometry& g, double R, int i, int j, double d, double z) {
+  const auto n_phi = static_cast<int>(g.dx.size()), last = static_cast<int>(g.dz.size());
+  const double behind = g.dx[(i + n_phi - 1) % n_phi], before = g.dx[i];
+  const double under = g.dz[std::max(j - 1, 0)], over = g.dz[std::min(j, last - 1)];
+  Surroundings s;
+  s.d = d, s.z = z;
+  s.to_phi = d > 0 ? behind : before;
+  s.to_z = z > 0 ? under : over;
+  s.width_phi = g.width_phi[i], s.width_z = g.width_z[j];
+  s.back = 0.5 * behind / R, s.ahead = 0.5 * before / R;
+  s.below = 0.5 * under, s.above = 0.5 * over;
+  return s;
+}
+
+/// From 1 inside an interval of half-width `half` to 0 one `step` beyond it; d is the distance from its middle.
+Share ramp(double d, double half, double step) {
+  const double outside = (std::abs(d) - half) / step;
+  if (outside <= 0) return {1, 0};
+  if (outside >= 1) return {0, 0};
+  return {1 - outside, (d > 0 ? 1 : -1) / step};
+}
+
+/// Row shares (film.22): the conductance from a node to the feature's edge where that is a share of one cell away.
+Share held_rectangle(const SurfaceFeature& feature, const Surroundings& s, double R, double unit) {
+  const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / R);
+  const double along = ramp(s.z, 0.5 * feature.length, s.to_z).value;
+  const double covered = around.value * along;
+  if (covered == 0) return {};
+  const double by_phi = unit * s.to_phi / s.width_z, by_z = unit * s.to_z / s.width_phi;
+  const double sum = covered + (1 - around.value) * by_phi + (1 - along) * by_z, gap = sum - covered;
+  const double covered_phi = around.phi * along, gap_phi = -by_phi * around.phi;
+  return {covered / sum, (covered_phi * gap - covered * gap_phi) / (sum * sum)};
+}
+
+/// Share of a node's cell that an ellipse with the given half-axes covers, by Gauss' rule along z and exact around.
+Share ellipse_share(const Surroundings& s, double half_arc, double half_length) {
+  // Four points on each half of the cell: Abramowitz and Stegun (1964), table 25.4.
+  static constexpr std::array<double, 4> place{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
+                                               0.861136311594052575};
+  static constexpr std::array<double, 4> weight{0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
+                                                0.347854845137453857};
+  const double cell = s.back + s.ahead, height = s.below + s.above;
+  const double first = s.d - s.back, last = s.d + s.ahead;
+  Share share;
+  for (const double half : {0.25, 0.75}) {
+    for (std::size_t k = 0; k < place.size(); ++k) {
+      const double y = (s.z - s.below + height * (half + 0.25 * place[k])) / half_length;
+      if (std::abs(y) >= 1) continue;
+      const double reach = half_arc * std::sqrt(1 - y * y);
+      const double right = std::min(last, reach), left = std::max(first, -reach);
+      if (right <= left) continue;
+      // Seen from the feature the cell moves backwards as the feature turns forwards.
+      const double moving = (first > -reach ? 1.0 : 0.0) - (last < reach ? 1.0 : 0.0);
+      share.value += 0.25 * weight[k] * (right - left) / cell;
+      share.phi += 0.25 * weight[k] * moving / cell;
+    }
+  }
+  return share;
+}
+
+Share held_ellipse(const SurfaceFeature& feature, const Surroundings& s) {
+  // Grown by half a cell all around, as the ramps of a rectangle are: its edge then lies where the ellipse's does.
+  const Share covered =
+      ellipse_share(s, 0.5 * (feature.arc + s.back + s.ahead), 0.5 * (feature.length + s.below + s.above));
+  const double unit = 4;  // conductance of all four faces over that of one, both directions alike
+  const double open = 1 - covered.value, sum = covered.value + unit * open;
+  if (covered.value == 0) return {};
+  return {covered.value / sum, unit * covered.phi / (sum * sum)};
+}
+
+/// Length of [first, last] that lies within +-half, or within it a whole turn away, and its growth as the interval's
+/// borders move backwards.
+Share overlap(double first, double last, double half) {
+  Share sum;
+  for (const double image : {-turn, 0.0, turn}) {
+    const double left = std::max(first, image - half), right = std::min(last, image + half);
+    if (right <= left) continue;
+    sum.value += right - left;
+    sum.phi += (first > image - half ? 1.0 : 0.0) - (last < image + half ? 1.0 : 0.0);
+  }
+  return sum;
+}
+
+/// Share of the cell's height that a rectangle covers.
+double overlap_along(const SurfaceFeature& feature, const Surroundings& s) {
+  const double half = 0.5 * feature.length;
+  return std::max(0.0, std::min(s.z + s.above, half) - std::max(s.z - s.below, -half)) / (s.below + s.above);
+}
+
+Share covered_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
+  if (feature.arc >= turn) return {overlap_along(feature, s), 0};
+  const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
+  const double along = overlap_along(feature, s) / (s.back + s.ahead);
+  return {around.value * along, around.phi * along};
+}
+
+}  // namespace
+
+double unit_conductance(const GridGeometry& geometry) {
+  return 2 * (geometry.mean_dz / geometry.mean_dx + geometry.mean_dx / geometry.mean_dz);
+}
+
+void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFeature& feature, double phi_journal,
+           std::vector<CoveredNode>& nodes) {
+  const Grid& grid = model.grid;
+  const double unit = unit_conductance(geometry);
+  const bool travels = feature.surface == Surface::journal;
+  const double middle = feature.phi + (travels ? phi_journal : 0.0);
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double d = std::remainder(geometry.phi[i] - middle, turn);
+    for (int j = 0; j < grid.n_z; ++j) {
+      const Surroundings s = surroundings(geometry, model.R, i, j, d, geometry.z[j] - feature.z);
+      if (std::abs(d) >= 0.5 * feature.arc + s.to_phi / model.R) break;
+      if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
+      const Share held =
+          feature.shape == FeatureShape::ellipse ? held_ellipse(feature, s) : held_rectangle(feature, s, model.R, unit);
+      if (held.value > 0) nodes.push_back({grid.index(i, j), held.value, travels ? held.phi : 0});
+    }
+  }
+}
+
+void cover_cells(const FilmModel& model, const GridGeometry& geometry, const SurfaceFeature& feature,
+                 double phi_journal, std::vector<CoveredNode>& nodes) {
+  const Grid& grid = model.grid;
+  const bool travels = feature.surface == Surface::journal;
+  const double middle = feature.phi + (travels ? phi_journal : 0.0);
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double d = std::remainder(geometry.phi[i] - middle, turn);
+    for (int j = 0; j < grid.n_z; ++j) {
+      Surroundings s = surroundings(geometry, model.R, i, j, d, geometry.z[j] - feature.z);
+      if (j == 0) s.below = 0;
+      if (j == grid.n_z - 1) s.above = 0;
+      const Share covered = feature.shape == FeatureShape::ellipse
+                                ? ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length)
+                                : covered_rectangle(feature, s);
+      if (covered.value > 0) nodes.push_back({grid.index(i, j), covered.value, travels ? covered.phi : 0});
+    }
+  }
+}
+
+}  // namespace hersey::film

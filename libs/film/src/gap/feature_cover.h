@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "gap/grid_geometry.h"
+#include "hersey/film/film_model.h"
+
+namespace hersey::film {
+
+/// A share of a node that a feature has, and its derivative with phi_journal [-, 1/rad].
+struct CoveredNode {
+  int node = 0;
+  double share = 0;
+  double share_phi = 0;
+};
+
+/// Conductance of a mean cell to its four neighbours, per h^3/(12 mu): what shares refer to [-].
+[[nodiscard]] double unit_conductance(const GridGeometry& geometry);
+
+/// Appends the nodes of whose rows a feature holds a share (film.22), with the journal turned by `phi_journal` [rad].
+void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFeature& feature, double phi_journal,
+           std::vector<CoveredNode>& nodes);
+
+/// Appends the nodes of whose control volumes a feature covers a share.
+void cover_cells(const FilmModel& model, const GridGeometry& geometry, const SurfaceFeature& feature,
+                 double phi_journal, std::vector<CoveredNode>& nodes);
+
+}  // namespace hersey::film

@@ -1,0 +1,305 @@
+#include "gap/pocket_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hersey/core/turn.h"
+
+namespace hersey::film {
+namespace {
+
+// Gauss' rule with four points on [-1, 1]: Abramowitz and Stegun (1964), table 25.4. Two of them in a row, as where the
+// shares of control volumes are counted (feature_cover.cpp), so that a pocket that turns keeps its volume.
+constexpr std::array<double, 4> gauss_place{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
+                                            0.861136311594052575};
+constexpr std::array<double, 4> gauss_weight{0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
+                                             0.347854845137453857};
+
+/// Calls visit(share of the width, place within it from 0 to 1).
+template <class Visit>
+void over_gauss_points(Visit&& visit) {
+  for (const double half : {0.25, 0.75}) {
+    for (std::size_t k = 0; k < gauss_place.size(); ++k) visit(0.25 * gauss_weight[k], half + 0.25 * gauss_place[k]);
+  }
+}
+
+/// A place with its rate of turning.
+struct Border {
+  double at = 0, rate = 0;
+  bool operator<(const Border& other) const { return at < other.at; }
+};
+
+/// Length of the interval from `first` to `last` that lies within +-half or a turn away from there.
+double overlap(double first, double last, double half) {
+  if (half >= 0.5 * turn) return last - first;
+  double sum = 0;
+  for (const double image : {-turn, 0.0, turn, 2 * turn}) {
+    sum += std::max(0.0, std::min(last, image + half) - std::max(first, image - half));
+  }
+  return sum;
+}
+
+}  // namespace
+
+struct PocketRelief::Extent {
+  double across = 0, along = 0;  ///< middle
+  double half_across = 0, half_along = 0;
+  double across_rate = 0, along_rate = 0;  ///< by which the middle moves with phi_journal
+  bool is_ellipse = false, in_journal = false;
+  double depth = 0;
+};
+
+double swept_area(const SurfaceFeature& pocket, double R, double phi, double low, double high, double start,
+                  double end) {
+  // Seen from the pocket the face moves from phi - start back to phi - end.
+  const double turned = std::remainder(end - start, turn), from = std::remainder(phi - pocket.phi - start, turn);
+  const double first = std::min(from, from - turned), last = std::max(from, from - turned);
+  const double sign = turned < 0 ? -1 : 1, half = 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
+  if (pocket.shape == FeatureShape::rectangle) {
+    const double height = std::max(0.0, std::min(high, pocket.z + half_length) - std::max(low, pocket.z - half_length));
+    return sign * R * height * overlap(first, last, half);
+  }
+  double sum = 0;
+  over_gauss_points([&](double share, double place) {
+    const double y = (low + place * (high - low) - pocket.z) / half_length;
+    if (std::abs(y) < 1) sum += share * overlap(first, last, half * std::sqrt(1 - y * y));
+  });
+  return sign * R * (high - low) * sum;
+}
+
+PocketRelief::PocketRelief(const FilmModel& model, const GridGeometry& geometry) : model_(model), geometry_(geometry) {
+  for (const SurfaceFeature& feature : model.features) {
+    if (feature.depth == 0) continue;
+    (feature.is_fed ? fed_ : pockets_).push_back(feature);
+    any_turns_ = any_turns_ || feature.surface == Surface::journal;
+  }
+}
+
+void PocketRelief::add_cells(const SurfaceFeature& feature, double phi_journal, Eigen::VectorXd& depth,
+                             Eigen::VectorXd* slope) {
+  cells_.clear();
+  cover_cells(model_, geometry_, feature, phi_journal, cells_);
+  for (const CoveredNode& cell : cells_) {
+    depth[cell.node] += feature.depth * cell.share;
+    if (slope != nullptr) (*slope)[cell.node] += feature.depth * cell.share_phi;
+  }
+}
+
+void PocketRelief::place(double phi_journal, double phi_start, double dt, double speed) {
+  const Placement asked{phi_journal, phi_start, dt, dt > 0 ? 0 : speed};
+  if (is_empty() || (placed_ && (!any_turns_ || *placed_ == asked))) return;
+  const int n = model_.grid.size();
+  covered_.clear();
+  for (const auto* features : {&pockets_, &fed_}) {
+    for (const SurfaceFeature& feature : *features) {
+      cells_.clear();
+      cover_cells(model_, geometry_, feature, phi_journal, cells_);
+      for (const CoveredNode& cell : cells_) covered_.push_back({cell.node, cell.share, cell.share_phi, feature.depth});
+    }
+  }
+  placed_ = asked;
+  if (pockets_.empty()) return;
+  for (auto* field : {&depth_, &depth_start_, &depth_journal_}) field->setZero(n);
+  for (const SurfaceFeature& pocket : pockets_) {
+    const bool turns = pocket.surface == Surface::journal;
+    add_cells(pocket, phi_journal, depth_, &depth_journal_);
+    add_cells(pocket, turns && dt > 0 ? phi_start : phi_journal, depth_start_, nullptr);
+  }
+  place_tubes(phi_journal);
+  sweep(phi_journal, phi_start, dt, speed);
+}
+
+void PocketRelief::place_tubes(double phi_journal) {
+  tubes_.clear(), strips_.clear(), segments_.clear();
+  const Grid& grid = model_.grid;
+  const auto half_turn_from = [](double middle, double phi) { return middle + std::remainder(phi - middle, turn); };
+  std::vector<Extent> around, along;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double phi = geometry_.phi[i], step = geometry_.dx[i] / model_.R;
+    const double back = 0.5 * geometry_.dx[(i + grid.n_phi - 1) % grid.n_phi] / model_.R, ahead = 0.5 * step;
+    around.clear(), along.clear();
+    for (const SurfaceFeature& pocket : pockets_) {
+      const bool turns = pocket.surface == Surface::journal, all_around = pocket.arc >= turn;
+      const double rate = turns && !all_around ? 1 : 0;
+      const double middle = half_turn_from(phi + ahead, pocket.phi + (turns ? phi_journal : 0.0));
+      const double half_arc = all_around ? turn : 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
+      for (const double image : {-turn, 0.0, turn}) {
+        if (all_around && image != 0) continue;
+        const double at = middle + image;
+        if (at + half_arc <= phi - back || at - half_arc >= phi + step) continue;
+        const bool is_ellipse = pocket.shape == FeatureShape::ellipse;
+        around.push_back({pocket.z, at, half_length, half_arc, 0, rate, is_ellipse, turns, pocket.depth});
+        along.push_back({at, pocket.z, half_arc, half_length, rate, 0, is_ellipse, turns, pocket.depth});
+      }
+    }
+    if (around.empty()) continue;
+    for (int j = 0; j < grid.n_z; ++j) {
+      const double z = geometry_.z[j], low = j > 0 ? z - 0.5 * geometry_.dz[j - 1] : z;
+      add_tube(static_cast<std::size_t>(grid.index(i, j)), around, low, geometry_.width_z[j], phi, step);
+      if (j + 1 == grid.n_z) continue;
+      const auto face = static_cast<std::size_t>(grid.size() + i * (grid.n_z - 1) + j);
+      add_tube(face, along, phi - back, back + ahead, z, geometry_.dz[j]);
+    }
+  }
+}
+
+void PocketRelief::add_tube(std::size_t face, const std::vector<Extent>& extents, double across, double width,
+                            double along, double length) {
+  std::vector<Extent> near;
+  for (const Extent& e : extents) {
+    const bool beside = e.across + e.half_across <= across || e.across - e.half_across >= across + width;
+    const bool beyond = e.along + e.half_along <= along || e.along - e.half_along >= along + length;
+    if (!beside && !beyond) near.push_back(e);
+  }
+  if (near.empty()) return;
+  PocketTube tube{.face = face, .first_strip = static_cast<int>(strips_.size())};
+  std::vector<Border> borders{{across, 0}, {across + width, 0}};
+  bool has_ellipse = false;
+  for (const Extent& e : near) {
+    (e.in_journal ? tube.in_journal : tube.in_shell) = true;
+    has_ellipse = has_ellipse || e.is_ellipse;
+    if (e.is_ellipse) continue;
+    for (const double at : {e.across - e.half_across, e.across + e.half_across}) {
+      if (at > across && at < across + width) borders.push_back({at, e.across_rate});
+    }
+  }
+  std::sort(borders.begin(), borders.end());
+  for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
+    const Border &low = borders[k], &high = borders[k + 1];
+    const double share = (high.at - low.at) / width, share_rate = (high.rate - low.rate) / width;
+    const auto strip = [&](double part, double place) {
+      add_strip(near, low.at + place * (high.at - low.at), low.rate + place * (high.rate - low.rate), part * share,
+                part * share_rate, along, length);
+    };
+    if (has_ellipse) {
+      over_gauss_points(strip);
+    } else {
+      strip(1, 0.5);
+    }
+  }
+  tube.strips = static_cast<int>(strips_.size()) - tube.first_strip;
+  tubes_.push_back(tube);
+}
+
+void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, double y_rate, double share,
+                             double share_rate, double along, double length) {
+  struct Covered {
+    Border from, to;
+    double depth;
+  };
+  std::vector<Covered> intervals;
+  std::vector<Border> borders{{along, 0}, {along + length, 0}};
+  for (const Extent& e : extents) {
+    const double off = (y - e.across) / e.half_across;
+    if (std::abs(off) >= 1) continue;
+    double reach = e.half_along, reach_rate = 0;
+    if (e.is_ellipse) {
+      const double root = std::sqrt(1 - off * off);
+      reach_rate = -e.half_along * off / root * (y_rate - e.across_rate) / e.half_across;
+      reach *= root;
+    }
+    const auto clipped = [&](double at, double rate) {
+      if (at <= along) return Border{along, 0};
+      if (at >= along + length) return Border{along + length, 0};
+      borders.push_back({at, rate});
+      return Border{at, rate};
+    };
+    intervals.push_back({clipped(e.along - reach, e.along_rate - reach_rate),
+                         clipped(e.along + reach, e.along_rate + reach_rate), e.depth});
+  }
+  std::sort(borders.begin(), borders.end());
+  Strip strip{share, share_rate, static_cast<int>(segments_.size()), 0};
+  for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
+    const Border &from = borders[k], &to = borders[k + 1];
+    if (to.at <= from.at) continue;
+    const double middle = 0.5 * (from.at + to.at);
+    Segment segment{(to.at - from.at) / length, (to.rate - from.rate) / length, 0};
+    for (const Covered& c : intervals) {
+      if (c.from.at < middle && middle < c.to.at) segment.depth += c.depth;
+    }
+    segments_.push_back(segment);
+    ++strip.segments;
+  }
+  strips_.push_back(strip);
+}
+
+TubeGap PocketRelief::gap(const PocketTube& tube, double h) const {
+  TubeGap sum;
+  for (int s = tube.first_strip; s < tube.first_strip + tube.strips; ++s) {
+    const Strip& strip = strips_[s];
+    // I_1 to I_4 and what phi_journal does to I_2 and I_3.
+    std::array<double, 5> I{};
+    double I1_journal = 0, I2_journal = 0, I3_journal = 0;
+    for (int k = strip.first_segment; k < strip.first_segment + strip.segments; ++k) {
+      const Segment& segment = segments_[k];
+      const double x = 1 / (h + segment.depth), x2 = x * x;
+      I[1] += segment.share * x, I[2] += segment.share * x2, I[3] += segment.share * x2 * x;
+      I[4] += segment.share * x2 * x2;
+      I1_journal += segment.share_journal * x;
+      I2_journal += segment.share_journal * x2, I3_journal += segment.share_journal * x2 * x;
+    }
+    const double cube = 1 / I[3], cube_h = 3 * I[4] * cube * cube, cube_journal = -I3_journal * cube * cube;
+    const double carry = I[2] * cube, carry_h = -2 * I[3] * cube + I[2] * cube_h;
+    const double carry_journal = I2_journal * cube + I[2] * cube_journal;
+    sum.cube.value += strip.share * cube, sum.cube.h += strip.share * cube_h;
+    sum.cube.journal += strip.share_journal * cube + strip.share * cube_journal;
+    sum.carry.value += strip.share * carry, sum.carry.h += strip.share * carry_h;
+    sum.carry.journal += strip.share_journal * carry + strip.share * carry_journal;
+    if (strip.segments == 1) continue;
+    const double excess = I[1] - I[2] * carry;
+    sum.excess.value += strip.share * excess, sum.excess.h += 3 * strip.share * (I[2] - carry * carry * I[4]);
+    sum.excess.journal +=
+        strip.share_journal * excess + strip.share * (I1_journal - 2 * carry * I2_journal + carry * carry * I3_journal);
+  }
+  return sum;
+}
+
+// What turns over the faces around the bearing: the mean of the step, so that together with what it does to the depth
+// of the control volumes a pocket brings no oil and takes none away.
+void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double speed) {
+  if (!any_turns_) return;
+  const Grid& grid = model_.grid;
+  // A pocket may have passed a face in the step and cover no tube there any more: every face of the pocket's rows is
+  // asked. Tubes come in the order of faces of one kind, not of all.
+  std::vector<int> tube_of(static_cast<std::size_t>(grid.size()), -1);
+  for (std::size_t t = 0; t < tubes_.size(); ++t) {
+    if (tubes_[t].face < tube_of.size()) tube_of[tubes_[t].face] = static_cast<int>(t);
+  }
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double face = geometry_.phi[i] + 0.5 * geometry_.dx[i] / model_.R;
+    for (int j = 0; j < grid.n_z; ++j) {
+      const double z = geometry_.z[j], low = j > 0 ? z - 0.5 * geometry_.dz[j - 1] : z;
+      const double high = low + geometry_.width_z[j];
+      double swept = 0, swept_journal = 0, swept_speed = 0;
+      for (const SurfaceFeature& pocket : pockets_) {
+        if (pocket.surface != Surface::journal) continue;
+        if (low >= pocket.z + 0.5 * pocket.length || high <= pocket.z - 0.5 * pocket.length) continue;
+        // Its rate at the present angle: what covers the face, from a step too small to pass anything.
+        const double sliver = 1e-9;
+        const double cover = swept_area(pocket, model_.R, face, low, high, phi_journal - sliver, phi_journal) / sliver;
+        if (dt > 0) {
+          swept += pocket.depth * swept_area(pocket, model_.R, face, low, high, phi_start, phi_journal) / dt;
+          swept_journal += pocket.depth * cover / dt;
+        } else {
+          swept += pocket.depth * cover * speed / model_.R;
+          swept_speed += pocket.depth * cover / model_.R;
+        }
+      }
+      if (swept == 0 && swept_journal == 0) continue;
+      int& at = tube_of[static_cast<std::size_t>(grid.index(i, j))];
+      if (at < 0) {
+        at = static_cast<int>(tubes_.size());
+        tubes_.push_back({.face = static_cast<std::size_t>(grid.index(i, j)), .in_journal = true});
+        tubes_.back().first_strip = static_cast<int>(strips_.size());
+        tubes_.back().strips = 1;
+        strips_.push_back({1, 0, static_cast<int>(segments_.size()), 1});
+        segments_.push_back({1, 0, 0});
+      }
+      PocketTube& tube = tubes_[static_cast<std::size_t>(at)];
+      tube.swept = swept, tube.swept_journal = swept_journal, tube.swept_speed = swept_speed;
+    }
+  }
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "gap/feature_cover.h"
+#include "gap/grid_geometry.h"
+#include "hersey/film/film_model.h"
+
+namespace hersey::film {
+
+/// A value with its derivatives by film thickness and by phi_journal.
+struct ByGap {
+  double value = 0, h = 0, journal = 0;
+};
+
+/// What a tube between two nodes is to the flow through it where pockets cover a part of it, per width (film.26,
+/// film.28): with the integrals I_n of 1/h^n over the tube's length, per length,
+struct TubeGap {
+  ByGap cube;    ///< 1/I_3, in place of h^3 [m^3]
+  ByGap carry;   ///< I_2/I_3, in place of h where surfaces carry oil past the pocket's steps [m]
+  ByGap excess;  ///< I_1 - I_2^2/I_3: recirculation in the pockets, 0 without steps [1/m]
+};
+
+/// A tube from one node to the next that pockets cover in part. It is cut into strips along the flow and these into
+/// segments of one depth each: flow passes strips side by side and segments one after the other.
+struct PocketTube {
+  std::size_t face = 0;
+  int first_strip = 0, strips = 0;
+  bool in_shell = false, in_journal = false;  ///< whose pockets
+  double swept = 0;                           ///< volume of the journal's pockets that turns over the face [m^3/s]
+  double swept_journal = 0;                   ///< with phi_journal [m^3/(s rad)]
+  double swept_speed = 0;                     ///< with the journal's speed [m^2]
+};
+
+/// Depth under a node's control volume, share by share.
+struct CoveredDepth {
+  int node = 0;
+  double share = 0;          ///< of the volume [-]
+  double share_journal = 0;  ///< with phi_journal [1/rad]
+  double depth = 0;          ///< [m]
+};
+
+/// The depth of a film's features over its grid. It is no part of the gap between the surfaces: that is smooth, depth
+/// steps. Fed features have the pressure of their supply and need no flow inside; all that their depth changes is
+/// shear.
+class PocketRelief {
+ public:
+  PocketRelief(const FilmModel& model, const GridGeometry& geometry);
+
+  /// Places the journal's pockets, turned by `phi_journal` [rad]. In a step of dt > 0 they come from `phi_start`;
+  /// with dt = 0 they turn at `speed` [m/s].
+  void place(double phi_journal, double phi_start, double dt, double speed);
+
+  [[nodiscard]] bool is_empty() const { return pockets_.empty() && fed_.empty(); }
+  [[nodiscard]] bool has_pockets() const { return !pockets_.empty(); }
+  [[nodiscard]] const std::vector<PocketTube>& tubes() const { return tubes_; }
+  [[nodiscard]] TubeGap gap(const PocketTube& tube, double h) const;
+
+  // Mean depth of pockets over each control volume (film.27) now and at the start of the step [m], and by how much it
+  // changes with phi_journal [m/rad]; empty where there are no pockets.
+  [[nodiscard]] const Eigen::VectorXd& depth() const { return depth_; }
+  [[nodiscard]] const Eigen::VectorXd& depth_start() const { return depth_start_; }
+  [[nodiscard]] const Eigen::VectorXd& depth_by_journal() const { return depth_journal_; }
+  /// Pockets and fed features alike.
+  [[nodiscard]] const std::vector<CoveredDepth>& covered() const { return covered_; }
+
+ private:
+  struct Segment {
+    double share = 0, share_journal = 0, depth = 0;
+  };
+  struct Strip {
+    double share = 0, share_journal = 0;
+    int first_segment = 0, segments = 0;
+  };
+  /// A feature's extent seen from a tube: across and along the flow, with the rate at which it turns.
+  struct Extent;
+  /// What `place` was last asked for.
+  struct Placement {
+    double phi_journal = 0, phi_start = 0, dt = 0, speed = 0;
+    bool operator==(const Placement&) const = default;
+  };
+
+  void place_tubes(double phi_journal);
+  void add_tube(std::size_t face, const std::vector<Extent>& extents, double across, double width, double along,
+                double length);
+  void add_strip(const std::vector<Extent>& extents, double y, double y_rate, double share, double share_rate,
+                 double along, double length);
+  void sweep(double phi_journal, double phi_start, double dt, double speed);
+  void add_cells(const SurfaceFeature& feature, double phi_journal, Eigen::VectorXd& depth, Eigen::VectorXd* slope);
+
+  const FilmModel& model_;
+  const GridGeometry& geometry_;
+  std::vector<SurfaceFeature> pockets_, fed_;
+  bool any_turns_ = false;
+  std::optional<Placement> placed_;
+  std::vector<PocketTube> tubes_;
+  std::vector<Strip> strips_;
+  std::vector<Segment> segments_;
+  Eigen::VectorXd depth_, depth_start_, depth_journal_, unused_;
+  std::vector<CoveredDepth> covered_;
+  std::vector<CoveredNode> cells_;
+};
+
+/// Volume of a journal's pocket per depth that turns over the face at `phi` between two heights while the journal turns
+/// from `start` to `end` [m^2]; divided by the step it is the flow that keeps the pocket's volume.
+[[nodiscard]] double swept_area(const SurfaceFeature& pocket, double R, double phi, double low, double high,
+                                double start, double end);
+
+}  // namespace hersey::film

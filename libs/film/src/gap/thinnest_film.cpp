@@ -1,0 +1,213 @@
+#include "gap/thinnest_film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "hersey/core/turn.h"
+
+namespace hersey::film {
+namespace {
+
+// Places along each side of a feature's border.
+constexpr int border_places = 64;
+
+/// Smallest value of the parabola through (0, y0), (a, ya) and (b, yb) within [from, to], and where.
+struct Low {
+  double place = 0, value = 0;
+};
+
+Low lowest(double y0, double a, double ya, double b, double yb, double from, double to) {
+  const double curvature = ((yb - y0) / b - (ya - y0) / a) / (b - a), slope = (ya - y0) / a - curvature * a;
+  const auto at = [&](double x) { return y0 + x * (slope + x * curvature); };
+  double x = at(from) < at(to) ? from : to;
+  if (curvature > 0) x = std::clamp(-0.5 * slope / curvature, from, to);
+  return {x, at(x)};
+}
+
+class Search {
+ public:
+  Search(const FilmModel& model, const GridGeometry& at, const Eigen::VectorXd& h, double phi_journal)
+      : model_(model), grid_(model.grid), at_(at), h_(h) {
+    for (SurfaceFeature feature : model.features) {
+      if (feature.depth == 0) continue;
+      if (feature.surface == Surface::journal) feature.phi += phi_journal;
+      // One that reaches the bearing's edge goes on beyond it.
+      if (std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9)) feature.length *= 1 + 1e-6;
+      deep_.push_back(feature);
+    }
+    outside_.assign(static_cast<std::size_t>(grid_.size()), 1);
+    for (int k = 0; k < grid_.size() && !deep_.empty(); ++k) {
+      outside_[static_cast<std::size_t>(k)] = is_outside(at_.phi[k / grid_.n_z], at_.z[k % grid_.n_z]) ? 1 : 0;
+    }
+  }
+
+  [[nodiscard]] Thinnest find() {
+    Thinnest best{.value = std::numeric_limits<double>::infinity(),
+                  .in_features = std::numeric_limits<double>::quiet_NaN()};
+    for (int j = 0; j < grid_.n_z; ++j) search_row(j, best);
+    for (const SurfaceFeature& feature : deep_) search_border(feature, best);
+    best.in_the_middle = in_the_middle();
+    const int node = node_in_features();
+    if (node >= 0) best.in_features = with_depth(node);
+    if (node >= 0 && !std::isfinite(best.value)) {
+      // A groove over all of the bearing: there is no land.
+      best.value = best.in_features, best.phi = at_.phi[node / grid_.n_z], best.z = at_.z[node % grid_.n_z];
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] bool is_outside(double phi, double z) const {
+    return std::none_of(deep_.begin(), deep_.end(), [&](const SurfaceFeature& f) { return contains(f, phi, z); });
+  }
+
+  [[nodiscard]] int wrapped(int i) const { return (i % grid_.n_phi + grid_.n_phi) % grid_.n_phi; }
+  [[nodiscard]] double value(int i, int j) const { return h_[grid_.index(wrapped(i), j)]; }
+  [[nodiscard]] bool outside(int i, int j) const {
+    return outside_[static_cast<std::size_t>(grid_.index(wrapped(i), j))] != 0;
+  }
+
+  void search_row(int j, Thinnest& best) const {
+    int lowest_node = -1;
+    for (int i = 0; i < grid_.n_phi; ++i) {
+      if (outside(i, j) && (lowest_node < 0 || value(i, j) < value(lowest_node, j))) lowest_node = i;
+    }
+    if (lowest_node < 0) return;
+    const Low around = between_nodes([&](int k) { return value(lowest_node + k, j); },
+                                     [&](int k) { return at_.dx[wrapped(lowest_node + (k < 0 ? k : k - 1))]; },
+                                     [&](int k) { return outside(lowest_node + k, j); });
+    const auto in_row = [&](int k) { return j + k >= 0 && j + k < grid_.n_z && outside(lowest_node, j + k); };
+    const Low along = between_nodes([&](int k) { return value(lowest_node, j + k); },
+                                    [&](int k) { return at_.dz[k < 0 ? j + k : j + k - 1]; }, in_row);
+    const double here = value(lowest_node, j), both = around.value + along.value - here;
+    const double found = both > 0 ? both : here;
+    if (found >= best.value) return;
+    best.value = found, best.z = at_.z[j] + along.place;
+    best.phi = std::fmod(at_.phi[lowest_node] + around.place / model_.R + turn, turn);
+  }
+
+  // Two parabolas reach between two nodes, one from either side. Where the film is smooth they agree; where it has a
+  // kink the one that dips less is believed. Values, lengths of intervals (k < 0: from node k to k + 1, else from k - 1
+  // to k) and whether a node counts, all by place from the node.
+  template <class Value, class Length, class Counts>
+  [[nodiscard]] static Low between_nodes(Value&& at, Length&& length, Counts&& counts) {
+    const double here = at(0);
+    const Low node{0, here};
+    if (!counts(-1) || !counts(1)) return node;
+    const double back = length(-1), ahead = length(1);
+    const Low first = lowest(here, -back, at(-1), ahead, at(1), -0.5 * back, 0.5 * ahead);
+    if (first.place == 0) return node;
+    const int way = first.place > 0 ? 1 : -1;
+    if (!counts(2 * way)) return first.value > 0 && first.value < here ? first : node;
+    const double a = way * length(way), b = a + way * length(2 * way);
+    const Low second = lowest(here, a, at(way), b, at(2 * way), std::min(0.0, 0.5 * a), std::max(0.0, 0.5 * a));
+    const Low& believed = first.value > second.value ? first : second;
+    return believed.value > 0 && believed.value < here ? believed : node;
+  }
+
+  /// Along z = 0, where the rows on both sides are joined by straight lines.
+  [[nodiscard]] double in_the_middle() const {
+    int low = 0;
+    while (low + 2 < grid_.n_z && at_.z[low + 1] <= 0) ++low;
+    // A row in the middle is that, also where round-off has moved it: the one beside it may lie in a groove.
+    const double place = -at_.z[low] / at_.dz[low],
+                 t = std::abs(place - std::round(place)) < 1e-9 ? std::round(place) : place;
+    const auto middle = [&](int i) { return (1 - t) * value(i, low) + t * value(i, low + 1); };
+    const auto counts = [&](int i) { return (t == 1 || outside(i, low)) && (t == 0 || outside(i, low + 1)); };
+    int lowest_node = -1;
+    for (int i = 0; i < grid_.n_phi; ++i) {
+      if (counts(i) && (lowest_node < 0 || middle(i) < middle(lowest_node))) lowest_node = i;
+    }
+    if (lowest_node < 0) return in_features();  // a groove all around
+    return between_nodes([&](int k) { return middle(lowest_node + k); },
+                         [&](int k) { return at_.dx[wrapped(lowest_node + (k < 0 ? k : k - 1))]; },
+                         [&](int k) { return counts(lowest_node + k); })
+        .value;
+  }
+
+  void search_border(const SurfaceFeature& f, Thinnest& best) const {
+    const double half_arc = 0.5 * f.arc, half_length = 0.5 * f.length;
+    for (int k = 0; k < border_places; ++k) {
+      const double s = (k + 0.5) / border_places * 2 - 1;
+      if (f.shape == FeatureShape::ellipse) {
+        const double angle = std::numbers::pi * s;
+        try_place(f.phi + half_arc * std::cos(angle), f.z + half_length * std::sin(angle), best);
+        continue;
+      }
+      for (const double side : {-1.0, 1.0}) {
+        try_place(f.phi + s * half_arc, f.z + side * half_length, best);
+        if (f.arc < turn) try_place(f.phi + side * half_arc, f.z + s * half_length, best);
+      }
+    }
+  }
+
+  void try_place(double phi, double z, Thinnest& best) const {
+    const double sliver = 1e-9;  // a border is outside its own feature
+    if (std::abs(z) > 0.5 * model_.L * (1 + sliver) || !is_on_land(phi, z)) return;
+    const double value = between(phi, std::clamp(z, at_.z[0], at_.z[grid_.n_z - 1]));
+    if (value >= best.value) return;
+    best.value = value, best.phi = std::fmod(std::fmod(phi, turn) + turn, turn), best.z = z;
+  }
+
+  [[nodiscard]] bool is_on_land(double phi, double z) const {
+    return std::none_of(deep_.begin(), deep_.end(), [&](const SurfaceFeature& f) {
+      SurfaceFeature inner = f;
+      inner.arc *= 1 - 1e-6, inner.length *= 1 - 1e-6;
+      return contains(inner, phi, z);
+    });
+  }
+
+  /// Bilinear: the thickness itself has no step there.
+  [[nodiscard]] double between(double phi, double z) const {
+    const auto [i, t] = at_.place_of(phi);
+    int j = 0;
+    while (j + 2 < grid_.n_z && at_.z[j + 1] <= z) ++j;
+    const double s = (z - at_.z[j]) / at_.dz[j];
+    return (1 - t) * ((1 - s) * value(i, j) + s * value(i, j + 1)) +
+           t * ((1 - s) * value(i + 1, j) + s * value(i + 1, j + 1));
+  }
+
+  /// Of a node, depth of features included.
+  [[nodiscard]] double with_depth(int k) const {
+    double depth = 0;
+    for (const SurfaceFeature& f : deep_) {
+      if (contains(f, at_.phi[k / grid_.n_z], at_.z[k % grid_.n_z])) depth += f.depth;
+    }
+    return h_[k] + depth;
+  }
+
+  /// The node over features where the film is thinnest; -1 where they cover none.
+  [[nodiscard]] int node_in_features() const {
+    int node = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < grid_.size() && !deep_.empty(); ++k) {
+      if (outside_[static_cast<std::size_t>(k)] != 0) continue;
+      const double h = with_depth(k);
+      if (h < least) least = h, node = k;
+    }
+    return node;
+  }
+
+  [[nodiscard]] double in_features() const {
+    const int node = node_in_features();
+    return node < 0 ? std::numeric_limits<double>::quiet_NaN() : with_depth(node);
+  }
+
+  const FilmModel& model_;
+  const Grid& grid_;
+  const GridGeometry& at_;
+  const Eigen::VectorXd& h_;
+  std::vector<SurfaceFeature> deep_;
+  std::vector<char> outside_;
+};
+
+}  // namespace
+
+Thinnest thinnest_film(const FilmModel& model, const GridGeometry& at, const Eigen::VectorXd& h, double phi_journal) {
+  return Search(model, at, h, phi_journal).find();
+}
+
+}  // namespace hersey::film

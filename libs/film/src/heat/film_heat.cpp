@@ -1,0 +1,231 @@
+#include "hersey/film/film_heat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+#include <vector>
+
+#include "balance/flow_balance.h"
+#include "heat/heat_equations.h"
+#include "heat/layer_flows.h"
+#include "heat/layer_profile.h"
+#include "hersey/core/contract.h"
+#include "observe/film_wrench.h"
+
+namespace hersey::film {
+namespace {
+
+void check(const FilmModel& model, const ThermalModel& thermal) {
+  HERSEY_REQUIRE(1 <= thermal.layers && thermal.layers <= most_layers, "1 to 64 layers");
+  HERSEY_REQUIRE(0 <= thermal.carry_over && thermal.carry_over <= 1, "carry_over lies between 0 and 1");
+  HERSEY_REQUIRE(model.lubricant.specific_heat > 0 && model.lubricant.conductivity >= 0, "an oil that holds heat");
+  HERSEY_REQUIRE(thermal.T_features.empty() || thermal.T_features.size() == model.features.size(),
+                 "a temperature for each feature or none");
+  if (const auto* ring = std::get_if<RingWall>(&thermal.shell)) {
+    HERSEY_REQUIRE(ring->outer_radius > model.R && ring->conductivity > 0 && ring->heat_capacity > 0,
+                   "a ring around the film that conducts and holds heat");
+  }
+  if (const auto* shell = std::get_if<WallAtTemperature>(&thermal.shell)) {
+    HERSEY_REQUIRE(shell->around.size() == 0 || shell->around.size() == model.grid.n_phi,
+                   "temperatures of shape (n_phi) or none");
+  }
+}
+
+}  // namespace
+
+double HeatBalance::error() const {
+  const double scale =
+      std::max({std::abs(power), std::abs(to_oil), std::abs(to_shell), std::abs(to_journal), std::abs(stored)});
+  return scale > 0 ? std::abs(power - to_oil - to_shell - to_journal - stored) / scale : 0;
+}
+
+HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, HeatState image) {
+  const double T = thermal.T_supply;
+  const double beta =
+      -std::visit([T](const auto& law) { return law.log_viscosity(T).slope; }, model.lubricant.temperature_law);
+  if (!(beta > 0)) return image;
+  image.film = image.film.unaryExpr([&](double hot) {
+    const double rise = hot - T;
+    return T + (rise > 0 ? std::log1p(beta * rise) / beta : rise);
+  });
+  return image;
+}
+
+struct FilmHeat::Impl {
+  Impl(const FilmModel& film, const ThermalModel& given)
+      : thermal((check(film, given), given)),
+        flow(film),
+        wrench(film),
+        flows(flow.model(), given.layers),
+        equations(film, given) {}
+
+  [[nodiscard]] HeatState start() const;
+  void show_rest();
+  void observe(const CarryingFilm& film);
+  void show_surfaces(const CarryingFilm& film);
+  void find_hottest();
+  void average(const CarryingFilm& film);
+
+  ThermalModel thermal;
+  FlowBalance flow;
+  FilmWrench wrench;
+  LayerFlows flows;
+  HeatEquations equations;
+  HeatState state;
+  HeatObservables seen;
+  TemperatureFields shown;
+};
+
+HeatState FilmHeat::Impl::start() const {
+  const Grid& grid = flow.model().grid;
+  const double T = thermal.T_supply;
+  HeatState first;
+  first.film.setConstant(grid.size() * thermal.layers, T);
+  first.journal = T;
+  if (const auto* journal = std::get_if<WallAtTemperature>(&thermal.journal)) first.journal = journal->T;
+  if (conducts(thermal.shell)) first.shell.setConstant(grid.n_phi, T);
+  if (const auto* shell = std::get_if<WallAtTemperature>(&thermal.shell)) {
+    first.shell.setConstant(grid.n_phi, shell->T);
+    if (shell->around.size() != 0) first.shell = shell->around;
+  }
+  first.supplies.resize(equations.supplies());
+  for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k);
+  return first;
+}
+
+void FilmHeat::Impl::show_rest() {
+  const Eigen::VectorXd everywhere = Eigen::VectorXd::Constant(flow.size(), thermal.T_supply);
+  shown = {everywhere, everywhere, everywhere, everywhere};
+  if (conducts(thermal.journal)) shown.journal.setConstant(state.journal);
+  for (int node = 0; conducts(thermal.shell) && node < flow.size(); ++node)
+    shown.shell[node] = state.shell[node / flow.model().grid.n_z];
+  seen = {};
+  seen.T_supplies = state.supplies;
+  seen.T_film_mean = seen.T_side = thermal.T_supply;
+  seen.T_shell_mean = shown.shell.mean();
+  seen.T_journal = shown.journal.mean();
+  find_hottest();
+}
+
+FilmHeat::FilmHeat(const FilmModel& model, const ThermalModel& thermal)
+    : impl_(std::make_unique<Impl>(model, thermal)) {
+  impl_->state = impl_->start();
+  impl_->show_rest();
+}
+FilmHeat::~FilmHeat() = default;
+FilmHeat::FilmHeat(FilmHeat&&) noexcept = default;
+FilmHeat& FilmHeat::operator=(FilmHeat&&) noexcept = default;
+
+const ThermalModel& FilmHeat::thermal() const { return impl_->thermal; }
+const HeatState& FilmHeat::state() const { return impl_->state; }
+
+void FilmHeat::set_state(const HeatState& state) {
+  const HeatState& now = impl_->state;
+  HERSEY_REQUIRE(state.film.size() == now.film.size() && state.shell.size() == now.shell.size() &&
+                     state.supplies.size() == now.supplies.size(),
+                 "temperatures of this film");
+  impl_->state = state;
+}
+
+LayeredViscosity FilmHeat::viscosity() const {
+  const FilmModel& model = impl_->flow.model();
+  const auto layers = static_cast<std::size_t>(impl_->thermal.layers);
+  LayeredViscosity viscosity;
+  for (auto* field : {&viscosity.fluidity, &viscosity.shear_fluidity, &viscosity.skew})
+    field->resize(model.grid.size());
+  std::vector<double> mu(layers);
+  for (int node = 0; node < model.grid.size(); ++node) {
+    for (std::size_t l = 0; l < layers; ++l) {
+      const double T = impl_->state.film[node * impl_->thermal.layers + static_cast<int>(l)];
+      mu[l] = viscosity_at(model.lubricant.temperature_law, T);
+    }
+    const LayerProfile profile = profile_of(mu);
+    viscosity.fluidity[node] = profile.fluidity;
+    viscosity.shear_fluidity[node] = profile.shear_fluidity;
+    viscosity.skew[node] = profile.skew;
+  }
+  return viscosity;
+}
+
+void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
+  Impl& m = *impl_;
+  const FilmDomain domain = m.flow.evaluate(motion, history, u);
+  HERSEY_REQUIRE(domain.is_inside(), text(m.flow.model(), domain));
+  m.wrench.evaluate(m.flow, motion, false);
+  m.flows.evaluate(m.flow, m.wrench, motion, m.state.film);
+  const CarryingFilm film{m.flow, m.wrench, m.flows, history.dt};
+  m.state = m.equations.solve(film, m.state);
+  m.observe(film);
+}
+
+void FilmHeat::Impl::observe(const CarryingFilm& film) {
+  seen = {};
+  seen.balance = equations.balance();
+  seen.T_supplies = state.supplies;
+  show_surfaces(film);
+  find_hottest();
+  average(film);
+}
+
+// On a wall without heat the temperature has no slope: a parabola through the two layers beside it. Elsewhere heat
+// passes half a layer.
+void FilmHeat::Impl::show_surfaces(const CarryingFilm& film) {
+  const Grid& grid = flow.model().grid;
+  const int n = thermal.layers;
+  for (auto* field : {&shown.middle, &shown.shell, &shown.journal, &shown.hottest}) field->resize(grid.size());
+  for (int node = 0; node < grid.size(); ++node) {
+    const auto column = state.film.segment(node * n, n);
+    const auto without_slope = [&](int beside, int next) {
+      return column[beside] + (column[beside] - column[next]) / 8;
+    };
+    shown.middle[node] = column.mean();
+    shown.hottest[node] = column.maxCoeff();
+    shown.shell[node] = n > 1 ? without_slope(0, 1) : column[0];
+    shown.journal[node] = n > 1 ? without_slope(n - 1, n - 2) : column[0];
+    if (conducts(thermal.journal)) shown.journal[node] = state.journal;
+    if (!conducts(thermal.shell)) continue;
+    const double per_area = equations.into_shell(film, state, node) / flow.area(node);
+    shown.shell[node] = state.shell[node / grid.n_z] + per_area * equations.ring().inside;
+  }
+}
+
+void FilmHeat::Impl::find_hottest() {
+  const GridGeometry& at = flow.geometry();
+  const int n_z = flow.model().grid.n_z;
+  Eigen::Index node = 0;
+  seen.T_max = shown.hottest.maxCoeff(&node);
+  seen.T_max_phi = at.phi[node / n_z], seen.T_max_z = at.z[node % n_z];
+  seen.T_shell_max = shown.shell.maxCoeff(&node);
+  seen.T_shell_max_phi = at.phi[node / n_z];
+}
+
+void FilmHeat::Impl::average(const CarryingFilm& film) {
+  double area = 0, oil = 0, out = 0;
+  for (int node = 0; node < flow.size(); ++node) {
+    const double a = flow.area(node), volume = a * std::max(flow.nodes()[node].content, 0.0) * flow.oil_gap(node);
+    area += a, oil += volume;
+    seen.T_shell_mean += a * shown.shell[node];
+    seen.T_journal += a * shown.journal[node];
+    seen.T_film_mean += volume * shown.middle[node];
+    const double leaves = std::max(flow.outflow(node), 0.0);
+    out += leaves;
+    for (int l = 0; l < thermal.layers; ++l)
+      seen.T_side += leaves * film.flows.leaving_share(node, l) * state.film[node * thermal.layers + l];
+  }
+  seen.T_shell_mean /= area, seen.T_journal /= area;
+  seen.T_film_mean = oil > 0 ? seen.T_film_mean / oil : std::numeric_limits<double>::quiet_NaN();
+  seen.T_side = out > 0 ? seen.T_side / out : std::numeric_limits<double>::quiet_NaN();
+}
+
+TemperatureFields FilmHeat::fields() const { return impl_->shown; }
+const HeatObservables& FilmHeat::observables() const { return impl_->seen; }
+
+void FilmHeat::persist(Archive& archive) {
+  archive.io("T_film", impl_->state.film);
+  archive.io("T_shell", impl_->state.shell);
+  archive.io("T_journal", impl_->state.journal);
+  archive.io("T_supplies", impl_->state.supplies);
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,475 @@
+#include "heat/heat_equations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::film {
+namespace {
+
+// Nodes without oil keep heat as if they held so small a share of what the clearance does.
+constexpr double least_fill = 1e-6;
+
+// How far the equations are solved, as a share of what is missing at the start: of a steady film, which is taken in
+// turn with its temperature, and of a step.
+constexpr double steady_share = 1e-5, step_share = 1e-9;
+constexpr int most_iterations = 120;
+
+double oil_share(const Node& node) { return std::clamp(node.theta, least_fill, 1.0); }
+
+}  // namespace
+
+HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal)
+    : model_(model),
+      thermal_(thermal),
+      rc_(model.lubricant.density * model.lubricant.specific_heat),
+      system_(model.grid, thermal.layers, std::holds_alternative<RingWall>(thermal.shell)) {
+  if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
+    ring_ = conductances(model_, GridGeometry(model_), *ring);
+}
+
+double HeatEquations::fresh(int supply) const {
+  const int feature = supply - (has_line() ? 1 : 0);
+  if (feature < 0 || thermal_.T_features.empty()) return thermal_.T_supply;
+  return thermal_.T_features[static_cast<std::size_t>(feature)];
+}
+
+double HeatEquations::asperity_power(const CarryingFilm& film, int node) const {
+  return film.balance.area(node) * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact();
+}
+
+// Half a layer of oil lies between, and what else resists. Oil that stands in a supply is no film: it heats no wall.
+double HeatEquations::to_wall(const CarryingFilm& film, int node, double resistance) const {
+  const Node& at = film.balance.nodes()[node];
+  const double k = model_.lubricant.conductivity * oil_share(at), area = film.balance.area(node);
+  return k == 0 ? 0 : film.balance.balance_share(node) * area / (at.h / (2 * layers() * k) + resistance);
+}
+
+double HeatEquations::to_shell(const CarryingFilm& film, int node) const {
+  return conducts(thermal_.shell) ? to_wall(film, node, ring_.inside) : 0;
+}
+
+double HeatEquations::to_journal(const CarryingFilm& film, int node) const {
+  return conducts(thermal_.journal) ? to_wall(film, node, 0) : 0;
+}
+
+double HeatEquations::into_shell(const CarryingFilm& film, const HeatState& state, int node) const {
+  if (!conducts(thermal_.shell)) return 0;
+  return to_shell(film, node) * (state.film[node * layers()] - state.shell[node / model_.grid.n_z]);
+}
+
+double HeatEquations::into_journal(const CarryingFilm& film, const HeatState& state, int node) const {
+  return to_journal(film, node) * (state.film[node * layers() + top()] - state.journal);
+}
+
+// With the oil of the end and the rate at which it has changed; pockets of air keep a little.
+double HeatEquations::start_volume(const CarryingFilm& film, int node) const {
+  const FlowBalance& b = film.balance;
+  const double end = b.area(node) * b.nodes()[node].content * b.oil_gap(node);
+  return std::max(end - film.dt * b.storage(node), least_fill * b.area(node) * model_.c);
+}
+
+HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start) {
+  const int rows = system_.size();
+  system_.set_zero();
+  known_.setZero(rows + 1 + supplies());
+  by_journal_.setZero(rows);
+  by_supply_.assign(static_cast<std::size_t>(start.film.size()), 0.0);
+  add_storage(film, start);
+  add_flows(film);
+  add_flow_upwards(film);
+  add_edges(film);
+  add_conduction(film);
+  add_shell(film, start);
+  add_journal(film);
+  add_supplies(film);
+  renew(film);
+  add_remainder(film, start);
+  prepare_sweeps(film);
+
+  Eigen::VectorXd x(known_.size()), missing, change;
+  x.head(start.film.size()) = start.film;
+  if (rows > start.film.size()) x.segment(start.film.size(), model_.grid.n_phi) = start.shell;
+  x[rows] = start.journal;
+  x.tail(supplies()) = start.supplies;
+  multiply(x, missing);
+  missing = known_ - missing;
+  const auto A = [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) { multiply(v, y); };
+  const auto M = [this](const Eigen::VectorXd& b, Eigen::VectorXd& v) { precondition(b, v); };
+  const solver::GmresOptions wanted{.rtol = film.dt == 0 ? steady_share : step_share,
+                                    .max_iterations = most_iterations,
+                                    .restart = most_iterations / 2};
+  (void)gmres_.solve(A, M, missing, wanted, change);
+  x += change;
+
+  HeatState end = start;
+  end.film = x.head(start.film.size());
+  if (rows > start.film.size()) end.shell = x.segment(start.film.size(), model_.grid.n_phi);
+  end.journal = x[rows];
+  end.supplies = x.tail(supplies());
+  take_balance(film, start, end);
+  return end;
+}
+
+void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  const int rows = system_.size();
+  system_.multiply(x, y);
+  const double journal = x[rows];
+  y -= by_journal_ * journal;
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    if (supply_of_[node] < 0) continue;
+    for (int row = node * layers(); row < (node + 1) * layers(); ++row)
+      y[row] -= by_supply_[row] * x[rows + 1 + supply_of_[node]];
+  }
+  y.conservativeResize(known_.size());
+  y.tail(1 + supplies()).setZero();
+  y[rows] = journal_self_ * journal;
+  for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
+    y[rows] -= into_journal_[node] * x[system_.row(node, top())];
+  for (int s = 0; s < supplies(); ++s) y[rows + 1 + s] = supply_self_[s] * x[rows + 1 + s];
+  for (const Held& held : held_) {
+    double& sum = y[rows + 1 + held.supply];
+    for (const Held::Row& row : held.rows) {
+      for (const auto& [column, entry] : row.entries) sum += entry * x[column];
+      sum -= row.by_journal * journal;
+    }
+  }
+  for (const Renewal& renewal : renewals_) y[rows + 1 + renewal.supply] += renewal.heat * x[renewal.row];
+  subtract_corrections(x, y);
+}
+
+// Journal and supplies by themselves, then along the flow, then what the film gives back to the journal.
+void HeatEquations::precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  const int rows = system_.size();
+  Eigen::VectorXd rest = b.head(rows), ends(1 + supplies()), swept;
+  ends[0] = b[rows] / journal_self_;
+  for (int s = 0; s < supplies(); ++s) ends[1 + s] = b[rows + 1 + s] / supply_diagonal_[s];
+  rest += by_journal_ * ends[0];
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    if (supply_of_[node] < 0) continue;
+    for (int row = node * layers(); row < (node + 1) * layers(); ++row)
+      rest[row] += by_supply_[row] * ends[1 + supply_of_[node]];
+  }
+  system_.sweep(rest, swept);
+  x.resize(b.size());
+  x.head(rows) = swept;
+  x.tail(1 + supplies()) = ends;
+}
+
+// The sweep begins at a supply, where temperatures are known best.
+void HeatEquations::prepare_sweeps(const CarryingFilm& film) {
+  int first = 0;
+  for (const Held& held : held_)
+    if (held.chi > 0.5) first = held.node / model_.grid.n_z;
+  system_.prepare(first, film.balance.speed_phi() >= 0);
+}
+
+// (thermal.10): without flow a steady film would have no temperature, so that a thread of storage is left to it.
+void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start) {
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const double thread = least_fill * film.balance.largest_throughput();
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      const double rate = film.dt > 0 ? start_volume(film, node) / film.dt : thread * 1e-6;
+      system_.diagonal(row) += rc_ * rate / layers();
+      known_[row] += rc_ * rate / layers() * start.film[row] + film.flows.dissipation(node, l);
+    }
+  }
+}
+
+void HeatEquations::add_flows(const CarryingFilm& film) {
+  corrections_.clear();
+  inflow_.assign(static_cast<std::size_t>(model_.grid.size()), 0.0);
+  const auto& faces = film.balance.faces();
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (int l = 0; l < layers(); ++l) {
+      const double q = film.flows.over_face(f, l);
+      if (q > 0) add_flow(faces[f].a, faces[f].b, l, q);
+      if (q < 0) add_flow(faces[f].b, faces[f].a, l, -q);
+      add_second_order(film, f, l, q);
+    }
+  }
+}
+
+// Oil comes with the temperature of where it has been (thermal.10).
+void HeatEquations::add_flow(int from, int to, int layer, double q) {
+  const int n_z = model_.grid.n_z, n_phi = model_.grid.n_phi;
+  const int step = to - from;
+  HeatSystem::Side side = HeatSystem::left;
+  if (to / n_z == from / n_z) {
+    side = step > 0 ? HeatSystem::left : HeatSystem::right;
+  } else {
+    const bool forwards = to / n_z == (from / n_z + 1) % n_phi;
+    side = forwards ? HeatSystem::before : HeatSystem::after;
+  }
+  system_.diagonal(system_.row(to, layer)) += rc_ * q;
+  system_.beside(to, layer, side) -= rc_ * q;
+  inflow_[static_cast<std::size_t>(to)] += q;
+}
+
+// On the face oil has the temperature that the last two nodes extrapolate to (thermal.11). Beside a supply, an edge or
+// an empty node it has that of the last node.
+void HeatEquations::add_second_order(const CarryingFilm& film, std::size_t f, int layer, double q) {
+  if (q == 0) return;
+  const Face& face = film.balance.faces()[f];
+  const Grid& grid = model_.grid;
+  const GridGeometry& geometry = film.balance.geometry();
+  const int from = q > 0 ? face.a : face.b, to = q > 0 ? face.b : face.a;
+  const int i = from / grid.n_z, j = from % grid.n_z;
+  int behind = -1;
+  double length = 0;
+  if (to / grid.n_z == i) {
+    const int beyond = 2 * j - to % grid.n_z;
+    if (beyond < 0 || beyond >= grid.n_z) return;
+    behind = grid.index(i, beyond);
+    length = geometry.dz[std::min(j, beyond)];
+  } else {
+    const int last = (i + grid.n_phi - 1) % grid.n_phi, next = (i + 1) % grid.n_phi;
+    const int beyond = to / grid.n_z == next ? last : next;
+    behind = grid.index(beyond, j);
+    length = geometry.dx[beyond == last ? last : i];
+  }
+  const FlowBalance& b = film.balance;
+  if (b.is_held(from) || b.is_held(behind) || b.nodes()[behind].content < 1e-3) return;
+  corrections_.push_back({.behind = system_.row(behind, layer),
+                          .from = system_.row(from, layer),
+                          .to = system_.row(to, layer),
+                          .share_from = b.balance_share(from),
+                          .share_to = b.balance_share(to),
+                          .supply = b.is_held(to) ? b.feature_at(to) + (has_line() ? 1 : 0) : -1,
+                          .heat = rc_ * std::abs(q) * 0.5 * face.length / length});
+}
+
+void HeatEquations::subtract_corrections(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  for (const Correction& c : corrections_) {
+    const double carried = c.heat * (x[c.from] - x[c.behind]);
+    y[c.from] += c.share_from * carried;
+    y[c.to] -= c.share_to * carried;
+    if (c.supply >= 0) y[system_.size() + 1 + c.supply] -= carried;
+  }
+}
+
+void HeatEquations::add_flow_upwards(const CarryingFilm& film) {
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    for (int l = 0; l + 1 < layers(); ++l) {
+      const double q = rc_ * film.flows.upwards(node, l);
+      if (q > 0) {
+        system_.diagonal(system_.row(node, l + 1)) += q;
+        system_.below(node, l + 1) -= q;
+      } else {
+        system_.diagonal(system_.row(node, l)) -= q;
+        system_.above(node, l) += q;
+      }
+    }
+  }
+}
+
+void HeatEquations::add_edges(const CarryingFilm& film) {
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const double in = -film.balance.outflow(node);
+    if (in <= 0) continue;
+    inflow_[static_cast<std::size_t>(node)] += in;
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      system_.diagonal(row) += rc_ * in / layers();
+      known_[row] += rc_ * in / layers() * thermal_.T_edges;
+    }
+  }
+}
+
+void HeatEquations::add_conduction(const CarryingFilm& film) {
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const Node& at = film.balance.nodes()[node];
+    const double k = model_.lubricant.conductivity * oil_share(at) * film.balance.area(node) * layers() / at.h;
+    for (int l = 0; l + 1 < layers(); ++l) {
+      system_.diagonal(system_.row(node, l)) += k;
+      system_.above(node, l) -= k;
+      system_.diagonal(system_.row(node, l + 1)) += k;
+      system_.below(node, l + 1) -= k;
+    }
+  }
+}
+
+// Half of what asperities dissipate goes into either wall; one without heat leaves it to the oil (thermal.13).
+void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) {
+  const bool is_insulated = !conducts(thermal_.shell);
+  const auto* ring = std::get_if<RingWall>(&thermal_.shell);
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const int row = system_.row(node, 0), i = node / model_.grid.n_z;
+    const double friction = 0.5 * asperity_power(film, node);
+    if (is_insulated) {
+      known_[row] += friction;
+      continue;
+    }
+    const double G = to_shell(film, node);
+    system_.diagonal(row) += G;
+    if (ring == nullptr) {
+      known_[row] += G * start.shell[i];
+      continue;
+    }
+    system_.to_ring(node) -= G;
+    system_.diagonal(system_.ring_row(i)) += G;
+    system_.from_film(node) -= G;
+    known_[system_.ring_row(i)] += friction;
+  }
+  if (ring != nullptr) add_ring(*ring, film, start);
+}
+
+void HeatEquations::add_ring(const RingWall& ring, const CarryingFilm& film, const HeatState& start) {
+  const int n = model_.grid.n_phi;
+  for (int i = 0; i < n; ++i) {
+    const int row = system_.ring_row(i), next = (i + 1) % n;
+    system_.diagonal(row) += ring_.around[i];
+    system_.ring_after(i) -= ring_.around[i];
+    system_.diagonal(system_.ring_row(next)) += ring_.around[i];
+    system_.ring_before(next) -= ring_.around[i];
+    system_.diagonal(row) += ring_.outside[i];
+    known_[row] += ring_.outside[i] * ring.T_ambient;
+    if (film.dt == 0) continue;
+    system_.diagonal(row) += ring_.capacity[i] / film.dt;
+    known_[row] += ring_.capacity[i] / film.dt * start.shell[i];
+  }
+}
+
+void HeatEquations::add_journal(const CarryingFilm& film) {
+  const bool is_insulated = !conducts(thermal_.journal);
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const int row = system_.row(node, top());
+    if (is_insulated) {
+      known_[row] += 0.5 * asperity_power(film, node);
+      continue;
+    }
+    const double G = to_journal(film, node);
+    system_.diagonal(row) += G;
+    by_journal_[row] += G;
+  }
+}
+
+// Oil comes out of a supply with the temperature there; of what passes a node, the supply's share takes it on
+// (thermal.14).
+void HeatEquations::add_supplies(const CarryingFilm& film) {
+  held_.clear();
+  supply_of_.assign(static_cast<std::size_t>(model_.grid.size()), -1);
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    if (!film.balance.is_held(node)) continue;
+    Held held{.node = node,
+              .supply = film.balance.feature_at(node) + (has_line() ? 1 : 0),
+              .chi = 1 - film.balance.balance_share(node),
+              .flow = film.balance.supply(node)};
+    supply_of_[node] = held.supply;
+    const double passing = std::max(inflow_[static_cast<std::size_t>(node)] + std::max(held.flow, 0.0),
+                                    least_fill * film.balance.largest_throughput());
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      const double share = held.flow > 0 ? 1.0 / layers() : film.flows.leaving_share(node, l);
+      held.rows.push_back({system_.entries(node, l), known_[row], by_journal_[row]});
+      held.rows.back().entries.front().second += rc_ * held.flow * share;
+      const double in = rc_ * std::max(held.flow, 0.0) * share, taken_on = held.chi * rc_ * passing / layers();
+      system_.diagonal(row) += in;
+      system_.scale(row, 1 - held.chi);
+      known_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
+      system_.diagonal(row) += taken_on;
+      by_supply_[row] = (1 - held.chi) * in + taken_on;
+    }
+    held_.push_back(std::move(held));
+  }
+}
+
+// Of the film's oil that comes to a supply, a share is not carried over but replaced.
+void HeatEquations::renew(const CarryingFilm& film) {
+  renewals_.clear();
+  if (thermal_.carry_over == 1) return;
+  std::vector<const Held*> held_at(static_cast<std::size_t>(model_.grid.size()), nullptr);
+  for (const Held& held : held_) held_at[static_cast<std::size_t>(held.node)] = &held;
+  const auto& faces = film.balance.faces();
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (int l = 0; l < layers(); ++l) {
+      const double q = film.flows.over_face(f, l);
+      const int from = q > 0 ? faces[f].a : faces[f].b;
+      const Held* held = held_at[static_cast<std::size_t>(q > 0 ? faces[f].b : faces[f].a)];
+      if (held == nullptr || q == 0) continue;
+      const double taken = held->chi * film.balance.balance_share(from);
+      renewals_.push_back({held->supply, system_.row(from, l), (1 - thermal_.carry_over) * taken * rc_ * std::abs(q)});
+    }
+  }
+}
+
+double HeatEquations::renewed(const HeatState& state, int supply) const {
+  double heat = 0;
+  for (const Renewal& renewal : renewals_)
+    if (renewal.supply == supply) heat += renewal.heat * (state.film[renewal.row] - fresh(supply));
+  return heat;
+}
+
+// The journal's balance (thermal.13) and those of the supplies (thermal.15).
+void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& start) {
+  const int journal = system_.size();
+  const auto* free = std::get_if<FreeJournal>(&thermal_.journal);
+  journal_is_free_ = free != nullptr;
+  journal_self_ = 0;
+  into_journal_.assign(static_cast<std::size_t>(model_.grid.size()), 0.0);
+  if (journal_is_free_) {
+    for (int node = 0; node < model_.grid.size(); ++node) {
+      journal_self_ += into_journal_[node] = to_journal(film, node);
+      known_[journal] += 0.5 * asperity_power(film, node);
+    }
+    if (film.dt > 0) {
+      journal_self_ += free->heat_capacity / film.dt;
+      known_[journal] += free->heat_capacity / film.dt * start.journal;
+    }
+  }
+  if (journal_self_ == 0) journal_self_ = 1, journal_is_free_ = false, known_[journal] = start.journal;
+  const double thread = rc_ * 1e-9 * film.balance.largest_throughput();
+  std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
+  supply_diagonal_.assign(flow.size(), thread);
+  for (const Held& held : held_) {
+    flow[held.supply] += held.flow;
+    for (const Held::Row& row : held.rows) {
+      known_[journal + 1 + held.supply] += row.known;
+      supply_diagonal_[held.supply] += held.chi * row.entries.front().second;
+    }
+  }
+  for (const Renewal& renewal : renewals_) known_[journal + 1 + renewal.supply] += renewal.heat * fresh(renewal.supply);
+  supply_self_.assign(flow.size(), 0.0);
+  for (int s = 0; s < supplies(); ++s) {
+    supply_self_[s] = rc_ * std::max(-flow[s], 0.0) + thread;
+    supply_diagonal_[s] += supply_self_[s];
+    known_[journal + 1 + s] += (rc_ * std::max(flow[s], 0.0) + thread) * fresh(s);
+  }
+}
+
+// Each term by its own integral; temperatures count from that of the supply, so that a missing drop of oil brings no
+// heat (thermal.17).
+void HeatEquations::take_balance(const CarryingFilm& film, const HeatState& start, const HeatState& end) {
+  const double T0 = thermal_.T_supply;
+  balance_ = {};
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const double friction = asperity_power(film, node), out = film.balance.outflow(node);
+    balance_.power += friction;
+    balance_.to_shell += into_shell(film, end, node) + (conducts(thermal_.shell) ? 0.5 * friction : 0);
+    balance_.to_journal += into_journal(film, end, node) + (conducts(thermal_.journal) ? 0.5 * friction : 0);
+    const double from = film.dt > 0 ? start_volume(film, node) : 0;
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      const double T = end.film[row] - T0;
+      balance_.power += film.flows.dissipation(node, l);
+      balance_.to_oil +=
+          rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out / layers() * (thermal_.T_edges - T0));
+      balance_.to_oil += rc_ * film.flows.lost(node) / layers() * T;
+      if (film.dt == 0) {
+        balance_.stored += rc_ * film.balance.storage(node) / layers() * T;
+        continue;
+      }
+      const double to = from + film.dt * film.balance.storage(node);
+      balance_.stored += rc_ * (to * T - from * (start.film[row] - T0)) / (layers() * film.dt);
+    }
+  }
+  Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
+  for (const Held& held : held_) flow[held.supply] += held.flow;
+  for (int k = 0; k < supplies(); ++k)
+    balance_.to_oil += renewed(end, k) - rc_ * flow[k] * ((flow[k] > 0 ? fresh(k) : end.supplies[k]) - T0);
+}
+
+}  // namespace hersey::film

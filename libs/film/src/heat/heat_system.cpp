@@ -1,0 +1,157 @@
+#include "heat/heat_system.h"
+
+#include <cstdlib>
+
+namespace hersey::film {
+
+HeatSystem::HeatSystem(const Grid& grid, int layers, bool has_ring) : grid_(grid), layers_(layers) {
+  const int n_phi = grid.n_phi, n_z = grid.n_z;
+  layer_.resize(static_cast<std::size_t>(grid.size() * layers));
+  pivots_.resize(layer_.size());
+  if (has_ring) ring_.resize(static_cast<std::size_t>(n_phi));
+  from_film_.resize(static_cast<std::size_t>(grid.size()));
+  for (int node = 0; node < grid.size(); ++node) {
+    const int i = node / n_z, j = node % n_z;
+    neighbours_.push_back({grid.index((i + n_phi - 1) % n_phi, j), grid.index((i + 1) % n_phi, j),
+                           j > 0 ? node - 1 : node, j + 1 < n_z ? node + 1 : node});
+  }
+}
+
+void HeatSystem::set_zero() {
+  layer_.assign(layer_.size(), {});
+  ring_.assign(ring_.size(), {});
+  from_film_.assign(from_film_.size(), 0);
+}
+
+HeatSystem::Row HeatSystem::entries(int node, int layer) const {
+  const int at = row(node, layer);
+  const Layer& of = layer_[at];
+  Row entries{{at, of.self}};
+  if (layer > 0) entries.emplace_back(at - 1, of.below);
+  if (layer + 1 < layers_) entries.emplace_back(at + 1, of.above);
+  for (int side = 0; side < 4; ++side)
+    if (of.beside[side] != 0) entries.emplace_back(row(neighbour(node, side), layer), of.beside[side]);
+  if (of.ring != 0) entries.emplace_back(ring_row(node / grid_.n_z), of.ring);
+  return entries;
+}
+
+void HeatSystem::scale(int row, double factor) {
+  Layer& of = layer_[row];
+  for (double* entry : {&of.self, &of.below, &of.above, &of.ring}) *entry *= factor;
+  for (double& entry : of.beside) entry *= factor;
+}
+
+void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  y.resize(size());
+  for (int node = 0; node < grid_.size(); ++node) {
+    for (int l = 0; l < layers_; ++l) {
+      const int at = row(node, l);
+      const Layer& of = layer_[at];
+      double sum = of.self * x[at];
+      if (l > 0) sum += of.below * x[at - 1];
+      if (l + 1 < layers_) sum += of.above * x[at + 1];
+      for (int side = 0; side < 4; ++side) sum += of.beside[side] * x[row(neighbour(node, side), l)];
+      y[at] = sum;
+    }
+    if (ring_.empty()) continue;
+    y[row(node, 0)] += layer_[row(node, 0)].ring * x[ring_row(node / grid_.n_z)];
+  }
+  const int n = ring_rows();
+  for (int i = 0; i < n; ++i) {
+    const Ring& of = ring_[i];
+    double sum =
+        of.self * x[ring_row(i)] + of.before * x[ring_row((i + n - 1) % n)] + of.after * x[ring_row((i + 1) % n)];
+    for (int j = 0; j < grid_.n_z; ++j) sum += from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
+    y[ring_row(i)] = sum;
+  }
+}
+
+// Along the axis oil flows from the middle to the edges, as a rule.
+void HeatSystem::prepare(int first, bool forwards) {
+  order_.clear();
+  const int n_phi = grid_.n_phi, middle = grid_.n_z / 2;
+  for (int k = 0; k < n_phi; ++k) {
+    const int i = ((forwards ? first + k : first - k) % n_phi + n_phi) % n_phi;
+    for (int j = middle; j < grid_.n_z; ++j) order_.push_back(grid_.index(i, j));
+    for (int j = middle - 1; j >= 0; --j) order_.push_back(grid_.index(i, j));
+  }
+  for (int node = 0; node < grid_.size(); ++node) {
+    double last = 0;
+    for (int l = 0; l < layers_; ++l) {
+      const Layer& of = layer_[row(node, l)];
+      const double inverse = 1 / (of.self - of.below * last);
+      last = of.above * inverse;
+      pivots_[row(node, l)] = {inverse, last};
+    }
+  }
+  if (!ring_.empty()) prepare_ring();
+}
+
+void HeatSystem::solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  const int first = row(node, 0), top = layers_ - 1;
+  for (int l = 0; l < layers_; ++l) {
+    const Layer& of = layer_[first + l];
+    double rest = b[first + l];
+    for (int side = 0; side < 4; ++side)
+      if (of.beside[side] != 0) rest -= of.beside[side] * x[row(neighbour(node, side), l)];
+    if (l == 0 && !ring_.empty()) rest -= of.ring * x[ring_row(node / grid_.n_z)];
+    if (l > 0) rest -= of.below * x[first + l - 1];
+    x[first + l] = rest * pivots_[first + l].first;
+  }
+  for (int l = top - 1; l >= 0; --l) x[first + l] -= pivots_[first + l].second * x[first + l + 1];
+}
+
+void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  x.setZero(size());
+  if (!ring_.empty()) {
+    x.tail(ring_rows()) = b.tail(ring_rows());
+    solve_ring(x);
+  }
+  for (const int node : order_) solve_column(node, b, x);
+  if (ring_.empty()) return;
+  for (int i = 0; i < ring_rows(); ++i) {
+    double rest = b[ring_row(i)];
+    for (int j = 0; j < grid_.n_z; ++j) rest -= from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
+    x[ring_row(i)] = rest;
+  }
+  solve_ring(x);
+}
+
+// A ring is a tridiagonal chain, closed by two entries: Sherman and Morrison's formula with the chain's answer to them.
+void HeatSystem::prepare_ring() {
+  const int n = ring_rows();
+  ring_pivots_.assign(static_cast<std::size_t>(n), {});
+  const double corner = -ring_[0].self;
+  double last = 0;
+  for (int i = 0; i < n; ++i) {
+    double self = ring_[i].self;
+    if (i == 0) self -= corner;
+    if (i == n - 1) self -= ring_[0].before * ring_[n - 1].after / corner;
+    const double inverse = 1 / (self - (i > 0 ? ring_[i].before * last : 0));
+    last = ring_[i].after * inverse;
+    ring_pivots_[i] = {inverse, last};
+  }
+  closing_.setZero(size());
+  closing_[ring_row(0)] = corner, closing_[ring_row(n - 1)] = ring_[n - 1].after;
+  closing_share_ = 0;
+  Eigen::VectorXd answer = closing_;
+  solve_ring(answer);
+  closing_ = answer;
+  closing_share_ = 1;
+}
+
+void HeatSystem::solve_ring(Eigen::VectorXd& x) const {
+  const int n = ring_rows();
+  for (int i = 0; i < n; ++i) {
+    const double carried = i > 0 ? ring_[i].before * x[ring_row(i - 1)] : 0;
+    x[ring_row(i)] = (x[ring_row(i)] - carried) * ring_pivots_[i].first;
+  }
+  for (int i = n - 2; i >= 0; --i) x[ring_row(i)] -= ring_pivots_[i].second * x[ring_row(i + 1)];
+  if (closing_share_ == 0) return;
+  const double share = ring_[0].before / -ring_[0].self;
+  const double moved = x[ring_row(0)] + share * x[ring_row(n - 1)];
+  const double by_closing = 1 + closing_[ring_row(0)] + share * closing_[ring_row(n - 1)];
+  x.tail(n) -= moved / by_closing * closing_.tail(n);
+}
+
+}  // namespace hersey::film

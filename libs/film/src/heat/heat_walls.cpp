@@ -1,0 +1,26 @@
+#include "heat/heat_walls.h"
+
+#include <cmath>
+
+namespace hersey::film {
+
+RingConductances conductances(const FilmModel& model, const GridGeometry& geometry, const RingWall& ring) {
+  const double R = model.R, Ro = ring.outer_radius, middle = 0.5 * (R + Ro), k = ring.conductivity, L = model.L;
+  RingConductances c;
+  c.inside = R * std::log(middle / R) / k;
+  // From the middle through the outer half, then over the surface.
+  const double outwards = ring.transfer > 0 ? 1 / (std::log(Ro / middle) / (k * L) + 1 / (ring.transfer * Ro * L)) : 0;
+  for (int i = 0; i < model.grid.n_phi; ++i) {
+    const double angle = geometry.width_phi[i] / R, both_ends = (Ro * Ro - R * R) * angle;
+    c.around.push_back(k * (Ro - R) * L / (middle * geometry.dx[i] / R));
+    c.outside.push_back(outwards * angle + ring.transfer * both_ends);
+    c.capacity.push_back(ring.heat_capacity * L * 0.5 * both_ends);
+  }
+  return c;
+}
+
+bool conducts(const ShellWall& shell) { return !std::holds_alternative<InsulatedWall>(shell); }
+
+bool conducts(const JournalWall& journal) { return !std::holds_alternative<InsulatedWall>(journal); }
+
+}  // namespace hersey::film

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "gap/grid_geometry.h"
+#include "hersey/film/thermal_model.h"
+
+namespace hersey::film {
+
+/// A ring's conductances (theory manual, thermal.12), angle by angle.
+struct RingConductances {
+  double inside = 0;             ///< resistance from the bore to the ring's middle, per area of the bore [m^2 K/W]
+  std::vector<double> around;    ///< to the next angle [W/K]
+  std::vector<double> outside;   ///< to the surroundings [W/K]
+  std::vector<double> capacity;  ///< [J/K]
+};
+
+/// Of the ring around the film of `model`.
+[[nodiscard]] RingConductances conductances(const FilmModel& model, const GridGeometry& geometry, const RingWall& ring);
+
+/// Whether heat passes between the film and a wall.
+[[nodiscard]] bool conducts(const ShellWall& shell);
+/// Likewise.
+[[nodiscard]] bool conducts(const JournalWall& journal);
+
+}  // namespace hersey::film

@@ -1,0 +1,129 @@
+#include "heat/layer_flows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "observe/film_power.h"
+
+namespace hersey::film {
+
+LayerFlows::LayerFlows(const FilmModel& model, int layers)
+    : model_(model), layers_(static_cast<std::size_t>(layers)), shares_(static_cast<std::size_t>(model.grid.size())) {
+  upwards_.resize(shares_.size() * layers_);
+  heat_.resize(shares_.size() * layers_);
+  lost_.resize(shares_.size());
+}
+
+void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
+                          const Eigen::VectorXd& temperatures) {
+  std::vector<double> mu(layers_);
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    for (std::size_t l = 0; l < layers_; ++l)
+      mu[l] = viscosity_at(model_.lubricant.temperature_law, temperatures[static_cast<Eigen::Index>(k * layers_ + l)]);
+    find_shares(mu, shares_[k]);
+  }
+  flow_over_faces(balance, motion);
+  flow_upwards(balance);
+  dissipate(balance, wrench, motion);
+}
+
+// Flow along pressure and what each surface carries have profiles of their own. What roughness, pockets and bends of
+// the gap add to the flow carried is shared by all layers.
+void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion& motion) {
+  const auto n = static_cast<double>(layers_);
+  faces_.resize(balance.faces().size() * layers_);
+  const auto first_axial = static_cast<std::size_t>(model_.grid.size());
+  for (std::size_t f = 0; f < balance.faces().size(); ++f) {
+    const Face& face = balance.faces()[f];
+    const FaceFlow& flow = balance.flows()[f];
+    const Node &a = balance.nodes()[face.a], &b = balance.nodes()[face.b];
+    const LayerShares &at_a = shares_[face.a], &at_b = shares_[face.b];
+    const double along_pressure = flow.K * (a.p - b.p);
+    const double theta = (flow.couette >= 0 ? a : b).theta, carried = flow.carried(theta).value;
+    const double u_shell = f < first_axial ? motion.u_shell : motion.w_shell;
+    const double slip = (f < first_axial ? motion.u_journal : motion.w_journal) - u_shell;
+    const double full = theta * flow.density * face.width * 0.5 * (a.h + b.h);
+    double rest = carried;
+    for (std::size_t l = 0; l < layers_; ++l) {
+      const double own = full * (u_shell / n + 0.5 * slip * (at_a.sliding_flow[l] + at_b.sliding_flow[l]));
+      faces_[f * layers_ + l] = 0.5 * along_pressure * (at_a.pressure_flow[l] + at_b.pressure_flow[l]) + own;
+      rest -= own;
+    }
+    for (std::size_t l = 0; l < layers_; ++l) faces_[f * layers_ + l] += rest / n;
+  }
+}
+
+// Each layer keeps its share of the node's oil: what else comes in leaves it upwards. Where a model of cavitation loses
+// oil, all layers do.
+void LayerFlows::flow_upwards(const FlowBalance& balance) {
+  const auto n = static_cast<double>(layers_);
+  std::vector<double> out(shares_.size() * layers_);
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    const auto node = static_cast<int>(k);
+    const double leaving = std::max(balance.outflow(node), 0.0) + std::max(-balance.supply(node), 0.0);
+    const double coming = std::max(-balance.outflow(node), 0.0) + std::max(balance.supply(node), 0.0);
+    for (std::size_t l = 0; l < layers_; ++l)
+      out[k * layers_ + l] = (balance.storage(node) - coming) / n + leaving * shares_[k].pressure_flow[l];
+  }
+  for (std::size_t f = 0; f < balance.faces().size(); ++f) {
+    const auto a = static_cast<std::size_t>(balance.faces()[f].a), b = static_cast<std::size_t>(balance.faces()[f].b);
+    for (std::size_t l = 0; l < layers_; ++l) {
+      out[a * layers_ + l] += faces_[f * layers_ + l];
+      out[b * layers_ + l] -= faces_[f * layers_ + l];
+    }
+  }
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    double sum = 0, up = 0;
+    for (std::size_t l = 0; l < layers_; ++l) sum += out[k * layers_ + l];
+    lost_[k] = -sum;
+    for (std::size_t l = 0; l < layers_; ++l) {
+      up -= out[k * layers_ + l] - sum / n;
+      upwards_[k * layers_ + l] = l + 1 < layers_ ? up : 0;
+    }
+  }
+}
+
+// Sums over control volumes differ from the film's power, an integral of higher order (film.53), by their quadrature:
+// all of them are scaled to it.
+void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion) {
+  const Grid& grid = model_.grid;
+  const auto nodes = static_cast<int>(shares_.size());
+  std::vector<double> along_pressure(shares_.size(), 0.0);
+  for (std::size_t f = 0; f < balance.faces().size(); ++f) {
+    const double half = 0.5 * pressure_power(balance, f);
+    along_pressure[static_cast<std::size_t>(balance.faces()[f].a)] += half;
+    along_pressure[static_cast<std::size_t>(balance.faces()[f].b)] += half;
+  }
+  FilmObservables whole;
+  whole.flow_features.setZero(static_cast<Eigen::Index>(model_.features.size()));
+  add_powers(balance, motion, wrench, whole);
+  double sum = 0;
+  for (int k = 0; k < nodes; ++k) {
+    along_pressure[static_cast<std::size_t>(k)] += balance.power_of_tie(k);
+    sum += along_pressure[static_cast<std::size_t>(k)] + balance.area(k) * sliding_power(balance, wrench, motion, k);
+  }
+  const double scale = sum > 0 ? whole.power_film / sum : 1;
+  const GridGeometry& geometry = balance.geometry();
+  const auto slope = [&](int from, int to, double length) {
+    return (balance.nodes()[to].p - balance.nodes()[from].p) / length;
+  };
+  for (int k = 0; k < nodes; ++k) {
+    const int i = k / grid.n_z, j = k % grid.n_z, last = (i + grid.n_phi - 1) % grid.n_phi;
+    const Node& node = balance.nodes()[k];
+    const double around =
+        slope(grid.index(last, j), grid.index((i + 1) % grid.n_phi, j), geometry.dx[last] + geometry.dx[i]);
+    const int below = std::max(j - 1, 0), above = std::min(j + 1, grid.n_z - 1);
+    const double along = slope(grid.index(i, below), grid.index(i, above), geometry.z[above] - geometry.z[below]);
+    const double mixed = node.share * balance.area(k) * node.h *
+                         ((motion.u_journal - motion.u_shell) * around + (motion.w_journal - motion.w_shell) * along);
+    const double sliding = balance.area(k) * sliding_power(balance, wrench, motion, k);
+    const LayerShares& of = shares_[static_cast<std::size_t>(k)];
+    for (std::size_t l = 0; l < layers_; ++l) {
+      heat_[at(static_cast<std::size_t>(k), static_cast<int>(l))] =
+          scale * (sliding * of.sliding_heat[l] + along_pressure[static_cast<std::size_t>(k)] * of.pressure_heat[l] +
+                   mixed * of.mixed_heat[l]);
+    }
+  }
+}
+
+}  // namespace hersey::film

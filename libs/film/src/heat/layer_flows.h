@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "balance/flow_balance.h"
+#include "heat/layer_profile.h"
+#include "observe/film_wrench.h"
+
+namespace hersey::film {
+
+/// How the oil of a solved film flows in its layers, and what they dissipate (theory manual, thermal.7 to thermal.9).
+/// Flows of all layers of a face add up to the film's own, dissipation to the film's power.
+class LayerFlows {
+ public:
+  LayerFlows(const FilmModel& model, int layers);
+
+  /// @param temperatures  of the layers [K], which give their viscosities
+  void evaluate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
+                const Eigen::VectorXd& temperatures);
+
+  [[nodiscard]] int layers() const { return layers_; }
+  /// Over a face, from a to b [m^3/s]; of oil at rho0, as all flows here.
+  [[nodiscard]] double over_face(std::size_t f, int layer) const { return faces_[at(f, layer)]; }
+  /// Towards the journal, from a layer of a node into the next [m^3/s].
+  [[nodiscard]] double upwards(int node, int layer) const {
+    return upwards_[at(static_cast<std::size_t>(node), layer)];
+  }
+  /// Of flow that leaves a node along its pressure, the share of a layer [-].
+  [[nodiscard]] double leaving_share(int node, int layer) const {
+    return shares_[static_cast<std::size_t>(node)].pressure_flow[layer];
+  }
+  /// Oil that leaves a node without a place to go, where a model of cavitation loses it [m^3/s].
+  [[nodiscard]] double lost(int node) const { return lost_[static_cast<std::size_t>(node)]; }
+  /// Dissipation in a layer of a node [W].
+  [[nodiscard]] double dissipation(int node, int layer) const {
+    return heat_[at(static_cast<std::size_t>(node), layer)];
+  }
+
+ private:
+  [[nodiscard]] std::size_t at(std::size_t place, int layer) const { return place * layers_ + layer; }
+  void flow_over_faces(const FlowBalance& balance, const SurfaceMotion& motion);
+  void flow_upwards(const FlowBalance& balance);
+  void dissipate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion);
+
+  const FilmModel& model_;
+  std::size_t layers_;
+  std::vector<LayerShares> shares_;  ///< of each node
+  std::vector<double> faces_, upwards_, heat_, lost_;
+};
+
+}  // namespace hersey::film

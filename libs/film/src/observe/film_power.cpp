@@ -1,0 +1,75 @@
+#include "observe/film_power.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hersey::film {
+namespace {
+
+/// By which the values in the middles of intervals count in an integral over all of them, over the intervals' lengths:
+/// each interval has the parabola through its own value and those of its neighbours.
+Eigen::VectorXd parabolic_shares(const Eigen::VectorXd& length) {
+  const auto n = static_cast<int>(length.size());
+  Eigen::VectorXd shares = Eigen::VectorXd::Ones(n);
+  if (n < 3) return shares;
+  const auto distance = [&](int j) { return 0.5 * (length[j] + length[j + 1]); };
+  for (int j = 0; j < n; ++j) {
+    const int middle = std::clamp(j, 1, n - 2);
+    const double a = distance(middle - 1), b = distance(middle), bend = length[j] * length[j] * length[j] / 12;
+    shares[middle - 1] += bend / (a * (a + b)) / length[middle - 1];
+    shares[middle] -= bend / (a * b) / length[middle];
+    shares[middle + 1] += bend / (b * (a + b)) / length[middle + 1];
+  }
+  return shares;
+}
+
+}  // namespace
+
+// Sliding shears the oil: share mu slip^2/h, more of it between rough surfaces.
+double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion, int node) {
+  const double slip2_phi = std::pow(motion.u_journal - motion.u_shell, 2);
+  const double slip2_z = std::pow(motion.w_journal - motion.w_shell, 2);
+  const Node& at = balance.nodes()[node];
+  const RoughGap& rough = balance.rough_gaps()[node];
+  const double slip2 = rough.couette[0] * slip2_phi + rough.couette[1] * slip2_z;
+  return at.share * at.shear_viscosity * slip2 * wrench.relief_factor(node) / (at.fluidity * at.h);
+}
+
+// Pressure drives oil through the gap: over a face, volume flow times drop. In guembel a face where the pressure is cut
+// off counts the part before the cut.
+double pressure_power(const FlowBalance& balance, std::size_t f) {
+  const Face& face = balance.faces()[f];
+  const Node &a = balance.nodes()[face.a], &b = balance.nodes()[face.b];
+  const FaceFlow& flow = balance.flows()[f];
+  return flow.K / flow.density * (a.p - b.p) * (a.wall - b.wall) + flow.recirculation;
+}
+
+void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench, FilmObservables& o) {
+  const double friction = wrench.friction_power_per_contact();
+  const FilmModel& model = balance.model();
+  const Grid& grid = model.grid;
+  const GridGeometry& geometry = balance.geometry();
+  // The sums that the balance of oil implies are trapezoidal; integrals by the weights of the wrench lose nothing of a
+  // film's parabola across the width.
+  const Eigen::VectorXd axial = parabolic_shares(geometry.dz),
+                        around = geometry.weight_z.cwiseQuotient(geometry.width_z);
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int k = grid.index(i, j);
+      const Node& node = balance.nodes()[k];
+      const double area = geometry.weight_phi[i] * geometry.weight_z[j];
+      const double work = oil_work(model.lubricant, node.wall - model.p_cav);
+      o.power_film += area * sliding_power(balance, wrench, motion, k) +
+                      around[j] * (pressure_power(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
+      if (j + 1 < grid.n_z) o.power_film += axial[j] * pressure_power(balance, balance.face_above(i, j));
+      o.power_asperity += area * node.asperity * friction;
+      // What the supply feeds comes at its own pressure: the way to the node dissipates (FlowBalance::power_of_tie).
+      if (balance.is_held(k)) o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
+      o.power_oil += work * balance.outflow(k);
+      o.power_stored +=
+          area * (work * balance.storage(k) / balance.area(k) - (node.wall + node.asperity) * motion.g_rate[k]);
+    }
+  }
+}
+
+}  // namespace hersey::film

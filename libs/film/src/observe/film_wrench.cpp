@@ -1,0 +1,295 @@
+#include "observe/film_wrench.h"
+
+#include <cmath>
+
+#include "hersey/core/turn.h"
+
+namespace hersey::film {
+namespace {
+
+// Boundary friction turns smoothly from one direction of sliding to the other over this speed.
+constexpr double friction_speed = 1e-3;
+
+/// A derivative of the nodal field P by differences: sum of weight * P[node].
+struct Stencil {
+  std::array<int, 3> node{};
+  std::array<double, 3> weight{};
+};
+
+// The slope at x = 0 of the parabola through three nodes, two of them at x = a and x = b.
+std::array<double, 3> parabola_slope(double a, double b) {
+  return {-(a + b) / (a * b), b / (a * (b - a)), -a / (b * (b - a))};
+}
+
+Stencil slope_at(int k, int first, double a, int second, double b) {
+  return {{k, first, second}, parabola_slope(a, b)};
+}
+
+Stencil slope_phi(const Grid& grid, const GridGeometry& geometry, int i, int j) {
+  const int before = (i + grid.n_phi - 1) % grid.n_phi, after = (i + 1) % grid.n_phi;
+  return slope_at(grid.index(i, j), grid.index(before, j), -geometry.dx[before], grid.index(after, j), geometry.dx[i]);
+}
+
+// Second order up to the edges, where the difference is one-sided.
+Stencil slope_z(const Grid& grid, const GridGeometry& geometry, int i, int j) {
+  const int k = grid.index(i, j), last = grid.n_z - 1;
+  const Eigen::VectorXd& dz = geometry.dz;
+  if (j == 0) return slope_at(k, k + 1, dz[0], k + 2, dz[0] + dz[1]);
+  if (j == last) return slope_at(k, k - 1, -dz[last - 1], k - 2, -dz[last - 1] - dz[last - 2]);
+  return slope_at(k, k - 1, -dz[j - 1], k + 1, dz[j]);
+}
+
+double slope(const Stencil& stencil, const std::vector<Node>& nodes) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) sum += stencil.weight[k] * nodes[stencil.node[k]].wall;
+  return sum;
+}
+
+}  // namespace
+
+FilmWrench::FilmWrench(const FilmModel& model)
+    : model_(model), geometry_(model_), interpolation_(model_.grid, geometry_) {
+  cosine_ = geometry_.phi.array().cos();
+  sine_ = geometry_.phi.array().sin();
+}
+
+FilmWrench::Basis FilmWrench::basis(int i, int j) const {
+  const double R = model_.R, z = geometry_.z[j], c = cosine_[i], s = sine_[i];
+  // Moments r x f about the origin with r = R e_r + z e_z.
+  Basis b;
+  b.radial << -z * s, z * c, 0, c, s, 0;
+  b.tangential << -z * c, -z * s, R, -s, c, 0;
+  b.axial << R * s, -R * c, 0, 0, 0, 1;
+  b.shear_tangential = b.tangential;
+  b.shear_axial = b.axial;
+  if (model_.shear_force == ShearForce::torque_only) {
+    b.shear_tangential.tail<3>().setZero();
+    b.shear_axial.tail<3>().setZero();
+  }
+  return b;
+}
+
+void FilmWrench::set_speeds(const SurfaceMotion& motion) {
+  slip_ << motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell;
+  const double square = slip_.squaredNorm() + friction_speed * friction_speed, speed = std::sqrt(square);
+  const double mu_friction = model_.asperities.mu_friction;
+  friction_ = mu_friction / speed * slip_;
+  friction_slip_ = mu_friction / speed * (Eigen::Matrix2d::Identity() - slip_ * slip_.transpose() / square);
+}
+
+void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motion, bool want_gradient) {
+  const std::vector<Node>& nodes = balance.nodes();
+  const Grid& grid = model_.grid;
+  take_relief(balance);
+  set_speeds(motion);
+  pressure_.setZero(), shear_.setZero(), asperity_.setZero();
+  for (Eigen::VectorXd* field : {&normal_.value, &normal_.by_u, &normal_.by_g}) field->resize(grid.size());
+  opening_ = motion.shell_opening;
+  if (want_gradient) {
+    for (auto* gradient : {&by_u_, &by_g_, &by_opening_}) gradient->setZero(6, grid.size());
+    by_slip_.setZero(), by_journal_.setZero();
+  }
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      add_node(nodes, balance.rough_gaps()[grid.index(i, j)], i, j, want_gradient);
+    }
+  }
+  if (cavitation_law(model_).has_tension()) cut_off(nodes, want_gradient);
+  pushes_.clear();
+  if (balance.relief().has_pockets()) push_on_pocket_walls(balance, want_gradient);
+  if (opening_.size() != 0) push_on_slopes(nodes, want_gradient);
+  total_ = pressure_ + shear_ + asperity_;
+}
+
+// Over a share of a control volume the gap is deeper: mu v/h counts there with the depth (film.29).
+void FilmWrench::take_relief(const FlowBalance& balance) {
+  relief_.clear(), relief_journal_.clear();
+  if (balance.relief().is_empty()) return;
+  relief_.assign(balance.nodes().size(), {1, 0});
+  relief_journal_.assign(balance.nodes().size(), 0);
+  for (const CoveredDepth& covered : balance.relief().covered()) {
+    const double h = balance.nodes()[covered.node].h, whole = h + covered.depth;
+    relief_[covered.node].value -= covered.share * covered.depth / whole;
+    relief_[covered.node].slope += covered.share * covered.depth / (whole * whole);
+    relief_journal_[covered.node] -= covered.share_journal * covered.depth / whole;
+  }
+  for (std::size_t k = 0; k < relief_.size(); ++k) {
+    if (relief_[k].value < 0) relief_[k] = {0, 0}, relief_journal_[k] = 0;  // two features one over the other
+  }
+}
+
+// Pressure falls otherwise over a pocket than over the land: what of it shears the oil, and pushes on the pocket's
+// walls, is half of the integral of d dp each, in the same direction on the surface that has the pocket (film.29).
+void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_gradient) {
+  const Grid& grid = model_.grid;
+  pushes_.clear();
+  for (const PocketTube& tube : balance.relief().tubes()) {
+    const Face& face = balance.faces()[tube.face];
+    const FaceFlow::Moment& moment = balance.flows()[tube.face].moment;
+    if (tube.in_shell == tube.in_journal) continue;
+    const bool axial = tube.face >= static_cast<std::size_t>(grid.size());
+    const Basis at_a = basis(face.a / grid.n_z, face.a % grid.n_z), at_b = basis(face.b / grid.n_z, face.b % grid.n_z);
+    const double sign = tube.in_shell ? 1 : -1;
+    const Vector6 direction =
+        0.25 * sign *
+        (axial ? Vector6(at_a.shear_axial + at_b.shear_axial) : Vector6(at_a.shear_tangential + at_b.shear_tangential));
+    shear_ += moment.value * direction;
+    if (!want_gradient) continue;
+    const auto [by_node, by_bend] = balance.thickness_shares(tube.face);
+    for (const int k : {face.a, face.b}) {
+      const Node& node = balance.nodes()[k];
+      const double drop = k == face.a ? -moment.drop : moment.drop;
+      by_u_.col(k) +=
+          (by_node * moment.h * node.h_u + 0.5 * moment.fluidity * node.fluidity_u + drop * node.wall_u) * direction;
+      by_g_.col(k) += by_node * moment.h * node.h_g * direction;
+    }
+    by_journal_ += moment.journal * direction;
+    pushes_.push_back({tube.face, direction, by_bend * moment.h, moment.past, tube.in_journal});
+  }
+}
+
+// What the gap between the nodes, and the speed past steps, change of that.
+Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
+  Vector6 sum = Vector6::Zero();
+  const Grid& grid = model_.grid;
+  for (const WallPush& push : pushes_) {
+    const bool axial = push.face >= static_cast<std::size_t>(grid.size());
+    const auto node = static_cast<int>(push.face);
+    double change = 0;
+    if (axial) {
+      change = push.by_past * 0.5 * (direction.w_shell + direction.w_journal);
+    } else {
+      change = push.by_past *
+               (0.5 * (direction.u_shell + direction.u_journal) - (push.in_journal ? direction.u_journal : 0));
+      if (direction.g.size() != 0)
+        change += push.by_bend * interpolation_.bend(direction.g, node / grid.n_z, node % grid.n_z);
+    }
+    sum += change * push.direction;
+  }
+  return sum;
+}
+
+FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief) {
+  Shear s;
+  const double mu = node.shear_viscosity / node.fluidity, couette = node.share * mu / node.h;
+  const double couette_u = (node.share_u * mu - node.share * mu * node.fluidity_u / node.fluidity) / node.h;
+  for (int k = 0; k < 2; ++k) {
+    const double factor = rough.couette[k] * relief.value;
+    const double factor_h = rough.couette_h[k] * relief.value + rough.couette[k] * relief.slope;
+    s.couette[k] = couette * factor;
+    s.couette_u[k] = couette_u * factor;
+    s.couette_h[k] = couette * (factor_h - factor / node.h);
+    s.half_gap[k] = 0.5 * (rough.mean + rough.drag[k]);
+    s.half_gap_h[k] = 0.5 * (rough.mean_h + rough.drag_h[k]);
+  }
+  return s;
+}
+
+// Of a film that bears tension the pressure is cut off at p_cav somewhere between two nodes (film.23). The sum over
+// nodes would count the last one for its whole cell: first order in the derivatives, which jump there. A pressure that
+// falls from u_a > 0 to u_b < 0 over a distance l acts on its positive part, the triangle u_a t l/2 with t = u_a/(u_a -
+// u_b).
+void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
+  const Grid& grid = model_.grid;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const int next = (i + 1) % grid.n_phi;
+    const double length = model_.R * std::fmod(grid.phi(next) - grid.phi(i) + turn, turn);
+    for (int j = 0; j < grid.n_z; ++j) {
+      const bool falls = nodes[grid.index(i, j)].p > 0 && nodes[grid.index(next, j)].p < 0;
+      const bool rises = nodes[grid.index(i, j)].p < 0 && nodes[grid.index(next, j)].p > 0;
+      if (!falls && !rises) continue;
+      const int a = falls ? i : next, b = falls ? next : i;
+      const int full = grid.index(a, j), cut = grid.index(b, j);
+      const double p = nodes[full].p, t = p / (p - nodes[cut].p), area = length * geometry_.weight_z[j];
+      const Vector6 radial = basis(a, j).radial;
+      pressure_ -= 0.5 * area * (1 - t) * p * radial;
+      if (!want_gradient) continue;
+      by_u_.col(full) += area * (t - 0.5 * t * t - 0.5) * radial;
+      by_u_.col(cut) += 0.5 * area * t * t * radial;
+    }
+  }
+}
+
+// Pressure acts at right angles to the true surface, which leans where the shell's opening d changes: -p grad d beside
+// p e_r (film.52). Oil reaches around the edges, too, and with it the integral is that of d grad p: nothing from a
+// uniform pressure. Contact ends at the edges. Sums over the intervals between nodes give exactly nothing where p or d
+// is the same everywhere.
+void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradient) {
+  const Grid& grid = model_.grid;
+  // Adds to the entry `row` of the wrench what the interval from node a to node b gives, `arm` its width and lever.
+  const auto add = [&](int row, int a, int b, double arm) {
+    const Node &at_a = nodes[a], &at_b = nodes[b];
+    const double mean = 0.5 * arm * (opening_[a] + opening_[b]), fall = arm * (opening_[a] - opening_[b]);
+    const double rise = 0.5 * arm * (at_b.wall - at_a.wall), contact = 0.5 * arm * (at_a.asperity + at_b.asperity);
+    pressure_[row] += mean * (at_b.wall - at_a.wall);
+    asperity_[row] += 0.5 * fall * (at_a.asperity + at_b.asperity);
+    if (!want_gradient) return;
+    by_u_(row, a) += -mean * at_a.wall_u + 0.5 * fall * at_a.asperity_h * at_a.h_u;
+    by_u_(row, b) += mean * at_b.wall_u + 0.5 * fall * at_b.asperity_h * at_b.h_u;
+    by_g_(row, a) += 0.5 * fall * at_a.asperity_h * at_a.h_g;
+    by_g_(row, b) += 0.5 * fall * at_b.asperity_h * at_b.h_g;
+    by_opening_(row, a) += rise + contact;
+    by_opening_(row, b) += rise - contact;
+  };
+  constexpr int moment_z = 2, force_z = 5;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int node = grid.index(i, j), next = grid.index((i + 1) % grid.n_phi, j);
+      add(moment_z, node, next, model_.R * geometry_.weight_z[j]);
+      if (j + 1 < grid.n_z) add(force_z, node, node + 1, geometry_.weight_phi[i]);
+    }
+  }
+}
+
+void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap& rough, int i, int j, bool want_gradient) {
+  const Grid& grid = model_.grid;
+  const int k = grid.index(i, j);
+  const Node& node = nodes[k];
+  const double area = geometry_.weight_phi[i] * geometry_.weight_z[j];
+  const Basis b = basis(i, j);
+  const Stencil by_phi = slope_phi(grid, geometry_, i, j), by_z = slope_z(grid, geometry_, i, j);
+  const double p_phi = slope(by_phi, nodes), p_z = slope(by_z, nodes);
+  const Shear s = shear_of(node, rough, relief_.empty() ? ValueAndSlope{1, 0} : relief_[k]);
+  const auto sheared = [&](double along_phi, double along_z) -> Vector6 {
+    return along_phi * b.shear_tangential + along_z * b.shear_axial;
+  };
+  pressure_ += area * node.wall * b.radial;
+  normal_.value[k] = area * (node.wall + node.asperity);
+  normal_.by_u[k] = area * (node.wall_u + node.asperity_h * node.h_u);
+  normal_.by_g[k] = area * node.asperity_h * node.h_g;
+  shear_ +=
+      area * sheared(s.couette[0] * slip_[0] - s.half_gap[0] * p_phi, s.couette[1] * slip_[1] - s.half_gap[1] * p_z);
+  const Vector6 contact = b.radial + friction_[0] * b.tangential + friction_[1] * b.axial;
+  if (node.asperity != 0) asperity_ += area * node.asperity * contact;
+  if (!want_gradient) return;
+
+  const Vector6 by_h = area * (sheared(s.couette_h[0] * slip_[0] - s.half_gap_h[0] * p_phi,
+                                       s.couette_h[1] * slip_[1] - s.half_gap_h[1] * p_z) +
+                               node.asperity_h * contact);
+  by_u_.col(k) +=
+      node.h_u * by_h + area * (node.wall_u * b.radial + sheared(s.couette_u[0] * slip_[0], s.couette_u[1] * slip_[1]));
+  by_g_.col(k) += node.h_g * by_h;
+  for (int n = 0; n < 3; ++n) {
+    const double wall_phi = nodes[by_phi.node[n]].wall_u, wall_z = nodes[by_z.node[n]].wall_u;
+    by_u_.col(by_phi.node[n]) -= area * s.half_gap[0] * by_phi.weight[n] * wall_phi * b.shear_tangential;
+    by_u_.col(by_z.node[n]) -= area * s.half_gap[1] * by_z.weight[n] * wall_z * b.shear_axial;
+  }
+  if (!relief_journal_.empty() && relief_journal_[k] != 0) {
+    by_journal_ +=
+        area * relief_journal_[k] / relief_[k].value * sheared(s.couette[0] * slip_[0], s.couette[1] * slip_[1]);
+  }
+  by_slip_.col(0) += area * s.couette[0] * b.shear_tangential;
+  by_slip_.col(1) += area * s.couette[1] * b.shear_axial;
+  if (node.asperity == 0) return;
+  by_slip_ += area * node.asperity * (b.tangential * friction_slip_.row(0) + b.axial * friction_slip_.row(1));
+}
+
+Vector6 FilmWrench::along(const MotionDirection& direction) const {
+  const Eigen::Vector2d slip(direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell);
+  Vector6 d = by_slip_ * slip + direction.phi_journal * by_journal_ + pushes_along(direction);
+  if (direction.g.size() != 0) d += by_g_ * direction.g;
+  if (direction.shell_share != 0 && opening_.size() != 0) d += direction.shell_share * (by_opening_ * direction.g);
+  return d;
+}
+
+}  // namespace hersey::film

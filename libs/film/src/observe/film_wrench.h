@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "balance/flow_balance.h"
+#include "balance/node.h"
+#include "gap/grid_geometry.h"
+#include "gap/rough_gap.h"
+#include "hersey/core/spatial.h"
+#include "hersey/film/film_exchange.h"
+#include "hersey/film/film_model.h"
+
+namespace hersey::film {
+
+/// The film's wrench on the shell at the grid's origin, [moment; force] in grid axes, by origin, with its derivatives
+/// (theory manual, film.48 to film.52).
+class FilmWrench {
+ public:
+  explicit FilmWrench(const FilmModel& model);
+
+  /// Sums the tractions of all nodes; with `want_gradient` also their derivatives.
+  /// @param balance  whose nodes and faces have been evaluated.
+  void evaluate(const FlowBalance& balance, const SurfaceMotion& motion, bool want_gradient);
+
+  [[nodiscard]] const Vector6& total() const { return total_; }
+  [[nodiscard]] const Vector6& pressure() const { return pressure_; }
+  [[nodiscard]] const Vector6& shear() const { return shear_; }        ///< of the film; its force is 0 for torque_only
+  [[nodiscard]] const Vector6& asperity() const { return asperity_; }  ///< contact pressure and boundary friction
+
+  /// Boundary friction's power per contact pressure and area [m/s].
+  [[nodiscard]] double friction_power_per_contact() const { return friction_.dot(slip_); }
+
+  /// Factor of Couette shear at a node, below 1 where features have depth [-].
+  [[nodiscard]] double relief_factor(int node) const { return relief_.empty() ? 1 : relief_[node].value; }
+
+  /// d total / du at fixed surfaces, times du.
+  [[nodiscard]] Vector6 along_u(const Eigen::Ref<const Eigen::VectorXd>& du) const { return by_u_ * du; }
+  /// d total / d(direction) at fixed u.
+  [[nodiscard]] Vector6 along(const MotionDirection& direction) const;
+  [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& gradient_u() const { return by_u_; }
+  /// What pushes the surfaces apart at each node.
+  [[nodiscard]] const NormalForces& normal() const { return normal_; }
+
+ private:
+  /// Wrenches of unit tractions at one node: outwards, along phi and along z; the last two also as the film's shear
+  /// counts them.
+  struct Basis {
+    Vector6 radial, tangential, axial, shear_tangential, shear_axial;
+  };
+  [[nodiscard]] Basis basis(int i, int j) const;
+  /// Shear on the shell at one node (film.49, film.46): couette . slip - half_gap . grad p, index 0 along phi, 1 along
+  /// z.
+  struct Shear {
+    Eigen::Vector2d couette, couette_u, couette_h;  ///< [Pa s/m] and slopes at given film thickness and at given u
+    Eigen::Vector2d half_gap, half_gap_h;           ///< [m]
+  };
+  [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief);
+  void add_node(const std::vector<Node>& nodes, const RoughGap& rough, int i, int j, bool want_gradient);
+  void take_relief(const FlowBalance& balance);
+  void push_on_pocket_walls(const FlowBalance& balance, bool want_gradient);
+  [[nodiscard]] Vector6 pushes_along(const MotionDirection& direction) const;
+  void cut_off(const std::vector<Node>& nodes, bool want_gradient);
+  void push_on_slopes(const std::vector<Node>& nodes, bool want_gradient);
+  void set_speeds(const SurfaceMotion& motion);
+
+  FilmModel model_;
+  GridGeometry geometry_;
+  GapInterpolation interpolation_;
+  Eigen::VectorXd cosine_, sine_;
+  Vector6 total_, pressure_, shear_, asperity_;
+  NormalForces normal_;
+  /// What the walls of the pockets in a tube do as surfaces move.
+  struct WallPush {
+    std::size_t face = 0;
+    Vector6 direction;  ///< of a unit of FaceFlow::Moment
+    double by_bend = 0, by_past = 0;
+    bool in_journal = false;
+  };
+  std::vector<WallPush> pushes_;
+  Vector6 by_journal_;                  ///< with phi_journal, of pockets that turn
+  std::vector<double> relief_journal_;  ///< of the factor below [1/rad]
+  std::vector<ValueAndSlope> relief_;   ///< factor of Couette shear where features have depth [-, 1/m]; empty: 1
+  Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_, by_opening_;
+  Eigen::VectorXd opening_;              ///< how far the shell lies outside its cylinder [m]; empty: nowhere
+  Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z
+  Eigen::Vector2d slip_;                 ///< that speed [m/s]
+  Eigen::Vector2d friction_;             ///< boundary friction per contact pressure on the shell [-]
+  Eigen::Matrix2d friction_slip_;        ///< its derivative with slip [s/m]
+};
+
+}  // namespace hersey::film

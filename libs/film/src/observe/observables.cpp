@@ -1,0 +1,201 @@
+#include "hersey/film/observables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "balance/cavity.h"
+#include "balance/flow_balance.h"
+#include "gap/thinnest_film.h"
+#include "hersey/core/contract.h"
+#include "hersey/core/turn.h"
+#include "observe/film_power.h"
+#include "observe/film_wrench.h"
+
+namespace hersey::film {
+namespace {
+
+/// A peak of a field on the grid [field's unit, rad, m].
+struct Peak {
+  double value = 0, phi = 0, z = 0;
+};
+
+/// Vertex of the parabola through values at -before, 0 and after: place and rise above the middle one. It is sought no
+/// further than half-way to the neighbours.
+struct Vertex {
+  double offset = 0, rise = 0;
+};
+
+Vertex vertex(double left, double middle, double right, double before, double after) {
+  const double down = (middle - left) / before, up = (right - middle) / after;
+  const double curvature = (up - down) / (0.5 * (before + after));
+  if (curvature == 0) return {};
+  const double slope = (down * after + up * before) / (before + after);
+  const double offset = std::clamp(-slope / curvature, -0.5 * before, 0.5 * after);
+  return {offset, offset * (slope + 0.5 * offset * curvature)};
+}
+
+/// Peaks of fields between the nodes of one grid.
+class PeakFinder {
+ public:
+  PeakFinder(const FilmModel& model, const GridGeometry& geometry) : R_(model.R), grid_(model.grid), at_(geometry) {}
+
+  /// The field's largest value, by parabolas where it is smooth from the node to all its neighbours; else the node's
+  /// own. @param is_smooth whether the field has no kink between two nodes
+  template <class IsSmooth>
+  [[nodiscard]] Peak largest(const Eigen::VectorXd& field, IsSmooth&& is_smooth) const {
+    int node = 0;
+    field.maxCoeff(&node);
+    const int i = node / grid_.n_z, j = node % grid_.n_z, n = grid_.n_phi;
+    bool smooth = is_smooth(node, grid_.index((i + 1) % n, j)) && is_smooth(node, grid_.index((i + n - 1) % n, j));
+    if (j > 0) smooth = smooth && is_smooth(node, node - 1);
+    if (j + 1 < grid_.n_z) smooth = smooth && is_smooth(node, node + 1);
+    return smooth ? refine(field, i, j) : Peak{field[node], at_.phi[i], at_.z[j]};
+  }
+
+ private:
+  template <class Value>
+  [[nodiscard]] Vertex around(int i, Value&& value) const {
+    const int before = (i + grid_.n_phi - 1) % grid_.n_phi, after = (i + 1) % grid_.n_phi;
+    return vertex(value(before), value(i), value(after), at_.dx[before], at_.dx[i]);
+  }
+
+  /// Maximum next to node (i, j) by parabolas, along phi always and along z inside the width. Edges count: there only
+  /// phi is interpolated.
+  [[nodiscard]] Peak refine(const Eigen::VectorXd& field, int i, int j) const {
+    const auto at = [&](int a, int b) { return field[grid_.index(a, b)]; };
+    const Vertex along = around(i, [&](int k) { return at(k, j); });
+    const bool inside = j > 0 && j < grid_.n_z - 1;
+    const Vertex across = inside ? vertex(at(i, j - 1), at(i, j), at(i, j + 1), at_.dz[j - 1], at_.dz[j]) : Vertex{};
+    const double phi = std::fmod(at_.phi[i] + along.offset / R_ + turn, turn);
+    return {at(i, j) + along.rise + across.rise, phi, at_.z[j] + across.offset};
+  }
+
+  double R_;
+  const Grid& grid_;
+  const GridGeometry& at_;
+};
+
+/// Whether the pressure has no kink between two nodes: neither a supply line nor a feature holds one of them, and no
+/// border of a pocket lies between.
+bool is_smooth(const FlowBalance& balance, int a, int b) {
+  if (balance.is_held(a) || balance.is_held(b)) return false;
+  const Eigen::VectorXd& depth = balance.relief().depth();
+  return depth.size() == 0 || std::abs(depth[a] - depth[b]) <= 1e-9 * balance.model().c;
+}
+
+/// The largest pressure. A supply line has its own along its whole way, between nodes too.
+Peak largest_pressure_of(const FlowBalance& balance, const Eigen::VectorXd& p, double phi_supply) {
+  const FilmModel& model = balance.model();
+  const Peak peak =
+      PeakFinder(model, balance.geometry()).largest(p, [&](int a, int b) { return is_smooth(balance, a, b); });
+  if (model.supply.kind == SupplyKind::none || model.supply.pressure <= peak.value) return peak;
+  return {model.supply.pressure, phi_supply - turn * std::floor(phi_supply / turn), 0};
+}
+
+/// Flows over the boundaries, storage and volume (film.55).
+void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const Eigen::VectorXd& u,
+                 FilmObservables& o) {
+  const FilmModel& model = balance.model();
+  const Grid& grid = model.grid;
+  const double round_off = 1e-9 * fill_scale(model);
+  double cavitated = 0, total = 0;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int k = grid.index(i, j);
+      const Node& node = balance.nodes()[k];
+      const double area = balance.area(k);
+      o.storage_rate += balance.storage(k);
+      o.oil_volume += area * node.content * balance.oil_gap(k);
+      total += area;
+      if (u[k] < -round_off) cavitated += area;
+      (j == 0 ? o.flow_left : o.flow_right) += balance.outflow(k);
+      o.flow_supply += balance.supply(k);
+      if (const int feature = balance.feature_at(k); feature >= 0) o.flow_features[feature] += balance.supply(k);
+    }
+  }
+  o.cavitated_share = cavitated / total;
+  const double fastest = std::max(std::abs(motion.u_journal), std::abs(motion.u_shell));
+  double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_supply),
+                           std::abs(o.storage_rate), fastest * model.c * model.L});
+  if (o.flow_features.size() > 0) scale = std::max(scale, o.flow_features.cwiseAbs().maxCoeff());
+  const double error = o.flow_supply - o.flow_left - o.flow_right - o.storage_rate;
+  o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
+}
+
+void observe_forces(const FilmWrench& wrench, const Eigen::Vector2d& e, const Eigen::Vector2d& tilt,
+                    FilmObservables& o) {
+  o.force_pressure = wrench.pressure().tail<3>();
+  o.force_shear = wrench.shear().tail<3>();
+  o.force_asperity = wrench.asperity().tail<3>();
+  // The journal feels the negative wrench; about its own axis through e along (t_x, t_y, 1) that is -M_z - t . M +
+  // (e x F)_z.
+  const Vector6& on_shell = o.wrench_on_shell = wrench.total();
+  o.torque_shell = on_shell[2];
+  o.torque_journal = -on_shell[2] - tilt.dot(on_shell.head<2>()) + e.x() * on_shell[4] - e.y() * on_shell[3];
+}
+
+FilmFields fields_of(const std::vector<Node>& nodes) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  FilmFields fields;
+  for (auto* field : {&fields.p, &fields.theta, &fields.density, &fields.h, &fields.w, &fields.p_asperity})
+    field->resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Node& node = nodes[i];
+    fields.p[i] = node.wall;
+    fields.theta[i] = node.theta;
+    fields.density[i] = node.density;
+    fields.h[i] = node.h;
+    fields.w[i] = node.w;
+    fields.p_asperity[i] = node.asperity;
+  }
+  return fields;
+}
+
+}  // namespace
+
+FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+  const NodeLaw law(model);
+  std::vector<Node> nodes(u.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i)
+    nodes[i] = law.state(motion.g[i], u[i], static_cast<int>(i % model.grid.n_z));
+  return fields_of(nodes);
+}
+
+Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal) {
+  const GridGeometry geometry(model);
+  PocketRelief relief(model, geometry);
+  relief.place(phi_journal, phi_journal, 0, 0);
+  Eigen::VectorXd depth = Eigen::VectorXd::Zero(model.grid.size());
+  for (const CoveredDepth& covered : relief.covered()) depth[covered.node] += covered.share * covered.depth;
+  return depth;
+}
+
+FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
+                             const Eigen::Vector2d& e, const Eigen::VectorXd& u, const Eigen::Vector2d& tilt) {
+  FlowBalance balance(model);
+  const FilmDomain domain = balance.evaluate(motion, history, u);
+  HERSEY_REQUIRE(domain.is_inside(), text(model, domain));
+  FilmWrench wrench(model);
+  wrench.evaluate(balance, motion, false);
+  const FilmFields fields = fields_of(balance.nodes());
+
+  FilmObservables o;
+  o.flow_features.setZero(static_cast<Eigen::Index>(model.features.size()));
+  const Thinnest thinnest = thinnest_film(model, balance.geometry(), fields.h, motion.phi_journal);
+  const Peak peak = largest_pressure_of(balance, fields.p, motion.phi_supply);
+  o.h_min = thinnest.value, o.h_min_phi = thinnest.phi, o.h_min_z = thinnest.z;
+  o.h_min_centre = thinnest.in_the_middle;
+  o.h_min_features = thinnest.in_features;
+  o.p_max = peak.value, o.p_max_phi = peak.phi, o.p_max_z = peak.z;
+  o.p_max_node = fields.p.maxCoeff();
+  observe_forces(wrench, e, tilt, o);
+  o.normal_forces = wrench.normal().value;
+  observe_oil(balance, motion, u, o);
+  const Cavity cavity = widest_cavity(balance, u, motion.u_shell + motion.u_journal < 0);
+  o.rupture_angle = cavity.rupture, o.reformation_angle = cavity.reformation;
+  o.sliding_speed = std::hypot(motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell);
+  add_powers(balance, motion, wrench, o);
+  return o;
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,198 @@
+#include "solve/multigrid.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hersey::film {
+namespace {
+
+// A ring of fewer lines is solved directly.
+constexpr int fewest_lines_to_coarsen = 8;
+
+/// A coarse line and how a fine line's nodes hang on it.
+struct Parent {
+  int line = 0;
+  const Real* p = nullptr;
+  const Real* r = nullptr;
+};
+
+}  // namespace
+
+Multigrid::Multigrid(int lines, int nodes_per_line) {
+  for (int n = lines;; n = (n + 1) / 2) {
+    const int size = n * nodes_per_line;
+    Level& level = levels_.emplace_back();
+    level.A = LineOperator(n, nodes_per_line);
+    level.active.assign(static_cast<std::size_t>(size), 1);
+    for (LineVector* v : {&level.x, &level.b, &level.residual}) *v = LineVector(size);
+    if (n < fewest_lines_to_coarsen) break;
+    for (LineVector* v : {&level.p_before, &level.p_after, &level.r_before, &level.r_after}) *v = LineVector(size);
+  }
+  scratch_ = LineVector(nodes_per_line);
+
+  // Pattern of the coarsest matrix by columns; it is as good as symmetric, so the neighbours of a column are its rows.
+  const LineOperator& A = levels_.back().A;
+  const int n = nodes_per_line;
+  std::vector<int> column_start{0}, row_index;
+  for (int column = 0; column < A.size(); ++column) {
+    const int line = column / n, j = column % n;
+    std::vector<std::array<int, 2>> rows;  // row and the entry in it that this column is
+    // The line after has this one to its west.
+    for (const auto& [other, block] : {std::pair{line, LineOperator::centre},
+                                       {A.after(line), LineOperator::west},
+                                       {A.before(line), LineOperator::east}}) {
+      for (int d = -1; d <= 1; ++d) {
+        if (j + d >= 0 && j + d < n) rows.push_back({other * n + j + d, block + 1 - d});
+      }
+    }
+    std::sort(rows.begin(), rows.end());
+    for (const auto& row : rows) {
+      row_index.push_back(row[0]);
+      slot_node_.push_back(row[0]);
+      slot_entry_.push_back(row[1]);
+    }
+    column_start.push_back(static_cast<int>(row_index.size()));
+  }
+  values_.resize(row_index.size());
+  rhs_.resize(static_cast<std::size_t>(A.size()));
+  lu_.analyse(A.size(), column_start, row_index);
+}
+
+// A line that is left out follows its neighbours as T p = -(block towards the neighbour) 1 says, T its own block; what
+// its residual gives to them follows likewise from the transposed blocks. Without variation along the line this is
+// exact elimination (Schaffer 1998).
+void Multigrid::weigh(Level& fine, LineVector& scratch) {
+  const LineOperator& A = fine.A;
+  const int n = A.nodes_per_line();
+  const auto keep = [&](int line) {
+    for (int j = 0; j < n; ++j) {
+      const int node = line * n + j;
+      fine.p_before[node] = fine.r_before[node] = fine.active[node] ? 1 : 0;
+      fine.p_after[node] = fine.r_after[node] = 0;
+    }
+  };
+  const auto is_active = [&](int line, int j) { return j >= 0 && j < n && fine.active[line * n + j]; };
+  const auto interpolate = [&](int line, int neighbour, int block, LineVector& p) {
+    Real* x = scratch.data();
+    for (int j = 0; j < n; ++j) {
+      x[j] = 0;
+      for (int d = -1; d <= 1; ++d) {
+        if (is_active(neighbour, j + d)) x[j] -= A.row(line * n + j)[block + 1 + d];
+      }
+    }
+    A.solve_line(line, x);
+    for (int j = 0; j < n; ++j) p[line * n + j] = is_active(line, j) ? x[j] : 0;
+  };
+  const auto restrict_to = [&](int line, int neighbour, int block, LineVector& r) {
+    Real* x = scratch.data();
+    for (int j = 0; j < n; ++j) {
+      x[j] = 0;
+      for (int d = -1; d <= 1; ++d) {
+        if (is_active(neighbour, j + d)) x[j] -= A.row(neighbour * n + j + d)[block + 1 - d];
+      }
+    }
+    A.solve_line_transposed(line, x);
+    for (int j = 0; j < n; ++j) r[line * n + j] = is_active(line, j) ? x[j] : 0;
+  };
+  for (int line = 0; line < A.lines(); ++line) {
+    if (line % 2 == 0) {
+      keep(line);
+      continue;
+    }
+    interpolate(line, A.before(line), LineOperator::west, fine.p_before);
+    interpolate(line, A.after(line), LineOperator::east, fine.p_after);
+    restrict_to(line, A.before(line), LineOperator::east, fine.r_before);
+    restrict_to(line, A.after(line), LineOperator::west, fine.r_after);
+  }
+}
+
+void Multigrid::coarsen(const Level& fine, Level& coarse) {
+  const LineOperator& A = fine.A;
+  LineOperator& B = coarse.A;
+  const int n = A.nodes_per_line();
+  B.set_zero();
+  const auto parents = [&](int line) {
+    const int at = line * n, I = line / 2;
+    return std::array<Parent, 2>{{{I, fine.p_before.data() + at, fine.r_before.data() + at},
+                                  {B.after(I), fine.p_after.data() + at, fine.r_after.data() + at}}};
+  };
+  for (int line = 0; line < A.lines(); ++line) {
+    const auto rows = parents(line);
+    for (const auto& [neighbour, block] : {std::pair{A.before(line), LineOperator::west},
+                                           {line, LineOperator::centre},
+                                           {A.after(line), LineOperator::east}}) {
+      const auto columns = parents(neighbour);
+      for (int a = 0; a < (line % 2 == 0 ? 1 : 2); ++a) {
+        for (int b = 0; b < (neighbour % 2 == 0 ? 1 : 2); ++b) {
+          const int I = rows[a].line, K = columns[b].line;
+          const int slot = K == I ? LineOperator::centre : K == B.after(I) ? LineOperator::east : LineOperator::west;
+          const Real *r = rows[a].r, *p = columns[b].p;
+          for (int j = 0; j < n; ++j) {
+            const LineOperator::Row& from = A.row(line * n + j);
+            LineOperator::Row& to = B.row(I * n + j);
+            to[slot] += r[j] * from[block] * p[j - 1];
+            to[slot + 1] += r[j] * from[block + 1] * p[j];
+            to[slot + 2] += r[j] * from[block + 2] * p[j + 1];
+          }
+        }
+      }
+    }
+  }
+  for (int I = 0; I < B.lines(); ++I) {
+    for (int j = 0; j < n; ++j) {
+      coarse.active[I * n + j] = fine.active[2 * I * n + j];
+      if (!coarse.active[I * n + j]) B.row(I * n + j)[LineOperator::centre + 1] = 1;
+    }
+  }
+}
+
+bool Multigrid::factorise_coarsest() {
+  const LineOperator& A = levels_.back().A;
+  for (std::size_t k = 0; k < values_.size(); ++k) values_[k] = A.row(slot_node_[k])[slot_entry_[k]];
+  return lu_.factorise(values_);
+}
+
+bool Multigrid::setup(const std::vector<char>& active, bool ascending) {
+  ascending_ = ascending;
+  levels_.front().active = active;
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+    if (!levels_[l].A.factorise_lines()) return false;
+    weigh(levels_[l], scratch_);
+    coarsen(levels_[l], levels_[l + 1]);
+  }
+  return factorise_coarsest();
+}
+
+void Multigrid::cycle(const LineVector& b, LineVector& x) { descend(0, b, x); }
+
+void Multigrid::solve_coarsest(const LineVector& b, LineVector& x) {
+  const int n = levels_.back().A.size();
+  std::copy(b.data(), b.data() + n, rhs_.begin());
+  lu_.solve(rhs_);
+  std::copy(rhs_.begin(), rhs_.end(), x.data());
+}
+
+void Multigrid::descend(std::size_t l, const LineVector& b, LineVector& x) {
+  if (l + 1 == levels_.size()) return solve_coarsest(b, x);
+  Level &fine = levels_[l], &coarse = levels_[l + 1];
+  const LineOperator& A = fine.A;
+  const int n = A.nodes_per_line();
+  A.relax_from_zero(b, ascending_, x, fine.residual);
+  coarse.b.fill(0);
+  for (int line = 0; line < A.lines(); ++line) {
+    const int at = line * n, here = line / 2 * n, next = coarse.A.after(line / 2) * n;
+    for (int j = 0; j < n; ++j) coarse.b[here + j] += fine.r_before[at + j] * fine.residual[at + j];
+    if (line % 2 == 0) continue;
+    for (int j = 0; j < n; ++j) coarse.b[next + j] += fine.r_after[at + j] * fine.residual[at + j];
+  }
+  descend(l + 1, coarse.b, coarse.x);
+  for (int line = 0; line < A.lines(); ++line) {
+    const int at = line * n, here = line / 2 * n, next = coarse.A.after(line / 2) * n;
+    for (int j = 0; j < n; ++j) x[at + j] += fine.p_before[at + j] * coarse.x[here + j];
+    if (line % 2 == 0) continue;
+    for (int j = 0; j < n; ++j) x[at + j] += fine.p_after[at + j] * coarse.x[next + j];
+  }
+  A.relax(b, ascending_, x);
+}
+
+}  // namespace hersey::film

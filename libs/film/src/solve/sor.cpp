@@ -1,0 +1,223 @@
+#include "solve/sor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "balance/flow_balance.h"
+
+namespace hersey::film {
+namespace {
+
+constexpr int sweeps_per_update = 20;
+
+// 2^-30 of the way is where the sweeps began.
+constexpr int most_shortenings = 30;
+
+/// A node's row with everything but its own unknown known: K p + transport theta + known = 0 [m^3/s].
+struct NodeRow {
+  double K = 0;
+  double transport = 0;
+  double known = 0;
+};
+
+class Sor {
+ public:
+  Sor(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history)
+      : balance_(model),
+        motion_(motion),
+        history_(history),
+        cavitation_(cavitation_law(model)),
+        scales_(cavitation_scales(model)),
+        around_(balance_.size()) {
+    for (std::size_t f = 0; f < balance_.faces().size(); ++f) {
+      around_[balance_.faces()[f].a].push_back(static_cast<int>(f));
+      around_[balance_.faces()[f].b].push_back(static_cast<int>(f));
+    }
+  }
+
+  FilmSolveSummary solve(const FilmSolveOptions& options, Eigen::VectorXd& u);
+
+ private:
+  void start(const Eigen::VectorXd& u);
+  void place(int node, double u, int j);
+  [[nodiscard]] FilmDomain update_coefficients(const Eigen::VectorXd& u);
+  [[nodiscard]] FilmDomain enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u);
+  void sweep();
+  void relax(int i, int j);
+  [[nodiscard]] NodeRow row(int node) const;
+  [[nodiscard]] double over_relaxation() const;
+  [[nodiscard]] double following() const;
+
+  FlowBalance balance_;
+  const SurfaceMotion& motion_;
+  const FilmHistory& history_;
+  const CavitationLaw& cavitation_;
+  CavitationScales scales_;
+  double omega_ = 1;
+  std::vector<std::vector<int>> around_;  ///< the faces of every node
+  Eigen::VectorXd u_, p_, theta_;         ///< latest unknown, pressure above p_cav and fill fraction
+  Eigen::VectorXd storage_known_, storage_theta_;
+};
+
+// Young's factor for the five-point operator between two edges at given pressure; one wall is the middle of a bearing
+// of twice the width, and with two only the periodic direction bounds it.
+double Sor::over_relaxation() const {
+  const Grid& grid = balance_.model().grid;
+  const double dphi = 2 * std::numbers::pi / grid.n_phi;
+  const double across = std::pow(balance_.model().R * dphi * (grid.n_z - 1) / balance_.model().L, 2);
+  const FilmModel& model = balance_.model();
+  const bool one_wall = (model.edge_left.kind == EdgeKind::closed) != (model.edge_right.kind == EdgeKind::closed);
+  const double wave = std::numbers::pi / (grid.n_z - 1) * (one_wall ? 0.5 : 1);
+  const double rho = is_closed(model) ? std::cos(0.5 * dphi) : (1 + across * std::cos(wave)) / (1 + across);
+  return 2 / (1 + std::sqrt(1 - rho * rho));
+}
+
+// Share of a change of pressure that thickness and viscosity follow at once: the gain of that loop at a node is
+// 3 dh/h + alpha dp, and changes of neighbours double it.
+double Sor::following() const {
+  const FilmModel& model = balance_.model();
+  double gain = 0;
+  for (const Node& node : balance_.nodes()) {
+    const double pressure = std::abs(node.p);
+    gain = std::max(gain, 3 * model.compliance * node.wall / node.h +
+                              log_viscosity_ratio(model.lubricant, node.p).slope * pressure);
+  }
+  return 1 / (1 + 2 * gain);
+}
+
+void Sor::start(const Eigen::VectorXd& u) {
+  u_ = p_ = theta_ = u;
+  const int n_z = balance_.model().grid.n_z;
+  for (int node = 0; node < balance_.size(); ++node) place(node, u[node], node % n_z);
+}
+
+void Sor::place(int node, double u, int j) {
+  u_[node] = u;
+  const bool open = balance_.open_row(j);
+  p_[node] = open ? 0 : cavitation_.phase(u, scales_).p.value;
+  theta_[node] = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(j)) : u, scales_).theta.value;
+}
+
+FilmDomain Sor::update_coefficients(const Eigen::VectorXd& u) {
+  if (const FilmDomain domain = balance_.evaluate(motion_, history_, u); !domain.is_inside()) return domain;
+  storage_theta_.resize(u.size());
+  storage_known_.resize(u.size());
+  for (int i = 0; i < balance_.size(); ++i) {
+    const Node& node = balance_.nodes()[i];
+    storage_theta_[i] = node.density * balance_.storage_by_content(i);
+    storage_known_[i] = balance_.storage(i) - storage_theta_[i] * node.theta;
+  }
+  return {};
+}
+
+// Sweeps with the coefficients of one film may end beyond any film: half-way back, as often as it takes.
+FilmDomain Sor::enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u) {
+  FilmDomain domain = update_coefficients(u);
+  for (int halvings = 0; !domain.is_inside() && halvings < most_shortenings; ++halvings) {
+    u = 0.5 * (inside + u);
+    start(u);
+    domain = update_coefficients(u);
+  }
+  return domain;
+}
+
+NodeRow Sor::row(int node) const {
+  NodeRow r{0, storage_theta_[node], storage_known_[node]};
+  for (int f : around_[node]) {
+    const Face& face = balance_.faces()[f];
+    const FaceFlow& flow = balance_.flows()[f];
+    const bool is_a = face.a == node;
+    const int other = is_a ? face.b : face.a;
+    const double couette = is_a ? flow.couette : -flow.couette;  // out of this node
+    r.K += flow.K;
+    r.known -= flow.K * p_[other];
+    if (balance_.is_cut(static_cast<std::size_t>(f))) {
+      const FlowBalance::TowardsLine line = balance_.towards_line(node);
+      if (line.counts) {
+        r.known -= line.strip;
+        (line.from_node ? r.transport : r.known) += line.full;
+        continue;
+      }
+    }
+    if (couette >= 0) {
+      // Over pockets what leaves is not proportional to the fill: its share follows from the last sweep.
+      const double theta = std::max(theta_[node], 1e-6);
+      r.transport += (is_a ? 1 : -1) * flow.carried(theta).value / theta;
+    } else {
+      r.known += (is_a ? 1 : -1) * flow.carried(theta_[other]).value;
+    }
+  }
+  return r;
+}
+
+void Sor::relax(int i, int j) {
+  const int node = balance_.model().grid.index(i, j);
+  if (balance_.edge_row(j)) return place(node, balance_.edge_unknown(j), j);
+
+  // Beside line and features the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
+  const NodeRow r = row(node);
+  const bool open = balance_.open_row(j);
+  const double own = balance_.balance_share(node), tie = balance_.supply_conductance(node);
+  const double full = own * (r.known + r.transport) - tie * balance_.supply_unknown(node);
+  const double conductance = own * (open ? balance_.conductance_scale() : r.K) + tie;
+  const double target = -full / conductance;
+  const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
+  if (u >= 0 || cavitation_.has_tension()) return place(node, u, j);
+
+  const BrokenRow broken{.full = full,
+                         .transport = own * r.transport,
+                         .slack = own * balance_.conductance_scale(),
+                         .drawn = tie * balance_.draws(node)};
+  const double filling = cavitation_.broken_unknown(broken, scales_), ambient = balance_.ambient_unknown(j);
+  if (!open || filling >= ambient) return place(node, filling, j);
+  // Emptier than what lies outside: u is the inflow that keeps it as full (film.19).
+  const double lack = full + (broken.transport / scales_.fill + broken.drawn) * ambient;
+  place(node, std::min(ambient, ambient - lack / (broken.slack + broken.drawn)), j);
+}
+
+// With the flow, so that the fill fraction is carried around in one sweep.
+void Sor::sweep() {
+  const Grid& grid = balance_.model().grid;
+  const bool forwards = balance_.speed_phi() >= 0;
+  for (int k = 0; k < grid.n_phi; ++k) {
+    const int i = forwards ? k : grid.n_phi - 1 - k;
+    for (int j = 0; j < grid.n_z; ++j) relax(i, j);
+  }
+}
+
+FilmSolveSummary Sor::solve(const FilmSolveOptions& options, Eigen::VectorXd& u) {
+  FilmSolveSummary summary;
+  const int most = 1000 * options.max_iterations;
+  omega_ = over_relaxation();
+  Eigen::VectorXd followed = u;  // where thickness and viscosity are taken
+  start(u);
+  for (;; summary.iterations += sweeps_per_update) {
+    summary.domain = enter_domain(followed, u);
+    if (!summary.domain.is_inside()) return summary;
+    summary.relative_residual = balance_.relative_residual();
+    summary.worst_node = balance_.worst_node();
+    summary.converged = summary.relative_residual <= options.rtol;
+    if (summary.converged || summary.iterations >= most) return summary;
+    followed += following() * (u - followed);
+    if (followed != u) summary.domain = update_coefficients(followed);
+    if (!summary.domain.is_inside()) return summary;
+    for (int s = 0; s < sweeps_per_update; ++s) sweep();
+    u = u_;
+  }
+}
+
+}  // namespace
+
+FilmSolveSummary solve_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                              const FilmSolveOptions& options, Eigen::VectorXd& u) {
+  Sor sor(reynolds.model(), motion, history);
+  FilmSolveSummary summary = sor.solve(options, u);
+  // Leaves the object at the answer, as Newton does.
+  if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
+  summary.converged = summary.converged && summary.domain.is_inside();
+  return summary;
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cmath>
+
+#include "contact/contact_spots.h"
+#include "hersey/mbd/contact_law.h"
+
+namespace hersey::mbd {
+
+/// Normal and friction force of one spot.
+template <class T>
+struct SpotForce {
+  T normal;          ///< N >= 0 [N]
+  Vec3<T> friction;  ///< on B [N]
+};
+
+/// Theory manual eqs. (contact.6) to (contact.8).
+/// @param velocity  of B's material relative to A's at the spot, A's axes
+template <class T>
+SpotForce<T> spot_force(const ContactLaw& law, const Spot<T>& spot, const Vec3<T>& velocity) {
+  using std::pow;
+  using std::sqrt;
+  SpotForce<T> force{T(0.0), constant<T>(Vector3::Zero())};
+  if (!(spot.gap < T(0.0))) return force;
+  const T rate = -dot(spot.normal, velocity);  // of penetration
+  const T damped = T(1.0) + T(law.damping) * rate;
+  if (damped <= T(0.0)) return force;  // it would pull
+  force.normal = spot.weight * T(law.stiffness) * pow(-spot.gap, law.exponent) * damped;
+  if (law.friction > 0) {
+    const Vec3<T> slip = velocity + scaled(rate, spot.normal);
+    const T speed = sqrt(dot(slip, slip) + T(law.slip_speed * law.slip_speed));
+    force.friction = scaled(-(T(law.friction) * force.normal / speed), slip);
+  }
+  return force;
+}
+
+}  // namespace hersey::mbd

@@ -1,0 +1,61 @@
+#include "tree/assembly.h"
+
+namespace hersey::mbd {
+
+void compute_directions(const Tree& tree, const TreeMotion& motion, const solver::Stage& stage,
+                        std::vector<Direction>& directions) {
+  for (std::size_t l = 1; l < tree.links.size(); ++l) {
+    const Link& link = tree.links[l];
+    const Vector6 &V_p = motion.V(link.parent), &A_p = motion.A(link.parent), &V_c = motion.V(static_cast<int>(l));
+    Matrix3 T = Matrix3::Identity();
+    if (link.motion == Motion::ball && stage.dq.size() > 0) T = rotation_exp_tangent(stage.dq.segment<3>(link.first_v));
+    for (int c = 0; c < link.columns; ++c) {
+      const Vector6& J = motion.J(link.first_v + c);
+      Vector6 turned = J;
+      if (link.columns == 3) {
+        turned.setZero();
+        for (int i = 0; i < 3; ++i) turned += T(i, c) * motion.J(link.first_v + i);
+      }
+      const Vector6 D = cross_motion(V_p, turned);
+      Direction& d = directions[link.first_v + c];
+      d.J = stage.k * turned;
+      d.H = stage.k * D + stage.c * J;
+      d.E = stage.k * (-cross_motion(turned, A_p) - cross_motion(D, V_p)) + stage.c * cross_motion(V_c + V_p, J) +
+            stage.m * J;
+    }
+  }
+}
+
+void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& response) {
+  const TreeMotion& motion = assembly.motion;
+  const Pose X_WA = motion.pose(pair.a);
+  const Vector6 W = force_transform(X_WA) * response.W_B_A;
+  for (const SignedColumn& row : pair.columns) {
+    const Vector6& J = motion.J(row.column);
+    assembly.add_residual(row.column, -row.sign * J.dot(W), magnitude(J, W));
+  }
+  if (!assembly.tangent) return;
+
+  const Matrix6 to_A = motion_transform(X_WA.inverse());
+  const Matrix6 K = to_A.transpose() * response.dW_dX * to_A;
+  const Matrix6 D = to_A.transpose() * response.dW_dV * to_A;
+  const double c = assembly.stage.c;
+  for (const SignedColumn& col : pair.columns) {
+    // A column that moves b alone changes the relative pose by +J and the relative velocity by J x (V_b - V_p);
+    // one that moves a alone by the negative of both, and turns the wrench with a.
+    const Vector6& J_k = assembly.directions[col.column].J;
+    const Link& link = assembly.tree.links[assembly.tree.columns[col.column].link];
+    const Vector6 dV = cross_motion(J_k, motion.V(pair.b.link) - motion.V(link.parent)) + c * motion.J(col.column);
+    Vector6 dW = col.sign * (K * J_k + D * dV);
+    if (col.sign < 0) dW += cross_force(J_k, W);
+    for (const SignedColumn& row : pair.columns) {
+      const Vector6& J_j = motion.J(row.column);
+      double value = J_j.dot(dW);
+      if (assembly.tree.moves(col.column, assembly.tree.columns[row.column].link))
+        value += cross_motion(J_k, J_j).dot(W);
+      assembly.add_tangent(row.column, col.column, -row.sign * value);
+    }
+  }
+}
+
+}  // namespace hersey::mbd

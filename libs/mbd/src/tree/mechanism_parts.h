@@ -1,0 +1,137 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "elastic/elastic_assembly.h"
+#include "force/load.h"
+#include "hersey/core/stopwatch.h"
+#include "hersey/mbd/mechanism_spec.h"
+#include "hersey/mbd/observation.h"
+#include "tree/assembly.h"
+#include "tree/coupling.h"
+#include "tree/drive_motion.h"
+#include "tree/shared_reactions.h"
+#include "tree/tree.h"
+#include "tree/tree_motion.h"
+
+namespace hersey::mbd {
+
+/// A drive bound to its column.
+struct BoundDrive {
+  int column = 0;
+  int q = 0;
+  DriveMotion motion;
+};
+
+/// What a Mechanism works with: its tree, the parts as the tree sees them, scratch.
+struct MechanismParts {
+  using Index = solver::Equations::Index;
+  using SparseMatrix = solver::Equations::SparseMatrix;
+
+  explicit MechanismParts(MechanismSpec given);
+
+  MechanismSpec spec;
+  Tree tree;
+  TreeMotion motion;
+  InertiaTerms inertia;
+  std::vector<Direction> directions;
+  std::vector<Load> loads;
+  std::vector<Coupling> couplings;
+  std::vector<BoundDrive> drives;
+  std::vector<ElasticAssembly> elastics;
+  int nq = 0, nv = 0;  ///< of the tree, then own coordinates of elastic bodies
+  std::vector<int> spring_columns;
+  std::vector<int> coordinate_force_columns;
+  SparseMatrix pattern;             ///< of the tangent, zeros
+  SparseMatrix constraint_pattern;  ///< of G, zeros
+
+  /// The elastic bodies that a two-body force sees deform, by place among `elastics`; -1: none.
+  struct Sides {
+    int a = -1, b = -1;
+  };
+  std::vector<Sides> sides;                ///< of each two-body force
+  std::vector<std::size_t> costly, cheap;  ///< two-body forces worth a thread each, and the others
+  std::vector<char> seen_deforming;        ///< of each elastic body: some force sees it deform
+  std::vector<RelativeMotion> relatives;   ///< of the two-body forces at the last assembly
+  std::vector<ForceResponse> responses;    ///< the same
+  MechanismTiming timing;
+  std::vector<ForceResponse> accepted;  ///< at the last accepted step, wrenches and forces alone; empty before
+
+  // Multipliers: closures, then couplings, then drives.
+  [[nodiscard]] Index row_of_coupling(std::size_t i) const { return tree.nclosure + static_cast<Index>(i); }
+  [[nodiscard]] Index row_of_drive(std::size_t i) const { return row_of_coupling(couplings.size() + i); }
+  [[nodiscard]] Index nlambda() const { return row_of_drive(drives.size()); }
+  [[nodiscard]] int q_of(int column) const { return tree.links[tree.columns[column].link].first_q; }
+  [[nodiscard]] double initial_value(const CoordinateRef& coordinate) const;
+  [[nodiscard]] double initial_rate(const CoordinateRef& coordinate) const;
+  [[nodiscard]] solver::State initial_state() const;
+  void place_cut_bodies(solver::State& state) const;
+  [[nodiscard]] std::vector<Index> given_coordinates() const;
+  [[nodiscard]] std::vector<Index> given_rates() const;
+  template <class Choose>
+  [[nodiscard]] std::vector<Index> columns_where(Choose is_chosen) const;
+  [[nodiscard]] std::vector<Index> elastic_coordinates() const;
+  [[nodiscard]] std::vector<Index> internal_coordinates() const;
+  [[nodiscard]] bool is_deformation(int joint) const;
+  [[nodiscard]] double largest_rate(const solver::State& start) const;
+
+  // Redundant constraints
+  std::vector<Redundancy> redundancies;
+  std::optional<SharedReactions> shared_reactions;  ///< where there are any
+  std::string came_apart;  ///< which joint's dropped rows do not hold any more; empty as long as all do
+  void release_redundant_rows();
+  [[nodiscard]] double opening_of(const Closure& closure) const;
+  void watch_dropped_rows();
+
+  void place_elastic_bodies();
+  /// Calls visit(elastic) for each, and takes its time.
+  template <class Visit>
+  void for_each_elastic(Visit visit) {
+    for (std::size_t i = 0; i < elastics.size(); ++i) {
+      const Stopwatch one(timing.elastic[i]);
+      visit(elastics[i]);
+    }
+  }
+  /// Calls visit(owner, part) for all that may condense unknowns; owner() is its name in messages.
+  template <class Visit>
+  void for_each_part(Visit visit) {
+    for (const MechanismSpec::Force& force : spec.forces) visit([&] { return force.name; }, *force.force);
+    for (const ElasticAssembly& elastic : elastics) visit([&] { return "body " + elastic.name(); }, elastic.body());
+  }
+  void make_patterns();
+  void place_surfaces();
+  [[nodiscard]] RelativeMotion relative_motion(std::size_t force, double t) const;
+  /// Calls visit(row, column) for what the shapes of the bodies that force i sees deform add to its tangent.
+  template <class Visit>
+  void visit_surface_columns(std::size_t i, Visit visit) const;
+  void read_elastic_bodies(const solver::State& state);
+  void evaluate_two_body_forces(const Assembly& assembly, const solver::State& state);
+  void hand_out_shape_forces(const std::vector<ForceResponse>& of_forces);
+  void add_two_body_forces(Assembly& assembly) const;
+  void for_each_force(const std::function<void(std::size_t)>& act);
+  void add_closures(Assembly& assembly, const solver::State& state) const;
+  [[nodiscard]] double closure_length(const Closure& closure, const Pose& X_WA) const;
+  void add_coordinate_springs(Assembly& assembly, const solver::State& state) const;
+  void add_coordinate_forces(Assembly& assembly, const solver::State& state) const;
+  void add_couplings(Assembly& assembly, const solver::State& state) const;
+  void add_drives(Assembly& assembly, const solver::State& state) const;
+  [[nodiscard]] double coupling_scale(const Coupling& coupling, const solver::State& state) const;
+  void floor_scales(Eigen::VectorXd& scale) const;
+  [[nodiscard]] std::string name_of_velocity(Index row) const;
+
+  // Observation
+  [[nodiscard]] FrameMotion frame_motion(const Attachment& frame) const;
+  void observe_joint_coordinates(const solver::State& state, Observation& seen) const;
+  void observe_efforts(const solver::State& state, Observation& seen);
+  void observe_reactions(const solver::State& state, Observation& seen);
+  void observe_drift(const solver::State& state, Observation& seen) const;
+  void observe_energies(Observation& seen) const;
+  void observe_elastic_bodies(Observation& seen);
+};
+
+/// The wrench of a closure's multipliers, with its geometric stiffness, in the form of a two-body force.
+[[nodiscard]] ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const Eigen::VectorXd& lambda);
+
+}  // namespace hersey::mbd

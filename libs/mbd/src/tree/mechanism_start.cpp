@@ -1,0 +1,215 @@
+// Where a mechanism starts, and which of its constraints are redundant there and wherever it can go.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "hersey/mbd/mechanism.h"
+#include "tree/mechanism_parts.h"
+#include "tree/redundancy.h"
+
+namespace hersey::mbd {
+
+using solver::State;
+
+solver::State MechanismParts::initial_state() const {
+  solver::State state;
+  state.q.setZero(nq);
+  state.v.setZero(nv);
+  state.vdot.setZero(nv);
+  state.lambda.setZero(nlambda());
+  for (const Link& link : tree.links) {
+    const JointSpec* joint = link.joint >= 0 ? &spec.joints[link.joint] : nullptr;
+    const bool placed = joint && !joint->initial.empty(), moving = joint && !joint->initial_rate.empty();
+    if (link.motion == Motion::ball) {
+      Eigen::Quaterniond R_IO = Eigen::Quaterniond::Identity();
+      if (placed) R_IO = rotation_exp(Vector3::Map(joint->initial.data() + link.value));
+      const Eigen::Quaterniond R = link.reversed ? R_IO.conjugate() : R_IO;
+      state.q.segment<4>(link.first_q) << R.w(), R.x(), R.y(), R.z();
+      if (!moving) continue;
+      // Reversed, the ball's velocity is that of I relative to O, in I's axes.
+      const Vector3 omega = Vector3::Map(joint->initial_rate.data() + link.value);
+      state.v.segment<3>(link.first_v) = link.reversed ? Vector3(-(R_IO * omega)) : omega;
+    } else if (link.columns == 1) {
+      if (placed) state.q[link.first_q] = joint->initial[link.value];
+      if (moving) state.v[link.first_v] = joint->initial_rate[link.value];
+    }
+  }
+  place_cut_bodies(state);
+  return state;
+}
+
+/// Bodies beyond a cut start where the coordinates of the joints put them: the cuts are closed from the outset.
+void MechanismParts::place_cut_bodies(solver::State& state) const {
+  TreeMotion at(tree, spec.gravity);
+  const auto follow = [&](int link) {
+    std::vector<int> path;
+    for (int l = link; l > 0; l = tree.links[l].parent) path.push_back(l);
+    std::reverse(path.begin(), path.end());
+    at.update(state, path);
+  };
+  for (const Cut& cut : tree.cuts) {
+    const Pair& pair = tree.closures[tree.joints[cut.joint].closure].pair;
+    const Attachment &near = cut.reversed ? pair.b : pair.a, &far = cut.reversed ? pair.a : pair.b;
+    const int body = tree.bodies[cut.body].link;  // its own free joint: three translations and a ball
+    follow(near.link);
+    follow(far.link);
+    const Pose X_WB = at.pose(near) * at.pose(far).inverse();
+    const Link& ball = tree.links[body];
+    const int first_q = ball.first_q - 3, first_v = ball.first_v - 3;
+    const Eigen::Quaterniond R(X_WB.R);
+    state.q.segment<7>(first_q) << X_WB.r, R.w(), R.x(), R.y(), R.z();
+    follow(far.link);
+    const Vector6 V = at.V(near.link) - at.V(far.link);
+    const Vector3 omega = V.head<3>();
+    state.v.segment<6>(first_v) << V.tail<3>() + omega.cross(X_WB.r), X_WB.R.transpose() * omega;
+  }
+}
+
+std::vector<Mechanism::Index> MechanismParts::given_coordinates() const {
+  return columns_where([](const JointSpec& joint, int value) { return joint.is_given(value); });
+}
+
+std::vector<Mechanism::Index> MechanismParts::given_rates() const {
+  return columns_where([](const JointSpec& joint, int value) { return joint.is_rate_given(value); });
+}
+
+/// Columns of the joints' values for which is_chosen(joint, value), those of deformations left out.
+template <class Choose>
+std::vector<Mechanism::Index> MechanismParts::columns_where(Choose is_chosen) const {
+  std::vector<Index> chosen;
+  for (const Link& link : tree.links) {
+    if (link.joint < 0 || is_deformation(link.joint) || !is_chosen(spec.joints[link.joint], link.value)) continue;
+    for (int c = 0; c < link.columns; ++c) chosen.push_back(link.first_v + c);
+  }
+  return chosen;
+}
+
+namespace {
+
+/// Of a coordinate's values: of an orientation the angle between both.
+double distance(const Coordinate& coordinate, bool is_rate, const std::vector<double>& a,
+                const std::vector<double>& b) {
+  if (coordinate.orientation && !is_rate)
+    return rotation_exp(Vector3::Map(a.data())).angularDistance(rotation_exp(Vector3::Map(b.data())));
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+}  // namespace
+
+std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
+  constexpr double round_off = 1e-10;
+  MechanismParts& m = *parts_;
+  m.motion.update(start);
+  Observation seen;
+  seen.joints.resize(m.spec.joints.size());
+  m.observe_joint_coordinates(start, seen);
+  const double fastest = m.largest_rate(start);
+  std::vector<ChangedStart> changes;
+  for (std::size_t j = 0; j < m.spec.joints.size(); ++j) {
+    const JointSpec& joint = m.spec.joints[j];
+    if (m.is_deformation(static_cast<int>(j))) continue;
+    for (const Coordinate& coordinate : coordinates_of(joint.type))
+      for (const bool is_rate : {false, true}) {
+        if (!(is_rate ? joint.is_rate_given(coordinate.offset) : joint.is_given(coordinate.offset))) continue;
+        const auto part = [&](const auto& all) {
+          const double* first = all.data() + coordinate.offset;
+          return std::vector<double>(first, first + coordinate.size);
+        };
+        ChangedStart change{{static_cast<int>(j)}, coordinate, is_rate, {}, {}, 0};
+        change.given = part(is_rate ? joint.initial_rate : joint.initial);
+        change.found = part(is_rate ? seen.joints[j].rate : seen.joints[j].position);
+        const double size = (coordinate.rotational ? 1.0 : m.tree.length) * (is_rate ? fastest : 1.0);
+        change.share = size > 0 ? distance(coordinate, is_rate, change.given, change.found) / size : 0;
+        if (change.share > round_off) changes.push_back(std::move(change));
+      }
+  }
+  return changes;
+}
+
+/// Of the rates given and of those at `start`, lengths over the mechanism's size [1/s].
+double MechanismParts::largest_rate(const State& start) const {
+  const State given = initial_state();
+  double largest = 0;
+  for (int k = 0; k < tree.nv; ++k) {
+    const double size = tree.links[tree.columns[k].link].motion == Motion::prismatic ? tree.length : 1.0;
+    largest = std::max({largest, std::abs(given.v[k]) / size, std::abs(start.v[k]) / size});
+  }
+  return largest;
+}
+
+bool MechanismParts::is_deformation(int joint) const {
+  return std::find(spec.deforming.begin(), spec.deforming.end(), JointId{joint}) != spec.deforming.end();
+}
+
+std::vector<Mechanism::Index> MechanismParts::elastic_coordinates() const {
+  std::vector<Index> stiff;
+  for (const Link& link : tree.links)
+    if (link.joint >= 0 && is_deformation(link.joint))
+      for (int c = 0; c < link.columns; ++c) stiff.push_back(link.first_v + c);
+  const std::vector<Index> internal = internal_coordinates();
+  stiff.insert(stiff.end(), internal.begin(), internal.end());
+  return stiff;
+}
+
+std::vector<Mechanism::Index> MechanismParts::internal_coordinates() const {
+  std::vector<Index> internal(static_cast<std::size_t>(nv - tree.nv));
+  std::iota(internal.begin(), internal.end(), tree.nv);
+  return internal;
+}
+
+void MechanismParts::release_redundant_rows() {
+  const solver::State start = initial_state();
+  const std::vector<int> rows = redundant_rows(tree, motion, start, given_coordinates());
+  if (rows.empty()) return;
+  drop_rows(tree, rows);
+  for (const Closure& closure : tree.closures) {
+    if (closure.dropped.empty()) continue;
+    Redundancy redundancy{{closure.joint}, {}, 0, 0};
+    for (const ConstraintRow& row : closure.dropped)
+      ++(row.kind == ConstraintRow::Kind::position ? redundancy.positions : redundancy.orientations);
+    for (const SignedColumn& column : closure.pair.columns) {
+      const JointId id{tree.links[tree.columns[column.column].link].joint};
+      if (id.index < 0 || id.index == closure.joint) continue;
+      if (std::find(redundancy.loop.begin(), redundancy.loop.end(), id) == redundancy.loop.end())
+        redundancy.loop.push_back(id);
+    }
+    redundancy.loop.push_back({closure.joint});
+    redundancies.push_back(std::move(redundancy));
+  }
+  std::vector<int> redundant;
+  for (const Redundancy& redundancy : redundancies) redundant.push_back(redundancy.joint.index);
+  shared_reactions.emplace(spec, tree, redundant);
+}
+
+double MechanismParts::opening_of(const Closure& closure) const {
+  const Pose X_AB = motion.pose(closure.pair.a).inverse() * motion.pose(closure.pair.b);
+  double worst = 0;
+  for (const std::vector<ConstraintRow>* rows : {&closure.rows, &closure.dropped})
+    for (const ConstraintRow& row : *rows) {
+      const double scale = row.kind == ConstraintRow::Kind::position ? tree.length : 1.0;
+      worst = std::max(worst, std::abs(row.value(X_AB)) / scale);
+    }
+  return worst;
+}
+
+/// A redundant row holds by itself; if it does not, the loop is not the one it was taken for.
+void MechanismParts::watch_dropped_rows() {
+  constexpr double tolerance = 1e-5;
+  for (const Redundancy& redundancy : redundancies) {
+    const Closure& closure = tree.closures[tree.joints[redundancy.joint.index].closure];
+    const double opening = opening_of(closure);
+    if (opening <= tolerance) continue;
+    came_apart = fmt::format(
+        "joint {}: constraints that followed from others at the start have opened by {:.2g} of the mechanism's size; "
+        "free a motion in its loop instead, for example with a spherical or cylindrical joint",
+        spec.joints[redundancy.joint.index].name, opening);
+  }
+}
+
+const std::vector<Redundancy>& Mechanism::redundancies() const { return parts_->redundancies; }
+
+}  // namespace hersey::mbd

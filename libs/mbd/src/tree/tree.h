@@ -1,0 +1,121 @@
+#pragma once
+
+#include <vector>
+
+#include "hersey/mbd/mechanism_spec.h"
+#include "tree/constraint_row.h"
+
+namespace hersey::mbd {
+
+/// The motion an elementary joint allows.
+enum class Motion { none, revolute, prismatic, ball, screw };
+
+/// A link of the spanning tree and the elementary joint that carries it on its parent: every joint is a chain of
+/// elementary joints (theory manual, section "Joints"), whose inner links are massless. Link 0 is ground. A link's
+/// frame is the moving frame M of its elementary joint, whose fixed frame F is fixed on the parent P: X_WL = X_WP X_PF
+/// X_FM(q).
+struct Link {
+  int parent = -1;
+  Motion motion = Motion::none;
+  Pose X_PF;
+  Vector3 axis = Vector3::UnitZ();  ///< of a revolute, prismatic or screw motion, in F
+  double travel = 0;                ///< of a screw [m/rad]
+  int first_q = 0;                  ///< place of its coordinate in q; a ball's quaternion (w, x, y, z)
+  int first_v = 0;                  ///< and in v
+  int columns = 0;                  ///< 0 (ground), 1, or 3 (ball)
+  int joint = -1;                   ///< the user's joint it is part of; -1: the automatic free joint of `body`
+  int body = -1;                    ///< the body whose automatic free joint this is
+  int value = 0;                    ///< first place in the joint's list of values
+  bool reversed = false;            ///< the tree runs through the joint from outboard to inboard
+
+  // The rigid bodies fixed on this link together: mass, centre of mass and inertia about it, in the link's frame.
+  double mass = 0;
+  Vector3 com = Vector3::Zero();
+  Matrix3 inertia = Matrix3::Zero();
+};
+
+/// One velocity component: column of the velocity transformation B.
+struct Column {
+  int link = 0;
+  int component = 0;  ///< 0, or 0..2 of a ball
+};
+
+/// A frame fixed on a link.
+struct Attachment {
+  int link = 0;
+  Pose X_LF;
+};
+
+/// A velocity component that moves frame b relative to frame a: +1 if it moves b alone, -1 if it moves a alone.
+struct SignedColumn {
+  int column = 0;
+  double sign = 1;
+};
+
+/// Two frames and the velocity components that change their relative pose.
+struct Pair {
+  Attachment a, b;
+  std::vector<SignedColumn> columns;
+};
+
+/// A joint outside the spanning tree: constraint rows between its frames.
+struct Closure {
+  int joint = 0;
+  Pair pair;
+  std::vector<ConstraintRow> rows;
+  int first_row = 0;                   ///< among the multipliers
+  std::vector<ConstraintRow> dropped;  ///< rows that follow from the others, see redundancy.h
+};
+
+/// A joint at which a long path from ground is cut: the body beyond it has coordinates of its own, and the joint closes
+/// the cut (theory manual eq. (mechanisms.17)).
+struct Cut {
+  int joint = 0;
+  int body = 0;           ///< the body beyond the joint, seen from where the path began
+  bool reversed = false;  ///< it is the inboard one
+};
+
+/// Where a user's joint went.
+struct JointPlace {
+  std::vector<int> value_link;       ///< link of each value; empty for a plain closing joint
+  std::vector<int> value_component;  ///< component within the link's motion
+  int closure = -1;                  ///< index of its constraints if it closes a loop
+  bool reversed = false;
+  int outboard_body = -1;  ///< for tree joints: the body beyond the joint, seen from ground; ids' index
+};
+
+/// Spanning tree of a mechanism: constant.
+struct Tree {
+  std::vector<Link> links;
+  std::vector<Column> columns;
+  std::vector<Attachment> bodies;  ///< body frames
+  std::vector<Attachment> frames;
+  std::vector<Closure> closures;
+  std::vector<JointPlace> joints;
+  std::vector<int> body_order;         ///< bodies from ground outwards, ground excluded
+  std::vector<int> body_parent;        ///< the body each hangs on, -1 for ground
+  std::vector<std::vector<int>> path;  ///< per link: columns that move it, from ground outwards
+  std::vector<Cut> cuts;               ///< from ground outwards
+  std::vector<int> enter, leave;       ///< per link: numbers of the links it carries, itself the first
+  std::vector<Pair> forces;            ///< of the two-body forces
+  int nq = 0;
+  int nv = 0;
+  int nclosure = 0;   ///< constraint rows of all closures
+  double length = 1;  ///< size of the mechanism [m]: scale of positional constraints
+
+  /// Whether column k moves link l.
+  [[nodiscard]] bool moves(int k, int l) const {
+    const int link = columns[k].link;
+    return enter[link] <= enter[l] && enter[l] < leave[link];
+  }
+};
+
+/// Chooses the spanning tree (breadth first from ground, in order of declaration; joints whose coordinates are driven,
+/// sprung, read by loads or given initially come first, then those with a guess) and lays out coordinates and
+/// constraints. Paths longer than MechanismSpec::longest_path are cut (theory manual, section "Long chains").
+[[nodiscard]] Tree build_tree(const MechanismSpec& spec);
+
+/// The scalar column of a joint coordinate.
+[[nodiscard]] int column_of(const Tree& tree, const CoordinateRef& coordinate);
+
+}  // namespace hersey::mbd

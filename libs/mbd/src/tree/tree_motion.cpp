@@ -1,0 +1,86 @@
+#include "tree/tree_motion.h"
+
+namespace hersey::mbd {
+
+TreeMotion::TreeMotion(const Tree& tree, const Vector3& gravity)
+    : tree_(tree),
+      X_(tree.links.size()),
+      V_(tree.links.size(), Vector6::Zero()),
+      A_(tree.links.size(), Vector6::Zero()),
+      J_(tree.columns.size(), Vector6::Zero()) {
+  A_[0] << Vector3::Zero(), -gravity;
+}
+
+void TreeMotion::place(int l, const solver::State& state) {
+  const Link& link = tree_.links[l];
+  const Pose X_WF = X_[link.parent] * link.X_PF;
+  Pose& X_WM = X_[l];
+  const double* q = state.q.data() + link.first_q;
+  Vector6* J = J_.data() + link.first_v;
+  switch (link.motion) {
+    case Motion::revolute: {
+      X_WM.R = X_WF.R * Eigen::AngleAxisd(q[0], link.axis).toRotationMatrix();
+      X_WM.r = X_WF.r;
+      const Vector3 axis_W = X_WF.R * link.axis;
+      J[0] << axis_W, X_WF.r.cross(axis_W);
+      break;
+    }
+    case Motion::prismatic: {
+      const Vector3 axis_W = X_WF.R * link.axis;
+      X_WM.R = X_WF.R;
+      X_WM.r = X_WF.r + q[0] * axis_W;
+      J[0] << Vector3::Zero(), axis_W;
+      break;
+    }
+    case Motion::screw: {
+      const Vector3 axis_W = X_WF.R * link.axis;
+      X_WM.R = X_WF.R * Eigen::AngleAxisd(q[0], link.axis).toRotationMatrix();
+      X_WM.r = X_WF.r + link.travel * q[0] * axis_W;
+      J[0] << axis_W, X_WF.r.cross(axis_W) + link.travel * axis_W;
+      break;
+    }
+    case Motion::ball: {
+      X_WM.R = X_WF.R * Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+      X_WM.r = X_WF.r;
+      for (int c = 0; c < 3; ++c) J[c] << X_WM.R.col(c), X_WM.r.cross(X_WM.R.col(c));
+      break;
+    }
+    case Motion::none:
+      X_WM = X_WF;
+      break;
+  }
+}
+
+void TreeMotion::update_positions(const solver::State& state) {
+  for (int l = 1; l < static_cast<int>(tree_.links.size()); ++l) place(l, state);
+}
+
+void TreeMotion::move(int l, const solver::State& state) {
+  const Link& link = tree_.links[l];
+  V_[l] = V_[link.parent];
+  for (int k = link.first_v; k < link.first_v + link.columns; ++k) V_[l] += J_[k] * state.v[k];
+}
+
+void TreeMotion::update_velocities(const solver::State& state) {
+  for (int l = 1; l < static_cast<int>(tree_.links.size()); ++l) move(l, state);
+}
+
+void TreeMotion::update_accelerations(const solver::State& state, bool zero_vdot) {
+  for (std::size_t l = 1; l < tree_.links.size(); ++l) {
+    const Link& link = tree_.links[l];
+    // Each column turns with its link: Jdot = V x J, and V x (V - V_parent) = -V x V_parent.
+    A_[l] = A_[link.parent] + cross_motion(V_[l], V_[l] - V_[link.parent]);
+    if (zero_vdot) continue;
+    for (int k = link.first_v; k < link.first_v + link.columns; ++k) A_[l] += J_[k] * state.vdot[k];
+  }
+}
+
+RelativeMotion TreeMotion::relative(const Pair& pair) const {
+  const Pose X_WA = pose(pair.a);
+  RelativeMotion motion;
+  motion.X_AB = X_WA.inverse() * pose(pair.b);
+  motion.V_AB_A = motion_transform(X_WA.inverse()) * (V_[pair.b.link] - V_[pair.a.link]);
+  return motion;
+}
+
+}  // namespace hersey::mbd

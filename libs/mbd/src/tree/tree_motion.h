@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "hersey/core/spatial.h"
+#include "hersey/mbd/two_body_force.h"
+#include "hersey/solver/equations.h"
+#include "tree/tree.h"
+
+namespace hersey::mbd {
+
+/// Poses, velocities and accelerations of all links of a tree at one state (theory manual eq. (mechanisms.2) to
+/// (mechanisms.5)).
+///
+/// All spatial vectors are taken at ground's origin and in ground's axes. Accelerations are the derivatives of these
+/// velocities; ground's is minus gravity, so that inertia forces contain the weight.
+class TreeMotion {
+ public:
+  TreeMotion(const Tree& tree, const Vector3& gravity);
+
+  /// @cost O(number of links); no allocation.
+  void update_positions(const solver::State& state);
+  void update_velocities(const solver::State& state);
+  /// @param zero_vdot  take vdot = 0: accelerations due to velocities (and gravity) alone.
+  void update_accelerations(const solver::State& state, bool zero_vdot = false);
+  void update(const solver::State& state) {
+    update_positions(state);
+    update_velocities(state);
+    update_accelerations(state);
+  }
+
+  /// Poses and velocities of these links alone, given from ground outwards.
+  void update(const solver::State& state, const std::vector<int>& links) {
+    for (const int l : links) {
+      place(l, state);
+      move(l, state);
+    }
+  }
+
+  [[nodiscard]] const Pose& X(int link) const { return X_[link]; }
+  [[nodiscard]] const Vector6& V(int link) const { return V_[link]; }
+  [[nodiscard]] const Vector6& A(int link) const { return A_[link]; }
+  [[nodiscard]] const Vector6& J(int column) const { return J_[column]; }
+
+  [[nodiscard]] Pose pose(const Attachment& f) const { return X_[f.link] * f.X_LF; }
+
+  /// What a force between two frames sees; `t` and `dt` are left to the caller.
+  [[nodiscard]] RelativeMotion relative(const Pair& pair) const;
+
+ private:
+  void place(int l, const solver::State& state);
+  void move(int l, const solver::State& state);
+
+  const Tree& tree_;
+  std::vector<Pose> X_;
+  std::vector<Vector6> V_, A_, J_;
+};
+
+}  // namespace hersey::mbd

@@ -1,0 +1,475 @@
+#include "hersey/model/build.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "build/build_beam.h"
+#include "build/build_flexible.h"
+#include "hersey/bearing/journal_bearing.h"
+#include "hersey/core/contract.h"
+#include "hersey/fem/surface_loads.h"
+#include "hersey/mbd/bushing.h"
+#include "hersey/mbd/coordinate_laws.h"
+#include "hersey/mbd/spring_damper.h"
+
+namespace hersey::model {
+namespace {
+
+mbd::JointType joint_type(JointType type) {
+  switch (type) {
+    case JointType::fixed:
+      return mbd::JointType::fixed;
+    case JointType::revolute:
+      return mbd::JointType::revolute;
+    case JointType::prismatic:
+      return mbd::JointType::prismatic;
+    case JointType::cylindrical:
+      return mbd::JointType::cylindrical;
+    case JointType::spherical:
+      return mbd::JointType::spherical;
+    case JointType::planar:
+      return mbd::JointType::planar;
+    case JointType::free:
+      return mbd::JointType::free;
+    case JointType::universal:
+      return mbd::JointType::universal;
+    case JointType::screw:
+      return mbd::JointType::screw;
+  }
+  HERSEY_REQUIRE(false, "every joint type is listed");
+  return {};
+}
+
+// A function of time and of the crank's rotation as one of time alone: the crank turns at constant speed.
+class OverTime final : public ScalarFunction {
+ public:
+  OverTime(Function function, const Simulation& simulation) : function_(std::move(function)), simulation_(simulation) {}
+
+  [[nodiscard]] double value(std::span<const double> t) const override {
+    std::vector<double> x;
+    for (const Variable& variable : function_.variables) x.push_back(argument(variable.kind, t[0]));
+    return function_.value->value(x);
+  }
+  void gradient(std::span<const double> t, std::span<double> gradient) const override {
+    std::vector<double> x, by_x(function_.variables.size());
+    for (const Variable& variable : function_.variables) x.push_back(argument(variable.kind, t[0]));
+    function_.value->gradient(x, by_x);
+    gradient[0] = 0;
+    for (std::size_t i = 0; i < by_x.size(); ++i) gradient[0] += by_x[i] * rate(function_.variables[i].kind);
+  }
+  [[nodiscard]] double second_derivative(std::span<const double> t) const override {
+    const double d = 1e-6, now = t[0], before = now - d, after = now + d;
+    return (value({&before, 1}) - 2 * value(t) + value({&after, 1})) / (d * d);
+  }
+
+ private:
+  [[nodiscard]] double argument(Variable::Kind kind, double t) const {
+    if (kind == Variable::Kind::time) return t;
+    if (kind == Variable::Kind::rate) return simulation_.crank->speed;
+    return simulation_.crank->initial_angle + simulation_.crank->speed * (t - simulation_.start);
+  }
+  [[nodiscard]] double rate(Variable::Kind kind) const {
+    if (kind == Variable::Kind::time) return 1;
+    return kind == Variable::Kind::rate ? 0 : simulation_.crank->speed;
+  }
+
+  Function function_;
+  Simulation simulation_;
+};
+
+// offset + slope x
+class Line final : public ScalarFunction {
+ public:
+  Line(double offset, double slope) : offset_(offset), slope_(slope) {}
+  [[nodiscard]] double value(std::span<const double> x) const override { return offset_ + slope_ * x[0]; }
+  void gradient(std::span<const double>, std::span<double> gradient) const override { gradient[0] = slope_; }
+  [[nodiscard]] double second_derivative(std::span<const double>) const override { return 0; }
+
+ private:
+  double offset_, slope_;
+};
+
+mbd::DriveSpec::Kind drive_kind(Drive::Prescribes prescribes) {
+  switch (prescribes) {
+    case Drive::Prescribes::position:
+      return mbd::DriveSpec::Kind::position;
+    case Drive::Prescribes::speed:
+      return mbd::DriveSpec::Kind::speed;
+    case Drive::Prescribes::acceleration:
+      return mbd::DriveSpec::Kind::acceleration;
+  }
+  HERSEY_REQUIRE(false, "every kind of drive is listed");
+}
+
+// Walks the model once, in the order in which parts refer to each other.
+class Builder {
+ public:
+  explicit Builder(const Model& model) : model_(model) {}
+
+  Machine build() {
+    mechanism_.set_gravity(model_.gravity);
+    if (model_.simulation.spectral_radius < 1) mechanism_.cut_paths();
+    add_frames(model_.ground, mbd::MechanismBuilder::ground());
+    for (const Body& body : model_.bodies) {
+      if (body.flexible) {
+        add_flexible(body);
+        continue;
+      }
+      if (body.beam) {
+        add_beam(body);
+        continue;
+      }
+      add_frames(body, mechanism_.add_body({body.name, body.mass, body.centre_of_mass, body.inertia}));
+    }
+    for (const Joint& joint : model_.joints) add_joint(joint);
+    for (const Drive& drive : model_.drives) add_drive(drive);
+    for (const CoordinateCoupling& coupling : model_.couplings) add_coupling(coupling);
+    for (const Force& force : model_.forces) add_force(force);
+    for (const Contact& contact : model_.contacts) add_contact(contact);
+    for (const Bearing& bearing : model_.bearings) add_bearing(bearing);
+    machine_.mechanism = mechanism_.finalise();
+    return std::move(machine_);
+  }
+
+ private:
+  void add_frames(const Body& body, mbd::BodyId id) {
+    const std::string name = id == mbd::MechanismBuilder::ground() ? "ground" : body.name;
+    bodies_[name] = id;
+    frames_[{name, ""}] = mechanism_.frame_of(id);
+    poses_[{name, ""}] = Pose{};
+    for (const Frame& frame : body.frames) {
+      frames_[{name, frame.name}] = mechanism_.add_frame({frame.name, id, frame.X_BF});
+      poses_[{name, frame.name}] = frame.X_BF;
+    }
+  }
+
+  void add_flexible(const Body& body) {
+    const std::vector<const DeformingSurface*> surfaces = surfaces_on(model_, body);
+    std::vector<BuiltSurface> kept;
+    const bool is_let_go = model_.simulation.analysis == Analysis::dynamics &&
+                           model_.simulation.initial_deformation == InitialDeformation::none;
+    BuiltFlexible built = build_flexible(body, surfaces, is_let_go, kept);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) kept_[surfaces[i]] = kept[i];
+    std::vector<std::string> names;
+    for (std::size_t i = 1; i < body.frames.size(); ++i) names.push_back(body.frames[i].name);
+    const mbd::FlexibleBodyIds ids = mechanism_.add_flexible_body(body.name, names, built.body);
+    bodies_[body.name] = ids.bodies[0];
+    frames_[{body.name, ""}] = ids.frames[0];
+    poses_[{body.name, ""}] = Pose{};
+    for (std::size_t i = 0; i < body.frames.size(); ++i) {
+      // The first frame rides on the body's axes, the others on their own with the mesh's axes.
+      Pose X = body.frames[i].X_BF;
+      if (i > 0) X.r.setZero();
+      frames_[{body.name, body.frames[i].name}] = mechanism_.add_frame({body.frames[i].name, ids.bodies[i], X});
+      poses_[{body.name, body.frames[i].name}] = X;
+    }
+    built.elastic = ids.elastic;
+    machine_.flexibles.push_back(std::move(built));
+  }
+
+  void add_beam(const Body& body) {
+    BuiltBeam built = build_beam(body, mechanism_);
+    bodies_[body.name] = built.ids.bodies[0];
+    frames_[{body.name, ""}] = built.ids.frames[0];
+    poses_[{body.name, ""}] = Pose{};
+    for (const Frame& frame : body.frames) {
+      const Pose X{frame.X_BF.R, Vector3::Zero()};  // nodes keep the body's axes
+      const mbd::BodyId node = built.ids.bodies[static_cast<std::size_t>(frame.nodes.front())];
+      frames_[{body.name, frame.name}] = mechanism_.add_frame({frame.name, node, X});
+      poses_[{body.name, frame.name}] = X;
+    }
+    machine_.beams.push_back(std::move(built));
+  }
+
+  [[nodiscard]] mbd::FrameId frame(const FrameName& name) const { return frames_.at({name.body, name.frame}); }
+
+  // Values of all of a joint's coordinates (or their rates), and which of them are not given; empty if none is known.
+  struct StartingValues {
+    std::vector<double> values;
+    std::vector<bool> loose;
+
+    void take(const InitialValue& known, const mbd::Coordinate& coordinate, int count, bool is_given) {
+      values.resize(static_cast<std::size_t>(count), 0.0);
+      loose.resize(static_cast<std::size_t>(count), true);
+      std::copy(known.value.begin(), known.value.end(), values.begin() + coordinate.offset);
+      std::fill_n(loose.begin() + coordinate.offset, coordinate.size, !is_given);
+    }
+  };
+
+  static StartingValues starting_values(const Joint& joint, bool rates) {
+    const mbd::JointType type = joint_type(joint.type);
+    const int count = mbd::degrees_of_freedom(type);
+    StartingValues known;
+    for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type)) {
+      const std::string name(rates ? mbd::rate_name(coordinate) : coordinate.name);
+      for (const InitialValue& value : joint.guess)
+        if (value.coordinate == name) known.take(value, coordinate, count, false);
+      for (const InitialValue& value : joint.initial)
+        if (value.coordinate == name) known.take(value, coordinate, count, true);
+    }
+    return known;
+  }
+
+  void add_joint(const Joint& joint) {
+    StartingValues position = starting_values(joint, false), rate = starting_values(joint, true);
+    const mbd::JointId id = mechanism_.add_joint({.name = joint.name,
+                                                  .type = joint_type(joint.type),
+                                                  .inboard = frame(joint.inboard),
+                                                  .outboard = frame(joint.outboard),
+                                                  .axis = joint.axis,
+                                                  .lead = joint.lead,
+                                                  .initial = std::move(position.values),
+                                                  .initial_rate = std::move(rate.values),
+                                                  .loose = std::move(position.loose),
+                                                  .loose_rate = std::move(rate.loose)});
+    joints_[joint.name] = {id, joint_type(joint.type)};
+  }
+
+  [[nodiscard]] mbd::CoordinateRef coordinate(const std::string& joint, const std::string& name) const {
+    const auto& [id, type] = joints_.at(joint);
+    const auto found = mbd::find_coordinate(type, name);
+    HERSEY_REQUIRE(found && found->size == 1, "the reader checks coordinates");
+    return {id, found->offset};
+  }
+
+  [[nodiscard]] mbd::CoordinateRef coordinate(const CoordinateName& name) const {
+    return coordinate(name.joint, name.coordinate);
+  }
+
+  void add_drive(const Drive& drive) {
+    mechanism_.add_drive({.name = drive.name,
+                          .coordinate = coordinate(drive.joint, drive.coordinate),
+                          .kind = drive_kind(drive.prescribes),
+                          .function = drive.motion.value,
+                          .ramp = drive.ramp,
+                          .start = model_.simulation.start});
+  }
+
+  [[nodiscard]] mbd::LoadTerm term(const Function& function, const Vector6& direction) const {
+    mbd::LoadTerm term{.direction = direction, .magnitude = function.value, .variables = {}};
+    for (const Variable& variable : function.variables) {
+      mbd::Variable argument;
+      if (variable.kind != Variable::Kind::time) {
+        argument.kind =
+            variable.kind == Variable::Kind::rate ? mbd::Variable::Kind::rate : mbd::Variable::Kind::position;
+        argument.coordinate = coordinate(variable.joint, variable.coordinate);
+      }
+      term.variables.push_back(argument);
+    }
+    return term;
+  }
+
+  void add_load(const Force& force) {
+    const BodyLoad& load = force.load;
+    // The mechanism takes the body's axes, the file those of the frame named.
+    const Matrix3 R = load.axes == Axes::body ? poses_.at({load.at.body, load.at.frame}).R : Matrix3::Identity();
+    const int first = load.is_torque ? 0 : 3;
+    mbd::LoadSpec spec{.name = force.name,
+                       .frame = frame(load.at),
+                       .axes = load.axes == Axes::body ? mbd::LoadAxes::body : mbd::LoadAxes::ground,
+                       .terms = {}};
+    for (std::size_t i = 0; i < load.functions.size(); ++i) {
+      Vector6 direction = Vector6::Zero();
+      direction.segment<3>(first) = R * load.direction.value_or(Vector3::Unit(static_cast<Eigen::Index>(i)));
+      spec.terms.push_back(term(load.functions[i], direction));
+    }
+    mechanism_.add_load(std::move(spec));
+  }
+
+  // Place among the machine's flexible bodies.
+  [[nodiscard]] std::size_t flexible_called(const std::string& name) const {
+    const auto at = std::find_if(machine_.flexibles.begin(), machine_.flexibles.end(),
+                                 [&](const BuiltFlexible& flexible) { return flexible.name == name; });
+    HERSEY_REQUIRE(at != machine_.flexibles.end(), "the reader checks bodies");
+    return static_cast<std::size_t>(at - machine_.flexibles.begin());
+  }
+
+  void add_surface_load(const Force& force) {
+    const SurfaceLoad& load = force.surface_load;
+    const std::size_t at = flexible_called(load.body);
+    const BuiltFlexible& flexible = machine_.flexibles[at];
+    const std::size_t first = mechanism_.nodal_loads(flexible.elastic);
+    for (std::size_t i = 0; i < load.functions.size(); ++i)
+      mechanism_.add_nodal_load(flexible.elastic, nodal_load(force, *flexible.mesh, i),
+                                std::make_shared<OverTime>(load.functions[i], model_.simulation));
+    machine_.surface_loads.push_back({force.name, at, first, load.functions.size()});
+  }
+
+  // What the value `i` of a surface load is multiplied with.
+  static mbd::NodalLoad nodal_load(const Force& force, const fem::Mesh& mesh, std::size_t i) {
+    const SurfaceLoad& load = force.surface_load;
+    Eigen::VectorXd f;
+    if (load.is_pressure)
+      f = load.direction ? fem::cosine_pressure_load(mesh, load.faces, *load.direction)
+                         : fem::pressure_load(mesh, load.faces, 1);
+    else
+      f = fem::spread_force(mesh, load.faces, load.direction.value_or(Vector3::Unit(static_cast<Eigen::Index>(i))));
+    return {force.name, load.axes == Axes::ground ? mbd::LoadAxes::ground : mbd::LoadAxes::body,
+            Eigen::Map<const Eigen::Matrix3Xd>(f.data(), 3, f.size() / 3)};
+  }
+
+  void add_force(const Force& force) {
+    switch (force.type) {
+      case ForceType::surface_load:
+        add_surface_load(force);
+        break;
+      case ForceType::load:
+        add_load(force);
+        break;
+      case ForceType::spring_damper: {
+        const SpringDamper& spring = force.spring_damper;
+        mechanism_.add_force(force.name, frame(spring.from), frame(spring.to),
+                             std::make_shared<mbd::SpringDamper>(spring.stiffness, spring.damping, spring.free_length,
+                                                                 spring.tension ? spring.tension->value : nullptr));
+        break;
+      }
+      case ForceType::coordinate_spring:
+        add_coordinate_spring(force);
+        break;
+      case ForceType::bushing: {
+        const Bushing& bushing = force.bushing;
+        mechanism_.add_force(force.name, frame(bushing.from), frame(bushing.to),
+                             std::make_shared<mbd::Bushing>(bushing.stiffness, bushing.damping));
+        break;
+      }
+      case ForceType::joint_friction: {
+        const JointFriction& friction = force.joint_friction;
+        mechanism_.add_coordinate_force(
+            force.name, coordinate(friction.on),
+            std::make_shared<mbd::JointFriction>(friction.coulomb, friction.viscous, friction.transition_speed));
+        break;
+      }
+      case ForceType::speed_control: {
+        const SpeedControl& control = force.speed_control;
+        mechanism_.add_coordinate_force(
+            force.name, coordinate(control.on),
+            std::make_shared<mbd::SpeedController>(control.speed.value, control.proportional, control.integral,
+                                                   control.limit));
+        break;
+      }
+    }
+  }
+
+  void add_coordinate_spring(const Force& force) {
+    const CoordinateSpring& spring = force.coordinate_spring;
+    mechanism_.add_spring({.name = force.name,
+                           .coordinate = coordinate(spring.on),
+                           .stiffness = spring.stiffness,
+                           .damping = spring.damping,
+                           .free_position = spring.free_position});
+    if (spring.restoring)
+      mechanism_.add_coordinate_force(
+          force.name, coordinate(spring.on),
+          std::make_shared<mbd::FunctionSpring>(spring.restoring->value, spring.free_position));
+  }
+
+  // Where a scalar coordinate starts.
+  [[nodiscard]] double initial_value(const CoordinateName& name) const {
+    for (const Joint& joint : model_.joints) {
+      if (joint.name != name.joint) continue;
+      for (const std::vector<InitialValue>* values : {&joint.initial, &joint.guess})
+        for (const InitialValue& value : *values)
+          if (value.coordinate == name.coordinate) return value.value.front();
+    }
+    return 0;
+  }
+
+  void add_coupling(const CoordinateCoupling& coupling) {
+    mbd::CouplingSpec spec{.name = coupling.name, .output = coordinate(coupling.output), .terms = {}};
+    // Gears mesh where the joints start; a relation says where.
+    double offset = initial_value(coupling.output);
+    for (const CoordinateCoupling::Term& term : coupling.terms) offset -= term.factor * initial_value(term.input);
+    for (const CoordinateCoupling::Term& term : coupling.terms) {
+      if (term.function) {
+        spec.terms.push_back({coordinate(term.input), term.function->value});
+      } else {
+        spec.terms.push_back({coordinate(term.input), std::make_shared<Line>(offset, term.factor)});
+        offset = 0;
+      }
+    }
+    mechanism_.add_coupling(std::move(spec));
+  }
+
+  // Displacements of some nodes, (3 nodes, shapes), of those of all nodes of a mesh.
+  static Eigen::MatrixXd rows_of(const Eigen::MatrixXd& displacements, const std::vector<int>& nodes) {
+    Eigen::MatrixXd some(3 * static_cast<Eigen::Index>(nodes.size()), displacements.cols());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      some.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = displacements.middleRows<3>(3 * nodes[i]);
+    return some;
+  }
+
+  void add_contact(const Contact& contact) {
+    const mbd::ShapeGeometry *first = model_.find_shape(contact.first), *second = model_.find_shape(contact.second);
+    HERSEY_REQUIRE(first != nullptr && second != nullptr, "the reader checks shapes");
+    const mbd::FrameId a = frames_.at({contact.first.body, ""}), b = frames_.at({contact.second.body, ""});
+    std::shared_ptr<mbd::Contact> force;
+    mbd::ForceSurfaces surfaces;
+    if (const DeformingFaces* faces = model_.find_faces(contact.second)) {
+      const BuiltFlexible& flexible = machine_.flexibles[flexible_called(contact.second.body)];
+      surfaces.b = flexible.elastic;
+      force = std::make_shared<mbd::Contact>(*first,
+                                             std::get<std::shared_ptr<const mbd::TriangleMesh>>(faces->shape.geometry),
+                                             rows_of(flexible.body->data().displacements, faces->nodes), contact.law);
+    } else {
+      force = std::make_shared<mbd::Contact>(*first, *second, contact.law);
+    }
+    const mbd::ForceId id = mechanism_.add_force("contact " + contact.name, a, b, force, surfaces);
+    machine_.contacts.push_back({std::move(force), id, bodies_.at(contact.first.body)});
+  }
+
+  // A bearing's surface by the shapes of the flexible body it lies on, seen from the bearing's frame.
+  [[nodiscard]] std::shared_ptr<const bearing::ElasticSurface> surface_of(const DeformingSurface& surface,
+                                                                          const FrameName& on) const {
+    const BuiltFlexible& flexible = machine_.flexibles[flexible_called(on.body)];
+    const auto body =
+        std::find_if(model_.bodies.begin(), model_.bodies.end(), [&](const Body& b) { return b.name == on.body; });
+    return elastic_surface(surface, *body, on.frame, flexible.body->data().displacements);
+  }
+
+  void add_bearing(const Bearing& bearing) {
+    bearing::BearingOptions options;
+    options.coupling = bearing.coupling.scheme == CouplingScheme::partitioned ? bearing::Coupling::partitioned
+                                                                              : bearing::Coupling::monolithic;
+    options.acceleration = bearing.coupling.acceleration;
+    options.relaxation = bearing.coupling.relaxation;
+    options.film.solver = bearing.solver;
+    options.initial_dt = model_.simulation.step;
+    if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) options.thermal = *heat;
+    for (const Function& pressure : bearing.feature_pressures) {
+      options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
+    }
+    BuiltBearing built;
+    mbd::ForceSurfaces surfaces;
+    if (bearing.shell_surface) {
+      options.shell_surface = surface_of(*bearing.shell_surface, bearing.shell);
+      surfaces.a = machine_.flexibles[flexible_called(bearing.shell.body)].elastic;
+      built.shell = kept_.at(&*bearing.shell_surface);
+    }
+    if (bearing.journal_surface) {
+      options.journal_surface = surface_of(*bearing.journal_surface, bearing.journal);
+      surfaces.b = machine_.flexibles[flexible_called(bearing.journal.body)].elastic;
+      built.journal = kept_.at(&*bearing.journal_surface);
+    }
+    built.bearing = std::make_shared<bearing::JournalBearing>(bearing.name, bearing.film, options);
+    built.force = mechanism_.add_force("bearing " + bearing.name, frame(bearing.shell), frame(bearing.journal),
+                                       built.bearing, surfaces);
+    machine_.bearings.push_back(std::move(built));
+  }
+
+  const Model& model_;
+  mbd::MechanismBuilder mechanism_;
+  Machine machine_;
+  std::map<const DeformingSurface*, BuiltSurface> kept_;  // what flexible bodies keep of bearings' surfaces
+  std::map<std::string, mbd::BodyId> bodies_;
+  std::map<std::pair<std::string, std::string>, mbd::FrameId> frames_;
+  std::map<std::pair<std::string, std::string>, Pose> poses_;
+  std::map<std::string, std::pair<mbd::JointId, mbd::JointType>> joints_;
+};
+
+}  // namespace
+
+Machine build(const Model& model) { return Builder(model).build(); }
+
+}  // namespace hersey::model

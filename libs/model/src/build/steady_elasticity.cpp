@@ -1,0 +1,266 @@
+#include "hersey/model/steady_elasticity.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "build/build_flexible.h"
+#include "build/static_shapes.h"
+#include "hersey/core/contract.h"
+
+namespace hersey::model {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const Body& body_called(const Model& model, const std::string& name) {
+  const auto found =
+      std::find_if(model.bodies.begin(), model.bodies.end(), [&](const Body& body) { return body.name == name; });
+  HERSEY_REQUIRE(found != model.bodies.end(), "the reader checks bodies");
+  return *found;
+}
+
+/// Place of a frame among those of its body; the body's own axes ride on the first.
+std::size_t place_of(const Body& body, const std::string& frame) {
+  const auto found =
+      std::find_if(body.frames.begin(), body.frames.end(), [&](const Frame& f) { return f.name == frame; });
+  return found == body.frames.end() ? 0 : static_cast<std::size_t>(found - body.frames.begin());
+}
+
+/// Frames that something of a kind attaches to, each once.
+class Attached {
+ public:
+  explicit Attached(const Body& body) : body_(body) {}
+  void add(const FrameName& frame) {
+    if (frame.body == body_.name) places_.insert(place_of(body_, frame.frame));
+  }
+  [[nodiscard]] std::vector<std::size_t> places() const { return {places_.begin(), places_.end()}; }
+
+ private:
+  const Body& body_;
+  std::set<std::size_t> places_;
+};
+
+std::vector<std::size_t> frames_with_joints(const Model& model, const Body& body) {
+  Attached attached(body);
+  for (const Joint& joint : model.joints) {
+    if (joint.type == JointType::free) continue;  // gives coordinates and holds nothing
+    attached.add(joint.inboard);
+    attached.add(joint.outboard);
+  }
+  return attached.places();
+}
+
+/// Of forces, and of bearings beside `bearing`; not its own frame, which they do not hold.
+std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& bearing, const Body& body,
+                                            std::size_t own) {
+  Attached attached(body);
+  for (const Force& force : model.forces) {
+    if (force.type == ForceType::load) attached.add(force.load.at);
+    if (force.type == ForceType::spring_damper) attached.add(force.spring_damper.from);
+    if (force.type == ForceType::spring_damper) attached.add(force.spring_damper.to);
+    if (force.type == ForceType::bushing) attached.add(force.bushing.from);
+    if (force.type == ForceType::bushing) attached.add(force.bushing.to);
+  }
+  for (const Bearing& other : model.bearings) {
+    if (other.name == bearing.name) continue;
+    attached.add(other.shell);
+    attached.add(other.journal);
+  }
+  std::vector<std::size_t> places = attached.places();
+  std::erase(places, own);
+  return places;
+}
+
+/// Where the body of a surface is held, as places among its frames.
+std::vector<std::size_t> holders(const Model& model, const Bearing& bearing, const Body& body, std::size_t own) {
+  if (std::vector<std::size_t> joints = frames_with_joints(model, body); !joints.empty()) return joints;
+  if (std::vector<std::size_t> forces = frames_with_forces(model, bearing, body, own); !forces.empty()) return forces;
+  return {own};
+}
+
+/// A body by its shapes, held at some of its frames: displacements of its frames and loads on its amplitudes.
+class HeldBody {
+ public:
+  HeldBody(StaticShapes shapes, const std::vector<std::size_t>& held)
+      : shapes_(std::move(shapes)), frames_(shapes_.stiffness.rows()), count_(frames_ + shapes_.flexibility.rows()) {
+    rigid_ = -carried(shapes_.at[held.front()]).inverse() * relative(held.front());
+    MatrixXd rows(6 * static_cast<Index>(held.size()) - 6, frames_);
+    for (std::size_t k = 1; k < held.size(); ++k)
+      rows.middleRows<6>(6 * static_cast<Index>(k - 1)) = motion(held[k], shapes_.at[held[k]]).leftCols(frames_);
+    solve(rows);
+  }
+
+  [[nodiscard]] const std::shared_ptr<const bearing::ElasticSurface>& surface() const { return shapes_.surface; }
+
+  /// Where a frame moves against the body's axes: not at all with the first, by its six amplitudes with the others.
+  [[nodiscard]] MatrixXd relative(std::size_t place) const {
+    MatrixXd E = MatrixXd::Zero(6, count_);
+    if (place > 0) E.middleCols<6>(6 * (static_cast<Index>(place) - 1)).setIdentity();
+    return E;
+  }
+
+  /// [rotation; displacement] of a point at `r` on a frame by the amplitudes, the first of those that hold at rest,
+  /// body's axes, (6, amplitudes).
+  [[nodiscard]] MatrixXd motion(std::size_t place, const Vector3& r) const {
+    return relative(place) + carried(r) * rigid_;
+  }
+
+  /// Amplitudes for unit forces on each of them, and by a wrench at `r` on frame `place`, in the body's axes.
+  [[nodiscard]] const MatrixXd& by_forces() const { return answers_; }
+  [[nodiscard]] MatrixXd by_wrench(std::size_t place, const Vector3& r) const {
+    return answers_ * motion(place, r).transpose();
+  }
+
+  /// Amplitudes by the forces of turning at 1 rad/s.
+  [[nodiscard]] VectorXd by_spin() const {
+    VectorXd s = VectorXd::Zero(count_);
+    for (std::size_t i = 0; i < shapes_.at.size(); ++i)
+      s += by_wrench(i, shapes_.at[i]) * shapes_.spin_on_frames.segment<6>(6 * static_cast<Index>(i));
+    s.tail(count_ - frames_) += shapes_.spin;
+    return s;
+  }
+
+ private:
+  /// [rotation; displacement] at `r` of a rigid motion of the body's axes.
+  static Matrix6 carried(const Vector3& r) {
+    Matrix6 T = Matrix6::Identity();
+    T.bottomLeftCorner<3, 3>() = -skew(r);
+    return T;
+  }
+
+  /// The amplitudes' part of [K rows^T; rows 0]^-1; internal ones answer for themselves.
+  void solve(const MatrixXd& rows) {
+    answers_ = MatrixXd::Zero(count_, count_);
+    answers_.bottomRightCorner(count_ - frames_, count_ - frames_) = shapes_.flexibility;
+    if (frames_ == 0) return;
+    const Index n = frames_, m = rows.rows();
+    // Rows of lengths and angles beside forces: all of the size of the stiffness.
+    const double size = shapes_.stiffness.diagonal().cwiseAbs().maxCoeff();
+    MatrixXd A = MatrixXd::Zero(n + m, n + m);
+    A.topLeftCorner(n, n) = shapes_.stiffness;
+    A.topRightCorner(n, m) = size * rows.transpose();
+    A.bottomLeftCorner(m, n) = size * rows;
+    const MatrixXd inverse = A.partialPivLu().inverse().topLeftCorner(n, n);
+    answers_.topLeftCorner(n, n) = 0.5 * (inverse + inverse.transpose());
+  }
+
+  StaticShapes shapes_;
+  Index frames_, count_;  ///< amplitudes of frames, and all of them
+  MatrixXd rigid_;        ///< motion of the body's axes by the amplitudes
+  MatrixXd answers_;
+};
+
+std::shared_ptr<const bearing::SurfaceFlexibility> flexibility(const Model& model, const Bearing& bearing,
+                                                               const DeformingSurface& surface, const FrameName& on) {
+  const Body& body = body_called(model, on.body);
+  const std::size_t own = place_of(body, on.frame);
+  const std::vector<std::size_t> held = holders(model, bearing, body, own);
+  const HeldBody rest(static_shapes(model, body, surface, on.frame), held);
+  const bool has_frame =
+      std::any_of(body.frames.begin(), body.frames.end(), [&](const Frame& frame) { return frame.name == on.frame; });
+  HERSEY_REQUIRE(has_frame || on.frame.empty(), "the reader checks frames");
+  const Pose X = has_frame ? body.frames[own].X_BF : Pose{};
+  Matrix6 turned = Matrix6::Zero();
+  turned.topLeftCorner<3, 3>() = turned.bottomRightCorner<3, 3>() = X.R;
+  bearing::SurfaceFlexibility result;
+  result.surface = rest.surface();
+  result.by_forces = rest.by_forces();
+  result.by_wrench = rest.by_wrench(own, X.r) * turned;
+  result.turn = X.R.transpose() * rest.motion(own, X.r).topRows<3>();
+  result.turn_in_body = X.R.transpose() * rest.relative(own).topRows<3>();
+  result.offset = X.R.transpose() * (rest.relative(held.front()) - rest.relative(own)).bottomRows<3>();
+  result.by_offset_moment = rest.by_forces() * rest.relative(held.front()).topRows<3>().transpose() * X.R;
+  result.by_spin = rest.by_spin();
+  result.body = body.name;
+  for (const std::size_t place : held) result.held_at.push_back(body.frames[place].name);
+  return std::make_shared<const bearing::SurfaceFlexibility>(std::move(result));
+}
+
+/// Numbers and names in a row.
+class Fingerprint {
+ public:
+  void add(double value) { bytes(&value, sizeof value); }
+  void add(int value) { bytes(&value, sizeof value); }
+  void add(const std::string& text) {
+    add(static_cast<int>(text.size()));
+    text_ += text;
+  }
+  template <class Derived>
+  void add(const Eigen::MatrixBase<Derived>& A) {
+    for (Index j = 0; j < A.cols(); ++j)
+      for (Index i = 0; i < A.rows(); ++i) add(static_cast<double>(A(i, j)));
+  }
+  void add(const std::vector<int>& list) {
+    add(static_cast<int>(list.size()));
+    for (const int value : list) add(value);
+  }
+  void add(const std::vector<fem::ElementFace>& faces) {
+    add(static_cast<int>(faces.size()));
+    for (const fem::ElementFace& face : faces) add(face.element), add(face.face);
+  }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  void bytes(const void* data, std::size_t size) { text_.append(static_cast<const char*>(data), size); }
+  std::string text_;
+};
+
+void add_mesh(const fem::Mesh& mesh, Fingerprint& print) {
+  for (const Vector3& node : mesh.nodes) print.add(node);
+  print.add(mesh.connectivity);
+  for (const fem::Element& element : mesh.elements)
+    print.add(static_cast<int>(element.type)), print.add(element.material);
+  for (const auto& [name, nodes] : mesh.node_sets) print.add(name), print.add(nodes);
+  for (const auto& [name, faces] : mesh.surfaces) print.add(name), print.add(faces);
+}
+
+void add_body(const Model& model, const Bearing& bearing, const FrameName& on, Fingerprint& print) {
+  const Body& body = body_called(model, on.body);
+  const Flexible& flexible = *body.flexible;
+  print.add(body.name);
+  add_mesh(*flexible.mesh, print);
+  for (const fem::SolidMaterial& material : flexible.materials) print.add(material.D), print.add(material.density);
+  print.add(flexible.nodal ? -1 : flexible.modes);
+  print.add(flexible.highest);
+  print.add(flexible.static_error);
+  print.add(flexible.load_harmonics);
+  for (const std::string& name : flexible.load_surfaces) print.add(name);
+  for (const auto& faces : flexible.contact_faces) print.add(faces);
+  for (const Frame& frame : body.frames) {
+    print.add(frame.name), print.add(frame.X_BF.R), print.add(frame.X_BF.r), print.add(frame.nodes);
+    print.add(static_cast<int>(frame.connection));
+  }
+  for (const DeformingSurface* surface : surfaces_on(model, body)) {
+    const fem::FilmSurface& film = *surface->surface;
+    print.add(film.cylinder.X.R), print.add(film.cylinder.X.r), print.add(film.cylinder.R), print.add(film.cylinder.L);
+    print.add(film.functions.around()), print.add(film.functions.along()), print.add(film.faces);
+    print.add(surface->modes.value_or(-1));
+  }
+  const std::size_t own = place_of(body, on.frame);
+  print.add(static_cast<int>(own));
+  for (const std::size_t place : holders(model, bearing, body, own)) print.add(static_cast<int>(place));
+}
+
+}  // namespace
+
+std::shared_ptr<const bearing::SteadyElasticity> steady_elasticity(const Model& model, const Bearing& bearing) {
+  if (!bearing.shell_surface && !bearing.journal_surface) return nullptr;
+  auto both = std::make_shared<bearing::SteadyElasticity>();
+  if (bearing.shell_surface) both->shell = flexibility(model, bearing, *bearing.shell_surface, bearing.shell);
+  if (bearing.journal_surface) both->journal = flexibility(model, bearing, *bearing.journal_surface, bearing.journal);
+  return both;
+}
+
+std::string fingerprint_of_elasticity(const Model& model, const Bearing& bearing) {
+  Fingerprint print;
+  if (bearing.shell_surface) print.add("shell"), add_body(model, bearing, bearing.shell, print);
+  if (bearing.journal_surface) print.add("journal"), add_body(model, bearing, bearing.journal, print);
+  return print.take();
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/fem/surface_loads.h"
+#include "interpret/interpret.h"
+
+// Surfaces of bearings that lie on the mesh of a flexible body.
+namespace hersey::model {
+namespace {
+
+constexpr double near_radius = 0.01;  // by which named faces may lie off the bearing's radius
+
+double millimetres(double length) { return 1e3 * length; }
+
+/// One side of one bearing.
+class FilmSurfaceReader {
+ public:
+  FilmSurfaceReader(Context& context, const Value& value, const FrameName& on, const film::FilmModel& film,
+                    bool is_shell)
+      : context_(context), value_(value), on_(on), film_(film), is_shell_(is_shell) {}
+
+  std::optional<DeformingSurface> read() {
+    const Body* body = flexible_body();
+    if (body == nullptr || film_.R <= 0 || film_.L <= 0) return std::nullopt;
+    const fem::FilmCylinder cylinder{.X = pose_in(*body), .R = film_.R, .L = film_.L, .is_bore = is_shell_};
+    const fem::Mesh& mesh = *body->flexible->mesh;
+    const Value *named = value_.find("faces"), *within = value_.find("within");
+    if (named == nullptr && within == nullptr) return std::nullopt;  // told
+    const Value& choice = named != nullptr ? *named : *within;
+    if (choice.broken || context_.has_fault_in(value_.path)) return std::nullopt;
+    if (!has_enough_functions()) return std::nullopt;
+    std::vector<fem::ElementFace> faces;
+    if (named != nullptr) faces = faces_of(context_, *named, mesh);
+    if (named != nullptr && faces.empty()) return std::nullopt;  // told
+    const double tolerance = named != nullptr ? near_radius * film_.R : within->number;
+    if (named == nullptr) faces = fem::faces_on_cylinder(mesh, cylinder, tolerance);
+    const fem::FilmSurfaceResult result =
+        fem::film_surface(mesh, faces, cylinder, functions_of(mesh, faces, cylinder), tolerance);
+    if (!result.ok()) {
+      context_.fault(choice, result.message, expected(), result.remedy);
+      return std::nullopt;
+    }
+    refuse_if_held(*body, *result.surface, choice);
+    DeformingSurface surface;
+    surface.surface = std::make_shared<const fem::FilmSurface>(*result.surface);
+    if (const Value* modes = value_.find("modes")) surface.modes = static_cast<int>(modes->number);
+    surface.position = choice.position;
+    return surface;
+  }
+
+ private:
+  [[nodiscard]] std::string side() const { return is_shell_ ? "shell" : "journal"; }
+
+  [[nodiscard]] std::string expected() const {
+    return fmt::format("faces of the mesh that are a {} of {:.4g} mm radius, {:.4g} mm wide, about the z-axis of {}",
+                       is_shell_ ? "bore" : "shaft", millimetres(film_.R), millimetres(film_.L), on_name());
+  }
+
+  [[nodiscard]] std::string on_name() const { return on_.frame.empty() ? on_.body : on_.body + "." + on_.frame; }
+
+  /// The body of this side where it has a mesh; null where there is none, reported.
+  const Body* flexible_body() {
+    if (on_.body.empty()) {
+      context_.fault_at_key(value_, "a deforming surface of a bearing without bodies", "`" + side() + ": BODY.FRAME`",
+                            "a bearing by itself has rigid surfaces, or columns: 'compliance'");
+      return nullptr;
+    }
+    if (context_.has_fault_in("bodies." + on_.body)) return nullptr;
+    const auto& bodies = context_.model.bodies;
+    const auto body =
+        std::find_if(bodies.begin(), bodies.end(), [&](const Body& candidate) { return candidate.name == on_.body; });
+    if (body == bodies.end() && on_.body != "ground") return nullptr;  // told
+    const std::string instead = "`rigid`, or a flexible body with a `mesh`";
+    if (body == bodies.end() || !body->flexible) {
+      const bool is_beam = body != bodies.end() && body->beam;
+      context_.fault_at_key(
+          value_, "a deforming surface on " + std::string(is_beam ? "the beam '" : "rigid body '") + on_.body + "'",
+          instead, "give 'flexible: {mesh: ...}' to the body, or leave '" + side() + "_surface' out");
+      return nullptr;
+    }
+    if (body->flexible->reduced) {
+      context_.fault_at_key(
+          value_,
+          "a deforming surface on the reduced body '" + on_.body + "', whose file holds no answers to film pressure",
+          instead, "give the body its 'mesh' in place of 'reduced'");
+      return nullptr;
+    }
+    if (body->flexible->strain == mbd::Strain::finite) {
+      context_.fault_at_key(value_, "a deforming surface on '" + on_.body + "', a body of finite strain",
+                            "`rigid`, or a body of `strain: small`",
+                            "surfaces move by static shapes, which a large bend is not; give the bearing a rigid frame "
+                            "of its own on the body");
+      return nullptr;
+    }
+    return body->flexible->mesh ? &*body : nullptr;
+  }
+
+  /// The bearing's frame in the mesh's axes.
+  [[nodiscard]] Pose pose_in(const Body& body) const {
+    for (const Frame& frame : body.frames)
+      if (frame.name == on_.frame) return frame.X_BF;
+    return {};
+  }
+
+  [[nodiscard]] SurfaceFunctions functions_of(const fem::Mesh& mesh, const std::vector<fem::ElementFace>& faces,
+                                              const fem::FilmCylinder& cylinder) const {
+    const Value* given = value_.find("functions");
+    if (given != nullptr && given->members.size() == 2)
+      return {static_cast<int>(given->members[0].value.number), static_cast<int>(given->members[1].value.number),
+              cylinder.L};
+    if (faces.empty()) return {4, 1, cylinder.L};
+    return fem::functions_for(mesh, faces, cylinder);
+  }
+
+  /// A periodic cubic spline has four functions or more.
+  bool has_enough_functions() {
+    const Value* given = value_.find("functions");
+    if (given == nullptr || given->members.size() != 2 || given->members[0].value.number >= 4) return true;
+    context_.fault(given->members[0].value, "fewer than 4 functions around", "at least 4, such as [24, 5]");
+    return false;
+  }
+
+  /// Nodes that a rigid frame carries do not move against it: no pressure would deform the surface.
+  void refuse_if_held(const Body& body, const fem::FilmSurface& surface, const Value& at) {
+    const fem::Mesh& mesh = *body.flexible->mesh;
+    std::vector<const Frame*> holder(mesh.nodes.size(), nullptr);
+    for (const Frame& frame : body.frames)
+      if (frame.connection == fem::Connection::rigid)
+        for (const int node : frame.nodes) holder[static_cast<std::size_t>(node)] = &frame;
+    const std::vector<int> nodes = fem::nodes_on(mesh, surface.faces);
+    const Frame* frame = holder[static_cast<std::size_t>(nodes.front())];
+    if (!std::all_of(nodes.begin(), nodes.end(), [&](int n) { return holder[static_cast<std::size_t>(n)] != nullptr; }))
+      return;
+    context_.fault(at, "a surface whose nodes all belong to the rigid frame '" + frame->name + "'",
+                   "nodes that can move", "give the frame 'connection: average'");
+  }
+
+  Context& context_;
+  const Value& value_;
+  const FrameName& on_;
+  const film::FilmModel& film_;
+  bool is_shell_;
+};
+
+/// Mean radius of the nodes of a surface.
+double mean_radius(const fem::Mesh& mesh, const fem::FilmSurface& surface) {
+  const Pose to_cylinder = surface.cylinder.X.inverse();
+  const std::vector<int> nodes = fem::nodes_on(mesh, surface.faces);
+  double sum = 0;
+  for (const int node : nodes) sum += (to_cylinder * mesh.nodes[static_cast<std::size_t>(node)]).head<2>().norm();
+  return sum / static_cast<double>(nodes.size());
+}
+
+const fem::Mesh& mesh_of(const Context& context, const std::string& body) {
+  const auto& bodies = context.model.bodies;
+  return *std::find_if(bodies.begin(), bodies.end(), [&](const Body& candidate) {
+            return candidate.name == body;
+          })->flexible->mesh;
+}
+
+}  // namespace
+
+std::optional<DeformingSurface> deforming_surface_of(Context& context, const Value& bearing, const std::string& side,
+                                                     const FrameName& on, const film::FilmModel& film) {
+  const Value* value = bearing.find(side + "_surface");
+  if (value == nullptr || value->broken || value->members.empty()) return std::nullopt;
+  const Value& choice = value->members.front().value;
+  if (choice.broken || choice.text == "rigid") return std::nullopt;
+  return FilmSurfaceReader(context, choice, on, film, side == "shell").read();
+}
+
+void require_facing_surfaces(Context& context, const Value& value, const Bearing& bearing) {
+  if (!bearing.shell_surface || !bearing.journal_surface) return;
+  const double shell = mean_radius(mesh_of(context, bearing.shell.body), *bearing.shell_surface->surface);
+  const double journal = mean_radius(mesh_of(context, bearing.journal.body), *bearing.journal_surface->surface);
+  if (std::abs(shell - journal - bearing.film.c) <= near_radius * bearing.film.R) return;
+  context.fault_at_key(*value.find("journal_surface"),
+                       fmt::format("surfaces that do not face each other: the shell's nodes have a mean radius of "
+                                   "{:.5g} mm, the journal's one of {:.5g} mm, with a clearance of {:.3g} mm",
+                                   millimetres(shell), millimetres(journal), millimetres(bearing.film.c)),
+                       "meshes of a bore and of the shaft in it", "choose the right faces, or make 'within' smaller");
+}
+
+}  // namespace hersey::model

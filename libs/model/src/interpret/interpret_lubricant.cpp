@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <variant>
+
+#include "interpret/interpret.h"
+#include "schema/oil_grades.h"
+#include "schema/oil_laws.h"
+
+namespace hersey::model {
+namespace {
+
+film::ViscosityLaw viscosity_law_of(Context& context, const Value& lubricant, double mu0) {
+  const Value* given = lubricant.find("pressure_viscosity");
+  if (given == nullptr || given->broken || given->members.empty()) return {};
+  const Value& law = given->members.front().value;
+  if (law.type->kind == Type::Kind::quantity) {
+    if (law.number == 0) return film::ConstantViscosity{};
+    return film::Barus{law.number};
+  }
+  if (law.broken) return {};
+  film::ViscosityLaw read = read_alternative(law, viscosity_laws());
+  const Value* viscosity = lubricant.find("viscosity");
+  if (std::holds_alternative<film::Roelands>(read) && viscosity != nullptr && !viscosity->broken &&
+      mu0 <= film::Roelands::smallest_viscosity) {
+    context.fault(*viscosity, "a viscosity at or below Roelands' 0.0632 mPa.s",
+                  "a larger one, or another law in pressure_viscosity");
+  }
+  return read;
+}
+
+/// A value that no oil has is most often one in the wrong unit.
+void warn_outside(Context& context, const Value& parent, const std::string& key, double low, double high,
+                  const char* expected) {
+  const Value* value = parent.find(key);
+  if (value == nullptr || value->broken || !value->given) return;
+  const Value& number = value->members.empty() ? *value : value->members.front().value;
+  const Value* inner = number.find("alpha");
+  const Value& tested = inner != nullptr ? *inner : number;
+  if (tested.broken || tested.type->kind != Type::Kind::quantity || (tested.number >= low && tested.number <= high))
+    return;
+  context.model.warnings.push_back(
+      {tested.position, tested.path, "a value that no lubricant has", expected, "is it in the right unit?"});
+}
+
+void warn_of_unphysical(Context& context, const Value& lubricant) {
+  warn_outside(context, lubricant, "viscosity", 1e-5, 1e3, "about 1 mPa.s to 10 Pa.s for oils, 0.01 mPa.s for gases");
+  warn_outside(context, lubricant, "density", 0.1, 5000, "about 800 to 1000 kg/m^3 for oils");
+  warn_outside(context, lubricant, "pressure_viscosity", 0, 1e-7, "at most about 4e-8 1/Pa (40 1/GPa) for oils");
+  const Value* law = lubricant.find("compressibility");
+  if (law == nullptr || law->broken || law->text != "dowson_higginson") return;
+  const double rise = number_of(*law, "rise"), saturation = number_of(*law, "saturation");
+  if (rise <= 5e-9 && rise <= saturation) return;
+  context.model.warnings.push_back({law->key_position, law->path,
+                                    "an oil that more than doubles its density under pressure",
+                                    "a rise below saturation, such as 0.6 and 1.7 1/GPa", ""});
+}
+
+film::DensityLaw density_law_of(const Context& context, const Value& lubricant) {
+  const Value* law = lubricant.find("compressibility");
+  if (law == nullptr || law->broken || context.has_fault_in(law->path)) return {};
+  return read_alternative(*law, density_laws());
+}
+
+/// Of oils of which nothing else is known [kg/m^3].
+constexpr double usual_density = 850;
+
+const OilGrade* grade_of(const Value& lubricant) {
+  const Value* grade = lubricant.find("grade");
+  return grade == nullptr || grade->broken ? nullptr : oil_grade(grade->text);
+}
+
+double density_of(const Value& lubricant) {
+  if (const Value* density = lubricant.find("density"); density != nullptr) return density->number;
+  const OilGrade* grade = grade_of(lubricant);
+  return grade != nullptr ? grade->rho15 : usual_density;
+}
+
+/// Rows of a table ascend, and no oil thickens as it is heated.
+void check_temperature_law(Context& context, const Value& law) {
+  if (law.text == "table") {
+    const Value &T = *law.find("temperatures"), &mu = *law.find("viscosities");
+    if (T.members.size() != mu.members.size() || T.members.size() < 2)
+      return context.fault(mu, fmt::format("{} viscosities at {} temperatures", mu.members.size(), T.members.size()),
+                           "as many of both, two at least");
+    for (std::size_t k = 1; k < T.members.size(); ++k) {
+      if (T.members[k].value.number <= T.members[k - 1].value.number)
+        return context.fault(T.members[k].value, "a temperature that is no higher than the one before",
+                             "temperatures that ascend");
+      if (mu.members[k].value.number > mu.members[k - 1].value.number)
+        return context.fault(mu.members[k].value, "an oil that thickens as it is heated", "viscosities that fall");
+    }
+  }
+  if (law.text == "walther" && number_of(law, "nu40") <= number_of(law, "nu100"))
+    context.fault(*law.find("nu100"), "an oil that is no thinner at 100 degC than at 40 degC", "nu100 below nu40",
+                  "are both in the wrong order?");
+}
+
+film::TemperatureLaw temperature_law_of(Context& context, const Value& lubricant) {
+  const Value* given = lubricant.find("viscosity");
+  if (given == nullptr) {
+    if (lubricant.find("grade") == nullptr)
+      context.fault_at_key(lubricant, "a lubricant without a viscosity", "a 'viscosity' or a 'grade'");
+    const OilGrade* grade = grade_of(lubricant);
+    if (grade == nullptr) return film::FixedViscosity{};
+    return film::WaltherViscosity::through(grade->nu40, grade->nu100, density_of(lubricant));
+  }
+  if (given->broken || given->members.empty()) return film::FixedViscosity{};
+  const Value& law = given->members.front().value;
+  if (law.type->kind == Type::Kind::quantity) return film::FixedViscosity{law.number};
+  if (law.broken || context.has_fault_in(law.path)) return film::FixedViscosity{};
+  check_temperature_law(context, law);
+  if (context.has_fault_in(law.path)) return film::FixedViscosity{};
+  return read_alternative(law, temperature_laws(density_of(lubricant)));
+}
+
+}  // namespace
+
+void interpret_lubricants(Context& context) {
+  for (const auto& [name, value] : section(context.root, "lubricants")) {
+    Lubricant lubricant{.name = name, .data = {}, .position = value.key_position};
+    film::Lubricant& oil = lubricant.data;
+    oil.temperature_law = temperature_law_of(context, value);
+    oil.density = density_of(value);
+    oil.specific_heat = number_of(value, "specific_heat");
+    oil.conductivity = number_of(value, "conductivity");
+    if (const auto* fixed = std::get_if<film::FixedViscosity>(&oil.temperature_law)) oil.mu0 = fixed->mu;
+    if (const Value* T = value.find("temperature"); T != nullptr && !T->broken) {
+      lubricant.temperature = T->number;
+      oil = film::at_temperature(oil, T->number);
+    }
+    if (const OilGrade* grade = grade_of(value)) lubricant.grade = grade->name;
+    oil.viscosity_law = viscosity_law_of(context, value, oil.mu0);
+    oil.density_law = density_law_of(context, value);
+    warn_of_unphysical(context, value);
+    context.model.lubricants.push_back(std::move(lubricant));
+  }
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,127 @@
+#include "hersey/model/read.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+
+#include "hersey/core/input_file.h"
+#include "interpret/check.h"
+#include "interpret/interpret.h"
+#include "interpret/interpret_size.h"
+#include "interpret/reader.h"
+#include "schema/format.h"
+
+namespace hersey::model {
+namespace {
+
+constexpr std::uintmax_t kLargestModelFile = std::uintmax_t{1} << 26;  // 67 MB: tables of numbers belong into files
+
+std::vector<Parameter> parameters_of(const Node& root) {
+  std::vector<Parameter> parameters;
+  const Node* section = root.find("parameters");
+  if (section == nullptr) return parameters;
+  for (const Entry& entry : section->entries) {
+    parameters.push_back({entry.key, written(entry.value), entry.value.position});
+  }
+  return parameters;
+}
+
+std::string resolved(const std::string& text, const std::vector<std::string>& overrides) {
+  std::string header;
+  for (const std::string& change : overrides) {
+    header += "# --set ";
+    for (const char c : change) header += c == '\n' ? ' ' : c;
+    header += '\n';
+  }
+  return header + text;
+}
+
+bool stands_before(const Fault& a, const Fault& b) {
+  const auto key = [](const Fault& fault) {
+    return std::tie(fault.position.file, fault.position.line, fault.position.column);
+  };
+  return key(a) < key(b);
+}
+
+}  // namespace
+
+std::string file_text(const std::string& path) {
+  InputFile file = read_input_file(path, kLargestModelFile);
+  if (!file.fault.empty()) throw InputError(Fault{{path, 0, 0}, "", file.fault, "a model file", ""});
+  return std::move(file.content);
+}
+
+std::vector<std::string> top_level_keys() {
+  std::vector<std::string> keys;
+  for (const Key* key : all_keys(model_format())) keys.push_back(key->name);
+  return keys;
+}
+
+Model read_tree(Node root, const std::string& file, const std::vector<Override>& overrides,
+                std::vector<Fault>& faults) {
+  Model model;
+  model.file = file;
+  if (root.kind == Node::Kind::null) {
+    faults.push_back({{file, 1, 1}, "", "an empty file", "a model, beginning with 'hersey: 1'", ""});
+    return model;
+  }
+  apply_overrides(root, overrides, top_level_keys(), faults);
+  substitute_parameters(root, faults);
+  model.parameters = parameters_of(root);
+  const Value value = check(root, model_format(), faults, model.positions);
+  Context context{value, model, faults};
+  model.title = text_of(value, "title");
+  model.description = text_of(value, "description");
+  model.gravity = vector_of(value, "gravity");
+  check_completeness(context);
+  interpret_bodies(context);
+  interpret_joints(context);
+  interpret_drives(context);
+  interpret_couplings(context);
+  interpret_forces(context);
+  interpret_contacts(context);
+  interpret_lubricants(context);
+  interpret_bearings(context);
+  require_separate_faces(context);
+  interpret_simulation(context);
+  check_functions_of_crank(context);
+  interpret_study(context);
+  check_table_ranges(context);
+  check_size(context);
+  return model;
+}
+
+void tidy(std::vector<Fault>& faults) {
+  std::stable_sort(faults.begin(), faults.end(), stands_before);
+  const auto same = [](const Fault& a, const Fault& b) { return a.text() == b.text(); };
+  faults.erase(std::unique(faults.begin(), faults.end(), same), faults.end());
+}
+
+Model read_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+  std::vector<Fault> faults;
+  const std::vector<Override> changes = parse_overrides(overrides, faults);
+  std::optional<Node> root = parse_yaml(text, file, faults);
+  Model model;
+  if (root) model = read_tree(std::move(*root), file, changes, faults);
+  if (!faults.empty()) {
+    tidy(faults);
+    throw InputError(std::move(faults));
+  }
+  model.resolved_text = resolved(text, overrides);
+  return model;
+}
+
+Model read(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_text(file_text(path), path, overrides);
+}
+
+SourcePosition Model::position_of(const std::string& path) const {
+  for (std::string key = path; !key.empty(); key.resize(key.find_last_of('.'))) {
+    const auto found = positions.find(key);
+    if (found != positions.end()) return found->second;
+    if (key.find('.') == std::string::npos) break;
+  }
+  return {file, 0, 0};
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/model/model.h"
+#include "interpret/overrides.h"
+
+namespace hersey::model {
+
+/// The text of a file. @throws InputError where it cannot be read.
+[[nodiscard]] std::string file_text(const std::string& path);
+
+/// The keys of the model's top level.
+[[nodiscard]] std::vector<std::string> top_level_keys();
+
+/// Reads a model from its YAML tree; faults are added to `faults`, and the model is usable only where there are none.
+[[nodiscard]] Model read_tree(Node root, const std::string& file, const std::vector<Override>& overrides,
+                              std::vector<Fault>& faults);
+
+/// Puts faults in the order of the file and drops repetitions, which one wrong value used twice would cause.
+void tidy(std::vector<Fault>& faults);
+
+}  // namespace hersey::model

@@ -1,0 +1,122 @@
+#include "hersey/model/study.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "hersey/core/units.h"
+#include "hersey/model/read.h"
+#include "interpret/reader.h"
+
+namespace hersey::model {
+namespace {
+
+constexpr std::size_t most_runs = 100'000;
+
+bool is_fixed_by(const std::vector<std::string>& overrides, const std::string& name) {
+  return std::any_of(overrides.begin(), overrides.end(),
+                     [&](const std::string& text) { return text.starts_with(name + "="); });
+}
+
+/// The value for plotting: in the unit of the parameter's first value, so that "500 N" and "1 kN" share an axis.
+StudyValue value_of(const StudyParameter& parameter, const std::string& text) {
+  StudyValue value{parameter.name, text, 0, ""};
+  try {
+    const std::string unit = split_quantity(parameter.values.front()).unit;
+    value.number = convert(split_quantity(text), unit);
+    value.unit = unit;
+  } catch (const QuantityError&) {
+    // A word, such as the name of a cavitation model: it labels its run and has no place on an axis.
+    value.number = 0;
+  }
+  return value;
+}
+
+/// Letters, digits, dots and signs stay; the rest becomes _.
+std::string slug_of(const std::string& label) {
+  std::string slug;
+  for (const char c : label) {
+    const bool stays = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+';
+    if (stays) {
+      slug += c;
+    } else if (!slug.empty() && slug.back() != '_') {
+      slug += '_';
+    }
+  }
+  return slug;
+}
+
+StudyRun run_of(const std::vector<StudyParameter>& parameters, std::size_t index,
+                const std::vector<std::string>& overrides) {
+  StudyRun run{overrides, "", "", {}};
+  for (std::size_t k = parameters.size(); k-- > 0;) {  // the last parameter varies fastest
+    const StudyParameter& parameter = parameters[k];
+    const std::string& text = parameter.values[index % parameter.values.size()];
+    index /= parameter.values.size();
+    run.values.insert(run.values.begin(), value_of(parameter, text));
+  }
+  for (const StudyValue& value : run.values) {
+    run.overrides.push_back(value.name + "=" + value.text);
+    run.label += (run.label.empty() ? "" : ", ") + value.name + " = " + value.text;
+    run.slug += (run.slug.empty() ? "" : "-") + slug_of(value.name + " " + value.text);
+  }
+  return run;
+}
+
+/// "5 m" and "5 µm" have one slug, and results must not: later ones get a number.
+void tell_slugs_apart(std::vector<StudyRun>& runs) {
+  std::set<std::string> taken;
+  for (StudyRun& run : runs) {
+    const std::string slug = run.slug;
+    for (int number = 2; !taken.insert(run.slug).second; ++number) run.slug = slug + "-" + std::to_string(number);
+  }
+}
+
+/// Reads the model once with each single value of the study; its faults point at the study's lines.
+void check_values(const std::string& path, const std::vector<std::string>& overrides,
+                  const std::vector<StudyParameter>& parameters) {
+  std::vector<Fault> faults;
+  const std::vector<Override> given = parse_overrides(overrides, faults);
+  const Node root = parse_yaml(file_text(path), path, faults).value_or(Node{});
+  for (const StudyParameter& parameter : parameters) {
+    for (const std::string& text : parameter.values) {
+      std::vector<Override> changes = given;
+      changes.push_back({parameter.name, parse_yaml(text, path, faults).value_or(Node{}), parameter.position});
+      move_to(changes.back().value, parameter.position);
+      (void)read_tree(root, path, changes, faults);
+    }
+  }
+  if (faults.empty()) return;
+  tidy(faults);
+  throw InputError(std::move(faults));
+}
+
+}  // namespace
+
+std::vector<StudyRun> expand_parameters(const std::string& path, const std::vector<std::string>& overrides,
+                                        const std::vector<StudyParameter>& parameters) {
+  std::size_t count = 1;
+  for (const StudyParameter& parameter : parameters) {
+    count *= parameter.values.size();
+    if (count <= most_runs) continue;
+    throw InputError(Fault{parameter.position, "study.parameters", "more than 100000 combinations",
+                           "at most 100000 runs in a study", "leave out values"});
+  }
+  check_values(path, overrides, parameters);
+  std::vector<StudyRun> runs;
+  for (std::size_t i = 0; i < count; ++i) runs.push_back(run_of(parameters, i, overrides));
+  tell_slugs_apart(runs);
+  return runs;
+}
+
+std::vector<StudyRun> expand_study(const std::string& path, const std::vector<std::string>& overrides) {
+  const Model model = read(path, overrides);
+  if (!model.study) return {};
+  std::vector<StudyParameter> varied;
+  for (const StudyParameter& parameter : model.study->parameters) {
+    if (!is_fixed_by(overrides, parameter.name)) varied.push_back(parameter);
+  }
+  return expand_parameters(path, overrides, varied);
+}
+
+}  // namespace hersey::model

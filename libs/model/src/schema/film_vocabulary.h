@@ -1,0 +1,69 @@
+#pragma once
+
+#include "hersey/film/film_model.h"
+#include "hersey/solver/fixed_point_iteration.h"
+#include "schema/vocabulary.h"
+
+// Words of bearings and their oil.
+namespace hersey::model {
+
+inline constexpr Vocabulary<film::Cavitation, 3> cavitation_words{{
+    {film::Cavitation::mass_conserving, "mass_conserving",
+     "pressure or fill fraction at every place (Jakobsson, Floberg, Olsson)"},
+    {film::Cavitation::reynolds, "reynolds",
+     "zero pressure gradient at rupture; oil is lost where the film forms again"},
+    {film::Cavitation::guembel, "guembel", "full film, negative pressures left out of the forces (half Sommerfeld)"},
+}};
+
+inline constexpr Vocabulary<film::AsperityModel, 3> asperity_words{{
+    {film::AsperityModel::none, "none", "smooth surfaces"},
+    {film::AsperityModel::greenwood_tripp_fit, "greenwood_tripp_fit",
+     "Greenwood and Tripp (1971), F = 4.4086e-5 (4 - (h - delta)/sigma)^6.804"},
+    {film::AsperityModel::greenwood_tripp_exact, "greenwood_tripp", "the same with the exact integral F_5/2"},
+}};
+
+inline constexpr Vocabulary<film::FlowFactors, 2> flow_factor_words{{
+    {film::FlowFactors::patir_cheng, "patir_cheng",
+     "it changes flow and shear of the oil (Patir and Cheng 1978, 1979)"},
+    {film::FlowFactors::none, "none", "it matters to contact only"},
+}};
+
+inline constexpr Vocabulary<film::CavitatedShear, 2> cavitated_shear_words{{
+    {film::CavitatedShear::film_share, "film_share", "the liquid's share of the gap"},
+    {film::CavitatedShear::full, "full", "as if the gap were full"},
+}};
+
+inline constexpr Vocabulary<film::ShearForce, 2> shear_force_words{{
+    {film::ShearForce::full, "full", "torque and net force"},
+    {film::ShearForce::torque_only, "torque_only", "the net force of shear is left out"},
+}};
+
+inline constexpr Vocabulary<film::FilmSolver, 3> film_solver_words{{
+    {film::FilmSolver::newton, "newton", "Newton's method with exact derivatives"},
+    {film::FilmSolver::multigrid, "multigrid", "the same, its linear systems solved by multigrid: for fine grids"},
+    {film::FilmSolver::sor, "sor", "successive over-relaxation, for comparison"},
+}};
+
+inline constexpr Vocabulary<film::PressureScale, 2> pressure_scale_words{{
+    {film::PressureScale::gauge, "gauge", "0 is the atmosphere, -1.01325 bar is a vacuum"},
+    {film::PressureScale::absolute, "absolute", "0 is a vacuum"},
+}};
+
+inline constexpr Vocabulary<film::Surface, 2> feature_surface_words{{
+    {film::Surface::shell, "shell", "the bore"},
+    {film::Surface::journal, "journal", "the journal: it travels as the journal turns"},
+}};
+
+inline constexpr Vocabulary<film::Surface, 2> profile_surface_words{{
+    {film::Surface::shell, "shell", "the bore"},
+    {film::Surface::journal, "journal", "the journal: it turns with it"},
+}};
+
+inline constexpr Vocabulary<solver::Acceleration, 3> acceleration_words{{
+    {solver::Acceleration::quasi_newton, "quasi_newton",
+     "the interface's Jacobian is learnt from the steps taken (IQN-ILS)"},
+    {solver::Acceleration::aitken, "aitken", "the share taken follows the last two corrections"},
+    {solver::Acceleration::constant, "constant", "the same share of every correction"},
+}};
+
+}  // namespace hersey::model

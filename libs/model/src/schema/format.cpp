@@ -1,0 +1,127 @@
+#include "schema/format.h"
+
+namespace hersey::model {
+namespace {
+
+TypePtr root() {
+  const TypePtr parameters = named("a mapping from names to values", scalar("a number, quantity or word", "2500 N"));
+  return object(
+      "a model",
+      {
+          required("hersey", integer(1, {.low = 1, .high = 1}), "Version of this format."),
+          defaulted("title", text("a line of text", "Big-end bearing"), "", "Heads the results and the report."),
+          defaulted("description", text("text", "Table 1 of the paper"), "", "Free text, shown in the report."),
+          optional(
+              "parameters", parameters,
+              "Values usable below as `${name}`; `--set name=value` replaces them. Quote a `${name}` inside braces "
+              "or brackets, since YAML gives braces a meaning of its own."),
+          defaulted("gravity", vector("m/s^2", "0 -9.81 0 m/s^2"), "0 0 0 m/s^2",
+                    "Acceleration of free fall, ground axes."),
+          optional("bodies", bodies_format(),
+                   "The rigid bodies. A file of bearings alone, for `hersey bearing`, has none.",
+                   "**required** to simulate"),
+          optional("joints", joints_format(),
+                   "Connections between bodies. A body without any joint moves freely; loops may close."),
+          optional("drives", drives_format(), "Prescribed motions of joint coordinates."),
+          optional("couplings", couplings_format(), "Relations between joint coordinates: gears, racks, cams."),
+          optional("forces", forces_format(), "Loads and springs."),
+          optional("contacts", contacts_format(), "Pairs of shapes that may touch."),
+          optional("lubricants", lubricants_format(), "Oils that bearings refer to."),
+          optional("bearings", bearings_format(), "Journal bearings: oil films between a shell and a journal."),
+          optional("simulation", simulation_format(), "Time span, step and solver settings.",
+                   "**required** to simulate"),
+          defaulted("output", output_format(), "{}", "What is stored, and how often."),
+          optional("study", study_format(), "Many runs of this model, shown together in one report."),
+      });
+}
+
+}  // namespace
+
+TypePtr axis_format() {
+  return or_word(vector("1", "0 0 1"), {{"x", "the frame's x-axis"}, {"y", "its y-axis"}, {"z", "its z-axis"}});
+}
+
+const Type& model_format() {
+  static const TypePtr format = root();
+  return *format;
+}
+
+namespace {
+
+/// A constant in one of `si_units`, an expression that `expression_text` explains, or a table; `over` if not null says
+/// what x is.
+TypePtr function_of_something(const std::vector<std::string>& si_units, const std::string& example,
+                              const std::string& formula, const std::string& expression_text,
+                              const std::optional<Key>& over, const std::string& id) {
+  const TypePtr expression = object(
+      "an expression",
+      {
+          required("expression", text("an expression", formula), expression_text),
+          required("unit", text("a unit", example.substr(example.find(' ') + 1)), "Unit of the formula's value."),
+      });
+  const TypePtr column = text("a column's name", "angle");
+  const TypePtr from_file = object(
+      "a table in a file",
+      {
+          required("file", text("a file", "gas.csv"),
+                   "Comma-separated values beside the model file; the first line names the columns with their units, "
+                   "`angle [deg], pressure [bar]`."),
+          required("x", column, "Name of the column with the argument, increasing."),
+          required("y", column, "Name of the column with the value."),
+      });
+  const TypePtr pair = list("a pair", number("0.5"), 2);
+  const TypePtr in_place =
+      object("a table in place", {
+                                     required("points", list("a list of [x, y] pairs", pair), "Pairs, x increasing."),
+                                     required("x_unit", text("a unit", "deg"), "Unit of x."),
+                                     required("y_unit", text("a unit", "bar"), "Unit of y."),
+                                 });
+  std::vector<Key> table_keys = {
+      required("table", any_of("a table", {from_file, in_place}), "The points, in a file or in place."),
+      optional("period", quantity_in({"s", "rad", "m"}, "720 deg", Range::positive()),
+               "The table repeats with this period.", "does not repeat"),
+      optional("shift", quantity_in({"s", "rad", "m"}, "180 deg"),
+               "By how much later the table begins: 180 deg for the cylinder that fires then.", "0"),
+      defaulted("interpolation",
+                choice({{"linear", "straight between points"},
+                        {"smooth", "monotone cubic: no overshoot, continuous first derivative"}}),
+                "linear", "Between the points."),
+      defaulted("scale", scale_factor("4418 mm^2"), "1",
+                "Factor on y, with a unit: a pressure table times an area is a force."),
+  };
+  if (over) table_keys.insert(table_keys.begin() + 1, *over);
+  return with_id(any_of("a constant such as " + example + ", an expression or a table",
+                        {quantity_in(si_units, example), expression, object("a table", std::move(table_keys))}),
+                 id);
+}
+
+const std::string kOperations =
+    "`+ - * / ^`, comparisons, `?:`, `pi`, `e`, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, "
+    "log10, sqrt, abs, sign, min, max.";
+
+}  // namespace
+
+TypePtr function_format(const std::vector<std::string>& si_units, const std::string& example) {
+  std::string id = "function";
+  for (const std::string& unit : si_units) id += " " + unit;
+  return function_of_something(
+      si_units, example, "100*sin(2*pi*50*t)",
+      "Formula in `t` [s] and joint coordinates such as `main.rotation` [rad or m] and `main.rotation_rate` [rad/s or "
+      "m/s]; " +
+          kOperations,
+      defaulted("over", text("time or joint.coordinate", "main.rotation"), "time", "What x is."), id);
+}
+
+TypePtr law_format(const std::string& si_unit, const std::string& argument, const std::string& argument_unit,
+                   const std::string& example) {
+  return function_of_something({si_unit}, example, "1e5*" + argument + "^3",
+                               "Formula in `" + argument + "` [" + argument_unit + "]; " + kOperations, std::nullopt,
+                               "law " + si_unit + " over " + argument);
+}
+
+TypePtr relation_format() {
+  return function_of_something({"rad", "m"}, "0 mm", "0.01*(1 - cos(input))",
+                               "Formula in `input` [rad or m]; " + kOperations, std::nullopt, "relation");
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "schema/schema_type.h"
+
+namespace hersey::model {
+
+/// The format of the model file.
+[[nodiscard]] const Type& model_format();
+
+// Its parts, one per file.
+[[nodiscard]] TypePtr bodies_format();
+[[nodiscard]] TypePtr flexible_format();
+[[nodiscard]] TypePtr beam_format();
+[[nodiscard]] TypePtr shapes_format();
+[[nodiscard]] TypePtr joints_format();
+[[nodiscard]] TypePtr drives_format();
+[[nodiscard]] TypePtr forces_format();
+[[nodiscard]] TypePtr couplings_format();
+[[nodiscard]] TypePtr contacts_format();
+[[nodiscard]] TypePtr lubricants_format();
+[[nodiscard]] TypePtr bearings_format();
+[[nodiscard]] TypePtr thermal_format();
+[[nodiscard]] TypePtr features_format();
+[[nodiscard]] TypePtr shape_format();
+[[nodiscard]] TypePtr grid_format();
+[[nodiscard]] TypePtr simulation_format();
+[[nodiscard]] TypePtr output_format();
+[[nodiscard]] TypePtr study_format();
+
+/// A rotation of axes: about an axis by an angle.
+[[nodiscard]] TypePtr rotation_format();
+
+/// A direction: a frame's x, y or z, or three numbers.
+[[nodiscard]] TypePtr axis_format();
+
+/// A constant, an expression or a table whose value is in one of `si_units`.
+[[nodiscard]] TypePtr function_format(const std::vector<std::string>& si_units, const std::string& example);
+
+/// A function of one thing called `argument`: a constant, an expression in it or a table over it.
+[[nodiscard]] TypePtr law_format(const std::string& si_unit, const std::string& argument,
+                                 const std::string& argument_unit, const std::string& example);
+
+/// A coordinate as a function of another, called `input`.
+[[nodiscard]] TypePtr relation_format();
+
+}  // namespace hersey::model

@@ -1,0 +1,72 @@
+#include "schema/format.h"
+#include "schema/machine_vocabulary.h"
+
+// Bodies that deform.
+namespace hersey::model {
+
+TypePtr flexible_format() {
+  const Key density = required("density", quantity("kg/m^3", "7850 kg/m^3", Range::positive()), "Density.");
+  const TypePtr orthotropic = object(
+      "an orthotropic material: nine constants along axes 1, 2, 3",
+      {
+          required("youngs_moduli", vector("Pa", "140 10 10 GPa"), "E_1, E_2, E_3."),
+          required(
+              "poisson_ratios", list("three numbers", number("0.3"), 3),
+              "nu_12, nu_23, nu_13: contraction along the second axis under tension along the first, by the stretch."),
+          required("shear_moduli", vector("Pa", "5 4 5 GPa"), "G_12, G_23, G_13."),
+          optional("axes", rotation_format(), "Turns axes 1, 2, 3 from the body's x, y, z.", "none"),
+      });
+  const TypePtr material = with_together(
+      with_exactly_one(
+          object("an elastic material",
+                 {
+                     optional("youngs_modulus", quantity("Pa", "210 GPa", Range::positive()), "Young's modulus."),
+                     optional("poisson_ratio",
+                              number("0.3", {.low = -1, .high = 0.5, .low_open = true, .high_open = true}),
+                              "Poisson's ratio."),
+                     optional("orthotropic", orthotropic, "Nine constants in place of these two."),
+                     density,
+                 }),
+          {"youngs_modulus", "orthotropic"}),
+      {"youngs_modulus", "poisson_ratio"});
+  const TypePtr damping = object(
+      "Rayleigh damping", {
+                              defaulted("mass", quantity("Hz", "2 1/s", Range::not_negative()), "0 1/s",
+                                        "Times the mass matrix, of the deformation alone; damps slow vibrations."),
+                              defaulted("stiffness", quantity("s", "2 us", Range::not_negative()), "0 s",
+                                        "Times the stiffness matrix; damps fast vibrations."),
+                          });
+  const TypePtr flexible = object(
+      "a flexible body",
+      {
+          optional(
+              "mesh", text("a mesh file", "conrod.inp"),
+              "Mesh beside the model file: Gmsh .msh, Abaqus or CalculiX .inp, Nastran .bdf. Its axes are the body's."),
+          optional(
+              "reduced", text("a file of `hersey reduce`", "conrod.h5"),
+              "Reduced body beside the model file, in place of a mesh: its frames come with it by their names, and "
+              "its material, modes and units are those it was made with."),
+          optional("length_unit", quantity("m", "1 mm", Range::positive()), "What a length of 1 in the mesh means.",
+                   "must be given with `mesh`"),
+          optional("material", material, "Material of all elements.", "the materials of the mesh file"),
+          defaulted("form", choice(form_words), "modal", "What deforms."),
+          defaulted("strain", choice(strain_words), "small", "How displacements strain the body."),
+          defaulted("modes", integer(10, {.low = 0, .high = 1000}), "10",
+                    "How many vibrations with all frames held, those of lowest frequency, add to the static shapes."),
+          optional("highest_frequency", quantity("Hz", "5 kHz", Range::positive()),
+                   "Vibrations above this frequency are left out.", "no limit"),
+          optional("load_surfaces", list("surfaces or sets of nodes", text("a surface or a set of nodes", "big_end")),
+                   "Where pressures act on the mesh: there the body shall deform as the whole mesh would.", "none"),
+          defaulted("static_error", number("0.01", {.low = 0, .high = 1, .low_open = true, .high_open = true}), "0.01",
+                    "Largest error of the static displacement of each of `load_surfaces` under pressures of a bore's "
+                    "lowest harmonics, by the largest displacement: static shapes are added until it holds."),
+          defaulted("load_harmonics", integer(4, {.low = 0, .high = 40}), "4",
+                    "Highest harmonic around a bore of the pressures that `static_error` looks at."),
+          defaulted("damping", damping, "{}", "Damping of the material."),
+          optional("vtu_every", quantity("s", "1 ms", Range::positive()),
+                   "Writes the deformed mesh at this interval beside the results file, for ParaView.", "not written"),
+      });
+  return with_exactly_one(flexible, {"mesh", "reduced"});
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "hersey/model/model.h"
+#include "schema/vocabulary.h"
+
+// Words of bodies, forces and simulations.
+namespace hersey::model {
+
+inline constexpr Vocabulary<fem::Connection, 2> connection_words{{
+    {fem::Connection::rigid, "rigid", "the nodes follow the frame as one rigid piece"},
+    {fem::Connection::average, "average",
+     "the frame follows the nodes' mean motion, and what acts on it spreads over them; on one node or a line it turns "
+     "with the elements around"},
+}};
+
+/// Whether every node moves.
+inline constexpr Vocabulary<bool, 2> form_words{{
+    {false, "modal", "it moves in static shapes of its frames and vibrations"},
+    {true, "nodal", "every node moves; `modes` then only draw it in the report"},
+}};
+
+inline constexpr Vocabulary<mbd::Strain, 2> strain_words{{
+    {mbd::Strain::small, "small", "displacements against the body's axes strain linearly"},
+    {mbd::Strain::finite, "finite",
+     "by Green and Lagrange: large bending, stiffening by pull; nodal bodies whose frames but the first are "
+     "`connection: rigid`, and whose surfaces deform under no film or contact"},
+}};
+
+inline constexpr Vocabulary<Axes, 2> axes_of_frame_words{{
+    {Axes::ground, "ground", "axes fixed in space"},
+    {Axes::body, "body", "axes of the frame it acts at"},
+}};
+
+inline constexpr Vocabulary<Axes, 2> axes_of_body_words{{
+    {Axes::ground, "ground", "axes fixed in space"},
+    {Axes::body, "body", "axes of the body"},
+}};
+
+inline constexpr Vocabulary<Analysis, 4> analysis_words{{
+    {Analysis::dynamics, "dynamics", "motion under forces, integrated over time"},
+    {Analysis::kinematics, "kinematics", "motion that drives prescribe completely, and the forces it takes"},
+    {Analysis::equilibrium, "static", "rest under gravity and the loads at `start`, drives held; no bearings"},
+    {Analysis::modes, "modes", "natural frequencies, damping and stability of small motions"},
+}};
+
+inline constexpr Vocabulary<ModesAbout, 4> modes_about_words{{
+    {ModesAbout::start, "start", "the state at the start"},
+    {ModesAbout::equilibrium, "equilibrium", "the static equilibrium"},
+    {ModesAbout::turning, "turning",
+     "the steady motion in which drives keep the speed they have at the start and everything else keeps still in its "
+     "coordinates: rotating blades and shafts"},
+    {ModesAbout::end, "end", "the state at the end of a run over `duration`; bearings by their tangent there"},
+}};
+
+inline constexpr Vocabulary<InitialDeformation, 3> initial_deformation_words{{
+    {InitialDeformation::none, "none", "undeformed: what presses on it makes it vibrate"},
+    {InitialDeformation::internal, "internal",
+     "as the forces of the start hold it between its frames; these stand as in the undeformed body, so that journals "
+     "start where the joints put them"},
+    {InitialDeformation::complete, "static",
+     "as the forces of the start hold it; frames, and journals with them, are shifted by what the body gives way"},
+}};
+
+inline constexpr Vocabulary<StudyFigure, 2> study_figure_words{{
+    {StudyFigure::midplane_pressure, "midplane_pressure", "pressure around the middle of the bearing"},
+    {StudyFigure::film_thickness, "film_thickness", "least film thickness against the first parameter"},
+}};
+
+}  // namespace hersey::model

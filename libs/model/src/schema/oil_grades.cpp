@@ -1,0 +1,55 @@
+#include "schema/oil_grades.h"
+
+#include <algorithm>
+
+namespace hersey::model {
+namespace {
+
+// ISO 3448 fixes the viscosity at 40 degC, SAE J300 limits at 100 degC. What neither says is typical of mineral oils of
+// a viscosity index near 100, and of engine oils of the grade: chosen here, and to be overridden by an oil's data
+// sheet.
+constexpr std::string_view iso =
+    "nu40: ISO 3448; nu100, density and points typical of mineral oils of viscosity index 95 to 110";
+constexpr std::string_view sae = "nu100 within the limits of SAE J300 (2015); the rest typical of the grade";
+
+// mm^2/s, mm^2/s, kg/m^3, degC, degC
+constexpr OilGrade grade(std::string_view name, double nu40, double nu100, double rho15, double pour, double flash,
+                         std::string_view source) {
+  return {name, 1e-6 * nu40, 1e-6 * nu100, rho15, pour + 273.15, flash + 273.15, source};
+}
+
+}  // namespace
+
+const std::vector<OilGrade>& oil_grades() {
+  static const std::vector<OilGrade> grades{
+      grade("iso_vg_10", 10, 2.6, 848, -30, 160, iso),    grade("iso_vg_15", 15, 3.4, 855, -27, 180, iso),
+      grade("iso_vg_22", 22, 4.3, 860, -24, 200, iso),    grade("iso_vg_32", 32, 5.4, 863, -24, 210, iso),
+      grade("iso_vg_46", 46, 6.8, 869, -21, 220, iso),    grade("iso_vg_68", 68, 8.7, 874, -21, 230, iso),
+      grade("iso_vg_100", 100, 11.3, 880, -18, 240, iso), grade("iso_vg_150", 150, 14.8, 887, -15, 250, iso),
+      grade("iso_vg_220", 220, 19.0, 893, -12, 260, iso), grade("iso_vg_320", 320, 24.4, 898, -12, 265, iso),
+      grade("iso_vg_460", 460, 30.8, 903, -9, 270, iso),  grade("sae_0w_16", 33, 7.1, 845, -42, 215, sae),
+      grade("sae_0w_20", 44, 8.4, 846, -42, 220, sae),    grade("sae_0w_30", 55, 10.3, 848, -42, 220, sae),
+      grade("sae_0w_40", 75, 13.5, 850, -42, 220, sae),   grade("sae_5w_20", 48, 8.5, 852, -39, 220, sae),
+      grade("sae_5w_30", 64, 11.0, 855, -39, 220, sae),   grade("sae_5w_40", 85, 14.0, 857, -39, 220, sae),
+      grade("sae_10w_30", 70, 10.8, 865, -36, 220, sae),  grade("sae_10w_40", 95, 14.4, 868, -36, 220, sae),
+      grade("sae_15w_40", 108, 14.6, 878, -30, 225, sae), grade("sae_15w_50", 138, 18.8, 880, -30, 225, sae),
+      grade("sae_20w_50", 155, 18.3, 884, -24, 230, sae), grade("sae_20", 58, 8.0, 876, -24, 215, sae),
+      grade("sae_30", 95, 11.0, 885, -21, 225, sae),      grade("sae_40", 140, 14.6, 890, -18, 235, sae),
+      grade("sae_50", 215, 19.3, 895, -15, 240, sae),     grade("sae_60", 320, 24.5, 900, -12, 250, sae),
+  };
+  return grades;
+}
+
+const OilGrade* oil_grade(std::string_view name) {
+  const auto& all = oil_grades();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const OilGrade& one) { return one.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> oil_grade_names() {
+  std::vector<std::string> names;
+  for (const OilGrade& one : oil_grades()) names.emplace_back(one.name);
+  return names;
+}
+
+}  // namespace hersey::model

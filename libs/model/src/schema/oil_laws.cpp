@@ -1,0 +1,88 @@
+#include "schema/oil_laws.h"
+
+#include "interpret/interpret.h"
+
+namespace hersey::model {
+namespace {
+
+TypePtr compressibility() { return quantity("1/Pa", "0.6e-9 1/Pa", Range::not_negative()); }
+
+}  // namespace
+
+TypePtr temperature(const std::string& example) { return quantity("K", example, {.low = 150, .high = 1000}); }
+
+const std::vector<Alternative<film::ViscosityLaw>>& viscosity_laws() {
+  static const std::vector<Alternative<film::ViscosityLaw>> laws{
+      {{"barus",
+        "mu = mu0 exp(alpha p)",
+        {required("alpha", quantity("1/Pa", "1.28e-10 1/Pa", Range::not_negative()), "Its coefficient.")}},
+       [](const Value& law) { return film::Barus{number_of(law, "alpha")}; }},
+      {{"roelands",
+        "ln mu + 9.67 = (ln mu0 + 9.67) (1 + p/196.2 MPa)^z with mu in Pa.s",
+        {required("z", number("0.6", {.low = 0, .high = 2}), "Pressure-viscosity index; mineral oils: 0.5 to 0.7.")}},
+       [](const Value& law) { return film::Roelands{number_of(law, "z")}; }},
+  };
+  return laws;
+}
+
+std::vector<Alternative<film::TemperatureLaw>> temperature_laws(double rho15) {
+  const TypePtr mu = quantity("Pa.s", "27.7 mPa.s", Range::positive());
+  const TypePtr nu = quantity("m^2/s", "46 mm^2/s", {.low = 0.5e-6});
+  const TypePtr T = temperature("40 degC");
+  return {
+      {{"exponential",
+        "mu = viscosity exp(-coefficient (T - reference))",
+        {required("viscosity", mu, "At the reference temperature."), required("reference", T, "That temperature."),
+         required("coefficient", quantity("1/K", "0.034 1/K", Range::not_negative()), "Relative fall per kelvin.")}},
+       [](const Value& law) {
+         return film::ExponentialViscosity{number_of(law, "viscosity"), number_of(law, "reference"),
+                                           number_of(law, "coefficient")};
+       }},
+      {{"vogel",
+        "mu = a exp(b/(T - c))",
+        {required("a", quantity("Pa.s", "6.35e-5 Pa.s", Range::positive()), "Its limit at high temperatures."),
+         required("b", quantity("K", "846 K", Range::not_negative()), "How it rises towards c."),
+         required("c", quantity("K", "100 K", Range::not_negative()), "Where it would be infinite.")}},
+       [](const Value& law) {
+         return film::VogelViscosity{number_of(law, "a"), number_of(law, "b"), number_of(law, "c")};
+       }},
+      {{"walther",
+        "log10 log10 (nu + 0.7) = A - B log10 T, nu in mm^2/s (ASTM D341), and nu times the density at T",
+        {required("nu40", nu, "Kinematic viscosity at 40 degC."), required("nu100", nu, "At 100 degC.")}},
+       [rho15](const Value& law) {
+         return film::WaltherViscosity::through(number_of(law, "nu40"), number_of(law, "nu100"), rho15);
+       }},
+      {{"table",
+        "ln mu is linear in 1/T between given viscosities, and beyond them as in the interval beside",
+        {required("temperatures", list("temperatures", T), "Ascending."),
+         required("viscosities", list("viscosities", mu), "One for each temperature, none larger than the last.")}},
+       [](const Value& law) {
+         film::TabledViscosity table;
+         for (const Member& item : law.find("temperatures")->members) table.T.push_back(item.value.number);
+         for (const Member& item : law.find("viscosities")->members) table.mu.push_back(item.value.number);
+         return table;
+       }},
+  };
+}
+
+const std::vector<Alternative<film::DensityLaw>>& density_laws() {
+  static const std::vector<Alternative<film::DensityLaw>> laws{
+      {{"incompressible", "the density does not depend on pressure", {}},
+       [](const Value&) { return film::Incompressible{}; }},
+      {{"dowson_higginson",
+        "rho = rho0 (1 + rise p/(1 + saturation p))",
+        {defaulted("rise", compressibility(), "0.6e-9 1/Pa", "Compressibility at p = 0."),
+         defaulted("saturation", compressibility(), "1.7e-9 1/Pa", "How soon it wears off.")}},
+       [](const Value& law) {
+         return film::DowsonHigginson{number_of(law, "rise"), number_of(law, "saturation")};
+       }},
+      {{"constant_bulk_modulus",
+        "rho = rho0 exp(p/bulk_modulus)",
+        {required("bulk_modulus", quantity("Pa", "1.5 GPa", {.low = 1e5}),
+                  "rho dp/drho, the same at every pressure; oils: about 1.5 GPa.")}},
+       [](const Value& law) { return film::ConstantBulkModulus{number_of(law, "bulk_modulus")}; }},
+  };
+  return laws;
+}
+
+}  // namespace hersey::model

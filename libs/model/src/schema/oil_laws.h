@@ -1,0 +1,22 @@
+#pragma once
+
+#include "hersey/film/density_law.h"
+#include "hersey/film/temperature_law.h"
+#include "hersey/film/viscosity_law.h"
+#include "schema/vocabulary.h"
+
+namespace hersey::model {
+
+/// A temperature of oils and machines.
+[[nodiscard]] TypePtr temperature(const std::string& example);
+
+/// Laws of viscosity against pressure: the one place where the model file's formats of them are read.
+[[nodiscard]] const std::vector<Alternative<film::ViscosityLaw>>& viscosity_laws();
+
+/// Laws of viscosity against temperature. @param rho15  density at 15 degC, of laws for kinematic viscosities [kg/m^3]
+[[nodiscard]] std::vector<Alternative<film::TemperatureLaw>> temperature_laws(double rho15);
+
+/// Laws of density against pressure.
+[[nodiscard]] const std::vector<Alternative<film::DensityLaw>>& density_laws();
+
+}  // namespace hersey::model

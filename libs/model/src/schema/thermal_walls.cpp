@@ -1,0 +1,48 @@
+#include "schema/thermal_walls.h"
+
+#include "interpret/interpret.h"
+#include "schema/oil_laws.h"
+
+namespace hersey::model {
+const std::vector<Alternative<film::ShellWall>>& shell_walls() {
+  static const std::vector<Alternative<film::ShellWall>> walls{
+      {{"insulated", "no heat passes", {}}, [](const Value&) { return film::InsulatedWall{}; }},
+      {{"given", "it has a temperature", {required("temperature", temperature("60 degC"), "That temperature.")}},
+       [](const Value& wall) {
+         return film::WallAtTemperature{number_of(wall, "temperature"), {}};
+       }},
+      {{"ring",
+        "a ring conducts heat around the bearing and out to its surroundings",
+        {required("outer_diameter", quantity("m", "80 mm", Range::positive()), "Of the ring."),
+         defaulted("conductivity", quantity("W/m/K", "50 W/m/K", Range::positive()), "50 W/m/K", "Of its material."),
+         defaulted("heat_transfer", quantity("W/m^2/K", "80 W/m^2/K", Range::not_negative()), "80 W/m^2/K",
+                   "From its outside and its ends to the surroundings."),
+         required("ambient", temperature("40 degC"), "Temperature of these.")}},
+       [](const Value& wall) {
+         return film::RingWall{.outer_radius = number_of(wall, "outer_diameter") / 2,
+                               .conductivity = number_of(wall, "conductivity"),
+                               .transfer = number_of(wall, "heat_transfer"),
+                               .T_ambient = number_of(wall, "ambient"),
+                               .heat_capacity = heat_of_steel};
+       }},
+  };
+  return walls;
+}
+
+const std::vector<Alternative<film::JournalWall>>& journal_walls() {
+  static const std::vector<Alternative<film::JournalWall>> walls{
+      {{"free",
+        "one temperature, at which it takes up as much heat as it gives off",
+        {optional("heat_capacity", quantity("J/K", "500 J/K", Range::positive()),
+                  "Of the whole journal, in a simulation.", "that of its cylinder of steel in the bearing")}},
+       [](const Value& wall) { return film::FreeJournal{number_of(wall, "heat_capacity")}; }},
+      {{"given", "it has a temperature", {required("temperature", temperature("60 degC"), "That temperature.")}},
+       [](const Value& wall) {
+         return film::WallAtTemperature{number_of(wall, "temperature"), {}};
+       }},
+      {{"insulated", "no heat passes", {}}, [](const Value&) { return film::InsulatedWall{}; }},
+  };
+  return walls;
+}
+
+}  // namespace hersey::model

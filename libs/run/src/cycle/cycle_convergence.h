@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cycle/bearing_cycle.h"
+#include "hersey/core/archive.h"
+#include "hersey/model/model.h"
+
+namespace hersey::run {
+
+/// How far a cycle of the machine repeats the one before.
+struct CycleChange {
+  int number = 0;       ///< of the cycle, from 1
+  double value = 0;     ///< largest difference of a figure, over the larger one; not a number in the first cycle
+  std::string largest;  ///< the figure that changed most, "film thickness of big_end"
+};
+
+/// Says when cycles end, and when they repeat each other: each bearing's smallest film thickness, peak pressure and
+/// mean friction loss (model::Cycle).
+class CycleConvergence {
+ public:
+  explicit CycleConvergence(const model::Model& model) : model_(model) {}
+
+  /// Whether a cycle ends with the accepted step that ended at `t`.
+  [[nodiscard]] bool ends(double t) const;
+
+  /// Takes the cycle that has ended, one entry per bearing.
+  [[nodiscard]] CycleChange take(const std::vector<BearingCycle>& cycle);
+
+  /// Whether that cycle repeats the one before well enough to end the run.
+  [[nodiscard]] bool converged(const CycleChange& change) const;
+
+  void persist(Archive& archive);
+
+ private:
+  struct Figures {
+    double h_min = 0, p_max = 0, power = 0;
+  };
+
+  const model::Model& model_;
+  int ended_ = 0;
+  std::vector<Figures> last_;
+};
+
+}  // namespace hersey::run

@@ -1,0 +1,158 @@
+#include "cycle/cycle_maps.h"
+
+#include <string>
+
+namespace hersey::run {
+namespace {
+
+using As = Told::As;
+using Only = Told::Only;
+using CycleLine = Quantity<CycleRow, model::Bearing>;
+using CycleTable = QuantityTable<CycleRow, model::Bearing>;
+
+template <class Member>
+auto of_cycle(Member member) {
+  return [member](const CycleRow& row) { return std::invoke(member, row.cycle); };
+}
+
+/// Energy over the cycle's duration.
+auto mean_power(double BearingCycle::*energy) {
+  return [energy](const CycleRow& row) {
+    const double duration = row.cycle.duration();
+    return duration > 0 ? row.cycle.*energy / duration : 0;
+  };
+}
+
+/// Four lines: the value, when and where.
+void add_extreme(const std::string& name, const char* unit, const char* text, FilmExtreme BearingCycle::*extreme,
+                 const Told& told, CycleTable& table) {
+  const auto of = [extreme](double FilmExtreme::*member) {
+    return [extreme, member](const CycleRow& row) { return row.cycle.*extreme.*member; };
+  };
+  table.push_back({name, unit, text, of(&FilmExtreme::value), {.told = {told}}});
+  table.push_back({name + "_time", "s", "when", of(&FilmExtreme::t)});
+  table.push_back({name + "_phi", "rad", "where: bearing angle", of(&FilmExtreme::phi)});
+  table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z)});
+}
+
+CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::VectorXd BearingCycle::*values,
+                   const char* note = "", std::vector<Told> told = {}) {
+  return {name,
+          unit,
+          text,
+          of_cycle(values),
+          {.note = note,
+           .extent = {"n_phi, n_z",
+                      [](const model::Bearing& bearing, std::size_t /*k*/) {
+                        return std::vector{bearing.film.grid.n_phi, bearing.film.grid.n_z};
+                      },
+                      {"../../fields/phi", "../../fields/z"}},
+           .told = std::move(told)}};
+}
+
+const CycleTable& cycle_quantities() {
+  static const CycleTable table = [] {
+    using C = BearingCycle;
+    CycleTable lines{
+        {"begin", "s", "time at the beginning of the cycle", of_cycle(&C::begin)},
+        {"end", "s", "time at its end", of_cycle(&C::end)},
+        {"complete", "1", "1: a cycle of the model; 0: the whole run", &CycleRow::is_complete},
+    };
+    add_extreme("moft", "m", "minimum oil film thickness, edges included", &C::moft,
+                {As::at_end, "minimum film thickness (MOFT)", "µm", true, Only::of_a_cycle}, lines);
+    add_extreme("pofp", "Pa", "peak oil film pressure, interpolated", &C::pofp,
+                {As::at_end, "peak film pressure (POFP)", "MPa", true, Only::of_a_cycle}, lines);
+    lines.insert(lines.end(),
+                 {{"energy_film",
+                   "J",
+                   "viscous dissipation in the film over the cycle",
+                   of_cycle(&C::energy_film),
+                   {.told = {{As::at_end, "energy lost in the film", "J"}}}},
+                  {"energy_asperity",
+                   "J",
+                   "boundary friction over the cycle",
+                   of_cycle(&C::energy_asperity),
+                   {.told = {{As::at_end, "energy lost in asperity contact", "J"}}}},
+                  {"power_film",
+                   "W",
+                   "viscous dissipation, mean over the cycle",
+                   mean_power(&C::energy_film),
+                   {.told = {{As::at_end, "mean power loss in the film", "W", false, Only::of_a_cycle}}}},
+                  {"power_asperity",
+                   "W",
+                   "boundary friction, mean over the cycle",
+                   mean_power(&C::energy_asperity),
+                   {.told = {{As::at_end, "mean power loss in asperity contact", "W", false, Only::of_a_cycle}}}}});
+    add_extreme("contact", "Pa", "largest contact pressure of a node", &C::contact,
+                {As::at_end, "largest contact pressure", "MPa", true, Only::with_contact}, lines);
+    const auto told_of_map = [](const char* name, const char* unit) {
+      return std::vector<Told>{{As::largest, name, unit, true, Only::with_contact}};
+    };
+    lines.insert(lines.end(),
+                 {map_line("asperity_pressure_mean", "Pa", "contact pressure, mean over the cycle", &C::mean_contact,
+                           "", told_of_map("largest mean contact pressure", "MPa")),
+                  map_line("wear_load", "W/m^2", "contact pressure times sliding speed, mean over the cycle",
+                           &C::wear_load, "times the friction coefficient it is the mean heat of contact",
+                           told_of_map("largest wear load", "W/mm²")),
+                  map_line("thickness_min", "m", "smallest film thickness in the cycle", &C::h_min, "MOFT map"),
+                  map_line("thickness_min_time", "s", "when", &C::t_h_min),
+                  map_line("pressure_max", "Pa", "largest film pressure in the cycle", &C::p_max, "POFP map"),
+                  map_line("pressure_max_time", "s", "when", &C::t_p_max)});
+    return lines;
+  }();
+  return table;
+}
+
+// A group called fields counts its rows by itself: cycles are no instants.
+const char* const group_of_cycles = "cycles/fields/";
+
+}  // namespace
+
+CycleMaps::CycleMaps(const model::Model& model, const model::Machine& machine, results::Writer& writer)
+    : machine_(machine) {
+  for (const model::Bearing& bearing : model.bearings) {
+    series_.emplace_back(cycle_quantities(), "/bearings/" + bearing.name + "/" + group_of_cycles, bearing, writer);
+    sums_.emplace_back(bearing.film);
+  }
+}
+
+void CycleMaps::take(double t, const std::vector<bearing::BearingObservation>& seen) {
+  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].take(t, seen[i], machine_.bearings[i].bearing->fields());
+}
+
+std::vector<BearingCycle> CycleMaps::close() { return write(true); }
+
+void CycleMaps::finish() {
+  if (rows_ == 0 && !sums_.empty() && sums_.front().duration() > 0) write(false);
+}
+
+void CycleMaps::persist(Archive& archive) {
+  archive.io("rows", rows_);
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    const Archive::Group group(archive, machine_.bearings[i].bearing->name());
+    sums_[i].persist(archive);
+  }
+}
+
+std::vector<BearingCycle> CycleMaps::write(bool is_complete) {
+  std::vector<BearingCycle> cycles;
+  cycles.reserve(sums_.size());
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    const BearingCycle& cycle = cycles.emplace_back(sums_[i].close());
+    series_[i].append({cycle, is_complete});
+  }
+  ++rows_;
+  return cycles;
+}
+
+QuantityGroup CycleMaps::describe() {
+  QuantityGroup group{.path = std::string("/bearings/<b>/") + group_of_cycles,
+                      .heading =
+                          "of a bearing's cycles: one row per complete cycle of the machine; without one, a single row "
+                          "over the whole run",
+                      .quantities = {}};
+  run::describe(cycle_quantities(), "c", group);
+  return group;
+}
+
+}  // namespace hersey::run

@@ -1,0 +1,197 @@
+#include "march/step_march.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hersey/solver/initialise.h"
+#include "hersey/solver/kinematics.h"
+#include "march/instants.h"
+
+namespace hersey::run {
+namespace {
+
+constexpr double kMeaningless = 0.02;   // rad, or sizes of the machine, that one step may be off
+constexpr double kShortest = 1.0 / 64;  // of the fixed step: shorter ones are taken whatever their error
+
+solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
+  solver::GeneralizedAlphaOptions options;
+  options.spectral_radius = model.simulation.spectral_radius;
+  options.rtol = model.simulation.tolerance;
+  options.max_iterations = model.simulation.max_iterations;
+  options.corrects_changes = model.simulation.error_control.has_value();
+  options.returns_to_constraints = !model.bearings.empty();
+  for (const model::Bearing& bearing : model.bearings) {
+    if (bearing.coupling.scheme == model::CouplingScheme::partitioned) {
+      options.max_iterations = std::max(options.max_iterations, bearing.coupling.max_iterations);
+    }
+  }
+  return options;
+}
+
+}  // namespace
+
+StepMarch::StepMarch(const model::Model& model, model::Machine& machine)
+    : model_(model),
+      machine_(machine),
+      integrator_(integrator_options(model)),
+      step_error_(model, machine),
+      has_smooth_motion_(model.bearings.empty() && machine.mechanism->elastic_coordinates().empty()) {}
+
+void StepMarch::plan(const solver::State& state, const mbd::Observation& start) {
+  const auto& limits = model_.simulation.error_control;
+  if (!limits || model_.simulation.analysis == model::Analysis::kinematics) {
+    const model::Simulation& run = model_.simulation;
+    targets_ = TargetInstants::equal(run.start, run.duration, run.step);
+    return;
+  }
+  bends_ = kinks(model_, machine_.mechanism->spec(), start);
+  targets_ = TargetInstants(instants_to_hit(model_, bends_));
+  control_.emplace(
+      solver::StepControlOptions{.smallest = limits->smallest, .largest = limits->largest, .unit = unit_of_steps()},
+      first_step(*machine_.mechanism, state, *limits));
+}
+
+// Bodies with a displacement of every node factorise a matrix for every step size: few of them then, parts of the
+// interval between the instants to hit.
+double StepMarch::unit_of_steps() const {
+  const auto is_nodal = [](const model::Body& body) { return body.flexible && body.flexible->nodal; };
+  if (std::none_of(model_.bodies.begin(), model_.bodies.end(), is_nodal)) return 0;
+  return targets_.front() - model_.simulation.start;
+}
+
+MarchedStep StepMarch::take(solver::State& state) {
+  const model::Simulation& plan = model_.simulation;
+  const double target = targets_[reached_];
+  if (at_bend_) start_afresh(state);
+  at_bend_ = false;
+  MarchedStep step = plan.analysis == model::Analysis::kinematics ? follow_drives(state, target)
+                     : control_                                   ? take_controlled(state, target)
+                                                                  : take_fixed(state, target);
+  if (!step.is_taken()) return step;
+  last_dt_ = step.dt;
+  const double scale = control_ ? std::max(std::abs(target), plan.error_control->largest) : plan.step;
+  if (target - state.t > 1e-12 * scale) return step;
+  ++reached_;
+  trial_ = std::numeric_limits<double>::infinity();
+  at_bend_ = std::binary_search(bends_.begin(), bends_.end(), target);
+  return step;
+}
+
+// Beyond a kink of a drive's speed its acceleration is another one: the method's history would ring on it.
+void StepMarch::start_afresh(solver::State& state) {
+  if (solver::solve_accelerations(*machine_.mechanism, state, last_dt_)) integrator_.reset();
+}
+
+// Much shorter steps than the last would have to take back at once the velocities that it has left across the
+// constraints: the shorter, the harder. They begin from velocities that the constraints allow.
+void StepMarch::restart(solver::State& state) {
+  if (solver::restart(*machine_.mechanism, state, last_dt_)) integrator_.reset();
+}
+
+// Nothing integrated: the last step, gone on with, is where Newton's method begins.
+MarchedStep StepMarch::follow_drives(solver::State& state, double target) const {
+  MarchedStep step{.dt = target - state.t};
+  const Eigen::VectorXd guess = step.dt * state.v + 0.5 * step.dt * step.dt * state.vdot;
+  solver::State next = state;
+  machine_.mechanism->retract(state.q, guess, next.q);
+  next.t = target;
+  const solver::KinematicsSummary solved = solver::solve_kinematics(*machine_.mechanism, next);
+  step.solution.iterations = solved.iterations;
+  if (solved.solved())
+    state = next;
+  else
+    step.trouble = solved.message;
+  return step;
+}
+
+// No step is short enough where longer ones before it have left velocities that no motion of the machine has.
+std::string StepMarch::advice(const solver::StepSummary& solution) const {
+  if (solution.status == solver::StepStatus::domain_error) return {};
+  const model::Simulation& plan = model_.simulation;
+  std::string text = fmt::format(
+      "; steps of {:.3g} s have led here: if they are too long for the motion, give a shorter `simulation.step`, or "
+      "`step: {{tolerance: 1e-4}}`, which chooses them",
+      plan.step);
+  if (plan.spectral_radius > 0.8)
+    text += fmt::format(", or a `spectral_radius` of 0.8 in place of {:.3g}, which damps their errors",
+                        plan.spectral_radius);
+  return text;
+}
+
+// A step whose own estimate says that its end means nothing is no answer, though Newton's method has found it: such
+// steps lead a machine onto motions that it never leaves.
+MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
+  MarchedStep step;
+  int failures = 0;
+  for (;;) {
+    step.dt = std::min(trial_, target - state.t);
+    const bool may_be_cut = has_smooth_motion_ && step.dt > kShortest * model_.simulation.step;
+    const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
+      // Motions that films or stiffness end within a step: the estimate extrapolates what is not there.
+      const Eigen::VectorXd way = 0.5 * step.dt * (state.v.cwiseAbs() + end.v.cwiseAbs());
+      bounded_ = estimate.cwiseMin(way).cwiseMax(-way);
+      (void)step_error_.measure(end, bounded_);
+      return !may_be_cut || step_error_.of_coordinates() <= kMeaningless;
+    };
+    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
+    if (step.solution.converged()) {
+      step.local_error = step_error_.largest();
+      trial_ = 2 * step.dt;
+      return step;
+    }
+    ++rejected_;
+    trial_ = step.dt / 2;
+    const int enough = step.solution.status == solver::StepStatus::inaccurate ? 1 : 2;
+    if (++failures == enough && has_smooth_motion_) restart(state);
+    if (trial_ < model_.simulation.smallest_step) {
+      step.trouble = fmt::format("t = {:.6g} s: no convergence with a step of {:.2g} s: {}{}", state.t, step.dt,
+                                 step.solution.message, advice(step.solution));
+      return step;
+    }
+  }
+}
+
+MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
+  MarchedStep step;
+  Eigen::VectorXd errors;
+  const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
+    errors = step_error_.measure(end, estimate) / model_.simulation.error_control->tolerance;
+    step.error = step_error_.largest() / model_.simulation.error_control->tolerance;
+    return step.error <= 1;
+  };
+  for (;;) {
+    const double remaining = target - state.t;
+    step.dt = control_->proposed(remaining);
+    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
+    if (step.solution.converged()) {
+      if (step.dt == remaining) state.t = target;  // exactly, not as a sum of steps
+      step.local_error = step_error_.largest();
+      control_->accepted(step.dt, errors);
+      return step;
+    }
+    ++rejected_;
+    const bool inaccurate = step.solution.status == solver::StepStatus::inaccurate;
+    if (inaccurate ? control_->rejected(step.dt, step.error) : control_->failed(step.dt)) continue;
+    const std::string reason =
+        inaccurate ? fmt::format("the error of {} is {:.2g} times the tolerance", step_error_.worst(), step.error)
+                   : step.solution.message;
+    step.trouble = fmt::format("t = {:.6g} s: {} with the smallest step, {:.2g} s: {}", state.t,
+                               inaccurate ? "the tolerance is exceeded" : "no convergence", step.dt, reason);
+    return step;
+  }
+}
+
+void StepMarch::persist(Archive& archive) {
+  {
+    const Archive::Group group(archive, "integrator");
+    integrator_.persist(archive);
+  }
+  const Archive::Group group(archive, "steps");
+  archive.io("reached", reached_), archive.io("at_bend", at_bend_), archive.io("trial", trial_);
+  archive.io("length", last_dt_), archive.io("rejected", rejected_);
+  if (control_) control_->persist(archive);
+}
+
+}  // namespace hersey::run

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hersey/core/archive.h"
+#include "hersey/model/build.h"
+#include "hersey/model/model.h"
+#include "hersey/solver/generalized_alpha.h"
+#include "hersey/solver/step_control.h"
+#include "march/step_error.h"
+#include "march/target_instants.h"
+
+namespace hersey::run {
+
+/// How one step of a run was found.
+struct MarchedStep {
+  double dt = 0;  ///< [s]
+  solver::StepSummary solution;
+  double error = 0;        ///< estimated, over the tolerance; 0 where it is not controlled
+  double local_error = 0;  ///< estimated, StepError::largest; 0 where nothing is integrated
+  std::string trouble;     ///< why no step could be taken, with its time; empty when one was
+
+  [[nodiscard]] bool is_taken() const { return trouble.empty(); }
+};
+
+/// Takes a machine step by step through the instants that its run has to hit: by a fixed step and its halves where
+/// Newton's method does not converge, by a controlled error, or from instant to instant with drives alone (kinematics).
+class StepMarch {
+ public:
+  StepMarch(const model::Model& model, model::Machine& machine);
+
+  /// Chooses the instants, and the first step, from the state at the start of the run. Before the first step, and
+  /// before restoring.
+  void plan(const solver::State& state, const mbd::Observation& start);
+
+  [[nodiscard]] bool is_at_end() const { return reached_ == targets_.size(); }
+
+  /// Advances `state` by one accepted step; leaves it where it was when there is none.
+  /// @pre planned, not at the end
+  [[nodiscard]] MarchedStep take(solver::State& state);
+
+  [[nodiscard]] const solver::GeneralizedAlpha& integrator() const { return integrator_; }
+  /// The step last taken; 0 before the first [s].
+  [[nodiscard]] double last_dt() const { return last_dt_; }
+  /// Tried in vain since the start of the run.
+  [[nodiscard]] int rejected_steps() const { return rejected_; }
+
+  void persist(Archive& archive);
+
+ private:
+  [[nodiscard]] MarchedStep follow_drives(solver::State& state, double target) const;
+  [[nodiscard]] MarchedStep take_fixed(solver::State& state, double target);
+  [[nodiscard]] std::string advice(const solver::StepSummary& solution) const;
+  [[nodiscard]] MarchedStep take_controlled(solver::State& state, double target);
+  [[nodiscard]] double unit_of_steps() const;
+  void start_afresh(solver::State& state);
+  void restart(solver::State& state);
+
+  const model::Model& model_;
+  model::Machine& machine_;
+  solver::GeneralizedAlpha integrator_;
+  StepError step_error_;
+  /// Neither films nor deformations, whose fast motions the error's estimate takes for errors.
+  bool has_smooth_motion_;
+  Eigen::VectorXd bounded_;    ///< a fixed step's estimated error, of no coordinate more than its way
+  std::vector<double> bends_;  ///< under error control
+  TargetInstants targets_;
+  std::optional<solver::StepControl> control_;              ///< under error control
+  std::size_t reached_ = 0;                                 ///< how many of the targets
+  bool at_bend_ = false;                                    ///< the next step starts where a table bends
+  double trial_ = std::numeric_limits<double>::infinity();  ///< longest fixed step to try after a failure [s]
+  double last_dt_ = 0;
+  int rejected_ = 0;
+};
+
+}  // namespace hersey::run

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "hersey/mbd/mechanism.h"
+#include "record/quantity.h"
+
+namespace hersey::run {
+
+/// The motion of one body in the results file.
+class BodyRecord {
+ public:
+  BodyRecord(const std::string& name, results::Writer& writer);
+  void append(const mbd::FrameMotion& motion) const { rows_.append(motion); }
+  /// Adds its series.
+  static void describe(QuantityGroup& group);
+
+ private:
+  struct Plan {};
+  [[nodiscard]] static const QuantityTable<mbd::FrameMotion, Plan>& table();
+  QuantityRows<mbd::FrameMotion, Plan> rows_;
+};
+
+}  // namespace hersey::run

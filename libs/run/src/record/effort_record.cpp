@@ -1,0 +1,68 @@
+#include "record/effort_record.h"
+
+#include "record/joint_record.h"
+
+namespace hersey::run {
+namespace {
+
+template <class Coordinate>
+Quantity<Effort, Coordinate> effort_line(const char* text) {
+  return {"force_or_torque", "N|N.m", text, &Effort::value, {.unit = [](const Coordinate& on) -> std::string {
+            return on.is_rotational ? "N.m" : "N";
+          }}};
+}
+
+template <class Coordinate>
+Quantity<Effort, Coordinate> power_line() {
+  return {"power", "W", "power put into the machine", &Effort::power};
+}
+
+}  // namespace
+
+const EffortRecord::Table& EffortRecord::of_drives() {
+  static const Table table{effort_line<Coordinate>("effort on the driven coordinate"), power_line<Coordinate>()};
+  return table;
+}
+
+const EffortRecord::Table& EffortRecord::of_couplings() {
+  static const Table table{effort_line<Coordinate>("effort on the output coordinate")};
+  return table;
+}
+
+const EffortRecord::Table& EffortRecord::of_forces() {
+  static const Table table{effort_line<Coordinate>("effort on the joint coordinate"), power_line<Coordinate>()};
+  return table;
+}
+
+EffortRecord::EffortRecord(const mbd::MechanismSpec& spec, results::Writer& writer) {
+  const auto plan = [&](const mbd::CoordinateRef& on) {
+    return Coordinate{is_rotational(spec.joints[static_cast<std::size_t>(on.joint.index)], on.value)};
+  };
+  for (const mbd::DriveSpec& drive : spec.drives)
+    drives_.emplace_back(of_drives(), "/drives/" + drive.name + "/", plan(drive.coordinate), writer);
+  for (const mbd::CouplingSpec& coupling : spec.couplings)
+    couplings_.emplace_back(of_couplings(), "/couplings/" + coupling.name + "/", plan(coupling.output), writer);
+  for (const mbd::MechanismSpec::CoordinateForce& force : spec.coordinate_forces)
+    forces_.emplace_back(of_forces(), "/joint_forces/" + force.name + "/", plan(force.coordinate), writer);
+}
+
+void EffortRecord::append(const mbd::Observation& seen) const {
+  for (std::size_t i = 0; i < drives_.size(); ++i) drives_[i].append({seen.drive_efforts[i], seen.drive_powers[i]});
+  for (std::size_t i = 0; i < couplings_.size(); ++i) couplings_[i].append({seen.coupling_efforts[i], 0});
+  for (std::size_t i = 0; i < forces_.size(); ++i)
+    forces_[i].append({seen.coordinate_force_efforts[i], seen.coordinate_force_powers[i]});
+}
+
+std::vector<QuantityGroup> EffortRecord::describe() {
+  const auto group = [](const char* path, const char* heading, const Table& table) {
+    QuantityGroup described{.path = path, .heading = heading, .quantities = {}};
+    run::describe(table, "n", described);
+    return described;
+  };
+  return {group("/drives/<d>/", "of a drive", of_drives()),
+          group("/couplings/<c>/", "of a coupling of coordinates", of_couplings()),
+          group("/joint_forces/<f>/", "of friction, speed control and springs with a function, on their coordinate",
+                of_forces())};
+}
+
+}  // namespace hersey::run

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "hersey/mbd/mechanism.h"
+#include "record/quantity.h"
+
+namespace hersey::run {
+
+/// What acts on one coordinate of a joint: a drive, a coupling, or friction, springs and control in a joint.
+struct Effort {
+  double value = 0;  ///< force or torque [N; N m]
+  double power = 0;  ///< put into the machine [W]
+};
+
+/// All that acts on joint coordinates, in the results file.
+class EffortRecord {
+ public:
+  EffortRecord(const mbd::MechanismSpec& spec, results::Writer& writer);
+  void append(const mbd::Observation& seen) const;
+  [[nodiscard]] static std::vector<QuantityGroup> describe();
+
+ private:
+  struct Coordinate {
+    bool is_rotational = false;
+  };
+  using Table = QuantityTable<Effort, Coordinate>;
+  [[nodiscard]] static const Table& of_drives();
+  [[nodiscard]] static const Table& of_couplings();
+  [[nodiscard]] static const Table& of_forces();
+
+  std::vector<QuantityRows<Effort, Coordinate>> drives_, couplings_, forces_;
+};
+
+}  // namespace hersey::run

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "hersey/mbd/mechanism.h"
+#include "record/quantity.h"
+
+namespace hersey::run {
+
+/// Whether a value of the joint's coordinates is an angle.
+[[nodiscard]] bool is_rotational(const mbd::JointSpec& joint, int value);
+
+/// Coordinates and reactions of one joint in the results file.
+class JointRecord {
+ public:
+  JointRecord(const mbd::JointSpec& joint, results::Writer& writer);
+  void append(const mbd::JointObservation& seen) const { rows_.append(seen); }
+  /// Adds its series.
+  static void describe(QuantityGroup& group);
+
+ private:
+  QuantityRows<mbd::JointObservation, mbd::JointSpec> rows_;
+};
+
+}  // namespace hersey::run

@@ -1,0 +1,62 @@
+#include "record/observe_step.h"
+
+#include <algorithm>
+
+#include "hersey/core/task_pool.h"
+#include "hersey/mbd/mechanism.h"
+
+namespace hersey::run {
+namespace {
+
+// Seen from ground instead of the first body.
+mbd::ContactObservation in_ground(mbd::ContactObservation seen, const Pose& X_WA) {
+  seen.force = X_WA.R * seen.force;
+  seen.friction = X_WA.R * seen.friction;
+  seen.position = X_WA * seen.position;
+  return seen;
+}
+
+// The largest violation of a constraint, relative to the lengths or angles it compares.
+double constraint_drift(mbd::Mechanism& mechanism, const solver::State& state) {
+  if (mechanism.nlambda() == 0) return 0;
+  Eigen::VectorXd phi, scale;
+  mechanism.constraints(state, phi, scale, nullptr);
+  return phi.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace
+
+std::vector<ForceKind> force_kinds(const model::Machine& machine) {
+  std::vector<ForceKind> kinds(machine.mechanism->spec().forces.size(), ForceKind::spring);
+  const auto mark = [&](const auto& built, ForceKind kind) {
+    kinds[static_cast<std::size_t>(built.force.index)] = kind;
+  };
+  for (const model::BuiltContact& contact : machine.contacts) mark(contact, ForceKind::contact);
+  for (const model::BuiltBearing& bearing : machine.bearings) mark(bearing, ForceKind::bearing);
+  return kinds;
+}
+
+StepRecord observe_step(const model::Machine& machine, const solver::State& state,
+                        const std::vector<ForceKind>& kinds) {
+  mbd::Mechanism& mechanism = *machine.mechanism;
+  StepRecord record;
+  record.mechanism = mechanism.observe(state);
+  // The mechanism's own figure also looks at rows left out as redundant.
+  record.constraint_drift = std::max(constraint_drift(mechanism, state), record.mechanism.constraint_drift);
+  for (const model::BuiltBearing& bearing : machine.bearings)
+    record.journal_motions.push_back(mechanism.relative_motion(state, bearing.force));
+  record.bearings.resize(machine.bearings.size());
+  TaskPool::shared().run(machine.bearings.size(), [&](std::size_t i) {
+    record.bearings[i] = machine.bearings[i].bearing->observe(record.journal_motions[i]);
+  });
+  for (const model::BuiltContact& contact : machine.contacts) {
+    const mbd::RelativeMotion motion = mechanism.relative_motion(state, contact.force);
+    const Pose& X_WA = record.mechanism.bodies[static_cast<std::size_t>(contact.first.index)].X_WF;
+    record.contacts.push_back(in_ground(contact.contact->observe(motion), X_WA));
+  }
+  record.power = power_balance(mechanism.spec(), record.mechanism, kinds);
+  for (const bearing::BearingObservation& bearing : record.bearings) record.power.films -= bearing.film.power_taken();
+  return record;
+}
+
+}  // namespace hersey::run

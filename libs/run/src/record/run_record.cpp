@@ -1,0 +1,164 @@
+#include "record/run_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "march/coarser_run.h"
+
+namespace hersey::run {
+
+RunRecord::RunRecord(const model::Model& model, const model::Machine& machine, const solver::State& start,
+                     const Options& options, bool resumes)
+    : model_(model),
+      options_(options),
+      recorder_(model, machine, start, options, resumes),
+      deformed_(model, machine, options.results),
+      settling_(model),
+      cycles_(model),
+      energy_(machine.mechanism->spec()) {
+  for (const model::Bearing& bearing : model.bearings) extremes_.emplace_back(bearing.name);
+}
+
+void RunRecord::take(const StepRecord& step) {
+  const double t = step.mechanism.t;
+  if (step.dt > 0) ++steps_;
+  newton_iterations_ += step.newton_iterations;
+  step_error_ = std::max(step_error_, step.step_error);
+  constraint_drift_ = std::max(constraint_drift_, step.constraint_drift);
+  largest_power_ = std::max(largest_power_, step.power.largest());
+  largest_error_ = std::max(largest_error_, std::abs(step.power.error()));
+  for (std::size_t i = 0; i < extremes_.size(); ++i) extremes_[i].take(t, step.dt, step.bearings[i]);
+  energy_.take(step);
+  settled_ = settling_.settled(step);
+  recorder_.gather(step);
+  if (cycles_.ends(t)) end_cycle(t);
+  write(step);
+}
+
+void RunRecord::end_cycle(double t) {
+  last_cycle_ = cycles_.take(recorder_.close_cycle());
+  recorder_.write_cycle(t, last_cycle_.value);
+  if (options_.on_cycle) options_.on_cycle({last_cycle_.number, last_cycle_.value, last_cycle_.largest});
+  repeats_ = cycles_.converged(last_cycle_);
+}
+
+std::string RunRecord::ending(double t) const {
+  if (settled_) return fmt::format("settled at t = {:.6g} s", t);
+  const double change = 100 * last_cycle_.value;
+  if (repeats_)
+    return fmt::format("converged in cycle {}: {:.2g} % ({})", last_cycle_.number, change, last_cycle_.largest);
+  const auto& plan = model_.simulation.cycle;
+  if (!plan || plan->tolerance == 0) return {};
+  if (last_cycle_.number < 2) return "fewer than two cycles, of which none can repeat";
+  return fmt::format("not converged after {} cycles: {:.2g} %", last_cycle_.number, change);
+}
+
+double RunRecord::moft() const {
+  double moft = std::numeric_limits<double>::infinity();
+  for (const BearingExtremes& bearing : extremes_) moft = std::min(moft, bearing.summary().moft);
+  return moft;
+}
+
+std::string RunRecord::thin_films() const {
+  constexpr double thin = 0.05;  // of the clearance
+  std::string text;
+  for (std::size_t i = 0; i < extremes_.size(); ++i) {
+    const film::FilmModel& film = model_.bearings[i].film;
+    const double h = extremes_[i].last_thickness();
+    if (h > thin * film.c || film.asperities.model != film::AsperityModel::none) continue;
+    text += fmt::format(
+        "; the film of bearing {} is {:.3g} um at its thinnest (eccentricity ratio {:.3f}), and nothing else parts its "
+        "smooth surfaces: `asperities` let them touch{}",
+        model_.bearings[i].name, 1e6 * h, extremes_[i].summary().eccentricity_ratio,
+        film.compliance > 0 ? "" : ", a `compliance` spreads the pressure");
+  }
+  return text;
+}
+
+void RunRecord::write(const StepRecord& step) {
+  const double t = step.mechanism.t, slack = 1e-9 * model_.simulation.step;
+  deformed_.write(t, t - model_.simulation.start, slack, step);
+  if (is_row_due(t, slack)) recorder_.write_row(step, energy_.sums());
+  if (are_fields_due(t, slack)) recorder_.write_fields(step);
+  recorder_.flush_if_due();
+}
+
+// Rows by steps, or at the multiples of an interval and at the end of the run.
+bool RunRecord::is_row_due(double t, double slack) {
+  const model::Output& output = model_.output;
+  if (output.interval <= 0) return steps_ % output.every == 0;
+  const double since_start = t - model_.simulation.start;
+  const bool is_due = since_start >= next_row_ * output.interval - slack;
+  if (is_due) next_row_ = std::floor((since_start + slack) / output.interval) + 1;
+  return is_due || ends_run() || since_start >= model_.simulation.duration - slack;
+}
+
+bool RunRecord::are_fields_due(double t, double slack) {
+  if (t < next_fields_ - slack && !ends_run()) return false;
+  const double every = model_.output.fields_every;
+  // Counted from here at the start, and after a step longer than the interval.
+  next_fields_ = (next_fields_ < t - every ? t : std::max(next_fields_, model_.simulation.start)) + every;
+  return true;
+}
+
+void RunRecord::summarise(Summary& summary) const {
+  summary.steps = steps_;
+  summary.newton_iterations += newton_iterations_;
+  summary.cycles = last_cycle_.number;
+  summary.cycle_change = last_cycle_.value;
+  summary.worst_constraint_drift = constraint_drift_;
+  summary.worst_step_error = step_error_;
+  summary.worst_power_balance = largest_power_ > 0 ? largest_error_ / largest_power_ : 0;
+  summary.energy = energy_.sums();
+  for (const BearingExtremes& bearing : extremes_) summary.bearings.push_back(bearing.summary());
+  for (std::size_t i = 0; i < step_errors_.size(); ++i) summary.bearings[i].step_error = step_errors_[i];
+}
+
+void RunRecord::declare_cost(const Work& work) {
+  if (options_.step_error)
+    for (const BearingExtremes& bearing : extremes_) recorder_.write_step_errors(bearing.name(), {});
+  recorder_.declare_cost(work);
+}
+
+void RunRecord::write_step_errors(const Summary& coarse) {
+  for (std::size_t i = 0; i < extremes_.size(); ++i) {
+    step_errors_.push_back(step_errors(extremes_[i].summary(), coarse.bearings[i]));
+    recorder_.write_step_errors(extremes_[i].name(), step_errors_.back());
+  }
+}
+
+void RunRecord::finish(results::Status status, const std::string& message, double wall_time, const Work& work) {
+  recorder_.finish(status, message, wall_time, work, steps_);
+}
+
+void RunRecord::persist(Archive& archive) {
+  archive.io("steps", steps_), archive.io("newton_iterations", newton_iterations_);
+  archive.io("constraint_drift", constraint_drift_), archive.io("step_error", step_error_);
+  archive.io("largest_power", largest_power_), archive.io("largest_error", largest_error_);
+  archive.io("next_fields", next_fields_), archive.io("next_row", next_row_);
+  for (BearingExtremes& extremes : extremes_) {
+    const Archive::Group group(archive, "extremes of " + extremes.name());
+    extremes.persist(archive);
+  }
+  {
+    const Archive::Group energy(archive, "energy");
+    energy_.persist(archive);
+  }
+  archive.io("settled", settled_), archive.io("repeats", repeats_);
+  settling_.persist(archive);
+  {
+    const Archive::Group cycle(archive, "cycle");
+    archive.io("number", last_cycle_.number), archive.io("change", last_cycle_.value);
+    archive.io("largest", last_cycle_.largest);
+    cycles_.persist(archive);
+  }
+  {
+    const Archive::Group meshes(archive, "deformed_meshes");
+    deformed_.persist(archive);
+  }
+  recorder_.persist(archive, options_.results);
+}
+
+}  // namespace hersey::run

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "cycle/cycle_convergence.h"
+#include "record/deformed_meshes.h"
+#include "hersey/core/archive.h"
+#include "hersey/model/build.h"
+#include "hersey/model/model.h"
+#include "hersey/run/options.h"
+#include "hersey/run/summary.h"
+#include "march/settling.h"
+#include "record/energy_balance.h"
+#include "record/extremes.h"
+#include "record/recorder.h"
+
+namespace hersey::run {
+
+/// What the accepted steps of a run leave behind: rows and fields in the results file, deformed meshes, cycles,
+/// extremes for the summary. Says when a run has settled or repeats itself.
+class RunRecord {
+ public:
+  /// @param start, resumes  Recorder
+  /// @throws as Recorder
+  RunRecord(const model::Model& model, const model::Machine& machine, const solver::State& start,
+            const Options& options, bool resumes);
+
+  /// The start of the run, then every accepted step.
+  void take(const StepRecord& step);
+  void declare_cost(const Work& work);
+  void write_modes(const solver::State& state, const solver::Modes& found) { recorder_.write_modes(state, found); }
+  void finish(results::Status status, const std::string& message, double wall_time, const Work& work);
+
+  /// Nothing changes any more, or cycle repeats cycle: the run ends with the step last taken.
+  [[nodiscard]] bool ends_run() const { return settled_ || repeats_; }
+  /// What to say of that, or of cycles that did not repeat, when the run ends at `t`; empty where there is nothing.
+  [[nodiscard]] std::string ending(double t) const;
+
+  /// Smallest film thickness so far of all bearings [m].
+  [[nodiscard]] double moft() const;
+  /// What to say of films of smooth surfaces that all but touch, where a run finds no further step; empty where none
+  /// do.
+  [[nodiscard]] std::string thin_films() const;
+  /// The figures of all steps taken.
+  void summarise(Summary& summary) const;
+
+  /// Writes what the steps have done to each bearing's figures. Before finish().
+  /// @param coarse  summary of the run with steps twice as long
+  void write_step_errors(const Summary& coarse);
+
+  void persist(Archive& archive);
+
+ private:
+  void end_cycle(double t);
+  void write(const StepRecord& step);
+  [[nodiscard]] bool is_row_due(double t, double slack);
+  [[nodiscard]] bool are_fields_due(double t, double slack);
+
+  const model::Model& model_;
+  const Options& options_;
+  Recorder recorder_;
+  DeformedMeshes deformed_;
+  SettlingTest settling_;
+  CycleConvergence cycles_;
+  std::vector<BearingExtremes> extremes_;
+  EnergyBalance energy_;
+  int steps_ = 0, newton_iterations_ = 0;
+  std::vector<StepErrors> step_errors_;  ///< of the bearings, where asked for
+  double step_error_ = 0;                ///< largest of a step
+  double constraint_drift_ = 0, largest_power_ = 0, largest_error_ = 0;
+  CycleChange last_cycle_;
+  bool settled_ = false, repeats_ = false;
+  double next_fields_ = -std::numeric_limits<double>::infinity();
+  double next_row_ = 0;  ///< in intervals
+};
+
+}  // namespace hersey::run

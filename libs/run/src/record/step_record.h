@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "hersey/bearing/film_force.h"
+#include "hersey/mbd/contact.h"
+#include "hersey/mbd/observation.h"
+#include "record/power_balance.h"
+
+namespace hersey::run {
+
+/// Everything seen of an accepted step: what the summary, the settling test and the results file are made of.
+struct StepRecord {
+  double dt = 0;
+  int newton_iterations = 0;
+  double newton_residual = 0;
+  double error = 0;             ///< estimated, over the tolerance; 0 with a fixed step
+  double step_error = 0;        ///< the same, not over the tolerance; of fixed steps too
+  int rejected_steps = 0;       ///< since the start of the run
+  double constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares
+  mbd::Observation mechanism;
+  std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
+  std::vector<bearing::BearingObservation> bearings;
+  std::vector<mbd::ContactObservation> contacts;  ///< in ground's axes
+  PowerBalance power;
+};
+
+}  // namespace hersey::run
