@@ -108,6 +108,19 @@ struct SolidArguments {
 /// `hersey stress`: displacements and stresses under pressures and gravity. @returns an ExitCode. @throws InputError.
 [[nodiscard]] int stress_command(const SolidArguments& arguments);
 
+struct OilArguments {
+  std::string oil;                     ///< a grade, or a model file
+  std::vector<std::string> overrides;  ///< of the model
+  std::string lubricant;               ///< of several in the model
+  std::vector<std::string> at;         ///< temperatures; empty: 0 to 160 degC
+  std::string pressure;                ///< above that of cavitation; empty: none
+  bool json = false;
+};
+
+/// `hersey oil`: viscosity and density of a grade, or of a model's lubricant, over temperature. @returns an ExitCode.
+/// @throws InputError.
+[[nodiscard]] int oil_command(const OilArguments& arguments);
+
 /// Tells what the model computes but hardly means, one a line on stderr.
 void warn(const std::vector<Fault>& warnings);
 

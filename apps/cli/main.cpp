@@ -34,6 +34,7 @@ constexpr const char* kFooter =
     "  hersey check model.yaml                                       every fault, nothing simulated\n"
     "  hersey mesh conrod.msh --length-unit mm                       a mesh: sets, mass, quality\n"
     "  hersey modes conrod.msh --length-unit mm --hold big_end       its natural frequencies\n"
+    "  hersey oil iso_vg_46 --at 40degC 100degC                      viscosity and density of an oil\n"
     "  hersey schema > hersey.schema.json                            completion and checking in an editor\n"
     "\n"
     "Exit codes:\n"
@@ -168,6 +169,19 @@ CLI::App* add_solid_command(CLI::App& app, const char* name, const char* descrip
   return command;
 }
 
+CLI::App* add_oil_command(CLI::App& app, OilArguments& oil) {
+  CLI::App* command = app.add_subcommand("oil", "Tell viscosity and density of an oil over temperature");
+  command->add_option("oil", oil.oil, "A grade such as iso_vg_46 or sae_5w_30, or a model file")
+      ->required()
+      ->type_name("GRADE|MODEL");
+  add_overrides(*command, oil.overrides);
+  command->add_option("--lubricant", oil.lubricant, "Which, of a model with several")->type_name("NAME");
+  command->add_option("--at", oil.at, "Temperatures (default: 0 to 160 degC)")->type_name("100degC ...");
+  command->add_option("--pressure", oil.pressure, "Above the cavitation pressure")->type_name("100MPa");
+  command->add_flag("--json", oil.json, "Print it as JSON");
+  return command;
+}
+
 CLI::App* add_modes_command(CLI::App& app, SolidArguments& solid) {
   CLI::App* command =
       add_solid_command(app, "modes", "Natural frequencies and shapes of an elastic body, free or held", solid);
@@ -256,6 +270,8 @@ int dispatch(int argc, char** argv) {
   SolidArguments modes, stress;
   const CLI::App* modes_app = add_modes_command(app, modes);
   const CLI::App* stress_app = add_stress_command(app, stress);
+  OilArguments oil;
+  const CLI::App* oil_app = add_oil_command(app, oil);
 
   bool markdown = false, of_results = false;
   CLI::App* schema_app = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
@@ -280,6 +296,7 @@ int dispatch(int argc, char** argv) {
   if (*reduce_app) return reduce_command(reduce);
   if (*modes_app) return modes_command(modes);
   if (*stress_app) return stress_command(stress);
+  if (*oil_app) return oil_command(oil);
   return schema_command(of_results, markdown);
 }
 

@@ -18,6 +18,7 @@ const groups: [string, string][] = [
   ["deformation", "Deformation"],
   ["friction", "Friction"],
   ["oil", "Oil"],
+  ["heat", "Heat"],
   ["numbers", "Numbers"],
   ["stability", "Stability of a rigid rotor"],
 ];

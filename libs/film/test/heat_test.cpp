@@ -228,7 +228,9 @@ TEST_CASE("FilmThatWarms_ConservesHeatAndEndsSteady") {
     CHECK(heat.observables().balance.error() < 1e-7);  // the film's residual
   }
   const HotFilm steady = solve_hot(model, thermal, motion, journal.e);
+  // What is left of the slowest wall after the last long step.
   CHECK(std::abs(heat.observables().T_max - steady.heat.T_max) < 1e-3);
+  // Likewise.
   CHECK(std::abs(heat.state().journal - steady.heat.T_journal) < 1e-3);
 }
 

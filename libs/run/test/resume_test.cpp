@@ -144,6 +144,20 @@ TEST_CASE("ResumedFilm_IsTheSame") {
   }
 }
 
+TEST_CASE("ResumedFilmWithTemperature_IsTheSame") {
+  for (const char* coupling : {"monolithic", "{scheme: partitioned, acceleration: quasi_newton}"}) {
+    CAPTURE(coupling);
+    const std::string line = "    supply: {line: widest_gap, pressure: 1 bar}\n";
+    const std::string heat =
+        "    thermal: {model: film, supply_temperature: 40 degC, layers: 3, shell: {wall: ring, outer_diameter: 60 mm, "
+        "ambient: 30 degC}}\n";
+    std::string text = rig_with(line, line + heat + "    coupling: " + coupling + "\n");
+    const std::string oil = "viscosity: 15 mPa.s";
+    text.replace(text.find(oil), oil.size(), "grade: iso_vg_22");
+    check_resumed(text, 7, 12);
+  }
+}
+
 TEST_CASE("ResumedFilmUnderErrorControl_IsTheSame") {
   check_resumed(rig_with("step: 2 deg", "step: {tolerance: 1e-5}\n  settle: {tolerance: 1e-9, over: 1 ms}"), 9, 30);
 }

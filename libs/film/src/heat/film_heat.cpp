@@ -34,12 +34,6 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
 
 }  // namespace
 
-double HeatBalance::error() const {
-  const double scale =
-      std::max({std::abs(power), std::abs(to_oil), std::abs(to_shell), std::abs(to_journal), std::abs(stored)});
-  return scale > 0 ? std::abs(power - to_oil - to_shell - to_journal - stored) / scale : 0;
-}
-
 HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, HeatState image) {
   const double T = thermal.T_supply;
   const double beta =

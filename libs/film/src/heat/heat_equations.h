@@ -7,7 +7,8 @@
 #include "heat/heat_system.h"
 #include "heat/heat_walls.h"
 #include "heat/layer_flows.h"
-#include "hersey/film/film_heat.h"
+#include "hersey/film/heat_state.h"
+#include "hersey/film/thermal_model.h"
 #include "hersey/solver/gmres.h"
 #include "observe/film_wrench.h"
 

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "interpret/interpret.h"
-#include "schema/oil_grades.h"
+#include "hersey/model/oil_grades.h"
 #include "schema/oil_laws.h"
 
 namespace hersey::model {
@@ -99,7 +99,7 @@ void check_temperature_law(Context& context, const Value& law) {
 film::TemperatureLaw temperature_law_of(Context& context, const Value& lubricant) {
   const Value* given = lubricant.find("viscosity");
   if (given == nullptr) {
-    if (lubricant.find("grade") == nullptr)
+    if (lubricant.find("grade") == nullptr && !lubricant.broken)
       context.fault_at_key(lubricant, "a lubricant without a viscosity", "a 'viscosity' or a 'grade'");
     const OilGrade* grade = grade_of(lubricant);
     if (grade == nullptr) return film::FixedViscosity{};

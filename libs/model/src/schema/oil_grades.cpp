@@ -1,4 +1,4 @@
-#include "schema/oil_grades.h"
+#include "hersey/model/oil_grades.h"
 
 #include <algorithm>
 

@@ -18,23 +18,22 @@ const std::vector<Attribute<model::Contact>>& contact_attributes() {
 }
 
 const QuantityTable<mbd::ContactObservation, model::Contact>& contact_quantities() {
-  using As = Told::As;
   static const QuantityTable<mbd::ContactObservation, model::Contact> table{
       {"normal_force",
        "N",
        "sum of the normal forces of all spots",
        &mbd::ContactObservation::normal_force,
-       {.told = {{.as = As::largest, .name = "largest normal force", .unit = "N"}}}},
+       {.told = {{.as = Told::As::largest, .name = "largest normal force", .unit = "N"}}}},
       {"friction_force",
        "N",
        "size of the friction force",
        [](const mbd::ContactObservation& seen) { return seen.friction.norm(); },
-       {.told = {{.as = As::largest, .name = "largest friction force", .unit = "N"}}}},
+       {.told = {{.as = Told::As::largest, .name = "largest friction force", .unit = "N"}}}},
       {"gap",
        "m",
        "smallest distance of the shapes, negative where they overlap",
        &mbd::ContactObservation::gap,
-       {.told = {{.as = As::smallest, .name = "smallest distance", .unit = "µm"}}}},
+       {.told = {{.as = Told::As::smallest, .name = "smallest distance", .unit = "µm"}}}},
       {"force", "N", "on the second shape's body, ground axes", &mbd::ContactObservation::force},
       {"position", "m", "centre of the normal forces in ground; not a number without contact",
        &mbd::ContactObservation::position},
@@ -42,12 +41,12 @@ const QuantityTable<mbd::ContactObservation, model::Contact>& contact_quantities
        "W",
        "taken by the contact's damping",
        &mbd::ContactObservation::damping_power,
-       {.told = {{.as = As::integral, .name = "energy lost in damping", .unit = "mJ"}}}},
+       {.told = {{.as = Told::As::integral, .name = "energy lost in damping", .unit = "mJ"}}}},
       {"friction_power",
        "W",
        "taken by friction",
        &mbd::ContactObservation::friction_power,
-       {.told = {{.as = As::integral, .name = "energy lost in friction", .unit = "mJ"}}}},
+       {.told = {{.as = Told::As::integral, .name = "energy lost in friction", .unit = "mJ"}}}},
       {"spots", "1", "number of spots that touch", &mbd::ContactObservation::spots},
   };
   return table;

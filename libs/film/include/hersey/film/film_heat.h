@@ -5,54 +5,10 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/film/film_model.h"
-#include "hersey/film/film_observables.h"
+#include "hersey/film/heat_state.h"
 #include "hersey/film/thermal_model.h"
 
 namespace hersey::film {
-
-/// Temperatures of a film and of what it touches [K].
-struct HeatState {
-  Eigen::VectorXd film;      ///< of the layers, shape (grid.size() layers): node by node, from the shell to the journal
-  Eigen::VectorXd shell;     ///< of the ring, or as given, shape (n_phi); of an insulated shell nothing
-  double journal = 0;        ///< of a journal that is not insulated
-  Eigen::VectorXd supplies;  ///< of the supply line and then of each feature: what leaves them for the film
-};
-
-/// Fields at the nodes, shape (grid.size()) each [K].
-struct TemperatureFields {
-  Eigen::VectorXd middle;   ///< mean over the film's thickness
-  Eigen::VectorXd shell;    ///< on the shell's surface
-  Eigen::VectorXd journal;  ///< on the journal's surface
-  Eigen::VectorXd hottest;  ///< largest of all layers
-
-  /// Puts them beside the film's other fields.
-  void show_in(FilmFields& fields) const {
-    fields.T = middle, fields.T_shell = shell, fields.T_journal = journal, fields.T_hottest = hottest;
-  }
-};
-
-/// Where a film's heat comes from and goes (theory manual, thermal.17), powers in W.
-struct HeatBalance {
-  double power = 0;       ///< dissipated in the film, and by asperities
-  double to_oil = 0;      ///< carried away by the oil that leaves, over that of the oil that comes
-  double to_shell = 0;    ///< into the shell
-  double to_journal = 0;  ///< into the journal
-  double stored = 0;      ///< rate of change of the heat in the film's oil
-  /// What is missing, over the largest of these [-].
-  [[nodiscard]] double error() const;
-};
-
-/// What an engineer asks of a film's temperature [K, rad, m].
-struct HeatObservables {
-  double T_max = 0, T_max_phi = 0, T_max_z = 0;  ///< of the hottest layer
-  double T_shell_max = 0, T_shell_max_phi = 0;   ///< on the shell's surface
-  double T_shell_mean = 0;                       ///< over the area
-  double T_journal = 0;                          ///< mean of the surface
-  double T_film_mean = 0;                        ///< over the volume of the oil
-  double T_side = 0;                             ///< of the oil that leaves over the edges; NaN where none does
-  Eigen::VectorXd T_supplies;                    ///< of line and features, stirred; the line first if there is one
-  HeatBalance balance;
-};
 
 /// A start for film and heat in turn: what is left of temperatures `image`, found with the viscosity of the supply's
 /// temperature, once the oil thins as it warms. Of an adiabatic film between walls a constant distance apart exactly:

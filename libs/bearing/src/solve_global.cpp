@@ -1,10 +1,9 @@
-#include "hersey/bearing/global_heat.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "hersey/bearing/global_heat.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/solver/fixed_point_iteration.h"
 

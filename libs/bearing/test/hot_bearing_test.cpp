@@ -1,0 +1,103 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hersey/bearing/steady_bearing.h"
+#include "relative.h"
+
+namespace hersey::bearing {
+namespace hot_bearing_test {
+
+using film::zero_celsius;
+
+film::FilmModel model_of(film::Lubricant oil, int n_phi, int n_z) {
+  film::FilmModel model{.R = 0.05, .L = 0.05, .c = 50e-6, .grid = {.n_phi = n_phi, .n_z = n_z}, .lubricant = std::move(oil)};
+  model.shear_force = film::ShearForce::torque_only;
+  model.supply = {film::SupplyKind::widest_gap, 0, 0};
+  return model;
+}
+
+/// ISO VG 46 as the reference cases have it.
+film::Lubricant vg46(double T) {
+  film::Lubricant oil{.mu0 = 1, .density = 869};
+  oil.temperature_law = film::WaltherViscosity::through(46e-6, 6.8e-6, 869);
+  return film::at_temperature(oil, T);
+}
+
+OperatingPoint point() { return {.journal_speed = 100 * std::numbers::pi, .load = Eigen::Vector2d(0, -10e3)}; }
+
+// The balance of ISO 7902 for a bearing of D 100, B 50, psi 0.001 under 10 kN at 3000 rpm with oil supplied at 50 degC, by
+// an independent program that takes its bearing numbers from a table of its own.
+TEST_CASE("OneEffectiveTemperature_IsThatOfTheBalance") {
+  film::FilmModel model = scaled_for(model_of(vg46(323.15), 120, 25), point());
+  SteadyState state;
+  const GlobalHeat heat{.T_supply = 50 + zero_celsius};
+  const SteadySummary summary = solve_global(model, point(), heat, {}, state);
+  REQUIRE(summary.converged);
+  REQUIRE(state.effective);
+  CHECK(std::abs(state.effective->T - zero_celsius - 65.987) < 0.05);  // its grid and this one
+  CHECK(std::abs(state.effective->T_out - zero_celsius - 81.973) < 0.1);
+  CHECK(state.e.norm() / model.c == relative(0.57887).epsilon(1e-3));  // its grid and this one
+  CHECK(summary.heat_iterations <= 20);
+  // The balance itself, with the oil at the temperature found.
+  const double rise = (state.film.power_film) /
+                      (model.lubricant.density * 2000 * (state.film.flow_left + state.film.flow_right));
+  CHECK(state.effective->T_out - heat.T_supply == relative(rise).epsilon(1e-6));  // 1e-8 of temperature over its slope
+}
+
+TEST_CASE("HousingThatCools_SetsTheTemperature") {
+  film::FilmModel model = scaled_for(model_of(vg46(313.15), 60, 13), point());
+  SteadyState state;
+  const GlobalHeat heat{.cools_by_surroundings = true, .transfer = 20, .area = 2, .T_ambient = 313.15};
+  REQUIRE(solve_global(model, point(), heat, {}, state).converged);
+  CHECK((state.effective->T - heat.T_ambient) * 20 * 2 == relative(state.film.power_film).epsilon(1e-6));  // as above
+  CHECK(state.effective->T_out == state.effective->T);
+}
+
+TEST_CASE("HotBearing_CarriesItsLoadAndBalances") {
+  const film::FilmModel model = scaled_for(model_of(vg46(323.15), 60, 13), point());
+  SteadyOptions options;
+  options.thermal = film::ThermalModel{.layers = 4, .T_supply = 323.15, .T_edges = 323.15};
+  options.thermal->shell = film::RingWall{.outer_radius = 0.08, .T_ambient = 303.15};
+  SteadyState hot, cold;
+  const SteadySummary summary = solve_steady(model, point(), options, hot);
+  REQUIRE(summary.converged);
+  REQUIRE(hot.heat);
+  CHECK((hot.load - *point().load).norm() < 1e-9 * point().load->norm());  // the solver's tolerance of 1e-10
+  CHECK(summary.heat_iterations <= 20);
+  CHECK(hot.heat->seen.balance.error() < 1e-8);  // what the last change of temperature leaves
+  // The oil leaves warmer than it comes, and what it takes along is all but what the ring does.
+  CHECK(hot.heat->seen.T_side > 323.15 + 5);
+  CHECK(hot.heat->seen.balance.power == relative(hot.film.power_film).epsilon(1e-9));
+  CHECK(std::abs(hot.heat->seen.balance.to_journal) < 1e-6 * hot.heat->seen.balance.power);
+  // Warm oil is thin: against the bearing that has the supply's temperature everywhere.
+  REQUIRE(solve_steady(model, point(), {}, cold).converged);
+  CHECK(hot.film.h_min < 0.9 * cold.film.h_min);
+  CHECK(hot.film.power_film < 0.8 * cold.film.power_film);
+}
+
+// Seen from axes that are turned, and with the sense of rotation mirrored, the bearing is the same.
+TEST_CASE("HotBearing_TurnedOrMirrored_IsTheSame") {
+  const film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  SteadyOptions options;
+  options.thermal = film::ThermalModel{.layers = 3, .T_supply = 323.15, .T_edges = 323.15};
+  options.thermal->shell = film::RingWall{.outer_radius = 0.08, .T_ambient = 303.15};
+  SteadyState first, turned, mirrored;
+  REQUIRE(solve_steady(model, point(), options, first).converged);
+  OperatingPoint other = point();
+  other.load = Eigen::Vector2d(10e3, 0);  // by a quarter turn, twelve nodes
+  REQUIRE(solve_steady(model, other, options, turned).converged);
+  other = point();
+  other.journal_speed = -other.journal_speed;
+  REQUIRE(solve_steady(model, other, options, mirrored).converged);
+  constexpr double tolerance = 1e-6;  // of films and temperatures found to 1e-8 on their own ways
+  for (const SteadyState* state : {&turned, &mirrored}) {
+    CHECK(state->film.h_min == relative(first.film.h_min).epsilon(tolerance));
+    CHECK(state->heat->seen.T_max - 323.15 == relative(first.heat->seen.T_max - 323.15).epsilon(tolerance));
+    CHECK(state->heat->seen.balance.to_shell == relative(first.heat->seen.balance.to_shell).epsilon(tolerance));
+  }
+}
+
+}  // namespace hot_bearing_test
+}  // namespace hersey::bearing

@@ -1,0 +1,119 @@
+#include <doctest/doctest.h>
+
+#include <string>
+#include <variant>
+
+#include "hersey/model/oil_grades.h"
+#include "model_text.h"
+#include "relative.h"
+
+// Oils over temperature and the heat of films, as a model file has them.
+namespace hersey::model {
+namespace thermal_test {
+
+// Digits of the conversion of units.
+constexpr double digits = 1e-12;
+
+std::string with(const std::string& oil, const std::string& thermal) {
+  return "hersey: 1\nlubricants:\n  oil: {" + oil +
+         "}\nbearings:\n  main:\n    diameter: 100 mm\n    width: 50 mm\n    radial_clearance: 50 um\n    lubricant: oil\n"
+         "    supply: {line: 0 deg, pressure: 1 bar}\n" +
+         (thermal.empty() ? "" : "    thermal: {" + thermal + "}\n");
+}
+
+Bearing read_bearing(const std::string& oil, const std::string& thermal) {
+  return read_text(with(oil, thermal), "m.yaml").bearings.at(0);
+}
+
+bool tells(const std::string& oil, const std::string& thermal, const std::string& what) {
+  const std::string told = faults_of(with(oil, thermal));
+  CAPTURE(told);
+  CHECK(told.find(what) != std::string::npos);
+  return told.find(what) != std::string::npos;
+}
+
+TEST_CASE("Oils_HaveTheViscosityOfTheirTemperature") {
+  // ISO VG 32 at 60 degC, ASTM D341 by an independent program: 12.722 mPa.s.
+  CHECK(read_bearing("grade: iso_vg_32, temperature: 60 degC", "").film.lubricant.mu0 == relative(0.012722091814).epsilon(1e-9));
+  CHECK(read_bearing("grade: iso_vg_32", "model: isothermal, temperature: 60 degC").film.lubricant.mu0 ==
+        relative(0.012722091814).epsilon(1e-9));  // the program's digits
+  const auto mu_at_60 = [](const std::string& law) {
+    return read_bearing("temperature: 60 degC, viscosity: {" + law + "}", "").film.lubricant.mu0;
+  };
+  CHECK(mu_at_60("law: exponential, viscosity: 20 mPa.s, reference: 40 degC, coefficient: 0.03 1/K") ==
+        relative(0.02 * std::exp(-0.6)).epsilon(digits));
+  CHECK(mu_at_60("law: vogel, a: 6e-5 Pa.s, b: 850 K, c: 100 K") ==
+        relative(6e-5 * std::exp(850 / 233.15)).epsilon(digits));
+  CHECK(mu_at_60("law: walther, nu40: 32 mm^2/s, nu100: 5.4 mm^2/s") ==
+        relative(0.012722091814 * 850 / 863).epsilon(1e-9));  // of the usual density
+  CHECK(mu_at_60("law: table, temperatures: [40 degC, 60 degC, 100 degC], viscosities: [30 mPa.s, 14 mPa.s, 5 mPa.s]") ==
+        relative(0.014).epsilon(digits));
+  // A grade's numbers give way to those of the file, key by key.
+  const film::Lubricant own = read_bearing("grade: iso_vg_32, density: 900 kg/m^3, temperature: 60 degC", "").film.lubricant;
+  CHECK(own.mu0 == relative(0.012722091814 * 900 / 863).epsilon(1e-9));  // the program's digits
+}
+
+TEST_CASE("Grades_AreThoseOfTheirStandards") {
+  for (const OilGrade& grade : oil_grades()) {
+    CAPTURE(grade.name);
+    const std::string name(grade.name);
+    if (name.starts_with("iso_vg_")) CHECK(grade.nu40 == relative(1e-6 * std::stod(name.substr(7))).epsilon(digits));
+    // SAE J300 (2015): limits of the viscosity at 100 degC.
+    if (name.ends_with("_16")) CHECK((6.1e-6 <= grade.nu100 && grade.nu100 < 8.2e-6));
+    if (name.ends_with("_30")) CHECK((9.3e-6 <= grade.nu100 && grade.nu100 < 12.5e-6));
+    if (name.ends_with("_40")) CHECK((12.5e-6 <= grade.nu100 && grade.nu100 < 16.3e-6));
+    if (name.ends_with("_50") && !name.starts_with("iso")) CHECK((16.3e-6 <= grade.nu100 && grade.nu100 < 21.9e-6));
+    if (name.ends_with("_60")) CHECK((21.9e-6 <= grade.nu100 && grade.nu100 < 26.1e-6));
+    CHECK(grade.nu40 > grade.nu100);
+    CHECK(grade.pour_point < grade.flash_point);
+  }
+}
+
+TEST_CASE("EverythingAboutHeat_IsRead") {
+  const Bearing bearing = read_bearing(
+      "grade: iso_vg_46, specific_heat: 1900 J/kg/K, conductivity: 0.14 W/m/K",
+      "model: film, supply_temperature: 50 degC, edge_temperature: 30 degC, layers: 7, carry_over: 0.8, shell: {wall: "
+      "ring, outer_diameter: 160 mm, conductivity: 40 W/m/K, heat_transfer: 25 W/m^2/K, ambient: 20 degC}, journal: "
+      "{wall: given, temperature: 70 degC}");
+  const auto& heat = std::get<film::ThermalModel>(bearing.heat);
+  CHECK(heat.layers == 7);
+  CHECK(heat.T_supply == relative(323.15).epsilon(digits));
+  CHECK(heat.T_edges == relative(303.15).epsilon(digits));
+  CHECK(heat.carry_over == 0.8);
+  const auto& ring = std::get<film::RingWall>(heat.shell);
+  CHECK(ring.outer_radius == relative(0.08).epsilon(digits));
+  CHECK(ring.conductivity == 40);
+  CHECK(ring.transfer == 25);
+  CHECK(ring.T_ambient == relative(293.15).epsilon(digits));
+  CHECK(std::get<film::WallAtTemperature>(heat.journal).T == relative(343.15).epsilon(digits));
+  CHECK(bearing.film.lubricant.specific_heat == 1900);
+  CHECK(bearing.film.lubricant.conductivity == 0.14);
+  // The film's own viscosity is that of the oil as supplied.
+  CHECK(bearing.film.lubricant.mu0 ==
+        read_bearing("grade: iso_vg_46, temperature: 50 degC", "").film.lubricant.mu0);
+}
+
+TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
+  CHECK(tells("grade: iso_vg_47, temperature: 50 degC", "", "did you mean 'iso_vg_46'"));
+  CHECK(tells("density: 850 kg/m^3", "", "a lubricant without a viscosity"));
+  CHECK(tells("grade: iso_vg_46", "", "viscosity falls with temperature, and no temperature"));
+  CHECK(tells("viscosity: {law: walther, nu40: 6 mm^2/s, nu100: 46 mm^2/s}, temperature: 50 degC", "",
+              "are both in the wrong order?"));
+  CHECK(tells("viscosity: {law: table, temperatures: [40 degC, 60 degC], viscosities: [10 mPa.s, 12 mPa.s]}, "
+              "temperature: 50 degC",
+              "", "an oil that thickens as it is heated"));
+  CHECK(tells("viscosity: {law: table, temperatures: [60 degC, 40 degC], viscosities: [10 mPa.s, 9 mPa.s]}, "
+              "temperature: 50 degC",
+              "", "temperatures that ascend"));
+  CHECK(tells("grade: iso_vg_46", "model: film, supply_temperature: 50 degC, shell: {wall: ring, outer_diameter: 90 mm, "
+                                  "ambient: 20 degC}",
+              "a ring no larger than its bore"));
+  CHECK(tells("grade: iso_vg_46", "model: global", "nothing that takes the heat away"));
+  CHECK(tells("grade: iso_vg_46", "model: film, supply_temperature: 50 degC}\n    edge_pressure: closed\n    cavitation: {model: mass_conserving",
+              "it has nowhere to go"));
+  CHECK(tells("grade: iso_vg_46", "model: film, supply_temperature: 50 degC}\n    cavitation: {model: reynolds",
+              "`carry_over: 0`"));
+}
+
+}  // namespace thermal_test
+}  // namespace hersey::model
