@@ -35,7 +35,7 @@ void warn_outside(Context& context, const Value& parent, const std::string& key,
   const Value* value = parent.find(key);
   if (value == nullptr || value->broken || !value->given) return;
   const Value& number = value->members.empty() ? *value : value->members.front().value;
-  const Value* inner = number.find("alpha");
+  const Value* inner = key == "pressure_viscosity" ? number.find("alpha") : nullptr;
   const Value& tested = inner != nullptr ? *inner : number;
   if (tested.broken || tested.type->kind != Type::Kind::quantity || (tested.number >= low && tested.number <= high))
     return;

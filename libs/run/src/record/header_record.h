@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "hersey/model/build.h"
-#include "hersey/run/simulate.h"
+#include "hersey/run/options.h"
+#include "hersey/run/summary.h"
 #include "record/quantity.h"
 
 namespace hersey::run {

@@ -10,7 +10,7 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/results/writer.h"
-#include "hersey/run/quantities.h"
+#include "hersey/run/quantity_info.h"
 
 /// Tables of quantities. A `Thing` is what is seen of something in one row of the file; its `Plan` is what is known of
 /// it before the first row.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hersey/model/model.h"
-#include "hersey/run/simulate.h"
+#include "hersey/run/summary.h"
 #include "record/quantity.h"
 #include "record/step_record.h"
 

@@ -4,51 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include "hersey/run/quantity_info.h"
+
 namespace hersey::run {
-
-/// A row that the closing table makes of a quantity.
-struct Told {
-  enum class As {
-    smallest,         ///< of all instants, with the instant
-    largest,          ///< the same
-    largest_in_size,  ///< the same, with its sign
-    longest,          ///< of a vector
-    mean,             ///< over time
-    integral,         ///< over time
-    at_end            ///< of the run; of cycles: of the last one; of an attribute: it
-  };
-  enum class Only {
-    always,
-    of_a_cycle,   ///< where there was a whole one
-    with_contact  ///< where surfaces have touched
-  };
-  As as = As::at_end;
-  std::string name;        ///< "minimum film thickness (MOFT)"; <...> is filled in as in QuantityInfo::name
-  std::string unit = {};   ///< that of the table, "µm"; empty for a pure number
-  bool has_place = false;  ///< the series <name>_phi and <name>_z tell where
-  Only only = Only::always;
-};
-
-/// What there is to be said of a quantity wherever it is told: results file, closing table, report, documentation.
-struct QuantityInfo {
-  enum class Kind { series, constant, attribute };
-  std::string name;         ///< below the group of its thing, "h_min"; <...> stands for a name
-  std::string unit;         ///< SI, "1" for a pure number, several as "N|N.m"; empty for text
-  std::string text;         ///< what it is
-  std::string shape = {};   ///< "[n, 3]"; empty: one number or text
-  std::string symbol = {};  ///< of the theory manual, where it has one
-  std::string note = {};    ///< what else the documentation says: where it is there only for some, how it is meant
-  Kind kind = Kind::series;
-  std::vector<std::string> dimensions = {};  ///< names of what its columns are, beside x, y, z
-  std::vector<Told> told = {};
-};
-
-/// All that a results file says of things of one kind.
-struct QuantityGroup {
-  std::string path;     ///< of a thing's group, "/bearings/<b>/"
-  std::string heading;  ///< what they are, "of a film"
-  std::vector<QuantityInfo> quantities;
-};
 
 /// Every quantity of results files: what is written, told and documented follows from these tables.
 /// @verified_by tests/results_file, quantities_test.cpp
