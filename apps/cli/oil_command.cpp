@@ -33,7 +33,10 @@ NamedOil of_model(const OilArguments& arguments) {
   std::vector<std::string> names;
   for (const model::Lubricant& lubricant : model.lubricants) names.push_back(lubricant.name);
   const auto fault = [&](const std::string& found) {
-    throw InputError(Fault{{arguments.oil, 0, 0}, "lubricants", found, names.empty() ? "a model with a lubricant" : "--lubricant " + one_of(names),
+    throw InputError(Fault{{arguments.oil, 0, 0},
+                           "lubricants",
+                           found,
+                           names.empty() ? "a model with a lubricant" : "--lubricant " + one_of(names),
                            did_you_mean(arguments.lubricant, names)});
   };
   if (names.empty() || (arguments.lubricant.empty() && names.size() > 1))
@@ -53,7 +56,10 @@ NamedOil oil_of(const OilArguments& arguments) {
   const bool is_file = arguments.oil.find('.') != std::string::npos || arguments.oil.find('/') != std::string::npos;
   if (is_file) return of_model(arguments);
   const std::vector<std::string> names = model::oil_grade_names();
-  throw InputError(Fault{{"oil", 0, 0}, "", "unknown grade '" + arguments.oil + "'", one_of(names) + ", or a model file",
+  throw InputError(Fault{{"oil", 0, 0},
+                         "",
+                         "unknown grade '" + arguments.oil + "'",
+                         one_of(names) + ", or a model file",
                          did_you_mean(arguments.oil, names)});
 }
 
@@ -66,7 +72,8 @@ std::vector<double> temperatures(const OilArguments& arguments) {
       throw InputError(Fault{{"--at", 0, 0}, "", error.found, error.expected, error.suggestion});
     }
   }
-  for (double celsius = 0; T.size() < 9 && arguments.at.empty(); celsius += 20) T.push_back(celsius + film::zero_celsius);
+  for (double celsius = 0; T.size() < 9 && arguments.at.empty(); celsius += 20)
+    T.push_back(celsius + film::zero_celsius);
   return T;
 }
 
@@ -98,9 +105,12 @@ int oil_command(const OilArguments& arguments) {
   std::vector<Row> rows;
   for (const double T : temperatures(arguments)) rows.push_back(row_of(named, T, p));
   if (arguments.json) {
-    nlohmann::json document{{"name", named.name}, {"source", named.source}, {"pressure", p}, {"rows", nlohmann::json::array()}};
+    nlohmann::json document{
+        {"name", named.name}, {"source", named.source}, {"pressure", p}, {"rows", nlohmann::json::array()}};
     for (const Row& row : rows)
-      document["rows"].push_back({{"temperature", row.T}, {"viscosity", row.mu}, {"density", row.density},
+      document["rows"].push_back({{"temperature", row.T},
+                                  {"viscosity", row.mu},
+                                  {"density", row.density},
                                   {"kinematic_viscosity", row.mu / row.density}});
     fmt::print("{}\n", document.dump(2));
     return kOk;

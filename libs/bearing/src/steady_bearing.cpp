@@ -603,8 +603,9 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
   }
   summary.converged = false;
   const film::HeatObservables& seen = heat.observables();
-  summary.message = fmt::format("film and temperature do not come together in {} turns; hottest oil {:.0f} degC at {:.0f} deg",
-                                kMostHeatIterations, seen.T_max - 273.15, seen.T_max_phi * 180 / std::numbers::pi);
+  summary.message =
+      fmt::format("film and temperature do not come together in {} turns; hottest oil {:.0f} degC at {:.0f} deg",
+                  kMostHeatIterations, seen.T_max - 273.15, seen.T_max_phi * 180 / std::numbers::pi);
   return summary;
 }
 

@@ -100,9 +100,11 @@ TEST_CASE("PartitionedAndMonolithic_Agree") {
 TEST_CASE("ExchangeWithoutEnd_IsSolvedAsOneSystem") {
   const double dt = 2e-5;
   Rig monolithic(small_film(), 500, {.coupling = Coupling::monolithic, .initial_dt = dt});
-  Rig partitioned(
-      small_film(), 500,
-      {.coupling = Coupling::partitioned, .acceleration = solver::Acceleration::constant, .relaxation = 1, .initial_dt = dt});
+  Rig partitioned(small_film(), 500,
+                  {.coupling = Coupling::partitioned,
+                   .acceleration = solver::Acceleration::constant,
+                   .relaxation = 1,
+                   .initial_dt = dt});
   monolithic.march(dt, 10);
   solver::GeneralizedAlpha integrator({.spectral_radius = 0.6, .rtol = 1e-8, .max_iterations = 10});
   REQUIRE_FALSE(integrator.step(*partitioned.mechanism, partitioned.state, 2 * dt).converged());

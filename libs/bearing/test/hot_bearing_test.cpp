@@ -12,7 +12,8 @@ namespace hot_bearing_test {
 using film::zero_celsius;
 
 film::FilmModel model_of(film::Lubricant oil, int n_phi, int n_z) {
-  film::FilmModel model{.R = 0.05, .L = 0.05, .c = 50e-6, .grid = {.n_phi = n_phi, .n_z = n_z}, .lubricant = std::move(oil)};
+  film::FilmModel model{
+      .R = 0.05, .L = 0.05, .c = 50e-6, .grid = {.n_phi = n_phi, .n_z = n_z}, .lubricant = std::move(oil)};
   model.shear_force = film::ShearForce::torque_only;
   model.supply = {film::SupplyKind::widest_gap, 0, 0};
   return model;
@@ -27,8 +28,8 @@ film::Lubricant vg46(double T) {
 
 OperatingPoint point() { return {.journal_speed = 100 * std::numbers::pi, .load = Eigen::Vector2d(0, -10e3)}; }
 
-// The balance of ISO 7902 for a bearing of D 100, B 50, psi 0.001 under 10 kN at 3000 rpm with oil supplied at 50 degC, by
-// an independent program that takes its bearing numbers from a table of its own.
+// The balance of ISO 7902 for a bearing of D 100, B 50, psi 0.001 under 10 kN at 3000 rpm with oil supplied at 50 degC,
+// by an independent program that takes its bearing numbers from a table of its own.
 TEST_CASE("OneEffectiveTemperature_IsThatOfTheBalance") {
   film::FilmModel model = scaled_for(model_of(vg46(323.15), 120, 25), point());
   SteadyState state;
@@ -41,8 +42,8 @@ TEST_CASE("OneEffectiveTemperature_IsThatOfTheBalance") {
   CHECK(state.e.norm() / model.c == relative(0.57887).epsilon(1e-3));  // its grid and this one
   CHECK(summary.heat_iterations <= 20);
   // The balance itself, with the oil at the temperature found.
-  const double rise = (state.film.power_film) /
-                      (model.lubricant.density * 2000 * (state.film.flow_left + state.film.flow_right));
+  const double rise =
+      (state.film.power_film) / (model.lubricant.density * 2000 * (state.film.flow_left + state.film.flow_right));
   CHECK(state.effective->T_out - heat.T_supply == relative(rise).epsilon(1e-6));  // 1e-8 of temperature over its slope
 }
 

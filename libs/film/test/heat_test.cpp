@@ -41,14 +41,15 @@ TEST_CASE("LawsOfTemperature_HaveTheirPublishedValues") {
   CHECK(viscosity_at(vg32, 333.15) == relative(0.012722091814229298).epsilon(digits));
   // A table through the points of a Vogel oil with c = 0 is that oil: both have ln mu linear in 1/T.
   const VogelViscosity vogel{.a = 1e-5, .b = 2400, .c = 0};
-  const TabledViscosity table{.T = {300, 350, 400}, .mu = {viscosity_at(vogel, 300), viscosity_at(vogel, 350),
-                                                           viscosity_at(vogel, 400)}};
+  const TabledViscosity table{.T = {300, 350, 400},
+                              .mu = {viscosity_at(vogel, 300), viscosity_at(vogel, 350), viscosity_at(vogel, 400)}};
   for (const double T : {280.0, 310.0, 399.0, 450.0})
     CHECK(table.log_viscosity(T).value == doctest::Approx(vogel.log_viscosity(T).value).epsilon(round_off));
 }
 
 TEST_CASE("SlopesOfLaws_MatchFiniteDifferences") {
-  const std::vector<TemperatureLaw> laws{ExponentialViscosity{}, VogelViscosity{}, WaltherViscosity::through(64e-6, 11e-6, 855),
+  const std::vector<TemperatureLaw> laws{ExponentialViscosity{}, VogelViscosity{},
+                                         WaltherViscosity::through(64e-6, 11e-6, 855),
                                          TabledViscosity{.T = {300, 350, 400}, .mu = {0.1, 0.02, 0.006}}};
   const double step = 1e-3;
   for (const TemperatureLaw& law : laws) {
@@ -135,8 +136,8 @@ TEST_CASE("ConcentricFilm_WarmsAsTheClosedForm") {
   CHECK(std::log2(errors[1] / errors[2]) > 0.9);
 }
 
-// Of a finite bearing at L/D = 1, epsilon 0.6 with a stirred groove at the widest gap; numbers of an independent program
-// (finite volumes, extrapolated over three grids).
+// Of a finite bearing at L/D = 1, epsilon 0.6 with a stirred groove at the widest gap; numbers of an independent
+// program (finite volumes, extrapolated over three grids).
 TEST_CASE("CopesBearing_IsThatOfAnIndependentProgram") {
   FilmModel model = bearing(0.05, 0.1, 50e-6, 120, 25);
   model.supply = {SupplyKind::fixed_angle, 0, 0};
@@ -177,15 +178,19 @@ TEST_CASE("FilmInARing_IsThatOfAnIndependentProgram") {
 
 TEST_CASE("BalanceOfHeat_Closes") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
-  model.asperities = {.model = AsperityModel::greenwood_tripp_fit, .sigma = 3e-6, .elastic_factor = 3e-3,
-                      .composite_modulus = 1e11, .mu_friction = 0.02};
+  model.asperities = {.model = AsperityModel::greenwood_tripp_fit,
+                      .sigma = 3e-6,
+                      .elastic_factor = 3e-3,
+                      .composite_modulus = 1e11,
+                      .mu_friction = 0.02};
   model.edge_left = {EdgeKind::pressure, 1e5, 0};
   model.features.push_back({.name = "hole", .phi = 1, .z = 2e-3, .arc = 0.5, .length = 8e-3, .pressure = 3e5});
   const Journal journal{.e = {20e-6, 15e-6}, .omega_shell = -20, .omega_journal = 120};
   const SurfaceMotion motion = surfaces(model, journal);
   const std::vector<ShellWall> shells{InsulatedWall{}, WallAtTemperature{.T = 350},
                                       RingWall{.outer_radius = 0.04, .T_ambient = 300}};
-  const std::vector<JournalWall> journals{FreeJournal{.heat_capacity = 500}, WallAtTemperature{.T = 330}, InsulatedWall{}};
+  const std::vector<JournalWall> journals{FreeJournal{.heat_capacity = 500}, WallAtTemperature{.T = 330},
+                                          InsulatedWall{}};
   for (const ShellWall& shell : shells) {
     for (const JournalWall& wall : journals) {
       for (const double carry_over : {1.0, 0.4}) {

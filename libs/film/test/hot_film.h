@@ -34,7 +34,8 @@ inline HotFilm solve_hot(const FilmModel& model, const ThermalModel& thermal, co
     if (!solved.converged) throw std::runtime_error(solved.message);
     const HeatState before = heat.state();
     heat.advance(motion, history, u);
-    const Eigen::VectorXd x = before.film.array() - thermal.T_supply, image = heat.state().film.array() - thermal.T_supply;
+    const Eigen::VectorXd x = before.film.array() - thermal.T_supply,
+                          image = heat.state().film.array() - thermal.T_supply;
     hot.change = (image - x).cwiseAbs().maxCoeff();
     if (hot.change < tolerance) break;
     HeatState next = heat.state();

@@ -27,7 +27,8 @@ TEST_CASE("OneWall_IsTheMiddleOfABearingOfTwiceTheWidth") {
       CAPTURE(static_cast<int>(cavitation));
       CAPTURE(static_cast<int>(solver));
       FilmModel whole = big_end(cavitation);
-      whole.edge_left.ambient_fill = whole.edge_right.ambient_fill = cavitation == Cavitation::mass_conserving ? 0.5 : 0;
+      whole.edge_left.ambient_fill = whole.edge_right.ambient_fill =
+          cavitation == Cavitation::mass_conserving ? 0.5 : 0;
       FilmModel half = whole;
       half.L = 0.5 * whole.L, half.grid.n_z = whole.grid.n_z / 2 + 1;
       half.edge_left = {.kind = EdgeKind::closed};

@@ -8,7 +8,8 @@ TEST_CASE("UnknownKey_NamesTheNearest") {
   CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
         "m.yaml:27:5: bearings.big_end: unknown key 'widht'; did you mean 'width'? expected shell, journal, diameter, "
         "width, radial_clearance, diametral_clearance, lubricant, grid, pressures, cavitation, edge_pressure, "
-        "ambient_fill, thermal, supply, features, shape, roughness, asperities, compliance, shell_surface, journal_surface, "
+        "ambient_fill, thermal, supply, features, shape, roughness, asperities, compliance, shell_surface, "
+        "journal_surface, "
         "materials, cavitated_shear, shear_force, solver, operating_point or coupling");
 }
 

@@ -16,7 +16,8 @@ constexpr double digits = 1e-12;
 
 std::string with(const std::string& oil, const std::string& thermal) {
   return "hersey: 1\nlubricants:\n  oil: {" + oil +
-         "}\nbearings:\n  main:\n    diameter: 100 mm\n    width: 50 mm\n    radial_clearance: 50 um\n    lubricant: oil\n"
+         "}\nbearings:\n  main:\n    diameter: 100 mm\n    width: 50 mm\n    radial_clearance: 50 um\n    lubricant: "
+         "oil\n"
          "    supply: {line: 0 deg, pressure: 1 bar}\n" +
          (thermal.empty() ? "" : "    thermal: {" + thermal + "}\n");
 }
@@ -34,7 +35,8 @@ bool tells(const std::string& oil, const std::string& thermal, const std::string
 
 TEST_CASE("Oils_HaveTheViscosityOfTheirTemperature") {
   // ISO VG 32 at 60 degC, ASTM D341 by an independent program: 12.722 mPa.s.
-  CHECK(read_bearing("grade: iso_vg_32, temperature: 60 degC", "").film.lubricant.mu0 == relative(0.012722091814).epsilon(1e-9));
+  CHECK(read_bearing("grade: iso_vg_32, temperature: 60 degC", "").film.lubricant.mu0 ==
+        relative(0.012722091814).epsilon(1e-9));
   CHECK(read_bearing("grade: iso_vg_32", "model: isothermal, temperature: 60 degC").film.lubricant.mu0 ==
         relative(0.012722091814).epsilon(1e-9));  // the program's digits
   const auto mu_at_60 = [](const std::string& law) {
@@ -46,10 +48,12 @@ TEST_CASE("Oils_HaveTheViscosityOfTheirTemperature") {
         relative(6e-5 * std::exp(850 / 233.15)).epsilon(digits));
   CHECK(mu_at_60("law: walther, nu40: 32 mm^2/s, nu100: 5.4 mm^2/s") ==
         relative(0.012722091814 * 850 / 863).epsilon(1e-9));  // of the usual density
-  CHECK(mu_at_60("law: table, temperatures: [40 degC, 60 degC, 100 degC], viscosities: [30 mPa.s, 14 mPa.s, 5 mPa.s]") ==
-        relative(0.014).epsilon(digits));
+  CHECK(
+      mu_at_60("law: table, temperatures: [40 degC, 60 degC, 100 degC], viscosities: [30 mPa.s, 14 mPa.s, 5 mPa.s]") ==
+      relative(0.014).epsilon(digits));
   // A grade's numbers give way to those of the file, key by key.
-  const film::Lubricant own = read_bearing("grade: iso_vg_32, density: 900 kg/m^3, temperature: 60 degC", "").film.lubricant;
+  const film::Lubricant own =
+      read_bearing("grade: iso_vg_32, density: 900 kg/m^3, temperature: 60 degC", "").film.lubricant;
   CHECK(own.mu0 == relative(0.012722091814 * 900 / 863).epsilon(1e-9));  // the program's digits
 }
 
@@ -89,8 +93,7 @@ TEST_CASE("EverythingAboutHeat_IsRead") {
   CHECK(bearing.film.lubricant.specific_heat == 1900);
   CHECK(bearing.film.lubricant.conductivity == 0.14);
   // The film's own viscosity is that of the oil as supplied.
-  CHECK(bearing.film.lubricant.mu0 ==
-        read_bearing("grade: iso_vg_46, temperature: 50 degC", "").film.lubricant.mu0);
+  CHECK(bearing.film.lubricant.mu0 == read_bearing("grade: iso_vg_46, temperature: 50 degC", "").film.lubricant.mu0);
 }
 
 TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
@@ -99,18 +102,23 @@ TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
   CHECK(tells("grade: iso_vg_46", "", "viscosity falls with temperature, and no temperature"));
   CHECK(tells("viscosity: {law: walther, nu40: 6 mm^2/s, nu100: 46 mm^2/s}, temperature: 50 degC", "",
               "are both in the wrong order?"));
-  CHECK(tells("viscosity: {law: table, temperatures: [40 degC, 60 degC], viscosities: [10 mPa.s, 12 mPa.s]}, "
-              "temperature: 50 degC",
-              "", "an oil that thickens as it is heated"));
-  CHECK(tells("viscosity: {law: table, temperatures: [60 degC, 40 degC], viscosities: [10 mPa.s, 9 mPa.s]}, "
-              "temperature: 50 degC",
-              "", "temperatures that ascend"));
-  CHECK(tells("grade: iso_vg_46", "model: film, supply_temperature: 50 degC, shell: {wall: ring, outer_diameter: 90 mm, "
-                                  "ambient: 20 degC}",
+  CHECK(
+      tells("viscosity: {law: table, temperatures: [40 degC, 60 degC], viscosities: [10 mPa.s, 12 mPa.s]}, "
+            "temperature: 50 degC",
+            "", "an oil that thickens as it is heated"));
+  CHECK(
+      tells("viscosity: {law: table, temperatures: [60 degC, 40 degC], viscosities: [10 mPa.s, 9 mPa.s]}, "
+            "temperature: 50 degC",
+            "", "temperatures that ascend"));
+  CHECK(tells("grade: iso_vg_46",
+              "model: film, supply_temperature: 50 degC, shell: {wall: ring, outer_diameter: 90 mm, "
+              "ambient: 20 degC}",
               "a ring no larger than its bore"));
   CHECK(tells("grade: iso_vg_46", "model: global", "nothing that takes the heat away"));
-  CHECK(tells("grade: iso_vg_46", "model: film, supply_temperature: 50 degC}\n    edge_pressure: closed\n    cavitation: {model: mass_conserving",
-              "it has nowhere to go"));
+  CHECK(tells(
+      "grade: iso_vg_46",
+      "model: film, supply_temperature: 50 degC}\n    edge_pressure: closed\n    cavitation: {model: mass_conserving",
+      "it has nowhere to go"));
   CHECK(tells("grade: iso_vg_46", "model: film, supply_temperature: 50 degC}\n    cavitation: {model: reynolds",
               "`carry_over: 0`"));
 }

@@ -84,9 +84,12 @@ const CavitationLaw& cavitation_law(Cavitation cavitation) {
   static const ReynoldsCondition reynolds;
   static const MassConserving mass_conserving;
   switch (cavitation) {
-    case Cavitation::guembel: return guembel;
-    case Cavitation::reynolds: return reynolds;
-    case Cavitation::mass_conserving: return mass_conserving;
+    case Cavitation::guembel:
+      return guembel;
+    case Cavitation::reynolds:
+      return reynolds;
+    case Cavitation::mass_conserving:
+      return mass_conserving;
   }
   HERSEY_REQUIRE(false, "every cavitation model has its law");
   return guembel;

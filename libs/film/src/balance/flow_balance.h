@@ -105,7 +105,7 @@ class FlowBalance {
   /// Change of the thickness on face f with that at both its nodes, each, and with its bend [-].
   [[nodiscard]] std::array<double, 2> thickness_shares(std::size_t f) const;
   [[nodiscard]] const PocketRelief& relief() const { return relief_; }
-  [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }  ///< without fields
+  [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }            ///< without fields
   [[nodiscard]] double largest_throughput() const { return largest_throughput_; }  ///< of a control volume [m^3/s]
   [[nodiscard]] double relative_residual() const;
   [[nodiscard]] int worst_node() const;

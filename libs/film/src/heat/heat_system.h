@@ -10,8 +10,8 @@
 namespace hersey::film {
 
 /// The linear system of a film's layers and of a ring around it, row by row: each layer is coupled to those below and
-/// above it, to the same one of the four neighbouring nodes, and the lowest to the ring. Rows: layers node by node, then
-/// the ring's angles.
+/// above it, to the same one of the four neighbouring nodes, and the lowest to the ring. Rows: layers node by node,
+/// then the ring's angles.
 ///
 /// Oil flows one way: a sweep over the nodes in that direction, each column of layers solved as a whole, all but solves
 /// the system, as a preconditioner should.
@@ -27,7 +27,9 @@ class HeatSystem {
   [[nodiscard]] int ring_row(int i) const { return film_rows() + i; }
 
   void set_zero();
-  [[nodiscard]] double& diagonal(int row) { return row < film_rows() ? layer_[row].self : ring_[row - film_rows()].self; }
+  [[nodiscard]] double& diagonal(int row) {
+    return row < film_rows() ? layer_[row].self : ring_[row - film_rows()].self;
+  }
   [[nodiscard]] double& below(int node, int layer) { return layer_[row(node, layer)].below; }
   [[nodiscard]] double& above(int node, int layer) { return layer_[row(node, layer)].above; }
   [[nodiscard]] double& beside(int node, int layer, Side side) { return layer_[row(node, layer)].beside[side]; }
@@ -69,9 +71,9 @@ class HeatSystem {
   int layers_;
   std::vector<Layer> layer_;
   std::vector<Ring> ring_;
-  std::vector<double> from_film_;              ///< entries of the ring's rows by node
-  std::vector<std::array<int, 4>> neighbours_;  ///< itself where there is none
-  std::vector<int> order_;                      ///< of nodes in a sweep
+  std::vector<double> from_film_;                  ///< entries of the ring's rows by node
+  std::vector<std::array<int, 4>> neighbours_;     ///< itself where there is none
+  std::vector<int> order_;                         ///< of nodes in a sweep
   std::vector<std::pair<double, double>> pivots_;  ///< of every layer: 1/pivot, entry above over the pivot
   std::vector<std::pair<double, double>> ring_pivots_;
   Eigen::VectorXd closing_;  ///< answer of the open ring to what closes it

@@ -19,8 +19,8 @@ struct LayerProfile {
 /// What of flow and heat belongs to each layer, all without dimension but `mixed`.
 struct LayerShares {
   std::vector<double> pressure_flow;  ///< of the flow along pressure; sum 1
-  std::vector<double> sliding_flow;   ///< of U h, which the journal's speed U over the shell's carries; sum (1 - skew)/2
-  std::vector<double> sliding_heat;   ///< of the dissipation by sliding; sum 1
+  std::vector<double> sliding_flow;  ///< of U h, which the journal's speed U over the shell's carries; sum (1 - skew)/2
+  std::vector<double> sliding_heat;  ///< of the dissipation by sliding; sum 1
   std::vector<double> pressure_heat;  ///< of that by flow along pressure; sum 1
   std::vector<double> mixed_heat;     ///< by both at once, over h U dp/dx; sum 0
 };

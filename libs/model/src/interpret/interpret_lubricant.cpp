@@ -3,8 +3,8 @@
 #include <cmath>
 #include <variant>
 
-#include "interpret/interpret.h"
 #include "hersey/model/oil_grades.h"
+#include "interpret/interpret.h"
 #include "schema/oil_laws.h"
 
 namespace hersey::model {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "schema/format.h"
 #include "hersey/model/oil_grades.h"
+#include "schema/format.h"
 #include "schema/oil_laws.h"
 
 namespace hersey::model {

@@ -130,17 +130,17 @@ std::string heat(const model::Bearing& bearing) {
   const film::Lubricant& oil = bearing.film.lubricant;
   const std::string law = std::visit(WordsOfTemperature{}, oil.temperature_law);
   if (const auto* film = std::get_if<film::ThermalModel>(&bearing.heat)) {
-    return fmt::format("film in {} layers, viscosity {}, oil supplied at {:.4g} degC, {:.4g} J/kg/K, {:.4g} W/m/K; shell {}; journal "
-                       "{}; grooves carry over {:.3g} of the film's oil",
-                       film->layers, law, celsius(film->T_supply), oil.specific_heat, oil.conductivity,
-                       std::visit(WordsOfShell{}, film->shell), std::visit(WordsOfJournal{}, film->journal),
-                       film->carry_over);
+    return fmt::format(
+        "film in {} layers, viscosity {}, oil supplied at {:.4g} degC, {:.4g} J/kg/K, {:.4g} W/m/K; shell {}; journal "
+        "{}; grooves carry over {:.3g} of the film's oil",
+        film->layers, law, celsius(film->T_supply), oil.specific_heat, oil.conductivity,
+        std::visit(WordsOfShell{}, film->shell), std::visit(WordsOfJournal{}, film->journal), film->carry_over);
   }
   if (const auto* one = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
-    const std::string by =
-        one->cools_by_surroundings
-            ? fmt::format("housing of {:.4g} m^2 at {:.4g} W/m^2/K to {:.4g} degC", one->area, one->transfer, celsius(one->T_ambient))
-            : fmt::format("the oil, supplied at {:.4g} degC", celsius(one->T_supply));
+    const std::string by = one->cools_by_surroundings
+                               ? fmt::format("housing of {:.4g} m^2 at {:.4g} W/m^2/K to {:.4g} degC", one->area,
+                                             one->transfer, celsius(one->T_ambient))
+                               : fmt::format("the oil, supplied at {:.4g} degC", celsius(one->T_supply));
     return fmt::format("one effective temperature, viscosity {}; cooled by {}", law, by);
   }
   return film::depends_on_temperature(oil.temperature_law) ? "one temperature; " + law : "";

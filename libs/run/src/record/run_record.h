@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "cycle/cycle_convergence.h"
-#include "record/deformed_meshes.h"
 #include "hersey/core/archive.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/run/options.h"
 #include "hersey/run/summary.h"
 #include "march/settling.h"
+#include "record/deformed_meshes.h"
 #include "record/energy_balance.h"
 #include "record/extremes.h"
 #include "record/recorder.h"

@@ -26,8 +26,9 @@ enum class Coupling {
 
 struct BearingOptions {
   Coupling coupling = Coupling::monolithic;
-  solver::Acceleration acceleration = solver::Acceleration::quasi_newton;  ///< partitioned: how the exchanged wrench is corrected
-  double relaxation = 0.1;  ///< partitioned: share of the first correction taken, in (0, 1]
+  solver::Acceleration acceleration =
+      solver::Acceleration::quasi_newton;  ///< partitioned: how the exchanged wrench is corrected
+  double relaxation = 0.1;                 ///< partitioned: share of the first correction taken, in (0, 1]
   /// The film's own solver: initial film, and every film solve of a partitioned coupling. `multigrid` also solves the
   /// linear systems of a monolithic one.
   film::FilmSolveOptions film;
@@ -70,9 +71,9 @@ class DeformingSurfaces;
 /// change of the surfaces since the last call through the last linearisation, u += du0 + (du/ds) (s - s_last), are
 /// linearised anew, and the wrench is returned with the film eliminated: the exact Schur complement of the full system.
 /// Partitioned: `evaluate` takes the surfaces to be the bodies' answer to the wrench it returned last, solves the film
-/// there to the end, corrects the wrench by what the film says (FixedPointIteration) and returns it without derivatives.
-/// Where its exchange has come to no end, that step, shorter, and some more are taken monolithically: `exchanges` of
-/// their observations is 0.
+/// there to the end, corrects the wrench by what the film says (FixedPointIteration) and returns it without
+/// derivatives. Where its exchange has come to no end, that step, shorter, and some more are taken monolithically:
+/// `exchanges` of their observations is 0.
 class FilmForce : public mbd::TwoBodyForce {
  public:
   /// @param name  as it stands in messages and results

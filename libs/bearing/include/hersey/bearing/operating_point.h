@@ -42,10 +42,10 @@ struct SteadyOptions {
   film::FilmSolver solver = film::FilmSolver::newton;
   std::shared_ptr<const SteadyElasticity> elasticity = {};  ///< of the surfaces; null: both rigid
   std::optional<film::ThermalModel> thermal = {};  ///< of a film with temperatures; unset: one temperature, the model's
-  std::optional<Eigen::Vector2d> start;    ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
-  Eigen::VectorXd start_film = {};         ///< the film's unknowns there; empty: none known
+  std::optional<Eigen::Vector2d> start;  ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
+  Eigen::VectorXd start_film = {};       ///< the film's unknowns there; empty: none known
   std::optional<film::HeatState> start_heat = {};  ///< temperatures there; unset: those of the supply
-  Eigen::VectorXd start_deformation = {};  ///< amplitudes of the surfaces' bodies there; empty: none known
+  Eigen::VectorXd start_deformation = {};          ///< amplitudes of the surfaces' bodies there; empty: none known
 };
 
 /// The same film with its fill fraction scaled for the speed of the point, which keeps the search short down to the

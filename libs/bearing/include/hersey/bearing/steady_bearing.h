@@ -46,8 +46,8 @@ struct SteadyState {
   Eigen::VectorXd s;  ///< amplitudes of the shapes of both surfaces' bodies, shell first; empty: both rigid
   Eigen::VectorXd d_shell, d_journal;  ///< radial displacement at the nodes, away from the axis [m]; empty where rigid
   film::FilmObservables film;
-  DynamicCoefficients coefficients;  ///< with the temperatures, and so the viscosities, as they are
-  std::optional<SteadyHeat> heat;    ///< of a film with temperatures
+  DynamicCoefficients coefficients;               ///< with the temperatures, and so the viscosities, as they are
+  std::optional<SteadyHeat> heat;                 ///< of a film with temperatures
   std::optional<EffectiveTemperature> effective;  ///< of a film with one, by a balance of heat
 };
 

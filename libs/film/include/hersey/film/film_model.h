@@ -109,7 +109,7 @@ struct FilmModel {
   Lubricant lubricant;
   Cavitation cavitation = Cavitation::mass_conserving;
   PressureScale pressures = PressureScale::gauge;
-  double p_cav = 0;         ///< cavitation pressure [Pa]
+  double p_cav = 0;  ///< cavitation pressure [Pa]
   Edge edge_left, edge_right;
   SupplyLine supply;
   Asperities asperities;

@@ -11,8 +11,8 @@ namespace hersey::film {
 /// 0 degC [K].
 inline constexpr double zero_celsius = 273.15;
 
-// Each law (thermal.1 to thermal.3) gives ln mu and its slope [1/K] at a temperature T [K], mu in Pa s at the cavitation pressure. A
-// new law is a struct like these and its name in TemperatureLaw.
+// Each law (thermal.1 to thermal.3) gives ln mu and its slope [1/K] at a temperature T [K], mu in Pa s at the
+// cavitation pressure. A new law is a struct like these and its name in TemperatureLaw.
 
 /// The same viscosity at every temperature.
 struct FixedViscosity {
@@ -47,8 +47,8 @@ struct VogelViscosity {
 /// log10 log10 (nu + 0.7) = A - B log10 T, nu in mm^2/s; mu = nu rho with rho = rho15 (1 - 0.00065 (T - 288.15 K)).
 /// @see ASTM D341 (2020), Standard Practice for Viscosity-Temperature Equations of Liquid Petroleum Products.
 struct WaltherViscosity {
-  double A = 8, B = 3;     ///< [-]
-  double rho15 = 870;      ///< density at 15 degC [kg/m^3], > 0
+  double A = 8, B = 3;  ///< [-]
+  double rho15 = 870;   ///< density at 15 degC [kg/m^3], > 0
 
   /// Through kinematic viscosities [m^2/s] at 40 and 100 degC.
   [[nodiscard]] static WaltherViscosity through(double nu40, double nu100, double rho15);

@@ -14,18 +14,18 @@ struct InsulatedWall {};
 
 /// A surface whose temperature is given.
 struct WallAtTemperature {
-  double T = 313.15;           ///< [K]
+  double T = 313.15;            ///< [K]
   Eigen::VectorXd around = {};  ///< of the shell at the grid's angles [K], shape (n_phi); empty: T everywhere
 };
 
 /// A shell that is a ring around the film: heat is conducted around it and through it to its surroundings
 /// (theory manual, thermal.12).
 struct RingWall {
-  double outer_radius = 0;        ///< [m], > R
-  double conductivity = 50;       ///< [W/(m K)], > 0
-  double transfer = 80;           ///< coefficient from its outside and its ends to the surroundings [W/(m^2 K)], >= 0
-  double T_ambient = 313.15;      ///< of these [K]
-  double heat_capacity = 3.6e6;   ///< per volume [J/(m^3 K)], > 0; of no account to a steady film
+  double outer_radius = 0;       ///< [m], > R
+  double conductivity = 50;      ///< [W/(m K)], > 0
+  double transfer = 80;          ///< coefficient from its outside and its ends to the surroundings [W/(m^2 K)], >= 0
+  double T_ambient = 313.15;     ///< of these [K]
+  double heat_capacity = 3.6e6;  ///< per volume [J/(m^3 K)], > 0; of no account to a steady film
 };
 
 /// A journal of one temperature that gives off no heat but to the film: turning fast, every point of it sees the mean
@@ -39,8 +39,8 @@ using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall>;
 
 /// What a film's heat depends on beside the film (theory manual, chapter thermal).
 struct ThermalModel {
-  int layers = 5;            ///< across the film, 1 to most_layers
-  double T_supply = 313.15;  ///< of the oil that comes through line and features [K]
+  int layers = 5;                       ///< across the film, 1 to most_layers
+  double T_supply = 313.15;             ///< of the oil that comes through line and features [K]
   std::vector<double> T_features = {};  ///< of each feature instead [K]; empty: T_supply
   double T_edges = 313.15;              ///< of the oil that edges draw in [K]
   ShellWall shell = InsulatedWall{};

@@ -7,8 +7,8 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/core/spatial.h"
-#include "hersey/solver/condensed.h"
 #include "hersey/mbd/load_axes.h"
+#include "hersey/solver/condensed.h"
 #include "hersey/solver/equations.h"
 
 namespace hersey::mbd {

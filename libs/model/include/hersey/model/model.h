@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hersey/bearing/global_heat.h"
-#include "hersey/solver/fixed_point_iteration.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/core/spatial.h"
@@ -23,6 +22,7 @@
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/nodal_body.h"
 #include "hersey/mbd/shape.h"
+#include "hersey/solver/fixed_point_iteration.h"
 
 /// The model file as checked, plain data: SI units, names resolved, nothing built yet.
 ///
@@ -275,7 +275,7 @@ struct Coupling {
   CouplingScheme scheme = CouplingScheme::monolithic;
   double relaxation = 0.1;  ///< partitioned: share of the first correction taken, in (0, 1]
   solver::Acceleration acceleration = solver::Acceleration::quasi_newton;  ///< partitioned
-  int max_iterations = 50;                                                   ///< partitioned: exchanges per step
+  int max_iterations = 50;                                                 ///< partitioned: exchanges per step
 };
 
 /// What acts on a bearing that is looked at by itself. Either the load or the position is given.
@@ -304,7 +304,7 @@ struct Bearing {
   FrameName shell, journal;  ///< empty in a model of bearings alone
   std::string lubricant;
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
-  Heat heat;                                ///< none: one temperature
+  Heat heat;             ///< none: one temperature
   std::vector<Function> feature_pressures;  ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;

@@ -8,12 +8,12 @@ namespace hersey::model {
 
 /// An oil one can buy, by its grade; SI units.
 struct OilGrade {
-  std::string_view name;         ///< as in the model file
-  double nu40 = 0, nu100 = 0;    ///< kinematic viscosities at 40 and 100 degC [m^2/s]
-  double rho15 = 0;              ///< density at 15 degC [kg/m^3]
-  double pour_point = 0;         ///< [K]
-  double flash_point = 0;        ///< [K]
-  std::string_view source;       ///< of these numbers
+  std::string_view name;       ///< as in the model file
+  double nu40 = 0, nu100 = 0;  ///< kinematic viscosities at 40 and 100 degC [m^2/s]
+  double rho15 = 0;            ///< density at 15 degC [kg/m^3]
+  double pour_point = 0;       ///< [K]
+  double flash_point = 0;      ///< [K]
+  std::string_view source;     ///< of these numbers
 };
 
 /// All grades, from thin to thick.
