@@ -199,8 +199,9 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
   if (const FilmDomain domain = judge_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
     const int j = i % model_.grid.n_z;
-    nodes_[i] = is_layered() ? law_.state(motion.g[i], u[i], j, {viscosity_.fluidity[i], viscosity_.shear_fluidity[i]})
-                             : law_.state(motion.g[i], u[i], j);
+    nodes_[i] = is_layered()
+                    ? law_.state(motion.g[i], u[i], j, {1 / viscosity_.fluidity[i], 1 / viscosity_.shear_fluidity[i]})
+                    : law_.state(motion.g[i], u[i], j);
     if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
     if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;

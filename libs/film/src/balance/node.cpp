@@ -34,7 +34,7 @@ NodeLaw::NodeLaw(const FilmModel& model)
       cavitation_(cavitation_law(model)),
       scales_(cavitation_scales(model)),
       contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus),
-      uniform_{1 / model.lubricant.mu0, 1 / model.lubricant.mu0} {}
+      uniform_{model.lubricant.mu0, model.lubricant.mu0} {}
 
 Node NodeLaw::state(double g, double u, int j, const NodeViscosity& viscosity) const {
   Node node;
@@ -64,11 +64,10 @@ void NodeLaw::pressure_and_fill(double u, int j, Node& node) const {
 
 void NodeLaw::rheology(const NodeViscosity& viscosity, Node& node) const {
   const Lubricant& oil = model_.lubricant;
-  const ValueAndSlope ratio = log_viscosity_ratio(oil, node.p, 1 / viscosity.shear_fluidity),
-                      density = density_ratio(oil, node.p);
-  node.fluidity = (ratio.value == 0 ? 1 : std::exp(-ratio.value)) * viscosity.fluidity;
+  const ValueAndSlope ratio = log_viscosity_ratio(oil, node.p, viscosity.shear), density = density_ratio(oil, node.p);
+  node.fluidity = (ratio.value == 0 ? 1 : std::exp(-ratio.value)) / viscosity.flow;
   node.fluidity_u = -ratio.slope * node.fluidity * node.p_u;
-  node.shear_viscosity = viscosity.fluidity / viscosity.shear_fluidity;
+  node.shear_viscosity = viscosity.shear / viscosity.flow;
   node.density = density.value;
   node.density_u = density.slope * node.p_u;
   node.content = node.density * node.theta;

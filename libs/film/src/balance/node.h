@@ -30,9 +30,9 @@ struct Node {
 /// in what it lacks: u then stands for the inflow (film.19).
 [[nodiscard]] double ambient_fill(const FilmModel& model, int j);
 
-/// Viscosity at one node at the cavitation pressure; LayeredViscosity.
+/// Viscosities at one node at the cavitation pressure, of flow along pressure and of sliding; LayeredViscosity.
 struct NodeViscosity {
-  double fluidity = 1, shear_fluidity = 1;  ///< [1/(Pa s)]
+  double flow = 1, shear = 1;  ///< [Pa s]
 };
 
 /// The laws that hold at every node of one film.

@@ -172,7 +172,7 @@ Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
 FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief) {
   Shear s;
   const double mu = node.shear_viscosity / node.fluidity, couette = node.share * mu / node.h;
-  const double couette_u = (node.share_u * mu - node.share * mu * node.fluidity_u / node.fluidity) / node.h;
+  const double couette_u = (node.share_u * mu - node.share * mu * mu * node.fluidity_u / node.shear_viscosity) / node.h;
   for (int k = 0; k < 2; ++k) {
     const double factor = rough.couette[k] * relief.value;
     const double factor_h = rough.couette_h[k] * relief.value + rough.couette[k] * relief.slope;
