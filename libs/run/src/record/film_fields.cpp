@@ -7,11 +7,12 @@ namespace hersey::run {
 namespace {
 
 /// A line for temperatures, which files and tables give in degC.
-FilmField temperature(const char* name, const char* text, Eigen::VectorXd film::FilmFields::*T, const char* symbol) {
+FilmField temperature(const char* name, const char* label, const char* text, Eigen::VectorXd film::FilmFields::*T,
+                      const char* symbol) {
   const auto celsius = [T](const film::FilmFields& fields) -> Eigen::VectorXd {
     return (fields.*T).array() - film::zero_celsius;
   };
-  return {name, "degC", text, std::string(text), "degC", 1, celsius, symbol, "of films with `thermal: {model: film}`"};
+  return {name, "degC", text, label, "degC", 1, celsius, symbol, "of films with `thermal: {model: film}`"};
 }
 
 }  // namespace
@@ -28,10 +29,11 @@ const std::vector<FilmField>& film_fields() {
        1e6, &F::d_shell, "", of_elastic},
       {"journal_displacement", "m", "radial displacement of the journal's surface, outward", "journal displacement",
        "um", 1e6, &F::d_journal, "", of_elastic},
-      temperature("temperature", "temperature of the oil, mean over the thickness", &F::T, "T"),
-      temperature("shell_temperature", "temperature of the shell's surface", &F::T_shell, "T_S"),
-      temperature("journal_temperature", "temperature of the journal's surface", &F::T_journal, "T_J"),
-      temperature("hottest_temperature", "temperature of the hottest layer of oil", &F::T_hottest, ""),
+      temperature("temperature", "oil temperature", "temperature of the oil, mean over the thickness", &F::T, "T"),
+      temperature("shell_temperature", "shell temperature", "temperature of the shell's surface", &F::T_shell, "T_S"),
+      temperature("journal_temperature", "journal temperature", "temperature of the journal's surface", &F::T_journal,
+                  "T_J"),
+      temperature("hottest_temperature", "hottest layer", "temperature of the hottest layer of oil", &F::T_hottest, ""),
   };
   return table;
 }
