@@ -6,15 +6,13 @@
 #include "hersey/bearing/global_heat.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/solver/fixed_point_iteration.h"
+#include "temperature_path.h"
 
 namespace hersey::bearing {
 namespace {
 
 constexpr int most_iterations = 40;
 constexpr double tolerance = 1e-8;
-
-// No trial is colder or hotter [K]: laws of viscosity mean nothing there.
-constexpr double coldest = 200, hottest = 800;
 
 /// The balance of heat of a bearing solved (thermal.18).
 EffectiveTemperature balance(const film::Lubricant& oil, const GlobalHeat& heat, const film::FilmObservables& film) {
@@ -53,11 +51,11 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     if (std::abs(found - rise) <= tolerance * (1 + std::abs(found))) return summary;
     next.start = state.e, next.start_film = state.u, next.start_deformation = state.s;
     const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, rise), image = Eigen::VectorXd::Constant(1, found);
-    rise = std::clamp(mixing.next(x, image)[0], coldest - from, hottest - from);
+    rise = std::clamp(mixing.next(x, image)[0], coldest_trial - from, hottest_trial - from);
   }
   summary.converged = false;
   summary.message = fmt::format("the balance of heat finds no temperature in {} turns; last {:.0f} degC",
-                                most_iterations, from + rise - 273.15);
+                                most_iterations, from + rise - film::zero_celsius);
   return summary;
 }
 

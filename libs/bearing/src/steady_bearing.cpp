@@ -14,8 +14,8 @@
 #include "hersey/core/contract.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/reynolds.h"
-#include "hersey/solver/fixed_point_iteration.h"
 #include "steady_film.h"
+#include "temperature_path.h"
 
 namespace hersey::bearing {
 namespace {
@@ -57,15 +57,8 @@ constexpr double kFreshTurn = 0.2;
 constexpr int kMostHeatIterations = 150;
 constexpr double kHeatTolerance = 1e-8;
 
-// Turns after which temperatures go this share of their way at a time, and steps back at most in all.
-constexpr int kTurnsOfAcceleration = 40, kMostStepsBack = 12;
-constexpr double kSlowShare = 0.3;
-
 // The film is solved to this share of how far its temperatures still move.
 constexpr double kShareOfNearness = 1e-3;
-
-// No trial on the way to an answer is colder or hotter [K]: laws of viscosity mean nothing there.
-constexpr double kColdest = 200, kHottest = 800;
 
 using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
@@ -572,68 +565,6 @@ class Search {
   int budget_ = 0;            // of linearisations
 };
 
-// Temperatures on the way to those of the film they make (thermal.16): accelerated, nearer to the last ones that had a
-// film where they have none, and step by step where acceleration goes round.
-class TemperaturePath {
- public:
-  TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal,
-                  const std::optional<film::HeatState>& start)
-      : model_(model), thermal_(thermal), heat_(model, thermal), is_cold_(!start) {
-    if (start) heat_.set_state(*start);
-  }
-
-  [[nodiscard]] film::FilmHeat& heat() { return heat_; }
-  // Largest change of the last turn over the largest rise (plus 1 K).
-  [[nodiscard]] double nearness() const { return nearness_; }
-
-  // The film at the temperatures last set has been found.
-  void take(Search& search) {
-    last_ = rises();
-    search.heat(heat_);
-    const Eigen::VectorXd image = rises();
-    nearness_ = std::min(1.0, (image - last_).cwiseAbs().maxCoeff() / (1 + image.cwiseAbs().maxCoeff()));
-    image_ = image;
-  }
-
-  void step_on(int turn) {
-    if (turn == kTurnsOfAcceleration) mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
-    film::HeatState next = heat_.state();
-    if (is_cold_) {
-      next = film::first_guess(model_, thermal_, next);
-    } else {
-      next.film = mixing_.next(last_, image_).array() + thermal_.T_supply;
-    }
-    is_cold_ = false;
-    set(next);
-  }
-
-  // No film has been found there: half-way back. False where there is no way back.
-  [[nodiscard]] bool step_back() {
-    if (last_.size() == 0 || ++steps_back_ > kMostStepsBack) return false;
-    film::HeatState next = heat_.state();
-    next.film = 0.5 * (next.film.array() + last_.array() + thermal_.T_supply);
-    mixing_.begin_step();
-    set(next);
-    return true;
-  }
-
- private:
-  [[nodiscard]] Eigen::VectorXd rises() const { return heat_.state().film.array() - thermal_.T_supply; }
-  void set(film::HeatState& next) {
-    next.film = next.film.cwiseMax(kColdest).cwiseMin(kHottest);
-    heat_.set_state(next);
-  }
-
-  const film::FilmModel& model_;
-  const film::ThermalModel& thermal_;
-  film::FilmHeat heat_;
-  solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
-  Eigen::VectorXd last_, image_;  // rises of temperature with which the film was found last, and that it made
-  bool is_cold_;
-  int steps_back_ = 0;
-  double nearness_ = 1;
-};
-
 // Film and temperature in turn until the film's temperatures stay.
 SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalModel& thermal,
                               const SteadyOptions& options, Search& search, SteadyState& state) {
@@ -648,7 +579,8 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
       if (!path.step_back()) return summary;
       continue;
     }
-    path.take(search);
+    search.heat(path.heat());
+    path.take();
     if (path.nearness() <= kHeatTolerance) {
       state = search.state();
       state.heat = SteadyHeat{path.heat().state(), path.heat().observables(), path.heat().fields()};

@@ -1,0 +1,57 @@
+#include "temperature_path.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hersey::bearing {
+namespace {
+
+// Turns after which temperatures go this share of their way at a time, and steps back at most in all.
+constexpr int kTurnsOfAcceleration = 40, kMostStepsBack = 12;
+constexpr double kSlowShare = 0.3;
+
+}  // namespace
+
+TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal,
+                                 const std::optional<film::HeatState>& start)
+    : model_(model), thermal_(thermal), heat_(model, thermal), is_cold_(!start) {
+  if (start) heat_.set_state(*start);
+  tried_ = rises();
+}
+
+Eigen::VectorXd TemperaturePath::rises() const { return heat_.state().film.array() - thermal_.T_supply; }
+
+void TemperaturePath::try_next(film::HeatState next) {
+  next.film = next.film.cwiseMax(coldest_trial).cwiseMin(hottest_trial);
+  heat_.set_state(next);
+  tried_ = rises();
+}
+
+void TemperaturePath::take() {
+  last_ = tried_;
+  image_ = rises();
+  nearness_ = std::min(1.0, (image_ - last_).cwiseAbs().maxCoeff() / (1 + image_.cwiseAbs().maxCoeff()));
+}
+
+void TemperaturePath::step_on(int turn) {
+  if (turn == kTurnsOfAcceleration) mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
+  film::HeatState next = heat_.state();
+  if (is_cold_) {
+    next = film::first_guess(model_, thermal_, std::move(next));
+  } else {
+    next.film = mixing_.next(last_, image_).array() + thermal_.T_supply;
+  }
+  is_cold_ = false;
+  try_next(std::move(next));
+}
+
+bool TemperaturePath::step_back() {
+  if (last_.size() == 0 || ++steps_back_ > kMostStepsBack) return false;
+  film::HeatState next = heat_.state();
+  next.film = 0.5 * (tried_ + last_).array() + thermal_.T_supply;
+  mixing_.begin_step();
+  try_next(std::move(next));
+  return true;
+}
+
+}  // namespace hersey::bearing

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+
+#include "hersey/film/film_heat.h"
+#include "hersey/solver/fixed_point_iteration.h"
+
+namespace hersey::bearing {
+
+/// No trial on the way to an answer is colder or hotter [K]: laws of viscosity mean nothing there.
+inline constexpr double coldest_trial = 200, hottest_trial = 800;
+
+/// Temperatures on the way to those of the film they make (thermal.16): accelerated, nearer to the last ones that had a
+/// film where they have none, and step by step where acceleration goes round.
+class TemperaturePath {
+ public:
+  /// What keeps `model` and `thermal` alive is the caller's. @param start  unset: the supply's temperature
+  TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal,
+                  const std::optional<film::HeatState>& start);
+
+  /// At the temperatures to be tried; once their film has been found, whoever found it advances it.
+  [[nodiscard]] film::FilmHeat& heat() { return heat_; }
+  /// Largest change of the last turn over the largest rise (plus 1 K).
+  [[nodiscard]] double nearness() const { return nearness_; }
+
+  /// heat() has been advanced with the film of the temperatures tried.
+  void take();
+  /// To the next temperatures, after `turn` others.
+  void step_on(int turn);
+  /// No film has been found there: half-way back. False where there is no way back.
+  [[nodiscard]] bool step_back();
+
+ private:
+  [[nodiscard]] Eigen::VectorXd rises() const;
+  void try_next(film::HeatState next);
+
+  const film::FilmModel& model_;
+  const film::ThermalModel& thermal_;
+  film::FilmHeat heat_;
+  solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
+  /// Rises of temperature over the supply's: being tried; those with which a film was found last; what that made.
+  Eigen::VectorXd tried_, last_, image_;
+  bool is_cold_;
+  int steps_back_ = 0;
+  double nearness_ = 1;
+};
+
+}  // namespace hersey::bearing
