@@ -94,18 +94,24 @@ struct SolidArguments {
   std::string file;
   std::string length_unit = "m";
   std::string young, poisson, orthotropic, density;
-  std::vector<std::string> hold;      ///< sets that do not move: SET, or SET:xz for some directions only
-  std::vector<std::string> pressure;  ///< SURFACE=20MPa
-  std::string gravity;                ///< "0,0,-9.81", in m/s^2; empty: none
-  int count = 10;                     ///< natural modes
-  std::filesystem::path vtu;          ///< file to write for ParaView; empty: none
+  std::vector<std::string> hold;                 ///< sets that do not move: SET, or SET:xz for some directions only
+  std::vector<std::string> pressure;             ///< SURFACE=20MPa
+  std::string gravity;                           ///< "0,0,-9.81", in m/s^2; empty: none
+  std::vector<std::string> temperature;          ///< SET=80degC, or one value for all of the body
+  std::vector<std::string> cooling;              ///< SURFACE=80W/m^2/K:20degC
+  std::vector<std::string> heat;                 ///< SURFACE=500W
+  std::string conductivity, expansion;           ///< needed by these
+  std::string reference_temperature = "20degC";  ///< at which the mesh has its shape
+  int count = 10;                                ///< natural modes
+  std::filesystem::path vtu;                     ///< file to write for ParaView; empty: none
   bool json = false;
 };
 
 /// `hersey modes`: natural frequencies and shapes, free or held. @returns an ExitCode. @throws InputError.
 [[nodiscard]] int modes_command(const SolidArguments& arguments);
 
-/// `hersey stress`: displacements and stresses under pressures and gravity. @returns an ExitCode. @throws InputError.
+/// `hersey stress`: displacements and stresses under pressures, gravity and temperature. @returns an ExitCode. @throws
+/// InputError.
 [[nodiscard]] int stress_command(const SolidArguments& arguments);
 
 struct OilArguments {

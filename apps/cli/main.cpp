@@ -190,6 +190,26 @@ CLI::App* add_modes_command(CLI::App& app, SolidArguments& solid) {
   return command;
 }
 
+// Temperatures that strain a body.
+void add_heat_options(CLI::App& command, SolidArguments& solid) {
+  const auto several = [&](const char* option, std::vector<std::string>& texts, const char* what, const char* type) {
+    command.add_option(option, texts, what)
+        ->type_name(type)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  };
+  several("--temperature", solid.temperature, "Temperature of a set's nodes, or of the whole body", "[SET=]80degC");
+  several("--cooling", solid.cooling, "Heat transfer from a surface to what is at a temperature",
+          "SURFACE=80W/m^2/K:20degC");
+  several("--heat", solid.heat, "Heat into a surface, spread evenly over it", "SURFACE=500W");
+  command.add_option("--conductivity", solid.conductivity, "Of heat, for these")->type_name("46W/m/K");
+  command.add_option("--expansion", solid.expansion, "Linear thermal expansion, for these")->type_name("12e-6 1/K");
+  command
+      .add_option("--reference-temperature", solid.reference_temperature,
+                  "At which the body has the shape of the mesh (default: 20degC)")
+      ->type_name("20degC");
+}
+
 CLI::App* add_stress_command(CLI::App& app, SolidArguments& solid) {
   CLI::App* command =
       add_solid_command(app, "stress", "Displacements and stresses of an elastic body under constant loads", solid);
@@ -201,6 +221,7 @@ CLI::App* add_stress_command(CLI::App& app, SolidArguments& solid) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--gravity", solid.gravity, "Acceleration of gravity in m/s^2")->type_name("0,0,-9.81");
+  add_heat_options(*command, solid);
   return command;
 }
 

@@ -7,9 +7,11 @@
 #include "exit_code.h"
 #include "hersey/core/input_error.h"
 #include "hersey/fem/stress.h"
+#include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/vibration.h"
 #include "hersey/fem/vtu_file.h"
 #include "output_file.h"
+#include "solid_heat.h"
 #include "solid_setup.h"
 #include "standard_streams.h"
 #include "table.h"
@@ -67,6 +69,7 @@ void print_modes(const SolidArguments& arguments, const fem::ElasticBody& body, 
 struct StressResult {
   fem::StaticSolution solution;
   fem::Stress stress;
+  std::optional<SolidHeat> heat;
   Peak displacement, von_mises;
   Vector3 reaction = Vector3::Zero();
 };
@@ -76,8 +79,18 @@ void write_stress(const SolidArguments& arguments, const fem::ElasticBody& body,
   frame.node_fields.push_back({"displacement", by_node(result.solution.u, 0)});
   frame.node_fields.push_back({"stress", result.stress.nodal});
   frame.node_fields.push_back({"von_mises", result.stress.nodal_von_mises.transpose()});
+  if (result.heat) frame.node_fields.push_back({"temperature", result.heat->T.transpose()});
   frame.element_fields.push_back({"von_mises_of_element", result.stress.element_von_mises.transpose()});
   fem::write_vtu(arguments.vtu, body.mesh, frame);
+}
+
+/// Temperatures and where the heat goes.
+void print_heat(const fem::ElasticBody& body, const SolidHeat& heat) {
+  constexpr double zero_celsius = 273.15;
+  const Peak hottest = peak_of(body.mesh, heat.T), coldest = peak_of(body.mesh, -heat.T);
+  fmt::print("hottest               {:.4f} degC at node {}\n", hottest.value - zero_celsius, hottest.node);
+  fmt::print("coldest               {:.4f} degC at node {}\n", -coldest.value - zero_celsius, coldest.node);
+  for (const SolidHeat::Leaving& out : heat.leaving) fmt::print("{:<22}{:.6g} W leave\n", out.name, out.power);
 }
 
 void print_stress(const fem::ElasticBody& body, const StressResult& r) {
@@ -87,6 +100,19 @@ void print_stress(const fem::ElasticBody& body, const StressResult& r) {
              r.von_mises.node);
   fmt::print("force of supports     ({:.6g}, {:.6g}, {:.6g}) N\n", r.reaction.x(), r.reaction.y(), r.reaction.z());
   fmt::print("strain energy         {:.6g} J\n", r.stress.energy);
+  if (r.heat) print_heat(body, *r.heat);
+}
+
+nlohmann::json json_of(const fem::ElasticBody& body, const SolidHeat& heat) {
+  Peak coldest = peak_of(body.mesh, -heat.T);
+  coldest.value = -coldest.value;
+  nlohmann::json document = {{"hottest", json_of(peak_of(body.mesh, heat.T))},
+                             {"coldest", json_of(coldest)},
+                             {"leaving", nlohmann::json::array()},
+                             {"units", {{"hottest", "K"}, {"coldest", "K"}, {"leaving", "W"}}}};
+  for (const SolidHeat::Leaving& out : heat.leaving)
+    document["leaving"].push_back({{"name", out.name}, {"power", out.power}});
+  return document;
 }
 
 }  // namespace
@@ -116,14 +142,19 @@ int modes_command(const SolidArguments& arguments) {
 int stress_command(const SolidArguments& arguments) {
   require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
   const fem::ElasticBody body = solid_of(arguments, !arguments.gravity.empty());
-  const Eigen::VectorXd f = loads_of(arguments, body);
+  StressResult result{
+      .solution = {}, .stress = {}, .heat = heat_of(arguments, body), .displacement = {}, .von_mises = {}};
+  Eigen::VectorXd f = loads_of(arguments, body);
+  if (result.heat) f += fem::expansion_load(body, result.heat->materials, result.heat->rise);
   std::vector<fem::Support> supports;
   for (const int dof : held_of(arguments, body.mesh)) supports.push_back({dof, 0});
-  StressResult result{.solution = fem::solve_static(body, supports, f)};
+  result.solution = fem::solve_static(body, supports, f);
   if (!result.solution.held)
     throw InputError(Fault{{"", 0, 0}, "--hold", result.solution.message, "sets that leave no motion free", ""});
   if (!result.solution.ok) return fail(result.solution.message);
-  result.stress = fem::recover_stress(body, result.solution.u.col(0));
+  const Eigen::VectorXd u = result.solution.u.col(0);
+  result.stress = result.heat ? fem::recover_stress(body, u, result.heat->materials, result.heat->rise)
+                              : fem::recover_stress(body, u);
   result.displacement = peak_of(body.mesh, by_node(result.solution.u, 0).colwise().norm().transpose());
   result.von_mises = peak_of(body.mesh, result.stress.nodal_von_mises);
   result.reaction = by_node(result.solution.reaction, 0).rowwise().sum();
@@ -132,7 +163,7 @@ int stress_command(const SolidArguments& arguments) {
     print_stress(body, result);
     return kOk;
   }
-  const nlohmann::json document = {
+  nlohmann::json document = {
       {"file", arguments.file},
       {"degrees_of_freedom", body.size()},
       {"largest_displacement", json_of(result.displacement)},
@@ -141,6 +172,7 @@ int stress_command(const SolidArguments& arguments) {
       {"strain_energy", result.stress.energy},
       {"units",
        {{"largest_displacement", "m"}, {"largest_von_mises", "Pa"}, {"reaction", "N"}, {"strain_energy", "J"}}}};
+  if (result.heat) document["heat"] = json_of(body, *result.heat);
   fmt::print("{}\n", document.dump(2));
   return kOk;
 }

@@ -144,8 +144,10 @@ std::vector<int> held_of(const SolidArguments& arguments, const fem::Mesh& mesh)
 }
 
 Eigen::VectorXd loads_of(const SolidArguments& arguments, const fem::ElasticBody& body) {
-  if (arguments.pressure.empty() && arguments.gravity.empty())
-    refuse("--pressure", "nothing loads the body", "--pressure SURFACE=20MPa, --gravity 0,0,-9.81, or both");
+  const bool is_warmed = !arguments.temperature.empty() || !arguments.cooling.empty() || !arguments.heat.empty();
+  if (arguments.pressure.empty() && arguments.gravity.empty() && !is_warmed)
+    refuse("--pressure", "nothing loads the body",
+           "--pressure SURFACE=20MPa, --gravity 0,0,-9.81, --temperature 80degC, or several");
   Eigen::VectorXd f = Eigen::VectorXd::Zero(body.size());
   for (const std::string& text : arguments.pressure) {
     const std::size_t equals = text.find('=');

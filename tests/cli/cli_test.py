@@ -229,6 +229,35 @@ class CommandLine(unittest.TestCase):
         for field in (b'Name="displacement"', b'Name="stress"', b'Name="von_mises"'):
             self.assertIn(field, content)
 
+    def test_stress_of_a_body_that_heat_flows_through(self):
+        bar = os.path.join(HERE, "../../verification/data/meshes/cant_hex20.inp")
+        vtu = os.path.join(self._folder.name, "heat.vtu")
+        arguments = ("stress", bar, "--hold", "FIX", "--expansion", "12e-6 1/K")
+        run = hersey(*arguments, "--conductivity", "46W/m/K", "--temperature", "FIX=20degC",
+                     "--cooling", "TIP=500W/m^2/K:100degC", "--vtu", vtu, "--json")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        heat = json.loads(run.stdout)["heat"]
+        resistance = 1 / (46 * 0.006) + 1 / (500 * 0.006)  # along the bar and to the air, K/W
+        self.assertAlmostEqual(heat["leaving"][1]["power"] * resistance / 80, 1, delta=1e-8)
+        self.assertEqual([out["name"] for out in heat["leaving"]], ["TIP", "FIX"])
+        self.assertAlmostEqual(heat["hottest"]["value"], 293.15 + 80 / resistance / (46 * 0.006), delta=1e-6)
+        with open(vtu, "rb") as file:
+            self.assertIn(b'Name="temperature"', file.read())
+        run = hersey(*arguments, "--temperature", "80degC", "--json")
+        self.assertAlmostEqual(json.loads(run.stdout)["strain_energy"] / 11.13426, 1, delta=1e-6)
+        self.assertIn("hottest               80.0000 degC", hersey(*arguments, "--temperature", "80degC").stdout)
+        for wrong, words in (
+                (("--heat", "TIP=5W", "--conductivity", "46W/m/K"), ("nowhere to go", "--cooling", "--temperature")),
+                (("--heat", "TIP=5W"), ("--conductivity", "46W/m/K")),
+                (("--heat", "TOP=5W", "--conductivity", "46W/m/K"), ("--heat", "'TOP'", "did you mean 'TIP'")),
+                (("--cooling", "TIP=5W/m^2/K", "--conductivity", "46W/m/K"), ("--cooling", "SURFACE=80W/m^2/K:20degC")),
+                (("--temperature", "80degC", "--heat", "TIP=5W"), ("--temperature", "SET=80degC")),
+                (("--temperature", "FIX=80mm", "--conductivity", "46W/m/K"), ("--temperature", "a temperature"))):
+            run = hersey(*arguments, *wrong)
+            self.assertEqual(run.returncode, WRONG_INPUT, (wrong, run.stdout))
+            for word in words:
+                self.assertIn(word, run.stderr, wrong)
+
     def test_what_a_solid_lacks_is_told(self):
         mesh = os.path.join(HERE, "../../verification/data/meshes/cant_tet10.inp")
         block = os.path.join(HERE, "../../libs/fem/test/data/block_22.msh")

@@ -1,12 +1,17 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "hersey/fem/heat_conduction.h"
 #include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/loads.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/reduction.h"
+#include "hersey/fem/stress.h"
+#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/vibration.h"
 #include "small_bodies.h"
 
@@ -67,6 +72,56 @@ TEST_CASE("Cantilever_BendsUnderItsWeightAsInCalculiX") {
       if ((body.mesh.nodes[node] - Vector3(1, 0.05, 0.03)).norm() < 1e-9) corner = node;
     REQUIRE(corner >= 0);
     CHECK(solution.u(3 * corner + 2, 0) == doctest::Approx(c.tip).epsilon(5e-7));
+  }
+}
+
+// 80 degC everywhere, a shape at 20 degC and one end clamped: the longest displacement and the energy.
+TEST_CASE("ClampedCantilever_WarmsAsInCalculiX") {
+  const std::vector<ThermalMaterial> thermal = {{.conductivity = 46, .expansion = 12e-6}};
+  const std::array<std::array<double, 2>, 2> references = {{{7.2762630e-4, 9.697540}, {7.2857460e-4, 11.13426}}};
+  for (std::size_t k = 0; k < 2; ++k) {
+    CAPTURE(cantilevers[k].file);
+    const ElasticBody body = cantilever(cantilevers[k]);
+    std::vector<Support> supports;
+    for (const int dof : dofs_of(body.mesh.node_sets.at("FIX"))) supports.push_back({dof, 0});
+    const Eigen::VectorXd rise = Eigen::VectorXd::Constant(body.node_count(), 60);
+    const StaticSolution solution = solve_static(body, supports, expansion_load(body, thermal, rise));
+    REQUIRE(solution.ok);
+    double longest = 0;
+    for (Eigen::Index a = 0; a < body.node_count(); ++a)
+      longest = std::max(longest, solution.u.col(0).segment<3>(3 * a).norm());
+    CHECK(longest == doctest::Approx(references[k][0]).epsilon(2e-7));  // digits of the reference
+    const Stress stress = recover_stress(body, solution.u.col(0), thermal, rise);
+    CHECK(stress.energy == doctest::Approx(references[k][1]).epsilon(1e-6));  // digits of the reference
+  }
+}
+
+// 20 degC at one end, 100 at the other, the top in air of 60 degC. CalculiX integrates faces of tet10 at three points,
+// too few for what they give off: there temperatures near the top differ by 0.03 K.
+TEST_CASE("CantileverBetweenTwoTemperatures_ConductsAsInCalculiX") {
+  struct Node {
+    long label;
+    double T;
+  };
+  const std::array<std::array<Node, 2>, 2> references = {
+      {{{{500, 60.04953}, {900, 59.97269}}}, {{{500, 60.07841}, {900, 66.81421}}}}};
+  for (std::size_t k = 0; k < 2; ++k) {
+    CAPTURE(cantilevers[k].file);
+    const Mesh mesh = read_mesh(folder + cantilevers[k].file, 1);
+    std::vector<int> top;
+    for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
+      if (mesh.nodes[a].z() > 0.03 - 1e-9) top.push_back(static_cast<int>(a));  // which nodes they are
+    HeatConduction conduction(mesh, {{.conductivity = 46}},
+                              {.cooled = {{outer_faces(mesh, top), 800, 60}},
+                               .held = {{mesh.node_sets.at("FIX"), 20}, {mesh.node_sets.at("TIP"), 100}}});
+    REQUIRE(conduction.factorise().ok());
+    const Eigen::VectorXd T =
+        conduction.temperatures(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.nodes.size())));
+    for (const Node& reference : references[k]) {
+      const auto at = std::find(mesh.node_labels.begin(), mesh.node_labels.end(), reference.label);
+      REQUIRE(at != mesh.node_labels.end());
+      CHECK(std::abs(T[at - mesh.node_labels.begin()] - reference.T) < 1e-5);  // digits of the reference
+    }
   }
 }
 

@@ -32,4 +32,16 @@ IncompatibleModes::Stiffness IncompatibleModes::stiffness(const NodeColumns& x, 
   return k;
 }
 
+Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, most_nodes> IncompatibleModes::forces(const NodeColumns& x,
+                                                                                     const Vector6& stress) const {
+  Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, most_nodes> f;
+  f.setZero(9, x.cols());
+  for (const auto& [xi, weight] : stiffness_points(ElementType::hex8)) {
+    const ShapeFunctions shape = shape_functions(ElementType::hex8, xi);
+    const double jacobian = element_point(shape, x).jacobian;
+    f.noalias() += (strain(xi, jacobian).transpose() * (weight * jacobian * stress)) * shape.N.transpose();
+  }
+  return f;
+}
+
 }  // namespace hersey::fem

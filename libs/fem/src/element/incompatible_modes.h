@@ -23,6 +23,10 @@ class IncompatibleModes {
   /// The blocks before condensation.
   [[nodiscard]] Stiffness stiffness(const NodeColumns& x, const Matrix6& D) const;
 
+  /// Forces on the modes of a stress [Pa] that goes with a field given at the nodes, (9, nodes): (elastic.28).
+  [[nodiscard]] Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, most_nodes> forces(const NodeColumns& x,
+                                                                                  const Vector6& stress) const;
+
  private:
   Matrix3 inverse_;  ///< (dx/dxi)^-1 at the centre
   double centre_jacobian_ = 0;

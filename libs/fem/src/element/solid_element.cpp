@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "element/incompatible_modes.h"
 
@@ -44,27 +43,6 @@ ElementMatrix element_mass(ElementType type, const NodeColumns& x) {
     m.noalias() += weight * J.determinant() * shape.N * shape.N.transpose();
   }
   return m;
-}
-
-Eigen::Matrix<double, 6, Eigen::Dynamic> element_strain(ElementType type, const NodeColumns& x,
-                                                        const SolidMaterial& material, const NodeColumns& u,
-                                                        const std::vector<Vector3>& points) {
-  const Eigen::Map<const Eigen::VectorXd> displacement(u.data(), u.size());
-  Eigen::Matrix<double, 6, Eigen::Dynamic> strain(6, points.size());
-  const std::optional<IncompatibleModes> modes =
-      type == ElementType::hex8 ? std::optional<IncompatibleModes>(x) : std::nullopt;
-  Eigen::Matrix<double, 9, 1> amplitude = Eigen::Matrix<double, 9, 1>::Zero();
-  if (modes) {
-    const IncompatibleModes::Stiffness k = modes->stiffness(x, material.D);
-    amplitude = -k.K_aa.llt().solve(k.K_au * displacement);
-  }
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const ElementPoint at = element_point(shape_functions(type, points[p]), x);
-    Vector6 e = strain_matrix(at.gradients) * displacement;
-    if (modes) e += modes->strain(points[p], at.jacobian) * amplitude;
-    strain.col(static_cast<Eigen::Index>(p)) = e;
-  }
-  return strain;
 }
 
 }  // namespace hersey::fem

@@ -1,9 +1,11 @@
 #include "hersey/fem/stress.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 
+#include "element/elastic_strain.h"
 #include "hersey/core/contract.h"
 #include "hersey/fem/finite_strain.h"
 
@@ -49,8 +51,10 @@ struct PointStress {
   Eigen::VectorXd energy, volume;
 };
 
+/// @param stretch thermal strain at the nodes of the element; empty: none
 PointStress stress_at_points(const Mesh& mesh, const Element& element, const SolidMaterial& material,
-                             const Eigen::VectorXd& u, Integration integration, StressMeasure measure) {
+                             const Eigen::VectorXd& u, const NodeValues& stretch, Integration integration,
+                             StressMeasure measure) {
   NodeColumns x(3, node_count(element.type)), displacement = x;
   for (Eigen::Index a = 0; a < x.cols(); ++a) {
     const int node = mesh.nodes_of(element)[a];
@@ -70,19 +74,16 @@ PointStress stress_at_points(const Mesh& mesh, const Element& element, const Sol
     const FiniteStress at = finite_strain_stress(element.type, x, material, displacement, integration);
     return {at.stress, at.energy, volume};
   }
-  const auto strain = element_strain(element.type, x, material, displacement, xi);
+  const auto strain = elastic_strain(element.type, x, material, displacement, stretch, xi);
   const Eigen::Matrix<double, 6, Eigen::Dynamic> stress = material.D * strain;
   return {stress, 0.5 * stress.cwiseProduct(strain).colwise().sum().transpose().cwiseProduct(volume), volume};
 }
 
-}  // namespace
+/// Thermal strain at the nodes of an element.
+using Stretch = std::function<NodeValues(const Element&)>;
 
-Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u) {
-  return recover_stress(body.mesh, body.materials, u, body.integration);
-}
-
-Stress recover_stress(const Mesh& mesh, const std::vector<SolidMaterial>& materials, const Eigen::VectorXd& u,
-                      Integration integration, StressMeasure measure) {
+Stress recover(const Mesh& mesh, const std::vector<SolidMaterial>& materials, const Eigen::VectorXd& u,
+               const Stretch& stretch, Integration integration, StressMeasure measure) {
   const auto nodes = static_cast<Eigen::Index>(mesh.nodes.size());
   HERSEY_REQUIRE(u.size() == 3 * nodes, "one displacement per degree of freedom");
   const auto elements = static_cast<Eigen::Index>(mesh.elements.size());
@@ -99,7 +100,7 @@ Stress recover_stress(const Mesh& mesh, const std::vector<SolidMaterial>& materi
     const auto [to_nodes, is_new] = continued.try_emplace(element.type);
     if (is_new) to_nodes->second = continuation(element.type, integration);
     const SolidMaterial& material = materials[static_cast<std::size_t>(std::max(element.material, 0))];
-    const PointStress at = stress_at_points(mesh, element, material, u, integration, measure);
+    const PointStress at = stress_at_points(mesh, element, material, u, stretch(element), integration, measure);
     s.element.col(e) = at.stress * at.volume / at.volume.sum();
     s.element_energy[e] = at.energy.sum();
     s.element_von_mises[e] = von_mises(s.element.col(e));
@@ -114,6 +115,32 @@ Stress recover_stress(const Mesh& mesh, const std::vector<SolidMaterial>& materi
   for (Eigen::Index a = 0; a < s.nodal.cols(); ++a) s.nodal_von_mises[a] = von_mises(s.nodal.col(a));
   s.energy = s.element_energy.sum();
   return s;
+}
+
+}  // namespace
+
+Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u) {
+  return recover_stress(body.mesh, body.materials, u, body.integration);
+}
+
+Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u, const std::vector<ThermalMaterial>& thermal,
+                      const Eigen::VectorXd& rise) {
+  HERSEY_REQUIRE(rise.size() == body.node_count(), "one temperature per node");
+  const Stretch stretch = [&](const Element& element) {
+    const auto material = static_cast<std::size_t>(std::max(element.material, 0));
+    HERSEY_REQUIRE(material < thermal.size(), "every element's material is given");
+    NodeValues strain(node_count(element.type));
+    for (Eigen::Index a = 0; a < strain.size(); ++a)
+      strain[a] = thermal[material].expansion * rise[body.mesh.nodes_of(element)[a]];
+    return strain;
+  };
+  return recover(body.mesh, body.materials, u, stretch, body.integration, StressMeasure::small);
+}
+
+Stress recover_stress(const Mesh& mesh, const std::vector<SolidMaterial>& materials, const Eigen::VectorXd& u,
+                      Integration integration, StressMeasure measure) {
+  const Stretch none = [](const Element&) { return NodeValues(); };
+  return recover(mesh, materials, u, none, integration, measure);
 }
 
 }  // namespace hersey::fem

@@ -11,10 +11,10 @@
 
 namespace hersey::fem {
 namespace {
-constexpr int around = 144, along = 24;  // points looked at
+constexpr int points_around = 144, points_along = 24;  // points looked at
 
-double phi_at(int i) { return (i + 0.5) * turn / around; }
-double z_at(int k, double L) { return ((k + 0.5) / along - 0.5) * L; }
+double phi_at(int i) { return (i + 0.5) * turn / points_around; }
+double z_at(int k, double L) { return ((k + 0.5) / points_along - 0.5) * L; }
 
 /// Whether (phi, z) lies in a triangle, with its edges.
 bool holds(const std::array<FilmCorner, 3>& corners, double phi, double z) {
@@ -34,28 +34,28 @@ bool holds(const std::array<FilmCorner, 3>& corners, double phi, double z) {
 void mark(const std::array<FilmCorner, 3>& corners, double L, std::vector<char>& covered) {
   const auto [phi_low, phi_high] = std::minmax({corners[0].phi, corners[1].phi, corners[2].phi});
   const auto [z_low, z_high] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
-  const int i_first = static_cast<int>(std::floor(phi_low / turn * around - 0.5));
-  const int i_last = static_cast<int>(std::ceil(phi_high / turn * around - 0.5));
-  const int k_first = std::max(0, static_cast<int>(std::floor((z_low / L + 0.5) * along - 0.5)));
-  const int k_last = std::min(along - 1, static_cast<int>(std::ceil((z_high / L + 0.5) * along - 0.5)));
+  const int i_first = static_cast<int>(std::floor(phi_low / turn * points_around - 0.5));
+  const int i_last = static_cast<int>(std::ceil(phi_high / turn * points_around - 0.5));
+  const int k_first = std::max(0, static_cast<int>(std::floor((z_low / L + 0.5) * points_along - 0.5)));
+  const int k_last = std::min(points_along - 1, static_cast<int>(std::ceil((z_high / L + 0.5) * points_along - 0.5)));
   for (int i = i_first; i <= i_last; ++i)
     for (int k = k_first; k <= k_last; ++k)
       if (holds(corners, phi_at(i), z_at(k, L)))
-        covered[static_cast<std::size_t>((i % around + around) % around * along + k)] = 1;
+        covered[static_cast<std::size_t>((i % points_around + points_around) % points_around * points_along + k)] = 1;
 }
 
 /// The shortest arc that holds all columns marked: [first, number of columns].
-std::array<int, 2> arc_of(const std::array<char, around>& marked) {
+std::array<int, 2> arc_of(const std::array<char, points_around>& marked) {
   int best_gap = 0, best_end = 0, gap = 0;
-  for (int i = 0; i < 2 * around; ++i) {
-    if (marked[static_cast<std::size_t>(i % around)] != 0) {
+  for (int i = 0; i < 2 * points_around; ++i) {
+    if (marked[static_cast<std::size_t>(i % points_around)] != 0) {
       gap = 0;
-    } else if (++gap > best_gap && gap <= around) {
+    } else if (++gap > best_gap && gap <= points_around) {
       best_gap = gap;
       best_end = i;
     }
   }
-  return {(best_end + 1) % around, around - best_gap};
+  return {(best_end + 1) % points_around, points_around - best_gap};
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ std::array<int, 2> arc_of(const std::array<char, around>& marked) {
 std::string FilmCover::text() const {
   const double degrees = 360 / turn;
   const std::string phi =
-      phi_over > turn * (1 - 1.5 / around)
+      phi_over > turn * (1 - 1.5 / points_around)
           ? "all around"
           : fmt::format("from {:.0f} to {:.0f} deg", phi_from * degrees, (phi_from + phi_over) * degrees);
   return fmt::format("a surface that covers only {:.0f} % of the film: there is none {}, z = {:.3g} to {:.3g} mm",
@@ -71,14 +71,14 @@ std::string FilmCover::text() const {
 }
 
 FilmCover film_cover(const Mesh& mesh, const std::vector<ElementFace>& faces, const FilmCylinder& cylinder, int parts) {
-  std::vector<char> covered(static_cast<std::size_t>(around * along), 0);
+  std::vector<char> covered(static_cast<std::size_t>(points_around * points_along), 0);
   for (const ElementFace face : faces)
     for (const auto& corners : film_triangles(mesh, face, cylinder, parts)) mark(corners, cylinder.L, covered);
-  std::array<char, around> has_gap{};
-  int missing = 0, k_low = along, k_high = -1;
-  for (int i = 0; i < around; ++i)
-    for (int k = 0; k < along; ++k) {
-      if (covered[static_cast<std::size_t>(i * along + k)] != 0) continue;
+  std::array<char, points_around> has_gap{};
+  int missing = 0, k_low = points_along, k_high = -1;
+  for (int i = 0; i < points_around; ++i)
+    for (int k = 0; k < points_along; ++k) {
+      if (covered[static_cast<std::size_t>(i * points_along + k)] != 0) continue;
       ++missing;
       has_gap[static_cast<std::size_t>(i)] = 1;
       k_low = std::min(k_low, k);
@@ -86,11 +86,11 @@ FilmCover film_cover(const Mesh& mesh, const std::vector<ElementFace>& faces, co
     }
   if (missing == 0) return {};
   const auto [first, columns] = arc_of(has_gap);
-  return {.missing = static_cast<double>(missing) / (around * along),
-          .phi_from = first * turn / around,
-          .phi_over = columns * turn / around,
-          .z_low = (static_cast<double>(k_low) / along - 0.5) * cylinder.L,
-          .z_high = (static_cast<double>(k_high + 1) / along - 0.5) * cylinder.L};
+  return {.missing = static_cast<double>(missing) / (points_around * points_along),
+          .phi_from = first * turn / points_around,
+          .phi_over = columns * turn / points_around,
+          .z_low = (static_cast<double>(k_low) / points_along - 0.5) * cylinder.L,
+          .z_high = (static_cast<double>(k_high + 1) / points_along - 0.5) * cylinder.L};
 }
 
 }  // namespace hersey::fem

@@ -1,39 +1,8 @@
 #include "hersey/fem/loads.h"
 
+#include "surface/face_points.h"
+
 namespace hersey::fem {
-namespace {
-
-/// One point of a face: its nodes' shape functions, where it is, outward normal, and share of the area.
-struct FacePoint {
-  const NodeValues& N;
-  Vector3 x, normal;
-  double area;
-};
-
-/// Calls `see(nodes, point)` at every point of integration; `nodes` are places in the mesh.
-template <typename See>
-void visit_face(const Mesh& mesh, const ElementFace& face, See&& see) {
-  const Element& element = mesh.elements[static_cast<std::size_t>(face.element)];
-  const std::vector<int>& local = face_nodes(element.type, face.face);
-  const auto count = static_cast<Eigen::Index>(local.size());
-  std::vector<int> nodes;
-  nodes.reserve(local.size());
-  NodeColumns x(3, count);
-  for (const int a : local) {
-    const int node = mesh.nodes_of(element)[a];
-    x.col(static_cast<Eigen::Index>(nodes.size())) = mesh.nodes[static_cast<std::size_t>(node)];
-    nodes.push_back(node);
-  }
-  for (const auto& [xi, weight] : face_points(static_cast<int>(count))) {
-    const FaceShape shape = face_shape(static_cast<int>(count), xi[0], xi[1]);
-    const Eigen::Matrix<double, 3, 2> t = x * shape.dN;
-    const Vector3 n = t.col(0).cross(t.col(1));
-    see(nodes, FacePoint{shape.N, x * shape.N, n.normalized(), weight * n.norm()});
-  }
-}
-
-}  // namespace
-
 Eigen::VectorXd gravity_load(const ElasticBody& body, const Vector3& g) {
   const Eigen::VectorXd nodal = body.m * Eigen::VectorXd::Ones(body.node_count());
   Eigen::VectorXd f(body.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hersey/fem/elastic_body.h"
+#include "hersey/fem/thermal_material.h"
 
 namespace hersey::fem {
 
@@ -11,7 +12,7 @@ struct Stress {
   Eigen::Matrix<double, 6, Eigen::Dynamic> element;  ///< (6, elements): mean over the element's volume
   Eigen::VectorXd element_von_mises;                 ///< (elements): of `element`
   Eigen::VectorXd element_energy;                    ///< strain energy of each element [J]
-  double energy = 0;                                 ///< their sum, u^T K u / 2 [J]
+  double energy = 0;                                 ///< their sum; u^T K u / 2 of displacements alone [J]
 };
 
 /// Stress sigma = D epsilon at the points of integration, where it is most accurate, continued to the nodes by the
@@ -19,6 +20,13 @@ struct Stress {
 /// says nothing there.
 /// @param u displacements (3 n) [m] @verified_by stress_test.cpp
 [[nodiscard]] Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u);
+
+/// The same of a body whose temperature is no longer that at which it has its shape: the thermal strain is taken off
+/// that of the displacements, (elastic.29).
+/// @param thermal of the elements, by Element::material (none given: the first) @param rise of temperature (n) [K]
+/// @verified_by thermal_expansion_test.cpp
+[[nodiscard]] Stress recover_stress(const ElasticBody& body, const Eigen::VectorXd& u,
+                                    const std::vector<ThermalMaterial>& thermal, const Eigen::VectorXd& rise);
 
 /// How displacements make stresses: in proportion, or by Green and Lagrange's strain (then Cauchy's stress).
 enum class StressMeasure { small, finite };
