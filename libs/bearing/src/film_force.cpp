@@ -328,8 +328,9 @@ std::string FilmForce::name_of_internal_residual() const {
 
 BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   BearingObservation seen{.position = gap_->position(motion)};
-  seen.film =
-      film::observe_film(model(), observed_surfaces_, observed_history_, seen.position.e, u_start_, seen.position.tilt);
+  const GapPosition& at = seen.position;
+  seen.film = heat_ ? heat_->film(observed_surfaces_, at.e, u_start_, at.tilt)
+                    : film::observe_film(model(), observed_surfaces_, observed_history_, at.e, u_start_, at.tilt);
   show_oil(seen.film);
   if (heat_) seen.heat = heat_->observables();
   seen.oil = oil_of_run_;

@@ -58,7 +58,10 @@ constexpr int kMostHeatIterations = 150;
 constexpr double kHeatTolerance = 1e-8;
 
 // The film is solved to this share of how far its temperatures still move.
-constexpr double kShareOfNearness = 1e-3;
+constexpr double kShareOfNearness = 1e-2;
+
+// What Newton's method leaves of a small residual is this many times its square.
+constexpr double kCurvature = 10;
 
 using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
@@ -136,7 +139,7 @@ class Search {
     budget_ = summary_.iterations + options_.max_linearisations;
     const Eigen::Vector2d e = e_;
     const Eigen::VectorXd x = x_;
-    summary_.converged = linearise() && together(*point_.load);
+    summary_.converged = linearise() && (one_step(*point_.load) || together(*point_.load));
     if (!summary_.converged) {
       x_ = x;
       summary_.converged = film_at(e) && together(*point_.load);
@@ -144,6 +147,17 @@ class Search {
     if (!summary_.converged) return under_load();
     summary_.message.clear();
     return summary_;
+  }
+
+  // Whether the film and position there are, linearised anew, are the answer.
+  [[nodiscard]] bool is_settled() {
+    if (!linearise() || film_.relative_residual() > options_.rtol) return false;
+    if (point_.load) {
+      summary_.force_error = (force_ - *point_.load).norm() / point_.load->norm();
+      if (summary_.force_error > options_.rtol) return false;
+    }
+    x_ += film_.increment();
+    return true;
   }
 
   void set_viscosity(film::LayeredViscosity viscosity) { film_.set_viscosity(std::move(viscosity)); }
@@ -362,6 +376,17 @@ class Search {
     return true;
   }
 
+  // Near the answer one step of Newton's method from the present linearisation is enough, and known to be.
+  [[nodiscard]] bool one_step(const Eigen::Vector2d& target) {
+    if (is_swept()) return false;
+    const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());
+    if (kCurvature * off * off > rtol_) return false;
+    const Step step = newton_step(target);
+    e_ += step.de;
+    x_ += step.dx;
+    return true;
+  }
+
   // Newton on film and position at once: one linearisation per iteration.
   [[nodiscard]] bool together(const Eigen::Vector2d& target) {
     if (is_swept()) return false;
@@ -567,8 +592,9 @@ class Search {
 
 // Film and temperature in turn until the film's temperatures stay.
 SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalModel& thermal,
-                              const SteadyOptions& options, Search& search, SteadyState& state) {
-  TemperaturePath path(model, thermal, options.start_heat);
+                              const OperatingPoint& point, const SteadyOptions& options, Search& search,
+                              SteadyState& state) {
+  TemperaturePath path(model, thermal, point, options.start_heat);
   SteadySummary summary;
   for (int k = 0; k < kMostHeatIterations; ++k) {
     search.set_tolerance(std::max(options.rtol, kShareOfNearness * path.nearness()));
@@ -581,7 +607,7 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
     }
     search.heat(path.heat());
     path.take();
-    if (path.nearness() <= kHeatTolerance) {
+    if (path.nearness() <= kHeatTolerance && search.is_settled()) {
       state = search.state();
       state.heat = SteadyHeat{path.heat().state(), path.heat().observables(), path.heat().fields()};
       return summary;
@@ -631,7 +657,7 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   const double gap = smallest_gap(model, parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e));
   HERSEY_REQUIRE(gap > 0, "a journal inside its bore");
   Search search(model, point, options);
-  if (options.thermal) return solve_with_heat(model, *options.thermal, options, search, state);
+  if (options.thermal) return solve_with_heat(model, *options.thermal, point, options, search, state);
   const SteadySummary summary = search.solve();
   if (summary.converged) state = search.state();
   return summary;

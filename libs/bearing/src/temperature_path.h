@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <optional>
 
+#include "hersey/bearing/operating_point.h"
 #include "hersey/film/film_heat.h"
 #include "hersey/solver/fixed_point_iteration.h"
 
@@ -15,8 +16,9 @@ inline constexpr double coldest_trial = 200, hottest_trial = 800;
 /// film where they have none, and step by step where acceleration goes round.
 class TemperaturePath {
  public:
-  /// What keeps `model` and `thermal` alive is the caller's. @param start  unset: the supply's temperature
-  TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal,
+  /// What keeps `model` and `thermal` alive is the caller's. @param start  unset: one temperature of all oil that is
+  /// likely at `point` (thermal.41)
+  TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal, const OperatingPoint& point,
                   const std::optional<film::HeatState>& start);
 
   /// At the temperatures to be tried; once their film has been found, whoever found it advances it.
@@ -28,12 +30,14 @@ class TemperaturePath {
   void take();
   /// To the next temperatures, after `turn` others.
   void step_on(int turn);
-  /// No film has been found there: half-way back. False where there is no way back.
+  /// No film has been found there: half-way back, at first to the supply's temperature. False where there is no way
+  /// back.
   [[nodiscard]] bool step_back();
 
  private:
   [[nodiscard]] Eigen::VectorXd rises() const;
   void try_next(film::HeatState next);
+  void fill(double T_oil);
 
   const film::FilmModel& model_;
   const film::ThermalModel& thermal_;
@@ -41,7 +45,7 @@ class TemperaturePath {
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
   /// Rises of temperature over the supply's: being tried; those with which a film was found last; what that made.
   Eigen::VectorXd tried_, last_, image_;
-  bool is_cold_;
+  std::optional<double> T_oil_;  ///< one temperature that all oil has at first [K]
   int steps_back_ = 0;
   double nearness_ = 1;
 };

@@ -2,7 +2,11 @@
 
 #include <vector>
 
+#include "balance/flow_balance.h"
+#include "heat/heat_equations.h"
+#include "heat/layer_flows.h"
 #include "hot_film.h"
+#include "observe/film_wrench.h"
 #include "relative.h"
 
 // The energy equation against closed forms, an independent program's numbers and its own balance.
@@ -134,6 +138,68 @@ TEST_CASE("ConcentricFilm_WarmsAsTheClosedForm") {
   // First order: the control volume on the line warms the groove's oil by its own shear.
   CHECK(std::log2(errors[0] / errors[1]) > 0.9);
   CHECK(std::log2(errors[1] / errors[2]) > 0.9);
+}
+
+// Between walls a constant distance apart the guess from a film of one viscosity is what film and heat find in turn.
+TEST_CASE("ConcentricFilm_IsGuessedExactly") {
+  FilmModel model = bearing(0.05, 0.05, 100e-6, 60, 5);
+  model.edge_left = model.edge_right = {EdgeKind::closed, 0, 0};
+  model.supply = {SupplyKind::fixed_angle, 0, 1e5};
+  ThermalModel thermal = supplied_at_40(1);
+  thermal.journal = InsulatedWall{};
+  thermal.carry_over = 0;
+  const Journal journal{.omega_journal = 314.1592653589793};
+  const SurfaceMotion motion = surfaces(model, journal);
+  const HotFilm hot = solve_hot(model, thermal, motion, journal.e);
+  for (const double T_oil : {thermal.T_supply, thermal.T_supply + 30}) {
+    FilmHeat heat(model, thermal);
+    HeatState state = heat.state();
+    state.film.setConstant(T_oil);
+    heat.set_state(state);
+    FilmHistory history;
+    history.viscosity = heat.viscosity();
+    Reynolds reynolds(model);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(model.grid.size());
+    REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+    heat.advance(motion, history, u);
+    const HeatState guess = first_guess(model, thermal, T_oil, heat.state());
+    const int at = model.grid.index(45, 2);  // 270 deg
+    const double rise = hot.temperatures.middle[at] - thermal.T_supply;
+    CHECK(guess.film[at] - thermal.T_supply == relative(rise).epsilon(0.02));  // a share of a cell on 60 nodes
+  }
+}
+
+// Where sweeps along the flow do not lead to an answer the system is factorised.
+TEST_CASE("TemperaturesBySweeps_AreThoseOfTheFactorisedSystem") {
+  FilmModel model = bearing(0.05, 0.08, 145e-6, 36, 9);
+  model.features.push_back(
+      {.name = "groove", .phi = 0, .z = 0, .arc = 30 * pi / 180, .length = 0.05, .pressure = 70e3});
+  ThermalModel thermal = supplied_at_40(3);
+  thermal.shell = RingWall{.outer_radius = 0.1, .T_ambient = 40 + zero_celsius};
+  const Journal journal = turning(model, 0.6, 200);
+  const SurfaceMotion motion = surfaces(model, journal);
+  Reynolds reynolds(model);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(model.grid.size());
+  FilmHistory history;
+  history.viscosity = FilmHeat(model, thermal).viscosity();
+  REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+  FlowBalance balance(model);
+  REQUIRE(balance.evaluate(motion, history, u).is_inside());
+  FilmWrench wrench(model);
+  wrench.evaluate(balance, motion, false);
+  LayerFlows flows(model, thermal.layers);
+  FilmHeat heat(model, thermal);
+  const Eigen::VectorXd mu = Eigen::VectorXd::Constant(model.grid.size() * thermal.layers, 0.0277);
+  flows.evaluate(balance, wrench, motion, mu);
+  const CarryingFilm film{balance, wrench, flows, 0};
+  HeatEquations swept(model, thermal), factorised(model, thermal);
+  factorised.set_most_iterations(1);
+  const HeatState one = swept.solve(film, heat.state()), other = factorised.solve(film, heat.state());
+  const double rise = one.film.maxCoeff() - thermal.T_supply;
+  CHECK((one.film - other.film).cwiseAbs().maxCoeff() < 1e-4 * rise);          // 1e-5 of what is missing, amplified
+  CHECK((one.shell - other.shell).cwiseAbs().maxCoeff() < 1e-4 * rise);        // likewise
+  CHECK(std::abs(one.journal - other.journal) < 1e-4 * rise);                  // likewise
+  CHECK((one.supplies - other.supplies).cwiseAbs().maxCoeff() < 1e-4 * rise);  // likewise
 }
 
 // Of a finite bearing at L/D = 1, epsilon 0.6 with a stirred groove at the widest gap; numbers of an independent

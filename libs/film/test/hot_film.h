@@ -40,7 +40,7 @@ inline HotFilm solve_hot(const FilmModel& model, const ThermalModel& thermal, co
     if (hot.change < tolerance) break;
     HeatState next = heat.state();
     if (hot.iterations == 1) {
-      next = first_guess(model, thermal, next);
+      next = first_guess(model, thermal, thermal.T_supply, next);
     } else {
       next.film = mixing.next(x, image).array() + thermal.T_supply;
     }

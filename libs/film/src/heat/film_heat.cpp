@@ -12,6 +12,7 @@
 #include "heat/layer_profile.h"
 #include "hersey/core/contract.h"
 #include "observe/film_wrench.h"
+#include "observe/observe_evaluated.h"
 
 namespace hersey::film {
 namespace {
@@ -34,14 +35,15 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
 
 }  // namespace
 
-HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, HeatState image) {
+HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, double T_oil, HeatState image) {
   const double T = thermal.T_supply;
-  const double beta =
-      -std::visit([T](const auto& law) { return law.log_viscosity(T).slope; }, model.lubricant.temperature_law);
+  const TemperatureLaw& law = model.lubricant.temperature_law;
+  const double beta = -std::visit([T](const auto& l) { return l.log_viscosity(T).slope; }, law);
   if (!(beta > 0)) return image;
+  const double thicker = viscosity_at(law, T) / viscosity_at(law, T_oil);
   image.film = image.film.unaryExpr([&](double hot) {
     const double rise = hot - T;
-    return T + (rise > 0 ? std::log1p(beta * rise) / beta : rise);
+    return T + (rise > 0 ? std::log1p(beta * thicker * rise) / beta : rise);
   });
   return image;
 }
@@ -55,6 +57,7 @@ struct FilmHeat::Impl {
         equations(film, given) {}
 
   [[nodiscard]] HeatState start() const;
+  [[nodiscard]] const Eigen::VectorXd& viscosities_at_rest();
   void show_rest();
   void observe(const CarryingFilm& film);
   void show_surfaces(const CarryingFilm& film);
@@ -69,6 +72,7 @@ struct FilmHeat::Impl {
   HeatState state;
   HeatObservables seen;
   TemperatureFields shown;
+  Eigen::VectorXd mu, T_of_mu;  ///< viscosities_at_rest() and the temperatures that have them
 };
 
 HeatState FilmHeat::Impl::start() const {
@@ -86,6 +90,15 @@ HeatState FilmHeat::Impl::start() const {
   first.supplies.resize(equations.supplies());
   for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k);
   return first;
+}
+
+/// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them in turn: they are worked out once.
+const Eigen::VectorXd& FilmHeat::Impl::viscosities_at_rest() {
+  if (T_of_mu.size() == state.film.size() && T_of_mu == state.film) return mu;
+  const TemperatureLaw& law = flow.model().lubricant.temperature_law;
+  T_of_mu = state.film;
+  mu = T_of_mu.unaryExpr([&](double T) { return viscosity_at(law, T); });
+  return mu;
 }
 
 void FilmHeat::Impl::show_rest() {
@@ -124,17 +137,16 @@ void FilmHeat::set_state(const HeatState& state) {
 
 LayeredViscosity FilmHeat::viscosity() const {
   const FilmModel& model = impl_->flow.model();
-  const auto layers = static_cast<std::size_t>(impl_->thermal.layers);
+  const int layers = impl_->thermal.layers;
+  const auto profile_in = [layers](const Eigen::VectorXd& mu, int node) {
+    return profile_of({mu.data() + static_cast<Eigen::Index>(node) * layers, static_cast<std::size_t>(layers)});
+  };
   LayeredViscosity viscosity;
   for (auto* field : {&viscosity.fluidity, &viscosity.shear_fluidity, &viscosity.skew})
     field->resize(model.grid.size());
-  std::vector<double> mu(layers);
+  const Eigen::VectorXd& mu = impl_->viscosities_at_rest();
   for (int node = 0; node < model.grid.size(); ++node) {
-    for (std::size_t l = 0; l < layers; ++l) {
-      const double T = impl_->state.film[node * impl_->thermal.layers + static_cast<int>(l)];
-      mu[l] = viscosity_at(model.lubricant.temperature_law, T);
-    }
-    const LayerProfile profile = profile_of(mu);
+    const LayerProfile profile = profile_in(mu, node);
     viscosity.fluidity[node] = profile.fluidity;
     viscosity.shear_fluidity[node] = profile.shear_fluidity;
     viscosity.skew[node] = profile.skew;
@@ -147,7 +159,7 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   const FilmDomain domain = m.flow.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(m.flow.model(), domain));
   m.wrench.evaluate(m.flow, motion, false);
-  m.flows.evaluate(m.flow, m.wrench, motion, m.state.film);
+  m.flows.evaluate(m.flow, m.wrench, motion, m.viscosities_at_rest());
   const CarryingFilm film{m.flow, m.wrench, m.flows, history.dt};
   m.state = m.equations.solve(film, m.state);
   m.observe(film);
@@ -214,6 +226,11 @@ void FilmHeat::Impl::average(const CarryingFilm& film) {
 
 TemperatureFields FilmHeat::fields() const { return impl_->shown; }
 const HeatObservables& FilmHeat::observables() const { return impl_->seen; }
+
+FilmObservables FilmHeat::film(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
+                               const Eigen::Vector2d& tilt) const {
+  return observe_evaluated(impl_->flow, impl_->wrench, motion, e, u, tilt);
+}
 
 void FilmHeat::persist(Archive& archive) {
   archive.io("T_film", impl_->state.film);

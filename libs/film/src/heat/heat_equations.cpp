@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <variant>
 
 #include "hersey/core/contract.h"
+#include "hersey/solver/sparse_lu.h"
 
 namespace hersey::film {
 namespace {
@@ -15,7 +17,6 @@ constexpr double least_fill = 1e-6;
 // How far the equations are solved, as a share of what is missing at the start: of a steady film, which is taken in
 // turn with its temperature, and of a step.
 constexpr double steady_share = 1e-5, step_share = 1e-9;
-constexpr int most_iterations = 120;
 
 double oil_share(const Node& node) { return std::clamp(node.theta, least_fill, 1.0); }
 
@@ -96,12 +97,7 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   x.tail(supplies()) = start.supplies;
   multiply(x, missing);
   missing = known_ - missing;
-  const auto A = [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) { multiply(v, y); };
-  const auto M = [this](const Eigen::VectorXd& b, Eigen::VectorXd& v) { precondition(b, v); };
-  const solver::GmresOptions wanted{.rtol = film.dt == 0 ? steady_share : step_share,
-                                    .max_iterations = most_iterations,
-                                    .restart = most_iterations / 2};
-  (void)gmres_.solve(A, M, missing, wanted, change);
+  solve_for(missing, film.dt == 0 ? steady_share : step_share, change);
   x += change;
 
   HeatState end = start;
@@ -113,19 +109,73 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   return end;
 }
 
+void HeatEquations::solve_for(const Eigen::VectorXd& known, double share, Eigen::VectorXd& x) {
+  const auto A = [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) { multiply(v, y); };
+  const auto M = [this](const Eigen::VectorXd& b, Eigen::VectorXd& v) { precondition(b, v); };
+  const solver::GmresOptions wanted{
+      .rtol = share, .max_iterations = most_iterations_, .restart = (most_iterations_ + 1) / 2};
+  if (!gmres_.solve(A, M, known, wanted, x).converged) factorise_for(known, x);
+}
+
+// Where oil turns round in cells that sweeps cannot follow.
+void HeatEquations::factorise_for(const Eigen::VectorXd& known, Eigen::VectorXd& x) const {
+  const Eigen::SparseMatrix<double> A = matrix();
+  const std::span<const double> values{A.valuePtr(), static_cast<std::size_t>(A.nonZeros())};
+  solver::SparseLu lu;
+  lu.analyse(A);
+  HERSEY_REQUIRE(lu.factorise(values), "every layer of a film has a balance of heat");
+  x = known;
+  lu.solve({x.data(), static_cast<std::size_t>(x.size())});
+}
+
+Eigen::SparseMatrix<double> HeatEquations::matrix() const {
+  const int rows = system_.size(), n_phi = model_.grid.n_phi;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&entries](int row, const HeatSystem::Row& of) {
+    for (const auto& [column, entry] : of) entries.emplace_back(row, column, entry);
+  };
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      add(row, system_.entries(node, l));
+      if (by_journal_[row] != 0) entries.emplace_back(row, rows, -by_journal_[row]);
+      if (supply_of_[node] >= 0) entries.emplace_back(row, rows + 1 + supply_of_[node], -by_supply_[row]);
+    }
+  }
+  for (int i = 0; rows > system_.row(model_.grid.size(), 0) && i < n_phi; ++i)
+    add(system_.ring_row(i), system_.ring_entries(i));
+  entries.emplace_back(rows, rows, journal_self_);
+  for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
+    entries.emplace_back(rows, system_.row(node, top()), -into_journal_[node]);
+  for (int s = 0; s < supplies(); ++s) entries.emplace_back(rows + 1 + s, rows + 1 + s, supply_self_[s]);
+  for (const Held& held : held_) {
+    for (const Held::Row& row : held.rows) {
+      add(rows + 1 + held.supply, row.entries);
+      entries.emplace_back(rows + 1 + held.supply, rows, -row.by_journal);
+    }
+  }
+  for (const Renewal& renewal : renewals_) entries.emplace_back(rows + 1 + renewal.supply, renewal.row, renewal.heat);
+  Eigen::SparseMatrix<double> A(known_.size(), known_.size());
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
 void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   const int rows = system_.size();
+  y.resize(known_.size());
   system_.multiply(x, y);
-  const double journal = x[rows];
-  y -= by_journal_ * journal;
+  y.head(rows) -= by_journal_ * x[rows];
   for (int node = 0; node < model_.grid.size(); ++node) {
     if (supply_of_[node] < 0) continue;
     for (int row = node * layers(); row < (node + 1) * layers(); ++row)
       y[row] -= by_supply_[row] * x[rows + 1 + supply_of_[node]];
   }
-  y.conservativeResize(known_.size());
-  y.tail(1 + supplies()).setZero();
-  y[rows] = journal_self_ * journal;
+  multiply_remainder(x, y);
+}
+
+void HeatEquations::multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  const int rows = system_.size();
+  y[rows] = journal_self_ * x[rows];
   for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
     y[rows] -= into_journal_[node] * x[system_.row(node, top())];
   for (int s = 0; s < supplies(); ++s) y[rows + 1 + s] = supply_self_[s] * x[rows + 1 + s];
@@ -133,29 +183,21 @@ void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
     double& sum = y[rows + 1 + held.supply];
     for (const Held::Row& row : held.rows) {
       for (const auto& [column, entry] : row.entries) sum += entry * x[column];
-      sum -= row.by_journal * journal;
+      sum -= row.by_journal * x[rows];
     }
   }
   for (const Renewal& renewal : renewals_) y[rows + 1 + renewal.supply] += renewal.heat * x[renewal.row];
-  subtract_corrections(x, y);
 }
 
-// Journal and supplies by themselves, then along the flow, then what the film gives back to the journal.
 void HeatEquations::precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-  const int rows = system_.size();
-  Eigen::VectorXd rest = b.head(rows), ends(1 + supplies()), swept;
-  ends[0] = b[rows] / journal_self_;
-  for (int s = 0; s < supplies(); ++s) ends[1 + s] = b[rows + 1 + s] / supply_diagonal_[s];
-  rest += by_journal_ * ends[0];
-  for (int node = 0; node < model_.grid.size(); ++node) {
-    if (supply_of_[node] < 0) continue;
-    for (int row = node * layers(); row < (node + 1) * layers(); ++row)
-      rest[row] += by_supply_[row] * ends[1 + supply_of_[node]];
-  }
-  system_.sweep(rest, swept);
+  const int rows = system_.size(), ends = 1 + supplies();
   x.resize(b.size());
-  x.head(rows) = swept;
-  x.tail(1 + supplies()) = ends;
+  system_.sweep(b, x);
+  x.tail(ends).setZero();
+  Eigen::VectorXd missing(b.size());
+  multiply_remainder(x, missing);
+  x.tail(ends) = remainder_.solve(b.tail(ends) - missing.tail(ends));
+  x.head(rows).noalias() += by_remainder_ * x.tail(ends);
 }
 
 // The sweep begins at a supply, where temperatures are known best.
@@ -164,6 +206,22 @@ void HeatEquations::prepare_sweeps(const CarryingFilm& film) {
   for (const Held& held : held_)
     if (held.chi > 0.5) first = held.node / model_.grid.n_z;
   system_.prepare(first, film.balance.speed_phi() >= 0);
+  const int rows = system_.size(), ends = 1 + supplies();
+  by_remainder_.setZero(rows, ends);
+  Eigen::VectorXd known = Eigen::VectorXd::Zero(rows), answer(rows + ends), sums(rows + ends);
+  Eigen::MatrixXd remainder(ends, ends);
+  for (int k = 0; k < ends; ++k) {
+    if (k == 0) known = by_journal_;
+    for (int row = 0; k > 0 && row < model_.grid.size() * layers(); ++row)
+      known[row] = supply_of_[row / layers()] == k - 1 ? by_supply_[row] : 0;
+    answer.setZero();
+    if (!known.isZero(0)) system_.sweep(known, answer);
+    by_remainder_.col(k) = answer.head(rows);
+    answer[rows + k] = 1;
+    multiply_remainder(answer, sums);
+    remainder.col(k) = sums.tail(ends);
+  }
+  remainder_.compute(remainder);
 }
 
 // (thermal.10): without flow a steady film would have no temperature, so that a thread of storage is left to it.
@@ -180,7 +238,6 @@ void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start
 }
 
 void HeatEquations::add_flows(const CarryingFilm& film) {
-  corrections_.clear();
   inflow_.assign(static_cast<std::size_t>(model_.grid.size()), 0.0);
   const auto& faces = film.balance.faces();
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -193,19 +250,17 @@ void HeatEquations::add_flows(const CarryingFilm& film) {
   }
 }
 
+// On which side of a node the other lies.
+HeatSystem::Side HeatEquations::side_of(int from, int to) const {
+  const int n_z = model_.grid.n_z, n_phi = model_.grid.n_phi;
+  if (to / n_z == from / n_z) return to > from ? HeatSystem::left : HeatSystem::right;
+  return to / n_z == (from / n_z + 1) % n_phi ? HeatSystem::before : HeatSystem::after;
+}
+
 // Oil comes with the temperature of where it has been (thermal.10).
 void HeatEquations::add_flow(int from, int to, int layer, double q) {
-  const int n_z = model_.grid.n_z, n_phi = model_.grid.n_phi;
-  const int step = to - from;
-  HeatSystem::Side side = HeatSystem::left;
-  if (to / n_z == from / n_z) {
-    side = step > 0 ? HeatSystem::left : HeatSystem::right;
-  } else {
-    const bool forwards = to / n_z == (from / n_z + 1) % n_phi;
-    side = forwards ? HeatSystem::before : HeatSystem::after;
-  }
   system_.diagonal(system_.row(to, layer)) += rc_ * q;
-  system_.beside(to, layer, side) -= rc_ * q;
+  system_.beside(to, layer, side_of(from, to)) -= rc_ * q;
   inflow_[static_cast<std::size_t>(to)] += q;
 }
 
@@ -233,22 +288,12 @@ void HeatEquations::add_second_order(const CarryingFilm& film, std::size_t f, in
   }
   const FlowBalance& b = film.balance;
   if (b.is_held(from) || b.is_held(behind) || b.nodes()[behind].content < 1e-3) return;
-  corrections_.push_back({.behind = system_.row(behind, layer),
-                          .from = system_.row(from, layer),
-                          .to = system_.row(to, layer),
-                          .share_from = b.balance_share(from),
-                          .share_to = b.balance_share(to),
-                          .supply = b.is_held(to) ? b.feature_at(to) + (has_line() ? 1 : 0) : -1,
-                          .heat = rc_ * std::abs(q) * 0.5 * face.length / length});
-}
-
-void HeatEquations::subtract_corrections(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  for (const Correction& c : corrections_) {
-    const double carried = c.heat * (x[c.from] - x[c.behind]);
-    y[c.from] += c.share_from * carried;
-    y[c.to] -= c.share_to * carried;
-    if (c.supply >= 0) y[system_.size() + 1 + c.supply] -= carried;
-  }
+  const double heat = rc_ * std::abs(q) * 0.5 * face.length / length;
+  const HeatSystem::Side side = side_of(from, to);
+  system_.diagonal(system_.row(from, layer)) += heat;
+  system_.beside(from, layer, side) -= heat;
+  system_.beside(to, layer, side) -= heat;
+  system_.beyond(to, layer, side) += heat;
 }
 
 void HeatEquations::add_flow_upwards(const CarryingFilm& film) {
@@ -423,19 +468,16 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
   if (journal_self_ == 0) journal_self_ = 1, journal_is_free_ = false, known_[journal] = start.journal;
   const double thread = rc_ * 1e-9 * film.balance.largest_throughput();
   std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
-  supply_diagonal_.assign(flow.size(), thread);
   for (const Held& held : held_) {
     flow[held.supply] += held.flow;
     for (const Held::Row& row : held.rows) {
       known_[journal + 1 + held.supply] += row.known;
-      supply_diagonal_[held.supply] += held.chi * row.entries.front().second;
     }
   }
   for (const Renewal& renewal : renewals_) known_[journal + 1 + renewal.supply] += renewal.heat * fresh(renewal.supply);
   supply_self_.assign(flow.size(), 0.0);
   for (int s = 0; s < supplies(); ++s) {
     supply_self_[s] = rc_ * std::max(-flow[s], 0.0) + thread;
-    supply_diagonal_[s] += supply_self_[s];
     known_[journal + 1 + s] += (rc_ * std::max(flow[s], 0.0) + thread) * fresh(s);
   }
 }

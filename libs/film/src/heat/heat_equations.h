@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "balance/flow_balance.h"
@@ -27,6 +28,9 @@ struct CarryingFilm {
 class HeatEquations {
  public:
   HeatEquations(const FilmModel& model, const ThermalModel& thermal);
+
+  /// Of GMRES [-]; where it takes more the system is factorised.
+  void set_most_iterations(int iterations) { most_iterations_ = iterations; }
 
   /// Temperatures at the end of a step from `start`.
   [[nodiscard]] HeatState solve(const CarryingFilm& film, const HeatState& start);
@@ -68,7 +72,7 @@ class HeatEquations {
   void add_flows(const CarryingFilm& film);
   void add_flow(int from, int to, int layer, double q);
   void add_second_order(const CarryingFilm& film, std::size_t f, int layer, double q);
-  void subtract_corrections(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  [[nodiscard]] HeatSystem::Side side_of(int from, int to) const;
   void add_flow_upwards(const CarryingFilm& film);
   void add_edges(const CarryingFilm& film);
   void add_conduction(const CarryingFilm& film);
@@ -81,9 +85,16 @@ class HeatEquations {
   void add_remainder(const CarryingFilm& film, const HeatState& start);
   /// y = A x, x = [layers; ring; journal; supplies].
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
-  /// Nearly x = A^-1 b.
+  /// The rows of journal and supplies of that.
+  void multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  /// Nearly x = A^-1 b: layers and ring by sweeps, journal and supplies eliminated.
   void precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
   void prepare_sweeps(const CarryingFilm& film);
+  /// A^-1 known, but for a `share` of its size.
+  void solve_for(const Eigen::VectorXd& known, double share, Eigen::VectorXd& x);
+  /// The same by factorising A.
+  void factorise_for(const Eigen::VectorXd& known, Eigen::VectorXd& x) const;
+  [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
   void take_balance(const CarryingFilm& film, const HeatState& start, const HeatState& end);
 
   const FilmModel model_;
@@ -98,16 +109,9 @@ class HeatEquations {
   double journal_self_ = 0;           ///< entry of the journal's row by itself [W/K]
   std::vector<double> into_journal_;  ///< of a journal that is free, by the layers beside it [W/K]
   bool journal_is_free_ = false;
-  std::vector<double> supply_self_;      ///< of the supplies' rows
-  std::vector<double> supply_diagonal_;  ///< the same, and what of their nodes' rows follows them
-  /// Heat that the temperature between two nodes, beyond that of the first, carries from one to the next.
-  struct Correction {
-    int behind = 0, from = 0, to = 0;     ///< rows
-    double share_from = 1, share_to = 1;  ///< of the row's own balance, beside supplies [-]
-    int supply = -1;                      ///< that has a share of `to`
-    double heat = 0;                      ///< by the rise from behind to from [W/K]
-  };
-  std::vector<Correction> corrections_;
+  std::vector<double> supply_self_;  ///< of the supplies' rows
+  Eigen::MatrixXd by_remainder_;  ///< what a sweep makes of layers and ring by journal and supplies, column by column
+  Eigen::PartialPivLU<Eigen::MatrixXd> remainder_;  ///< journal and supplies, layers and ring following them
   /// Oil of a layer that a supply replaces by its own.
   struct Renewal {
     int supply = 0, row = 0;
@@ -115,6 +119,7 @@ class HeatEquations {
   };
   std::vector<Renewal> renewals_;
   solver::Gmres gmres_;
+  int most_iterations_ = 120;
   std::vector<Held> held_;
   std::vector<double> inflow_;  ///< of each node over its faces and edges [m^3/s]
   HeatBalance balance_;

@@ -29,20 +29,31 @@ HeatSystem::Row HeatSystem::entries(int node, int layer) const {
   Row entries{{at, of.self}};
   if (layer > 0) entries.emplace_back(at - 1, of.below);
   if (layer + 1 < layers_) entries.emplace_back(at + 1, of.above);
-  for (int side = 0; side < 4; ++side)
+  for (int side = 0; side < 4; ++side) {
     if (of.beside[side] != 0) entries.emplace_back(row(neighbour(node, side), layer), of.beside[side]);
+    if (of.beyond[side] != 0) entries.emplace_back(row(next_but_one(node, side), layer), of.beyond[side]);
+  }
   if (of.ring != 0) entries.emplace_back(ring_row(node / grid_.n_z), of.ring);
+  return entries;
+}
+
+HeatSystem::Row HeatSystem::ring_entries(int i) const {
+  const int n = ring_rows();
+  Row entries{{ring_row(i), ring_[i].self},
+              {ring_row((i + n - 1) % n), ring_[i].before},
+              {ring_row((i + 1) % n), ring_[i].after}};
+  for (int j = 0; j < grid_.n_z; ++j) entries.emplace_back(row(grid_.index(i, j), 0), from_film_[grid_.index(i, j)]);
   return entries;
 }
 
 void HeatSystem::scale(int row, double factor) {
   Layer& of = layer_[row];
   for (double* entry : {&of.self, &of.below, &of.above, &of.ring}) *entry *= factor;
-  for (double& entry : of.beside) entry *= factor;
+  for (auto* entries : {&of.beside, &of.beyond})
+    for (double& entry : *entries) entry *= factor;
 }
 
 void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  y.resize(size());
   for (int node = 0; node < grid_.size(); ++node) {
     for (int l = 0; l < layers_; ++l) {
       const int at = row(node, l);
@@ -50,7 +61,10 @@ void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
       double sum = of.self * x[at];
       if (l > 0) sum += of.below * x[at - 1];
       if (l + 1 < layers_) sum += of.above * x[at + 1];
-      for (int side = 0; side < 4; ++side) sum += of.beside[side] * x[row(neighbour(node, side), l)];
+      for (int side = 0; side < 4; ++side) {
+        if (of.beside[side] != 0) sum += of.beside[side] * x[row(neighbour(node, side), l)];
+        if (of.beyond[side] != 0) sum += of.beyond[side] * x[row(next_but_one(node, side), l)];
+      }
       y[at] = sum;
     }
     if (ring_.empty()) continue;
@@ -92,8 +106,10 @@ void HeatSystem::solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorX
   for (int l = 0; l < layers_; ++l) {
     const Layer& of = layer_[first + l];
     double rest = b[first + l];
-    for (int side = 0; side < 4; ++side)
+    for (int side = 0; side < 4; ++side) {
       if (of.beside[side] != 0) rest -= of.beside[side] * x[row(neighbour(node, side), l)];
+      if (of.beyond[side] != 0) rest -= of.beyond[side] * x[row(next_but_one(node, side), l)];
+    }
     if (l == 0 && !ring_.empty()) rest -= of.ring * x[ring_row(node / grid_.n_z)];
     if (l > 0) rest -= of.below * x[first + l - 1];
     x[first + l] = rest * pivots_[first + l].first;
@@ -102,9 +118,9 @@ void HeatSystem::solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorX
 }
 
 void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-  x.setZero(size());
+  x.head(size()).setZero();
   if (!ring_.empty()) {
-    x.tail(ring_rows()) = b.tail(ring_rows());
+    x.segment(film_rows(), ring_rows()) = b.segment(film_rows(), ring_rows());
     solve_ring(x);
   }
   for (const int node : order_) solve_column(node, b, x);
@@ -151,7 +167,7 @@ void HeatSystem::solve_ring(Eigen::VectorXd& x) const {
   const double share = ring_[0].before / -ring_[0].self;
   const double moved = x[ring_row(0)] + share * x[ring_row(n - 1)];
   const double by_closing = 1 + closing_[ring_row(0)] + share * closing_[ring_row(n - 1)];
-  x.tail(n) -= moved / by_closing * closing_.tail(n);
+  x.segment(film_rows(), n) -= moved / by_closing * closing_.tail(n);
 }
 
 }  // namespace hersey::film

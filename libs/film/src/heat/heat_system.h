@@ -10,8 +10,8 @@
 namespace hersey::film {
 
 /// The linear system of a film's layers and of a ring around it, row by row: each layer is coupled to those below and
-/// above it, to the same one of the four neighbouring nodes, and the lowest to the ring. Rows: layers node by node,
-/// then the ring's angles.
+/// above it, to the same one of the four neighbouring nodes and of those beyond, and the lowest to the ring. Rows:
+/// layers node by node, then the ring's angles.
 ///
 /// Oil flows one way: a sweep over the nodes in that direction, each column of layers solved as a whole, all but solves
 /// the system, as a preconditioner should.
@@ -33,6 +33,8 @@ class HeatSystem {
   [[nodiscard]] double& below(int node, int layer) { return layer_[row(node, layer)].below; }
   [[nodiscard]] double& above(int node, int layer) { return layer_[row(node, layer)].above; }
   [[nodiscard]] double& beside(int node, int layer, Side side) { return layer_[row(node, layer)].beside[side]; }
+  /// Of the node two steps away on that side.
+  [[nodiscard]] double& beyond(int node, int layer, Side side) { return layer_[row(node, layer)].beyond[side]; }
   [[nodiscard]] double& to_ring(int node) { return layer_[row(node, 0)].ring; }
   [[nodiscard]] double& from_film(int node) { return from_film_[node]; }
   [[nodiscard]] double& ring_before(int i) { return ring_[i].before; }
@@ -41,21 +43,24 @@ class HeatSystem {
   /// One row of the film by itself: columns and entries.
   using Row = std::vector<std::pair<int, double>>;
   [[nodiscard]] Row entries(int node, int layer) const;
+  /// The same of the ring.
+  [[nodiscard]] Row ring_entries(int i) const;
   /// Multiplies a row of the film.
   void scale(int row, double factor);
 
-  /// y = A x.
+  /// The first size() entries of y = A x; what x and y have beyond is left alone.
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
   /// Makes ready for sweeps that begin at angle `first` and go towards growing angles, or falling ones.
   void prepare(int first, bool forwards);
-  /// x with A x = b but for what flows against the sweep and what the ring gives back to it.
+  /// x with A x = b but for what flows against the sweep and what the ring gives back to it; likewise the first size()
+  /// entries.
   void sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 
  private:
   struct Layer {
     double self = 0, below = 0, above = 0, ring = 0;
-    std::array<double, 4> beside{};
+    std::array<double, 4> beside{}, beyond{};
   };
   struct Ring {
     double self = 0, before = 0, after = 0;
@@ -63,6 +68,7 @@ class HeatSystem {
   [[nodiscard]] int film_rows() const { return static_cast<int>(layer_.size()); }
   [[nodiscard]] int ring_rows() const { return static_cast<int>(ring_.size()); }
   [[nodiscard]] int neighbour(int node, int side) const { return neighbours_[node][side]; }
+  [[nodiscard]] int next_but_one(int node, int side) const { return neighbour(neighbour(node, side), side); }
   void solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
   void prepare_ring();
   void solve_ring(Eigen::VectorXd& x) const;

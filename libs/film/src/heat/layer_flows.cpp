@@ -15,13 +15,8 @@ LayerFlows::LayerFlows(const FilmModel& model, int layers)
 }
 
 void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
-                          const Eigen::VectorXd& temperatures) {
-  std::vector<double> mu(layers_);
-  for (std::size_t k = 0; k < shares_.size(); ++k) {
-    for (std::size_t l = 0; l < layers_; ++l)
-      mu[l] = viscosity_at(model_.lubricant.temperature_law, temperatures[static_cast<Eigen::Index>(k * layers_ + l)]);
-    find_shares(mu, shares_[k]);
-  }
+                          const Eigen::VectorXd& mu) {
+  for (std::size_t k = 0; k < shares_.size(); ++k) find_shares({mu.data() + k * layers_, layers_}, shares_[k]);
   flow_over_faces(balance, motion);
   flow_upwards(balance);
   dissipate(balance, wrench, motion);

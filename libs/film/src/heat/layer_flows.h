@@ -15,9 +15,9 @@ class LayerFlows {
  public:
   LayerFlows(const FilmModel& model, int layers);
 
-  /// @param temperatures  of the layers [K], which give their viscosities
+  /// @param mu  of the layers at the cavitation pressure [Pa s], those the film was solved with
   void evaluate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
-                const Eigen::VectorXd& temperatures);
+                const Eigen::VectorXd& mu);
 
   [[nodiscard]] int layers() const { return layers_; }
   /// Over a face, from a to b [m^3/s]; of oil at rho0, as all flows here.

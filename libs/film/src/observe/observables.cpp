@@ -10,6 +10,7 @@
 #include "hersey/core/turn.h"
 #include "observe/film_power.h"
 #include "observe/film_wrench.h"
+#include "observe/observe_evaluated.h"
 
 namespace hersey::film {
 namespace {
@@ -177,6 +178,12 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
   HERSEY_REQUIRE(domain.is_inside(), text(model, domain));
   FilmWrench wrench(model);
   wrench.evaluate(balance, motion, false);
+  return observe_evaluated(balance, wrench, motion, e, u, tilt);
+}
+
+FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
+                                  const Eigen::Vector2d& e, const Eigen::VectorXd& u, const Eigen::Vector2d& tilt) {
+  const FilmModel& model = balance.model();
   const FilmFields fields = fields_of(balance.nodes());
 
   FilmObservables o;

@@ -5,15 +5,16 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_observables.h"
 #include "hersey/film/heat_state.h"
 #include "hersey/film/thermal_model.h"
 
 namespace hersey::film {
 
-/// A start for film and heat in turn: what is left of temperatures `image`, found with the viscosity of the supply's
-/// temperature, once the oil thins as it warms. Of an adiabatic film between walls a constant distance apart exactly:
-/// there exp(beta rise) - 1 is beta times the rise at constant viscosity.
-[[nodiscard]] HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, HeatState image);
+/// A start for film and heat in turn: what is left of temperatures `image`, found with the viscosity at T_oil [K]
+/// everywhere, once the oil thins as it warms (theory manual, thermal.40). Of an adiabatic film between walls a
+/// constant distance apart exactly: there exp(beta rise) - 1 is beta times the rise at the viscosity of the supply.
+[[nodiscard]] HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, double T_oil, HeatState image);
 
 /// Energy equation of a film across and along its thickness (theory manual, chapter thermal): finite volumes, layers of
 /// equal thickness at each node, implicit in time, with the walls and the stirred oil of grooves as parts of one linear
@@ -47,6 +48,11 @@ class FilmHeat {
   [[nodiscard]] TemperatureFields fields() const;
   /// Likewise.
   [[nodiscard]] const HeatObservables& observables() const;
+
+  /// What observe_film() tells of the film last advanced, from the flows that carried its heat: they are not worked out
+  /// anew. @param motion, u  those of advance()
+  [[nodiscard]] FilmObservables film(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
+                                     const Eigen::Vector2d& tilt) const;
 
   /// Temperatures.
   void persist(Archive& archive);

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "balance/flow_balance.h"
+#include "hersey/film/film_observables.h"
+#include "observe/film_wrench.h"
+
+namespace hersey::film {
+
+/// observe_film() of a film whose `balance` and `wrench` have been evaluated at `motion` and `u` already.
+[[nodiscard]] FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& wrench,
+                                                const SurfaceMotion& motion, const Eigen::Vector2d& e,
+                                                const Eigen::VectorXd& u, const Eigen::Vector2d& tilt);
+
+}  // namespace hersey::film
