@@ -1,11 +1,9 @@
 #include "temperature_path.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "hersey/bearing/steady_bearing.h"
-#include "hersey/core/turn.h"
+#include "short_bearing.h"
 
 namespace hersey::bearing {
 namespace {
@@ -13,34 +11,6 @@ namespace {
 // Turns after which temperatures go this share of their way at a time, and steps back at most in all.
 constexpr int kTurnsOfAcceleration = 40, kMostStepsBack = 12;
 constexpr double kSlowShare = 0.3;
-
-// No first guess thins the oil by more than this.
-constexpr double kThinnestGuess = 0.2;
-
-// Turns in which the guess finds its own viscosity, each half of the way.
-constexpr int kTurnsOfGuess = 12;
-
-// Power and side flow of a short bearing (thermal.41); beside the middle some oil always leaves.
-double likely_temperature(const film::FilmModel& model, double T_supply, const OperatingPoint& point) {
-  const film::Lubricant& oil = model.lubricant;
-  if (!film::depends_on_temperature(oil.temperature_law)) return T_supply;
-  const double U = model.R * std::abs(point.journal_speed - point.shell_speed);
-  const double carried = model.R * std::abs(point.entraining_speed()) * model.c * model.L;
-  const double mu_supply = film::viscosity_at(oil.temperature_law, T_supply);
-  film::FilmModel at = model;
-  double T = T_supply;
-  for (int k = 0; k < kTurnsOfGuess && carried > 0; ++k) {
-    at.lubricant.mu0 = film::viscosity_at(oil.temperature_law, T);
-    if (at.lubricant.mu0 < kThinnestGuess * mu_supply) break;
-    const double e = point.load ? ocvirk_position(at, point).norm() : point.e.norm();
-    const double epsilon = std::clamp(e / model.c, 0.1, 0.95);
-    const double power =
-        at.lubricant.mu0 * U * U * turn * model.R * model.L / (model.c * std::sqrt(1 - epsilon * epsilon));
-    const double rise = power / (2 * oil.density * oil.specific_heat * epsilon * carried);
-    T += 0.5 * (T_supply + rise - T);
-  }
-  return T;
-}
 
 }  // namespace
 

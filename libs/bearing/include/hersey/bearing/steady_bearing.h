@@ -67,9 +67,6 @@ struct SteadyState {
 [[nodiscard]] SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, const GlobalHeat& heat,
                                          const SteadyOptions& options, SteadyState& state);
 
-/// Where Ocvirk's short bearing (half film) of the same size carries the load of `point` [m].
-[[nodiscard]] Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoint& point);
-
 /// Fields of a film found, with the depth of its features.
 [[nodiscard]] film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& state);
 
