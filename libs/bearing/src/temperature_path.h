@@ -11,8 +11,8 @@ namespace hersey::bearing {
 /// No trial on the way to an answer is colder or hotter [K]: laws of viscosity mean nothing there.
 inline constexpr double coldest_trial = 200, hottest_trial = 800;
 
-/// Temperatures on the way to those of the film they make (thermal.16): accelerated, nearer to the last ones that had a
-/// film where they have none, and step by step where acceleration goes round.
+/// Temperatures, and how far layers thin by shear, on the way to those of the film they make (thermal.16): accelerated,
+/// nearer to the last ones that had a film where they have none, and step by step where acceleration goes round.
 class TemperaturePath {
  public:
   /// What keeps `model` and `thermal` alive is the caller's. @param start  unset: the supply's temperature
@@ -32,14 +32,16 @@ class TemperaturePath {
   [[nodiscard]] bool step_back();
 
  private:
-  [[nodiscard]] Eigen::VectorXd rises() const;
+  [[nodiscard]] Eigen::VectorXd state() const;
+  void put(const Eigen::VectorXd& x, film::HeatState& next) const;
   void try_next(film::HeatState next);
 
   const film::FilmModel& model_;
   const film::ThermalModel& thermal_;
   film::FilmHeat heat_;
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
-  /// Rises of temperature over the supply's: being tried; those with which a film was found last; what that made.
+  /// Rises of temperature over the supply's [K], and what shear leaves of viscosities as if it were heat [K]: being
+  /// tried; those with which a film was found last; what that made.
   Eigen::VectorXd tried_, last_, image_;
   bool is_cold_;
   int steps_back_ = 0;
