@@ -19,13 +19,18 @@ constexpr double kMostPassedOn = 0.02;
 // Steps taken as one system after an exchange without end, before exchanging is tried again.
 constexpr int kStepsAsOne = 16;
 
+// Films at the start of a run whose layers thin by their shear, and the change of viscosity with which they end.
+constexpr int kMostFirstFilms = 20;
+constexpr double kAsThin = 1e-6;
+
 void persist_history(Archive& archive, film::FilmHistory& history) {
   archive.io("dt", history.dt), archive.io("by_gap", history.by_gap);
   archive.io("theta", history.theta), archive.io("w", history.w), archive.io("density", history.density);
   archive.io("gap", history.gap), archive.io("phi_journal", history.phi_journal);
   film::LayeredViscosity& viscosity = history.viscosity;
   archive.io("fluidity", viscosity.fluidity), archive.io("shear_fluidity", viscosity.shear_fluidity);
-  archive.io("skew", viscosity.skew);
+  archive.io("skew", viscosity.skew), archive.io("at_rest", viscosity.at_rest);
+  archive.io("axial_fluidity", viscosity.axial_fluidity);
 }
 
 }  // namespace
@@ -111,10 +116,16 @@ void FilmForce::fill_gap() {
   history_.gap.resize(0);
   history_.phi_journal = surfaces_.phi_journal;
   started_ = false;
-  const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
-  if (summary.converged) return;
-  if (!summary.domain.is_inside()) return report(summary.domain);
-  domain_error_ = "no film at the start: " + summary.message;
+  for (int k = 0; k < kMostFirstFilms; ++k) {
+    const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
+    if (!summary.domain.is_inside()) return report(summary.domain);
+    if (!summary.converged) {
+      domain_error_ = "no film at the start: " + summary.message;
+      return;
+    }
+    if (!heat_ || heat_->thin(surfaces_, history_, u_) <= kAsThin) return;
+    history_.viscosity = heat_->viscosity();
+  }
 }
 
 void FilmForce::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {

@@ -12,6 +12,9 @@ namespace {
 constexpr int kTurnsOfAcceleration = 40, kMostStepsBack = 12;
 constexpr double kSlowShare = 0.3;
 
+// Of a change of the logarithm of viscosity by shear, the rise of temperature that changes it as much [K].
+constexpr double kHeatOfShear = 30;
+
 }  // namespace
 
 TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal,
@@ -19,7 +22,7 @@ TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::Therm
     : model_(model), thermal_(thermal), heat_(model, thermal) {
   if (start) {
     heat_.set_state(*start);
-    tried_ = rises();
+    tried_ = state();
   } else {
     fill(likely_temperature(model, thermal.T_supply, point));
   }
@@ -32,17 +35,27 @@ void TemperaturePath::fill(double T_oil) {
   try_next(std::move(state));
 }
 
-Eigen::VectorXd TemperaturePath::rises() const { return heat_.state().film.array() - thermal_.T_supply; }
+Eigen::VectorXd TemperaturePath::state() const {
+  const film::HeatState& now = heat_.state();
+  Eigen::VectorXd x(now.film.size() + now.thinning.size());
+  x << now.film.array() - thermal_.T_supply, kHeatOfShear * now.thinning.array().log();
+  return x;
+}
+
+void TemperaturePath::put(const Eigen::VectorXd& x, film::HeatState& next) const {
+  next.film = x.head(next.film.size()).array() + thermal_.T_supply;
+  next.thinning = (x.tail(next.thinning.size()) / kHeatOfShear).array().exp();
+}
 
 void TemperaturePath::try_next(film::HeatState next) {
   next.film = next.film.cwiseMax(coldest_trial).cwiseMin(hottest_trial);
   heat_.set_state(next);
-  tried_ = rises();
+  tried_ = state();
 }
 
 void TemperaturePath::take() {
   last_ = tried_;
-  image_ = rises();
+  image_ = state();
   nearness_ = std::min(1.0, (image_ - last_).cwiseAbs().maxCoeff() / (1 + image_.cwiseAbs().maxCoeff()));
 }
 
@@ -52,7 +65,7 @@ void TemperaturePath::step_on(int turn) {
   if (T_oil_) {
     next = film::first_guess(model_, thermal_, *T_oil_, std::move(next));
   } else {
-    next.film = mixing_.next(last_, image_).array() + thermal_.T_supply;
+    put(mixing_.next(last_, image_), next);
   }
   T_oil_.reset();
   try_next(std::move(next));
@@ -66,7 +79,7 @@ bool TemperaturePath::step_back() {
   }
   if (++steps_back_ > kMostStepsBack) return false;
   film::HeatState next = heat_.state();
-  next.film = 0.5 * (tried_ + last_).array() + thermal_.T_supply;
+  put(0.5 * (tried_ + last_), next);
   mixing_.begin_step();
   try_next(std::move(next));
   return true;

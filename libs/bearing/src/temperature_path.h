@@ -12,8 +12,8 @@ namespace hersey::bearing {
 /// No trial on the way to an answer is colder or hotter [K]: laws of viscosity mean nothing there.
 inline constexpr double coldest_trial = 200, hottest_trial = 800;
 
-/// Temperatures on the way to those of the film they make (thermal.16): accelerated, nearer to the last ones that had a
-/// film where they have none, and step by step where acceleration goes round.
+/// Temperatures, and how far layers thin by shear, on the way to those of the film they make (thermal.16): accelerated,
+/// nearer to the last ones that had a film where they have none, and step by step where acceleration goes round.
 class TemperaturePath {
  public:
   /// What keeps `model` and `thermal` alive is the caller's. @param start  unset: one temperature of all oil that is
@@ -35,7 +35,8 @@ class TemperaturePath {
   [[nodiscard]] bool step_back();
 
  private:
-  [[nodiscard]] Eigen::VectorXd rises() const;
+  [[nodiscard]] Eigen::VectorXd state() const;
+  void put(const Eigen::VectorXd& x, film::HeatState& next) const;
   void try_next(film::HeatState next);
   void fill(double T_oil);
 
@@ -43,7 +44,8 @@ class TemperaturePath {
   const film::ThermalModel& thermal_;
   film::FilmHeat heat_;
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
-  /// Rises of temperature over the supply's: being tried; those with which a film was found last; what that made.
+  /// Rises of temperature over the supply's [K], and what shear leaves of viscosities as if it were heat [K]: being
+  /// tried; those with which a film was found last; what that made.
   Eigen::VectorXd tried_, last_, image_;
   std::optional<double> T_oil_;  ///< one temperature that all oil has at first [K]
   int steps_back_ = 0;

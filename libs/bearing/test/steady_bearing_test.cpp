@@ -193,6 +193,30 @@ TEST_CASE("Coefficients_MatchDifferencesOfTheForce") {
   }
 }
 
+// With one temperature the oil thins by sliding: that moves with the gap and the speeds, and so do the coefficients.
+TEST_CASE("CoefficientsOfAShearThinningOil_MatchDifferencesOfTheForce") {
+  film::FilmModel model = rough_elastic_film();
+  model.lubricant.shear_thinning = {film::Cross{.limit = 0.3, .exponent = 0.8}, 0, 5e3};
+  OperatingPoint point{.journal_speed = 370, .shell_speed = -40};
+  point.e = 0.8 * model.c * Eigen::Vector2d(std::cos(-1.1), std::sin(-1.1));
+  point.tilt = {1e-4, -2e-4};
+  const SteadyState state = solved(model, point);
+  film::FilmModel plain = model;
+  plain.lubricant.shear_thinning = {};
+  CHECK(state.film.power_film < 0.8 * solved(plain, point).film.power_film);
+  for (int k = 0; k < 4; ++k) {
+    CAPTURE(k);
+    const double step = 1e-6 * (k < 2 ? model.c : model.c / model.L);
+    const auto at = [&](double sign) {
+      OperatingPoint moved = point;
+      (k < 2 ? moved.e[k] : moved.tilt[k - 2]) += sign * step;
+      return generalised_force(solved(model, moved));
+    };
+    const Eigen::Vector4d difference = (at(1) - at(-1)) / (2 * step);
+    CHECK((state.coefficients.stiffness.col(k) - difference).norm() <= kDifferences * difference.norm());
+  }
+}
+
 TEST_CASE("DampingOfAFullFilm_IsSymmetricAndPositive") {
   film::FilmModel model = flooded_film(60, 13);
   model.supply.kind = film::SupplyKind::none;

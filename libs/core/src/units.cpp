@@ -243,6 +243,7 @@ const std::vector<Dimension>& dimensions() {
       {"s/m", "an inverse velocity", "0.5 s/m", {"s/m", "s/mm"}},
       {"Hz", "a frequency", "50 Hz", {"Hz", "kHz", "1/s"}},
       {"K", "a temperature", "60 degC", {"degC", "K"}},
+      {"1/s", "a shear rate", "1e6 1/s", {"1/s"}},
       {"1/K", "an inverse temperature", "0.034 1/K", {"1/K"}},
       {"J/kg/K", "a specific heat", "2000 J/kg/K", {"J/kg/K", "kJ/kg/K"}},
       {"W/m/K", "a thermal conductivity", "0.13 W/m/K", {"W/m/K"}},

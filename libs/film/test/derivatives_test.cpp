@@ -121,6 +121,31 @@ std::vector<State> rough_states() {
   return states;
 }
 
+// Oils that thin by the sliding of surfaces that slide slantwise: by a critical rate, and by a critical stress, which
+// pressure raises.
+std::vector<State> sheared_states() {
+  std::vector<State> states;
+  for (State s : {rough_state(Cavitation::mass_conserving, true, true), rough_state(Cavitation::guembel, true, false),
+                  rough_state(Cavitation::reynolds, false, false)}) {
+    s.motion.phi_supply = 1.5;
+    s.motion.w_journal = 4;
+    s.model.lubricant.shear_thinning = {Cross{.limit = 0.3, .exponent = 0.8}, 3e5, 0};
+    s.name += ", Cross by rate";
+    states.push_back(s);
+    s.model.lubricant.shear_thinning = {Carreau{.limit = 0.2, .exponent = 0.4, .transition = 1.3}, 0, 4e3};
+    s.model.roughness = {FlowFactors::patir_cheng, {3e-6, 0.2}, {5e-6, 4}};
+    s.name += "; Carreau by stress, flow factors";
+    states.push_back(s);
+  }
+  State s = rough_state(Cavitation::mass_conserving, true, true);
+  s.model.lubricant.shear_thinning = {Cross{.limit = 0.3, .exponent = 0.8}, 3e5, 0};
+  s.model.asperities.mu_friction = 0;  // turns within less
+  s.motion.u_shell = s.motion.u_journal - 0.2, s.motion.w_journal = s.motion.w_shell;
+  s.name = "hardly any sliding";
+  states.push_back(s);
+  return states;
+}
+
 // Depth on both surfaces, one over the other in part.
 std::vector<State> states_with_pockets() {
   std::vector<State> states;
@@ -154,6 +179,9 @@ std::vector<State> states_with_pockets() {
       s.model.roughness = {FlowFactors::patir_cheng, {1e-6, 0.2}, {2e-6, 4}};
       s.name += ", rough";
       states.push_back(s);
+      s.model.lubricant.shear_thinning = {Cross{.limit = 0.3, .exponent = 0.8}, 0, 4e3};
+      s.name += ", sheared";
+      states.push_back(s);
     }
   }
   return states;
@@ -162,6 +190,7 @@ std::vector<State> states_with_pockets() {
 std::vector<State> all_states() {
   std::vector<State> states = rough_states();
   for (const State& s : states_with_pockets()) states.push_back(s);
+  for (const State& s : sheared_states()) states.push_back(s);
   return states;
 }
 

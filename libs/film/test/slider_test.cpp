@@ -1,75 +1,13 @@
 #include <doctest/doctest.h>
 
 #include <array>
-#include <functional>
 
-#include "film_cases.h"
+#include "plane_slider.h"
 #include "relative.h"
 
-// Plane sliders: a stretch of the circumference between two grooves that hold the rest of it at the ends' pressures,
-// closed edges, so that nothing varies along the axis.
+// Plane sliders against closed forms and exact solutions.
 namespace hersey::film {
 namespace slider_test {
-
-struct Slider {
-  double length = 0, U = 0, mu = 0;    ///< [m, m/s, Pa s]
-  double end_pressure = 0;             ///< at both ends [Pa]
-  std::function<double(double)> gap;   ///< [m] at x in [0, length]
-  double from = 0, to = 0, depth = 0;  ///< a pocket of the slider that stands still [m]
-};
-
-struct SolvedSlider {
-  int n = 0;        ///< cells on the slider
-  double dx = 0;    ///< [m]
-  double load = 0;  ///< of the pressure above that at the ends [N/m]
-  double flow = 0;  ///< [m^2/s]
-  Eigen::VectorXd p, theta;
-  SolvedFilm film;
-};
-
-constexpr int groove_cells = 4;
-
-// Node k lies at x = k dx; beyond the slider's end lie both grooves, first the outlet's, then the inlet's.
-SolvedSlider solve(const Slider& slider, int n) {
-  SolvedSlider s{.n = n, .dx = slider.length / n};
-  const int all = n + 2 * groove_cells;
-  FilmModel m{.R = all * s.dx / (2 * pi), .L = 0.01, .c = slider.gap(slider.length), .grid = {all, 3}};
-  m.lubricant.mu0 = slider.mu;
-  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
-  const double cell = 2 * pi / all, arc = groove_cells * cell, inlet = arc - 0.5 * cell;
-  m.features = {{.name = "inlet", .phi = -0.5 * inlet, .arc = inlet, .length = m.L, .pressure = slider.end_pressure},
-                {.name = "outlet", .phi = n * cell + 0.5 * arc, .arc = arc, .length = m.L}};
-  m.features[1].pressure = slider.end_pressure;
-  if (slider.depth > 0) {
-    m.features.push_back({.name = "pocket",
-                          .phi = 0.5 * (slider.from + slider.to) / m.R,
-                          .arc = (slider.to - slider.from) / m.R,
-                          .length = m.L,
-                          .is_fed = false,
-                          .depth = slider.depth});
-  }
-  SurfaceMotion motion = surfaces(m, {});
-  motion.u_journal = slider.U;
-  const double between = slider.gap(slider.length);
-  for (int k = 0; k < all; ++k) {
-    // The slider's own gap goes on into the grooves for as far as its ends see it; between the grooves it is even.
-    const int x = k <= n + 2 ? k : k == all - 1 ? -1 : n + 3;
-    const double g = x <= n + 2 ? slider.gap(x * s.dx) : between;
-    motion.g.segment(m.grid.index(k, 0), 3).setConstant(g);
-  }
-  s.film = solve_cold(m, motion, {0, 0});
-  REQUIRE(s.film.summary.converged);
-  CHECK(s.film.observed.mass_balance_error < 1e-9);  // the solver's tolerance is 1e-10 per node
-  s.p.resize(n + 1), s.theta.resize(n + 1);
-  for (int k = 0; k <= n; ++k) {
-    s.p[k] = s.film.fields.p[m.grid.index(k, 1)] - slider.end_pressure;
-    s.theta[k] = s.film.fields.theta[m.grid.index(k, 1)];
-  }
-  s.load = s.p.sum() * s.dx;  // trapezoidal rule: both ends are zero
-  // What the inlet feeds, and what the surface carries into it from the other groove.
-  s.flow = s.film.observed.flow_features[0] / m.L + 0.5 * slider.U * between;
-  return s;
-}
 
 double order(double coarse, double fine, double refinement = 2) {
   return std::log(std::abs(coarse / fine)) / std::log(refinement);

@@ -57,6 +57,23 @@ TEST_CASE("Oils_HaveTheViscosityOfTheirTemperature") {
   CHECK(own.mu0 == relative(0.012722091814 * 900 / 863).epsilon(1e-9));  // the program's digits
 }
 
+TEST_CASE("ShearThinning_IsRead") {
+  const auto of = [](const std::string& oil) { return read_bearing(oil, "").film.lubricant; };
+  const film::ShearThinning cross = of("viscosity: 10 mPa.s, shear_thinning: {law: cross, limit_viscosity: 6 mPa.s, "
+                                       "critical_shear_rate: 1e6 1/s, exponent: 0.8}")
+                                        .shear_thinning;
+  CHECK(0.01 * cross.ratio(1e5, 0.01).value == relative(0.009452772445587159).epsilon(digits));
+  const film::ShearThinning carreau = of("viscosity: 10 mPa.s, shear_thinning: {law: carreau, limit_ratio: 0.25, "
+                                         "critical_stress: 10 kPa, exponent: 0.7, transition: 1.5}")
+                                          .shear_thinning;
+  CHECK(carreau.ratio(1e6, 0.01).value == relative(0.25 + 0.75 * std::pow(2, -0.2)).epsilon(digits));
+  // A grade's own, through its viscosity at high shear; none where it is said, nor of an oil without polymers.
+  const film::Lubricant hot = of("grade: sae_5w_30, temperature: 150 degC");
+  CHECK(hot.mu0 * hot.shear_thinning.ratio(1e6, hot.mu0).value == relative(3.1e-3).epsilon(1e-9));  // of 150 degC in K
+  CHECK(of("grade: sae_5w_30, temperature: 150 degC, shear_thinning: none").shear_thinning.is_newtonian());
+  CHECK(of("grade: sae_30, temperature: 150 degC").shear_thinning.is_newtonian());
+}
+
 TEST_CASE("Grades_AreThoseOfTheirStandards") {
   for (const OilGrade& grade : oil_grades()) {
     CAPTURE(grade.name);
@@ -69,6 +86,14 @@ TEST_CASE("Grades_AreThoseOfTheirStandards") {
     if (name.ends_with("_50") && !name.starts_with("iso")) CHECK((16.3e-6 <= grade.nu100 && grade.nu100 < 21.9e-6));
     if (name.ends_with("_60")) CHECK((21.9e-6 <= grade.nu100 && grade.nu100 < 26.1e-6));
     CHECK(grade.nu40 > grade.nu100);
+    // Least viscosity at 150 degC and 1e6 1/s; that at rest lies above, by no more than polymers add.
+    if (grade.hths == 0) continue;
+    const auto below = [&](const char* end, double least) { return name.ends_with(end) && grade.hths < least; };
+    const bool is_light = name.starts_with("sae_0") || name.starts_with("sae_5") || name.starts_with("sae_10");
+    CHECK(!(below("_16", 2.3e-3) || below("_20", 2.6e-3) || below("_30", 2.9e-3)));
+    CHECK(!(below("_40", is_light ? 3.5e-3 : 3.7e-3) || below("_50", 3.7e-3)));
+    CHECK(grade.shear_thinning().critical_stress > 2e3);
+    CHECK(grade.shear_thinning().critical_stress < 40e3);
     CHECK(grade.pour_point < grade.flash_point);
   }
 }
@@ -115,6 +140,19 @@ TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
               "ambient: 20 degC}",
               "a ring no larger than its bore"));
   CHECK(tells("grade: iso_vg_46", "model: global", "nothing that takes the heat away"));
+  const auto sheared = [](const std::string& law) { return "viscosity: 10 mPa.s, shear_thinning: {" + law + "}"; };
+  CHECK(
+      tells(sheared("law: cross, exponent: 0.8"), "", "none of the keys 'critical_shear_rate' and 'critical_stress'"));
+  CHECK(tells(sheared("law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_ratio: 0.5, limit_viscosity: 5 mPa.s"),
+              "", "two limits of the same oil"));
+  CHECK(tells(sheared("law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 12 mPa.s"), "",
+              "a limit above the viscosity at rest, 10 mPa.s"));
+  CHECK(tells(sheared("law: cross, exponent: 2, critical_stress: 1 kPa, limit_ratio: 0.1"), "",
+              "an exponent of at most 1, or with this one a limit_ratio above 0.111"));
+  CHECK(
+      tells("grade: iso_vg_46, shear_thinning: {law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 5 "
+            "mPa.s}",
+            "model: isothermal, temperature: 50 degC", "a `temperature` of the lubricant, or a 'limit_ratio'"));
   CHECK(tells(
       "grade: iso_vg_46",
       "model: film, supply_temperature: 50 degC}\n    edge_pressure: closed\n    cavitation: {model: mass_conserving",

@@ -82,7 +82,7 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) 
     gap.little = little, gap.little_h = speed;
     gap.little_journal = speed * relief_.depth_by_journal()[from];
   }
-  const double mu = 2 / (nodes_[face.a].fluidity + nodes_[face.b].fluidity), volume = face.width * face.length;
+  const double mu = 2 / (flow_of(face.a, f).value + flow_of(face.b, f).value), volume = face.width * face.length;
   const double drop = nodes_[face.b].wall - nodes_[face.a].wall, drag = 12 * mu * volume;
   flow.recirculation = drag * past * past * deep.excess.value;
   FaceFlow::Moment& m = flow.moment;
@@ -112,7 +112,8 @@ void FlowBalance::add_face(std::size_t f) {
   flow.density = 0.5 * (a.density + b.density);
   // No pressure passes a supply line: both sides are tied to the line itself.
   const double h = thickness_on(f), drop = a.p - b.p;
-  const double fluidity = is_cut(f) ? 0 : 0.5 * (a.fluidity + b.fluidity);
+  const Fluidity &at_a = flow_of(face.a, f), &at_b = flow_of(face.b, f);
+  const double fluidity = is_cut(f) ? 0 : 0.5 * (at_a.value + at_b.value);
   FaceGap gap = smooth_gap(f, h);
   roughen(f, gap);
   gap.little = gap.full, gap.little_h = gap.full_h;
@@ -133,8 +134,8 @@ void FlowBalance::add_face(std::size_t f) {
   const double by_h = by_cube * gap.cube_h + by_full * gap.full_h + (single ? 0 : by_little * gap.little_h);
   const auto [share, by_bend] = thickness_shares(f);
   const double both = by_full + (single ? 0 : by_little);
-  flow.q_h_a = share * by_h + by_cube * gap.cube_at[0] + both * gap.full_at[0];
-  flow.q_h_b = share * by_h + by_cube * gap.cube_at[1] + both * gap.full_at[1];
+  flow.q_h_a = share * by_h + by_cube * gap.cube_at[0] + both * gap.full_at[0] + 0.5 * flow.q_fluidity * at_a.h;
+  flow.q_h_b = share * by_h + by_cube * gap.cube_at[1] + both * gap.full_at[1] + 0.5 * flow.q_fluidity * at_b.h;
   flow.q_bend = by_bend * by_h;
   flow.q_journal =
       by_cube * gap.cube_journal + by_full * gap.full_journal + (single ? 0 : by_little * gap.little_journal);
@@ -153,7 +154,8 @@ std::array<double, 2> FlowBalance::flow_by_u(std::size_t f) const {
   const bool from_a = flow.couette >= 0;
   const double by_theta = flow.carried(upstream(f).theta).theta;
   const auto by_laws = [&](const Node& node, double q_h) {
-    return q_h * node.h_u + 0.5 * (flow.q_fluidity * node.fluidity_u + flow.q_density * node.density_u);
+    const double fluidity_u = node.flow[axial(f) ? 1 : 0].u;
+    return q_h * node.h_u + 0.5 * (flow.q_fluidity * fluidity_u + flow.q_density * node.density_u);
   };
   return {flow.K * a.p_u + by_laws(a, flow.q_h_a) + (from_a ? by_theta * a.theta_u : 0),
           -flow.K * b.p_u + by_laws(b, flow.q_h_b) + (from_a ? 0 : by_theta * b.theta_u)};

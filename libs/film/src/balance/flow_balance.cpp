@@ -158,10 +158,21 @@ void FlowBalance::take_motion(const SurfaceMotion& motion) {
   half_slip_z_ = 0.5 * (motion.w_shell - motion.w_journal);
   speeds_.u_shell = motion.u_shell, speeds_.u_journal = motion.u_journal;
   speeds_.w_shell = motion.w_shell, speeds_.w_journal = motion.w_journal;
+  sliding_ = sliding_of(slip().x(), slip().y());
   if (relief_.is_empty()) return;
   relief_.place(motion.phi_journal, phi_start_, dt_, motion.u_journal);
   std::fill(tube_of_.begin(), tube_of_.end(), -1);
   for (std::size_t t = 0; t < relief_.tubes().size(); ++t) tube_of_[relief_.tubes()[t].face] = static_cast<int>(t);
+}
+
+Eigen::Vector2d FlowBalance::slip() const {
+  return {speeds_.u_journal - speeds_.u_shell, speeds_.w_journal - speeds_.w_shell};
+}
+
+SlidingChange FlowBalance::change_of_sliding(const MotionDirection& direction) const {
+  if (model_.lubricant.shear_thinning.is_newtonian()) return {};
+  return film::change_of_sliding(slip(),
+                                 {direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell});
 }
 
 FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
@@ -195,13 +206,19 @@ void FlowBalance::skew(double skew, double h, RoughGap& gap) {
   }
 }
 
+NodeViscosity FlowBalance::viscosity_of(int node) const {
+  const double shear = 1 / viscosity_.shear_fluidity[node];
+  if (viscosity_.at_rest.size() == 0) return {1 / viscosity_.fluidity[node], shear, 1, shear};
+  return {1 / viscosity_.fluidity[node], shear, viscosity_.axial_fluidity[node] / viscosity_.fluidity[node],
+          viscosity_.at_rest[node], true};
+}
+
 FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
   if (const FilmDomain domain = judge_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
     const int j = i % model_.grid.n_z;
-    nodes_[i] = is_layered()
-                    ? law_.state(motion.g[i], u[i], j, {1 / viscosity_.fluidity[i], 1 / viscosity_.shear_fluidity[i]})
-                    : law_.state(motion.g[i], u[i], j);
+    nodes_[i] = is_layered() ? law_.state(motion.g[i], u[i], j, sliding_, viscosity_of(i))
+                             : law_.state(motion.g[i], u[i], j, sliding_);
     if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
     if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;
@@ -322,8 +339,12 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   const bool speeds =
       direction.u_shell != 0 || direction.u_journal != 0 || direction.w_shell != 0 || direction.w_journal != 0;
   const bool turns = direction.phi_journal != 0 && relief_.has_pockets();
+  const SlidingChange sliding = speeds ? change_of_sliding(direction) : SlidingChange{};
   for (std::size_t f = 0; (gap || speeds || turns) && f < faces_.size(); ++f) {
-    const double q = flow_along(f, direction);
+    double q = flow_along(f, direction);
+    if (speeds)
+      q += 0.5 * flows_[f].q_fluidity *
+           (flow_of(faces_[f].a, f).along(sliding) + flow_of(faces_[f].b, f).along(sliding));
     const bool cut = is_cut(f);
     if (!cut || !has_line_row(faces_[f].a)) dr[faces_[f].a] += q;
     if (!cut || !has_line_row(faces_[f].b)) dr[faces_[f].b] -= q;
@@ -335,7 +356,8 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     if (held.other >= 0) dr[i] += line_row_along(held, direction);
     const double chi = held.chi_line * direction.phi_supply + held.chi_journal * direction.phi_journal;
     dr[i] = (1 - held.chi) * dr[i] - chi * (line_balance(i) + slack(i));
-    double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal;
+    double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal + t.k_rate * sliding.rate +
+               t.k_turn * sliding.turn;
     if (gap) {
       k += t.k_g * direction.g[i];
       if (held.other >= 0) k += t.k_g_other * direction.g[held.other] + t.k_bend * direction_bends_[line_face(held)];

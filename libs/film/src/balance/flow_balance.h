@@ -105,7 +105,8 @@ class FlowBalance {
   /// Change of the thickness on face f with that at both its nodes, each, and with its bend [-].
   [[nodiscard]] std::array<double, 2> thickness_shares(std::size_t f) const;
   [[nodiscard]] const PocketRelief& relief() const { return relief_; }
-  [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }            ///< without fields
+  [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }  ///< without fields
+  [[nodiscard]] Eigen::Vector2d slip() const;  ///< of the journal's surface past the shell's [m/s]
   [[nodiscard]] double largest_throughput() const { return largest_throughput_; }  ///< of a control volume [m^3/s]
   [[nodiscard]] double relative_residual() const;
   [[nodiscard]] int worst_node() const;
@@ -172,6 +173,7 @@ class FlowBalance {
   struct Tie {
     double k = 0, k_u = 0, k_g = 0;
     double k_u_other = 0, k_g_other = 0, k_bend = 0, k_line = 0, k_journal = 0;
+    double k_rate = 0, k_turn = 0;  ///< with what SlidingChange tells
   };
   /// Where a supply line cuts the tubes between two columns of nodes.
   struct Line {
@@ -221,6 +223,8 @@ class FlowBalance {
   [[nodiscard]] const Node& upstream(std::size_t f) const {
     return nodes_[flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b];
   }
+  /// Change of slip_ and its direction with the surfaces' speeds.
+  [[nodiscard]] SlidingChange change_of_sliding(const MotionDirection& direction) const;
   /// Change of the flow over face f with the surfaces.
   [[nodiscard]] double flow_along(std::size_t f, const MotionDirection& direction) const;
   [[nodiscard]] const HeldNode* held_at(int node) const;
@@ -228,6 +232,7 @@ class FlowBalance {
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
+  [[nodiscard]] NodeViscosity viscosity_of(int node) const;
   [[nodiscard]] bool is_layered() const { return viscosity_.fluidity.size() != 0; }
   static void skew(double skew, double h, RoughGap& gap);
   void evaluate_cell(int node, const SurfaceMotion& motion);
@@ -254,6 +259,8 @@ class FlowBalance {
   [[nodiscard]] double oil_shown(int node, double content) const;  ///< per area, with a fill fraction of 0 to 1 [m]
   [[nodiscard]] double pocket_rate(int node) const;                ///< of its mean depth in a steady film [m/s]
   [[nodiscard]] bool axial(std::size_t f) const { return f >= first_axial_face_; }
+  /// 1/mu of flow along pressure at a node of face f, across it.
+  [[nodiscard]] const Fluidity& flow_of(int node, std::size_t f) const { return nodes_[node].flow[axial(f) ? 1 : 0]; }
   /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
   [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : speed_phi_; }
   /// Flows over face f, of a full gap and of little oil, that belong to a set of speeds.
@@ -286,6 +293,7 @@ class FlowBalance {
   std::vector<int> tube_of_;  ///< of every face its pocket tube, -1 for none
   Line line_;
   SurfaceMotion speeds_;
+  Sliding sliding_;
   std::vector<HeldNode> held_;
   std::vector<int> held_index_;  ///< of every node its place in held_, -1 for none
   std::vector<CoveredNode> covered_;

@@ -7,9 +7,27 @@
 #include "hersey/film/greenwood_tripp.h"
 
 namespace hersey::film {
+namespace {
+
+// Sliding of surfaces that stand [m/s].
+constexpr double standing = 1e-4;
+
+}  // namespace
+
 double fill_scale(const FilmModel& model) {
   const double slope = model.R / model.c;
   return 6 * model.lubricant.mu0 * model.fill_speed * slope * slope * (2 * std::numbers::pi / model.grid.n_phi);
+}
+
+Sliding sliding_of(double slip_phi, double slip_z) {
+  const double around = slip_phi * slip_phi + standing * standing, square = around + slip_z * slip_z;
+  return {std::sqrt(square), around / square};
+}
+
+SlidingChange change_of_sliding(const Eigen::Vector2d& slip, const Eigen::Vector2d& change) {
+  const double around = slip.x() * slip.x() + standing * standing, square = around + slip.y() * slip.y();
+  const double by_log = slip.dot(change) / square;
+  return {by_log, 2 * (slip.x() * change.x() - around * by_log) / square};
 }
 
 CavitationScales cavitation_scales(const FilmModel& model) {
@@ -34,13 +52,13 @@ NodeLaw::NodeLaw(const FilmModel& model)
       cavitation_(cavitation_law(model)),
       scales_(cavitation_scales(model)),
       contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus),
-      uniform_{model.lubricant.mu0, model.lubricant.mu0} {}
+      uniform_{model.lubricant.mu0, model.lubricant.mu0, 1, model.lubricant.mu0} {}
 
-Node NodeLaw::state(double g, double u, int j, const NodeViscosity& viscosity) const {
+Node NodeLaw::state(double g, double u, int j, const Sliding& sliding, const NodeViscosity& viscosity) const {
   Node node;
   pressure_and_fill(u, j, node);
-  rheology(viscosity, node);
   film_thickness(g, node);
+  rheology(viscosity, sliding, node);
   return node;
 }
 
@@ -62,16 +80,49 @@ void NodeLaw::pressure_and_fill(double u, int j, Node& node) const {
   node.share = share.value, node.share_u = share.slope;
 }
 
-void NodeLaw::rheology(const NodeViscosity& viscosity, Node& node) const {
+void NodeLaw::rheology(const NodeViscosity& viscosity, const Sliding& sliding, Node& node) const {
   const Lubricant& oil = model_.lubricant;
-  const ValueAndSlope ratio = log_viscosity_ratio(oil, node.p, viscosity.shear), density = density_ratio(oil, node.p);
-  node.fluidity = (ratio.value == 0 ? 1 : std::exp(-ratio.value)) / viscosity.flow;
-  node.fluidity_u = -ratio.slope * node.fluidity * node.p_u;
-  node.shear_viscosity = viscosity.shear / viscosity.flow;
+  const ValueAndSlope ratio = log_viscosity_ratio(oil, node.p, viscosity.at_rest), density = density_ratio(oil, node.p);
+  const double fluidity = (ratio.value == 0 ? 1 : std::exp(-ratio.value)) / viscosity.flow,
+               slope = ratio.slope * node.p_u;
+  node.flow[0] = {.value = fluidity, .u = -slope * fluidity};
+  node.flow[1] = {.value = viscosity.axial * fluidity, .u = viscosity.axial * node.flow[0].u};
+  node.mu = viscosity.shear / viscosity.flow / fluidity;
+  node.mu_u = slope * node.mu;
+  if (!oil.shear_thinning.is_newtonian() && !viscosity.is_sheared) thin(sliding, slope, node);
   node.density = density.value;
   node.density_u = density.slope * node.p_u;
   node.content = node.density * node.theta;
   node.content_u = node.density_u * node.theta + node.density * node.theta_u;
+}
+
+// What sliding leaves of a viscosity that grows with u by `log_slope` (thermal.23): more pressure drives a
+// flow along the sliding against the tangent of the stress, one across it against the stress itself.
+void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
+  const ShearThinning& thinning = model_.lubricant.shear_thinning;
+  const double mu_n = node.mu, fluidity = node.flow[0].value, k = thinning.by_viscosity();
+  const ShearRatio R = thinning.ratio(sliding.speed / node.h, mu_n);
+  const auto thinned = [&](const ValueAndSlope& left) {
+    const double by_rate = -fluidity * left.slope / (left.value * left.value);
+    return Fluidity{.value = fluidity / left.value,
+                    .u = -log_slope * (fluidity / left.value - k * by_rate),
+                    .h = -by_rate / node.h,
+                    .rate = by_rate};
+  };
+  const Fluidity along = thinned(R.tangent()), across = thinned({R.value, R.slope});
+  for (const int axis : {0, 1}) {
+    const double share = axis == 0 ? sliding.share_phi : 1 - sliding.share_phi, rest = 1 - share;
+    const double turn = along.value - across.value;
+    node.flow[axis] = {.value = share * along.value + rest * across.value,
+                       .u = share * along.u + rest * across.u,
+                       .h = share * along.h + rest * across.h,
+                       .rate = share * along.rate + rest * across.rate,
+                       .turn = axis == 0 ? turn : -turn};
+  }
+  node.mu = mu_n * R.value;
+  node.mu_u = log_slope * mu_n * (R.value + k * R.slope);
+  node.mu_rate = mu_n * R.slope;
+  node.mu_h = -node.mu_rate / node.h;
 }
 
 void NodeLaw::film_thickness(double g, Node& node) const {

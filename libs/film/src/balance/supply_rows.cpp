@@ -58,17 +58,28 @@ FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
   const double h = line ? held.near * node.h + held.far * nodes_[held.other].h + held.bend * bend : node.h;
   const double unit = line ? held.conductance : unit_conductance_ / 12;
   const RoughGap& rough = rough_[held.node];
-  const double smooth = unit * node.density * h * h * h * node.fluidity;
-  const double factor = line ? rough.pressure[0] : 0.5 * (rough.pressure[0] + rough.pressure[1]);
-  const double by_node = smooth * (line ? rough.pressure_h[0] : 0.5 * (rough.pressure_h[0] + rough.pressure_h[1]));
+  const Fluidity &around = node.flow[0], &along = node.flow[1];
+  const double smooth = unit * node.density * h * h * h * around.value;
+  // Along the axis oil that thins by sliding has another fluidity: of the mean of both directions, with derivatives.
+  const auto both = [&](double by_around, double by_along) { return line ? by_around : 0.5 * (by_around + by_along); };
+  const double ratio = along.value / around.value;
+  const auto by_fluidity = [&](double change_around, double change_along) {
+    return smooth * both(rough.pressure[0] * change_around, rough.pressure[1] * change_along) / around.value;
+  };
+  const double factor = both(rough.pressure[0], rough.pressure[1] * ratio);
+  const double by_node =
+      smooth * both(rough.pressure_h[0], rough.pressure_h[1] * ratio) + by_fluidity(around.h, along.h);
   const double k = smooth * factor, by_h = 3 * k / h;
-  const double by_laws = k * (node.fluidity_u / node.fluidity + node.density_u / node.density);
+  const double by_laws = by_fluidity(around.u, along.u) + k * node.density_u / node.density;
+  const double k_rate = by_fluidity(around.rate, along.rate), k_turn = by_fluidity(around.turn, along.turn);
   if (!line) {
     const double scale = held.chi;
     return {.k = scale * k,
             .k_u = scale * ((by_h + by_node) * node.h_u + by_laws),
             .k_g = scale * (by_h + by_node) * node.h_g,
-            .k_journal = held.chi_journal * k};
+            .k_journal = held.chi_journal * k,
+            .k_rate = scale * k_rate,
+            .k_turn = scale * k_turn};
   }
   const Node& other = nodes_[held.other];
   const double near = by_h * held.near + by_node;
@@ -78,7 +89,9 @@ FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
           .k_u_other = by_h * held.far * other.h_u,
           .k_g_other = by_h * held.far * other.h_g,
           .k_bend = by_h * held.bend,
-          .k_line = by_h * (held.near_line * (node.h - other.h) + held.bend_line * bend)};
+          .k_line = by_h * (held.near_line * (node.h - other.h) + held.bend_line * bend),
+          .k_rate = k_rate,
+          .k_turn = k_turn};
 }
 
 // Edges win where they meet a line or a feature. One in air is filled there, but its pressure cannot rise.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "heat/heat_equations.h"
 #include "heat/layer_flows.h"
 #include "heat/layer_profile.h"
+#include "heat/layer_shear.h"
 #include "hersey/core/contract.h"
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
@@ -57,7 +59,10 @@ struct FilmHeat::Impl {
         equations(film, given) {}
 
   [[nodiscard]] HeatState start() const;
+  [[nodiscard]] bool shears_layers() const;
   [[nodiscard]] const Eigen::VectorXd& viscosities_at_rest();
+  [[nodiscard]] Eigen::VectorXd viscosities();
+  void thin();
   void show_rest();
   void observe(const CarryingFilm& film);
   void show_surfaces(const CarryingFilm& film);
@@ -89,6 +94,7 @@ HeatState FilmHeat::Impl::start() const {
   }
   first.supplies.resize(equations.supplies());
   for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k);
+  if (shears_layers()) first.thinning.setOnes(first.film.size() + 2 * grid.size());
   return first;
 }
 
@@ -99,6 +105,34 @@ const Eigen::VectorXd& FilmHeat::Impl::viscosities_at_rest() {
   T_of_mu = state.film;
   mu = T_of_mu.unaryExpr([&](double T) { return viscosity_at(law, T); });
   return mu;
+}
+
+bool FilmHeat::Impl::shears_layers() const {
+  return thermal.layers > 1 && !flow.model().lubricant.shear_thinning.is_newtonian();
+}
+
+Eigen::VectorXd FilmHeat::Impl::viscosities() {
+  Eigen::VectorXd mu = viscosities_at_rest();
+  if (shears_layers()) mu.array() *= state.thinning.head(mu.size()).array();
+  return mu;
+}
+
+/// By the shear in the film last evaluated.
+void FilmHeat::Impl::thin() {
+  const auto layers = static_cast<std::size_t>(thermal.layers);
+  const Lubricant& oil = flow.model().lubricant;
+  Eigen::VectorXd mu = viscosities_at_rest();
+  for (int node = 0; node < flow.size(); ++node) {
+    const Eigen::Index first = node * thermal.layers;
+    const std::span<double> at{mu.data() + first, layers};
+    const Node& film = flow.nodes()[node];
+    const double at_rest = 1 / profile_of(at).shear_fluidity;
+    const double by_pressure = std::exp(log_viscosity_ratio(oil, film.p, at_rest).value);
+    for (double& one : at) one *= by_pressure;
+    state.thinning.segment<2>(mu.size() + 2 * node) =
+        thin_layers(oil.shear_thinning, at, {flow.slip() / film.h, film.h * steepest_gradient(flow, node)},
+                    {state.thinning.data() + first, layers});
+  }
 }
 
 void FilmHeat::Impl::show_rest() {
@@ -130,7 +164,7 @@ const HeatState& FilmHeat::state() const { return impl_->state; }
 void FilmHeat::set_state(const HeatState& state) {
   const HeatState& now = impl_->state;
   HERSEY_REQUIRE(state.film.size() == now.film.size() && state.shell.size() == now.shell.size() &&
-                     state.supplies.size() == now.supplies.size(),
+                     state.supplies.size() == now.supplies.size() && state.thinning.size() == now.thinning.size(),
                  "temperatures of this film");
   impl_->state = state;
 }
@@ -144,12 +178,21 @@ LayeredViscosity FilmHeat::viscosity() const {
   LayeredViscosity viscosity;
   for (auto* field : {&viscosity.fluidity, &viscosity.shear_fluidity, &viscosity.skew})
     field->resize(model.grid.size());
-  const Eigen::VectorXd& mu = impl_->viscosities_at_rest();
+  const Eigen::VectorXd mu = impl_->viscosities();
   for (int node = 0; node < model.grid.size(); ++node) {
     const LayerProfile profile = profile_in(mu, node);
     viscosity.fluidity[node] = profile.fluidity;
     viscosity.shear_fluidity[node] = profile.shear_fluidity;
     viscosity.skew[node] = profile.skew;
+  }
+  if (!impl_->shears_layers()) return viscosity;
+  const Eigen::VectorXd at_rest = impl_->viscosities_at_rest();
+  viscosity.at_rest.resize(model.grid.size()), viscosity.axial_fluidity.resize(model.grid.size());
+  for (int node = 0; node < model.grid.size(); ++node) {
+    viscosity.at_rest[node] = 1 / profile_in(at_rest, node).shear_fluidity;
+    const auto factors = impl_->state.thinning.segment<2>(mu.size() + 2 * node);
+    viscosity.axial_fluidity[node] = factors.y() * viscosity.fluidity[node];
+    viscosity.fluidity[node] *= factors.x();
   }
   return viscosity;
 }
@@ -159,10 +202,21 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   const FilmDomain domain = m.flow.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(m.flow.model(), domain));
   m.wrench.evaluate(m.flow, motion, false);
-  m.flows.evaluate(m.flow, m.wrench, motion, m.viscosities_at_rest());
+  m.flows.evaluate(m.flow, m.wrench, motion, m.viscosities());
   const CarryingFilm film{m.flow, m.wrench, m.flows, history.dt};
   m.state = m.equations.solve(film, m.state);
+  if (m.shears_layers()) m.thin();
   m.observe(film);
+}
+
+double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
+  Impl& m = *impl_;
+  if (!m.shears_layers()) return 0;
+  const FilmDomain domain = m.flow.evaluate(motion, history, u);
+  HERSEY_REQUIRE(domain.is_inside(), text(m.flow.model(), domain));
+  const Eigen::VectorXd before = m.state.thinning;
+  m.thin();
+  return (m.state.thinning.array() / before.array()).log().abs().maxCoeff();
 }
 
 void FilmHeat::Impl::observe(const CarryingFilm& film) {
@@ -237,6 +291,7 @@ void FilmHeat::persist(Archive& archive) {
   archive.io("T_shell", impl_->state.shell);
   archive.io("T_journal", impl_->state.journal);
   archive.io("T_supplies", impl_->state.supplies);
+  if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
 }
 
 }  // namespace hersey::film

@@ -7,6 +7,35 @@
 
 namespace hersey::film {
 
+Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node) {
+  const Grid& grid = balance.model().grid;
+  const GridGeometry& geometry = balance.geometry();
+  const auto slope = [&](int from, int to, double length) {
+    return (balance.nodes()[to].p - balance.nodes()[from].p) / length;
+  };
+  const int i = node / grid.n_z, j = node % grid.n_z, last = (i + grid.n_phi - 1) % grid.n_phi;
+  const double around =
+      slope(grid.index(last, j), grid.index((i + 1) % grid.n_phi, j), geometry.dx[last] + geometry.dx[i]);
+  const int below = std::max(j - 1, 0), above = std::min(j + 1, grid.n_z - 1);
+  return {around, slope(grid.index(i, below), grid.index(i, above), geometry.z[above] - geometry.z[below])};
+}
+
+Eigen::Vector2d steepest_gradient(const FlowBalance& balance, int node) {
+  Eigen::Vector2d gradient = pressure_gradient(balance, node);
+  if (!balance.is_held(node)) return gradient;
+  const Grid& grid = balance.model().grid;
+  const int i = node / grid.n_z, j = node % grid.n_z, last = (i + grid.n_phi - 1) % grid.n_phi;
+  const auto see = [&](double& steepest, int from, int to, double length) {
+    const double slope = (balance.nodes()[to].p - balance.nodes()[from].p) / length;
+    if (std::abs(slope) > std::abs(steepest)) steepest = slope;
+  };
+  see(gradient.x(), grid.index(last, j), node, balance.geometry().dx[last]);
+  see(gradient.x(), node, grid.index((i + 1) % grid.n_phi, j), balance.geometry().dx[i]);
+  if (j > 0) see(gradient.y(), node - 1, node, balance.geometry().dz[j - 1]);
+  if (j + 1 < grid.n_z) see(gradient.y(), node, node + 1, balance.geometry().dz[j]);
+  return gradient;
+}
+
 LayerFlows::LayerFlows(const FilmModel& model, int layers)
     : model_(model), layers_(static_cast<std::size_t>(layers)), shares_(static_cast<std::size_t>(model.grid.size())) {
   upwards_.resize(shares_.size() * layers_);
@@ -81,7 +110,6 @@ void LayerFlows::flow_upwards(const FlowBalance& balance) {
 // Sums over control volumes differ from the film's power, an integral of higher order (film.53), by their quadrature:
 // all of them are scaled to it.
 void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion) {
-  const Grid& grid = model_.grid;
   const auto nodes = static_cast<int>(shares_.size());
   std::vector<double> along_pressure(shares_.size(), 0.0);
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
@@ -98,19 +126,9 @@ void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench,
     sum += along_pressure[static_cast<std::size_t>(k)] + balance.area(k) * sliding_power(balance, wrench, motion, k);
   }
   const double scale = sum > 0 ? whole.power_film / sum : 1;
-  const GridGeometry& geometry = balance.geometry();
-  const auto slope = [&](int from, int to, double length) {
-    return (balance.nodes()[to].p - balance.nodes()[from].p) / length;
-  };
   for (int k = 0; k < nodes; ++k) {
-    const int i = k / grid.n_z, j = k % grid.n_z, last = (i + grid.n_phi - 1) % grid.n_phi;
     const Node& node = balance.nodes()[k];
-    const double around =
-        slope(grid.index(last, j), grid.index((i + 1) % grid.n_phi, j), geometry.dx[last] + geometry.dx[i]);
-    const int below = std::max(j - 1, 0), above = std::min(j + 1, grid.n_z - 1);
-    const double along = slope(grid.index(i, below), grid.index(i, above), geometry.z[above] - geometry.z[below]);
-    const double mixed = node.share * balance.area(k) * node.h *
-                         ((motion.u_journal - motion.u_shell) * around + (motion.w_journal - motion.w_shell) * along);
+    const double mixed = node.share * balance.area(k) * node.h * balance.slip().dot(pressure_gradient(balance, k));
     const double sliding = balance.area(k) * sliding_power(balance, wrench, motion, k);
     const LayerShares& of = shares_[static_cast<std::size_t>(k)];
     for (std::size_t l = 0; l < layers_; ++l) {

@@ -32,7 +32,7 @@ double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const
   const Node& at = balance.nodes()[node];
   const RoughGap& rough = balance.rough_gaps()[node];
   const double slip2 = rough.couette[0] * slip2_phi + rough.couette[1] * slip2_z;
-  return at.share * at.shear_viscosity * slip2 * wrench.relief_factor(node) / (at.fluidity * at.h);
+  return at.share * at.mu * slip2 * wrench.relief_factor(node) / at.h;
 }
 
 // Pressure drives oil through the gap: over a face, volume flow times drop. In guembel a face where the pressure is cut

@@ -73,6 +73,7 @@ void FilmWrench::set_speeds(const SurfaceMotion& motion) {
   slip_ << motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell;
   const double square = slip_.squaredNorm() + friction_speed * friction_speed, speed = std::sqrt(square);
   const double mu_friction = model_.asperities.mu_friction;
+  for (const int k : {0, 1}) rate_slip_[k] = change_of_sliding(slip_, Eigen::Vector2d::Unit(k)).rate;
   friction_ = mu_friction / speed * slip_;
   friction_slip_ = mu_friction / speed * (Eigen::Matrix2d::Identity() - slip_ * slip_.transpose() / square);
 }
@@ -136,15 +137,19 @@ void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_grad
     shear_ += moment.value * direction;
     if (!want_gradient) continue;
     const auto [by_node, by_bend] = balance.thickness_shares(tube.face);
+    WallPush push{tube.face, direction, by_bend * moment.h, moment.past, 0, 0, tube.in_journal};
     for (const int k : {face.a, face.b}) {
       const Node& node = balance.nodes()[k];
       const double drop = k == face.a ? -moment.drop : moment.drop;
-      by_u_.col(k) +=
-          (by_node * moment.h * node.h_u + 0.5 * moment.fluidity * node.fluidity_u + drop * node.wall_u) * direction;
-      by_g_.col(k) += by_node * moment.h * node.h_g * direction;
+      const Fluidity& flow = node.flow[axial ? 1 : 0];
+      const double by_h = by_node * moment.h + 0.5 * moment.fluidity * flow.h;
+      by_u_.col(k) += (by_h * node.h_u + 0.5 * moment.fluidity * flow.u + drop * node.wall_u) * direction;
+      by_g_.col(k) += by_h * node.h_g * direction;
+      push.by_rate += 0.5 * moment.fluidity * flow.rate;
+      push.by_turn += 0.5 * moment.fluidity * flow.turn;
     }
     by_journal_ += moment.journal * direction;
-    pushes_.push_back({tube.face, direction, by_bend * moment.h, moment.past, tube.in_journal});
+    pushes_.push_back(push);
   }
 }
 
@@ -152,15 +157,17 @@ void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_grad
 Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
   Vector6 sum = Vector6::Zero();
   const Grid& grid = model_.grid;
+  const SlidingChange sliding =
+      change_of_sliding(slip_, {direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell});
   for (const WallPush& push : pushes_) {
     const bool axial = push.face >= static_cast<std::size_t>(grid.size());
     const auto node = static_cast<int>(push.face);
-    double change = 0;
+    double change = push.by_rate * sliding.rate + push.by_turn * sliding.turn;
     if (axial) {
-      change = push.by_past * 0.5 * (direction.w_shell + direction.w_journal);
+      change += push.by_past * 0.5 * (direction.w_shell + direction.w_journal);
     } else {
-      change = push.by_past *
-               (0.5 * (direction.u_shell + direction.u_journal) - (push.in_journal ? direction.u_journal : 0));
+      change += push.by_past *
+                (0.5 * (direction.u_shell + direction.u_journal) - (push.in_journal ? direction.u_journal : 0));
       if (direction.g.size() != 0)
         change += push.by_bend * interpolation_.bend(direction.g, node / grid.n_z, node % grid.n_z);
     }
@@ -171,14 +178,15 @@ Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
 
 FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief) {
   Shear s;
-  const double mu = node.shear_viscosity / node.fluidity, couette = node.share * mu / node.h;
-  const double couette_u = (node.share_u * mu - node.share * mu * mu * node.fluidity_u / node.shear_viscosity) / node.h;
+  const double couette = node.share * node.mu / node.h;
+  const double couette_u = (node.share_u * node.mu + node.share * node.mu_u) / node.h;
   for (int k = 0; k < 2; ++k) {
     const double factor = rough.couette[k] * relief.value;
     const double factor_h = rough.couette_h[k] * relief.value + rough.couette[k] * relief.slope;
     s.couette[k] = couette * factor;
     s.couette_u[k] = couette_u * factor;
-    s.couette_h[k] = couette * (factor_h - factor / node.h);
+    s.couette_h[k] = couette * (factor_h - factor / node.h) + node.share * node.mu_h / node.h * factor;
+    s.couette_rate[k] = node.share * node.mu_rate / node.h * factor;
     s.half_gap[k] = 0.5 * (rough.mean + rough.drag[k]);
     s.half_gap_h[k] = 0.5 * (rough.mean_h + rough.drag_h[k]);
   }
@@ -280,6 +288,7 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap& rough,
   }
   by_slip_.col(0) += area * s.couette[0] * b.shear_tangential;
   by_slip_.col(1) += area * s.couette[1] * b.shear_axial;
+  by_slip_ += area * sheared(s.couette_rate[0] * slip_[0], s.couette_rate[1] * slip_[1]) * rate_slip_.transpose();
   if (node.asperity == 0) return;
   by_slip_ += area * node.asperity * (b.tangential * friction_slip_.row(0) + b.axial * friction_slip_.row(1));
 }

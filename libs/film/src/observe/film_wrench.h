@@ -53,6 +53,7 @@ class FilmWrench {
   /// z.
   struct Shear {
     Eigen::Vector2d couette, couette_u, couette_h;  ///< [Pa s/m] and slopes at given film thickness and at given u
+    Eigen::Vector2d couette_rate;                   ///< with the logarithm of the sliding speed [Pa s/m]
     Eigen::Vector2d half_gap, half_gap_h;           ///< [m]
   };
   [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief);
@@ -75,6 +76,7 @@ class FilmWrench {
     std::size_t face = 0;
     Vector6 direction;  ///< of a unit of FaceFlow::Moment
     double by_bend = 0, by_past = 0;
+    double by_rate = 0, by_turn = 0;  ///< with what SlidingChange tells
     bool in_journal = false;
   };
   std::vector<WallPush> pushes_;
@@ -85,6 +87,7 @@ class FilmWrench {
   Eigen::VectorXd opening_;              ///< how far the shell lies outside its cylinder [m]; empty: nowhere
   Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z
   Eigen::Vector2d slip_;                 ///< that speed [m/s]
+  Eigen::Vector2d rate_slip_;            ///< derivative of its logarithm [s/m]
   Eigen::Vector2d friction_;             ///< boundary friction per contact pressure on the shell [-]
   Eigen::Matrix2d friction_slip_;        ///< its derivative with slip [s/m]
 };

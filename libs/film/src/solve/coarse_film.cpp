@@ -60,6 +60,10 @@ CoarseFilm coarsened(const FilmModel& model, const SurfaceMotion& motion, const 
   if (history.viscosity.fluidity.size() != 0) {
     coarse.history.viscosity = {to_coarse(history.viscosity.fluidity), to_coarse(history.viscosity.shear_fluidity),
                                 to_coarse(history.viscosity.skew)};
+    if (history.viscosity.at_rest.size() != 0) {
+      coarse.history.viscosity.at_rest = to_coarse(history.viscosity.at_rest);
+      coarse.history.viscosity.axial_fluidity = to_coarse(history.viscosity.axial_fluidity);
+    }
   }
   if (history.dt == 0) return coarse;
   coarse.history.theta = to_coarse(history.theta);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -114,6 +115,45 @@ film::TemperatureLaw temperature_law_of(Context& context, const Value& lubricant
   return read_alternative(law, temperature_laws(density_of(lubricant)));
 }
 
+/// mu_inf over the viscosity at rest; reports what makes no sense.
+double shear_limit_of(Context& context, const Value& law, const film::Lubricant& oil, bool has_viscosity) {
+  const Value *ratio = law.find("limit_ratio"), *viscosity = law.find("limit_viscosity");
+  if (ratio != nullptr && viscosity != nullptr)
+    context.fault(*viscosity, "two limits of the same oil", "a 'limit_ratio' or a 'limit_viscosity'");
+  if (ratio != nullptr) return ratio->number;
+  if (viscosity == nullptr) return 0;
+  if (!has_viscosity)
+    context.fault(*viscosity, "a limit as a viscosity of an oil whose own viscosity depends on a temperature not given",
+                  "a `temperature` of the lubricant, or a 'limit_ratio'");
+  else if (viscosity->number > oil.mu0)
+    context.fault(*viscosity, fmt::format("a limit above the viscosity at rest, {:.4g} mPa.s", 1e3 * oil.mu0),
+                  "a smaller one");
+  return std::min(1.0, viscosity->number / oil.mu0);
+}
+
+film::ShearThinning shear_thinning_of(Context& context, const Value& lubricant, const film::Lubricant& oil,
+                                      bool has_viscosity) {
+  const Value* given = lubricant.find("shear_thinning");
+  if (given == nullptr) {
+    const OilGrade* grade = grade_of(lubricant);
+    return grade != nullptr ? grade->shear_thinning() : film::ShearThinning{};
+  }
+  const Value& law = *given;
+  if (law.broken || law.text == "none" || context.has_fault_in(law.path)) return {};
+  film::ShearThinning thinning;
+  thinning.law = read_alternative(law, shear_laws(shear_limit_of(context, law, oil, has_viscosity)));
+  if (const Value* rate = law.find("critical_shear_rate")) thinning.critical_rate = rate->number;
+  if (const Value* stress = law.find("critical_stress")) thinning.critical_stress = stress->number;
+  if (!std::visit([](const auto& one) { return one.is_monotone(); }, thinning.law)) {
+    const auto& cross = std::get<film::Cross>(thinning.law);
+    const double m = cross.exponent, least = (m - 1) * (m - 1) / (4 * m);
+    context.fault(
+        *law.find("exponent"), "an oil whose shear stress falls as it is sheared faster: no film has one answer",
+        fmt::format("an exponent of at most 1, or with this one a limit_ratio above {:.3g}", least / (1 + least)));
+  }
+  return thinning;
+}
+
 }  // namespace
 
 void interpret_lubricants(Context& context) {
@@ -132,6 +172,8 @@ void interpret_lubricants(Context& context) {
     if (const OilGrade* grade = grade_of(value)) lubricant.grade = grade->name;
     oil.viscosity_law = viscosity_law_of(context, value, oil.mu0);
     oil.density_law = density_law_of(context, value);
+    const bool has_viscosity = lubricant.temperature || !film::depends_on_temperature(oil.temperature_law);
+    oil.shear_thinning = shear_thinning_of(context, value, oil, has_viscosity);
     warn_of_unphysical(context, value);
     context.model.lubricants.push_back(std::move(lubricant));
   }

@@ -28,6 +28,11 @@ std::vector<Word> grade_words() {
   return words;
 }
 
+TypePtr shear_thinning_format() {
+  return with_exactly_one(variant("a law of shear thinning", "law", {}, variants_of(shear_laws(0))),
+                          {"critical_shear_rate", "critical_stress"});
+}
+
 TypePtr compressibility_format() { return variant("a density law", "law", {}, variants_of(density_laws())); }
 
 }  // namespace
@@ -47,6 +52,10 @@ TypePtr lubricants_format() {
                  defaulted("pressure_viscosity", pressure_viscosity_format(), "0",
                            "How the viscosity rises with pressure: alpha in mu = mu0 exp(alpha p) (Barus), or "
                            "a law. p counts from the cavitation pressure."),
+                 optional("shear_thinning", shear_thinning_format(),
+                          "How the viscosity falls with the shear rate: with `thermal: {model: film}` that in each "
+                          "layer, else that of sliding, speed over film thickness.",
+                          "`none`, or what is typical of the grade"),
                  optional("density", quantity("kg/m^3", "850 kg/m^3", Range::positive()),
                           "Density of the liquid at ambient pressure; with a grade or `law: walther`, at 15 degC.",
                           "850 kg/m^3, or that of the grade"),

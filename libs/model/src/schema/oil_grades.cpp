@@ -1,6 +1,9 @@
 #include "hersey/model/oil_grades.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "hersey/film/temperature_law.h"
 
 namespace hersey::model {
 namespace {
@@ -10,32 +13,44 @@ namespace {
 // sheet.
 constexpr std::string_view iso =
     "nu40: ISO 3448; nu100, density and points typical of mineral oils of viscosity index 95 to 110";
-constexpr std::string_view sae = "nu100 within the limits of SAE J300 (2015); the rest typical of the grade";
+constexpr std::string_view sae =
+    "nu100 within, viscosity at 150 degC and 1e6 1/s above the limits of SAE J300 (2015); the rest typical of the "
+    "grade";
 
-// mm^2/s, mm^2/s, kg/m^3, degC, degC
+// mm^2/s, mm^2/s, kg/m^3, degC, degC, mPa.s
 constexpr OilGrade grade(std::string_view name, double nu40, double nu100, double rho15, double pour, double flash,
-                         std::string_view source) {
-  return {name, 1e-6 * nu40, 1e-6 * nu100, rho15, pour + 273.15, flash + 273.15, source};
+                         double hths, std::string_view source) {
+  return {name, 1e-6 * nu40, 1e-6 * nu100, rho15, pour + 273.15, flash + 273.15, 1e-3 * hths, source};
 }
+
+// Of a typical multigrade oil: what its polymers add is half of the viscosity, and how it goes.
+constexpr double typical_limit = 0.5, typical_exponent = 0.8;
 
 }  // namespace
 
+film::ShearThinning OilGrade::shear_thinning() const {
+  if (hths == 0) return {};
+  const double at_rest = film::viscosity_at(film::WaltherViscosity::through(nu40, nu100, rho15), hths_temperature);
+  const double left = hths / at_rest, x = std::pow((1 - left) / (left - typical_limit), 1 / typical_exponent);
+  return {film::Cross{typical_limit, typical_exponent}, 0, hths_rate * at_rest / x};
+}
+
 const std::vector<OilGrade>& oil_grades() {
   static const std::vector<OilGrade> grades{
-      grade("iso_vg_10", 10, 2.6, 848, -30, 160, iso),    grade("iso_vg_15", 15, 3.4, 855, -27, 180, iso),
-      grade("iso_vg_22", 22, 4.3, 860, -24, 200, iso),    grade("iso_vg_32", 32, 5.4, 863, -24, 210, iso),
-      grade("iso_vg_46", 46, 6.8, 869, -21, 220, iso),    grade("iso_vg_68", 68, 8.7, 874, -21, 230, iso),
-      grade("iso_vg_100", 100, 11.3, 880, -18, 240, iso), grade("iso_vg_150", 150, 14.8, 887, -15, 250, iso),
-      grade("iso_vg_220", 220, 19.0, 893, -12, 260, iso), grade("iso_vg_320", 320, 24.4, 898, -12, 265, iso),
-      grade("iso_vg_460", 460, 30.8, 903, -9, 270, iso),  grade("sae_0w_16", 33, 7.1, 845, -42, 215, sae),
-      grade("sae_0w_20", 44, 8.4, 846, -42, 220, sae),    grade("sae_0w_30", 55, 10.3, 848, -42, 220, sae),
-      grade("sae_0w_40", 75, 13.5, 850, -42, 220, sae),   grade("sae_5w_20", 48, 8.5, 852, -39, 220, sae),
-      grade("sae_5w_30", 64, 11.0, 855, -39, 220, sae),   grade("sae_5w_40", 85, 14.0, 857, -39, 220, sae),
-      grade("sae_10w_30", 70, 10.8, 865, -36, 220, sae),  grade("sae_10w_40", 95, 14.4, 868, -36, 220, sae),
-      grade("sae_15w_40", 108, 14.6, 878, -30, 225, sae), grade("sae_15w_50", 138, 18.8, 880, -30, 225, sae),
-      grade("sae_20w_50", 155, 18.3, 884, -24, 230, sae), grade("sae_20", 58, 8.0, 876, -24, 215, sae),
-      grade("sae_30", 95, 11.0, 885, -21, 225, sae),      grade("sae_40", 140, 14.6, 890, -18, 235, sae),
-      grade("sae_50", 215, 19.3, 895, -15, 240, sae),     grade("sae_60", 320, 24.5, 900, -12, 250, sae),
+      grade("iso_vg_10", 10, 2.6, 848, -30, 160, 0, iso),      grade("iso_vg_15", 15, 3.4, 855, -27, 180, 0, iso),
+      grade("iso_vg_22", 22, 4.3, 860, -24, 200, 0, iso),      grade("iso_vg_32", 32, 5.4, 863, -24, 210, 0, iso),
+      grade("iso_vg_46", 46, 6.8, 869, -21, 220, 0, iso),      grade("iso_vg_68", 68, 8.7, 874, -21, 230, 0, iso),
+      grade("iso_vg_100", 100, 11.3, 880, -18, 240, 0, iso),   grade("iso_vg_150", 150, 14.8, 887, -15, 250, 0, iso),
+      grade("iso_vg_220", 220, 19.0, 893, -12, 260, 0, iso),   grade("iso_vg_320", 320, 24.4, 898, -12, 265, 0, iso),
+      grade("iso_vg_460", 460, 30.8, 903, -9, 270, 0, iso),    grade("sae_0w_16", 33, 7.1, 845, -42, 215, 2.4, sae),
+      grade("sae_0w_20", 44, 8.4, 846, -42, 220, 2.7, sae),    grade("sae_0w_30", 55, 10.3, 848, -42, 220, 3, sae),
+      grade("sae_0w_40", 75, 13.5, 850, -42, 220, 3.6, sae),   grade("sae_5w_20", 48, 8.5, 852, -39, 220, 2.7, sae),
+      grade("sae_5w_30", 64, 11.0, 855, -39, 220, 3.1, sae),   grade("sae_5w_40", 85, 14.0, 857, -39, 220, 3.7, sae),
+      grade("sae_10w_30", 70, 10.8, 865, -36, 220, 3.1, sae),  grade("sae_10w_40", 95, 14.4, 868, -36, 220, 3.8, sae),
+      grade("sae_15w_40", 108, 14.6, 878, -30, 225, 4, sae),   grade("sae_15w_50", 138, 18.8, 880, -30, 225, 4.7, sae),
+      grade("sae_20w_50", 155, 18.3, 884, -24, 230, 4.6, sae), grade("sae_20", 58, 8.0, 876, -24, 215, 0, sae),
+      grade("sae_30", 95, 11.0, 885, -21, 225, 0, sae),        grade("sae_40", 140, 14.6, 890, -18, 235, 0, sae),
+      grade("sae_50", 215, 19.3, 895, -15, 240, 0, sae),       grade("sae_60", 320, 24.5, 900, -12, 250, 0, sae),
   };
   return grades;
 }

@@ -65,6 +65,39 @@ std::vector<Alternative<film::TemperatureLaw>> temperature_laws(double rho15) {
   };
 }
 
+std::vector<Alternative<film::ShearLaw>> shear_laws(double limit) {
+  const auto with_limits = [](std::vector<Key> keys) {
+    keys.push_back(
+        optional("limit_ratio", number("0.6", {.low = 0, .high = 1}), "mu_inf/mu0, what no shear takes.", "0"));
+    keys.push_back(optional(
+        "limit_viscosity", quantity("Pa.s", "6 mPa.s", Range::positive()),
+        "mu_inf in place of its ratio, at the lubricant's `temperature`; at others in the same ratio to mu0.", "0"));
+    keys.push_back(optional("critical_shear_rate", quantity("1/s", "1e6 1/s", Range::positive()),
+                            "Where it has begun, at every temperature.", "by the stress"));
+    keys.push_back(optional("critical_stress", quantity("Pa", "10 kPa", Range::positive()),
+                            "That rate times the viscosity at rest: the rate rises as heat thins the oil.",
+                            "by the rate"));
+    return keys;
+  };
+  return {
+      {{"none", "the same viscosity at every shear rate", {}}, [](const Value&) { return film::Newtonian{}; }},
+      {{"cross", "mu = mu_inf + (mu0 - mu_inf)/(1 + x^exponent), x the shear rate over the critical one",
+        with_limits({required("exponent", number("0.8", {.low = 0, .high = 10, .low_open = true}),
+                              "How soon the oil thins; at most 1, or so that more shear always takes more stress.")})},
+       [limit](const Value& law) {
+         return film::Cross{limit, number_of(law, "exponent")};
+       }},
+      {{"carreau", "mu = mu_inf + (mu0 - mu_inf) (1 + x^transition)^((exponent - 1)/transition) (Carreau, Yasuda)",
+        with_limits(
+            {required("exponent", number("0.7", {.low = 0, .high = 1}),
+                      "Power of the rate with which stress grows where mu_inf is nothing; 1: no thinning."),
+             defaulted("transition", number("2", Range::positive()), "2", "How suddenly it begins; Carreau's is 2.")})},
+       [limit](const Value& law) {
+         return film::Carreau{limit, number_of(law, "exponent"), number_of(law, "transition")};
+       }},
+  };
+}
+
 const std::vector<Alternative<film::DensityLaw>>& density_laws() {
   static const std::vector<Alternative<film::DensityLaw>> laws{
       {{"incompressible", "the density does not depend on pressure", {}},

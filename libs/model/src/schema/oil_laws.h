@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hersey/film/density_law.h"
+#include "hersey/film/shear_law.h"
 #include "hersey/film/temperature_law.h"
 #include "hersey/film/viscosity_law.h"
 #include "schema/vocabulary.h"
@@ -15,6 +16,9 @@ namespace hersey::model {
 
 /// Laws of viscosity against temperature. @param rho15  density at 15 degC, of laws for kinematic viscosities [kg/m^3]
 [[nodiscard]] std::vector<Alternative<film::TemperatureLaw>> temperature_laws(double rho15);
+
+/// Laws of viscosity against shear rate. @param limit  mu_inf over the viscosity at rest [-]
+[[nodiscard]] std::vector<Alternative<film::ShearLaw>> shear_laws(double limit);
 
 /// Laws of density against pressure.
 [[nodiscard]] const std::vector<Alternative<film::DensityLaw>>& density_laws();

@@ -146,6 +146,32 @@ std::string heat(const model::Bearing& bearing) {
   return film::depends_on_temperature(oil.temperature_law) ? "one temperature; " + law : "";
 }
 
+/// How the viscosity falls with the shear rate. A law without words here does not compile.
+struct WordsOfShear {
+  std::string operator()(const film::Newtonian&) const { return ""; }
+  std::string operator()(const film::Cross& law) const {
+    return fmt::format("Cross with exponent {:.4g} down to {:.4g} of the viscosity at rest", law.exponent, law.limit);
+  }
+  std::string operator()(const film::Carreau& law) const {
+    return fmt::format("Carreau with exponent {:.4g}, transition {:.4g}, down to {:.4g} of the viscosity at rest",
+                       law.exponent, law.transition, law.limit);
+  }
+};
+
+/// Empty where the oil does not thin by shear.
+std::string shear_thinning(const model::Bearing& bearing) {
+  const film::ShearThinning& thinning = bearing.film.lubricant.shear_thinning;
+  if (thinning.is_newtonian()) return "";
+  const std::string from = thinning.critical_stress > 0
+                               ? fmt::format("critical stress {:.4g} kPa", 1e-3 * thinning.critical_stress)
+                               : fmt::format("critical rate {:.4g}/s", thinning.critical_rate);
+  const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
+  const bool in_layers = heat != nullptr && heat->layers > 1;
+  return fmt::format("{}, {}; {}", std::visit(WordsOfShear{}, thinning.law), from,
+                     in_layers ? "each layer by its own shear (stiffness and damping hold it)"
+                               : "by the sliding over the film thickness, with the tangent viscosity against pressure");
+}
+
 std::string viscosity(const model::Bearing& bearing) {
   const film::Lubricant& oil = bearing.film.lubricant;
   const bool varies = !std::holds_alternative<std::monostate>(bearing.heat);
@@ -205,6 +231,7 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   }
   row("grid", grid(film));
   row("viscosity", viscosity(bearing));
+  if (std::string text = shear_thinning(bearing); !text.empty()) row("shear thinning", std::move(text));
   if (std::string text = heat(bearing); !text.empty()) row("temperature", std::move(text));
   row("roughness", roughness(film));
   row("contact", asperities(film.asperities));

@@ -36,13 +36,18 @@ class FilmHeat {
   /// Takes these for the temperatures now. @throws ContractError on a wrong shape
   void set_state(const HeatState& state);
 
-  /// Viscosities by the temperatures now (thermal.4, thermal.5).
+  /// Viscosities by the temperatures now (thermal.4, thermal.5), and by the shear in the layers of the film that has
+  /// last advanced (thermal.24).
   [[nodiscard]] LayeredViscosity viscosity() const;
 
   /// Temperatures at the end of a step of the film `u`, solved with `history` (its viscosities included); of a steady
   /// film where history.dt = 0. Those now are the start of the step, and where second differences and the heat of oil
   /// that is renewed are taken from.
   void advance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
+
+  /// Layers as thin as they are sheared in the film `u`, temperatures as they are; nothing where no layers thin by
+  /// shear. @returns the largest change of a logarithm of viscosity [-]
+  double thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
   /// After advance(): fields and numbers of that film; before, of one at the temperatures of its supply and walls.
   [[nodiscard]] TemperatureFields fields() const;

@@ -8,6 +8,7 @@
 #include "hersey/film/gap_profile.h"
 #include "hersey/film/grid.h"
 #include "hersey/film/roughness.h"
+#include "hersey/film/shear_law.h"
 #include "hersey/film/surface_feature.h"
 #include "hersey/film/temperature_law.h"
 #include "hersey/film/viscosity_law.h"
@@ -24,6 +25,7 @@ struct Lubricant {
   TemperatureLaw temperature_law = {};
   double specific_heat = 2000;  ///< [J/(kg K)], > 0
   double conductivity = 0.13;   ///< of heat [W/(m K)], >= 0
+  ShearThinning shear_thinning = {};
 };
 
 /// An oil whose viscosity knows temperatures, at one of them [K]; any other as it is. The density of one known by its
@@ -163,10 +165,14 @@ struct SurfaceMotion {
 
 /// Viscosities of an oil whose temperature differs from place to place, at the cavitation pressure: what the film's
 /// flows and shear see of its layers (theory manual, thermal.4, thermal.5). They stand still while the film is solved.
+/// An oil that thins by shear does so by the shear of its layers where that is in these; else by the film's sliding.
 struct LayeredViscosity {
   Eigen::VectorXd fluidity;        ///< 12 F2/h^3, of flow along pressure [1/(Pa s)], shape (grid.size())
   Eigen::VectorXd shear_fluidity;  ///< F0/h, of sliding [1/(Pa s)], same shape
   Eigen::VectorXd skew;  ///< 2 F1/(F0 h) - 1, by which sliding carries more oil with the shell [-], same shape
+  /// Of sliding, without the shear that is in the others [Pa s], same shape; empty: there is none in them.
+  Eigen::VectorXd at_rest = {};
+  Eigen::VectorXd axial_fluidity = {};  ///< of flow along the axis, `fluidity` that around it; empty: the same
 };
 
 /// The film at the start of the step being solved. dt = 0 leaves theta g_rate as the only storage: a steady film under

@@ -6,12 +6,15 @@
 
 namespace hersey::film {
 
-/// Temperatures of a film and of what it touches [K].
+/// Temperatures of a film and of what it touches [K], and what goes with them from step to step.
 struct HeatState {
   Eigen::VectorXd film;      ///< of the layers, shape (grid.size() layers): node by node, from the shell to the journal
   Eigen::VectorXd shell;     ///< of the ring, or as given, shape (n_phi); of an insulated shell nothing
   double journal = 0;        ///< of a journal that is not insulated
   Eigen::VectorXd supplies;  ///< of the supply line and then of each feature: what leaves them for the film
+  /// What shear leaves of the layers' viscosities [-], as `film`, and then by what the flow along pressure is easier
+  /// around and along the axis than these say [-], node by node; empty: there is one layer, or nothing thins.
+  Eigen::VectorXd thinning = {};
 };
 
 /// Fields at the nodes, shape (grid.size()) each [K].

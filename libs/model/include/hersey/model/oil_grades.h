@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hersey/film/shear_law.h"
+
 namespace hersey::model {
 
 /// An oil one can buy, by its grade; SI units.
@@ -13,8 +15,15 @@ struct OilGrade {
   double rho15 = 0;            ///< density at 15 degC [kg/m^3]
   double pour_point = 0;       ///< [K]
   double flash_point = 0;      ///< [K]
+  double hths = 0;             ///< viscosity at 150 degC and 1e6 1/s [Pa s]; 0: it does not thin by shear
   std::string_view source;     ///< of these numbers
+
+  /// Cross' law through `hths`, with the exponent and the limit of a typical multigrade oil.
+  [[nodiscard]] film::ShearThinning shear_thinning() const;
 };
+
+/// Where the viscosity of multigrade oils at high shear is told [K, 1/s].
+inline constexpr double hths_temperature = 423.15, hths_rate = 1e6;
 
 /// All grades, from thin to thick.
 [[nodiscard]] const std::vector<OilGrade>& oil_grades();
