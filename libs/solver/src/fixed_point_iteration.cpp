@@ -100,7 +100,8 @@ void FixedPointIteration::persist(Archive& archive) {
   archive.io("omega", omega_);
   archive.each("residual_changes", residual_changes_, vector);
   archive.each("image_changes", image_changes_, vector);
-  has_last_ = false;
+  archive.io("has_last", has_last_);
+  archive.io("last_residual", last_residual_), archive.io("last_image", last_image_);
 }
 
 }  // namespace hersey::solver

@@ -13,6 +13,7 @@
 #include "heat/layer_profile.h"
 #include "heat/layer_shear.h"
 #include "hersey/core/contract.h"
+#include "hersey/solver/fixed_point_iteration.h"
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
 
@@ -63,6 +64,10 @@ struct FilmHeat::Impl {
   [[nodiscard]] const Eigen::VectorXd& viscosities_at_rest();
   [[nodiscard]] Eigen::VectorXd viscosities();
   void thin();
+  [[nodiscard]] bool holds_walls() const { return thermal.walls == WallMotion::held; }
+  /// Those that are held, as one vector: ring and free journal [K].
+  [[nodiscard]] Eigen::VectorXd held_walls() const;
+  void set_held_walls(const Eigen::VectorXd& T);
   void show_rest();
   void observe(const CarryingFilm& film);
   void show_surfaces(const CarryingFilm& film);
@@ -75,6 +80,7 @@ struct FilmHeat::Impl {
   LayerFlows flows;
   HeatEquations equations;
   HeatState state;
+  solver::FixedPointIteration settling{solver::Acceleration::quasi_newton, 1};
   HeatObservables seen;
   TemperatureFields shown;
   Eigen::VectorXd mu, T_of_mu;  ///< viscosities_at_rest() and the temperatures that have them
@@ -87,7 +93,9 @@ HeatState FilmHeat::Impl::start() const {
   first.film.setConstant(grid.size() * thermal.layers, T);
   first.journal = T;
   if (const auto* journal = std::get_if<WallAtTemperature>(&thermal.journal)) first.journal = journal->T;
+  if (const auto* journal = std::get_if<FreeJournal>(&thermal.journal)) first.journal = journal->T_start.value_or(T);
   if (conducts(thermal.shell)) first.shell.setConstant(grid.n_phi, T);
+  if (const auto* ring = std::get_if<RingWall>(&thermal.shell)) first.shell.setConstant(ring->T_start.value_or(T));
   if (const auto* shell = std::get_if<WallAtTemperature>(&thermal.shell)) {
     first.shell.setConstant(grid.n_phi, shell->T);
     if (shell->around.size() != 0) first.shell = shell->around;
@@ -219,6 +227,33 @@ double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, c
   return (m.state.thinning.array() / before.array()).log().abs().maxCoeff();
 }
 
+Eigen::VectorXd FilmHeat::Impl::held_walls() const {
+  const bool has_ring = std::holds_alternative<RingWall>(thermal.shell);
+  const bool has_journal = std::holds_alternative<FreeJournal>(thermal.journal);
+  Eigen::VectorXd T((has_ring ? state.shell.size() : 0) + (has_journal ? 1 : 0));
+  if (has_ring) T.head(state.shell.size()) = state.shell;
+  if (has_journal) T.tail(1)[0] = state.journal;
+  return T;
+}
+
+void FilmHeat::Impl::set_held_walls(const Eigen::VectorXd& T) {
+  if (std::holds_alternative<RingWall>(thermal.shell)) state.shell = T.head(state.shell.size());
+  if (std::holds_alternative<FreeJournal>(thermal.journal)) state.journal = T.tail(1)[0];
+}
+
+WallCorrection FilmHeat::settle_walls() {
+  Impl& m = *impl_;
+  const Eigen::VectorXd before = m.held_walls();
+  if (!m.holds_walls() || before.size() == 0 || !m.equations.mean().has_steps()) return {};
+  const MeanHeat::Change change = m.equations.mean().settle();
+  Eigen::VectorXd after = before;
+  after.head(change.shell.size()) += change.shell;
+  if (after.size() > change.shell.size()) after.tail(1)[0] += change.journal;
+  const WallCorrection correction{(after - before).cwiseAbs().maxCoeff(), after.maxCoeff() - m.thermal.T_supply};
+  m.set_held_walls(m.settling.next(before, after));
+  return correction;
+}
+
 void FilmHeat::Impl::observe(const CarryingFilm& film) {
   seen = {};
   seen.balance = equations.balance();
@@ -292,6 +327,10 @@ void FilmHeat::persist(Archive& archive) {
   archive.io("T_journal", impl_->state.journal);
   archive.io("T_supplies", impl_->state.supplies);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
+  if (!impl_->holds_walls()) return;
+  impl_->equations.mean().persist(archive);
+  const Archive::Group settling(archive, "settling");
+  impl_->settling.persist(archive);
 }
 
 }  // namespace hersey::film

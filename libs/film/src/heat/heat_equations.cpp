@@ -26,7 +26,9 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
     : model_(model),
       thermal_(thermal),
       rc_(model.lubricant.density * model.lubricant.specific_heat),
-      system_(model.grid, thermal.layers, std::holds_alternative<RingWall>(thermal.shell)) {
+      system_(model.grid, thermal.layers, std::holds_alternative<RingWall>(thermal.shell)),
+      mean_(model.grid, thermal.layers, std::holds_alternative<RingWall>(thermal.shell),
+            std::holds_alternative<FreeJournal>(thermal.journal), supplies()) {
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }
@@ -88,6 +90,7 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   add_supplies(film);
   renew(film);
   add_remainder(film, start);
+  if (holds_walls(film)) hold_walls(film, start);
   prepare_sweeps(film);
 
   Eigen::VectorXd x(known_.size()), missing, change;
@@ -106,6 +109,7 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   end.journal = x[rows];
   end.supplies = x.tail(supplies());
   take_balance(film, start, end);
+  if (holds_walls(film)) add_heat_to_mean(film, start, end);
   return end;
 }
 
@@ -226,11 +230,13 @@ void HeatEquations::prepare_sweeps(const CarryingFilm& film) {
 
 // (thermal.10): without flow a steady film would have no temperature, so that a thread of storage is left to it.
 void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start) {
+  storage_.resize(start.film.size());
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double thread = least_fill * film.balance.largest_throughput();
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double rate = film.dt > 0 ? start_volume(film, node) / film.dt : thread * 1e-6;
+      storage_[row] = rc_ * rate / layers();
       system_.diagonal(row) += rc_ * rate / layers();
       known_[row] += rc_ * rate / layers() * start.film[row] + film.flows.dissipation(node, l);
     }
@@ -372,7 +378,7 @@ void HeatEquations::add_ring(const RingWall& ring, const CarryingFilm& film, con
     system_.ring_before(next) -= ring_.around[i];
     system_.diagonal(row) += ring_.outside[i];
     known_[row] += ring_.outside[i] * ring.T_ambient;
-    if (film.dt == 0) continue;
+    if (film.dt == 0 || holds_walls(film)) continue;
     system_.diagonal(row) += ring_.capacity[i] / film.dt;
     known_[row] += ring_.capacity[i] / film.dt * start.shell[i];
   }
@@ -460,12 +466,12 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
       journal_self_ += into_journal_[node] = to_journal(film, node);
       known_[journal] += 0.5 * asperity_power(film, node);
     }
-    if (film.dt > 0) {
+    if (film.dt > 0 && !holds_walls(film)) {
       journal_self_ += free->heat_capacity / film.dt;
       known_[journal] += free->heat_capacity / film.dt * start.journal;
     }
   }
-  if (journal_self_ == 0) journal_self_ = 1, journal_is_free_ = false, known_[journal] = start.journal;
+  if (journal_self_ == 0) hold_journal(start);
   const double thread = rc_ * 1e-9 * film.balance.largest_throughput();
   std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
   for (const Held& held : held_) {

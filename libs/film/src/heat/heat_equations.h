@@ -8,6 +8,7 @@
 #include "heat/heat_system.h"
 #include "heat/heat_walls.h"
 #include "heat/layer_flows.h"
+#include "heat/mean_heat.h"
 #include "hersey/film/heat_state.h"
 #include "hersey/film/thermal_model.h"
 #include "hersey/solver/gmres.h"
@@ -41,6 +42,8 @@ class HeatEquations {
   [[nodiscard]] double into_shell(const CarryingFilm& film, const HeatState& state, int node) const;
   [[nodiscard]] double into_journal(const CarryingFilm& film, const HeatState& state, int node) const;
   [[nodiscard]] const RingConductances& ring() const { return ring_; }
+  /// Of walls that are held (WallMotion::held), the means of the steps solved since they settled.
+  [[nodiscard]] MeanHeat& mean() { return mean_; }
 
   /// Of oil supplied, before it meets what is in the groove [K].
   [[nodiscard]] double fresh(int supply) const;
@@ -83,6 +86,11 @@ class HeatEquations {
   void renew(const CarryingFilm& film);
   [[nodiscard]] double renewed(const HeatState& state, int supply) const;
   void add_remainder(const CarryingFilm& film, const HeatState& start);
+  [[nodiscard]] bool holds_walls(const CarryingFilm& film) const;
+  void hold_walls(const CarryingFilm& film, const HeatState& start);
+  void hold_journal(const HeatState& start);
+  void add_equations_to_mean(const CarryingFilm& film, const HeatState& start);
+  void add_heat_to_mean(const CarryingFilm& film, const HeatState& start, const HeatState& end);
   /// y = A x, x = [layers; ring; journal; supplies].
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   /// The rows of journal and supplies of that.
@@ -118,6 +126,8 @@ class HeatEquations {
     double heat = 0;  ///< by its temperature [W/K]
   };
   std::vector<Renewal> renewals_;
+  MeanHeat mean_;
+  Eigen::VectorXd storage_;  ///< of the layers, in their diagonals beside supplies [W/K]
   solver::Gmres gmres_;
   int most_iterations_ = 120;
   std::vector<Held> held_;

@@ -47,10 +47,37 @@ HeatSystem::Row HeatSystem::ring_entries(int i) const {
 }
 
 void HeatSystem::scale(int row, double factor) {
-  Layer& of = layer_[row];
-  for (double* entry : {&of.self, &of.below, &of.above, &of.ring}) *entry *= factor;
-  for (auto* entries : {&of.beside, &of.beyond})
-    for (double& entry : *entries) entry *= factor;
+  for (double* entry : layer_[row].entries()) *entry *= factor;
+}
+
+void HeatSystem::add(double weight, const HeatSystem& other) {
+  const auto add_entries = [weight](auto& mine, auto theirs) {
+    const auto to = mine.entries(), from = theirs.entries();
+    for (std::size_t k = 0; k < to.size(); ++k) *to[k] += weight * *from[k];
+  };
+  for (std::size_t row = 0; row < layer_.size(); ++row) add_entries(layer_[row], other.layer_[row]);
+  for (std::size_t i = 0; i < ring_.size(); ++i) add_entries(ring_[i], other.ring_[i]);
+  for (std::size_t node = 0; node < from_film_.size(); ++node) from_film_[node] += weight * other.from_film_[node];
+}
+
+void HeatSystem::hold_ring() {
+  ring_.assign(ring_.size(), {.self = 1});
+  from_film_.assign(from_film_.size(), 0);
+}
+
+void HeatSystem::persist(Archive& archive) {
+  std::vector<double> entries;
+  const auto each = [this](auto&& action) {
+    for (Layer& of : layer_)
+      for (double* entry : of.entries()) action(*entry);
+    for (Ring& of : ring_)
+      for (double* entry : of.entries()) action(*entry);
+  };
+  each([&entries](double entry) { entries.push_back(entry); });
+  archive.io("entries", entries);
+  auto next = entries.cbegin();
+  each([&next](double& entry) { entry = *next++; });
+  archive.io("from_film", from_film_);
 }
 
 void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "hersey/core/archive.h"
 #include "hersey/film/grid.h"
 
 namespace hersey::film {
@@ -48,6 +49,11 @@ class HeatSystem {
   /// Multiplies a row of the film.
   void scale(int row, double factor);
 
+  /// Adds `weight` times another system of the same film.
+  void add(double weight, const HeatSystem& other);
+  /// The ring keeps its temperature: its rows become those of the unit matrix.
+  void hold_ring();
+
   /// The first size() entries of y = A x; what x and y have beyond is left alone.
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
@@ -57,13 +63,21 @@ class HeatSystem {
   /// entries.
   void sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 
+  /// Entries.
+  void persist(Archive& archive);
+
  private:
   struct Layer {
     double self = 0, below = 0, above = 0, ring = 0;
     std::array<double, 4> beside{}, beyond{};
+    [[nodiscard]] std::array<double*, 12> entries() {
+      return {&self,      &below,     &above,     &ring,      &beside[0], &beside[1],
+              &beside[2], &beside[3], &beyond[0], &beyond[1], &beyond[2], &beyond[3]};
+    }
   };
   struct Ring {
     double self = 0, before = 0, after = 0;
+    [[nodiscard]] std::array<double*, 3> entries() { return {&self, &before, &after}; }
   };
   [[nodiscard]] int film_rows() const { return static_cast<int>(layer_.size()); }
   [[nodiscard]] int ring_rows() const { return static_cast<int>(ring_.size()); }

@@ -49,6 +49,11 @@ class FilmHeat {
   /// shear. @returns the largest change of a logarithm of viscosity [-]
   double thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
+  /// Walls that are held (WallMotion::held) take the temperatures at which, by the means over all steps since the last
+  /// call, they would take up no heat; call after call ever better (theory manual, thermal.51). Returns how far off
+  /// they were. Nothing happens before the first step.
+  WallCorrection settle_walls();
+
   /// After advance(): fields and numbers of that film; before, of one at the temperatures of its supply and walls.
   [[nodiscard]] TemperatureFields fields() const;
   /// Likewise.
@@ -59,7 +64,7 @@ class FilmHeat {
   [[nodiscard]] FilmObservables film(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
                                      const Eigen::Vector2d& tilt) const;
 
-  /// Temperatures.
+  /// Temperatures, and means of walls that are held.
   void persist(Archive& archive);
 
  private:

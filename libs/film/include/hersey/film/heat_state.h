@@ -30,6 +30,12 @@ struct TemperatureFields {
   }
 };
 
+/// By how much walls that keep their temperature over a cycle were off.
+struct WallCorrection {
+  double largest = 0;  ///< change of temperature [K]
+  double rise = 0;     ///< largest temperature over that of the supply, after it [K]
+};
+
 /// Where a film's heat comes from and goes (theory manual, thermal.17), powers in W.
 struct HeatBalance {
   double power = 0;       ///< dissipated in the film, and by asperities

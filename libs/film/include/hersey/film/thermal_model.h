@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -26,16 +27,24 @@ struct RingWall {
   double transfer = 80;          ///< coefficient from its outside and its ends to the surroundings [W/(m^2 K)], >= 0
   double T_ambient = 313.15;     ///< of these [K]
   double heat_capacity = 3.6e6;  ///< per volume [J/(m^3 K)], > 0; of no account to a steady film
+  std::optional<double> T_start = {};  ///< with which a simulation begins [K]; unset: the supply's
 };
 
 /// A journal of one temperature that gives off no heat but to the film: turning fast, every point of it sees the mean
 /// (theory manual, thermal.13).
 struct FreeJournal {
-  double heat_capacity = 0;  ///< of the whole journal [J/K], > 0; of no account to a steady film
+  double heat_capacity = 0;            ///< of the whole journal [J/K], > 0; of no account to a steady film
+  std::optional<double> T_start = {};  ///< with which a simulation begins [K]; unset: the supply's
 };
 
 using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall>;
 using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall>;
+
+/// What rings and free journals do in a simulation.
+enum class WallMotion {
+  by_their_heat,  ///< warm as their heat capacity lets them
+  held,           ///< keep their temperatures until FilmHeat::settle_walls()
+};
 
 /// What a film's heat depends on beside the film (theory manual, chapter thermal).
 struct ThermalModel {
@@ -45,6 +54,7 @@ struct ThermalModel {
   double T_edges = 313.15;              ///< of the oil that edges draw in [K]
   ShellWall shell = InsulatedWall{};
   JournalWall journal = FreeJournal{};
+  WallMotion walls = WallMotion::by_their_heat;  ///< of no account to a steady film
   double carry_over = 1;  ///< share of the film's oil that passes a groove with it [-], 0 (all is renewed) to 1
 };
 

@@ -26,7 +26,7 @@ class FixedPointIteration {
   /// The next x after F(x) came out as `image`. All entries should be of comparable size.
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image);
 
-  /// What the next step starts with.
+  /// What it remembers.
   void persist(Archive& archive);
 
  private:

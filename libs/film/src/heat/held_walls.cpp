@@ -1,0 +1,93 @@
+#include <variant>
+
+#include "heat/heat_equations.h"
+
+// The part of the equations of heat that walls which keep their temperature over a cycle need.
+namespace hersey::film {
+namespace {
+
+// Of the mean of a cycle, rows through which nothing flows keep this share of their storage.
+constexpr double least_storage = 1e-6;
+
+}  // namespace
+
+bool HeatEquations::holds_walls(const CarryingFilm& film) const {
+  return film.dt > 0 && thermal_.walls == WallMotion::held;
+}
+
+// The walls' rows as they are go into the means; then they say that temperatures stay.
+void HeatEquations::hold_walls(const CarryingFilm& film, const HeatState& start) {
+  add_equations_to_mean(film, start);
+  if (std::holds_alternative<RingWall>(thermal_.shell)) {
+    system_.hold_ring();
+    known_.segment(system_.ring_row(0), model_.grid.n_phi) = start.shell;
+  }
+  hold_journal(start);
+}
+
+// Without storage; and where oil is warmer, less heat is made: at a given speed in proportion to its viscosity.
+void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatState& start) {
+  Eigen::VectorXd added = -(1 - least_storage) * storage_;
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      const double T = start.film[row];
+      const double thinning =
+          -std::visit([T](const auto& law) { return law.log_viscosity(T).slope; }, model_.lubricant.temperature_law);
+      added[row] += film.flows.dissipation(node, l) * thinning;
+    }
+  }
+  const int rows = system_.size();
+  Eigen::MatrixXd of_supplies = Eigen::MatrixXd::Zero(known_.size(), supplies());
+  Eigen::MatrixXd by_supplies = Eigen::MatrixXd::Zero(rows, supplies()), capacity_of_supplies = by_supplies;
+  Eigen::VectorXd capacity = film.dt * storage_;
+  for (int s = 0; s < supplies(); ++s) of_supplies(rows + 1 + s, s) = supply_self_[s];
+  for (const Renewal& renewal : renewals_) of_supplies(renewal.row, renewal.supply) += renewal.heat;
+  for (const Held& held : held_) {
+    for (const Held::Row& row : held.rows) {
+      const int own = row.entries.front().first;
+      for (const auto& [column, entry] : row.entries) of_supplies(column, held.supply) += entry;
+      of_supplies(own, held.supply) += added[own];
+      of_supplies(rows, held.supply) -= row.by_journal;
+      by_supplies(own, held.supply) = by_supply_[own];
+      capacity_of_supplies(own, held.supply) = capacity[own];
+    }
+    added.segment(held.node * layers(), layers()) *= 1 - held.chi;
+    capacity.segment(held.node * layers(), layers()) *= 1 - held.chi;
+  }
+  mean_.add_equations(film.dt, {.system = system_,
+                                .added = added,
+                                .by_journal = by_journal_,
+                                .to_journal = into_journal_,
+                                .by_supplies = by_supplies,
+                                .of_supplies = of_supplies,
+                                .capacity = capacity,
+                                .capacity_of_supplies = capacity_of_supplies});
+}
+
+void HeatEquations::hold_journal(const HeatState& start) {
+  journal_self_ = 1, journal_is_free_ = false;
+  known_[system_.size()] = start.journal;
+}
+
+// What walls lack to keep their temperatures (thermal.50).
+void HeatEquations::add_heat_to_mean(const CarryingFilm& film, const HeatState& start, const HeatState& end) {
+  const int rows = system_.size(), n = model_.grid.n_phi;
+  Eigen::VectorXd into = Eigen::VectorXd::Zero(rows + 1);
+  const auto ring_row = [this](int i) -> int { return system_.ring_row(i % model_.grid.n_phi); };
+  const auto* ring = std::get_if<RingWall>(&thermal_.shell);
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const double friction = 0.5 * asperity_power(film, node);
+    if (ring != nullptr) into[ring_row(node / model_.grid.n_z)] += into_shell(film, end, node) + friction;
+    into[rows] += into_journal(film, end, node) + friction;
+  }
+  for (int i = 0; ring != nullptr && i < n; ++i) {
+    const double around = ring_.around[i] * (end.shell[(i + 1) % n] - end.shell[i]);
+    into[ring_row(i)] += around + ring_.outside[i] * (ring->T_ambient - end.shell[i]);
+    into[ring_row(i + 1)] -= around;
+  }
+  if (!std::holds_alternative<FreeJournal>(thermal_.journal)) into[rows] = 0;
+  mean_.add_heat(film.dt, into, start.film, end.film);
+}
+
+}  // namespace hersey::film
