@@ -329,6 +329,10 @@ void FilmForce::close_step() {
   oil_of_run_.volume = oil_.volume;
 }
 
+void FilmForce::settle_walls() {
+  if (heat_) walls_ = heat_->settle_walls();
+}
+
 std::string FilmForce::name_of_internal_residual() const {
   if (!is_one_system_) {
     return "wrench exchanged between film and bodies";
@@ -344,6 +348,7 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
                     : film::observe_film(model(), observed_surfaces_, observed_history_, at.e, u_start_, at.tilt);
   show_oil(seen.film);
   if (heat_) seen.heat = heat_->observables();
+  seen.walls = walls_;
   seen.oil = oil_of_run_;
   seen.wrench_on_shell = seen.film.wrench_on_shell;
   seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
@@ -398,6 +403,7 @@ void FilmForce::persist(Archive& archive) {
   if (heat_) {
     const Archive::Group heat(archive, "heat");
     heat_->persist(archive);
+    archive.io("wall_correction", walls_.largest), archive.io("wall_rise", walls_.rise);
   }
   archive.io("started", started_);
   archive.io("u", u_start_);

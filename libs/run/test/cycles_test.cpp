@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "hersey/core/input_error.h"
 #include "hersey/results/reader.h"
@@ -43,6 +44,10 @@ Cycles cycles_of(const std::string& text) {
   seen.time = values("/time");
   return seen;
 }
+
+struct Rows {
+  std::vector<double> T_journal, heat_to_journal, correction;
+};
 
 constexpr double kTurn = 60.0 / 3000;
 
@@ -96,6 +101,49 @@ TEST_CASE("StepsOfControlledError_HitTheEndOfEachCycle") {
   // Hit exactly: round-off.
   CHECK(seen.end[0] == doctest::Approx(kTurn / 4).epsilon(1e-14));
   CHECK(seen.end[1] == doctest::Approx(kTurn / 2).epsilon(1e-14));
+}
+
+/// The rig with a warm film, a ring around it and walls as `walls` says.
+Rows warm_rows(const std::string& walls) {
+  std::string text = rig_of_cycles("{period: 360 deg, until_converged: 0, most: 9}");
+  const std::string line = "    supply: {line: widest_gap, pressure: 1 bar}\n", oil = "viscosity: 15 mPa.s";
+  text.insert(text.find(line),
+              "    thermal: {model: film, supply_temperature: 40 degC, layers: 3, shell: {wall: ring, outer_diameter: "
+              "60 mm, ambient: 30 degC, temperature: 50 degC}, journal: {wall: free, temperature: 55 degC}}\n");
+  text.replace(text.find(oil), oil.size(), "grade: iso_vg_22");
+  const TemporaryDirectory scratch;
+  const std::filesystem::path file = scratch / "run.h5";
+  REQUIRE(simulate(rig(text + walls), {.results = file}).status == Status::completed);
+  const results::Reader reader(file);
+  const auto values = [&](const std::string& name) { return reader.read("/bearings/big_end/" + name).values; };
+  return {values("T_journal"), values("heat_to_journal"), values("cycles/fields/wall_correction")};
+}
+
+TEST_CASE("WallsAtTheMeanOfACycle_TakeUpNoHeatInTheEnd") {
+  const Rows rows = warm_rows("");  // a machine with cycles
+  constexpr std::size_t per_cycle = 180;
+  REQUIRE(rows.T_journal.size() == 9 * per_cycle + 1);
+  // Held from the first step of a cycle to its last.
+  CHECK(rows.T_journal[1] == doctest::Approx(55).epsilon(1e-12));  // round-off of kelvins
+  CHECK(rows.T_journal[per_cycle] == rows.T_journal[1]);
+  CHECK(rows.T_journal[2 * per_cycle] == rows.T_journal[per_cycle + 1]);
+  CHECK(rows.T_journal[per_cycle + 1] != rows.T_journal[per_cycle]);
+  const auto mean_heat = [&](std::size_t cycle) {
+    const auto first = rows.heat_to_journal.begin() + static_cast<std::ptrdiff_t>(cycle * per_cycle) + 1;
+    return std::accumulate(first, first + per_cycle, 0.0) / per_cycle;
+  };
+  CHECK(std::abs(mean_heat(8)) < 0.02 * std::abs(mean_heat(0)));  // what the film itself has not settled to
+  CHECK(rows.correction.back() < 0.05 * rows.correction.front());  // halved by each cycle, as bush and film settle
+}
+
+TEST_CASE("FrozenWalls_KeepTheirTemperatures") {
+  const Rows rows = warm_rows("thermal: {walls: frozen}\n");
+  for (const double T : rows.T_journal) CHECK(T == doctest::Approx(55).epsilon(1e-12));  // round-off of kelvins
+}
+
+TEST_CASE("WallsWithoutCycles_CannotHaveTheirMean") {
+  CHECK_THROWS_WITH_AS((void)rig(kSmallRig + "thermal: {walls: cycle_mean}\n"), doctest::Contains("without cycles"),
+                       InputError);
 }
 
 }  // namespace cycles_test

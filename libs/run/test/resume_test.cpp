@@ -155,6 +155,9 @@ TEST_CASE("ResumedFilmWithTemperature_IsTheSame") {
     const std::string oil = "viscosity: 15 mPa.s";
     text.replace(text.find(oil), oil.size(), "grade: iso_vg_22");
     check_resumed(text, 7, 12);
+    // Walls at the mean heat of cycles of eight steps: interrupted within the first and within the second.
+    check_resumed(edited(text, "duration: \"${duration}\"", "cycle: {period: 16 deg, until_converged: 0, most: 4}"), 7,
+                  12);
   }
 }
 

@@ -137,6 +137,8 @@ void interpret_bearings(Context& context);
 /// Refuses faces of nodal bodies that carry several films or contacts. After contacts and bearings.
 void require_separate_faces(Context& context);
 void interpret_simulation(Context& context);
+/// What walls do over time. After bearings and simulation.
+void interpret_thermal_walls(Context& context);
 /// Reports supply pressures, and loads on meshes, that follow a joint other than the crank.
 void check_functions_of_crank(Context& context);
 void interpret_study(Context& context);

@@ -84,6 +84,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_bearings(context);
   require_separate_faces(context);
   interpret_simulation(context);
+  interpret_thermal_walls(context);
   check_functions_of_crank(context);
   interpret_study(context);
   check_table_ranges(context);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hersey/film/film_model.h"
+#include "hersey/model/model.h"
 #include "hersey/solver/fixed_point_iteration.h"
 #include "schema/vocabulary.h"
 
@@ -13,6 +14,14 @@ inline constexpr Vocabulary<film::Cavitation, 3> cavitation_words{{
     {film::Cavitation::reynolds, "reynolds",
      "zero pressure gradient at rupture; oil is lost where the film forms again"},
     {film::Cavitation::guembel, "guembel", "full film, negative pressures left out of the forces (half Sommerfeld)"},
+}};
+
+inline constexpr Vocabulary<ThermalWalls, 3> thermal_walls_words{{
+    {ThermalWalls::transient, "transient", "they warm as their heat capacities let them"},
+    {ThermalWalls::cycle_mean, "cycle_mean",
+     "they keep their temperatures over a cycle of the machine, and then take those at which its mean heat would pass "
+     "them by: in a few cycles they are those of an engine that has run for long"},
+    {ThermalWalls::frozen, "frozen", "they keep the temperatures they begin with"},
 }};
 
 inline constexpr Vocabulary<film::AsperityModel, 3> asperity_words{{

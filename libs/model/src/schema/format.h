@@ -18,6 +18,7 @@ namespace hersey::model {
 [[nodiscard]] TypePtr couplings_format();
 [[nodiscard]] TypePtr contacts_format();
 [[nodiscard]] TypePtr lubricants_format();
+TypePtr thermal_network_format();
 [[nodiscard]] TypePtr bearings_format();
 [[nodiscard]] TypePtr thermal_format();
 [[nodiscard]] TypePtr features_format();

@@ -4,6 +4,15 @@
 #include "schema/oil_laws.h"
 
 namespace hersey::model {
+namespace {
+
+std::optional<double> start_of(const Value& wall) {
+  const Value* T = wall.find("temperature");
+  return T != nullptr && !T->broken ? std::optional(T->number) : std::nullopt;
+}
+
+}  // namespace
+
 const std::vector<Alternative<film::ShellWall>>& shell_walls() {
   static const std::vector<Alternative<film::ShellWall>> walls{
       {{"insulated", "no heat passes", {}}, [](const Value&) { return film::InsulatedWall{}; }},
@@ -17,13 +26,15 @@ const std::vector<Alternative<film::ShellWall>>& shell_walls() {
          defaulted("conductivity", quantity("W/m/K", "50 W/m/K", Range::positive()), "50 W/m/K", "Of its material."),
          defaulted("heat_transfer", quantity("W/m^2/K", "80 W/m^2/K", Range::not_negative()), "80 W/m^2/K",
                    "From its outside and its ends to the surroundings."),
-         required("ambient", temperature("40 degC"), "Temperature of these.")}},
+         required("ambient", temperature("40 degC"), "Temperature of these."),
+         optional("temperature", temperature("60 degC"), "With which a simulation begins.", "that of the supply")}},
        [](const Value& wall) {
          return film::RingWall{.outer_radius = number_of(wall, "outer_diameter") / 2,
                                .conductivity = number_of(wall, "conductivity"),
                                .transfer = number_of(wall, "heat_transfer"),
                                .T_ambient = number_of(wall, "ambient"),
-                               .heat_capacity = heat_of_steel};
+                               .heat_capacity = heat_of_steel,
+                               .T_start = start_of(wall)};
        }},
   };
   return walls;
@@ -34,8 +45,11 @@ const std::vector<Alternative<film::JournalWall>>& journal_walls() {
       {{"free",
         "one temperature, at which it takes up as much heat as it gives off",
         {optional("heat_capacity", quantity("J/K", "500 J/K", Range::positive()),
-                  "Of the whole journal, in a simulation.", "that of its cylinder of steel in the bearing")}},
-       [](const Value& wall) { return film::FreeJournal{number_of(wall, "heat_capacity")}; }},
+                  "Of the whole journal, in a simulation.", "that of its cylinder of steel in the bearing"),
+         optional("temperature", temperature("60 degC"), "With which a simulation begins.", "that of the supply")}},
+       [](const Value& wall) {
+         return film::FreeJournal{number_of(wall, "heat_capacity"), start_of(wall)};
+       }},
       {{"given", "it has a temperature", {required("temperature", temperature("60 degC"), "That temperature.")}},
        [](const Value& wall) {
          return film::WallAtTemperature{number_of(wall, "temperature"), {}};

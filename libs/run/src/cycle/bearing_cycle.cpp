@@ -23,8 +23,10 @@ void CycleSums::take(double t, const bearing::BearingObservation& seen, const fi
               .contact = fields.p_asperity,
               .moft = {film.h_min, t, film.h_min_phi, film.h_min_z},
               .pofp = {film.p_max, t, film.p_max_phi, film.p_max_z},
+              .walls = seen.walls,
               .h = fields.thickness(),
               .p = fields.p};
+  if (seen.heat) next.hottest = {seen.heat->T_max, t, seen.heat->T_max_phi, seen.heat->T_max_z};
   if (is_begun_) integrate(t - cycle_.end, next);
   last_ = std::move(next);
   if (!is_begun_) begin(t);
@@ -72,6 +74,8 @@ void CycleSums::integrate(double dt, const Sample& next) {
 void CycleSums::compare(double t) {
   if (last_.moft.value < cycle_.moft.value) cycle_.moft = last_.moft;
   if (last_.pofp.value > cycle_.pofp.value) cycle_.pofp = last_.pofp;
+  if (last_.hottest.value > cycle_.hottest.value) cycle_.hottest = last_.hottest;
+  cycle_.walls = last_.walls;
   Eigen::Index place = 0;
   const double contact = last_.contact.maxCoeff(&place);
   if (contact > cycle_.contact.value) {
@@ -96,7 +100,8 @@ void CycleSums::persist(Archive& archive) {
   archive.io("is_begun", is_begun_), archive.io("begin", c.begin), archive.io("end", c.end);
   archive.io("energy_film", c.energy_film), archive.io("energy_asperity", c.energy_asperity);
   persist_extreme(archive, "moft", c.moft), persist_extreme(archive, "pofp", c.pofp);
-  persist_extreme(archive, "contact", c.contact);
+  persist_extreme(archive, "contact", c.contact), persist_extreme(archive, "hottest", c.hottest);
+  archive.io("wall_correction", c.walls.largest), archive.io("wall_rise", c.walls.rise);
   archive.io("mean_contact", c.mean_contact), archive.io("wear_load", c.wear_load);
   archive.io("h_min", c.h_min), archive.io("t_h_min", c.t_h_min);
   archive.io("p_max", c.p_max), archive.io("t_p_max", c.t_p_max);
@@ -104,6 +109,8 @@ void CycleSums::persist(Archive& archive) {
   archive.io("power_film", last_.power_film), archive.io("power_asperity", last_.power_asperity);
   archive.io("sliding_speed", last_.sliding_speed), archive.io("contact", last_.contact);
   persist_extreme(archive, "moft", last_.moft), persist_extreme(archive, "pofp", last_.pofp);
+  persist_extreme(archive, "hottest", last_.hottest);
+  archive.io("wall_correction", last_.walls.largest), archive.io("wall_rise", last_.walls.rise);
   archive.io("h", last_.h), archive.io("p", last_.p);
 }
 

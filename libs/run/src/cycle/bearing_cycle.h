@@ -22,6 +22,8 @@ struct BearingCycle {
   double energy_asperity = 0;      ///< boundary friction [J]
   FilmExtreme moft, pofp;          ///< minimum oil film thickness [m], peak oil film pressure [Pa]
   FilmExtreme contact;             ///< largest contact pressure of a node [Pa]
+  FilmExtreme hottest;             ///< hottest oil [K]; 0 K of a film without temperatures
+  film::WallCorrection walls;      ///< by what walls that are held were off in it
   Eigen::VectorXd mean_contact;    ///< contact pressure p_a, mean over time [Pa]
   Eigen::VectorXd wear_load;       ///< p_a times sliding speed, mean over time [W/m^2]
   Eigen::VectorXd h_min, t_h_min;  ///< smallest film thickness [m] and when [s]
@@ -51,7 +53,8 @@ class CycleSums {
   struct Sample {
     double power_film = 0, power_asperity = 0, sliding_speed = 0;
     Eigen::VectorXd contact;
-    FilmExtreme moft, pofp;
+    FilmExtreme moft, pofp, hottest;
+    film::WallCorrection walls;
     Eigen::VectorXd h, p;
   };
 

@@ -9,6 +9,8 @@
 namespace hersey::run {
 namespace {
 
+constexpr double kSmallRise = 1;  // K, of walls over the supply
+
 constexpr double kRoundOff = 1e-9;  // of times
 
 /// Over the larger of both; 0 where both vanish.
@@ -42,6 +44,12 @@ CycleChange CycleConvergence::take(const std::vector<BearingCycle>& cycle) {
       change.value = value;
       change.largest = std::string(name) + " of " + model_.bearings[i].name;
     }
+  for (std::size_t i = 0; i < last_.size(); ++i) {
+    const double value = cycle[i].walls.largest / (kSmallRise + std::abs(cycle[i].walls.rise));
+    if (value <= change.value) continue;
+    change.value = value;
+    change.largest = "wall temperature of " + model_.bearings[i].name;
+  }
   last_ = std::move(now);
   return change;
 }

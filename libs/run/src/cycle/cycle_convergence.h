@@ -17,7 +17,7 @@ struct CycleChange {
 };
 
 /// Says when cycles end, and when they repeat each other: each bearing's smallest film thickness, peak pressure and
-/// mean friction loss (model::Cycle).
+/// mean friction loss, and by how much held walls were off, over their rise (plus 1 K) (model::Cycle).
 class CycleConvergence {
  public:
   explicit CycleConvergence(const model::Model& model) : model_(model) {}

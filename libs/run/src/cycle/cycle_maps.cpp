@@ -85,6 +85,35 @@ const CycleTable& cycle_quantities() {
                    {.told = {{As::at_end, "mean power loss in asperity contact", "W", false, Only::of_a_cycle}}}}});
     add_extreme("contact", "Pa", "largest contact pressure of a node", &C::contact,
                 {As::at_end, "largest contact pressure", "MPa", true, Only::with_contact}, lines);
+    const auto of_hot_film = [](const model::Bearing& bearing) {
+      return std::holds_alternative<film::ThermalModel>(bearing.heat);
+    };
+    lines.insert(
+        lines.end(),
+        {{"T_max",
+          "degC",
+          "hottest oil",
+          [](const CycleRow& row) { return row.cycle.hottest.value - film::zero_celsius; },
+          {.note = "this and the following: of films with `thermal: {model: film}`",
+           .only = of_hot_film,
+           .told = {{As::at_end, "hottest oil", "°C", true, Only::of_a_cycle}}}},
+         {"T_max_time", "s", "when", [](const CycleRow& row) { return row.cycle.hottest.t; }, {.only = of_hot_film}},
+         {"T_max_phi",
+          "rad",
+          "where: bearing angle",
+          [](const CycleRow& row) { return row.cycle.hottest.phi; },
+          {.only = of_hot_film}},
+         {"T_max_z",
+          "m",
+          "where: axial",
+          [](const CycleRow& row) { return row.cycle.hottest.z; },
+          {.only = of_hot_film}},
+         {"wall_correction",
+          "K",
+          "by how much walls with the temperature of the cycle's mean heat were off",
+          [](const CycleRow& row) { return row.cycle.walls.largest; },
+          {.only = of_hot_film,
+           .told = {{As::at_end, "correction of wall temperatures", "K", false, Only::of_a_cycle}}}}});
     const auto told_of_map = [](const char* name, const char* unit) {
       return std::vector<Told>{{As::largest, name, unit, true, Only::with_contact}};
     };

@@ -172,6 +172,8 @@ class Simulation {
   }
 
   void record(const MarchedStep& step) {
+    if (model_.thermal_walls == model::ThermalWalls::cycle_mean && record_.ends_cycle(state_.t))
+      for (const model::BuiltBearing& bearing : machine_.bearings) bearing.bearing->settle_walls();
     const Stopwatch watch(work_.recording());
     record(observe(step));
   }

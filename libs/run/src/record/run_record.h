@@ -33,6 +33,8 @@ class RunRecord {
   void write_modes(const solver::State& state, const solver::Modes& found) { recorder_.write_modes(state, found); }
   void finish(results::Status status, const std::string& message, double wall_time, const Work& work);
 
+  /// Whether a cycle of the machine ends with the accepted step that ended at `t`.
+  [[nodiscard]] bool ends_cycle(double t) const { return cycles_.ends(t); }
   /// Nothing changes any more, or cycle repeats cycle: the run ends with the step last taken.
   [[nodiscard]] bool ends_run() const { return settled_ || repeats_; }
   /// What to say of that, or of cycles that did not repeat, when the run ends at `t`; empty where there is nothing.

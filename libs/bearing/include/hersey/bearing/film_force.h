@@ -56,6 +56,7 @@ struct BearingObservation {
   double power_into_bodies = 0;               ///< of wrench and forces on shapes [W]; negative: the film takes power
   film::FilmObservables film;
   std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
+  film::WallCorrection walls;                 ///< of held walls, when they settled last
   OilOfRun oil;
   int film_iterations = 0;  ///< film linearisations in the last step
   int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step
@@ -107,6 +108,10 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }
   void persist(Archive& archive) override;
 
+  /// A cycle of the machine has ended with the step last accepted: walls that are held settle by it
+  /// (film::FilmHeat::settle_walls).
+  void settle_walls();
+
   /// Everything to report at the state last accepted (or initialised).
   [[nodiscard]] BearingObservation observe(const mbd::RelativeMotion& motion) const;
 
@@ -134,6 +139,7 @@ class FilmForce : public mbd::TwoBodyForce {
   BearingOptions options_;
   film::Reynolds reynolds_;
   std::optional<film::FilmHeat> heat_;  // at the state last accepted
+  film::WallCorrection walls_;
   std::unique_ptr<GapKinematics> gap_;
   std::unique_ptr<DeformingSurfaces> deforming_;
   film::SurfaceMotion surfaces_;

@@ -269,6 +269,13 @@ struct Lubricant {
 /// How a bearing's film is heated.
 using Heat = std::variant<std::monostate, bearing::GlobalHeat, film::ThermalModel>;
 
+/// What rings, free journals and nodes of the thermal network do in a simulation.
+enum class ThermalWalls {
+  transient,   ///< warm as their heat capacities let them
+  cycle_mean,  ///< keep their temperatures over a cycle and then take those of its mean heat
+  frozen,      ///< keep those they begin with
+};
+
 enum class CouplingScheme { monolithic, partitioned };
 
 struct Coupling {
@@ -433,6 +440,7 @@ struct Model {
   std::vector<Contact> contacts;
   std::vector<Lubricant> lubricants;
   std::vector<Bearing> bearings;
+  ThermalWalls thermal_walls = ThermalWalls::transient;
   Simulation simulation;
   Output output;
   std::optional<Study> study;
