@@ -132,7 +132,7 @@ TEST_CASE("WallsAtTheMeanOfACycle_TakeUpNoHeatInTheEnd") {
     const auto first = rows.heat_to_journal.begin() + static_cast<std::ptrdiff_t>(cycle * per_cycle) + 1;
     return std::accumulate(first, first + per_cycle, 0.0) / per_cycle;
   };
-  CHECK(std::abs(mean_heat(8)) < 0.02 * std::abs(mean_heat(0)));  // what the film itself has not settled to
+  CHECK(std::abs(mean_heat(8)) < 0.02 * std::abs(mean_heat(0)));   // what the film itself has not settled to
   CHECK(rows.correction.back() < 0.05 * rows.correction.front());  // halved by each cycle, as bush and film settle
 }
 

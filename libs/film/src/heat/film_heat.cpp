@@ -83,7 +83,7 @@ struct FilmHeat::Impl {
   solver::FixedPointIteration settling{solver::Acceleration::quasi_newton, 1};
   HeatObservables seen;
   TemperatureFields shown;
-  Eigen::VectorXd mu, T_of_mu;  ///< viscosities_at_rest() and the temperatures that have them
+  Eigen::VectorXd mu_at_rest, T_of_mu;  ///< viscosities_at_rest() and the temperatures that have them
 };
 
 HeatState FilmHeat::Impl::start() const {
@@ -108,11 +108,11 @@ HeatState FilmHeat::Impl::start() const {
 
 /// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them in turn: they are worked out once.
 const Eigen::VectorXd& FilmHeat::Impl::viscosities_at_rest() {
-  if (T_of_mu.size() == state.film.size() && T_of_mu == state.film) return mu;
+  if (T_of_mu.size() == state.film.size() && T_of_mu == state.film) return mu_at_rest;
   const TemperatureLaw& law = flow.model().lubricant.temperature_law;
   T_of_mu = state.film;
-  mu = T_of_mu.unaryExpr([&](double T) { return viscosity_at(law, T); });
-  return mu;
+  mu_at_rest = T_of_mu.unaryExpr([&](double T) { return viscosity_at(law, T); });
+  return mu_at_rest;
 }
 
 bool FilmHeat::Impl::shears_layers() const {
