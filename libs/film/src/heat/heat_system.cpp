@@ -64,6 +64,7 @@ void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
     for (int j = 0; j < grid_.n_z; ++j) sum += from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
     y[ring_row(i)] = sum;
   }
+  if (answer_.is_set()) y.tail(n) = answer_.rows(x.segment(film_rows(), n), y.tail(n));
 }
 
 // Along the axis oil flows from the middle to the edges, as a rule.
@@ -105,21 +106,33 @@ void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   x.setZero(size());
   if (!ring_.empty()) {
     x.tail(ring_rows()) = b.tail(ring_rows());
-    solve_ring(x);
+    if (answer_.is_set())
+      x.tail(ring_rows()) = answer_.solve(b.tail(ring_rows()), Eigen::VectorXd::Zero(ring_rows()));
+    else
+      solve_ring(x);
   }
   for (const int node : order_) solve_column(node, b, x);
   if (ring_.empty()) return;
-  for (int i = 0; i < ring_rows(); ++i) {
-    double rest = b[ring_row(i)];
-    for (int j = 0; j < grid_.n_z; ++j) rest -= from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
-    x[ring_row(i)] = rest;
+  Eigen::VectorXd by_film = Eigen::VectorXd::Zero(ring_rows());
+  for (int i = 0; i < ring_rows(); ++i)
+    for (int j = 0; j < grid_.n_z; ++j) by_film[i] += from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
+  if (answer_.is_set()) {
+    x.tail(ring_rows()) = answer_.solve(b.tail(ring_rows()), by_film);
+    return;
   }
+  x.tail(ring_rows()) = b.tail(ring_rows()) - by_film;
   solve_ring(x);
 }
 
 // A ring is a tridiagonal chain, closed by two entries: Sherman and Morrison's formula with the chain's answer to them.
 void HeatSystem::prepare_ring() {
   const int n = ring_rows();
+  if (answer_.is_set()) {
+    Eigen::VectorXd C(n);
+    for (int i = 0; i < n; ++i) C[i] = ring_[i].self;
+    answer_.prepare(C);
+    return;
+  }
   ring_pivots_.assign(static_cast<std::size_t>(n), {});
   const double corner = -ring_[0].self;
   double last = 0;

@@ -4,6 +4,8 @@
 #include <variant>
 #include <vector>
 
+#include "hersey/film/body_wall.h"
+
 namespace hersey::film {
 
 /// How many layers a film is divided into across its thickness, at most.
@@ -34,7 +36,7 @@ struct FreeJournal {
   double heat_capacity = 0;  ///< of the whole journal [J/K], > 0; of no account to a steady film
 };
 
-using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall>;
+using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall, BodyWall>;
 using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall>;
 
 /// What a film's heat depends on beside the film (theory manual, chapter thermal).
