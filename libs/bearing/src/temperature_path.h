@@ -40,9 +40,10 @@ class TemperaturePath {
   const film::ThermalModel& thermal_;
   film::FilmHeat heat_;
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
-  double per_watt_ = 0;  ///< heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
-  /// Rises of temperature over the supply's, and heat that gives the shell its shape as more of them: being tried; those
-  /// with which a film was found last; what that made.
+  double per_watt_ =
+      0;  ///< (thermal.48): heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
+  /// Rises of temperature over the supply's, and heat that gives the shell its shape as more of them: being tried;
+  /// those with which a film was found last; what that made.
   Eigen::VectorXd tried_, last_, image_;
   bool is_cold_;
   int steps_back_ = 0;
