@@ -20,9 +20,11 @@ constexpr double kHeatOfShear = 30;
 TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal,
                                  const OperatingPoint& point, const std::optional<film::HeatState>& start)
     : model_(model), thermal_(thermal), heat_(model, thermal) {
+  if (const auto* body = std::get_if<film::BodyWall>(&thermal.shell); body != nullptr && body->conduction->deforms())
+    per_watt_ = body->conduction->rise.rowwise().sum().mean();
   if (start) {
     heat_.set_state(*start);
-    tried_ = state();
+    tried_ = unknowns();
   } else {
     fill(likely_temperature(model, thermal.T_supply, point));
   }
@@ -35,40 +37,45 @@ void TemperaturePath::fill(double T_oil) {
   try_next(std::move(state));
 }
 
-Eigen::VectorXd TemperaturePath::state() const {
+Eigen::VectorXd TemperaturePath::unknowns() const {
   const film::HeatState& now = heat_.state();
-  Eigen::VectorXd x(now.film.size() + now.thinning.size());
-  x << now.film.array() - thermal_.T_supply, kHeatOfShear * now.thinning.array().log();
+  Eigen::VectorXd x(now.film.size() + now.thinning.size() + shape_unknowns());
+  x << now.film.array() - thermal_.T_supply, kHeatOfShear * now.thinning.array().log(),
+      per_watt_ * now.wall_heat.head(shape_unknowns());
   return x;
 }
 
-void TemperaturePath::put(const Eigen::VectorXd& x, film::HeatState& next) const {
-  next.film = x.head(next.film.size()).array() + thermal_.T_supply;
-  next.thinning = (x.tail(next.thinning.size()) / kHeatOfShear).array().exp();
+Eigen::Index TemperaturePath::shape_unknowns() const { return per_watt_ > 0 ? heat_.state().wall_heat.size() : 0; }
+
+void TemperaturePath::try_next(const Eigen::VectorXd& x) {
+  film::HeatState next = heat_.state();
+  const Eigen::Index film = next.film.size();
+  next.film = x.head(film).array() + thermal_.T_supply;
+  next.thinning = (x.segment(film, next.thinning.size()) / kHeatOfShear).array().exp();
+  if (per_watt_ > 0) next.wall_heat = x.tail(next.wall_heat.size()) / per_watt_;
+  try_next(std::move(next));
 }
 
 void TemperaturePath::try_next(film::HeatState next) {
   next.film = next.film.cwiseMax(coldest_trial).cwiseMin(hottest_trial);
   heat_.set_state(next);
-  tried_ = state();
+  tried_ = unknowns();
 }
 
 void TemperaturePath::take() {
   last_ = tried_;
-  image_ = state();
+  image_ = unknowns();
   nearness_ = std::min(1.0, (image_ - last_).cwiseAbs().maxCoeff() / (1 + image_.cwiseAbs().maxCoeff()));
 }
 
 void TemperaturePath::step_on(int turn) {
   if (turn == kTurnsOfAcceleration) mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
-  film::HeatState next = heat_.state();
   if (T_oil_) {
-    next = film::first_guess(model_, thermal_, *T_oil_, std::move(next));
+    try_next(film::first_guess(model_, thermal_, *T_oil_, heat_.state()));
   } else {
-    put(mixing_.next(last_, image_), next);
+    try_next(mixing_.next(last_, image_));
   }
   T_oil_.reset();
-  try_next(std::move(next));
 }
 
 bool TemperaturePath::step_back() {
@@ -78,10 +85,9 @@ bool TemperaturePath::step_back() {
     return true;
   }
   if (++steps_back_ > kMostStepsBack) return false;
-  film::HeatState next = heat_.state();
-  put(0.5 * (tried_ + last_), next);
+  const Eigen::VectorXd half = 0.5 * (tried_ + last_);
   mixing_.begin_step();
-  try_next(std::move(next));
+  try_next(half);
   return true;
 }
 

@@ -35,17 +35,20 @@ class TemperaturePath {
   [[nodiscard]] bool step_back();
 
  private:
-  [[nodiscard]] Eigen::VectorXd state() const;
-  void put(const Eigen::VectorXd& x, film::HeatState& next) const;
+  [[nodiscard]] Eigen::VectorXd unknowns() const;
+  [[nodiscard]] Eigen::Index shape_unknowns() const;
   void try_next(film::HeatState next);
+  void try_next(const Eigen::VectorXd& x);
   void fill(double T_oil);
 
   const film::FilmModel& model_;
   const film::ThermalModel& thermal_;
   film::FilmHeat heat_;
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
-  /// Rises of temperature over the supply's [K], and what shear leaves of viscosities as if it were heat [K]: being
-  /// tried; those with which a film was found last; what that made.
+  /// (thermal.48): heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
+  double per_watt_ = 0;
+  /// Rises of temperature over the supply's [K]; what shear leaves of viscosities, and heat that gives the shell its
+  /// shape, as if they were more of them [K]: being tried; those with which a film was found last; what that made.
   Eigen::VectorXd tried_, last_, image_;
   std::optional<double> T_oil_;  ///< one temperature that all oil has at first [K]
   int steps_back_ = 0;
