@@ -1,6 +1,7 @@
 #include "temperature_path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace hersey::bearing {
@@ -16,41 +17,63 @@ TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::Therm
                                  const std::optional<film::HeatState>& start)
     : model_(model), thermal_(thermal), heat_(model, thermal), is_cold_(!start) {
   if (start) heat_.set_state(*start);
-  tried_ = rises();
+  if (thermal.expansion) {
+    const double largest = std::max(std::abs(thermal.expansion->shell), std::abs(thermal.expansion->journal));
+    if (largest > 0) per_metre_ = 1 / (model.R * largest);
+  }
+  growth_ = called_for();
+  tried_ = unknowns(growth_);
 }
 
-Eigen::VectorXd TemperaturePath::rises() const { return heat_.state().film.array() - thermal_.T_supply; }
+// By the walls as they are now (thermal.32).
+double TemperaturePath::called_for() const {
+  if (per_metre_ == 0) return 0;
+  const film::HeatObservables& seen = heat_.observables();
+  return thermal_.expansion->growth(model_.R, seen.T_shell_wall, seen.T_journal_wall);
+}
 
-void TemperaturePath::try_next(film::HeatState next) {
+Eigen::VectorXd TemperaturePath::unknowns(double growth) const {
+  const Eigen::VectorXd& film = heat_.state().film;
+  Eigen::VectorXd x(film.size() + (per_metre_ > 0 ? 1 : 0));
+  x.head(film.size()) = film.array() - thermal_.T_supply;
+  if (per_metre_ > 0) x[film.size()] = per_metre_ * growth;
+  return x;
+}
+
+void TemperaturePath::try_next(film::HeatState next, double growth) {
   next.film = next.film.cwiseMax(coldest_trial).cwiseMin(hottest_trial);
   heat_.set_state(next);
-  tried_ = rises();
+  growth_ = growth;
+  tried_ = unknowns(growth);
+}
+
+void TemperaturePath::try_next(const Eigen::VectorXd& x) {
+  film::HeatState next = heat_.state();
+  next.film = x.head(next.film.size()).array() + thermal_.T_supply;
+  try_next(std::move(next), per_metre_ > 0 ? x[x.size() - 1] / per_metre_ : 0);
 }
 
 void TemperaturePath::take() {
   last_ = tried_;
-  image_ = rises();
+  image_ = unknowns(called_for());
   nearness_ = std::min(1.0, (image_ - last_).cwiseAbs().maxCoeff() / (1 + image_.cwiseAbs().maxCoeff()));
 }
 
 void TemperaturePath::step_on(int turn) {
   if (turn == kTurnsOfAcceleration) mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
-  film::HeatState next = heat_.state();
   if (is_cold_) {
-    next = film::first_guess(model_, thermal_, std::move(next));
+    try_next(film::first_guess(model_, thermal_, heat_.state()), called_for());
   } else {
-    next.film = mixing_.next(last_, image_).array() + thermal_.T_supply;
+    try_next(mixing_.next(last_, image_));
   }
   is_cold_ = false;
-  try_next(std::move(next));
 }
 
 bool TemperaturePath::step_back() {
   if (last_.size() == 0 || ++steps_back_ > kMostStepsBack) return false;
-  film::HeatState next = heat_.state();
-  next.film = 0.5 * (tried_ + last_).array() + thermal_.T_supply;
+  const Eigen::VectorXd half = 0.5 * (tried_ + last_);
   mixing_.begin_step();
-  try_next(std::move(next));
+  try_next(half);
   return true;
 }
 

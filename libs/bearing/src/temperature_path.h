@@ -21,6 +21,11 @@ class TemperaturePath {
 
   /// At the temperatures to be tried; once their film has been found, whoever found it advances it.
   [[nodiscard]] film::FilmHeat& heat() { return heat_; }
+  [[nodiscard]] const film::FilmHeat& heat() const { return heat_; }
+  /// Of the clearance, to be tried with them [m]; 0 where walls keep their size.
+  [[nodiscard]] double growth() const { return growth_; }
+  /// Whether no film has been found yet.
+  [[nodiscard]] bool is_first() const { return last_.size() == 0; }
   /// Largest change of the last turn over the largest rise (plus 1 K).
   [[nodiscard]] double nearness() const { return nearness_; }
 
@@ -32,14 +37,19 @@ class TemperaturePath {
   [[nodiscard]] bool step_back();
 
  private:
-  [[nodiscard]] Eigen::VectorXd rises() const;
-  void try_next(film::HeatState next);
+  [[nodiscard]] double called_for() const;
+  [[nodiscard]] Eigen::VectorXd unknowns(double growth) const;
+  void try_next(film::HeatState next, double growth);
+  void try_next(const Eigen::VectorXd& x);
 
   const film::FilmModel& model_;
   const film::ThermalModel& thermal_;
   film::FilmHeat heat_;
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
-  /// Rises of temperature over the supply's: being tried; those with which a film was found last; what that made.
+  double per_metre_ = 0;  ///< a growth of the clearance as a temperature [K/m]; 0: walls keep their size
+  double growth_ = 0;
+  /// Rises of temperature over the supply's, and the growth as one more: being tried; those with which a film was found
+  /// last; what that made.
   Eigen::VectorXd tried_, last_, image_;
   bool is_cold_;
   int steps_back_ = 0;

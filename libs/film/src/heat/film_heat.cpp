@@ -141,6 +141,7 @@ void FilmHeat::set_state(const HeatState& state) {
                      state.supplies.size() == now.supplies.size(),
                  "temperatures of this film");
   impl_->state = state;
+  impl_->average_walls();
 }
 
 LayeredViscosity FilmHeat::viscosity() const {

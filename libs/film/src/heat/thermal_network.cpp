@@ -1,9 +1,9 @@
 #include "hersey/film/thermal_network.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "hersey/core/contract.h"
 
@@ -34,6 +34,13 @@ std::vector<std::pair<Index, Index>> walls_of(const FilmTerminals& at) {
 
 }  // namespace
 
+FilmTerminals terminals_of(const ThermalModel& thermal) {
+  FilmTerminals at;
+  if (const auto* shell = std::get_if<NodeWall>(&thermal.shell)) at.shell = shell->node;
+  if (const auto* journal = std::get_if<NodeWall>(&thermal.journal)) at.journal = journal->node;
+  return at;
+}
+
 double NetworkObservables::error() const {
   const double in = heat.sum();
   const double largest = std::max({heat.cwiseAbs().sum(), std::abs(to_fixed), std::abs(stored)});
@@ -60,46 +67,49 @@ ThermalNetwork::ThermalNetwork(ThermalNetworkModel model) : model_(std::move(mod
   for (std::size_t i = 0; i < n; ++i) seen_.T[static_cast<Index>(i)] = model_.nodes[i].T;
 }
 
-// (thermal.37): conductances, films and capacities at the end of the step, so that none of them limits it.
+// (thermal.35) by (thermal.37), or (thermal.38): conductances, films and capacities at the end of the step, so that
+// none of them limits it. Solved for the change, which short steps of large bodies would lose in the temperature's
+// digits.
 void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {
   const std::size_t n = model_.nodes.size();
-  const Eigen::VectorXd start = seen_.T;
+  const Eigen::VectorXd& start = seen_.T;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Index>(n), static_cast<Index>(n));
   Eigen::VectorXd b = Eigen::VectorXd::Zero(static_cast<Index>(n));
   std::vector<bool> holds(n, dt > 0);  // something says what the temperature is
   for (const ThermalPath& path : model_.paths) {
     const auto i = static_cast<Index>(path.a), j = static_cast<Index>(path.b);
+    const double q = path.conductance * (start[i] - start[j]);
+    b[i] -= q, b[j] += q;
     A(i, i) += path.conductance, A(j, j) += path.conductance;
     A(i, j) -= path.conductance, A(j, i) -= path.conductance;
   }
   for (const FilmAtNodes& film : films) {
     const WallExchange& seen = film.exchange;
+    const Eigen::Vector2d heat = seen.heat + seen.by_T * (walls(film.at, seen.T) - seen.T);
     for (const auto& [row, i] : walls_of(film.at)) {
-      b[i] += seen.heat[row];
-      holds[static_cast<std::size_t>(i)] = holds[static_cast<std::size_t>(i)] || seen.by_T(row, row) != 0;
-      for (const auto& [column, j] : walls_of(film.at)) {
-        A(i, j) -= seen.by_T(row, column);
-        b[i] -= seen.by_T(row, column) * seen.T[column];
-      }
+      b[i] += heat[row];
+      if (seen.by_T(row, row) != 0) holds[static_cast<std::size_t>(i)] = true;
+      for (const auto& [column, j] : walls_of(film.at)) A(i, j) -= seen.by_T(row, column);
     }
   }
-  for (std::size_t k = 0; k < n; ++k) holds[k] = holds[k] || model_.nodes[k].is_fixed;
+  for (std::size_t k = 0; k < n; ++k)
+    if (model_.nodes[k].is_fixed) holds[k] = true;
   holds = reached(model_, holds);
   for (std::size_t k = 0; k < n; ++k) {
     const auto i = static_cast<Index>(k);
     if (model_.nodes[k].is_fixed || !holds[k]) {
       A.row(i).setZero();
-      A(i, i) = 1, b[i] = start[i];
+      A(i, i) = 1, b[i] = 0;
     } else if (dt > 0) {
       A(i, i) += model_.nodes[k].heat_capacity / dt;
-      b[i] += model_.nodes[k].heat_capacity / dt * start[i];
     }
   }
-  seen_.T = A.partialPivLu().solve(b);
-  observe(dt, start, films);
+  const Eigen::VectorXd change = A.partialPivLu().solve(b);
+  seen_.T += change;
+  observe(dt, change, films);
 }
 
-void ThermalNetwork::observe(double dt, const Eigen::VectorXd& start, const std::vector<FilmAtNodes>& films) {
+void ThermalNetwork::observe(double dt, const Eigen::VectorXd& change, const std::vector<FilmAtNodes>& films) {
   seen_.heat.setZero();
   seen_.to_fixed = seen_.stored = 0;
   for (const FilmAtNodes& film : films) {
@@ -109,10 +119,11 @@ void ThermalNetwork::observe(double dt, const Eigen::VectorXd& start, const std:
   }
   for (std::size_t k = 0; k < model_.nodes.size(); ++k) {
     const auto i = static_cast<Index>(k);
-    if (model_.nodes[k].is_fixed)
+    if (model_.nodes[k].is_fixed) {
       seen_.to_fixed += seen_.heat[i];
-    else if (dt > 0)
-      seen_.stored += model_.nodes[k].heat_capacity / dt * (seen_.T[i] - start[i]);
+    } else if (dt > 0) {
+      seen_.stored += model_.nodes[k].heat_capacity / dt * change[i];
+    }
   }
   for (const ThermalPath& path : model_.paths) {
     const double q = path.conductance * (seen_.T[static_cast<Index>(path.a)] - seen_.T[static_cast<Index>(path.b)]);

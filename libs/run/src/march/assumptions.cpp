@@ -185,6 +185,16 @@ std::string asperities(const film::Asperities& contact) {
                      1e-6 * contact.elastic_factor * contact.composite_modulus, contact.mu_friction);
 }
 
+/// How the clearance follows the temperatures of its walls.
+std::string expansion(const model::Bearing& bearing) {
+  if (!bearing.expansion) return "";
+  const film::ThermalExpansion& walls = bearing.expansion->material;
+  std::string text = fmt::format(" at {:.4g} degC; shell {:.4g}/K, journal {:.4g}/K", celsius(walls.T_reference),
+                                 walls.shell, walls.journal);
+  if (bearing.growth != 0) text += fmt::format(": {:.4g} um hot", 1e6 * (bearing.film.c + bearing.growth));
+  return text + "; ratios are over the hot clearance";
+}
+
 std::string grid(const film::FilmModel& film) {
   const film::Grid& g = film.grid;
   std::string text = fmt::format("{} x {} nodes (circumferential x axial, edges included)", g.n_phi, g.n_z);
@@ -218,7 +228,8 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   row("supply", supply(film));
   for (const film::SurfaceFeature& feature : film.features)
     row(("feature " + feature.name).c_str(), described(feature));
-  row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral)", 1e6 * film.c, 2e6 * film.c));
+  row("clearance",
+      fmt::format("{:.4g} um radial ({:.4g} um diametral){}", 1e6 * film.c, 2e6 * film.c, expansion(bearing)));
   if (!film.profiles.empty()) {
     const Eigen::VectorXd opening = film::gap_opening(film);
     row("shape", fmt::format("{} profile(s): the gap differs from that of cylinders by {:.4g} to {:.4g} um",

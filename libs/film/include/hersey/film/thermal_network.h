@@ -8,6 +8,7 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/film/heat_state.h"
+#include "hersey/film/thermal_model.h"
 
 namespace hersey::film {
 
@@ -36,6 +37,9 @@ struct FilmTerminals {
   std::optional<std::size_t> shell, journal;
 };
 
+/// Of a film's walls.
+[[nodiscard]] FilmTerminals terminals_of(const ThermalModel& thermal);
+
 /// A film's heat at its terminals.
 struct FilmAtNodes {
   FilmTerminals at;
@@ -48,21 +52,22 @@ struct NetworkObservables {
   Eigen::VectorXd heat;  ///< from films into each node
   double to_fixed = 0;   ///< into surroundings
   double stored = 0;     ///< rate of the bodies' heat
-  /// What is missing, over the largest of these [-].
+  /// What is missing in (thermal.39), over the largest of these [-].
   [[nodiscard]] double error() const;
 };
 
 /// Whether heat of the node can reach surroundings along paths.
 [[nodiscard]] bool reaches_surroundings(const ThermalNetworkModel& model, std::size_t node);
 
-/// Lumped bodies and surroundings, connected by conductances and warmed by films (theory manual, thermal.34 to
-/// thermal.37).
+/// Lumped bodies and surroundings, connected by conductances and warmed by films (theory manual, thermal.35 to
+/// thermal.39).
 class ThermalNetwork {
  public:
   /// Bodies at the temperatures of their start. @throws ContractError on nodes that are not there, or bodies without
   /// capacity
   explicit ThermalNetwork(ThermalNetworkModel model);
 
+  /// As given.
   [[nodiscard]] const ThermalNetworkModel& model() const { return model_; }
   /// Now [K].
   [[nodiscard]] const Eigen::VectorXd& temperatures() const { return seen_.T; }
@@ -81,7 +86,7 @@ class ThermalNetwork {
   void persist(Archive& archive);
 
  private:
-  void observe(double dt, const Eigen::VectorXd& start, const std::vector<FilmAtNodes>& films);
+  void observe(double dt, const Eigen::VectorXd& change, const std::vector<FilmAtNodes>& films);
 
   ThermalNetworkModel model_;
   NetworkObservables seen_;
