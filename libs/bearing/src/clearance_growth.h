@@ -15,10 +15,10 @@ class ClearanceGrowth {
   /// Where a run starts. @param growth  [m]
   void start_at(double growth) { start_ = now_ = target_ = growth; }
 
-  /// Over the step that begins.
+  /// Over the step that begins; dt = 0: at an instant.
   void begin_step(double dt) {
-    now_ = start_ + (target_ - start_) * std::min(1.0, over_ > 0 ? dt / over_ : 1.0);
-    rate_ = (now_ - start_) / dt;
+    now_ = start_ + (target_ - start_) * (over_ > 0 ? std::min(1.0, dt / over_) : 1.0);
+    rate_ = dt > 0 ? (now_ - start_) / dt : 0;
   }
   /// The step of length dt has ended with temperatures that call for `target` [m].
   void accept_step(double target, double dt) {

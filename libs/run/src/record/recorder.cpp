@@ -106,7 +106,7 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   for (const BeamRecord& beam : beams_) beam.append(seen);
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].append(step.contacts[i]);
   for (std::size_t i = 0; i < bearings_.size(); ++i) bearings_[i].append(step.bearings[i]);
-  if (thermal_) thermal_->append(step.network);
+  if (thermal_) thermal_->append({model_, step.network});
 }
 
 void Recorder::write_fields(const StepRecord& step) {

@@ -6,16 +6,22 @@
 
 namespace hersey::run {
 
+/// The thermal network at an instant.
+struct ThermalRow {
+  const model::Model& model;
+  const film::NetworkObservables& seen;
+};
+
 /// The thermal network's bodies in the results file.
 class ThermalRecord {
  public:
   /// @pre the model has a network
   ThermalRecord(const model::Model& model, results::Writer& writer);
-  void append(const film::NetworkObservables& seen) const { rows_.append(seen); }
+  void append(const ThermalRow& row) const { rows_.append(row); }
   [[nodiscard]] static QuantityGroup describe();
 
  private:
-  QuantityRows<film::NetworkObservables, model::Model> rows_;
+  QuantityRows<ThermalRow, model::Model> rows_;
 };
 
 }  // namespace hersey::run
