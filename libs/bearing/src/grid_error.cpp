@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hersey/bearing/bearing_numbers.h"
+#include "hersey/core/turn.h"
 
 namespace hersey::bearing {
 namespace {
@@ -30,10 +31,22 @@ film::FilmModel with_half_grid(film::FilmModel model) {
   return model;
 }
 
-/// A shell's body as a coarser grid sees it.
+/// Walls as a coarser grid sees them: a body, and temperatures given at angles, straight lines between them.
 void take_to(const film::Grid& coarse, const film::Grid& fine, film::ThermalModel& thermal) {
   if (auto* body = std::get_if<film::BodyWall>(&thermal.shell))
     body->conduction = std::make_shared<const film::WallConduction>(film::on_grid(*body->conduction, fine, coarse));
+  auto* wall = std::get_if<film::WallAtTemperature>(&thermal.shell);
+  if (wall == nullptr || wall->around.size() == 0) return;
+  const Eigen::VectorXd T = wall->around;
+  const auto phi = [&](int k) { return fine.phi(k % fine.n_phi) + turn * (k / fine.n_phi); };
+  wall->around.resize(coarse.n_phi);
+  for (int i = 0, k = 0; i < coarse.n_phi; ++i) {
+    double at = coarse.phi(i);
+    if (at < phi(0)) at += turn;
+    for (k = 0; k + 1 < fine.n_phi && phi(k + 1) <= at;) ++k;
+    const double share = (at - phi(k)) / (phi(k + 1) - phi(k));
+    wall->around[i] = (1 - share) * T[k] + share * T[(k + 1) % fine.n_phi];
+  }
 }
 
 bool is_fine_enough(const film::Grid& grid) {

@@ -129,7 +129,7 @@ film::SurfaceMotion SteadyFilm::rigid_surfaces(const OperatingPoint& point, cons
 
 double SteadyFilm::undeformed_gap(const Eigen::Vector2d& e) const {
   return thermal_shape_.size() > 0 ? rigid_surfaces(point_, e).g.minCoeff()
-                                   : smallest_gap(model_, parameters_of(model_, point_, e));
+                                   : smallest_gap(model_, parameters_of(model_, point_, e), point_.growth);
 }
 
 film::SurfaceMotion SteadyFilm::surfaces(const Eigen::Vector2d& e, const VectorXd& x) {

@@ -39,7 +39,8 @@ class SteadyFilm {
 
   /// Viscosities by the oil's temperatures from now on.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
-  /// How far the shell lies outside its cylinder at the nodes by temperature from now on [m] (thermal.46); empty: nowhere.
+  /// How far the shell lies outside its cylinder at the nodes by temperature from now on [m] (thermal.46); empty:
+  /// nowhere.
   void set_thermal_shape(Eigen::VectorXd shape) { thermal_shape_ = std::move(shape); }
   [[nodiscard]] const Eigen::VectorXd& thermal_shape() const { return thermal_shape_; }
   /// On the film's relative residual, instead of SteadyOptions::rtol.
@@ -114,7 +115,7 @@ class SteadyFilm {
   film::FilmSolveOptions film_options_;
   DeformingSurfaces deforming_;
   film::Reynolds reynolds_;
-  film::FilmHistory history_;                       // dt = 0: a steady film
+  film::FilmHistory history_;  // dt = 0: a steady film
   Eigen::VectorXd thermal_shape_;
   Eigen::MatrixXd C_, C_W_;                         // of both bodies, shell first; C_W for the wrench on the shell
   Eigen::VectorXd s_0_;                             // what the spin of the bodies does

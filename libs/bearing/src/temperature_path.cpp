@@ -1,6 +1,7 @@
 #include "temperature_path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "short_bearing.h"
@@ -22,56 +23,73 @@ TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::Therm
     : model_(model), thermal_(thermal), heat_(model, thermal) {
   if (const auto* body = std::get_if<film::BodyWall>(&thermal.shell); body != nullptr && body->conduction->deforms())
     per_watt_ = body->conduction->rise.rowwise().sum().mean();
+  if (thermal.expansion) {
+    const double largest = std::max(std::abs(thermal.expansion->shell), std::abs(thermal.expansion->journal));
+    if (largest > 0) per_metre_ = 1 / (model.R * largest);
+  }
+  growth_ = called_for();
   if (start) {
     heat_.set_state(*start);
-    tried_ = unknowns();
+    growth_ = called_for();
+    tried_ = unknowns(growth_);
   } else {
     fill(likely_temperature(model, thermal.T_supply, point));
   }
+}
+
+// By the walls as they are now (thermal.32).
+double TemperaturePath::called_for() const {
+  if (per_metre_ == 0) return 0;
+  const film::HeatObservables& seen = heat_.observables();
+  return thermal_.expansion->growth(model_.R, seen.T_shell_wall, seen.T_journal_wall);
 }
 
 void TemperaturePath::fill(double T_oil) {
   T_oil_ = T_oil;
   film::HeatState state = heat_.state();
   state.film.setConstant(T_oil);
-  try_next(std::move(state));
+  try_next(std::move(state), growth_);
 }
 
-Eigen::VectorXd TemperaturePath::unknowns() const {
+Eigen::VectorXd TemperaturePath::unknowns(double growth) const {
   const film::HeatState& now = heat_.state();
-  Eigen::VectorXd x(now.film.size() + now.thinning.size() + shape_unknowns());
+  Eigen::VectorXd x(now.film.size() + now.thinning.size() + shape_unknowns() + growth_unknowns());
   x << now.film.array() - thermal_.T_supply, kHeatOfShear * now.thinning.array().log(),
-      per_watt_ * now.wall_heat.head(shape_unknowns());
+      per_watt_ * now.wall_heat.head(shape_unknowns()),
+      Eigen::VectorXd::Constant(growth_unknowns(), per_metre_ * growth);
   return x;
 }
 
 Eigen::Index TemperaturePath::shape_unknowns() const { return per_watt_ > 0 ? heat_.state().wall_heat.size() : 0; }
 
+Eigen::Index TemperaturePath::growth_unknowns() const { return per_metre_ > 0 ? 1 : 0; }
+
 void TemperaturePath::try_next(const Eigen::VectorXd& x) {
   film::HeatState next = heat_.state();
-  const Eigen::Index film = next.film.size();
+  const Eigen::Index film = next.film.size(), thinning = next.thinning.size();
   next.film = x.head(film).array() + thermal_.T_supply;
-  next.thinning = (x.segment(film, next.thinning.size()) / kHeatOfShear).array().exp();
-  if (per_watt_ > 0) next.wall_heat = x.tail(next.wall_heat.size()) / per_watt_;
-  try_next(std::move(next));
+  next.thinning = (x.segment(film, thinning) / kHeatOfShear).array().exp();
+  if (per_watt_ > 0) next.wall_heat = x.segment(film + thinning, shape_unknowns()) / per_watt_;
+  try_next(std::move(next), per_metre_ > 0 ? x[x.size() - 1] / per_metre_ : 0);
 }
 
-void TemperaturePath::try_next(film::HeatState next) {
+void TemperaturePath::try_next(film::HeatState next, double growth) {
   next.film = next.film.cwiseMax(coldest_trial).cwiseMin(hottest_trial);
   heat_.set_state(next);
-  tried_ = unknowns();
+  growth_ = growth;
+  tried_ = unknowns(growth);
 }
 
 void TemperaturePath::take() {
   last_ = tried_;
-  image_ = unknowns();
+  image_ = unknowns(called_for());
   nearness_ = std::min(1.0, (image_ - last_).cwiseAbs().maxCoeff() / (1 + image_.cwiseAbs().maxCoeff()));
 }
 
 void TemperaturePath::step_on(int turn) {
   if (turn == kTurnsOfAcceleration) mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
   if (T_oil_) {
-    try_next(film::first_guess(model_, thermal_, *T_oil_, heat_.state()));
+    try_next(film::first_guess(model_, thermal_, *T_oil_, heat_.state()), called_for());
   } else {
     try_next(mixing_.next(last_, image_));
   }

@@ -24,8 +24,8 @@ BodyWall ring_as_body(const FilmModel& model, const RingWall& ring) {
   const int n = model.grid.n_phi;
   const double R = model.R, Ro = ring.outer_radius, middle = (R + Ro) / 2, k = ring.conductivity, L = model.L;
   const double dphi = 2 * pi / n, around = k * (Ro - R) * L / (middle * dphi);
-  const double outside =
-      dphi / (std::log(Ro / middle) / (k * L) + 1 / (ring.transfer * Ro * L)) + ring.transfer * (Ro * Ro - R * R) * dphi;
+  const double outside = dphi / (std::log(Ro / middle) / (k * L) + 1 / (ring.transfer * Ro * L)) +
+                         ring.transfer * (Ro * Ro - R * R) * dphi;
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(n, n);
   for (int i = 0; i < n; ++i) {
     Y(i, i) = 2 * around + outside;
@@ -121,7 +121,8 @@ TEST_CASE("BodyInAStep_KeepsItsTemperature") {
 
 TEST_CASE("ShapeOfABody_IsLinearInTheHeat") {
   const FilmModel model = closed_bearing();
-  auto wall = std::make_shared<WallConduction>(*ring_as_body(model, {.outer_radius = 0.09, .T_ambient = 300}).conduction);
+  auto wall =
+      std::make_shared<WallConduction>(*ring_as_body(model, {.outer_radius = 0.09, .T_ambient = 300}).conduction);
   wall->shape0.setConstant(model.grid.size(), 2e-6);
   wall->shape_by_heat.setConstant(model.grid.size(), model.grid.n_phi, 1e-8);
   wall->shape_by_rise.setConstant(model.grid.size(), 6e-7);
@@ -151,7 +152,8 @@ TEST_CASE("BodyOnACoarserGrid_IsTheSameBody") {
   CHECK((seen.T0.array() - 300).abs().maxCoeff() < 300 * round_off);
   CHECK((seen.rise - seen.rise.transpose()).cwiseAbs().maxCoeff() < round_off);
   const Eigen::VectorXd even = Eigen::VectorXd::Ones(24);
-  CHECK(seen.temperatures(even)[3] == relative(wall.temperatures(0.5 * Eigen::VectorXd::Ones(48))[6]).epsilon(round_off));
+  CHECK(seen.temperatures(even)[3] ==
+        relative(wall.temperatures(0.5 * Eigen::VectorXd::Ones(48))[6]).epsilon(round_off));
   Eigen::VectorXd wave(24), fine_wave(48);
   for (int i = 0; i < 24; ++i) wave[i] = std::cos(coarse.phi(i));
   for (int i = 0; i < 48; ++i) fine_wave[i] = 0.5 * std::cos(fine.phi(i));

@@ -299,6 +299,22 @@ double growth(const Solution& s) { return s.state.thermal_shape.mean(); }
 
 double distortion(const Solution& s) { return (s.state.thermal_shape.array() - growth(s)).abs().maxCoeff(); }
 
+/// The clearance as given and at temperature.
+Group clearance() {
+  const auto expands = [](const Solution& s) { return s.expands; };
+  return {"clearance",
+          {{"clearance_cold",
+            "radial clearance as given, cold",
+            kMicrometre,
+            [](const Solution& s) { return s.model.c; },
+            {.only = expands}},
+           {"clearance_hot",
+            "radial clearance at temperature, hot",
+            kMicrometre,
+            [](const Solution& s) { return bearing::clearance(s.model, s.state.point); },
+            {.only = expands}}}};
+}
+
 Group heat() {
   using Seen = film::HeatObservables;
   using Balance = film::HeatBalance;
@@ -371,7 +387,19 @@ Group heat() {
         "  error of the balance of heat",
         kNone,
         [](const Solution& s) { return s.state.heat->seen.balance.error(); },
-        {.only = has_heat}}}};
+        {.only = has_heat}},
+       {"T_node_<name>",
+        "temperature of <name>, with the heat of this bearing alone",
+        kCelsius,
+        [](const Solution& s, std::size_t k) {
+          return s.state.heat->network.T[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+        },
+        {.each = [](const Solution& s) { return s.node_names; }}},
+       {"network_balance_error",
+        "  error of the balance of heat of these bodies",
+        kNone,
+        [](const Solution& s) { return s.state.heat->network.error(); },
+        {.only = [](const Solution& s) { return !s.node_names.empty(); }}}}};
 }
 
 /// The four entries of a matrix over x and y, row by row.
@@ -430,9 +458,8 @@ Group stability() {
 
 /// The table of all figures, in the order in which they are told.
 const std::vector<Group>& table() {
-  static const std::vector<Group> groups{operating_point(), film_figures(), deformation(), dimensionless(),
-                                         friction(),        oil(),          heat(),        dynamics(),
-                                         stability()};
+  static const std::vector<Group> groups{operating_point(), clearance(), film_figures(), deformation(), dimensionless(),
+                                         friction(),        oil(),       heat(),         dynamics(),    stability()};
   return groups;
 }
 

@@ -130,6 +130,7 @@ class Builder {
     for (const Force& force : model_.forces) add_force(force);
     for (const Contact& contact : model_.contacts) add_contact(contact);
     for (const Bearing& bearing : model_.bearings) add_bearing(bearing);
+    if (!model_.thermal.network.nodes.empty()) machine_.network.emplace(model_.thermal.network);
     machine_.mechanism = mechanism_.finalise();
     return std::move(machine_);
   }
@@ -442,6 +443,7 @@ class Builder {
       if (auto* body = std::get_if<film::BodyWall>(&options.thermal->shell))
         body->conduction = wall_conduction(model_, bearing);
     }
+    options.growth = bearing.growth;
     for (const Function& pressure : bearing.feature_pressures) {
       options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
     }

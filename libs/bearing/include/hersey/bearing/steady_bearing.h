@@ -34,11 +34,12 @@ struct SteadyHeat {
   film::HeatObservables seen;
   film::TemperatureFields fields;
   Eigen::VectorXd T_body;  ///< of the body the shell is in, at the nodes of its mesh [K]; empty: it is in none
+  film::NetworkObservables network;  ///< of walls that are nodes; without nodes where none is
 };
 
 /// A solved operating point.
 struct SteadyState {
-  OperatingPoint point;
+  OperatingPoint point;                            ///< between walls as they have grown
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< that the film carries: its force on the shell [N]
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis, both frames turned by the load [-]
