@@ -360,9 +360,12 @@ void FilmForce::close_step() {
   oil_of_run_.volume = oil_.volume;
 }
 
-void FilmForce::settle_walls() {
-  if (heat_) walls_ = heat_->settle_walls();
+const film::WallExchange& FilmForce::mean_exchange() {
+  HERSEY_REQUIRE(heat_.has_value(), "a film with temperatures");
+  return heat_->mean_exchange();
 }
+
+void FilmForce::settle_walls(const Eigen::Vector2d& T_nodes) { walls_ = heat_->settle_walls(T_nodes); }
 
 void FilmForce::move_walls(const Eigen::Vector2d& T) {
   HERSEY_REQUIRE(heat_.has_value(), "a film with temperatures");

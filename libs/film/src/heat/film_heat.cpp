@@ -90,6 +90,7 @@ struct FilmHeat::Impl {
   LayerFlows flows;
   HeatEquations equations;
   HeatState state;
+  MeanHeat::Answer mean;
   solver::FixedPointIteration settling{solver::Acceleration::quasi_newton, 1};
   HeatState start_of_step;
   double dt = 0;                   // of the last step [s]
@@ -260,7 +261,7 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   m.state = m.equations.solve(m.carrying(), m.start_of_step);
   if (m.shears_layers()) m.thin();
   m.observe(m.carrying());
-  if (has_nodes(m.thermal)) m.find_exchange();
+  if (has_nodes(m.thermal) && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
 }
 
 // What walls that are nodes take up, and by how much more of a film that follows them (thermal.36).
@@ -332,16 +333,41 @@ void FilmHeat::Impl::set_held_walls(const Eigen::VectorXd& T) {
   if (std::holds_alternative<FreeJournal>(thermal.journal)) state.journal = T.tail(1)[0];
 }
 
-WallCorrection FilmHeat::settle_walls() {
+const WallExchange& FilmHeat::mean_exchange() {
   Impl& m = *impl_;
+  HERSEY_REQUIRE(m.holds_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
+  m.mean = m.equations.mean().answer();
+  m.mean.exchange.T = {m.state.shell.size() > 0 ? m.state.shell[0] : 0, m.state.journal};
+  return m.mean.exchange;
+}
+
+WallCorrection FilmHeat::settle_walls(const Eigen::Vector2d& T_nodes) {
+  Impl& m = *impl_;
+  const Eigen::Vector2d by = T_nodes - m.mean.exchange.T;
+  const bool is_shell = std::holds_alternative<NodeWall>(m.thermal.shell);
+  const bool is_journal = std::holds_alternative<NodeWall>(m.thermal.journal);
+  WallCorrection correction{.rise = -std::numeric_limits<double>::infinity()};
+  const auto note = [&](double change, double T) {
+    correction.largest = std::max(correction.largest, std::abs(change));
+    correction.rise = std::max(correction.rise, T - m.thermal.T_supply);
+  };
+  if (is_shell) note(by[0], T_nodes[0]), m.state.shell.setConstant(T_nodes[0]);
+  if (is_journal) note(by[1], T_nodes[1]), m.state.journal = T_nodes[1];
   const Eigen::VectorXd before = m.held_walls();
-  if (!m.holds_walls() || before.size() == 0 || !m.equations.mean().has_steps()) return {};
-  const MeanHeat::Change change = m.equations.mean().settle();
-  Eigen::VectorXd after = before;
-  if (std::holds_alternative<RingWall>(m.thermal.shell)) after.head(change.shell.size()) += change.shell;
-  if (std::holds_alternative<FreeJournal>(m.thermal.journal)) after.tail(1)[0] += change.journal;
-  const WallCorrection correction{(after - before).cwiseAbs().maxCoeff(), after.maxCoeff() - m.thermal.T_supply};
-  m.set_held_walls(m.settling.next(before, after));
+  if (before.size() > 0) {
+    Eigen::VectorXd after = before;
+    const auto follow = [&](const MeanHeat::Change& change, double share) {
+      if (std::holds_alternative<RingWall>(m.thermal.shell)) after.head(change.ring.size()) += share * change.ring;
+      if (std::holds_alternative<FreeJournal>(m.thermal.journal)) after.tail(1)[0] += share * change.journal;
+    };
+    follow(m.mean.without, 1);
+    if (is_shell) follow(m.mean.by_shell, by[0]);
+    if (is_journal) follow(m.mean.by_journal, by[1]);
+    note((after - before).cwiseAbs().maxCoeff(), after.maxCoeff());
+    // Beside nodes, which move by themselves, there is no one map to accelerate.
+    m.set_held_walls(is_shell || is_journal ? after : m.settling.next(before, after));
+  }
+  if (!std::isfinite(correction.rise)) correction.rise = 0;
   return correction;
 }
 

@@ -29,8 +29,12 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
       thermal_(thermal),
       rc_(model.lubricant.density * model.lubricant.specific_heat),
       system_(model.grid, thermal.layers, has_own_temperatures(thermal.shell)),
-      mean_(model.grid, thermal.layers, has_own_temperatures(thermal.shell),
-            std::holds_alternative<FreeJournal>(thermal.journal), supplies()) {
+      mean_(model.grid, thermal.layers,
+            {.ring = has_own_temperatures(thermal.shell),
+             .shell_node = std::holds_alternative<NodeWall>(thermal.shell),
+             .free_journal = std::holds_alternative<FreeJournal>(thermal.journal),
+             .journal_node = std::holds_alternative<NodeWall>(thermal.journal)},
+            supplies()) {
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }

@@ -55,10 +55,17 @@ void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatSt
     added.segment(held.node * layers(), layers()) *= 1 - held.chi;
     capacity.segment(held.node * layers(), layers()) *= 1 - held.chi;
   }
+  Eigen::VectorXd conductance_shell(model_.grid.size()), conductance_journal(model_.grid.size());
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    conductance_shell[node] = to_shell(film, node);
+    conductance_journal[node] = to_journal(film, node);
+  }
   mean_.add_equations(film.dt, {.system = system_,
                                 .added = added,
                                 .by_journal = by_journal_,
-                                .to_journal = into_journal_,
+                                .by_shell = by_shell_,
+                                .to_shell = conductance_shell,
+                                .to_journal = conductance_journal,
                                 .by_supplies = by_supplies,
                                 .of_supplies = of_supplies,
                                 .capacity = capacity,
@@ -74,20 +81,21 @@ void HeatEquations::hold_journal(const HeatState& start) {
 void HeatEquations::add_heat_to_mean(const CarryingFilm& film, const HeatState& start, const HeatState& end) {
   const int rows = system_.size(), n = model_.grid.n_phi;
   Eigen::VectorXd into = Eigen::VectorXd::Zero(rows + 1);
+  double shell = 0, journal = 0;
   const auto ring_row = [this](int i) -> int { return system_.ring_row(i % model_.grid.n_phi); };
   const auto* ring = std::get_if<RingWall>(&thermal_.shell);
   for (int node = 0; node < model_.grid.size(); ++node) {
-    const double friction = 0.5 * asperity_power(film, node);
-    if (ring != nullptr) into[ring_row(node / model_.grid.n_z)] += into_shell(film, end, node) + friction;
-    into[rows] += into_journal(film, end, node) + friction;
+    const double friction = 0.5 * asperity_power(film, node), to_shell = into_shell(film, end, node) + friction;
+    if (ring != nullptr) into[ring_row(node / model_.grid.n_z)] += to_shell;
+    shell += to_shell, journal += into_journal(film, end, node) + friction;
   }
   for (int i = 0; ring != nullptr && i < n; ++i) {
     const double around = ring_.around[i] * (end.shell[(i + 1) % n] - end.shell[i]);
     into[ring_row(i)] += around + ring_.outside[i] * (ring->T_ambient - end.shell[i]);
     into[ring_row(i + 1)] -= around;
   }
-  if (!std::holds_alternative<FreeJournal>(thermal_.journal)) into[rows] = 0;
-  mean_.add_heat(film.dt, into, start.film, end.film);
+  if (std::holds_alternative<FreeJournal>(thermal_.journal)) into[rows] = journal;
+  mean_.add_heat(film.dt, into, {shell, journal}, start.film, end.film);
 }
 
 }  // namespace hersey::film

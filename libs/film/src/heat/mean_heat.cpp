@@ -6,13 +6,9 @@
 #include "hersey/solver/sparse_lu.h"
 
 namespace hersey::film {
-MeanHeat::MeanHeat(const Grid& grid, int layers, bool has_ring, bool has_free_journal, int supplies)
-    : grid_(grid),
-      layers_(layers),
-      has_ring_(has_ring),
-      has_free_journal_(has_free_journal),
-      supplies_(supplies),
-      system_(grid, layers, has_ring) {
+
+MeanHeat::MeanHeat(const Grid& grid, int layers, const Walls& walls, int supplies)
+    : grid_(grid), layers_(layers), walls_(walls), supplies_(supplies), system_(grid, layers, walls.ring) {
   clear();
 }
 
@@ -20,13 +16,14 @@ void MeanHeat::clear() {
   time_ = 0;
   system_.set_zero();
   by_journal_.setZero(system_.size());
-  to_journal_.setZero(grid_.size());
+  by_shell_.setZero(system_.size() + 1 + supplies_);
+  to_shell_.setZero(grid_.size()), to_journal_.setZero(grid_.size());
+  into_nodes_.setZero();
   into_.setZero(system_.size() + 1);
   capacity_.setZero(grid_.size() * layers_);
   by_supplies_.setZero(system_.size(), supplies_);
   capacity_of_supplies_ = by_supplies_;
   of_supplies_.setZero(system_.size() + 1 + supplies_, supplies_);
-  journal_self_ = 0;
 }
 
 void MeanHeat::add_equations(double dt, const Equations& equations) {
@@ -37,20 +34,22 @@ void MeanHeat::add_equations(double dt, const Equations& equations) {
   capacity_of_supplies_ += dt * equations.capacity_of_supplies;
   by_supplies_ += dt * equations.by_supplies;
   of_supplies_ += dt * equations.of_supplies;
-  if (!has_free_journal_) return;
-  by_journal_ += dt * equations.by_journal;
-  for (int node = 0; node < grid_.size(); ++node) {
-    to_journal_[node] += dt * equations.to_journal[node];
-    journal_self_ += dt * equations.to_journal[node];
+  if (walls_.free_journal || walls_.journal_node) {
+    by_journal_ += dt * equations.by_journal;
+    to_journal_ += dt * equations.to_journal;
   }
+  if (!walls_.shell_node) return;
+  by_shell_ += dt * equations.by_shell;
+  to_shell_ += dt * equations.to_shell;
 }
 
-void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::VectorXd& start,
-                        const Eigen::VectorXd& end) {
+void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vector2d& into_nodes,
+                        const Eigen::VectorXd& start, const Eigen::VectorXd& end) {
   if (time_ == 0) begin_ = start;
   end_ = end;
   time_ += dt;
   into_ += dt * into;
+  into_nodes_ += dt * into_nodes;
 }
 
 // What the film has stored since the beginning, it has taken from walls and supplies.
@@ -63,19 +62,48 @@ Eigen::VectorXd MeanHeat::missing() const {
   return missing;
 }
 
-// Temperatures at which nothing is stored and walls take up no heat (thermal.51).
-MeanHeat::Change MeanHeat::settle() {
+MeanHeat::Change MeanHeat::change_of(const Eigen::VectorXd& x) const {
+  const int ring = walls_.ring ? grid_.n_phi : 0;
+  return {x.segment(system_.size() - ring, ring), walls_.free_journal ? x[system_.size()] : 0};
+}
+
+// Into nodes, of a change of the film between them [W s].
+Eigen::Vector2d MeanHeat::heat_of(const Eigen::VectorXd& x) const {
+  Eigen::Vector2d heat = Eigen::Vector2d::Zero();
+  for (int node = 0; node < grid_.size(); ++node) {
+    if (walls_.shell_node) heat[0] += to_shell_[node] * x[system_.row(node, 0)];
+    if (walls_.journal_node) heat[1] += to_journal_[node] * x[system_.row(node, layers_ - 1)];
+  }
+  return heat;
+}
+
+// Temperatures at which nothing is stored and walls take up no heat (thermal.51); nodes leave that to their network.
+MeanHeat::Answer MeanHeat::answer() {
   HERSEY_REQUIRE(has_steps(), "a mean over some time");
   const Eigen::SparseMatrix<double> A = matrix();
-  Eigen::VectorXd x = missing();
   solver::SparseLu lu;
   lu.analyse(A);
   HERSEY_REQUIRE(lu.factorise({A.valuePtr(), static_cast<std::size_t>(A.nonZeros())}), "layers that balance heat");
-  lu.solve({x.data(), static_cast<std::size_t>(x.size())});
-  const int ring = has_ring_ ? grid_.n_phi : 0;
-  Change change{x.segment(system_.size() - ring, ring), x[system_.size()]};
+  const auto solve = [&lu](Eigen::VectorXd x) {
+    lu.solve({x.data(), static_cast<std::size_t>(x.size())});
+    return x;
+  };
+  Answer answer;
+  const Eigen::VectorXd x = solve(missing());
+  answer.without = change_of(x);
+  answer.exchange.heat = (into_nodes_ + heat_of(x)) / time_;
+  if (walls_.shell_node) {
+    const Eigen::VectorXd by_shell = solve(by_shell_);
+    answer.by_shell = change_of(by_shell);
+    answer.exchange.by_T.col(0) = (heat_of(by_shell) - Eigen::Vector2d(to_shell_.sum(), 0)) / time_;
+  }
+  if (walls_.journal_node) {
+    const Eigen::VectorXd by_journal = solve(Eigen::VectorXd::Unit(A.rows(), system_.size()));
+    answer.by_journal = change_of(by_journal);
+    answer.exchange.by_T.col(1) = (heat_of(by_journal) - Eigen::Vector2d(0, to_journal_.sum())) / time_;
+  }
   clear();
-  return change;
+  return answer;
 }
 
 Eigen::SparseMatrix<double> MeanHeat::matrix() const {
@@ -91,8 +119,10 @@ Eigen::SparseMatrix<double> MeanHeat::matrix() const {
     add(row, rows, -by_journal_[row]);
     for (int s = 0; s < supplies_; ++s) add(row, rows + 1 + s, -by_supplies_(row, s));
   }
-  add(rows, rows, journal_self_ != 0 ? journal_self_ : 1);
-  for (int node = 0; node < grid_.size(); ++node) add(rows, system_.row(node, layers_ - 1), -to_journal_[node]);
+  const double journal_self = walls_.free_journal ? to_journal_.sum() : 0;
+  add(rows, rows, journal_self != 0 ? journal_self : 1);
+  for (int node = 0; walls_.free_journal && node < grid_.size(); ++node)
+    add(rows, system_.row(node, layers_ - 1), -to_journal_[node]);
   for (int s = 0; s < supplies_; ++s)
     for (int column = 0; column < rows + 1 + supplies_; ++column) add(rows + 1 + s, column, of_supplies_(column, s));
   Eigen::SparseMatrix<double> A(rows + 1 + supplies_, rows + 1 + supplies_);
@@ -104,11 +134,12 @@ void MeanHeat::persist(Archive& archive) {
   const Archive::Group group(archive, "mean");
   archive.io("time", time_);
   system_.persist(archive);
+  archive.io("by_shell", by_shell_), archive.io("to_shell", to_shell_);
   archive.io("by_journal", by_journal_), archive.io("to_journal", to_journal_);
+  archive.io("into_nodes", into_nodes_);
   archive.io("by_supplies", by_supplies_), archive.io("of_supplies", of_supplies_);
   archive.io("into", into_), archive.io("begin_T", begin_), archive.io("end_T", end_);
   archive.io("capacity", capacity_), archive.io("capacity_of_supplies", capacity_of_supplies_);
-  archive.io("journal_self", journal_self_);
 }
 
 }  // namespace hersey::film

@@ -138,6 +138,9 @@ Eigen::Vector2d ThermalNetwork::walls(const FilmTerminals& at, const Eigen::Vect
   return T;
 }
 
-void ThermalNetwork::persist(Archive& archive) { archive.io("T", seen_.T); }
+void ThermalNetwork::persist(Archive& archive) {
+  archive.io("T", seen_.T), archive.io("heat", seen_.heat);
+  archive.io("to_fixed", seen_.to_fixed), archive.io("stored", seen_.stored);
+}
 
 }  // namespace hersey::film

@@ -123,7 +123,7 @@ class Simulation {
         const bool is_advised = step.trouble.find("asperities") != std::string::npos;
         return fail(step.trouble + (is_advised ? "" : record_.thin_films()));
       }
-      warm_bodies(machine_, step.dt);
+      if (model_.thermal_walls == model::ThermalWalls::transient) warm_bodies(machine_, step.dt);
       record(step);
       if (const std::string trouble = thermal_trouble(machine_); !trouble.empty())
         return fail(fmt::format("t = {:.6g} s: {}", state_.t, trouble));
@@ -176,8 +176,7 @@ class Simulation {
   }
 
   void record(const MarchedStep& step) {
-    if (model_.thermal_walls == model::ThermalWalls::cycle_mean && record_.ends_cycle(state_.t))
-      for (const model::BuiltBearing& bearing : machine_.bearings) bearing.bearing->settle_walls();
+    if (model_.thermal_walls == model::ThermalWalls::cycle_mean && record_.ends_cycle(state_.t)) settle_walls(machine_);
     const Stopwatch watch(work_.recording());
     record(observe(step));
   }

@@ -19,6 +19,22 @@ void warm_bodies(model::Machine& machine, double dt) {
     warmed[i]->move_walls(machine.network->walls(films[i].at, films[i].exchange.T));
 }
 
+void settle_walls(model::Machine& machine) {
+  std::vector<film::FilmAtNodes> films;
+  std::vector<bearing::FilmForce*> warm;
+  for (const model::BuiltBearing& built : machine.bearings) {
+    const film::FilmHeat* heat = built.bearing->heat();
+    if (heat == nullptr) continue;
+    films.push_back({film::terminals_of(heat->thermal()), built.bearing->mean_exchange()});
+    warm.push_back(built.bearing.get());
+  }
+  if (machine.network) machine.network->advance(0, films);
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const Eigen::Vector2d held = films[i].exchange.T;
+    warm[i]->settle_walls(machine.network ? machine.network->walls(films[i].at, held) : held);
+  }
+}
+
 std::string thermal_trouble(const model::Machine& machine) {
   for (const model::BuiltBearing& built : machine.bearings)
     if (const std::string trouble = built.bearing->thermal_trouble(); !trouble.empty())

@@ -11,6 +11,10 @@ namespace hersey::run {
 /// no network.
 void warm_bodies(model::Machine& machine, double dt);
 
+/// After the last step of a cycle: walls that are held, bodies of the network among them, take the temperatures at
+/// which the cycle's mean heat would pass them by (theory manual, thermal.51).
+void settle_walls(model::Machine& machine);
+
 /// What temperatures have done to a film that cannot go on from there: "bearing main: a seizure ..."; else empty.
 [[nodiscard]] std::string thermal_trouble(const model::Machine& machine);
 

@@ -112,9 +112,10 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }
   void persist(Archive& archive) override;
 
-  /// A cycle of the machine has ended with the step last accepted: walls that are held settle by it
-  /// (film::FilmHeat::settle_walls).
-  void settle_walls();
+  /// A cycle of the machine has ended with the step last accepted: as film::FilmHeat::mean_exchange().
+  const film::WallExchange& mean_exchange();
+  /// Likewise film::FilmHeat::settle_walls().
+  void settle_walls(const Eigen::Vector2d& T_nodes);
   /// Of a film with temperatures; null: it has one.
   [[nodiscard]] const film::FilmHeat* heat() const { return heat_ ? &*heat_ : nullptr; }
   /// After a step has been accepted: walls that are nodes of a network have these temperatures at its end, shell and

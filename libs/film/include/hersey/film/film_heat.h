@@ -49,10 +49,13 @@ class FilmHeat {
   /// shear. @returns the largest change of a logarithm of viscosity [-]
   double thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
-  /// Walls that are held (WallMotion::held) take the temperatures at which, by the means over all steps since the last
-  /// call, they would take up no heat; call after call ever better (theory manual, thermal.51). Returns how far off
-  /// they were. Nothing happens before the first step.
-  WallCorrection settle_walls();
+  /// Of walls that are held (WallMotion::held), by the means over all steps since the last call: what those that are
+  /// nodes take up, rings and free journals following. @throws ContractError without a step since then
+  const WallExchange& mean_exchange();
+  /// After mean_exchange(): nodes have these temperatures, shell and journal [K]; rings and free journals take those at
+  /// which they would take up no heat; call after call ever better (theory manual, thermal.51). Returns how far off
+  /// they were.
+  WallCorrection settle_walls(const Eigen::Vector2d& T_nodes);
 
   /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.46); empty:
   /// it does not.

@@ -82,7 +82,7 @@ class ThermalNetwork {
   /// Of the last step; before the first one of temperatures only.
   [[nodiscard]] const NetworkObservables& observables() const { return seen_; }
 
-  /// Temperatures.
+  /// Temperatures and what is shown.
   void persist(Archive& archive);
 
  private:
