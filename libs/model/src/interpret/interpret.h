@@ -67,6 +67,9 @@ struct JointCoordinate {
 /// Reports a pressure of a bearing that lies below its cavitation pressure.
 void require_above_cavitation(Context& context, const Value& pressure, const film::FilmModel& film);
 
+/// Warns of a temperature beyond what is known of the oil called `oil`.
+void warn_of_temperature(Context& context, const Value& T, const OilValidity& validity, const std::string& oil);
+
 /// The film's heat, and its oil at its temperature, of a bearing all else of which has been read. @param lubricant  its
 /// oil; null where there is none of that name
 void read_thermal(Context& context, const Value& value, const Lubricant* lubricant, Bearing& bearing);

@@ -73,6 +73,9 @@ struct WordsOfViscosity {
   std::string operator()(const film::Roelands& law) const {
     return fmt::format(" at p_cav, Roelands with z = {:.4g}", law.z);
   }
+  std::string operator()(const film::TabledPressure& law) const {
+    return fmt::format(" at p_cav, a table over pressure up to {:.4g} MPa", 1e-6 * law.p.back());
+  }
 };
 
 struct WordsOfDensity {

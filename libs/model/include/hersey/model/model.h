@@ -22,6 +22,7 @@
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/nodal_body.h"
 #include "hersey/mbd/shape.h"
+#include "hersey/model/oil_validity.h"
 #include "hersey/solver/fixed_point_iteration.h"
 
 /// The model file as checked, plain data: SI units, names resolved, nothing built yet.
@@ -263,6 +264,7 @@ struct Lubricant {
   film::Lubricant data;               ///< at `temperature`, where there is one
   std::string grade;                  ///< by which it can be bought; empty: by its own numbers
   std::optional<double> temperature;  ///< where a bearing has none of its own [K]
+  OilValidity validity;
   SourcePosition position;
 };
 
@@ -305,6 +307,7 @@ struct Bearing {
   std::string lubricant;
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
   Heat heat;             ///< none: one temperature
+  OilValidity validity;  ///< of its oil
   std::vector<Function> feature_pressures;  ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;
