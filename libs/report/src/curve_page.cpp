@@ -43,9 +43,19 @@ thead tr + tr th { color: var(--soft); font-weight: 400; border-bottom: 1px soli
 tbody tr + tr td { border-top: 1px solid var(--line); }
 )";
 
+/// Units as they are printed.
+std::string typeset(std::string text) {
+  const std::vector<std::pair<std::string, std::string>> words{
+      {"^2", "²"}, {"^3", "³"}, {"degC", "°C"}, {"mPa.s", "mPa·s"}};
+  for (const auto& [from, to] : words)
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+  return escaped(text);
+}
+
 std::string row_of(const std::vector<std::string>& cells, const char* element) {
   std::string row = "<tr>";
-  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", element, escaped(cell));
+  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", element, typeset(cell));
   return row + "</tr>";
 }
 
@@ -65,10 +75,11 @@ std::string chart_of(const CurveChart& chart) {
 }  // namespace
 
 void write_html(const CurvePage& page, const std::filesystem::path& out) {
-  std::string body = fmt::format("<h1>{}</h1><p class=\"lead\">{}</p><p class=\"facts\">{}</p><dl>", escaped(page.title),
-                                 escaped(page.lead), escaped(fmt::format("{}", fmt::join(page.facts, " · "))));
+  std::string body =
+      fmt::format("<h1>{}</h1><p class=\"lead\">{}</p><p class=\"facts\">{}</p><dl>", escaped(page.title),
+                  escaped(page.lead), typeset(fmt::format("{}", fmt::join(page.facts, " · "))));
   for (const auto& [name, text] : page.conditions)
-    body += fmt::format("<dt>{}</dt><dd>{}</dd>", escaped(name), escaped(text));
+    body += fmt::format("<dt>{}</dt><dd>{}</dd>", escaped(name), typeset(text));
   body += "</dl><div class=\"charts\">";
   for (const CurveChart& chart : page.charts) body += chart_of(chart);
   body += "</div>" + table_of(page.table);

@@ -59,8 +59,9 @@ struct Reach {
 
 /// A tick as one writes it: 0.02, 5, 200, 10^6.
 std::string tick_text(double value) {
+  if (std::abs(value) < 1e-300) return "0";  // of either sign
   const double decade = std::log10(std::abs(value));
-  if (value != 0 && (decade >= 4 || decade < -3)) {
+  if (decade >= 4 || decade < -3) {
     const double power = std::floor(decade + 1e-9), digit = value / std::pow(10, power);
     const std::string ten = fmt::format("10<tspan dy=\"-5\" font-size=\"9\">{:.0f}</tspan>", power);
     return std::abs(digit - 1) < 1e-6 ? ten : fmt::format("{:.0f}·{}", digit, ten);  // round-off of the division
@@ -146,8 +147,8 @@ std::string svg_of(const CurveChart& chart) {
   Axis x(chart.x_is_logarithmic, left, width - right), y(true, height - bottom, top);
   x.reach(of_x.low, of_x.high);
   y.reach(of_y.low / 1.15, of_y.high * 1.15);
-  std::string svg = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width, height,
-                                escaped(chart.title));
+  std::string svg =
+      fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width, height, escaped(chart.title));
   svg += axes_of(chart, x, y);
   std::vector<double> ends;
   for (const CurveLine& line : chart.lines) ends.push_back(y.at(line.y.back()) + 4);

@@ -235,13 +235,8 @@ film::ShearThinning shear_thinning_of(Context& context, const Value& lubricant, 
 void warn_of_temperature(Context& context, const Value& T, const OilValidity& validity, const std::string& oil) {
   const std::string doubt = doubt_at(validity, T.number);
   if (doubt.empty()) return;
-  context.model.warnings.push_back(
-      {T.position, T.path, "oil '" + oil + "' where its viscosity is not known: " + doubt,
-       fmt::format("a temperature {}",
-                   T.number < validity.T_low
-                       ? fmt::format("from {:.4g} degC on", validity.T_low - film::zero_celsius)
-                       : fmt::format("up to {:.4g} degC", validity.T_high - film::zero_celsius)),
-       ""});
+  context.model.warnings.push_back({T.position, T.path, "oil '" + oil + "' where its viscosity is not known: " + doubt,
+                                    "a temperature between these ends, or an oil known there", ""});
 }
 
 void interpret_lubricants(Context& context) {

@@ -23,7 +23,7 @@ struct EndsOfLaw {
   OilValidity operator()(const film::FixedViscosity&) const { return {}; }
   OilValidity operator()(const film::ExponentialViscosity&) const { return {}; }
   OilValidity operator()(const film::VogelViscosity& law) const {
-    return {.T_low = law.c + above_vogels_pole, .low = "20 K above the pole of Vogel's law"};
+    return {.low = {{law.c + above_vogels_pole, "20 K above the pole of Vogel's law"}}};
   }
   OilValidity operator()(const film::WaltherViscosity& law) const {
     double cold = film::zero_celsius, hot = 1000;
@@ -32,11 +32,11 @@ struct EndsOfLaw {
       const double T = 0.5 * (cold + hot);
       (law.kinematic(T).value > least_walther ? cold : hot) = T;
     }
-    return {.T_high = hot, .high = "where ASTM D341 in its simple form ends, 2 mm^2/s"};
+    return {.high = {{hot, "where ASTM D341 in its simple form ends, 2 mm^2/s"}}};
   }
   OilValidity operator()(const film::TabledViscosity& law) const {
     const std::string end = "the end of its table: viscosities are extrapolated";
-    return {.T_low = law.T.front(), .T_high = law.T.back(), .low = end, .high = end};
+    return {.low = {{law.T.front(), end}}, .high = {{law.T.back(), end}}};
   }
 };
 
@@ -47,27 +47,31 @@ OilValidity validity_of(const film::Lubricant& oil, const OilGrade* grade) {
   if (const auto* table = std::get_if<film::TabledPressure>(&oil.viscosity_law)) validity.p_high = table->p.back();
   if (grade == nullptr) return validity;
   const std::string typical = " typical of " + std::string(grade->name);
-  if (grade->pour_point > validity.T_low) validity.T_low = grade->pour_point, validity.low = "the pour point" + typical;
-  if (grade->flash_point < validity.T_high)
-    validity.T_high = grade->flash_point, validity.high = "the flash point" + typical;
+  validity.low.push_back({grade->pour_point, "the pour point" + typical});
+  validity.high.push_back({grade->flash_point, "the flash point" + typical});
   return validity;
 }
 
 std::string doubt_at(const OilValidity& validity, double T) {
-  if (T < validity.T_low)
-    return fmt::format("{:.4g} degC is below {:.4g} degC, {}", celsius(T), celsius(validity.T_low), validity.low);
-  if (T > validity.T_high)
-    return fmt::format("{:.4g} degC is above {:.4g} degC, {}", celsius(T), celsius(validity.T_high), validity.high);
-  return {};
+  std::string beyond;
+  const auto add = [&](const char* side, const OilValidity::End& end) {
+    beyond += fmt::format("{} {} {:.4g} degC, {}", beyond.empty() ? "" : " and", side, celsius(end.T), end.what);
+  };
+  for (const OilValidity::End& end : validity.low)
+    if (T < end.T) add("below", end);
+  for (const OilValidity::End& end : validity.high)
+    if (T > end.T) add("above", end);
+  return beyond.empty() ? "" : fmt::format("{:.4g} degC is{}", celsius(T), beyond);
 }
 
 std::vector<std::string> doubts_of_film(const OilValidity& validity, double T, double p) {
   std::vector<std::string> doubts;
   if (const std::string hot = doubt_at(validity, T); !hot.empty()) doubts.push_back("its hottest oil: " + hot);
   if (p > validity.p_high)
-    doubts.push_back(fmt::format("its largest pressure: {:.4g} MPa is above {:.4g} MPa, the end of the oil's table: "
-                                 "viscosities are extrapolated",
-                                 1e-6 * p, 1e-6 * validity.p_high));
+    doubts.push_back(
+        fmt::format("its largest pressure: {:.4g} MPa is above {:.4g} MPa, the end of the oil's table: "
+                    "viscosities are extrapolated",
+                    1e-6 * p, 1e-6 * validity.p_high));
   return doubts;
 }
 

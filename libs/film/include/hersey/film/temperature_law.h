@@ -55,8 +55,8 @@ inline constexpr double mineral_oil_expansion = 0.00065;
 /// log10 log10 (nu + 0.7) = A - B log10 T, nu in mm^2/s; mu = nu rho with rho = rho15 (1 - expansion (T - 288.15 K)).
 /// @see ASTM D341 (2020), Standard Practice for Viscosity-Temperature Equations of Liquid Petroleum Products.
 struct WaltherViscosity {
-  double A = 8, B = 3;  ///< [-]
-  double rho15 = 870;   ///< density at 15 degC [kg/m^3], > 0
+  double A = 8, B = 3;                       ///< [-]
+  double rho15 = 870;                        ///< density at 15 degC [kg/m^3], > 0
   double expansion = mineral_oil_expansion;  ///< [1/K]
 
   /// Through kinematic viscosities [m^2/s] at 40 and 100 degC.

@@ -12,8 +12,12 @@ struct OilGrade;
 
 /// Where an oil's numbers mean something, and what ends there.
 struct OilValidity {
-  double T_low = 0, T_high = std::numeric_limits<double>::infinity();  ///< [K]
-  std::string low, high;                                               ///< "the pour point typical of iso_vg_46"
+  /// A temperature, and what it is: "the pour point typical of iso_vg_46".
+  struct End {
+    double T = 0;  ///< [K]
+    std::string what;
+  };
+  std::vector<End> low, high;
   double p_high = std::numeric_limits<double>::infinity();  ///< end of a table, above the cavitation pressure [Pa]
 };
 

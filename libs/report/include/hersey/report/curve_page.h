@@ -24,7 +24,7 @@ struct CurveChart {
 /// A page of curves, by itself in one file without scripts.
 struct CurvePage {
   std::string title, lead;
-  std::vector<std::string> facts;                                ///< one line under the title
+  std::vector<std::string> facts;                               ///< one line under the title
   std::vector<std::pair<std::string, std::string>> conditions;  ///< name and text
   std::vector<CurveChart> charts;
   std::vector<std::vector<std::string>> table;  ///< names, units, then rows

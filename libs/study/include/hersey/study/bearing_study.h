@@ -24,7 +24,7 @@ struct BearingSolution {
   bearing::GridError grid_error;
   std::vector<std::string> doubts;  ///< where the film goes beyond what is known of its oil
   double wall_time = 0;             ///< grid error included [s]
-  bool from_neighbour = false;  ///< found from a neighbour's solution after a cold start had failed
+  bool from_neighbour = false;      ///< found from a neighbour's solution after a cold start had failed
 
   /// Whether there is a solution.
   [[nodiscard]] bool solved() const { return error.empty(); }
