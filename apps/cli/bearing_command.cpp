@@ -164,6 +164,8 @@ int bearing_command(const BearingArguments& arguments) {
   print(arguments, solutions);
   bool all_solved = true;
   for (const study::BearingSolution& solution : solutions) {
+    for (const std::string& doubt : solution.doubts)
+      say("warning: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", doubt);
     if (solution.solved()) continue;
     all_solved = false;
     say("hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.error);

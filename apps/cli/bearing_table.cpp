@@ -214,6 +214,7 @@ nlohmann::json bearing_json(const BearingSolution& solution) {
   for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;  // as given
   if (!solution.solved()) return document;
   for (const auto& [name, text] : surface_remarks(solution)) document["surfaces"][name] = text;
+  if (!solution.doubts.empty()) document["warnings"] = solution.doubts;
   document["linearisations"] = solution.summary.iterations;
   document["film_iterations"] = solution.summary.film_iterations;
   document["wall_time"] = solution.wall_time;

@@ -115,16 +115,19 @@ struct SolidArguments {
 [[nodiscard]] int stress_command(const SolidArguments& arguments);
 
 struct OilArguments {
-  std::string oil;                     ///< a grade, or a model file
-  std::vector<std::string> overrides;  ///< of the model
-  std::string lubricant;               ///< of several in the model
-  std::vector<std::string> at;         ///< temperatures; empty: 0 to 160 degC
-  std::string pressure;                ///< above that of cavitation; empty: none
+  std::string oil;                       ///< a grade, or a model file
+  std::vector<std::string> overrides;    ///< of the model
+  std::string lubricant;                 ///< of several in the model
+  std::vector<std::string> at;           ///< temperatures; empty: 0 to 160 degC
+  std::vector<std::string> pressures;    ///< above that of cavitation; empty: 0, and 100 MPa where it matters
+  std::vector<std::string> shear_rates;  ///< empty: at rest, and up to 1e7 1/s where they matter
+  std::filesystem::path report;          ///< HTML file; empty: none
   bool json = false;
 };
 
-/// `hersey oil`: viscosity and density of a grade, or of a model's lubricant, over temperature. @returns an ExitCode.
-/// @throws InputError.
+/// `hersey oil`: viscosity and density of a grade, or of a model's lubricant, over temperature, pressure and shear
+/// rate.
+/// @returns an ExitCode. @throws InputError, results::WriteError.
 [[nodiscard]] int oil_command(const OilArguments& arguments);
 
 /// Tells what the model computes but hardly means, one a line on stderr.

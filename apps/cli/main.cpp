@@ -170,14 +170,26 @@ CLI::App* add_solid_command(CLI::App& app, const char* name, const char* descrip
 }
 
 CLI::App* add_oil_command(CLI::App& app, OilArguments& oil) {
-  CLI::App* command = app.add_subcommand("oil", "Tell viscosity and density of an oil over temperature");
-  command->add_option("oil", oil.oil, "A grade such as iso_vg_46 or sae_5w_30, or a model file")
+  CLI::App* command =
+      app.add_subcommand("oil", "Tell viscosity and density of an oil over temperature, pressure and shear rate");
+  command
+      ->add_option(
+          "oil", oil.oil,
+          "A grade such as iso_vg_46 or sae_5w_30, or a model file, of several lubricants with the name of one")
       ->required()
-      ->type_name("GRADE|MODEL");
+      ->type_name("GRADE|MODEL[:OIL]");
   add_overrides(*command, oil.overrides);
   command->add_option("--lubricant", oil.lubricant, "Which, of a model with several")->type_name("NAME");
   command->add_option("--at", oil.at, "Temperatures (default: 0 to 160 degC)")->type_name("100degC ...");
-  command->add_option("--pressure", oil.pressure, "Above the cavitation pressure")->type_name("100MPa");
+  command
+      ->add_option("--pressure", oil.pressures,
+                   "Above the cavitation pressure (default: 0, and 100 MPa where the viscosity depends on it)")
+      ->type_name("100MPa ...");
+  command
+      ->add_option("--shear-rate", oil.shear_rates,
+                   "Shear rates (default: 0, and up to 1e7 1/s where the oil thins by shear)")
+      ->type_name("\"1e6 1/s\" ...");
+  command->add_option("--report", oil.report, "Write an HTML page with curves")->type_name("FILE");
   command->add_flag("--json", oil.json, "Print it as JSON");
   return command;
 }

@@ -200,6 +200,8 @@ void tell_doubts(const std::string& name, const run::EnergySummary& energy) {
 void tell(const std::string& label, const run::Summary& summary) {
   const std::string name = label.empty() ? "" : label + ": ";
   tell_doubts(name, summary.energy);
+  for (const run::BearingSummary& bearing : summary.bearings)
+    for (const std::string& doubt : bearing.doubts) say("warning: {}bearing {}, {}\n", name, bearing.name, doubt);
   if (!summary.warning.empty()) say("hersey: {}{}\n", name, summary.warning);
   if (summary.status != run::Status::completed) {
     say("hersey: {}{}\n", name, summary.message);

@@ -11,10 +11,38 @@ namespace rheology_test {
 
 constexpr double kRoundOff = 1e-12;  // of powers and exponentials
 
+/// Of an oil that follows Barus' law, with another coefficient at each of three temperatures.
+TabledPressure barus_table() {
+  TabledPressure table{.p = {0, 5e7, 4e8}, .log_mu = {}};
+  for (const auto& [mu, alpha] : {std::pair(0.1, 2.4e-8), {0.02, 2e-8}, {0.005, 1.6e-8}})
+    for (const double p : table.p) table.log_mu.push_back(std::log(mu) + alpha * p);
+  return table;
+}
+
+TEST_CASE("TableOverPressure_IsBilinear") {
+  const TabledPressure table = barus_table();
+  // On a row its own law, also beyond its last pressure; in the middle of ln mu, which is that of 1/T, the mean.
+  for (const double p : {0.0, 2e7, 1e8, 1e9})
+    CHECK(table.log_ratio(p, 0.02).value == doctest::Approx(2e-8 * p).epsilon(kRoundOff));
+  CHECK(table.log_ratio(1e8, std::sqrt(0.1 * 0.02)).value == relative(2.2).epsilon(kRoundOff));
+  CHECK(table.log_ratio(1e8, std::sqrt(0.005 * 0.02)).slope == relative(1.8e-8).epsilon(kRoundOff));
+  // Colder or hotter than the table pressure does what it does at its ends.
+  CHECK(table.log_ratio(1e8, 0.3).value == relative(2.4).epsilon(kRoundOff));
+  CHECK(table.log_ratio(1e8, 0.001).value == relative(1.6).epsilon(kRoundOff));
+}
+
+TEST_CASE("DensityOverTemperature_IsThatOfTheVolume") {
+  Lubricant oil{.density = 860, .rho15 = 870, .expansion = 7e-4};
+  CHECK(at_temperature(oil, 388.15).density == relative(870 * 0.93).epsilon(kRoundOff));
+  oil.expansion = 0;
+  CHECK(at_temperature(oil, 388.15).density == 860);
+}
+
 TEST_CASE("LawSlopes_MatchFiniteDifference") {
   const std::vector<Lubricant> oils = {{.mu0 = 0.02, .viscosity_law = Barus{2e-8}},
                                        {.mu0 = 0.02, .viscosity_law = Roelands{0.6}, .density_law = DowsonHigginson{}},
-                                       {.mu0 = 0.02, .density_law = ConstantBulkModulus{2e9}}};
+                                       {.mu0 = 0.02, .density_law = ConstantBulkModulus{2e9}},
+                                       {.mu0 = 0.03, .viscosity_law = barus_table()}};
   for (const Lubricant& oil : oils) {
     for (const double p : {1e5, 2e7, 5e8}) {
       CAPTURE(p);

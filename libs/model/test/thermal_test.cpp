@@ -57,6 +57,50 @@ TEST_CASE("Oils_HaveTheViscosityOfTheirTemperature") {
   CHECK(own.mu0 == relative(0.012722091814 * 900 / 863).epsilon(1e-9));  // the program's digits
 }
 
+TEST_CASE("TablesOverPressure_AreRead") {
+  const film::Lubricant oil =
+      read_bearing(
+          "temperature: 40 degC, viscosity: {law: table, temperatures: [40 degC, 80 degC], pressures: [0 MPa, 100 "
+          "MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]}",
+          "")
+          .film.lubricant;
+  CHECK(oil.mu0 == relative(0.03).epsilon(digits));
+  CHECK(film::log_viscosity_ratio(oil, 50e6).value == relative(0.5 * std::log(3)).epsilon(digits));
+  CHECK(film::log_viscosity_ratio(oil, 50e6, 0.009).value == relative(0.5 * std::log(20.0 / 9)).epsilon(digits));
+}
+
+TEST_CASE("DensityFalls_WhereTheOilExpands") {
+  const auto density = [](const std::string& oil) { return read_bearing(oil, "").film.lubricant.density; };
+  CHECK(density("viscosity: 10 mPa.s, density: 870 kg/m^3, temperature: 115 degC") == 870);
+  CHECK(density("viscosity: 10 mPa.s, density: 870 kg/m^3, thermal_expansion: 7e-4 1/K, temperature: 115 degC") ==
+        relative(870 * 0.93).epsilon(digits));
+  CHECK(density("grade: iso_vg_46, temperature: 115 degC") == relative(869 * 0.935).epsilon(digits));
+}
+
+/// Warnings of a bearing.
+std::string warned(const std::string& oil, const std::string& thermal) {
+  std::string all;
+  for (const Fault& warning : read_text(with(oil, thermal), "m.yaml").warnings) all += warning.text() + "\n";
+  return all;
+}
+
+TEST_CASE("TemperaturesBeyondWhatIsKnown_AreWarnedOf") {
+  const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+  CHECK(warned("grade: iso_vg_46", "model: film, supply_temperature: 50 degC").empty());
+  CHECK(has(warned("grade: iso_vg_46", "model: film, supply_temperature: -30 degC"),
+            "-30 degC is below -21 degC, the pour point typical of iso_vg_46"));
+  CHECK(has(warned("grade: iso_vg_46, temperature: 230 degC", ""), "220 degC, the flash point typical of iso_vg_46"));
+  const std::string table =
+      "viscosity: {law: table, temperatures: [40 degC, 80 degC], viscosities: [30 mPa.s, 9 mPa.s]}";
+  CHECK(
+      has(warned(table, "model: isothermal, temperature: 90 degC"), "90 degC is above 80 degC, the end of its table"));
+  // What only the film tells.
+  const OilValidity validity = read_bearing("grade: iso_vg_46", "model: film, supply_temperature: 50 degC").validity;
+  CHECK(doubts_of_film(validity, 273.15 + 150, 1e7).empty());
+  REQUIRE(doubts_of_film(validity, 273.15 + 230, 1e7).size() == 1);
+  CHECK(has(doubts_of_film(validity, 273.15 + 230, 1e7).front(), "flash point"));
+}
+
 TEST_CASE("ShearThinning_IsRead") {
   const auto of = [](const std::string& oil) { return read_bearing(oil, "").film.lubricant; };
   const film::ShearThinning cross = of("viscosity: 10 mPa.s, shear_thinning: {law: cross, limit_viscosity: 6 mPa.s, "
@@ -140,6 +184,21 @@ TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
               "ambient: 20 degC}",
               "a ring no larger than its bore"));
   CHECK(tells("grade: iso_vg_46", "model: global", "nothing that takes the heat away"));
+  const auto tabled = [](const std::string& rows) {
+    return "temperature: 50 degC, viscosity: {law: table, temperatures: [40 degC, 80 degC], " + rows + "}";
+  };
+  CHECK(tells(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s]]"), "",
+              "a list of 2, one for each pressure"));
+  CHECK(tells(tabled("viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]"), "", "'pressures' of the table"));
+  CHECK(tells(tabled("pressures: [1 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]"), "",
+              "a first pressure that is not 0"));
+  CHECK(tells(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 20 mPa.s], [9 mPa.s, 20 mPa.s]]"), "",
+              "an oil that thins under pressure"));
+  CHECK(tells(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 95 mPa.s]]"), "",
+              "an oil that thickens as it is heated"));
+  CHECK(tells(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]") +
+                  ", pressure_viscosity: 1e-8 1/Pa",
+              "", "a second law of pressure"));
   const auto sheared = [](const std::string& law) { return "viscosity: 10 mPa.s, shear_thinning: {" + law + "}"; };
   CHECK(
       tells(sheared("law: cross, exponent: 0.8"), "", "none of the keys 'critical_shear_rate' and 'critical_stress'"));

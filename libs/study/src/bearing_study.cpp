@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -78,6 +79,13 @@ void require_way_out(const model::Model& model, const model::Bearing& bearing, c
                          "`hersey run` follows how they warm"});
 }
 
+std::vector<std::string> doubts_of(const model::Bearing& bearing, const bearing::SteadyState& state) {
+  double T = std::numeric_limits<double>::quiet_NaN();
+  if (state.heat) T = state.heat->seen.T_max;
+  if (state.effective) T = state.effective->T;
+  return model::doubts_of_film(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
+}
+
 // From `start` where there is one.
 void solve_one(const model::Model& model, const BearingStudyOptions& options, const bearing::SteadyState* start,
                KnownBodies& bodies, BearingSolution& solution) {
@@ -112,6 +120,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     solution.error = fmt::format("bearing {}: {}", bearing.name, solution.summary.message);
     return;
   }
+  for (const std::string& doubt : doubts_of(bearing, solution.state))
+    solution.doubts.push_back("bearing " + bearing.name + ", " + doubt);
   steady.start_film = {};
   const double omega = std::abs(point.entraining_speed());
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);

@@ -37,7 +37,7 @@ ValueAndSlope WaltherViscosity::kinematic(double T) const {
 ValueAndSlope WaltherViscosity::log_viscosity(double T) const {
   const ValueAndSlope nu = kinematic(T);
   const double rho = density(T);
-  return {std::log(nu.value * rho), nu.slope / nu.value - 0.00065 * rho15 / rho};
+  return {std::log(nu.value * rho), nu.slope / nu.value - expansion * rho15 / rho};
 }
 
 ValueAndSlope TabledViscosity::log_viscosity(double at) const {

@@ -75,6 +75,9 @@ void require_above_cavitation(Context& context, const Value& pressure, const fil
 /// The node of the network that `wall` names; reports one that is not there.
 [[nodiscard]] film::NodeWall node_wall_of(Context& context, const Value& wall);
 
+/// Warns of a temperature beyond what is known of the oil called `oil`.
+void warn_of_temperature(Context& context, const Value& T, const OilValidity& validity, const std::string& oil);
+
 /// The film's heat, and its oil at its temperature, of a bearing all else of which has been read. @param lubricant  its
 /// oil; null where there is none of that name
 void read_thermal(Context& context, const Value& value, const Lubricant* lubricant, Bearing& bearing);

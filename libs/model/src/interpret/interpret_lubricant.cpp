@@ -11,8 +11,33 @@
 namespace hersey::model {
 namespace {
 
+/// The law of a table over temperature and pressure; null where the viscosity is none.
+const Value* table_over_pressure(const Value& lubricant) {
+  const Value* viscosity = lubricant.find("viscosity");
+  if (viscosity == nullptr || viscosity->broken || viscosity->members.empty()) return nullptr;
+  const Value& law = viscosity->members.front().value;
+  return !law.broken && law.text == "table" && law.find("pressures") != nullptr ? &law : nullptr;
+}
+
+film::TabledPressure tabled_pressure(const Value& law) {
+  film::TabledPressure table;
+  for (const Member& item : law.find("pressures")->members) table.p.push_back(item.value.number);
+  const std::size_t rows = law.find("temperatures")->members.size();
+  table.log_mu.resize(rows * table.p.size());
+  for (std::size_t c = 0; c < table.p.size(); ++c) {
+    const std::vector<double> column = column_of(law, c);
+    for (std::size_t k = 0; k < rows; ++k) table.log_mu[k * table.p.size() + c] = std::log(column[k]);
+  }
+  return table;
+}
+
 film::ViscosityLaw viscosity_law_of(Context& context, const Value& lubricant, double mu0) {
   const Value* given = lubricant.find("pressure_viscosity");
+  if (const Value* table = table_over_pressure(lubricant); table != nullptr && !context.has_fault_in(table->path)) {
+    if (given != nullptr && given->given)
+      context.fault(*given, "a second law of pressure: the table of 'viscosity' has 'pressures'", "one of both");
+    return tabled_pressure(*table);
+  }
   if (given == nullptr || given->broken || given->members.empty()) return {};
   const Value& law = given->members.front().value;
   if (law.type->kind == Type::Kind::quantity) {
@@ -77,21 +102,70 @@ double density_of(const Value& lubricant) {
   return grade != nullptr ? grade->rho15 : usual_density;
 }
 
-/// Rows of a table ascend, and no oil thickens as it is heated.
-void check_temperature_law(Context& context, const Value& law) {
-  if (law.text == "table") {
-    const Value &T = *law.find("temperatures"), &mu = *law.find("viscosities");
-    if (T.members.size() != mu.members.size() || T.members.size() < 2)
-      return context.fault(mu, fmt::format("{} viscosities at {} temperatures", mu.members.size(), T.members.size()),
-                           "as many of both, two at least");
-    for (std::size_t k = 1; k < T.members.size(); ++k) {
-      if (T.members[k].value.number <= T.members[k - 1].value.number)
-        return context.fault(T.members[k].value, "a temperature that is no higher than the one before",
-                             "temperatures that ascend");
-      if (mu.members[k].value.number > mu.members[k - 1].value.number)
+double expansion_of(const Value& lubricant) {
+  if (const Value* given = lubricant.find("thermal_expansion")) return given->number;
+  const Value* viscosity = lubricant.find("viscosity");
+  const bool has_law = viscosity != nullptr && !viscosity->broken && !viscosity->members.empty();
+  const bool is_kinematic = has_law && viscosity->members.front().value.text == "walther";
+  return is_kinematic || grade_of(lubricant) != nullptr ? film::mineral_oil_expansion : 0;
+}
+
+/// As many viscosities as temperatures, and in each row as many as pressures.
+bool is_rectangular(Context& context, const Value& law) {
+  const Value &T = *law.find("temperatures"), &mu = *law.find("viscosities"), *p = law.find("pressures");
+  const std::size_t columns = p == nullptr ? 0 : p->members.size();
+  if (T.members.size() != mu.members.size() || T.members.size() < 2) {
+    context.fault(mu, fmt::format("{} viscosities at {} temperatures", mu.members.size(), T.members.size()),
+                  "as many of both, two at least");
+    return false;
+  }
+  if (p != nullptr && columns < 2) {
+    context.fault(*p, "one pressure", "two at least");
+    return false;
+  }
+  for (const Member& row : mu.members) {
+    const Value& value = row.value.members.front().value;
+    if (value.members.size() == columns) continue;
+    context.fault(row.value,
+                  columns == 0            ? std::string("viscosities over pressures")
+                  : value.members.empty() ? std::string("one viscosity")
+                                          : fmt::format("{} viscosities", value.members.size()),
+                  columns == 0 ? std::string("'pressures' of the table, or one viscosity for each temperature")
+                               : fmt::format("a list of {}, one for each pressure", columns));
+    return false;
+  }
+  return true;
+}
+
+/// Axes of a table ascend; no oil thickens as it is heated, or thins as it is pressed.
+void check_table(Context& context, const Value& law) {
+  if (!is_rectangular(context, law)) return;
+  const Value &T = *law.find("temperatures"), &mu = *law.find("viscosities"), *p = law.find("pressures");
+  const std::size_t columns = p == nullptr ? 1 : p->members.size();
+  for (std::size_t k = 1; k < T.members.size(); ++k)
+    if (T.members[k].value.number <= T.members[k - 1].value.number)
+      return context.fault(T.members[k].value, "a temperature that is no higher than the one before",
+                           "temperatures that ascend");
+  for (std::size_t c = 0; p != nullptr && c < columns; ++c)
+    if (c == 0 ? p->members[c].value.number != 0 : p->members[c].value.number <= p->members[c - 1].value.number)
+      return context.fault(p->members[c].value,
+                           c == 0 ? "a first pressure that is not 0" : "a pressure that is no higher than the last",
+                           "pressures that ascend from 0");
+  for (std::size_t c = 0; c < columns; ++c) {
+    const std::vector<double> at = column_of(law, c), last = c == 0 ? at : column_of(law, c - 1);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      // The row is told by its viscosity: over pressures two may not be the same.
+      if (k > 0 && (at[k] > at[k - 1] || (columns > 1 && c == 0 && at[k] == at[k - 1])))
         return context.fault(mu.members[k].value, "an oil that thickens as it is heated", "viscosities that fall");
+      if (at[k] < last[k])
+        return context.fault(mu.members[k].value, "an oil that thins under pressure", "viscosities that rise with it");
     }
   }
+}
+
+/// What makes no oil.
+void check_temperature_law(Context& context, const Value& law) {
+  if (law.text == "table") check_table(context, law);
   if (law.text == "walther" && number_of(law, "nu40") <= number_of(law, "nu100"))
     context.fault(*law.find("nu100"), "an oil that is no thinner at 100 degC than at 40 degC", "nu100 below nu40",
                   "are both in the wrong order?");
@@ -104,7 +178,9 @@ film::TemperatureLaw temperature_law_of(Context& context, const Value& lubricant
       context.fault_at_key(lubricant, "a lubricant without a viscosity", "a 'viscosity' or a 'grade'");
     const OilGrade* grade = grade_of(lubricant);
     if (grade == nullptr) return film::FixedViscosity{};
-    return film::WaltherViscosity::through(grade->nu40, grade->nu100, density_of(lubricant));
+    auto walther = film::WaltherViscosity::through(grade->nu40, grade->nu100, density_of(lubricant));
+    walther.expansion = expansion_of(lubricant);
+    return walther;
   }
   if (given->broken || given->members.empty()) return film::FixedViscosity{};
   const Value& law = given->members.front().value;
@@ -112,7 +188,7 @@ film::TemperatureLaw temperature_law_of(Context& context, const Value& lubricant
   if (law.broken || context.has_fault_in(law.path)) return film::FixedViscosity{};
   check_temperature_law(context, law);
   if (context.has_fault_in(law.path)) return film::FixedViscosity{};
-  return read_alternative(law, temperature_laws(density_of(lubricant)));
+  return read_alternative(law, temperature_laws(density_of(lubricant), expansion_of(lubricant)));
 }
 
 /// mu_inf over the viscosity at rest; reports what makes no sense.
@@ -156,12 +232,20 @@ film::ShearThinning shear_thinning_of(Context& context, const Value& lubricant, 
 
 }  // namespace
 
+void warn_of_temperature(Context& context, const Value& T, const OilValidity& validity, const std::string& oil) {
+  const std::string doubt = doubt_at(validity, T.number);
+  if (doubt.empty()) return;
+  context.model.warnings.push_back({T.position, T.path, "oil '" + oil + "' where its viscosity is not known: " + doubt,
+                                    "a temperature between these ends, or an oil known there", ""});
+}
+
 void interpret_lubricants(Context& context) {
   for (const auto& [name, value] : section(context.root, "lubricants")) {
     Lubricant lubricant{.name = name, .data = {}, .position = value.key_position};
     film::Lubricant& oil = lubricant.data;
     oil.temperature_law = temperature_law_of(context, value);
-    oil.density = density_of(value);
+    oil.density = oil.rho15 = density_of(value);
+    oil.expansion = expansion_of(value);
     oil.specific_heat = number_of(value, "specific_heat");
     oil.conductivity = number_of(value, "conductivity");
     if (const auto* fixed = std::get_if<film::FixedViscosity>(&oil.temperature_law)) oil.mu0 = fixed->mu;
@@ -175,6 +259,9 @@ void interpret_lubricants(Context& context) {
     const bool has_viscosity = lubricant.temperature || !film::depends_on_temperature(oil.temperature_law);
     oil.shear_thinning = shear_thinning_of(context, value, oil, has_viscosity);
     warn_of_unphysical(context, value);
+    lubricant.validity = validity_of(oil, grade_of(value));
+    if (const Value* T = value.find("temperature"); T != nullptr && !T->broken)
+      warn_of_temperature(context, *T, lubricant.validity, name);
     context.model.lubricants.push_back(std::move(lubricant));
   }
 }

@@ -166,6 +166,15 @@ void read_thermal(Context& context, const Value& value, const Lubricant* lubrica
     T = heat.T_supply;
     bearing.heat = heat;
   }
+  if (lubricant != nullptr) {
+    bearing.validity = lubricant->validity;
+    for (const char* key : {"temperature", "supply_temperature", "edge_temperature"}) {
+      const auto is_key = [&](const Member& member) { return member.key == key; };
+      const auto found = std::find_if(thermal->members.begin(), thermal->members.end(), is_key);
+      if (found != thermal->members.end() && found->value.given)
+        warn_of_temperature(context, found->value, bearing.validity, lubricant->name);
+    }
+  }
   if (T) {
     oil = film::at_temperature(oil, *T);
     return;

@@ -16,7 +16,7 @@ TypePtr pressure_viscosity_format() {
 TypePtr viscosity_format() {
   return any_of("a viscosity such as 15 mPa.s, or {law, ...}",
                 {quantity("Pa.s", "15 mPa.s", Range::positive()),
-                 variant("viscosity over temperature", "law", {}, variants_of(temperature_laws(0)))});
+                 variant("viscosity over temperature", "law", {}, variants_of(temperature_laws(0, 0)))});
 }
 
 std::vector<Word> grade_words() {
@@ -59,6 +59,10 @@ TypePtr lubricants_format() {
                  optional("density", quantity("kg/m^3", "850 kg/m^3", Range::positive()),
                           "Density of the liquid at ambient pressure; with a grade or `law: walther`, at 15 degC.",
                           "850 kg/m^3, or that of the grade"),
+                 optional("thermal_expansion", quantity("1/K", "0.65e-3 1/K", Range::not_negative()),
+                          "By which the oil grows per kelvin: `density` is then that at 15 degC, and falls from there. "
+                          "In a film volumes are conserved, with the density at the temperature of its supply.",
+                          "0.65e-3 1/K with a grade or `law: walther`, else 0"),
                  defaulted("specific_heat", quantity("J/kg/K", "2000 J/kg/K", Range::positive()), "2000 J/kg/K",
                            "Heat that warms it, of films with a temperature."),
                  defaulted("conductivity", quantity("W/m/K", "0.13 W/m/K", Range::not_negative()), "0.13 W/m/K",

@@ -25,7 +25,7 @@ const std::vector<Alternative<film::ViscosityLaw>>& viscosity_laws() {
   return laws;
 }
 
-std::vector<Alternative<film::TemperatureLaw>> temperature_laws(double rho15) {
+std::vector<Alternative<film::TemperatureLaw>> temperature_laws(double rho15, double expansion) {
   const TypePtr mu = quantity("Pa.s", "27.7 mPa.s", Range::positive());
   const TypePtr nu = quantity("m^2/s", "46 mm^2/s", {.low = 0.5e-6});
   const TypePtr T = temperature("40 degC");
@@ -49,20 +49,36 @@ std::vector<Alternative<film::TemperatureLaw>> temperature_laws(double rho15) {
       {{"walther",
         "log10 log10 (nu + 0.7) = A - B log10 T, nu in mm^2/s (ASTM D341), and nu times the density at T",
         {required("nu40", nu, "Kinematic viscosity at 40 degC."), required("nu100", nu, "At 100 degC.")}},
-       [rho15](const Value& law) {
-         return film::WaltherViscosity::through(number_of(law, "nu40"), number_of(law, "nu100"), rho15);
+       [rho15, expansion](const Value& law) {
+         auto walther = film::WaltherViscosity::through(number_of(law, "nu40"), number_of(law, "nu100"), rho15);
+         walther.expansion = expansion;
+         return walther;
        }},
       {{"table",
-        "ln mu is linear in 1/T between given viscosities, and beyond them as in the interval beside",
+        "ln mu is linear in 1/T between given viscosities, and in p, and beyond them as in the interval beside",
         {required("temperatures", list("temperatures", T), "Ascending."),
-         required("viscosities", list("viscosities", mu), "One for each temperature, none larger than the last.")}},
+         optional("pressures", list("pressures", quantity("Pa", "100 MPa", Range::not_negative())),
+                  "Ascending from 0, counted from the cavitation pressure.", "`pressure_viscosity` says what p does"),
+         required("viscosities",
+                  list("viscosities",
+                       any_of("a viscosity, or a list of them over pressures", {mu, list("viscosities", mu)})),
+                  "One for each temperature, none larger than the last; or a list of one for each pressure.")}},
        [](const Value& law) {
          film::TabledViscosity table;
          for (const Member& item : law.find("temperatures")->members) table.T.push_back(item.value.number);
-         for (const Member& item : law.find("viscosities")->members) table.mu.push_back(item.value.number);
+         table.mu = column_of(law, 0);
          return table;
        }},
   };
+}
+
+std::vector<double> column_of(const Value& table, std::size_t k) {
+  std::vector<double> column;
+  for (const Member& row : table.find("viscosities")->members) {
+    const Value& value = row.value.members.front().value;
+    column.push_back(value.members.empty() ? value.number : value.members[k].value.number);
+  }
+  return column;
 }
 
 std::vector<Alternative<film::ShearLaw>> shear_laws(double limit) {

@@ -15,7 +15,11 @@ namespace hersey::model {
 [[nodiscard]] const std::vector<Alternative<film::ViscosityLaw>>& viscosity_laws();
 
 /// Laws of viscosity against temperature. @param rho15  density at 15 degC, of laws for kinematic viscosities [kg/m^3]
-[[nodiscard]] std::vector<Alternative<film::TemperatureLaw>> temperature_laws(double rho15);
+/// @param expansion  by which that falls [1/K]
+[[nodiscard]] std::vector<Alternative<film::TemperatureLaw>> temperature_laws(double rho15, double expansion);
+
+/// Viscosities of a table over temperature in the column `k` of its pressures [Pa s].
+[[nodiscard]] std::vector<double> column_of(const Value& table, std::size_t k);
 
 /// Laws of viscosity against shear rate. @param limit  mu_inf over the viscosity at rest [-]
 [[nodiscard]] std::vector<Alternative<film::ShearLaw>> shear_laws(double limit);

@@ -73,6 +73,9 @@ struct WordsOfViscosity {
   std::string operator()(const film::Roelands& law) const {
     return fmt::format(" at p_cav, Roelands with z = {:.4g}", law.z);
   }
+  std::string operator()(const film::TabledPressure& law) const {
+    return fmt::format(" at p_cav, a table over pressure up to {:.4g} MPa", 1e-6 * law.p.back());
+  }
 };
 
 struct WordsOfDensity {
@@ -185,15 +188,19 @@ struct WordsOfShear {
 };
 
 /// Empty where the oil does not thin by shear.
+std::string law_of_shear(const film::ShearThinning& thinning) {
+  if (thinning.is_newtonian()) return "";
+  return fmt::format("{}, critical {}", std::visit(WordsOfShear{}, thinning.law),
+                     thinning.critical_stress > 0 ? fmt::format("stress {:.4g} kPa", 1e-3 * thinning.critical_stress)
+                                                  : fmt::format("rate {:.4g}/s", thinning.critical_rate));
+}
+
 std::string shear_thinning(const model::Bearing& bearing) {
   const film::ShearThinning& thinning = bearing.film.lubricant.shear_thinning;
   if (thinning.is_newtonian()) return "";
-  const std::string from = thinning.critical_stress > 0
-                               ? fmt::format("critical stress {:.4g} kPa", 1e-3 * thinning.critical_stress)
-                               : fmt::format("critical rate {:.4g}/s", thinning.critical_rate);
   const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
   const bool in_layers = heat != nullptr && heat->layers > 1;
-  return fmt::format("{}, {}; {}", std::visit(WordsOfShear{}, thinning.law), from,
+  return fmt::format("{}; {}", law_of_shear(thinning),
                      in_layers ? "each layer by its own shear (stiffness and damping hold it)"
                                : "by the sliding over the film thickness, with the tangent viscosity against pressure");
 }
@@ -244,6 +251,19 @@ std::string compliance(const model::Bearing& bearing) {
 }
 
 }  // namespace
+
+Rows oil_assumptions(const film::Lubricant& oil) {
+  Rows rows{{"viscosity", std::visit(WordsOfTemperature{}, oil.temperature_law)}};
+  if (!film::depends_on_temperature(oil.temperature_law))
+    rows.front().second = fmt::format("{:.4g} mPa.s, {}", 1e3 * oil.mu0, rows.front().second);
+  if (!std::holds_alternative<film::ConstantViscosity>(oil.viscosity_law))
+    rows.emplace_back("pressure", "mu0" + std::visit(WordsOfViscosity{}, oil.viscosity_law));
+  if (!oil.shear_thinning.is_newtonian()) rows.emplace_back("shear", law_of_shear(oil.shear_thinning));
+  const std::string falls = oil.expansion > 0 ? fmt::format(" at 15 degC, falling by {:.3g}/K", oil.expansion) : "";
+  rows.emplace_back("density", fmt::format("{:.4g} kg/m^3{}; {}", oil.expansion > 0 ? oil.rho15 : oil.density, falls,
+                                           std::visit(WordsOfDensity{}, oil.density_law)));
+  return rows;
+}
 
 Rows bearing_assumptions(const model::Bearing& bearing) {
   Rows rows;

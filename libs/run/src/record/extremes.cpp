@@ -1,6 +1,7 @@
 #include "record/extremes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -29,6 +30,7 @@ void BearingExtremes::take(double t, double dt, const bearing::BearingObservatio
   }
   summary_.max_force = std::max(summary_.max_force, seen.wrench_on_shell.tail<3>().norm());
   summary_.eccentricity_ratio = seen.position.ratio();
+  if (seen.heat) summary_.T_max = std::fmax(summary_.T_max, seen.heat->T_max);  // of nothing yet and a number, that
   summary_.worst_mass_balance = std::max(summary_.worst_mass_balance, film.mass_balance_error);
   const double put_in = -seen.power_into_bodies, taken = film.power_taken();
   summary_.energy_put_in += 0.5 * dt * (last_put_in_ + put_in);
@@ -55,7 +57,7 @@ void BearingExtremes::persist(Archive& archive) {
   archive.io("moft_phi", s.moft_phi), archive.io("moft_z", s.moft_z);
   archive.io("pofp", s.pofp), archive.io("pofp_t", s.pofp_t);
   archive.io("pofp_phi", s.pofp_phi), archive.io("pofp_z", s.pofp_z);
-  archive.io("max_force", s.max_force);
+  archive.io("max_force", s.max_force), archive.io("T_max", s.T_max);
   archive.io("eccentricity_ratio", s.eccentricity_ratio);
   archive.io("worst_mass_balance", s.worst_mass_balance);
   archive.io("energy_put_in", s.energy_put_in), archive.io("energy_taken", s.energy_taken);

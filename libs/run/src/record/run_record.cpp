@@ -112,7 +112,12 @@ void RunRecord::summarise(Summary& summary) const {
   summary.worst_step_error = step_error_;
   summary.worst_power_balance = largest_power_ > 0 ? largest_error_ / largest_power_ : 0;
   summary.energy = energy_.sums();
-  for (const BearingExtremes& bearing : extremes_) summary.bearings.push_back(bearing.summary());
+  for (std::size_t i = 0; i < extremes_.size(); ++i) {
+    BearingSummary bearing = extremes_[i].summary();
+    const model::Bearing& plan = model_.bearings[i];
+    bearing.doubts = model::doubts_of_film(plan.validity, bearing.T_max, bearing.pofp - plan.film.p_cav);
+    summary.bearings.push_back(std::move(bearing));
+  }
   for (std::size_t i = 0; i < step_errors_.size(); ++i) summary.bearings[i].step_error = step_errors_[i];
 }
 

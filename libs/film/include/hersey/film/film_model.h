@@ -20,6 +20,8 @@ struct Lubricant {
   double mu0 = 0.015;           ///< dynamic viscosity at the cavitation pressure [Pa s], > 0
   ViscosityLaw viscosity_law;   ///< mu(p)/mu0
   double density = 850;         ///< at the cavitation pressure [kg/m^3], > 0
+  double rho15 = 850;           ///< the same at 15 degC, where it expands [kg/m^3], > 0
+  double expansion = 0;         ///< of its volume, from 15 degC [1/K], >= 0
   DensityLaw density_law = {};  ///< rho(p)/rho0
   /// mu at the cavitation pressure over temperature; only a film with a temperature (FilmHeat) asks it.
   TemperatureLaw temperature_law = {};
@@ -28,11 +30,10 @@ struct Lubricant {
   ShearThinning shear_thinning = {};
 };
 
-/// An oil whose viscosity knows temperatures, at one of them [K]; any other as it is. The density of one known by its
-/// kinematic viscosities falls with it.
+/// An oil whose viscosity or density knows temperatures, at one of them [K]; any other as it is.
 [[nodiscard]] inline Lubricant at_temperature(Lubricant oil, double T) {
-  if (!depends_on_temperature(oil.temperature_law)) return oil;
-  oil.mu0 = viscosity_at(oil.temperature_law, T);
+  if (depends_on_temperature(oil.temperature_law)) oil.mu0 = viscosity_at(oil.temperature_law, T);
+  if (oil.expansion > 0) oil.density = density_at(T, oil.rho15, oil.expansion);
   if (const auto* walther = std::get_if<WaltherViscosity>(&oil.temperature_law)) oil.density = walther->density(T);
   return oil;
 }

@@ -44,11 +44,20 @@ struct VogelViscosity {
   }
 };
 
-/// log10 log10 (nu + 0.7) = A - B log10 T, nu in mm^2/s; mu = nu rho with rho = rho15 (1 - 0.00065 (T - 288.15 K)).
+/// By which mineral oils expand at 15 degC [1/K].
+inline constexpr double mineral_oil_expansion = 0.00065;
+
+/// Density at T [K] of an oil that has rho15 at 15 degC and expands from there [1/K] (thermal.27).
+[[nodiscard]] inline double density_at(double T, double rho15, double expansion) {
+  return rho15 * (1 - expansion * (T - 288.15));
+}
+
+/// log10 log10 (nu + 0.7) = A - B log10 T, nu in mm^2/s; mu = nu rho with rho = rho15 (1 - expansion (T - 288.15 K)).
 /// @see ASTM D341 (2020), Standard Practice for Viscosity-Temperature Equations of Liquid Petroleum Products.
 struct WaltherViscosity {
-  double A = 8, B = 3;  ///< [-]
-  double rho15 = 870;   ///< density at 15 degC [kg/m^3], > 0
+  double A = 8, B = 3;                       ///< [-]
+  double rho15 = 870;                        ///< density at 15 degC [kg/m^3], > 0
+  double expansion = mineral_oil_expansion;  ///< [1/K]
 
   /// Through kinematic viscosities [m^2/s] at 40 and 100 degC.
   [[nodiscard]] static WaltherViscosity through(double nu40, double nu100, double rho15);
@@ -60,7 +69,7 @@ struct WaltherViscosity {
   /// Of the dynamic viscosity.
   [[nodiscard]] ValueAndSlope log_viscosity(double T) const;
   /// Density [kg/m^3].
-  [[nodiscard]] double density(double T) const { return rho15 * (1 - 0.00065 * (T - 288.15)); }
+  [[nodiscard]] double density(double T) const { return density_at(T, rho15, expansion); }
 };
 
 /// Between the rows of a table ln mu is linear in 1/T, as are the first and the last interval beyond them.

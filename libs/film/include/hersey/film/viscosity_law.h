@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <variant>
+#include <vector>
 
 #include "hersey/film/value_and_slope.h"
 
@@ -40,6 +41,15 @@ struct Roelands {
   }
 };
 
+/// Between the columns of a table over temperature and pressure ln mu is linear in p, beyond them as in the interval
+/// beside, and between its rows in 1/T (thermal.26). The temperature of a place is that of its viscosity at p = 0.
+struct TabledPressure {
+  std::vector<double> p;       ///< ascending from 0 [Pa], two at least
+  std::vector<double> log_mu;  ///< of mu [Pa s] row by row of falling viscosity, shape (rows, p.size())
+  /// mu0 [Pa s] tells the row.
+  [[nodiscard]] ValueAndSlope log_ratio(double at, double mu0) const;
+};
+
 /// Logarithm of the largest viscosity ratio that a law may mean: exp(20) = 5e8 times the viscosity is no oil.
 inline constexpr double largest_log_viscosity = 20;
 
@@ -53,6 +63,6 @@ inline constexpr double largest_log_viscosity = 20;
   return {std::copysign(largest_log_viscosity + room * share, log_ratio.value), (1 - share * share) * log_ratio.slope};
 }
 
-using ViscosityLaw = std::variant<ConstantViscosity, Barus, Roelands>;
+using ViscosityLaw = std::variant<ConstantViscosity, Barus, Roelands, TabledPressure>;
 
 }  // namespace hersey::film

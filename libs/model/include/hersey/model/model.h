@@ -24,6 +24,7 @@
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/nodal_body.h"
 #include "hersey/mbd/shape.h"
+#include "hersey/model/oil_validity.h"
 #include "hersey/solver/fixed_point_iteration.h"
 
 /// The model file as checked, plain data: SI units, names resolved, nothing built yet.
@@ -274,6 +275,7 @@ struct Lubricant {
   film::Lubricant data;               ///< at `temperature`, where there is one
   std::string grade;                  ///< by which it can be bought; empty: by its own numbers
   std::optional<double> temperature;  ///< where a bearing has none of its own [K]
+  OilValidity validity;
   SourcePosition position;
 };
 
@@ -331,6 +333,7 @@ struct Bearing {
   Heat heat;             ///< none: one temperature
   std::optional<bearing::WallExpansion> expansion;  ///< of the walls, whatever heats the film; unset: they keep size
   double growth = 0;  ///< of the clearance of a film with one given temperature: expansion at that [m]
+  OilValidity validity;  ///< of its oil
   std::vector<Function> feature_pressures;  ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;

@@ -15,4 +15,7 @@ namespace hersey::run {
 /// The same of one bearing, without how it is coupled to bodies.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> bearing_assumptions(const model::Bearing& bearing);
 
+/// What is known of an oil, as name and text: viscosity over temperature, pressure and shear rate, density.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> oil_assumptions(const film::Lubricant& oil);
+
 }  // namespace hersey::run

@@ -24,8 +24,9 @@ struct BearingSolution {
   bearing::LoadAxesCoefficients coefficients;
   bearing::WhirlStability whirl;
   bearing::GridError grid_error;
-  double wall_time = 0;         ///< grid error included [s]
-  bool from_neighbour = false;  ///< found from a neighbour's solution after a cold start had failed
+  std::vector<std::string> doubts;  ///< where the film goes beyond what is known of its oil
+  double wall_time = 0;             ///< grid error included [s]
+  bool from_neighbour = false;      ///< found from a neighbour's solution after a cold start had failed
 
   /// Whether there is a solution.
   [[nodiscard]] bool solved() const { return error.empty(); }

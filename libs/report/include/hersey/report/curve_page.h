@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hersey::report {
+
+/// One line of a chart.
+struct CurveLine {
+  std::string label;
+  std::vector<double> x, y;
+};
+
+/// Values over one variable; y is logarithmic.
+struct CurveChart {
+  std::string title, note;
+  std::string x_name, x_unit, y_name, y_unit;
+  bool x_is_logarithmic = false;
+  std::vector<CurveLine> lines;
+};
+
+/// A page of curves, by itself in one file without scripts.
+struct CurvePage {
+  std::string title, lead;
+  std::vector<std::string> facts;                               ///< one line under the title
+  std::vector<std::pair<std::string, std::string>> conditions;  ///< name and text
+  std::vector<CurveChart> charts;
+  std::vector<std::vector<std::string>> table;  ///< names, units, then rows
+};
+
+/// Writes it. @throws results::WriteError
+void write_html(const CurvePage& page, const std::filesystem::path& out);
+
+}  // namespace hersey::report
