@@ -51,7 +51,7 @@ PageSolution page_of(const BearingSolution& solution) {
   }
   if (!solution.solved()) return page;
   page.remark = whirl_remark(solution);
-  page.clearance = solution.model.c;
+  page.clearance = bearing::clearance(solution.model, solution.state.point);
   page.e = solution.state.e;
   page.load = solution.state.load;
   for (const study::BearingFigure& f : study::figures_of(solution)) {

@@ -18,11 +18,12 @@ double sense_of(const OperatingPoint& point) { return std::copysign(1.0, point.e
 
 BearingNumbers bearing_numbers(const film::FilmModel& model, const SteadyState& state) {
   BearingNumbers n;
-  const double W = state.load.norm(), area = 2 * model.R * model.L, R_c = model.R / model.c;
+  const double c = clearance(model, state.point);
+  const double W = state.load.norm(), area = 2 * model.R * model.L, R_c = model.R / c;
   const double omega = std::abs(state.point.entraining_speed());
   n.load = W;
   n.load_angle = angle_of(state.load);
-  n.eccentricity_ratio = state.e.norm() / model.c;
+  n.eccentricity_ratio = state.e.norm() / c;
   n.eccentricity_angle = angle_of(state.e);
   n.attitude = std::remainder(sense_of(state.point) * (n.eccentricity_angle - n.load_angle), 2 * std::numbers::pi);
   n.hersey = model.lubricant.mu0 * omega / (2 * std::numbers::pi) * area / W;
@@ -32,7 +33,7 @@ BearingNumbers bearing_numbers(const film::FilmModel& model, const SteadyState& 
   const double r = state.e.norm();
   n.radial_velocity = r > 0 ? state.point.e_rate.dot(state.e) / r : state.point.e_rate.norm();
   if (n.radial_velocity != 0)
-    n.sommerfeld_squeeze = W / area / (R_c * R_c) / (model.lubricant.mu0 * std::abs(n.radial_velocity) / model.c);
+    n.sommerfeld_squeeze = W / area / (R_c * R_c) / (model.lubricant.mu0 * std::abs(n.radial_velocity) / c);
   n.friction_journal = std::abs(state.film.torque_journal) / (model.R * W);
   n.friction_shell = std::abs(state.film.torque_shell) / (model.R * W);
   if (model.asperities.model != film::AsperityModel::none) {
@@ -51,9 +52,10 @@ LoadAxesCoefficients in_load_axes(const film::FilmModel& model, const SteadyStat
   Eigen::Matrix2d axes;  // columns x and y of the load's axes in the bearing's
   axes << x.x(), -sense_of(state.point) * x.y(), x.y(), sense_of(state.point) * x.x();
   const DynamicCoefficients& all = state.coefficients;
+  const double c = clearance(model, state.point);
   LoadAxesCoefficients result;
-  result.K = axes.transpose() * all.stiffness.topLeftCorner<2, 2>() * axes * (model.c / W);
-  result.C = axes.transpose() * all.damping.topLeftCorner<2, 2>() * axes * (model.c * omega / W);
+  result.K = axes.transpose() * all.stiffness.topLeftCorner<2, 2>() * axes * (c / W);
+  result.C = axes.transpose() * all.damping.topLeftCorner<2, 2>() * axes * (c * omega / W);
   return result;
 }
 

@@ -7,8 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "clearance_growth.h"
 #include "deforming_surfaces.h"
 #include "hersey/core/contract.h"
+#include "temperature_path.h"
 
 namespace hersey::bearing {
 namespace {
@@ -40,6 +42,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
     : name_(std::move(name)),
       options_(options),
       reynolds_(model, film::linear_solver_of(options.film.solver)),
+      growth_(std::make_unique<ClearanceGrowth>()),
       gap_(std::move(gap)),
       deforming_(std::make_unique<DeformingSurfaces>(model, options.shell_surface, options.journal_surface)),
       acting_(gap_->parameters().size()),
@@ -53,6 +56,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
     heat_.emplace(model, *options_.thermal);
     history_.viscosity = heat_->viscosity();
   }
+  growth_->start_at(growth_by_temperature());
   history_start_ = observed_history_ = history_;
   observed_s_ = Eigen::VectorXd::Zero(deforming_->amplitudes());
   parameters_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions_.size()));
@@ -61,7 +65,16 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
 
 FilmForce::~FilmForce() = default;
 
+// By the walls as they are now (thermal.32).
+double FilmForce::growth_by_temperature() const {
+  if (!heat_) return options_.growth;
+  const std::optional<film::ThermalExpansion>& walls = heat_->thermal().expansion;
+  const film::HeatObservables& seen = heat_->observables();
+  return walls ? walls->growth(model().R, seen.T_shell_wall, seen.T_journal_wall) : 0;
+}
+
 void FilmForce::place(const mbd::RelativeMotion& motion) {
+  gap_->open_by(growth_->now(), growth_->rate());
   domain_error_ = gap_->place(motion, surfaces_);
   if (!domain_error_.empty()) return;
   HERSEY_REQUIRE(motion.s.size() == deforming_->amplitudes(), "the amplitudes of both surfaces' bodies");
@@ -95,6 +108,9 @@ void FilmForce::report_contact() {
       fmt::format("the journal touches the shell (smallest undeformed gap {:.4g} um at {:.0f} deg, z = {:.3g} mm; {})",
                   1e6 * smallest_gap(), grid.phi(i) * 180 / std::numbers::pi, 1e3 * model().L * grid.z_over_L(j),
                   gap_->position_text());
+  if (growth_->now() != 0)
+    domain_error_ += fmt::format("; its clearance of {:.4g} um is {:.4g} um at the temperatures of its walls",
+                                 1e6 * model().c, 1e6 * (model().c + growth_->now()));
   if (model().asperities.model != film::AsperityModel::none) return;
   domain_error_ += model().compliance > 0 ? "; where no film pressure parts them, as at the edges, only `asperities` do"
                                           : "; smooth surfaces have nothing but the film between them: `asperities` "
@@ -135,6 +151,7 @@ void FilmForce::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {
   is_one_system_ = options_.coupling == Coupling::monolithic || steps_as_one_left_ > 0;
   history_ = history_start_;
   history_.dt = dt;
+  growth_->begin_step(dt);
   u_ = u_start_;
   linearised_ = false;
   iterations_ = exchanges_ = 0;
@@ -314,6 +331,7 @@ void FilmForce::close_step() {
     heat_->advance(surfaces_, history_, u_);
     history_start_.viscosity = heat_->viscosity();
   }
+  growth_->accept_step(growth_by_temperature(), history_.dt);
   const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
   history_start_.w = fields.w;
   history_start_.density = fields.density;
@@ -331,6 +349,28 @@ void FilmForce::close_step() {
 
 void FilmForce::settle_walls() {
   if (heat_) walls_ = heat_->settle_walls();
+}
+
+void FilmForce::move_walls(const Eigen::Vector2d& T) {
+  HERSEY_REQUIRE(heat_.has_value(), "a film with temperatures");
+  heat_->move_walls(T);
+  history_start_.viscosity = heat_->viscosity();
+  growth_->change_target(growth_by_temperature());
+}
+
+std::string FilmForce::thermal_trouble(double closed) const {
+  if (!heat_) return {};
+  const film::HeatObservables& seen = heat_->observables();
+  const auto celsius = [](double T) { return T - film::zero_celsius; };
+  const double c = model().c, hot = c + growth_->target();
+  if (hot <= closed * c)
+    return fmt::format(
+        "a seizure: the clearance of {:.4g} um closes to {:.4g} um with the shell at {:.0f} degC and the journal at "
+        "{:.0f} degC ({})",
+        1e6 * c, 1e6 * hot, celsius(seen.T_shell_wall), celsius(seen.T_journal_wall), gap_->position_text());
+  if (seen.T_max < hottest_trial) return {};
+  return fmt::format("a thermal runaway: the hottest oil has {:.0f} degC, at {:.0f} deg, z = {:.3g} mm",
+                     celsius(seen.T_max), seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
 }
 
 std::string FilmForce::name_of_internal_residual() const {
@@ -354,6 +394,10 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
   if (deforming_->deform())
     seen.power_into_bodies += (deforming_->openings().transpose() * seen.film.normal_forces).dot(motion.s_rate);
+  // Walls that grow apart are pushed on as shapes that open the gap everywhere are (thermal.34).
+  seen.power_of_growth = growth_->rate() * seen.film.normal_forces.sum();
+  seen.power_into_bodies += seen.power_of_growth;
+  seen.clearance = model().c + growth_->now();
   seen.film_iterations = observed_iterations_;
   seen.exchanges = observed_exchanges_;
   return seen;
@@ -404,6 +448,7 @@ void FilmForce::persist(Archive& archive) {
     const Archive::Group heat(archive, "heat");
     heat_->persist(archive);
     archive.io("wall_correction", walls_.largest), archive.io("wall_rise", walls_.rise);
+    growth_->persist(archive);
   }
   archive.io("started", started_);
   archive.io("u", u_start_);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hersey/bearing/bearing_numbers.h"
+#include "hersey/core/turn.h"
 
 namespace hersey::bearing {
 namespace {
@@ -30,6 +31,22 @@ film::FilmModel with_half_grid(film::FilmModel model) {
   return model;
 }
 
+/// Temperatures given at the angles of one grid, at those of another; straight lines between them.
+void take_to(const film::Grid& coarse, const film::Grid& fine, film::ThermalModel& thermal) {
+  auto* wall = std::get_if<film::WallAtTemperature>(&thermal.shell);
+  if (wall == nullptr || wall->around.size() == 0) return;
+  const Eigen::VectorXd T = wall->around;
+  const auto phi = [&](int k) { return fine.phi(k % fine.n_phi) + turn * (k / fine.n_phi); };
+  wall->around.resize(coarse.n_phi);
+  for (int i = 0, k = 0; i < coarse.n_phi; ++i) {
+    double at = coarse.phi(i);
+    if (at < phi(0)) at += turn;
+    for (k = 0; k + 1 < fine.n_phi && phi(k + 1) <= at;) ++k;
+    const double share = (at - phi(k)) / (phi(k + 1) - phi(k));
+    wall->around[i] = (1 - share) * T[k] + share * T[(k + 1) % fine.n_phi];
+  }
+}
+
 bool is_fine_enough(const film::Grid& grid) {
   return grid.n_phi >= kFewestNodesAround && grid.n_z >= kFewestNodesAcross;
 }
@@ -53,7 +70,9 @@ GridError estimate_grid_error(const film::FilmModel& model, const SteadyState& s
   std::vector<Figures> figures{figures_of(model, state)};
   film::FilmModel coarse = model;
   while (figures.size() < 3) {
+    const film::Grid fine = coarse.grid;
     coarse = with_half_grid(coarse);
+    if (from_here.thermal) take_to(coarse.grid, fine, *from_here.thermal);
     SteadyState coarse_state;
     if (!is_fine_enough(coarse.grid) || !solve_steady(coarse, state.point, from_here, coarse_state).converged) break;
     figures.push_back(figures_of(coarse, coarse_state));

@@ -42,6 +42,7 @@ std::string JournalGap::place(const mbd::RelativeMotion& motion, film::SurfaceMo
                        std::acos(std::abs(motion.X_AB.R(2, 2))) * degrees_per_radian);
   }
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, R_, direction_floor * c_);
+  surfaces_.open_by(growth_, growth_rate_);
   surfaces_.place(kinematics_.value, surfaces);
   parameters_ = kinematics_.value.head(parameters_.size());
   d_dX_ = kinematics_.d_dX.topRows(parameters_.size());
@@ -56,10 +57,10 @@ const film::MotionDirection& JournalGap::direction(Index parameter) const {
 bool JournalGap::is_angle(Index parameter) const { return parameter == kSupplyAngle || parameter == kRotation; }
 
 std::string JournalGap::position_text() const {
-  const std::string text = fmt::format("eccentricity ratio {:.4f}", kinematics_.e().norm() / c_);
+  const std::string text = fmt::format("eccentricity ratio {:.4f}", kinematics_.e().norm() / (c_ + growth_));
   const double tilt = kinematics_.tilt().norm();
   // A tilt that closes the gap at the edges of a concentric journal.
-  if (tilt * L_ / 2 <= c_) return text;
+  if (tilt * L_ / 2 <= c_ + growth_) return text;
   return text + fmt::format(", its axis {:.3g} deg off the bore's", std::atan(tilt) * degrees_per_radian);
 }
 
@@ -73,7 +74,7 @@ GapKinematics::Turning JournalGap::turning() const {
 
 GapPosition JournalGap::position(const mbd::RelativeMotion& motion) const {
   const JournalKinematics k = journal_kinematics(motion.X_AB, motion.V_AB_A, R_, direction_floor * c_);
-  return {.e = k.e(), .tilt = k.tilt(), .speed = motion.V_AB_A[2], .relative = k.e() / c_};
+  return {.e = k.e(), .tilt = k.tilt(), .speed = motion.V_AB_A[2], .relative = k.e() / (c_ + growth_)};
 }
 
 Eigen::VectorXd JournalGap::relative_shift(const Pose& before, const Pose& after) const {

@@ -12,10 +12,17 @@ film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point) {
   return model;
 }
 
+OperatingPoint with_growth(OperatingPoint point, const film::FilmModel& model, double growth) {
+  const double before = clearance(model, point);
+  point.growth = growth;
+  point.e *= clearance(model, point) / before;
+  return point;
+}
+
 film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
                                     const Eigen::Vector2d& e) {
   film::SurfaceMotion motion;
-  place_surfaces(model, parameters_of(model, point, e), motion);
+  place_surfaces(model, parameters_of(model, point, e), motion, point.growth);
   motion.u_shell = model.R * point.shell_speed;
   // The bearing's axes rest: a shell that turns takes its shape along.
   if (point.shell_speed != 0) motion.g_rate -= point.shell_speed * film::GapShape(model).shell_slope();

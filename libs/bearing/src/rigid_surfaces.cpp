@@ -34,9 +34,10 @@ void RigidSurfaces::lay_directions() {
 }
 
 void RigidSurfaces::place(const ParameterVector& p, film::SurfaceMotion& motion) {
-  motion.g = shape_.still().array() + model_.c - (p[kEx] + p[kTx] * z_.array()) * cosine_.array() -
+  const double c = model_.c + growth_;
+  motion.g = shape_.still().array() + c - (p[kEx] + p[kTx] * z_.array()) * cosine_.array() -
              (p[kEy] + p[kTy] * z_.array()) * sine_.array();
-  motion.g_rate = -(p[kExRate] + p[kTxRate] * z_.array()) * cosine_.array() -
+  motion.g_rate = growth_rate_ - (p[kExRate] + p[kTxRate] * z_.array()) * cosine_.array() -
                   (p[kEyRate] + p[kTyRate] * z_.array()) * sine_.array();
   motion.shell_opening = shape_.of_shell();
   motion.u_shell = 0;
@@ -48,7 +49,7 @@ void RigidSurfaces::place(const ParameterVector& p, film::SurfaceMotion& motion)
   add_turning(p[kRotation], p[kJournalSpeed] / model_.R, motion);
   if (shape_.is_round()) {
     const auto offset = [&](double z) { return (p.segment<2>(kEx) + p.segment<2>(kTx) * z).norm(); };
-    smallest_gap_ = model_.c - std::max(offset(-0.5 * model_.L), offset(0.5 * model_.L));
+    smallest_gap_ = c - std::max(offset(-0.5 * model_.L), offset(0.5 * model_.L));
   } else {
     smallest_gap_ = motion.g.minCoeff();
   }
@@ -66,12 +67,16 @@ void RigidSurfaces::add_turning(double phi_journal, double omega, film::SurfaceM
   speed.g_rate = first_ / model_.R;
 }
 
-void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion) {
-  RigidSurfaces(model).place(parameters, motion);
+void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion,
+                    double growth) {
+  RigidSurfaces surfaces(model);
+  surfaces.open_by(growth, 0);
+  surfaces.place(parameters, motion);
 }
 
-double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters) {
+double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters, double growth) {
   RigidSurfaces surfaces(model);
+  surfaces.open_by(growth, 0);
   film::SurfaceMotion motion;
   surfaces.place(parameters, motion);
   return surfaces.smallest_gap();

@@ -21,7 +21,7 @@ constexpr int kTurnsOfGuess = 12;
 Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoint& point) {
   HERSEY_REQUIRE(point.load && point.load->norm() > 0, "a load that is not zero");
   constexpr double pi = std::numbers::pi;
-  const double R_c = model.R / model.c, slenderness = model.L / (2 * model.R);
+  const double c = clearance(model, point), R_c = model.R / c, slenderness = model.L / (2 * model.R);
   const double revolutions = std::abs(point.entraining_speed()) / (2 * pi);
   const double wanted = model.lubricant.mu0 * revolutions * R_c * R_c * 2 * model.R * model.L / point.load->norm() *
                         slenderness * slenderness;
@@ -34,13 +34,13 @@ Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoi
   // A bearing of finite width stands nearer to its centre or, with contact, is held off the wall: keep away from both.
   const film::Asperities& rough = model.asperities;
   const double reach = rough.model == film::AsperityModel::none ? 0 : rough.mean_summit_height + 3 * rough.sigma;
-  const double contact = reach / model.c;
+  const double contact = reach / c;
   const double epsilon = std::clamp(low, 1e-4, std::clamp(1 - contact, 0.5, 0.99));
   const double attitude = std::atan2(pi * std::sqrt(1 - epsilon * epsilon), 4 * epsilon);
   const double angle = std::atan2(point.load->y(), point.load->x()) + std::copysign(attitude, point.entraining_speed());
   // A tilted journal needs room at both edges.
-  const double room = std::max(0.1, 1 - 0.5 * model.L * point.tilt.norm() / model.c);
-  return epsilon * room * model.c * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  const double room = std::max(0.1, 1 - 0.5 * model.L * point.tilt.norm() / c);
+  return epsilon * room * c * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
 // Beside the middle some oil always leaves.
@@ -56,7 +56,7 @@ double likely_temperature(const film::FilmModel& model, double T_supply, const O
     at.lubricant.mu0 = film::viscosity_at(oil.temperature_law, T);
     if (at.lubricant.mu0 < kThinnestGuess * mu_supply) break;
     const double e = point.load ? ocvirk_position(at, point).norm() : point.e.norm();
-    const double epsilon = std::clamp(e / model.c, 0.1, 0.95);
+    const double epsilon = std::clamp(e / clearance(model, point), 0.1, 0.95);
     const double power =
         at.lubricant.mu0 * U * U * turn * model.R * model.L / (model.c * std::sqrt(1 - epsilon * epsilon));
     const double rise = power / (2 * oil.density * oil.specific_heat * epsilon * carried);

@@ -25,6 +25,14 @@ EffectiveTemperature balance(const film::Lubricant& oil, const GlobalHeat& heat,
   return {heat.T_supply + 0.5 * rise, heat.T_supply + rise};
 }
 
+/// What there is to say of walls that leave no clearance with oil of temperature T.
+SteadySummary seizure(const film::FilmModel& model, const OperatingPoint& at, double T) {
+  SteadySummary summary;
+  summary.message = fmt::format("a seizure: the clearance of {:.4g} um closes to {:.4g} um with oil of {:.0f} degC",
+                                1e6 * model.c, 1e6 * clearance(model, at), T - film::zero_celsius);
+  return summary;
+}
+
 }  // namespace
 
 SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, const GlobalHeat& heat,
@@ -37,7 +45,12 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
   int linearisations = 0;
   for (int k = 1; k <= most_iterations; ++k) {
     model.lubricant = film::at_temperature(model.lubricant, from + rise);
-    summary = solve_steady(model, point, next, state);
+    const OperatingPoint at =
+        heat.expansion ? with_growth(point, model, heat.expansion->growth(model.R, from + rise)) : point;
+    const ParameterVector place = parameters_of(model, at, at.load ? Eigen::Vector2d::Zero() : at.e);
+    if (clearance(model, at) <= seized * model.c || smallest_gap(model, place, at.growth) <= 0)
+      return seizure(model, at, from + rise);
+    summary = solve_steady(model, at, next, state);
     linearisations += summary.iterations;
     summary.iterations = linearisations, summary.heat_iterations = k;
     if (!summary.converged) return summary;

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "hersey/bearing/global_heat.h"
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 #include "hersey/film/film_solver.h"
@@ -70,7 +71,7 @@ using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 class Search {
  public:
   Search(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
-      : model_(model), point_(point), options_(options), film_(model, point, options), x_(film_.start()) {
+      : model_(model), point_(point), options_(options), film_(model, point_, options), x_(film_.start()) {
     for (int k = 0; k <= kTyRate; ++k) directions_.push_back(surface_direction(model, k));
   }
 
@@ -163,6 +164,12 @@ class Search {
 
   void set_viscosity(film::LayeredViscosity viscosity) { film_.set_viscosity(std::move(viscosity)); }
 
+  // The clearance at other temperatures of its walls; the journal stays where it is in it.
+  void set_growth(double growth) {
+    e_ *= (model_.c + growth) / clearance();
+    point_ = with_growth(point_, model_, growth);
+  }
+
   // How near to an answer it comes, on the way to one of film and temperature.
   void set_tolerance(double rtol) {
     rtol_ = rtol;
@@ -237,12 +244,12 @@ class Search {
       return fmt::format(
           "no equilibrium: along this load of {:.4g} N the film bears at most about {:.4g} N, at eccentricity ratio "
           "{:.4f}; further out {}{}",
-          point_.load->norm(), limit_.force, limit_.r / model_.c, limit_.why, what_to_try());
+          point_.load->norm(), limit_.force, limit_.r / clearance(), limit_.why, what_to_try());
     }
     std::string text = fmt::format(
         "no equilibrium found in {} linearisations: force off by {:.2g} of the load at eccentricity ratio {:.4f}",
-        summary_.iterations, summary_.force_error, e_.norm() / model_.c);
-    if (gap_at(e_) > kTouching * model_.c) return text;
+        summary_.iterations, summary_.force_error, e_.norm() / clearance());
+    if (gap_at(e_) > kTouching * clearance()) return text;
     const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
     if (is_smooth && film_.yields())
       return text + "; the surfaces touch at the edges, where no film pressure parts them: give asperities";
@@ -256,7 +263,7 @@ class Search {
     return fmt::format(
         "no equilibrium found: along this load of {:.4g} N the film bears {:.4g} N at eccentricity ratio {:.4f} and "
         "perhaps more; further out the solver does not find it ({}){}",
-        point_.load->norm(), limit_.force, limit_.r / model_.c, limit_.why, other);
+        point_.load->norm(), limit_.force, limit_.r / clearance(), limit_.why, other);
   }
 
   [[nodiscard]] std::string what_to_try() const {
@@ -285,7 +292,7 @@ class Search {
   // Answers dx and dW (total derivatives) to the first `count` directions; a supply at the widest gap follows e.
   void respond(int count, Eigen::MatrixXd& dx, Columns& dW) {
     std::vector<film::MotionDirection> wanted(directions_.begin(), directions_.begin() + count);
-    if (model_.supply.kind == film::SupplyKind::widest_gap && e_.norm() > 1e-6 * model_.c) {
+    if (model_.supply.kind == film::SupplyKind::widest_gap && e_.norm() > 1e-6 * clearance()) {
       wanted[kEx].phi_supply = -e_.y() / e_.squaredNorm();
       wanted[kEy].phi_supply = e_.x() / e_.squaredNorm();
     }
@@ -339,7 +346,7 @@ class Search {
     const Eigen::Matrix2d K = film_.change_of_force(dx_de_, dW);
     Step step{K.fullPivLu().solve(missing(target)), film_.increment()};
     if (!step.de.allFinite()) step.de.setZero();
-    step.de *= std::min(1.0, 0.5 * model_.c / std::max(step.de.norm(), 1e-300));
+    step.de *= std::min(1.0, 0.5 * clearance() / std::max(step.de.norm(), 1e-300));
     if (!film_.yields()) step.de *= share_of_gap(step.de);
     step.dx += dx_de_ * step.de;
     double share = 1;
@@ -357,8 +364,10 @@ class Search {
   }
 
   [[nodiscard]] double gap_at(const Eigen::Vector2d& e) const {
-    return smallest_gap(model_, parameters_of(model_, point_, e));
+    return smallest_gap(model_, parameters_of(model_, point_, e), point_.growth);
   }
+
+  [[nodiscard]] double clearance() const { return bearing::clearance(model_, point_); }
 
   // Whether the journal stands inside its bore, as far as a rigid one must.
   [[nodiscard]] bool stands_inside() const { return film_.yields() || gap_at(e_) > 0; }
@@ -520,7 +529,7 @@ class Search {
   // Distances from the centre to look at: each halves what is left of the clearance; surfaces that give way overlap
   // beyond it by up to a few times what the load deforms them.
   [[nodiscard]] std::vector<double> distances() {
-    const double room = std::max(0.1, 1 - 0.5 * model_.L * point_.tilt.norm() / model_.c) * model_.c;
+    const double c = clearance(), room = std::max(0.1, 1 - 0.5 * model_.L * point_.tilt.norm() / c) * c;
     const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
     std::vector<double> result;
     for (double gap = 0.5; gap > (is_smooth ? 1 : 0.1) * kTouching; gap /= 2) result.push_back((1 - gap) * room);
@@ -577,7 +586,7 @@ class Search {
   }
 
   const film::FilmModel& model_;
-  const OperatingPoint& point_;
+  OperatingPoint point_;
   const SteadyOptions& options_;
   SteadyFilm film_;
   std::vector<film::MotionDirection> directions_;
@@ -591,35 +600,66 @@ class Search {
   int budget_ = 0;            // of linearisations
 };
 
-// Film and temperature in turn until the film's temperatures stay.
+// Bodies of a network in balance with the film's heat, and the film with their temperatures (thermal.38).
+void balance(film::ThermalNetwork& network, film::FilmHeat& heat) {
+  const film::FilmTerminals at = film::terminals_of(heat.thermal());
+  network.advance(0, {{at, heat.exchange()}});
+  heat.move_walls(network.walls(at, heat.exchange().T));
+}
+
+// Where temperatures have gone that no film follows.
+std::string why_not(const film::FilmModel& model, const TemperaturePath& path, double growth) {
+  const film::HeatObservables& seen = path.heat().observables();
+  const auto celsius = [](double T) { return T - film::zero_celsius; };
+  if (model.c + growth <= seized * model.c)
+    return fmt::format(
+        "a seizure: the clearance of {:.4g} um closes to {:.4g} um with the shell at {:.0f} degC and the journal at "
+        "{:.0f} degC",
+        1e6 * model.c, 1e6 * (model.c + growth), celsius(seen.T_shell_wall), celsius(seen.T_journal_wall));
+  const std::string where = fmt::format("{:.0f} degC at {:.0f} deg, z = {:.3g} mm", celsius(seen.T_max),
+                                        seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
+  if (seen.T_max >= hottest_trial)
+    return "a thermal runaway: the more the oil warms, the more heat is made than goes; hottest oil " + where;
+  return fmt::format("film and temperature do not come together in {} turns; hottest oil {}", kMostHeatIterations,
+                     where);
+}
+
+// Film and temperature in turn until the film's temperatures, and the clearance with those of its walls, stay.
 SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalModel& thermal,
                               const OperatingPoint& point, const SteadyOptions& options, Search& search,
                               SteadyState& state) {
   TemperaturePath path(model, thermal, point, options.start_heat);
+  std::optional<film::ThermalNetwork> network;
+  if (options.network && has_nodes(thermal)) network.emplace(*options.network);
   SteadySummary summary;
   for (int k = 0; k < kMostHeatIterations; ++k) {
-    search.set_tolerance(std::max(options.rtol, kShareOfNearness * path.nearness()));
-    search.set_viscosity(path.heat().viscosity());
-    summary = k == 0 ? search.solve() : search.once_more();
+    const bool is_open = model.c + path.growth() > seized * model.c;
+    summary.converged = false;
+    if (is_open) {
+      search.set_growth(path.growth());
+      search.set_tolerance(std::max(options.rtol, kShareOfNearness * path.nearness()));
+      search.set_viscosity(path.heat().viscosity());
+      summary = path.is_first() ? search.solve() : search.once_more();
+    }
     summary.heat_iterations = k + 1;
     if (!summary.converged) {
-      if (!path.step_back()) return summary;
-      continue;
+      if (path.step_back()) continue;
+      if (!is_open) summary.message = why_not(model, path, path.growth());
+      return summary;
     }
     search.heat(path.heat());
+    if (network) balance(*network, path.heat());
     path.take();
     if (path.nearness() <= kHeatTolerance && search.is_settled()) {
       state = search.state();
-      state.heat = SteadyHeat{path.heat().state(), path.heat().observables(), path.heat().fields()};
+      state.heat = SteadyHeat{path.heat().state(), path.heat().observables(), path.heat().fields(), {}};
+      if (network) state.heat->network = network->observables();
       return summary;
     }
     path.step_on(k);
   }
   summary.converged = false;
-  const film::HeatObservables& seen = path.heat().observables();
-  summary.message =
-      fmt::format("film and temperature do not come together in {} turns; hottest oil {:.0f} degC at {:.0f} deg",
-                  kMostHeatIterations, seen.T_max - film::zero_celsius, seen.T_max_phi * 180 / std::numbers::pi);
+  summary.message = why_not(model, path, path.growth());
   return summary;
 }
 
@@ -630,7 +670,8 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   HERSEY_REQUIRE(!point.load || point.load->norm() > 0, "a load that is not zero");
   HERSEY_REQUIRE(point.film_speed(model.c) > 0 || model.asperities.model != film::AsperityModel::none,
                  "speeds that move oil in the gap, or asperities");
-  const double gap = smallest_gap(model, parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e));
+  const ParameterVector first = parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e);
+  const double gap = smallest_gap(model, first, point.growth);
   HERSEY_REQUIRE(gap > 0, "a journal inside its bore");
   Search search(model, point, options);
   if (options.thermal) return solve_with_heat(model, *options.thermal, point, options, search, state);

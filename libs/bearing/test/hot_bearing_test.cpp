@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "hersey/bearing/bearing_numbers.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "relative.h"
 
@@ -135,6 +138,133 @@ TEST_CASE("HotBearing_TurnedOrMirrored_IsTheSame") {
     CHECK(state->film.h_min == relative(first.film.h_min).epsilon(tolerance));
     CHECK(state->heat->seen.T_max - 323.15 == relative(first.heat->seen.T_max - 323.15).epsilon(tolerance));
     CHECK(state->heat->seen.balance.to_shell == relative(first.heat->seen.balance.to_shell).epsilon(tolerance));
+  }
+}
+
+film::ThermalModel ring_at_50() {
+  film::ThermalModel thermal{.layers = 3, .T_supply = 323.15, .T_edges = 323.15};
+  thermal.shell = film::RingWall{.outer_radius = 0.08, .T_ambient = 303.15};
+  return thermal;
+}
+
+// A bearing whose clearance has grown is that of the grown clearance, found on the way to its temperatures.
+TEST_CASE("ClearanceAtTemperature_IsThatOfItsWalls") {
+  film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  // On a row of nodes: one between them is held the more firmly the larger the clearance as given.
+  model.supply = {film::SupplyKind::fixed_angle, std::numbers::pi / 2, 0};
+  SteadyOptions options{.thermal = ring_at_50()};
+  options.thermal->expansion = film::ThermalExpansion{.shell = 23e-6, .journal = 12e-6, .T_reference = 293.15};
+  std::vector<film::JournalWall> journals{film::FreeJournal{}, film::InsulatedWall{}};
+  for (const film::JournalWall& journal : journals) {
+    for (const double sense : {1.0, -1.0}) {
+      CAPTURE(journal.index());
+      CAPTURE(sense);
+      options.thermal->journal = journal;
+      OperatingPoint at = point();
+      at.journal_speed *= sense;
+      SteadyState hot, same;
+      const SteadySummary summary = solve_steady(model, at, options, hot);
+      REQUIRE(summary.converged);
+      CHECK(summary.heat_iterations <= 25);
+      const film::HeatObservables& seen = hot.heat->seen;
+      const double growth = 0.05 * (23e-6 * (seen.T_shell_wall - 293.15) - 12e-6 * (seen.T_journal_wall - 293.15));
+      CHECK(hot.point.growth ==
+            relative(growth).epsilon(1e-6));  // 1e-8 of the largest rise, 30 K, over both walls' 10 K
+      CHECK(growth > 10e-6);
+      if (journal.index() == 2) CHECK(seen.T_journal_wall == seen.T_journal);
+      // The same clearance given cold, of walls that keep their size.
+      film::FilmModel grown = model;
+      grown.c += hot.point.growth;
+      SteadyOptions keeps = options;
+      keeps.thermal->expansion.reset();
+      REQUIRE(solve_steady(grown, at, keeps, same).converged);
+      constexpr double ways = 1e-6;  // of films and temperatures found to 1e-8 on two ways
+      CHECK(hot.film.h_min == relative(same.film.h_min).epsilon(ways));
+      CHECK(seen.T_max - 323.15 == relative(same.heat->seen.T_max - 323.15).epsilon(ways));
+      CHECK(hot.film.flow_left == relative(same.film.flow_left).epsilon(ways));
+      const BearingNumbers a = bearing_numbers(model, hot), b = bearing_numbers(grown, same);
+      CHECK(a.eccentricity_ratio == relative(b.eccentricity_ratio).epsilon(ways));
+      CHECK(a.sommerfeld_So == relative(b.sommerfeld_So).epsilon(ways));
+      CHECK(in_load_axes(model, hot).K(0, 0) ==
+            relative(in_load_axes(grown, same).K(0, 0)).epsilon(1e-5));  // derivatives
+    }
+  }
+}
+
+TEST_CASE("PositionThatIsGiven_KeepsItsRatioAsTheClearanceGrows") {
+  const film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  SteadyOptions options{.thermal = ring_at_50()};
+  options.thermal->expansion = film::ThermalExpansion{.shell = 23e-6, .journal = 12e-6, .T_reference = 293.15};
+  OperatingPoint at{.journal_speed = 300};
+  at.e = {0, -0.6 * model.c};
+  SteadyState hot;
+  REQUIRE(solve_steady(model, at, options, hot).converged);
+  CHECK(hot.point.growth > 10e-6);
+  CHECK(hot.e.norm() / clearance(model, hot.point) == relative(0.6).epsilon(1e-12));  // round-off
+}
+
+TEST_CASE("OneEffectiveTemperature_MovesTheClearance") {
+  film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  GlobalHeat heat{.T_supply = 50 + zero_celsius};
+  heat.expansion = WallExpansion{.material = {.shell = 23e-6, .journal = 12e-6, .T_reference = 293.15}};
+  SteadyState state;
+  REQUIRE(solve_global(model, point(), heat, {}, state).converged);
+  CHECK(state.point.growth ==
+        relative(0.05 * 11e-6 * (state.effective->T - 293.15)).epsilon(1e-6));  // of its tolerance
+  heat.expansion->T_shell = 293.15, heat.expansion->T_journal = 343.15;
+  REQUIRE(solve_global(model, point(), heat, {}, state).converged);
+  CHECK(state.point.growth == relative(-0.05 * 12e-6 * 50).epsilon(1e-12));  // round-off
+}
+
+TEST_CASE("ClearanceThatCloses_IsToldAsASeizure") {
+  film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  SteadyOptions options{.thermal = ring_at_50()};
+  options.thermal->expansion = film::ThermalExpansion{.shell = 0, .journal = 60e-6, .T_reference = 293.15};
+  SteadyState state;
+  const SteadySummary summary = solve_steady(model, point(), options, state);
+  CHECK(!summary.converged);
+  CAPTURE(summary.message);
+  CHECK(summary.message.find("a seizure: the clearance of 50 um closes") != std::string::npos);
+  GlobalHeat heat{.T_supply = 50 + zero_celsius};
+  heat.expansion = WallExpansion{.material = *options.thermal->expansion};
+  const SteadySummary global = solve_global(model, point(), heat, {}, state);
+  CHECK(!global.converged);
+  CHECK(global.message.find("a seizure: the clearance of 50 um closes") != std::string::npos);
+}
+
+// Block, shaft and room: each body as warm as its heat over its conductance, and the film that of such walls.
+TEST_CASE("WallsOfANetwork_AreInBalance") {
+  const film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  SteadyOptions options{.thermal = ring_at_50()};
+  options.thermal->shell = film::NodeWall{.T = 293.15, .node = 0};
+  options.network = film::ThermalNetworkModel{
+      .nodes = {{"block", 1e4, 293.15, false}, {"shaft", 1e3, 293.15, false}, {"room", 0, 298.15, true}},
+      .paths = {{"housing", 0, 2, 8}, {"stub", 1, 2, 3}, {"across", 0, 1, 1}}};
+  for (const std::size_t journal : {1, 0}) {  // a body of its own, or that of the shell
+    CAPTURE(journal);
+    options.thermal->journal = film::NodeWall{.T = 293.15, .node = journal};
+    SteadyState hot, given;
+    const SteadySummary summary = solve_steady(model, point(), options, hot);
+    REQUIRE(summary.converged);
+    CHECK(summary.heat_iterations <= 20);
+    const film::NetworkObservables& seen = hot.heat->network;
+    CHECK(std::abs(seen.error()) < 1e-10);  // round-off
+    const film::HeatBalance& balance = hot.heat->seen.balance;
+    CHECK(balance.error() < 1e-8);  // what the last change of temperature leaves
+    const double block = seen.T[0], shaft = seen.T[1];
+    CHECK(hot.heat->state.shell[5] == relative(block).epsilon(1e-12));                                      // round-off
+    CHECK(hot.heat->state.journal == relative(seen.T[static_cast<Eigen::Index>(journal)]).epsilon(1e-12));  // round-off
+    const double to_shaft = journal == 1 ? balance.to_journal : 0;
+    CHECK(balance.to_shell + balance.to_journal - to_shaft ==
+          relative(8 * (block - 298.15) + (block - shaft)).epsilon(1e-8));  // round-off of both sums
+    CHECK(3 * (shaft - 298.15) - (block - shaft) == relative(to_shaft).epsilon(1e-8).scale(1));  // likewise
+    SteadyOptions held = options;
+    held.network.reset();
+    held.thermal->shell = film::WallAtTemperature{.T = block};
+    held.thermal->journal = film::WallAtTemperature{.T = hot.heat->state.journal};
+    REQUIRE(solve_steady(model, point(), held, given).converged);
+    CHECK(given.heat->seen.T_max - 323.15 == relative(hot.heat->seen.T_max - 323.15).epsilon(1e-6));  // on two ways
+    CHECK(given.heat->seen.balance.to_shell == relative(balance.to_shell).epsilon(1e-5));             // on two ways
   }
 }
 

@@ -249,6 +249,7 @@ const std::vector<Dimension>& dimensions() {
       {"W/m/K", "a thermal conductivity", "0.13 W/m/K", {"W/m/K"}},
       {"W/m^2/K", "a heat transfer coefficient", "80 W/m^2/K", {"W/m^2/K"}},
       {"J/K", "a heat capacity", "500 J/K", {"J/K", "kJ/K"}},
+      {"W/K", "a thermal conductance", "5 W/K", {"W/K"}},
       {"W", "a power", "2 kW", {"W", "kW"}},
   };
   return all;

@@ -242,6 +242,65 @@ TEST_CASE("FilmInARing_IsThatOfAnIndependentProgram") {
   CHECK(hot.iterations <= 20);
 }
 
+// Each supply has a temperature of its own, which a hole in the journal takes along as the journal turns.
+TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsTurnsWithIt") {
+  FilmModel model = bearing(0.025, 0.02, 30e-6, 72, 11);
+  model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
+  model.supply = {SupplyKind::fixed_angle, pi, 3e5};
+  model.features.push_back({.name = "cold", .phi = 1, .z = 0, .arc = 0.5, .length = 8e-3, .pressure = 3e5});
+  model.features.push_back(
+      {.name = "hot", .surface = Surface::journal, .phi = 0, .z = 0, .arc = 0.5, .length = 8e-3, .pressure = 3e5});
+  ThermalModel thermal = supplied_at_40(3);
+  thermal.T_line = 45 + zero_celsius;
+  thermal.T_features = {30 + zero_celsius, 60 + zero_celsius};
+  thermal.journal = InsulatedWall{};  // cells on the rim of a hole would pass heat between it and a wall
+  for (const double omega : {300.0, -300.0, 0.0}) {
+    for (const double turned : {-2.0, 0.0, 2.4}) {
+      CAPTURE(omega);
+      CAPTURE(turned);
+      const Journal journal{.omega_journal = omega};
+      SurfaceMotion motion = surfaces(model, journal);
+      motion.phi_journal = turned, motion.phi_supply = model.supply.phi;
+      const HotFilm hot = solve_hot(model, thermal, motion, journal.e);
+      const auto in_the_middle_at = [&](double phi) {
+        const int i = static_cast<int>(std::lround(phi / (2 * pi) * 72 + 72)) % 72;
+        return hot.temperatures.middle[model.grid.index(i, 5)];
+      };
+      REQUIRE(hot.heat.T_supplies.size() == 3);
+      constexpr double solved = 1e-8;  // share of a kelvin that the turns of film and heat leave, over 300 K
+      CHECK(in_the_middle_at(1) == relative(hot.heat.T_supplies[1]).epsilon(solved));
+      CHECK(in_the_middle_at(turned) == relative(hot.heat.T_supplies[2]).epsilon(solved));
+      CHECK(hot.heat.T_supplies[2] > hot.heat.T_supplies[1]);
+      CHECK(hot.heat.balance.error() < 1e-8);  // the film's residual
+      if (omega != 0) continue;
+      // At rest oil leaves every supply, none comes to it: it has the temperature of what feeds it, but for what the
+      // fall of 2 bar, 2 bar/(rho cp) = 0.12 K in all, dissipates in cells on its rim.
+      CHECK(std::abs(hot.heat.T_supplies[0] - zero_celsius - 45) < 0.12);
+      CHECK(std::abs(hot.heat.T_supplies[1] - zero_celsius - 30) < 0.12);
+      CHECK(std::abs(hot.heat.T_supplies[2] - zero_celsius - 60) < 0.12);
+    }
+  }
+}
+
+// A shell hot on one side: what leaves it there comes back on the other, and one temperature is the table of one.
+TEST_CASE("ShellsTemperatureOverTheAngle_IsThatOfEachPlace") {
+  FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
+  model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
+  const Journal journal = turning(model, 0.5, 200);
+  const SurfaceMotion motion = surfaces(model, journal);
+  ThermalModel one = supplied_at_40(4), table = one;
+  one.shell = WallAtTemperature{.T = 350};
+  table.shell = WallAtTemperature{.T = 0, .around = Eigen::VectorXd::Constant(36, 350)};
+  CHECK(solve_hot(model, table, motion, journal.e).heat.T_max == solve_hot(model, one, motion, journal.e).heat.T_max);
+  Eigen::VectorXd T(36);
+  for (int i = 0; i < 36; ++i) T[i] = 340 + 20 * std::cos(model.grid.phi(i));
+  table.shell = WallAtTemperature{.T = 340, .around = T};
+  const HotFilm hot = solve_hot(model, table, motion, journal.e);
+  for (int i = 0; i < 36; ++i) CHECK(hot.temperatures.shell[model.grid.index(i, 4)] == T[i]);
+  CHECK(hot.heat.T_shell_wall == relative(340).epsilon(1e-12));  // of a cosine, round-off
+  CHECK(hot.heat.balance.error() < 1e-8);                        // the film's residual
+}
+
 TEST_CASE("BalanceOfHeat_Closes") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.asperities = {.model = AsperityModel::greenwood_tripp_fit,

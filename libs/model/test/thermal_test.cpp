@@ -161,5 +161,121 @@ TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
               "`carry_over: 0`"));
 }
 
+std::string film_with(const std::string& supply, const std::string& more, const std::string& thermal) {
+  return "hersey: 1\nlubricants:\n  oil: {grade: iso_vg_46, temperature: 60 degC}\nbearings:\n  main:\n    diameter: "
+         "100 mm\n    width: 50 mm\n    radial_clearance: 50 um\n    lubricant: oil\n    grid: {circumferential: 8, "
+         "axial: 9}\n    supply: {line: 0 deg, pressure: 1 bar" +
+         supply + "}\n    thermal: {" + thermal + "}\n" + more;
+}
+
+bool has_fault(const std::string& text, const std::string& what) {
+  const std::string told = faults_of(text);
+  CAPTURE(told);
+  CHECK(told.find(what) != std::string::npos);
+  return told.find(what) != std::string::npos;
+}
+
+const std::string hot_film = "model: film, supply_temperature: 50 degC";
+
+TEST_CASE("Supplies_HaveTemperaturesOfTheirOwn") {
+  const std::string features =
+      "    features:\n"
+      "      inlet: {shape: axial_groove, angle: 90 deg, arc: 140 deg, length: 30 mm, pressure: 1 bar, temperature: 35 "
+      "degC}\n"
+      "      other: {shape: axial_groove, on: journal, angle: 270 deg, arc: 140 deg, length: 30 mm, pressure: 1 bar}\n";
+  const Model model = read_text(film_with(", temperature: 40 degC", features, hot_film), "m.yaml");
+  const auto& heat = std::get<film::ThermalModel>(model.bearings.at(0).heat);
+  CHECK(heat.T_line.value() == relative(313.15).epsilon(digits));
+  REQUIRE(heat.T_features.size() == 2);
+  CHECK(heat.T_features[0] == relative(308.15).epsilon(digits));
+  CHECK(heat.T_features[1] == heat.T_supply);
+  CHECK(model.warnings.empty());
+  // Told where nothing asks for them, and of a pocket that holds the film's own oil.
+  const Model isothermal = read_text(film_with(", temperature: 40 degC", features, "model: isothermal"), "m.yaml");
+  REQUIRE(isothermal.warnings.size() == 2);
+  CHECK(isothermal.warnings[0].text().find("does not ask for") != std::string::npos);
+  CHECK(has_fault(film_with("",
+                            "    features:\n      pocket: {shape: pocket, angle: 90 deg, arc: 140 deg, length: 30 mm, "
+                            "depth: 0.1 mm, temperature: 35 degC}\n",
+                            hot_film),
+                  "a pocket that nothing feeds"));
+}
+
+TEST_CASE("ShellsTemperature_OverTheAngle_IsRead") {
+  const auto around = [](const std::string& table) {
+    const Model model =
+        read_text(film_with("", "", hot_film + ", shell: {wall: given, temperature: {" + table + "}}"), "m.yaml");
+    return std::get<film::WallAtTemperature>(std::get<film::ThermalModel>(model.bearings.at(0).heat).shell).around;
+  };
+  // Eight nodes around: 0, 45, ... 315 deg. Straight lines, also from the last row to the first.
+  const Eigen::VectorXd T = around("angles: [45 deg, 135 deg, 225 deg], temperatures: [50 degC, 70 degC, 60 degC]");
+  const std::vector<double> wanted{52.5, 50, 60, 70, 65, 60, 57.5, 55};
+  REQUIRE(T.size() == 8);
+  for (int i = 0; i < 8; ++i) CHECK(T[i] - 273.15 == relative(wanted[static_cast<std::size_t>(i)]).epsilon(digits));
+  const auto refused = [](const std::string& table, const std::string& what) {
+    return has_fault(film_with("", "", hot_film + ", shell: {wall: given, temperature: {" + table + "}}"), what);
+  };
+  CHECK(refused("angles: [45 deg, 135 deg], temperatures: [50 degC]", "1 temperatures at 2 angles"));
+  CHECK(refused("angles: [145 deg, 135 deg], temperatures: [50 degC, 60 degC]", "angles that ascend"));
+  CHECK(refused("angles: [0 deg, 360 deg], temperatures: [50 degC, 50 degC]", "a whole turn"));
+}
+
+TEST_CASE("Clearance_GrowsWithItsWalls") {
+  const auto bearing = [](const std::string& thermal) {
+    return read_text(film_with("", "", thermal), "m.yaml").bearings.at(0);
+  };
+  // R (alpha_S (T - 20) - alpha_J (T - 20)) with the oil's 60 degC of both walls.
+  CHECK(bearing("model: isothermal, expansion: {shell: 23e-6 1/K, journal: 12e-6 1/K}").growth ==
+        relative(0.05 * 11e-6 * 40).epsilon(digits));
+  CHECK(bearing("model: isothermal, expansion: {shell: 12e-6 1/K, journal: 12e-6 1/K, reference: 30 degC, "
+                "journal_temperature: 90 degC}")
+            .growth == relative(0.05 * 12e-6 * (30 - 60)).epsilon(digits));
+  const Bearing hot = bearing(hot_film + ", expansion: {shell: 23e-6 1/K, journal: 12e-6 1/K}");
+  CHECK(hot.growth == 0);
+  CHECK(std::get<film::ThermalModel>(hot.heat).expansion->shell == 23e-6);
+  CHECK(has_fault(film_with("", "",
+                            "model: isothermal, expansion: {shell: 12e-6 1/K, journal: 23e-6 1/K, "
+                            "journal_temperature: 120 degC}"),
+                  "a seizure: a clearance of 50 um that closes"));
+  CHECK(has_fault(film_with("", "", hot_film + ", expansion: {shell: 12e-6 1/K}"), "missing key 'journal'"));
+}
+
+const std::string network =
+    "thermal:\n  nodes:\n    block: {heat_capacity: 20 kJ/K, temperature: 30 degC}\n    shaft: {heat_capacity: 2 "
+    "kJ/K}\n    room: {fixed: 25 degC}\n  paths:\n    housing: {between: [block, room], conductance: 5 W/K}\n    "
+    "stub: {between: [shaft, room], conductance: 1 W/K}\n";
+
+TEST_CASE("WallsAreNodesOfANetwork") {
+  const std::string walls = ", shell: {wall: node, node: block}, journal: {wall: node, node: shaft}";
+  const Model model = read_text(film_with("", network, hot_film + walls), "m.yaml");
+  const film::ThermalNetworkModel& read = model.thermal.network;
+  REQUIRE(read.nodes.size() == 3);
+  CHECK(read.nodes[0].heat_capacity == 20e3);
+  CHECK(read.nodes[1].T == relative(293.15).epsilon(digits));
+  CHECK(read.nodes[2].is_fixed);
+  REQUIRE(read.paths.size() == 2);
+  CHECK(read.paths[1].conductance == 1);
+  const auto& heat = std::get<film::ThermalModel>(model.bearings.at(0).heat);
+  CHECK(std::get<film::NodeWall>(heat.shell).node == 0);
+  CHECK(std::get<film::NodeWall>(heat.shell).T == relative(303.15).epsilon(digits));
+  CHECK(std::get<film::NodeWall>(heat.journal).node == 1);
+  CHECK(model.warnings.empty());
+}
+
+TEST_CASE("Mistakes_InTheThermalNetwork_AreTold") {
+  const std::string wall = ", shell: {wall: node, node: ";
+  CHECK(has_fault(film_with("", network, hot_film + wall + "blok}"), "did you mean 'block'"));
+  CHECK(has_fault(film_with("", "", hot_film + wall + "block}"), "the model has no `thermal"));
+  CHECK(has_fault(film_with("", network + "    self: {between: [room, room], conductance: 1 W/K}\n", hot_film),
+                  "from a node to itself"));
+  CHECK(has_fault(film_with("", "thermal:\n  nodes:\n    a: {temperature: 20 degC}\n", hot_film), "none of the keys"));
+  CHECK(has_fault(film_with("", "thermal:\n  nodes:\n    a: {fixed: 20 degC, temperature: 30 degC}\n", hot_film),
+                  "`fixed` alone"));
+  const Model lonely =
+      read_text(film_with("", "thermal:\n  nodes:\n    a: {heat_capacity: 20 J/K}\n", hot_film), "m.yaml");
+  REQUIRE(lonely.warnings.size() == 1);
+  CHECK(lonely.warnings[0].text().find("no path and no bearing leads to") != std::string::npos);
+}
+
 }  // namespace thermal_test
 }  // namespace hersey::model

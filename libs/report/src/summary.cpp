@@ -65,6 +65,7 @@ class Summary {
     mode_rows();
     convergence_rows();
     bearing_rows();
+    thermal_rows();
     contact_rows();
     run_rows();
     return std::move(rows_);
@@ -80,6 +81,7 @@ class Summary {
       tell(quantities, {As::smallest, As::largest, As::longest});
       tell(quantities, {As::mean, As::integral});
       tell(quantities, {As::at_end});
+      given_clearance();
       tell(quantities, {As::largest_in_size});
       film_energy_error();
       step_error_rows();
@@ -197,6 +199,23 @@ class Summary {
     const auto found = std::lower_bound(time_.begin(), time_.end(), t);
     if (found == time_.end() || *found != t) return std::nullopt;
     return static_cast<std::size_t>(found - time_.begin());
+  }
+
+  /// Beside the one at temperature.
+  void given_clearance() {
+    const auto cold = reader_.number_attribute("/bearings/" + group_, "radial_clearance");
+    if (cold && reader_.has(path_ + "clearance")) add("radial clearance as given (cold)", 1e6 * *cold, "µm");
+  }
+
+  void thermal_rows() {
+    using As = Told::As;
+    if (!reader_.has("/thermal/heat_stored")) return;
+    group_ = "thermal network";
+    path_ = "/thermal/";
+    tell(run::quantities_of(path_), {As::largest});
+    tell(run::quantities_of(path_), {As::mean});
+    tell(run::quantities_of(path_), {As::at_end});
+    tell(run::quantities_of(path_), {As::largest_in_size});
   }
 
   void contact_rows() {

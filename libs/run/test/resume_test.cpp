@@ -161,6 +161,22 @@ TEST_CASE("ResumedFilmWithTemperature_IsTheSame") {
   }
 }
 
+TEST_CASE("ResumedFilmBetweenWarmBodies_IsTheSame") {
+  const std::string line = "    supply: {line: widest_gap, pressure: 1 bar}\n";
+  for (const char* step : {"2 deg", "{tolerance: 1e-4}"}) {
+    CAPTURE(step);
+    const std::string heat =
+        "    thermal: {model: film, supply_temperature: 40 degC, layers: 3, shell: {wall: node, node: block}, journal: "
+        "{wall: node, node: block}, expansion: {shell: 40e-6 1/K, journal: 12e-6 1/K}}\n";
+    std::string text = edited(rig_with(line, line + heat), "viscosity: 15 mPa.s", "grade: iso_vg_22");
+    text =
+        edited(text, "simulation:\n",
+               "thermal:\n  nodes:\n    block: {heat_capacity: 2 J/K}\n    room: {fixed: 20 degC}\n  paths:\n    out: "
+               "{between: [block, room], conductance: 3 W/K}\nsimulation:\n");
+    check_resumed(edited(text, "step: 2 deg", std::string("step: ") + step), 7, 12);
+  }
+}
+
 TEST_CASE("ResumedFilmUnderErrorControl_IsTheSame") {
   check_resumed(rig_with("step: 2 deg", "step: {tolerance: 1e-5}\n  settle: {tolerance: 1e-9, over: 1 ms}"), 9, 30);
 }

@@ -124,6 +124,16 @@ Group operating_point() {
             numbers(&Number::eccentricity_ratio),
             {.grid_error = ratio_error}},
            {"eccentricity_angle", "direction of the eccentricity", kDegree, numbers(&Number::eccentricity_angle)},
+           {"clearance_cold",
+            "radial clearance as given, cold",
+            kMicrometre,
+            [](const Solution& s) { return s.model.c; },
+            {.only = [](const Solution& s) { return s.expands; }}},
+           {"clearance_hot",
+            "radial clearance at temperature, hot",
+            kMicrometre,
+            [](const Solution& s) { return bearing::clearance(s.model, s.state.point); },
+            {.only = [](const Solution& s) { return s.expands; }}},
            {"radial_velocity",
             "velocity along the eccentricity",
             kMillimetrePerSecond,
@@ -351,7 +361,19 @@ Group heat() {
         "  error of the balance of heat",
         kNone,
         [](const Solution& s) { return s.state.heat->seen.balance.error(); },
-        {.only = has_heat}}}};
+        {.only = has_heat}},
+       {"T_node_<name>",
+        "temperature of <name>, with the heat of this bearing alone",
+        kCelsius,
+        [](const Solution& s, std::size_t k) {
+          return s.state.heat->network.T[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+        },
+        {.each = [](const Solution& s) { return s.node_names; }}},
+       {"network_balance_error",
+        "  error of the balance of heat of these bodies",
+        kNone,
+        [](const Solution& s) { return s.state.heat->network.error(); },
+        {.only = [](const Solution& s) { return !s.node_names.empty(); }}}}};
 }
 
 /// The four entries of a matrix over x and y, row by row.

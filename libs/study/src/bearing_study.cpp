@@ -49,12 +49,31 @@ class Elasticities {
   std::map<std::string, std::shared_ptr<const bearing::SteadyElasticity>> known_;
 };
 
+// A steady film whose oil stays in and whose walls are bodies that nothing cools has no temperature.
+void require_way_out(const model::Model& model, const model::Bearing& bearing, const film::ThermalModel& heat) {
+  if (!has_nodes(heat) || !film::is_closed(bearing.film)) return;
+  const film::FilmTerminals at = film::terminals_of(heat);
+  const auto leads_out = [&](const std::optional<std::size_t>& node) {
+    return node && film::reaches_surroundings(model.thermal.network, *node);
+  };
+  const bool takes = std::holds_alternative<film::RingWall>(heat.shell) ||
+                     std::holds_alternative<film::WallAtTemperature>(heat.shell) ||
+                     std::holds_alternative<film::WallAtTemperature>(heat.journal);
+  if (takes || leads_out(at.shell) || leads_out(at.journal)) return;
+  throw InputError(Fault{bearing.position, "bearings." + bearing.name + ".thermal",
+                         "closed edges, and walls that are bodies without a path to surroundings: in a steady state "
+                         "the heat has no way out",
+                         "a path from these bodies to a node that is `fixed`, or an open edge",
+                         "`hersey run` follows how they warm"});
+}
+
 // From `start` where there is one.
 void solve_one(const model::Model& model, const BearingStudyOptions& options, const bearing::SteadyState* start,
                Elasticities& elasticities, BearingSolution& solution) {
   const auto began = std::chrono::steady_clock::now();
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
+  solution.expands = bearing.expansion.has_value();
   solution.model = bearing::scaled_for(bearing.film, point);
   solution.elasticity = elasticities.of(model, bearing);
   bearing::SteadyOptions steady{.solver = bearing.solver, .elasticity = solution.elasticity};
@@ -63,7 +82,14 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     if (start->u.size() == bearing.film.grid.size()) steady.start_film = start->u;
     steady.start_deformation = start->s;
   }
-  if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) steady.thermal = *heat;
+  if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) {
+    require_way_out(model, bearing, *heat);
+    steady.thermal = *heat;
+    if (has_nodes(*heat)) {
+      steady.network = model.thermal.network;
+      for (const film::ThermalNode& node : model.thermal.network.nodes) solution.node_names.push_back(node.name);
+    }
+  }
   if (const auto* heat = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
     solution.summary = bearing::solve_global(solution.model, point, *heat, steady, solution.state);
   } else {
@@ -77,7 +103,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   const double omega = std::abs(point.entraining_speed());
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
-  solution.whirl = bearing::whirl_stability(solution.coefficients, solution.model.c, solution.numbers.load, omega);
+  solution.whirl = bearing::whirl_stability(
+      solution.coefficients, bearing::clearance(solution.model, solution.state.point), solution.numbers.load, omega);
   if (options.grid_error) solution.grid_error = bearing::estimate_grid_error(solution.model, solution.state, steady);
   solution.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
@@ -238,10 +265,10 @@ bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
   if (given.load) {
     point.load = polar(*given.load, given.load_angle);
   } else {
-    point.e = polar(*given.eccentricity_ratio * bearing.film.c, given.eccentricity_angle);
+    point.e = polar(*given.eccentricity_ratio * bearing.film.c, given.eccentricity_angle);  // of the given clearance
     point.e_rate = polar(given.radial_velocity, given.eccentricity_angle);
   }
-  return point;
+  return with_growth(point, bearing.film, bearing.growth);
 }
 
 std::vector<BearingSolution> solve_bearings(const std::string& path, const std::vector<model::StudyRun>& runs,

@@ -73,6 +73,9 @@ struct FilmHeat::Impl {
   void show_surfaces(const CarryingFilm& film);
   void find_hottest();
   void average(const CarryingFilm& film);
+  void average_walls();
+  [[nodiscard]] CarryingFilm carrying() const { return {flow, wrench, flows, dt}; }
+  void find_exchange();
 
   ThermalModel thermal;
   FlowBalance flow;
@@ -81,6 +84,10 @@ struct FilmHeat::Impl {
   HeatEquations equations;
   HeatState state;
   solver::FixedPointIteration settling{solver::Acceleration::quasi_newton, 1};
+  HeatState start_of_step;
+  double dt = 0;                   // of the last step [s]
+  HeatState by_shell, by_journal;  // changes of the state with temperatures of nodes, per kelvin
+  WallExchange exchange;
   HeatObservables seen;
   TemperatureFields shown;
   Eigen::VectorXd mu_at_rest, T_of_mu;  ///< viscosities_at_rest() and the temperatures that have them
@@ -100,6 +107,8 @@ HeatState FilmHeat::Impl::start() const {
     first.shell.setConstant(grid.n_phi, shell->T);
     if (shell->around.size() != 0) first.shell = shell->around;
   }
+  if (const auto* journal = std::get_if<NodeWall>(&thermal.journal)) first.journal = journal->T;
+  if (const auto* shell = std::get_if<NodeWall>(&thermal.shell)) first.shell.setConstant(grid.n_phi, shell->T);
   first.supplies.resize(equations.supplies());
   for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k);
   if (shears_layers()) first.thinning.setOnes(first.film.size() + 2 * grid.size());
@@ -155,6 +164,18 @@ void FilmHeat::Impl::show_rest() {
   seen.T_shell_mean = shown.shell.mean();
   seen.T_journal = shown.journal.mean();
   find_hottest();
+  average_walls();
+}
+
+// A ring's angles count by their length; its temperature is the mean over its thickness.
+void FilmHeat::Impl::average_walls() {
+  seen.T_shell_wall = seen.T_shell_mean, seen.T_journal_wall = seen.T_journal;
+  if (conducts(thermal.journal)) seen.T_journal_wall = state.journal;
+  if (!conducts(thermal.shell)) return;
+  double around = 0, sum = 0;
+  for (int i = 0; i < flow.model().grid.n_phi; ++i)
+    around += flow.geometry().width_phi[i], sum += flow.geometry().width_phi[i] * state.shell[i];
+  seen.T_shell_wall = sum / around;
 }
 
 FilmHeat::FilmHeat(const FilmModel& model, const ThermalModel& thermal)
@@ -175,6 +196,7 @@ void FilmHeat::set_state(const HeatState& state) {
                      state.supplies.size() == now.supplies.size() && state.thinning.size() == now.thinning.size(),
                  "temperatures of this film");
   impl_->state = state;
+  impl_->average_walls();
 }
 
 LayeredViscosity FilmHeat::viscosity() const {
@@ -211,10 +233,57 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   HERSEY_REQUIRE(domain.is_inside(), text(m.flow.model(), domain));
   m.wrench.evaluate(m.flow, motion, false);
   m.flows.evaluate(m.flow, m.wrench, motion, m.viscosities());
-  const CarryingFilm film{m.flow, m.wrench, m.flows, history.dt};
-  m.state = m.equations.solve(film, m.state);
+  m.dt = history.dt;
+  m.start_of_step = m.state;
+  m.state = m.equations.solve(m.carrying(), m.start_of_step);
   if (m.shears_layers()) m.thin();
-  m.observe(film);
+  m.observe(m.carrying());
+  if (has_nodes(m.thermal)) m.find_exchange();
+}
+
+// What walls that are nodes take up, and by how much more of a film that follows them (thermal.36).
+void FilmHeat::Impl::find_exchange() {
+  const CarryingFilm film = carrying();
+  exchange = {};
+  exchange.T = {state.shell.size() > 0 ? state.shell[0] : 0, state.journal};
+  const auto into_walls = [&](const HeatState& change) {
+    Eigen::Vector2d heat = Eigen::Vector2d::Zero();
+    for (int node = 0; node < flow.size(); ++node)
+      heat += Eigen::Vector2d(equations.into_shell(film, change, node), equations.into_journal(film, change, node));
+    return heat;
+  };
+  const bool is_shell = std::holds_alternative<NodeWall>(thermal.shell);
+  const bool is_journal = std::holds_alternative<NodeWall>(thermal.journal);
+  if (is_shell) {
+    by_shell = equations.response_to_shell();
+    exchange.by_T.col(0) = into_walls(by_shell);
+    exchange.heat[0] = seen.balance.to_shell;
+  }
+  if (is_journal) {
+    by_journal = equations.response_to_journal();
+    exchange.by_T.col(1) = into_walls(by_journal);
+    exchange.heat[1] = seen.balance.to_journal;
+  }
+  if (!is_shell) exchange.by_T.row(0).setZero();
+  if (!is_journal) exchange.by_T.row(1).setZero();
+}
+
+const WallExchange& FilmHeat::exchange() const { return impl_->exchange; }
+
+void FilmHeat::move_walls(const Eigen::Vector2d& T) {
+  Impl& m = *impl_;
+  const Eigen::Vector2d by = T - m.exchange.T;
+  const auto move = [&m](const HeatState& change, double dT) {
+    m.state.film += dT * change.film;
+    if (change.shell.size() > 0) m.state.shell += dT * change.shell;
+    m.state.journal += dT * change.journal;
+    m.state.supplies += dT * change.supplies;
+  };
+  if (std::holds_alternative<NodeWall>(m.thermal.shell)) move(m.by_shell, by[0]);
+  if (std::holds_alternative<NodeWall>(m.thermal.journal)) move(m.by_journal, by[1]);
+  m.exchange.heat += m.exchange.by_T * by;
+  m.exchange.T = T;
+  m.observe(m.carrying());
 }
 
 double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
@@ -256,11 +325,12 @@ WallCorrection FilmHeat::settle_walls() {
 
 void FilmHeat::Impl::observe(const CarryingFilm& film) {
   seen = {};
-  seen.balance = equations.balance();
+  seen.balance = equations.balance(film, start_of_step, state);
   seen.T_supplies = state.supplies;
   show_surfaces(film);
   find_hottest();
   average(film);
+  average_walls();
 }
 
 // On a wall without heat the temperature has no slope: a parabola through the two layers beside it. Elsewhere heat

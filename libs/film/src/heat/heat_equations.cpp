@@ -17,6 +17,8 @@ constexpr double least_fill = 1e-6;
 // How far the equations are solved, as a share of what is missing at the start: of a steady film, which is taken in
 // turn with its temperature, and of a step.
 constexpr double steady_share = 1e-5, step_share = 1e-9;
+// Likewise the answers to temperatures of walls, which multiply what these move in a step.
+constexpr double response_share = 1e-7;
 
 double oil_share(const Node& node) { return std::clamp(node.theta, least_fill, 1.0); }
 
@@ -33,9 +35,11 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }
 
+// Oil of its own temperature, or the film's (thermal.30).
 double HeatEquations::fresh(int supply) const {
   const int feature = supply - (has_line() ? 1 : 0);
-  if (feature < 0 || thermal_.T_features.empty()) return thermal_.T_supply;
+  if (feature < 0) return thermal_.T_line.value_or(thermal_.T_supply);
+  if (thermal_.T_features.empty()) return thermal_.T_supply;
   return thermal_.T_features[static_cast<std::size_t>(feature)];
 }
 
@@ -78,6 +82,7 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   const int rows = system_.size();
   system_.set_zero();
   known_.setZero(rows + 1 + supplies());
+  by_shell_.setZero(known_.size());
   by_journal_.setZero(rows);
   by_supply_.assign(static_cast<std::size_t>(start.film.size()), 0.0);
   add_storage(film, start);
@@ -108,7 +113,6 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   if (rows > start.film.size()) end.shell = x.segment(start.film.size(), model_.grid.n_phi);
   end.journal = x[rows];
   end.supplies = x.tail(supplies());
-  take_balance(film, start, end);
   if (holds_walls(film)) add_heat_to_mean(film, start, end);
   return end;
 }
@@ -162,6 +166,31 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   Eigen::SparseMatrix<double> A(known_.size(), known_.size());
   A.setFromTriplets(entries.begin(), entries.end());
   return A;
+}
+
+// Linear in what is known: the system stays, and no heat is made (thermal.36).
+HeatState HeatEquations::response(const Eigen::VectorXd& known) {
+  const int rows = system_.size(), film = model_.grid.size() * layers();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(known.size());
+  if (!known.isZero(0)) solve_for(known, response_share, x);
+  HeatState change;
+  change.film = x.head(film);
+  if (conducts(thermal_.shell)) change.shell.setZero(model_.grid.n_phi);
+  if (rows > film) change.shell = x.segment(film, model_.grid.n_phi);
+  change.journal = x[rows];
+  change.supplies = x.tail(supplies());
+  return change;
+}
+
+HeatState HeatEquations::response_to_shell() {
+  HeatState change = response(by_shell_);
+  change.shell.setOnes(model_.grid.n_phi);
+  return change;
+}
+
+HeatState HeatEquations::response_to_journal() {
+  const int journal = system_.size();
+  return response(journal_self_ * Eigen::VectorXd::Unit(known_.size(), journal));
 }
 
 void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
@@ -358,6 +387,7 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
     system_.diagonal(row) += G;
     if (ring == nullptr) {
       known_[row] += G * start.shell[i];
+      by_shell_[row] += G;
       continue;
     }
     system_.to_ring(node) -= G;
@@ -415,12 +445,12 @@ void HeatEquations::add_supplies(const CarryingFilm& film) {
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double share = held.flow > 0 ? 1.0 / layers() : film.flows.leaving_share(node, l);
-      held.rows.push_back({system_.entries(node, l), known_[row], by_journal_[row]});
+      held.rows.push_back({system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row]});
       held.rows.back().entries.front().second += rc_ * held.flow * share;
       const double in = rc_ * std::max(held.flow, 0.0) * share, taken_on = held.chi * rc_ * passing / layers();
       system_.diagonal(row) += in;
       system_.scale(row, 1 - held.chi);
-      known_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
+      known_[row] *= 1 - held.chi, by_shell_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
       system_.diagonal(row) += taken_on;
       by_supply_[row] = (1 - held.chi) * in + taken_on;
     }
@@ -478,6 +508,7 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
     flow[held.supply] += held.flow;
     for (const Held::Row& row : held.rows) {
       known_[journal + 1 + held.supply] += row.known;
+      by_shell_[journal + 1 + held.supply] += row.by_shell;
     }
   }
   for (const Renewal& renewal : renewals_) known_[journal + 1 + renewal.supply] += renewal.heat * fresh(renewal.supply);
@@ -490,34 +521,35 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
 
 // Each term by its own integral; temperatures count from that of the supply, so that a missing drop of oil brings no
 // heat (thermal.17).
-void HeatEquations::take_balance(const CarryingFilm& film, const HeatState& start, const HeatState& end) {
+HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& start, const HeatState& end) const {
   const double T0 = thermal_.T_supply;
-  balance_ = {};
+  HeatBalance sum;
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double friction = asperity_power(film, node), out = film.balance.outflow(node);
-    balance_.power += friction;
-    balance_.to_shell += into_shell(film, end, node) + (conducts(thermal_.shell) ? 0.5 * friction : 0);
-    balance_.to_journal += into_journal(film, end, node) + (conducts(thermal_.journal) ? 0.5 * friction : 0);
+    sum.power += friction;
+    sum.to_shell += into_shell(film, end, node) + (conducts(thermal_.shell) ? 0.5 * friction : 0);
+    sum.to_journal += into_journal(film, end, node) + (conducts(thermal_.journal) ? 0.5 * friction : 0);
     const double from = film.dt > 0 ? start_volume(film, node) : 0;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double T = end.film[row] - T0;
-      balance_.power += film.flows.dissipation(node, l);
-      balance_.to_oil +=
+      sum.power += film.flows.dissipation(node, l);
+      sum.to_oil +=
           rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out / layers() * (thermal_.T_edges - T0));
-      balance_.to_oil += rc_ * film.flows.lost(node) / layers() * T;
+      sum.to_oil += rc_ * film.flows.lost(node) / layers() * T;
       if (film.dt == 0) {
-        balance_.stored += rc_ * film.balance.storage(node) / layers() * T;
+        sum.stored += rc_ * film.balance.storage(node) / layers() * T;
         continue;
       }
       const double to = from + film.dt * film.balance.storage(node);
-      balance_.stored += rc_ * (to * T - from * (start.film[row] - T0)) / (layers() * film.dt);
+      sum.stored += rc_ * (to * T - from * (start.film[row] - T0)) / (layers() * film.dt);
     }
   }
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
   for (const Held& held : held_) flow[held.supply] += held.flow;
   for (int k = 0; k < supplies(); ++k)
-    balance_.to_oil += renewed(end, k) - rc_ * flow[k] * ((flow[k] > 0 ? fresh(k) : end.supplies[k]) - T0);
+    sum.to_oil += renewed(end, k) - rc_ * flow[k] * ((flow[k] > 0 ? fresh(k) : end.supplies[k]) - T0);
+  return sum;
 }
 
 }  // namespace hersey::film

@@ -36,8 +36,13 @@ class HeatEquations {
   /// Temperatures at the end of a step from `start`.
   [[nodiscard]] HeatState solve(const CarryingFilm& film, const HeatState& start);
 
-  /// Of the last solution.
-  [[nodiscard]] const HeatBalance& balance() const { return balance_; }
+  /// By how much temperatures of the last solution change where a wall whose temperature is held changes its own by
+  /// one kelvin: the shell everywhere, or the journal.
+  [[nodiscard]] HeatState response_to_shell();
+  [[nodiscard]] HeatState response_to_journal();
+
+  /// Each term by its own integral over a step from `start` to `end` (thermal.17).
+  [[nodiscard]] HeatBalance balance(const CarryingFilm& film, const HeatState& start, const HeatState& end) const;
   /// Heat that flows into the surface of a wall at a node, friction of asperities apart [W].
   [[nodiscard]] double into_shell(const CarryingFilm& film, const HeatState& state, int node) const;
   [[nodiscard]] double into_journal(const CarryingFilm& film, const HeatState& state, int node) const;
@@ -57,7 +62,7 @@ class HeatEquations {
     double flow = 0;  ///< of oil out of it [m^3/s]
     struct Row {
       HeatSystem::Row entries;  ///< its own first; what oil from the supply brings included
-      double known = 0, by_journal = 0;
+      double known = 0, by_shell = 0, by_journal = 0;
     };
     std::vector<Row> rows;
   };
@@ -103,7 +108,7 @@ class HeatEquations {
   /// The same by factorising A.
   void factorise_for(const Eigen::VectorXd& known, Eigen::VectorXd& x) const;
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
-  void take_balance(const CarryingFilm& film, const HeatState& start, const HeatState& end);
+  [[nodiscard]] HeatState response(const Eigen::VectorXd& known);
 
   const FilmModel model_;
   const ThermalModel thermal_;
@@ -111,6 +116,7 @@ class HeatEquations {
   RingConductances ring_;
   HeatSystem system_;
   Eigen::VectorXd known_;             ///< right-hand sides of all rows [W]
+  Eigen::VectorXd by_shell_;          ///< of all rows, by the temperature of a shell that is held [W/K]
   Eigen::VectorXd by_journal_;        ///< of the rows of layers and ring, by the journal's temperature [W/K]
   std::vector<double> by_supply_;     ///< of the rows of layers, by that of the supply that holds the node [W/K]
   std::vector<int> supply_of_;        ///< of each node, -1 for none
@@ -132,7 +138,6 @@ class HeatEquations {
   int most_iterations_ = 120;
   std::vector<Held> held_;
   std::vector<double> inflow_;  ///< of each node over its faces and edges [m^3/s]
-  HeatBalance balance_;
 };
 
 }  // namespace hersey::film

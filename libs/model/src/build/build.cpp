@@ -129,6 +129,7 @@ class Builder {
     for (const Force& force : model_.forces) add_force(force);
     for (const Contact& contact : model_.contacts) add_contact(contact);
     for (const Bearing& bearing : model_.bearings) add_bearing(bearing);
+    if (!model_.thermal.network.nodes.empty()) machine_.network.emplace(model_.thermal.network);
     machine_.mechanism = mechanism_.finalise();
     return std::move(machine_);
   }
@@ -437,6 +438,7 @@ class Builder {
     options.film.solver = bearing.solver;
     options.initial_dt = model_.simulation.step;
     if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) options.thermal = *heat;
+    options.growth = bearing.growth;
     for (const Function& pressure : bearing.feature_pressures) {
       options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
     }

@@ -67,6 +67,14 @@ struct JointCoordinate {
 /// Reports a pressure of a bearing that lies below its cavitation pressure.
 void require_above_cavitation(Context& context, const Value& pressure, const film::FilmModel& film);
 
+/// The temperature of a shell that is given, `temperature` of its wall: one, or over the angles of `grid`; reports what
+/// is wrong with a table.
+[[nodiscard]] film::WallAtTemperature wall_at_temperature(Context& context, const Value& temperature,
+                                                          const film::Grid& grid);
+
+/// The node of the network that `wall` names; reports one that is not there.
+[[nodiscard]] film::NodeWall node_wall_of(Context& context, const Value& wall);
+
 /// The film's heat, and its oil at its temperature, of a bearing all else of which has been read. @param lubricant  its
 /// oil; null where there is none of that name
 void read_thermal(Context& context, const Value& value, const Lubricant* lubricant, Bearing& bearing);
@@ -133,7 +141,11 @@ void interpret_couplings(Context& context);
 void interpret_forces(Context& context);
 void interpret_contacts(Context& context);
 void interpret_lubricants(Context& context);
+/// The section `thermal`. Before bearings.
+void interpret_thermal_network(Context& context);
 void interpret_bearings(Context& context);
+/// Reports nodes of the network to which nothing leads. After bearings.
+void check_thermal_network(Context& context);
 /// Refuses faces of nodal bodies that carry several films or contacts. After contacts and bearings.
 void require_separate_faces(Context& context);
 void interpret_simulation(Context& context);

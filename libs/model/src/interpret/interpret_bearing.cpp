@@ -372,7 +372,9 @@ void interpret_bearings(Context& context) {
     require_facing_surfaces(context, value, bearing);
     bearing.solver = meaning_of(value, "solver", film_solver_words);
     bearing.coupling = coupling_of(value);
-    bearing.operating_point = operating_point_of(context, value, bearing.film);
+    film::FilmModel hot = bearing.film;
+    hot.c += bearing.growth;
+    bearing.operating_point = operating_point_of(context, value, hot);
     context.model.bearings.push_back(std::move(bearing));
   }
 }

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <numbers>
 #include <variant>
 
@@ -6,6 +9,39 @@
 
 namespace hersey::model {
 namespace {
+
+/// Of the walls of the bearing; `heat` is its `thermal`.
+std::optional<bearing::WallExpansion> expansion_of(const Value& heat) {
+  const Value* given = heat.find("expansion");
+  if (given == nullptr || given->broken) return std::nullopt;
+  const bool is_of_film = heat.text == "film";
+  const auto wall = [&](const char* key) -> std::optional<double> {
+    const Value* T = is_of_film ? nullptr : given->find(key);
+    return T != nullptr && !T->broken ? std::optional(T->number) : std::nullopt;
+  };
+  return bearing::WallExpansion{
+      .material = {number_of(*given, "shell"), number_of(*given, "journal"), number_of(*given, "reference")},
+      .T_shell = wall("shell_temperature"),
+      .T_journal = wall("journal_temperature")};
+}
+
+/// Clearance of a film of one temperature T between walls that have grown.
+void grow(Context& context, const Value& heat, std::optional<double> T, Bearing& bearing) {
+  if (!bearing.expansion) return;
+  const bearing::WallExpansion& walls = *bearing.expansion;
+  const Value& at = *heat.find("expansion");
+  if (!T && !(walls.T_shell && walls.T_journal)) {
+    context.fault_at_key(at, "walls that expand, and no temperature of theirs",
+                         "a `temperature` of the lubricant or of `thermal`, or that of both walls");
+    return;
+  }
+  bearing.growth = walls.growth(bearing.film.R, T.value_or(0));
+  if (bearing.film.c + bearing.growth > 0 || bearing.film.c <= 0) return;
+  context.fault_at_key(at,
+                       fmt::format("a seizure: a clearance of {:.4g} um that closes by {:.4g} um at temperature",
+                                   1e6 * bearing.film.c, -1e6 * bearing.growth),
+                       "a clearance that stays open: a larger one, a cooler journal or other materials");
+}
 
 bearing::GlobalHeat global_heat(Context& context, const Value& thermal) {
   bearing::GlobalHeat heat;
@@ -40,14 +76,57 @@ void check_walls(Context& context, const Value& thermal, const film::FilmModel& 
                          "`carry_over: 0`, or `cavitation: mass_conserving`");
   }
   const bool leaves = !film::is_closed(film);
-  const bool takes = ring != nullptr || std::holds_alternative<film::WallAtTemperature>(heat.shell) ||
+  const bool takes = ring != nullptr || has_nodes(heat) ||
+                     std::holds_alternative<film::WallAtTemperature>(heat.shell) ||
                      std::holds_alternative<film::WallAtTemperature>(heat.journal);
   if (!leaves && !takes)
     context.fault_at_key(thermal, "closed edges, and walls that take no heat: it has nowhere to go",
-                         "a shell or journal that is `given` or a `ring`, or an open edge");
+                         "a shell or journal that is `given`, a `ring` or a `node`, or an open edge");
 }
 
-film::ThermalModel film_heat(Context& context, const Value& thermal, const film::FilmModel& film) {
+/// What `temperature` says of a supply line or a feature; nothing where it is left to `supply_temperature`.
+std::optional<double> own_temperature(const Value* supply) {
+  if (supply == nullptr || supply->broken) return std::nullopt;
+  const Value* T = supply->find("temperature");
+  return T != nullptr && !T->broken ? std::optional(T->number) : std::nullopt;
+}
+
+void read_supplies(Context& context, const Value& bearing, const film::FilmModel& film, film::ThermalModel& heat) {
+  heat.T_line = own_temperature(bearing.find("supply"));
+  for (const film::SurfaceFeature& feature : film.features) {
+    const Value* value = bearing.find("features")->find(feature.name);
+    const std::optional<double> T = own_temperature(value);
+    if (T && !feature.is_fed)
+      context.fault(*value->find("temperature"), "a temperature of a pocket that nothing feeds",
+                    "a `pressure` that feeds it, or no temperature: it holds the film's own oil");
+    heat.T_features.push_back(T.value_or(heat.T_supply));
+  }
+}
+
+/// Supplies' temperatures without a film that has any.
+void warn_of_unused_temperatures(Context& context, const Value& bearing) {
+  const auto warn = [&](const Value& supply) {
+    if (!own_temperature(&supply)) return;
+    const Value& T = *supply.find("temperature");
+    context.model.warnings.push_back({T.position, T.path, "a temperature of a supply that the film does not ask for",
+                                      "`thermal: {model: film, ...}`, or none",
+                                      "with one temperature of the oil there is no other"});
+  };
+  if (const Value* line = bearing.find("supply")) warn(*line);
+  for (const auto& [name, feature] : section(bearing, "features")) warn(feature);
+}
+
+/// What walls need beside their own keys: tables over the angle, nodes of the network.
+void complete_walls(Context& context, const Value& thermal, const film::Grid& grid, film::ThermalModel& heat) {
+  const Value &shell = *thermal.find("shell"), &journal = *thermal.find("journal");
+  if (std::holds_alternative<film::WallAtTemperature>(heat.shell))
+    heat.shell = wall_at_temperature(context, *shell.find("temperature"), grid);
+  if (std::holds_alternative<film::NodeWall>(heat.shell)) heat.shell = node_wall_of(context, shell);
+  if (std::holds_alternative<film::NodeWall>(heat.journal)) heat.journal = node_wall_of(context, journal);
+}
+
+film::ThermalModel film_heat(Context& context, const Value& value, const film::FilmModel& film) {
+  const Value& thermal = *value.find("thermal");
   film::ThermalModel heat;
   heat.layers = integer_of(thermal, "layers");
   heat.T_supply = number_of(thermal, "supply_temperature");
@@ -58,6 +137,9 @@ film::ThermalModel film_heat(Context& context, const Value& thermal, const film:
   heat.journal = read_alternative(*thermal.find("journal"), journal_walls());
   if (auto* free = std::get_if<film::FreeJournal>(&heat.journal); free != nullptr && free->heat_capacity == 0)
     free->heat_capacity = heat_of_steel * std::numbers::pi * film.R * film.R * film.L;
+  complete_walls(context, thermal, film.grid, heat);
+  read_supplies(context, value, film, heat);
+  if (const auto walls = expansion_of(thermal)) heat.expansion = walls->material;
   check_walls(context, thermal, film, heat);
   return heat;
 }
@@ -69,14 +151,18 @@ void read_thermal(Context& context, const Value& value, const Lubricant* lubrica
   if (thermal == nullptr || thermal->broken || context.has_fault_in(thermal->path)) return;
   film::Lubricant& oil = bearing.film.lubricant;
   std::optional<double> T = lubricant != nullptr ? lubricant->temperature : std::nullopt;
+  bearing.expansion = expansion_of(*thermal);
+  if (thermal->text != "film") warn_of_unused_temperatures(context, value);
   if (thermal->text == "isothermal") {
     if (const Value* given = thermal->find("temperature")) T = given->number;
+    grow(context, *thermal, T, bearing);
   } else if (thermal->text == "global") {
-    const bearing::GlobalHeat heat = global_heat(context, *thermal);
+    bearing::GlobalHeat heat = global_heat(context, *thermal);
     T = heat.cools_by_surroundings ? heat.T_ambient : heat.T_supply;
+    heat.expansion = bearing.expansion;
     bearing.heat = heat;
   } else {
-    const film::ThermalModel heat = film_heat(context, *thermal, bearing.film);
+    const film::ThermalModel heat = film_heat(context, value, bearing.film);
     T = heat.T_supply;
     bearing.heat = heat;
   }

@@ -81,7 +81,9 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_forces(context);
   interpret_contacts(context);
   interpret_lubricants(context);
+  interpret_thermal_network(context);
   interpret_bearings(context);
+  check_thermal_network(context);
   require_separate_faces(context);
   interpret_simulation(context);
   interpret_thermal_walls(context);

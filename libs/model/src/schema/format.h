@@ -21,6 +21,7 @@ namespace hersey::model {
 TypePtr thermal_network_format();
 [[nodiscard]] TypePtr bearings_format();
 [[nodiscard]] TypePtr thermal_format();
+[[nodiscard]] TypePtr thermal_network_format();
 [[nodiscard]] TypePtr features_format();
 [[nodiscard]] TypePtr shape_format();
 [[nodiscard]] TypePtr grid_format();

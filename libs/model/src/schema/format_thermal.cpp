@@ -16,6 +16,29 @@ TypePtr cooling_format() {
                 });
 }
 
+/// @param of_film  whose walls have temperatures of their own
+TypePtr expansion_format(bool of_film) {
+  const TypePtr coefficient = quantity("1/K", "12e-6 1/K");
+  std::vector<Key> keys{
+      required("shell", coefficient, "Coefficient of linear expansion of what holds the bore; 0: it keeps its size."),
+      required("journal", coefficient, "Of the journal."),
+      defaulted("reference", temperature("20 degC"), "20 degC",
+                "Temperature of both at which the clearance is as given."),
+  };
+  if (!of_film) {
+    keys.push_back(optional("shell_temperature", temperature("80 degC"), "Mean of the shell.", "that of the oil"));
+    keys.push_back(optional("journal_temperature", temperature("90 degC"), "Mean of the journal.", "that of the oil"));
+  }
+  return object("thermal expansion of the walls", std::move(keys));
+}
+
+Key expansion_key(bool of_film) {
+  return optional("expansion", expansion_format(of_film),
+                  "How the clearance follows the walls' mean temperatures; eccentricity ratios and bearing numbers are "
+                  "then over that clearance.",
+                  "the clearance is as given");
+}
+
 }  // namespace
 
 TypePtr thermal_format() {
@@ -25,12 +48,14 @@ TypePtr thermal_format() {
       {
           {"isothermal",
            "one temperature everywhere, given",
-           {optional("temperature", temperature("60 degC"), "Of the oil.", "that of the lubricant")}},
+           {optional("temperature", temperature("60 degC"), "Of the oil.", "that of the lubricant"),
+            expansion_key(false)}},
           {"global",
            "one effective temperature by a balance of heat (as ISO 7902, DIN 31652); of a bearing by itself",
            {optional("supply_temperature", supply,
                      "Of the oil that comes; what leaves takes all heat along. This, or `cooling`.", "no oil cools"),
-            optional("cooling", cooling_format(), "The housing gives off all heat.", "the oil cools")}},
+            optional("cooling", cooling_format(), "The housing gives off all heat.", "the oil cools"),
+            expansion_key(false)}},
           {"film",
            "the film's energy across and along it, with viscosity from place to place",
            {required("supply_temperature", supply, "Of the oil that comes through line, holes and grooves."),
@@ -43,7 +68,8 @@ TypePtr thermal_format() {
                       "What the journal does with heat."),
             defaulted("carry_over", number("1", {.low = 0, .high = 1}), "1",
                       "Share of the film's oil that passes a hole or groove and is mixed there with what comes; 0: all "
-                      "of it is renewed.")}},
+                      "of it is renewed."),
+            expansion_key(true)}},
       });
 }
 

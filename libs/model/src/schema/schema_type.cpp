@@ -30,9 +30,11 @@ std::string name_of(Refers refers) {
     case Refers::coordinate:
       return "a coordinate of the joint";
     case Refers::lubricant:
+      return "a lubricant";
+    case Refers::thermal_node:
       break;
   }
-  return "a lubricant";
+  return "a node of `thermal`";
 }
 
 /// The dimension's name without its article.

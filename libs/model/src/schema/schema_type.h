@@ -50,7 +50,7 @@ struct Variant {
 };
 
 /// What a reference names.
-enum class Refers { body, frame, shape, joint, coordinate, lubricant };
+enum class Refers { body, frame, shape, joint, coordinate, lubricant, thermal_node };
 
 /// What may stand in one place of the model file: the one source of the reader's checks, the JSON Schema and the
 /// reference page.

@@ -11,15 +11,39 @@ std::optional<double> start_of(const Value& wall) {
   return T != nullptr && !T->broken ? std::optional(T->number) : std::nullopt;
 }
 
+/// A shell's own temperature: one, or over the angle.
+TypePtr temperature_around() {
+  const TypePtr in_place = object(
+      "temperatures over the angle",
+      {
+          required("angles", list("angles", quantity("rad", "90 deg"), 0),
+                   "From the shell's x-axis towards y, ascending, within one turn; straight lines between them and "
+                   "around from the last to the first."),
+          required("temperatures", list("temperatures", temperature("60 degC"), 0), "As many."),
+      });
+  const TypePtr from_file = object(
+      "a table in a file",
+      {required("file", text("a file", "shell.csv"),
+                "CSV file beside the model file with the columns `angle` and `temperature`, units in brackets.")});
+  return any_of("a temperature such as 60 degC, or a table over the angle",
+                {temperature("60 degC"), in_place, from_file});
+}
+
+Variant node_wall() {
+  return {"node",
+          "it is a body of the network `thermal`, alone or with other walls",
+          {required("node", reference(Refers::thermal_node, "block"), "Which.")}};
+}
+
 }  // namespace
 
 const std::vector<Alternative<film::ShellWall>>& shell_walls() {
   static const std::vector<Alternative<film::ShellWall>> walls{
       {{"insulated", "no heat passes", {}}, [](const Value&) { return film::InsulatedWall{}; }},
-      {{"given", "it has a temperature", {required("temperature", temperature("60 degC"), "That temperature.")}},
-       [](const Value& wall) {
-         return film::WallAtTemperature{number_of(wall, "temperature"), {}};
-       }},
+      {{"given",
+        "it has a temperature",
+        {required("temperature", temperature_around(), "That temperature, everywhere or over the angle.")}},
+       [](const Value&) { return film::WallAtTemperature{}; }},  // as read_temperature_around finds it
       {{"ring",
         "a ring conducts heat around the bearing and out to its surroundings",
         {required("outer_diameter", quantity("m", "80 mm", Range::positive()), "Of the ring."),
@@ -36,6 +60,7 @@ const std::vector<Alternative<film::ShellWall>>& shell_walls() {
                                .heat_capacity = heat_of_steel,
                                .T_start = start_of(wall)};
        }},
+      {node_wall(), [](const Value&) { return film::NodeWall{}; }},
   };
   return walls;
 }
@@ -55,6 +80,7 @@ const std::vector<Alternative<film::JournalWall>>& journal_walls() {
          return film::WallAtTemperature{number_of(wall, "temperature"), {}};
        }},
       {{"insulated", "no heat passes", {}}, [](const Value&) { return film::InsulatedWall{}; }},
+      {node_wall(), [](const Value&) { return film::NodeWall{}; }},
   };
   return walls;
 }

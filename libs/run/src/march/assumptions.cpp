@@ -106,11 +106,18 @@ struct WordsOfTemperature {
   }
 };
 
+std::string words_of_node(const film::NodeWall& wall) {
+  return fmt::format("body '{}' of the thermal network", wall.name);
+}
+
 struct WordsOfShell {
   std::string operator()(const film::InsulatedWall&) const { return "takes no heat"; }
   std::string operator()(const film::WallAtTemperature& wall) const {
-    return fmt::format("at {:.4g} degC", celsius(wall.T));
+    if (wall.around.size() == 0) return fmt::format("at {:.4g} degC", celsius(wall.T));
+    return fmt::format("at {:.4g} to {:.4g} degC over the angle", celsius(wall.around.minCoeff()),
+                       celsius(wall.around.maxCoeff()));
   }
+  std::string operator()(const film::NodeWall& wall) const { return words_of_node(wall); }
   std::string operator()(const film::RingWall& ring) const {
     return fmt::format("a ring to {:.4g} mm, {:.4g} W/m/K, {:.4g} W/m^2/K to surroundings at {:.4g} degC",
                        2e3 * ring.outer_radius, ring.conductivity, ring.transfer, celsius(ring.T_ambient));
@@ -123,7 +130,20 @@ struct WordsOfJournal {
     return fmt::format("at {:.4g} degC", celsius(wall.T));
   }
   std::string operator()(const film::FreeJournal&) const { return "at one temperature, without net heat when steady"; }
+  std::string operator()(const film::NodeWall& wall) const { return words_of_node(wall); }
 };
+
+/// Supplies that have a temperature of their own.
+std::string other_supplies(const film::FilmModel& film, const film::ThermalModel& heat) {
+  std::string text;
+  const auto add = [&](const std::string& name, double T) {
+    if (T != heat.T_supply)
+      text += fmt::format("{}through {} at {:.4g} degC", text.empty() ? " (" : ", ", name, celsius(T));
+  };
+  if (film.supply.kind != film::SupplyKind::none && heat.T_line) add("the line", *heat.T_line);
+  for (std::size_t k = 0; k < heat.T_features.size(); ++k) add(film.features[k].name, heat.T_features[k]);
+  return text.empty() ? text : text + ")";
+}
 
 /// What the film's temperature is; empty where nothing depends on one.
 std::string heat(const model::Bearing& bearing) {
@@ -131,10 +151,11 @@ std::string heat(const model::Bearing& bearing) {
   const std::string law = std::visit(WordsOfTemperature{}, oil.temperature_law);
   if (const auto* film = std::get_if<film::ThermalModel>(&bearing.heat)) {
     return fmt::format(
-        "film in {} layers, viscosity {}, oil supplied at {:.4g} degC, {:.4g} J/kg/K, {:.4g} W/m/K; shell {}; journal "
-        "{}; grooves carry over {:.3g} of the film's oil",
-        film->layers, law, celsius(film->T_supply), oil.specific_heat, oil.conductivity,
-        std::visit(WordsOfShell{}, film->shell), std::visit(WordsOfJournal{}, film->journal), film->carry_over);
+        "film in {} layers, viscosity {}, oil supplied at {:.4g} degC{}, {:.4g} J/kg/K, {:.4g} W/m/K; shell {}; "
+        "journal {}; grooves carry over {:.3g} of the film's oil",
+        film->layers, law, celsius(film->T_supply), other_supplies(bearing.film, *film), oil.specific_heat,
+        oil.conductivity, std::visit(WordsOfShell{}, film->shell), std::visit(WordsOfJournal{}, film->journal),
+        film->carry_over);
   }
   if (const auto* one = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
     const std::string by = one->cools_by_surroundings
@@ -190,6 +211,16 @@ std::string asperities(const film::Asperities& contact) {
                      1e-6 * contact.elastic_factor * contact.composite_modulus, contact.mu_friction);
 }
 
+/// How the clearance follows the temperatures of its walls.
+std::string expansion(const model::Bearing& bearing) {
+  if (!bearing.expansion) return "";
+  const film::ThermalExpansion& walls = bearing.expansion->material;
+  std::string text = fmt::format(" at {:.4g} degC; shell {:.4g}/K, journal {:.4g}/K", celsius(walls.T_reference),
+                                 walls.shell, walls.journal);
+  if (bearing.growth != 0) text += fmt::format(": {:.4g} um hot", 1e6 * (bearing.film.c + bearing.growth));
+  return text + "; ratios are over the hot clearance";
+}
+
 std::string grid(const film::FilmModel& film) {
   const film::Grid& g = film.grid;
   std::string text = fmt::format("{} x {} nodes (circumferential x axial, edges included)", g.n_phi, g.n_z);
@@ -223,7 +254,8 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   row("supply", supply(film));
   for (const film::SurfaceFeature& feature : film.features)
     row(("feature " + feature.name).c_str(), described(feature));
-  row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral)", 1e6 * film.c, 2e6 * film.c));
+  row("clearance",
+      fmt::format("{:.4g} um radial ({:.4g} um diametral){}", 1e6 * film.c, 2e6 * film.c, expansion(bearing)));
   if (!film.profiles.empty()) {
     const Eigen::VectorXd opening = film::gap_opening(film);
     row("shape", fmt::format("{} profile(s): the gap differs from that of cylinders by {:.4g} to {:.4g} um",

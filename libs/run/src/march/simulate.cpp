@@ -23,6 +23,7 @@
 #include "march/start.h"
 #include "march/start_changes.h"
 #include "march/step_march.h"
+#include "march/warm_bodies.h"
 #include "record/bearing_axes.h"
 #include "record/facing_surfaces.h"
 #include "record/observe_step.h"
@@ -120,9 +121,14 @@ class Simulation {
       if (!step.is_taken()) {
         // A journal that touches has been told so already.
         const bool is_advised = step.trouble.find("asperities") != std::string::npos;
+        if (const std::string why = thermal_trouble(machine_, true); !why.empty())
+          return fail(fmt::format("t = {:.6g} s: {}; no step goes on from there: {}", state_.t, why, step.trouble));
         return fail(step.trouble + (is_advised ? "" : record_.thin_films()));
       }
+      if (model_.thermal_walls != model::ThermalWalls::frozen) warm_bodies(machine_, step.dt);
       record(step);
+      if (const std::string trouble = thermal_trouble(machine_); !trouble.empty())
+        return fail(fmt::format("t = {:.6g} s: {}", state_.t, trouble));
       if (is_stopped()) return;
     }
     summary_.message = record_.ending(state_.t);
@@ -198,6 +204,10 @@ class Simulation {
     {
       const Archive::Group group(archive, "march");
       march_.persist(archive);
+    }
+    if (machine_.network) {
+      const Archive::Group group(archive, "thermal_network");
+      machine_.network->persist(archive);
     }
     {
       const Archive::Group group(archive, "work");

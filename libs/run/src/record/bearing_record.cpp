@@ -72,6 +72,8 @@ double flow_of_feature(const BearingRow& row, std::size_t k) {
 
 bool has_heat(const BearingPlan& plan) { return std::holds_alternative<film::ThermalModel>(plan.bearing.heat); }
 
+bool expands(const BearingPlan& plan) { return plan.bearing.expansion.has_value(); }
+
 using Heat = film::HeatObservables;
 
 /// Of the film's heat, a temperature in degC.
@@ -165,10 +167,19 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        {.symbol = "e"}},
       {"eccentricity_ratio",
        "1",
-       "eccentricity over radial clearance",
+       "eccentricity over radial clearance (at temperature)",
        of_position(&bearing::GapPosition::ratio),
        {.symbol = "epsilon",
         .told = {{As::largest, "largest eccentricity ratio"}, {As::at_end, "eccentricity ratio at the end"}}}},
+      {"clearance",
+       "m",
+       "radial clearance at the temperatures of the walls",
+       of_bearing(&bearing::BearingObservation::clearance),
+       {.symbol = "c",
+        .note = "of walls that expand (`thermal.expansion`); as given it is the attribute `radial_clearance`",
+        .only = expands,
+        .told = {{As::smallest, "smallest radial clearance at temperature (hot)", "µm"},
+                 {As::at_end, "radial clearance at temperature (hot) at the end", "µm"}}}},
       {"attitude",
        "rad",
        "angle between load and line of centres",
@@ -192,7 +203,7 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        {.told = {{As::mean, "mean power loss in asperity contact", "W"}}}},
       {"power_stored", "W", "rate of the energy in liner, asperities and compressed oil", of_film(&Film::power_stored)},
       {"power_oil", "W", "taken along by oil over the edges less what feeds bring", of_film(&Film::power_oil)},
-      {"power_into_bodies", "W", "film wrench times relative velocity (negative: taken)",
+      {"power_into_bodies", "W", "film wrench times relative velocity, and on walls that grow (negative: taken)",
        of_bearing(&bearing::BearingObservation::power_into_bodies)},
       {"power_error",
        "W",
@@ -401,7 +412,7 @@ const std::vector<Attribute<BearingPlan>>& bearing_attributes() {
   static const std::vector<Attribute<BearingPlan>> table{
       {"radius", "m", "of the bore", of_model(&film::FilmModel::R), {.symbol = "R"}},
       {"width", "m", "of the bearing", of_model(&film::FilmModel::L), {.symbol = "L"}},
-      {"radial_clearance", "m", "of the bearing", of_model(&film::FilmModel::c), {.symbol = "c"}},
+      {"radial_clearance", "m", "of the bearing, as given (cold)", of_model(&film::FilmModel::c), {.symbol = "c"}},
       {"n_phi", "1", "nodes around", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_phi; }},
       {"n_z", "1", "nodes along", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_z; }},
       {"<assumption>",

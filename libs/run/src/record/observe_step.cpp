@@ -54,8 +54,10 @@ StepRecord observe_step(const model::Machine& machine, const solver::State& stat
     const Pose& X_WA = record.mechanism.bodies[static_cast<std::size_t>(contact.first.index)].X_WF;
     record.contacts.push_back(in_ground(contact.contact->observe(motion), X_WA));
   }
+  if (machine.network) record.network = machine.network->observables();
   record.power = power_balance(mechanism.spec(), record.mechanism, kinds);
-  for (const bearing::BearingObservation& bearing : record.bearings) record.power.films -= bearing.film.power_taken();
+  for (const bearing::BearingObservation& bearing : record.bearings)
+    record.power.films -= bearing.film.power_taken() + bearing.power_of_growth;
   return record;
 }
 

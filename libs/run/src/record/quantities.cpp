@@ -21,6 +21,7 @@
 #include "record/results_page.h"
 #include "record/surface_load_record.h"
 #include "record/system_record.h"
+#include "record/thermal_record.h"
 #include "record/work_record.h"
 
 namespace hersey::run {
@@ -96,6 +97,7 @@ const std::vector<QuantityGroup>& result_quantities() {
     add(describe_work());
     add({describe_step_errors(), SystemRecord::describe(), CycleRecord::describe()});
     add(BearingRecord::describe());
+    add({ThermalRecord::describe()});
     add({body_group(), shapes_of_bodies(), describe_ground(), describe_shapes("/ground/shapes/<s>/"), joint_group()});
     add(EffortRecord::describe());
     add({force_group(), ContactRecord::describe(), SurfaceLoadRecord::describe(), ModeRecord::describe()});

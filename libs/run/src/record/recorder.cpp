@@ -88,6 +88,7 @@ void Recorder::declare() {
     const bearing::FilmForce& film = *machine_.bearings[i].bearing;
     bearings_.emplace_back(BearingPlan{model_, model_.bearings[i], film.fields()}, film, writer_);
   }
+  if (machine_.network) thermal_.emplace(model_, writer_);
   cycle_maps_.emplace(model_, machine_, writer_);
   if (model_.simulation.cycle) cycles_.emplace(model_, writer_);
   write_geometry(model_, spec, hidden.joints, writer_);
@@ -105,6 +106,7 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   for (const BeamRecord& beam : beams_) beam.append(seen);
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].append(step.contacts[i]);
   for (std::size_t i = 0; i < bearings_.size(); ++i) bearings_[i].append(step.bearings[i]);
+  if (thermal_) thermal_->append({model_, step.network});
 }
 
 void Recorder::write_fields(const StepRecord& step) {

@@ -24,6 +24,7 @@
 #include "record/step_record.h"
 #include "record/surface_load_record.h"
 #include "record/system_record.h"
+#include "record/thermal_record.h"
 
 namespace hersey::run {
 
@@ -77,6 +78,7 @@ class Recorder {
   std::vector<BeamRecord> beams_;
   std::vector<ContactRecord> contacts_;
   std::vector<BearingRecord> bearings_;
+  std::optional<ThermalRecord> thermal_;
   std::optional<CycleMaps> cycle_maps_;
   std::optional<CycleRecord> cycles_;
   std::optional<ModeRecord> modes_;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hersey/bearing/film_force.h"
+#include "hersey/film/thermal_network.h"
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/observation.h"
 #include "record/power_balance.h"
@@ -22,6 +23,7 @@ struct StepRecord {
   std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
   std::vector<bearing::BearingObservation> bearings;
   std::vector<mbd::ContactObservation> contacts;  ///< in ground's axes
+  film::NetworkObservables network;               ///< of the thermal network; empty where there is none
   PowerBalance power;
 };
 

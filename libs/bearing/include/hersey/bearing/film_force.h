@@ -37,6 +37,7 @@ struct BearingOptions {
   std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
   /// Of a film with temperatures, which move on with each accepted step; unset: one temperature, the model's.
   std::optional<film::ThermalModel> thermal = {};
+  double growth = 0;  ///< of the clearance of a film with one temperature, at that [m]
   /// Surfaces of elastic bodies; null: rigid. Their amplitudes come with the motion, the shell's before the journal's.
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
@@ -53,7 +54,9 @@ struct OilOfRun {
 struct BearingObservation {
   GapPosition position;                       ///< of the journal, or what moves in its place
   Vector6 wrench_on_shell = Vector6::Zero();  ///< [moment about the bearing's origin; force], bearing frame
-  double power_into_bodies = 0;               ///< of wrench and forces on shapes [W]; negative: the film takes power
+  double power_into_bodies = 0;  ///< of wrench, forces on shapes and growing walls [W]; negative: the film takes power
+  double power_of_growth = 0;    ///< its part on walls that grow with their temperature [W]
+  double clearance = 0;          ///< radial, at the temperatures of the walls [m]
   film::FilmObservables film;
   std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
   film::WallCorrection walls;                 ///< of held walls, when they settled last
@@ -62,6 +65,7 @@ struct BearingObservation {
   int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step
 };
 
+class ClearanceGrowth;
 class DeformingSurfaces;
 
 /// An oil film between the surfaces of a shell frame A and of a journal frame B (theory manual, chapter bearing), where
@@ -111,6 +115,15 @@ class FilmForce : public mbd::TwoBodyForce {
   /// A cycle of the machine has ended with the step last accepted: walls that are held settle by it
   /// (film::FilmHeat::settle_walls).
   void settle_walls();
+  /// Of a film with temperatures; null: it has one.
+  [[nodiscard]] const film::FilmHeat* heat() const { return heat_ ? &*heat_ : nullptr; }
+  /// After a step has been accepted: walls that are nodes of a network have these temperatures at its end, shell and
+  /// journal [K].
+  void move_walls(const Eigen::Vector2d& T);
+  /// What temperatures have come to at the state last accepted, where no film goes on from there: a clearance that they
+  /// close, or oil that warms without bound, and where. Empty: nothing of that.
+  /// @param closed  share of the clearance as given below which it counts as closed [-]
+  [[nodiscard]] std::string thermal_trouble(double closed) const;
 
   /// Everything to report at the state last accepted (or initialised).
   [[nodiscard]] BearingObservation observe(const mbd::RelativeMotion& motion) const;
@@ -128,6 +141,7 @@ class FilmForce : public mbd::TwoBodyForce {
   void settle();
   void close_step();
   void show_oil(film::FilmObservables& film) const;
+  [[nodiscard]] double growth_by_temperature() const;
   void follow_surfaces();
   [[nodiscard]] film::FilmDomain linearise_film();
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
@@ -140,6 +154,7 @@ class FilmForce : public mbd::TwoBodyForce {
   film::Reynolds reynolds_;
   std::optional<film::FilmHeat> heat_;  // at the state last accepted
   film::WallCorrection walls_;
+  std::unique_ptr<ClearanceGrowth> growth_;
   std::unique_ptr<GapKinematics> gap_;
   std::unique_ptr<DeformingSurfaces> deforming_;
   film::SurfaceMotion surfaces_;

@@ -31,6 +31,10 @@ class GapKinematics {
 
   virtual ~GapKinematics() = default;
 
+  /// Both surfaces together have moved apart and move apart everywhere, as their bodies grow [m, m/s]; what is placed
+  /// next has it, and positions are over the gap as it then is.
+  void open_by(double growth, double rate) { growth_ = growth, growth_rate_ = rate; }
+
   /// Writes the surfaces at a motion of B relative to A into `surfaces`: gap, rate, speeds, angles. What follows refers
   /// to this motion. Not empty: why the surfaces are none, for the user; they are then not placed.
   [[nodiscard]] virtual std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) = 0;
@@ -67,6 +71,7 @@ class GapKinematics {
  protected:
   Eigen::VectorXd parameters_;
   Jacobian d_dX_, d_dV_;
+  double growth_ = 0, growth_rate_ = 0;  ///< as given to open_by()
 };
 
 }  // namespace hersey::bearing

@@ -10,6 +10,7 @@
 #include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_heat.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/thermal_network.h"
 
 namespace hersey::bearing {
 
@@ -23,6 +24,7 @@ struct OperatingPoint {
   Eigen::Vector2d e_rate = Eigen::Vector2d::Zero();  ///< velocity of the journal's centre [m/s]
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();    ///< slope of the journal's axis while nothing deforms [-]
   double journal_angle = 0;                          ///< by which the journal, with its holes, stands turned [rad]
+  double growth = 0;                                 ///< of the radial clearance with the temperatures of its walls [m]
 
   /// Sum of both speeds, which drags the oil [rad/s].
   [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed; }
@@ -33,6 +35,14 @@ struct OperatingPoint {
   }
 };
 
+/// The radial clearance that is there, at the temperatures of its walls [m].
+[[nodiscard]] inline double clearance(const film::FilmModel& model, const OperatingPoint& point) {
+  return model.c + point.growth;
+}
+
+/// The same point between walls that have grown otherwise: a position that is given keeps its eccentricity ratio.
+[[nodiscard]] OperatingPoint with_growth(OperatingPoint point, const film::FilmModel& model, double growth);
+
 struct SteadyOptions {
   double rtol = 1e-10;      ///< on the film's relative residual, and on force over load, > 0
   int max_iterations = 40;  ///< of one Newton iteration on film and position
@@ -42,6 +52,7 @@ struct SteadyOptions {
   film::FilmSolver solver = film::FilmSolver::newton;
   std::shared_ptr<const SteadyElasticity> elasticity = {};  ///< of the surfaces; null: both rigid
   std::optional<film::ThermalModel> thermal = {};  ///< of a film with temperatures; unset: one temperature, the model's
+  std::optional<film::ThermalNetworkModel> network = {};  ///< of walls that are nodes; in balance with this film alone
   std::optional<Eigen::Vector2d> start;  ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
   Eigen::VectorXd start_film = {};       ///< the film's unknowns there; empty: none known
   std::optional<film::HeatState> start_heat = {};  ///< temperatures there; unset: those of the supply

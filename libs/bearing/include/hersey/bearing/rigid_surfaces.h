@@ -15,6 +15,9 @@ class RigidSurfaces {
   /// Of a bearing whose journal has no place yet: place() comes first.
   explicit RigidSurfaces(const film::FilmModel& model);
 
+  /// The clearance has grown and grows with the temperatures of its walls [m, m/s]; what is placed next has it.
+  void open_by(double growth, double rate) { growth_ = growth, growth_rate_ = rate; }
+
   /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi) (bearing.2), widened by profiles, its rate at fixed
   /// grid points (bearing.3), the speeds, the place of the supply line and the journal's angle into `motion`.
   void place(const ParameterVector& parameters, film::SurfaceMotion& motion);
@@ -36,14 +39,16 @@ class RigidSurfaces {
   Eigen::VectorXd z_;              // of every node
   std::array<film::MotionDirection, kParameterCount> directions_;
   double smallest_gap_ = 0;
+  double growth_ = 0, growth_rate_ = 0;
   Eigen::VectorXd opening_, first_, second_;
 };
 
 // The same for a single use.
-/// RigidSurfaces::place for a single use.
-void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion);
-/// RigidSurfaces::smallest_gap at these parameters [m].
-[[nodiscard]] double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters);
+/// RigidSurfaces::place for a single use. @param growth  of the clearance [m]
+void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion,
+                    double growth = 0);
+/// RigidSurfaces::smallest_gap at these parameters [m]. @param growth  of the clearance [m]
+[[nodiscard]] double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters, double growth = 0);
 /// Of a parameter that does not turn the journal.
 [[nodiscard]] film::MotionDirection surface_direction(const film::FilmModel& model, int parameter);
 

@@ -33,11 +33,12 @@ struct SteadyHeat {
   film::HeatState state;
   film::HeatObservables seen;
   film::TemperatureFields fields;
+  film::NetworkObservables network;  ///< of walls that are nodes; without nodes where none is
 };
 
 /// A solved operating point.
 struct SteadyState {
-  OperatingPoint point;
+  OperatingPoint point;                            ///< between walls as they have grown
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< that the film carries: its force on the shell [N]
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis, both frames turned by the load [-]

@@ -9,7 +9,7 @@ namespace hersey::film {
 /// Temperatures of a film and of what it touches [K], and what goes with them from step to step.
 struct HeatState {
   Eigen::VectorXd film;      ///< of the layers, shape (grid.size() layers): node by node, from the shell to the journal
-  Eigen::VectorXd shell;     ///< of the ring, or as given, shape (n_phi); of an insulated shell nothing
+  Eigen::VectorXd shell;     ///< of ring or node, or as given, shape (n_phi); of an insulated shell nothing
   double journal = 0;        ///< of a journal that is not insulated
   Eigen::VectorXd supplies;  ///< of the supply line and then of each feature: what leaves them for the film
   /// What shear leaves of the layers' viscosities [-], as `film`, and then by what the flow along pressure is easier
@@ -55,8 +55,18 @@ struct HeatObservables {
   double T_journal = 0;                          ///< mean of the surface
   double T_film_mean = 0;                        ///< over the volume of the oil
   double T_side = 0;                             ///< of the oil that leaves over the edges; NaN where none does
-  Eigen::VectorXd T_supplies;                    ///< of line and features, stirred; the line first if there is one
+  /// Means of the walls themselves, with which they expand; of one without heat, of its surface.
+  double T_shell_wall = 0, T_journal_wall = 0;
+  Eigen::VectorXd T_supplies;  ///< of line and features, stirred; the line first if there is one
   HeatBalance balance;
+};
+
+/// What walls that are nodes of a network have taken up, and how that follows their temperatures (theory manual,
+/// thermal.36): shell, then journal; zero for a wall that is no node.
+struct WallExchange {
+  Eigen::Vector2d T = Eigen::Vector2d::Zero();     ///< of the walls [K]
+  Eigen::Vector2d heat = Eigen::Vector2d::Zero();  ///< into them at these temperatures [W]
+  Eigen::Matrix2d by_T = Eigen::Matrix2d::Zero();  ///< its change with them, the film following [W/K]
 };
 
 }  // namespace hersey::film

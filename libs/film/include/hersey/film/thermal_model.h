@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -37,8 +39,28 @@ struct FreeJournal {
   std::optional<double> T_start = {};  ///< with which a simulation begins [K]; unset: the supply's
 };
 
-using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall>;
-using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall>;
+/// A wall that is a lumped body, node of a ThermalNetwork: it has one temperature, which moves with the network
+/// (theory manual, thermal.35).
+struct NodeWall {
+  double T = 293.15;      ///< at the start [K]
+  std::size_t node = 0;   ///< of the network
+  std::string name = {};  ///< of that node
+};
+
+using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall, NodeWall>;
+using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall, NodeWall>;
+
+/// How a bearing's clearance follows the mean temperatures of its walls.
+struct ThermalExpansion {
+  double shell = 0, journal = 0;  ///< coefficients of linear expansion [1/K]
+  double T_reference = 293.15;    ///< of both walls, at which the clearance is as given [K]
+
+  /// By how much the radial clearance of a bearing of radius R [m] is larger between walls at these temperatures [K]
+  /// (theory manual, thermal.32).
+  [[nodiscard]] double growth(double R, double T_shell, double T_journal) const {
+    return R * (shell * (T_shell - T_reference) - journal * (T_journal - T_reference));
+  }
+};
 
 /// What rings and free journals do in a simulation.
 enum class WallMotion {
@@ -50,12 +72,19 @@ enum class WallMotion {
 struct ThermalModel {
   int layers = 5;                       ///< across the film, 1 to most_layers
   double T_supply = 313.15;             ///< of the oil that comes through line and features [K]
-  std::vector<double> T_features = {};  ///< of each feature instead [K]; empty: T_supply
+  std::optional<double> T_line = {};    ///< through the line instead [K]
+  std::vector<double> T_features = {};  ///< through each feature instead [K]; empty: T_supply
   double T_edges = 313.15;              ///< of the oil that edges draw in [K]
   ShellWall shell = InsulatedWall{};
   JournalWall journal = FreeJournal{};
   WallMotion walls = WallMotion::by_their_heat;  ///< of no account to a steady film
   double carry_over = 1;  ///< share of the film's oil that passes a groove with it [-], 0 (all is renewed) to 1
+  std::optional<ThermalExpansion> expansion = {};  ///< of the walls; unset: they keep their size
 };
+
+/// Whether one of the walls is a node of a network.
+[[nodiscard]] inline bool has_nodes(const ThermalModel& thermal) {
+  return std::holds_alternative<NodeWall>(thermal.shell) || std::holds_alternative<NodeWall>(thermal.journal);
+}
 
 }  // namespace hersey::film

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hersey/bearing/film_force.h"
+#include "hersey/film/thermal_network.h"
 #include "hersey/mbd/beam_segment.h"
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/mechanism.h"
@@ -69,6 +70,7 @@ struct Machine {
   std::unique_ptr<mbd::Mechanism> mechanism;
   std::vector<BuiltContact> contacts;
   std::vector<BuiltBearing> bearings;
+  std::optional<film::ThermalNetwork> network;  ///< of walls that are nodes; unset: the model has none
   std::vector<BuiltFlexible> flexibles;
   std::vector<BuiltSurfaceLoad> surface_loads;
   std::vector<BuiltBeam> beams;

@@ -19,6 +19,7 @@
 #include "hersey/fem/reduction.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/thermal_model.h"
+#include "hersey/film/thermal_network.h"
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/nodal_body.h"
 #include "hersey/mbd/shape.h"
@@ -266,6 +267,12 @@ struct Lubricant {
   SourcePosition position;
 };
 
+/// The section `thermal`.
+struct Thermal {
+  film::ThermalNetworkModel network;
+  std::vector<SourcePosition> positions;  ///< of its nodes
+};
+
 /// How a bearing's film is heated.
 using Heat = std::variant<std::monostate, bearing::GlobalHeat, film::ThermalModel>;
 
@@ -312,6 +319,8 @@ struct Bearing {
   std::string lubricant;
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
   Heat heat;             ///< none: one temperature
+  std::optional<bearing::WallExpansion> expansion;  ///< of the walls, whatever heats the film; unset: they keep size
+  double growth = 0;  ///< of the clearance of a film with one given temperature: expansion at that [m]
   std::vector<Function> feature_pressures;  ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;
@@ -439,6 +448,7 @@ struct Model {
   std::vector<Force> forces;
   std::vector<Contact> contacts;
   std::vector<Lubricant> lubricants;
+  Thermal thermal;
   std::vector<Bearing> bearings;
   ThermalWalls thermal_walls = ThermalWalls::transient;
   Simulation simulation;

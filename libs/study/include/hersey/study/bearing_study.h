@@ -15,6 +15,8 @@ struct BearingSolution {
   model::StudyRun run;
   std::string error;  ///< why there is no solution; then the rest is empty
   film::FilmModel model;
+  bool expands = false;                 ///< its clearance follows the temperatures of its walls
+  std::vector<std::string> node_names;  ///< of the thermal network that its walls belong to; none: they belong to none
   std::shared_ptr<const bearing::SteadyElasticity> elasticity;  ///< of the surfaces; null: both rigid
   bearing::SteadySummary summary;
   bearing::SteadyState state;

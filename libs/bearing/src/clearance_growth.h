@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+
+#include "hersey/core/archive.h"
+
+namespace hersey::bearing {
+
+/// How the clearance moves with the temperatures of its walls from step to step (theory manual, thermal.33).
+class ClearanceGrowth {
+ public:
+  /// Where a run starts. @param growth  [m]
+  void start_at(double growth) { start_ = now_ = target_ = growth; }
+
+  /// Over the step that begins; dt = 0: at an instant.
+  void begin_step(double dt) {
+    now_ = start_ + (target_ - start_) * (over_ > 0 ? std::min(1.0, dt / over_) : 1.0);
+    rate_ = dt > 0 ? (now_ - start_) / dt : 0;
+  }
+  /// The step of length dt has ended with temperatures that call for `target` [m].
+  void accept_step(double target, double dt) {
+    start_ = now_, over_ = dt;
+    target_ = target;
+  }
+  /// The same step's temperatures were others. @param target  that they call for [m]
+  void change_target(double target) { target_ = target; }
+
+  /// At the end of the step, over the clearance as given [m].
+  [[nodiscard]] double now() const { return now_; }
+  /// In the step [m/s].
+  [[nodiscard]] double rate() const { return rate_; }
+  /// That temperatures call for [m].
+  [[nodiscard]] double target() const { return target_; }
+
+  /// All of it.
+  void persist(Archive& archive) {
+    archive.io("start", start_), archive.io("now", now_), archive.io("rate", rate_);
+    archive.io("target", target_), archive.io("over", over_);
+  }
+
+ private:
+  double start_ = 0, now_ = 0, rate_ = 0, target_ = 0;
+  double over_ = 0;  ///< length of the step before [s]
+};
+
+}  // namespace hersey::bearing

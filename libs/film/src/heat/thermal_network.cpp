@@ -1,0 +1,143 @@
+#include "hersey/film/thermal_network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::film {
+namespace {
+
+using Eigen::Index;
+
+/// Nodes that paths lead to from those marked.
+std::vector<bool> reached(const ThermalNetworkModel& model, std::vector<bool> from) {
+  for (bool spreads = true; spreads;) {
+    spreads = false;
+    for (const ThermalPath& path : model.paths) {
+      if (path.conductance == 0 || from[path.a] == from[path.b]) continue;
+      from[path.a] = from[path.b] = spreads = true;
+    }
+  }
+  return from;
+}
+
+/// Place of a wall in WallExchange and the node it is.
+std::vector<std::pair<Index, Index>> walls_of(const FilmTerminals& at) {
+  std::vector<std::pair<Index, Index>> walls;
+  if (at.shell) walls.emplace_back(0, static_cast<Index>(*at.shell));
+  if (at.journal) walls.emplace_back(1, static_cast<Index>(*at.journal));
+  return walls;
+}
+
+}  // namespace
+
+FilmTerminals terminals_of(const ThermalModel& thermal) {
+  FilmTerminals at;
+  if (const auto* shell = std::get_if<NodeWall>(&thermal.shell)) at.shell = shell->node;
+  if (const auto* journal = std::get_if<NodeWall>(&thermal.journal)) at.journal = journal->node;
+  return at;
+}
+
+double NetworkObservables::error() const {
+  const double in = heat.sum();
+  const double largest = std::max({heat.cwiseAbs().sum(), std::abs(to_fixed), std::abs(stored)});
+  return largest > 0 ? (in - to_fixed - stored) / largest : 0;
+}
+
+bool reaches_surroundings(const ThermalNetworkModel& model, std::size_t node) {
+  std::vector<bool> from(model.nodes.size(), false);
+  from[node] = true;
+  const std::vector<bool> all = reached(model, from);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i] && model.nodes[i].is_fixed) return true;
+  return false;
+}
+
+ThermalNetwork::ThermalNetwork(ThermalNetworkModel model) : model_(std::move(model)) {
+  const std::size_t n = model_.nodes.size();
+  for (const ThermalPath& path : model_.paths)
+    HERSEY_REQUIRE(path.a < n && path.b < n && path.conductance >= 0, "a path conducts heat between two nodes");
+  for (const ThermalNode& node : model_.nodes)
+    HERSEY_REQUIRE(node.is_fixed || node.heat_capacity > 0, "a body holds heat");
+  seen_.T.resize(static_cast<Index>(n));
+  seen_.heat.setZero(static_cast<Index>(n));
+  for (std::size_t i = 0; i < n; ++i) seen_.T[static_cast<Index>(i)] = model_.nodes[i].T;
+}
+
+// (thermal.35) by (thermal.37), or (thermal.38): conductances, films and capacities at the end of the step, so that
+// none of them limits it. Solved for the change, which short steps of large bodies would lose in the temperature's
+// digits.
+void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {
+  const std::size_t n = model_.nodes.size();
+  const Eigen::VectorXd& start = seen_.T;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Index>(n), static_cast<Index>(n));
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(static_cast<Index>(n));
+  std::vector<bool> holds(n, dt > 0);  // something says what the temperature is
+  for (const ThermalPath& path : model_.paths) {
+    const auto i = static_cast<Index>(path.a), j = static_cast<Index>(path.b);
+    const double q = path.conductance * (start[i] - start[j]);
+    b[i] -= q, b[j] += q;
+    A(i, i) += path.conductance, A(j, j) += path.conductance;
+    A(i, j) -= path.conductance, A(j, i) -= path.conductance;
+  }
+  for (const FilmAtNodes& film : films) {
+    const WallExchange& seen = film.exchange;
+    const Eigen::Vector2d heat = seen.heat + seen.by_T * (walls(film.at, seen.T) - seen.T);
+    for (const auto& [row, i] : walls_of(film.at)) {
+      b[i] += heat[row];
+      if (seen.by_T(row, row) != 0) holds[static_cast<std::size_t>(i)] = true;
+      for (const auto& [column, j] : walls_of(film.at)) A(i, j) -= seen.by_T(row, column);
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    if (model_.nodes[k].is_fixed) holds[k] = true;
+  holds = reached(model_, holds);
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto i = static_cast<Index>(k);
+    if (model_.nodes[k].is_fixed || !holds[k]) {
+      A.row(i).setZero();
+      A(i, i) = 1, b[i] = 0;
+    } else if (dt > 0) {
+      A(i, i) += model_.nodes[k].heat_capacity / dt;
+    }
+  }
+  const Eigen::VectorXd change = A.partialPivLu().solve(b);
+  seen_.T += change;
+  observe(dt, change, films);
+}
+
+void ThermalNetwork::observe(double dt, const Eigen::VectorXd& change, const std::vector<FilmAtNodes>& films) {
+  seen_.heat.setZero();
+  seen_.to_fixed = seen_.stored = 0;
+  for (const FilmAtNodes& film : films) {
+    const WallExchange& seen = film.exchange;
+    const Eigen::Vector2d heat = seen.heat + seen.by_T * (walls(film.at, seen.T) - seen.T);
+    for (const auto& [row, i] : walls_of(film.at)) seen_.heat[i] += heat[row];
+  }
+  for (std::size_t k = 0; k < model_.nodes.size(); ++k) {
+    const auto i = static_cast<Index>(k);
+    if (model_.nodes[k].is_fixed) {
+      seen_.to_fixed += seen_.heat[i];
+    } else if (dt > 0) {
+      seen_.stored += model_.nodes[k].heat_capacity / dt * change[i];
+    }
+  }
+  for (const ThermalPath& path : model_.paths) {
+    const double q = path.conductance * (seen_.T[static_cast<Index>(path.a)] - seen_.T[static_cast<Index>(path.b)]);
+    if (model_.nodes[path.b].is_fixed) seen_.to_fixed += q;
+    if (model_.nodes[path.a].is_fixed) seen_.to_fixed -= q;
+  }
+}
+
+Eigen::Vector2d ThermalNetwork::walls(const FilmTerminals& at, const Eigen::Vector2d& otherwise) const {
+  Eigen::Vector2d T = otherwise;
+  for (const auto& [row, i] : walls_of(at)) T[row] = seen_.T[i];
+  return T;
+}
+
+void ThermalNetwork::persist(Archive& archive) { archive.io("T", seen_.T); }
+
+}  // namespace hersey::film

@@ -1,0 +1,33 @@
+#include "march/warm_bodies.h"
+
+#include <vector>
+
+#include "hersey/bearing/global_heat.h"
+
+namespace hersey::run {
+
+void warm_bodies(model::Machine& machine, double dt) {
+  if (!machine.network) return;
+  std::vector<film::FilmAtNodes> films;
+  std::vector<bearing::FilmForce*> warmed;
+  for (const model::BuiltBearing& built : machine.bearings) {
+    const film::FilmHeat* heat = built.bearing->heat();
+    if (heat == nullptr || !has_nodes(heat->thermal())) continue;
+    films.push_back({film::terminals_of(heat->thermal()), heat->exchange()});
+    warmed.push_back(built.bearing.get());
+  }
+  machine.network->advance(dt, films);
+  for (std::size_t i = 0; i < films.size(); ++i)
+    warmed[i]->move_walls(machine.network->walls(films[i].at, films[i].exchange.T));
+}
+
+std::string thermal_trouble(const model::Machine& machine, bool has_failed) {
+  constexpr double all_but_closed = 0.3;  // of the clearance as given
+  for (const model::BuiltBearing& built : machine.bearings)
+    if (const std::string trouble = built.bearing->thermal_trouble(has_failed ? all_but_closed : bearing::seized);
+        !trouble.empty())
+      return "bearing " + built.bearing->name() + ": " + trouble;
+  return {};
+}
+
+}  // namespace hersey::run
