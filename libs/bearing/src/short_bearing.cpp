@@ -56,7 +56,7 @@ double likely_temperature(const film::FilmModel& model, double T_supply, const O
     at.lubricant.mu0 = film::viscosity_at(oil.temperature_law, T);
     if (at.lubricant.mu0 < kThinnestGuess * mu_supply) break;
     const double e = point.load ? ocvirk_position(at, point).norm() : point.e.norm();
-    const double epsilon = std::clamp(e / model.c, 0.1, 0.95);
+    const double epsilon = std::clamp(e / clearance(model, point), 0.1, 0.95);
     const double power =
         at.lubricant.mu0 * U * U * turn * model.R * model.L / (model.c * std::sqrt(1 - epsilon * epsilon));
     const double rise = power / (2 * oil.density * oil.specific_heat * epsilon * carried);

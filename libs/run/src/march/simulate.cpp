@@ -121,6 +121,8 @@ class Simulation {
       if (!step.is_taken()) {
         // A journal that touches has been told so already.
         const bool is_advised = step.trouble.find("asperities") != std::string::npos;
+        if (const std::string why = thermal_trouble(machine_, true); !why.empty())
+          return fail(fmt::format("t = {:.6g} s: {}; no step goes on from there: {}", state_.t, why, step.trouble));
         return fail(step.trouble + (is_advised ? "" : record_.thin_films()));
       }
       if (model_.thermal_walls == model::ThermalWalls::transient) warm_bodies(machine_, step.dt);

@@ -69,6 +69,12 @@ class FilmHeat {
   /// step; the film follows, and the heat they take up is exchange().heat + exchange().by_T (T - exchange().T).
   void move_walls(const Eigen::Vector2d& T);
 
+  /// After advance(), of walls that are nodes: those were held at the temperatures they had.
+  [[nodiscard]] const WallExchange& exchange() const;
+  /// After advance(): walls that are nodes had rather these temperatures, shell and journal [K], at the end of the
+  /// step; the film follows, and the heat they take up is exchange().heat + exchange().by_T (T - exchange().T).
+  void move_walls(const Eigen::Vector2d& T);
+
   /// After advance(): fields and numbers of that film; before, of one at the temperatures of its supply and walls.
   [[nodiscard]] TemperatureFields fields() const;
   /// Likewise.
