@@ -30,6 +30,13 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
     HERSEY_REQUIRE(ring->outer_radius > model.R && ring->conductivity > 0 && ring->heat_capacity > 0,
                    "a ring around the film that conducts and holds heat");
   }
+  if (const auto* body = std::get_if<BodyWall>(&thermal.shell)) {
+    HERSEY_REQUIRE(body->conduction != nullptr, "a body that conducts");
+    const WallConduction& wall = *body->conduction;
+    const Eigen::Index n = model.grid.n_phi;
+    HERSEY_REQUIRE(wall.T0.size() == n && wall.rise.rows() == n && wall.rise.cols() == n, "conduction at these angles");
+    HERSEY_REQUIRE(!wall.deforms() || wall.shape0.size() == model.grid.size(), "a shape at the nodes of this grid");
+  }
   if (const auto* shell = std::get_if<WallAtTemperature>(&thermal.shell)) {
     HERSEY_REQUIRE(shell->around.size() == 0 || shell->around.size() == model.grid.n_phi,
                    "temperatures of shape (n_phi) or none");
@@ -99,6 +106,10 @@ HeatState FilmHeat::Impl::start() const {
   if (const auto* shell = std::get_if<WallAtTemperature>(&thermal.shell)) {
     first.shell.setConstant(grid.n_phi, shell->T);
     if (shell->around.size() != 0) first.shell = shell->around;
+  }
+  if (const auto* body = std::get_if<BodyWall>(&thermal.shell)) {
+    first.shell.setConstant(grid.n_phi, body->T_start.value_or(T));
+    first.wall_heat.setZero(grid.n_phi);
   }
   first.supplies.resize(equations.supplies());
   for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k);
@@ -172,9 +183,20 @@ const HeatState& FilmHeat::state() const { return impl_->state; }
 void FilmHeat::set_state(const HeatState& state) {
   const HeatState& now = impl_->state;
   HERSEY_REQUIRE(state.film.size() == now.film.size() && state.shell.size() == now.shell.size() &&
-                     state.supplies.size() == now.supplies.size() && state.thinning.size() == now.thinning.size(),
+                     state.wall_heat.size() == now.wall_heat.size() && state.supplies.size() == now.supplies.size() &&
+                     state.thinning.size() == now.thinning.size(),
                  "temperatures of this film");
   impl_->state = state;
+}
+
+Eigen::VectorXd FilmHeat::shell_opening() const {
+  const WallConduction* wall = conduction_of(impl_->thermal.shell);
+  return wall == nullptr || !wall->deforms() ? Eigen::VectorXd() : wall->shape(impl_->state.wall_heat);
+}
+
+Eigen::VectorXd FilmHeat::body_temperatures() const {
+  const WallConduction* wall = conduction_of(impl_->thermal.shell);
+  return wall == nullptr || wall->T_body0.size() == 0 ? Eigen::VectorXd() : wall->body(impl_->state.wall_heat);
 }
 
 LayeredViscosity FilmHeat::viscosity() const {
@@ -247,8 +269,9 @@ WallCorrection FilmHeat::settle_walls() {
   if (!m.holds_walls() || before.size() == 0 || !m.equations.mean().has_steps()) return {};
   const MeanHeat::Change change = m.equations.mean().settle();
   Eigen::VectorXd after = before;
-  after.head(change.shell.size()) += change.shell;
-  if (after.size() > change.shell.size()) after.tail(1)[0] += change.journal;
+  const Eigen::Index ring = std::holds_alternative<RingWall>(m.thermal.shell) ? change.shell.size() : 0;
+  after.head(ring) += change.shell.head(ring);
+  if (after.size() > ring) after.tail(1)[0] += change.journal;
   const WallCorrection correction{(after - before).cwiseAbs().maxCoeff(), after.maxCoeff() - m.thermal.T_supply};
   m.set_held_walls(m.settling.next(before, after));
   return correction;
@@ -258,6 +281,8 @@ void FilmHeat::Impl::observe(const CarryingFilm& film) {
   seen = {};
   seen.balance = equations.balance();
   seen.T_supplies = state.supplies;
+  if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
+    seen.T_body_max = wall->body(state.wall_heat).maxCoeff();
   show_surfaces(film);
   find_hottest();
   average(film);
@@ -325,6 +350,7 @@ void FilmHeat::persist(Archive& archive) {
   archive.io("T_film", impl_->state.film);
   archive.io("T_shell", impl_->state.shell);
   archive.io("T_journal", impl_->state.journal);
+  archive.io("wall_heat", impl_->state.wall_heat);
   archive.io("T_supplies", impl_->state.supplies);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
   if (!impl_->holds_walls()) return;

@@ -26,8 +26,8 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
     : model_(model),
       thermal_(thermal),
       rc_(model.lubricant.density * model.lubricant.specific_heat),
-      system_(model.grid, thermal.layers, std::holds_alternative<RingWall>(thermal.shell)),
-      mean_(model.grid, thermal.layers, std::holds_alternative<RingWall>(thermal.shell),
+      system_(model.grid, thermal.layers, has_own_temperatures(thermal.shell)),
+      mean_(model.grid, thermal.layers, has_own_temperatures(thermal.shell),
             std::holds_alternative<FreeJournal>(thermal.journal), supplies()) {
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
     ring_ = conductances(model_, GridGeometry(model_), *ring);
@@ -108,6 +108,7 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   if (rows > start.film.size()) end.shell = x.segment(start.film.size(), model_.grid.n_phi);
   end.journal = x[rows];
   end.supplies = x.tail(supplies());
+  if (conduction_of(thermal_.shell) != nullptr) end.wall_heat = heat_into_shell(film, end);
   take_balance(film, start, end);
   if (holds_walls(film)) add_heat_to_mean(film, start, end);
   return end;
@@ -346,7 +347,7 @@ void HeatEquations::add_conduction(const CarryingFilm& film) {
 // Half of what asperities dissipate goes into either wall; one without heat leaves it to the oil (thermal.13).
 void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) {
   const bool is_insulated = !conducts(thermal_.shell);
-  const auto* ring = std::get_if<RingWall>(&thermal_.shell);
+  const bool has_rows = has_own_temperatures(thermal_.shell);
   for (int node = 0; node < model_.grid.size(); ++node) {
     const int row = system_.row(node, 0), i = node / model_.grid.n_z;
     const double friction = 0.5 * asperity_power(film, node);
@@ -356,7 +357,7 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
     }
     const double G = to_shell(film, node);
     system_.diagonal(row) += G;
-    if (ring == nullptr) {
+    if (!has_rows) {
       known_[row] += G * start.shell[i];
       continue;
     }
@@ -365,7 +366,35 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
     system_.from_film(node) -= G;
     known_[system_.ring_row(i)] += friction;
   }
-  if (ring != nullptr) add_ring(*ring, film, start);
+  if (const auto* ring = std::get_if<RingWall>(&thermal_.shell)) add_ring(*ring, film, start);
+  if (const WallConduction* body = conduction_of(thermal_.shell)) add_body(*body, film, start);
+}
+
+// A steady body answers all of the heat at once (thermal.47); over a step it keeps its temperatures.
+void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start) {
+  const int n = model_.grid.n_phi, first = system_.ring_row(0);
+  if (film.dt > 0) {
+    system_.set_answer(nullptr, 1);
+    for (int node = 0; node < model_.grid.size(); ++node) system_.from_film(node) = 0;
+    for (int i = 0; i < n; ++i) {
+      system_.diagonal(first + i) = 1;
+      known_[first + i] = start.shell[i];
+    }
+    return;
+  }
+  double scale = 0;
+  for (int i = 0; i < n; ++i) scale += system_.diagonal(first + i) / n;
+  if (scale == 0) scale = 1;
+  system_.set_answer(&body.rise, scale);
+  const Eigen::VectorXd friction = known_.segment(first, n);
+  known_.segment(first, n) = scale * body.temperatures(friction);
+}
+
+Eigen::VectorXd HeatEquations::heat_into_shell(const CarryingFilm& film, const HeatState& state) const {
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(model_.grid.n_phi);
+  for (int node = 0; node < model_.grid.size(); ++node)
+    heat[node / model_.grid.n_z] += into_shell(film, state, node) + 0.5 * asperity_power(film, node);
+  return heat;
 }
 
 void HeatEquations::add_ring(const RingWall& ring, const CarryingFilm& film, const HeatState& start) {

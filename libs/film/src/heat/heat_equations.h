@@ -81,6 +81,8 @@ class HeatEquations {
   void add_conduction(const CarryingFilm& film);
   void add_shell(const CarryingFilm& film, const HeatState& start);
   void add_ring(const RingWall& ring, const CarryingFilm& film, const HeatState& start);
+  void add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start);
+  [[nodiscard]] Eigen::VectorXd heat_into_shell(const CarryingFilm& film, const HeatState& state) const;
   void add_journal(const CarryingFilm& film);
   void add_supplies(const CarryingFilm& film);
   void renew(const CarryingFilm& film);

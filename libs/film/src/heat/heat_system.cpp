@@ -39,10 +39,23 @@ HeatSystem::Row HeatSystem::entries(int node, int layer) const {
 
 HeatSystem::Row HeatSystem::ring_entries(int i) const {
   const int n = ring_rows();
+  if (answer_.is_set()) return answer_entries(i);
   Row entries{{ring_row(i), ring_[i].self},
               {ring_row((i + n - 1) % n), ring_[i].before},
               {ring_row((i + 1) % n), ring_[i].after}};
   for (int j = 0; j < grid_.n_z; ++j) entries.emplace_back(row(grid_.index(i, j), 0), from_film_[grid_.index(i, j)]);
+  return entries;
+}
+
+/// All of the ring and of the film beside it.
+HeatSystem::Row HeatSystem::answer_entries(int i) const {
+  Row entries;
+  for (int j = 0; j < ring_rows(); ++j) {
+    const double heat = answer_.by_balance(i, j);
+    entries.emplace_back(ring_row(j), heat * ring_[j].self + (i == j ? answer_.scale() : 0));
+    for (int k = 0; k < grid_.n_z; ++k)
+      entries.emplace_back(row(grid_.index(j, k), 0), heat * from_film_[grid_.index(j, k)]);
+  }
   return entries;
 }
 
@@ -105,6 +118,7 @@ void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
     for (int j = 0; j < grid_.n_z; ++j) sum += from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
     y[ring_row(i)] = sum;
   }
+  if (answer_.is_set()) y.segment(film_rows(), n) = answer_.rows(x.segment(film_rows(), n), y.segment(film_rows(), n));
 }
 
 // Along the axis oil flows from the middle to the edges, as a rule.
@@ -147,22 +161,36 @@ void HeatSystem::solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorX
 void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   x.head(size()).setZero();
   if (!ring_.empty()) {
-    x.segment(film_rows(), ring_rows()) = b.segment(film_rows(), ring_rows());
-    solve_ring(x);
+    if (answer_.is_set()) {
+      x.segment(film_rows(), ring_rows()) =
+          answer_.solve(b.segment(film_rows(), ring_rows()), Eigen::VectorXd::Zero(ring_rows()));
+    } else {
+      x.segment(film_rows(), ring_rows()) = b.segment(film_rows(), ring_rows());
+      solve_ring(x);
+    }
   }
   for (const int node : order_) solve_column(node, b, x);
   if (ring_.empty()) return;
-  for (int i = 0; i < ring_rows(); ++i) {
-    double rest = b[ring_row(i)];
-    for (int j = 0; j < grid_.n_z; ++j) rest -= from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
-    x[ring_row(i)] = rest;
+  Eigen::VectorXd by_film = Eigen::VectorXd::Zero(ring_rows());
+  for (int i = 0; i < ring_rows(); ++i)
+    for (int j = 0; j < grid_.n_z; ++j) by_film[i] += from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
+  if (answer_.is_set()) {
+    x.segment(film_rows(), ring_rows()) = answer_.solve(b.segment(film_rows(), ring_rows()), by_film);
+    return;
   }
+  x.segment(film_rows(), ring_rows()) = b.segment(film_rows(), ring_rows()) - by_film;
   solve_ring(x);
 }
 
 // A ring is a tridiagonal chain, closed by two entries: Sherman and Morrison's formula with the chain's answer to them.
 void HeatSystem::prepare_ring() {
   const int n = ring_rows();
+  if (answer_.is_set()) {
+    Eigen::VectorXd C(n);
+    for (int i = 0; i < n; ++i) C[i] = ring_[i].self;
+    answer_.prepare(C);
+    return;
+  }
   ring_pivots_.assign(static_cast<std::size_t>(n), {});
   const double corner = -ring_[0].self;
   double last = 0;

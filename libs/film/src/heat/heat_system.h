@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "heat/wall_answer.h"
 #include "hersey/core/archive.h"
 #include "hersey/film/grid.h"
 
@@ -28,6 +29,9 @@ class HeatSystem {
   [[nodiscard]] int ring_row(int i) const { return film_rows() + i; }
 
   void set_zero();
+  /// The ring's rows, written as balances of heat, stand for a wall that answers heat by temperatures (thermal.47): then
+  /// row i is scale (T_i + sum_j rise_ij (balance of j)). Null: for a ring. Kept until it is set anew.
+  void set_answer(const Eigen::MatrixXd* rise, double scale) { answer_.set(rise, scale); }
   [[nodiscard]] double& diagonal(int row) {
     return row < film_rows() ? layer_[row].self : ring_[row - film_rows()].self;
   }
@@ -84,6 +88,7 @@ class HeatSystem {
   [[nodiscard]] int neighbour(int node, int side) const { return neighbours_[node][side]; }
   [[nodiscard]] int next_but_one(int node, int side) const { return neighbour(neighbour(node, side), side); }
   void solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
+  [[nodiscard]] Row answer_entries(int i) const;
   void prepare_ring();
   void solve_ring(Eigen::VectorXd& x) const;
 
@@ -98,6 +103,7 @@ class HeatSystem {
   std::vector<std::pair<double, double>> ring_pivots_;
   Eigen::VectorXd closing_;  ///< answer of the open ring to what closes it
   double closing_share_ = 0;
+  WallAnswer answer_;
 };
 
 }  // namespace hersey::film

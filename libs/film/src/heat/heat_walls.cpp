@@ -19,6 +19,15 @@ RingConductances conductances(const FilmModel& model, const GridGeometry& geomet
   return c;
 }
 
+bool has_own_temperatures(const ShellWall& shell) {
+  return std::holds_alternative<RingWall>(shell) || std::holds_alternative<BodyWall>(shell);
+}
+
+const WallConduction* conduction_of(const ShellWall& shell) {
+  const auto* body = std::get_if<BodyWall>(&shell);
+  return body == nullptr ? nullptr : body->conduction.get();
+}
+
 bool conducts(const ShellWall& shell) { return !std::holds_alternative<InsulatedWall>(shell); }
 
 bool conducts(const JournalWall& journal) { return !std::holds_alternative<InsulatedWall>(journal); }

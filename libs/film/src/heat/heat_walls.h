@@ -18,6 +18,11 @@ struct RingConductances {
 /// Of the ring around the film of `model`.
 [[nodiscard]] RingConductances conductances(const FilmModel& model, const GridGeometry& geometry, const RingWall& ring);
 
+/// Whether the temperatures of a shell are found with those of the film, angle by angle.
+[[nodiscard]] bool has_own_temperatures(const ShellWall& shell);
+/// The conduction of a shell in a body; null: it is in none.
+[[nodiscard]] const WallConduction* conduction_of(const ShellWall& shell);
+
 /// Whether heat passes between the film and a wall.
 [[nodiscard]] bool conducts(const ShellWall& shell);
 /// Likewise.

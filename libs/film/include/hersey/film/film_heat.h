@@ -54,6 +54,12 @@ class FilmHeat {
   /// they were. Nothing happens before the first step.
   WallCorrection settle_walls();
 
+  /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.46); empty:
+  /// it does not.
+  [[nodiscard]] Eigen::VectorXd shell_opening() const;
+  /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.
+  [[nodiscard]] Eigen::VectorXd body_temperatures() const;
+
   /// After advance(): fields and numbers of that film; before, of one at the temperatures of its supply and walls.
   [[nodiscard]] TemperatureFields fields() const;
   /// Likewise.

@@ -11,6 +11,7 @@ struct HeatState {
   Eigen::VectorXd film;      ///< of the layers, shape (grid.size() layers): node by node, from the shell to the journal
   Eigen::VectorXd shell;     ///< of the ring, or as given, shape (n_phi); of an insulated shell nothing
   double journal = 0;        ///< of a journal that is not insulated
+  Eigen::VectorXd wall_heat = {};  ///< into each angle of a shell in a body [W], shape (n_phi); else nothing
   Eigen::VectorXd supplies;  ///< of the supply line and then of each feature: what leaves them for the film
   /// What shear leaves of the layers' viscosities [-], as `film`, and then by what the flow along pressure is easier
   /// around and along the axis than these say [-], node by node; empty: there is one layer, or nothing thins.
@@ -52,6 +53,7 @@ struct HeatObservables {
   double T_max = 0, T_max_phi = 0, T_max_z = 0;  ///< of the hottest layer
   double T_shell_max = 0, T_shell_max_phi = 0;   ///< on the shell's surface
   double T_shell_mean = 0;                       ///< over the area
+  double T_body_max = 0;                         ///< of the body that the shell is in; else 0
   double T_journal = 0;                          ///< mean of the surface
   double T_film_mean = 0;                        ///< over the volume of the oil
   double T_side = 0;                             ///< of the oil that leaves over the edges; NaN where none does

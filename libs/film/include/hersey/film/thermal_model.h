@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "hersey/film/body_wall.h"
+
 namespace hersey::film {
 
 /// How many layers a film is divided into across its thickness, at most.
@@ -37,7 +39,7 @@ struct FreeJournal {
   std::optional<double> T_start = {};  ///< with which a simulation begins [K]; unset: the supply's
 };
 
-using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall>;
+using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall, BodyWall>;
 using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall>;
 
 /// What rings and free journals do in a simulation.
