@@ -30,6 +30,12 @@ film::FilmModel with_half_grid(film::FilmModel model) {
   return model;
 }
 
+/// A shell's body as a coarser grid sees it.
+void take_to(const film::Grid& coarse, const film::Grid& fine, film::ThermalModel& thermal) {
+  if (auto* body = std::get_if<film::BodyWall>(&thermal.shell))
+    body->conduction = std::make_shared<const film::WallConduction>(film::on_grid(*body->conduction, fine, coarse));
+}
+
 bool is_fine_enough(const film::Grid& grid) {
   return grid.n_phi >= kFewestNodesAround && grid.n_z >= kFewestNodesAcross;
 }
@@ -53,7 +59,9 @@ GridError estimate_grid_error(const film::FilmModel& model, const SteadyState& s
   std::vector<Figures> figures{figures_of(model, state)};
   film::FilmModel coarse = model;
   while (figures.size() < 3) {
+    const film::Grid fine = coarse.grid;
     coarse = with_half_grid(coarse);
+    if (from_here.thermal) take_to(coarse.grid, fine, *from_here.thermal);
     SteadyState coarse_state;
     if (!is_fine_enough(coarse.grid) || !solve_steady(coarse, state.point, from_here, coarse_state).converged) break;
     figures.push_back(figures_of(coarse, coarse_state));

@@ -22,6 +22,13 @@ film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const Operatin
   return motion;
 }
 
+void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion) {
+  if (shape.size() == 0) return;
+  motion.g += shape;
+  if (motion.shell_opening.size() == 0) motion.shell_opening.setZero(shape.size());
+  motion.shell_opening += shape;
+}
+
 ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point, const Eigen::Vector2d& e) {
   ParameterVector parameters = ParameterVector::Zero();
   parameters.segment<2>(kEx) = e;

@@ -163,6 +163,8 @@ class Search {
 
   void set_viscosity(film::LayeredViscosity viscosity) { film_.set_viscosity(std::move(viscosity)); }
 
+  void set_thermal_shape(Eigen::VectorXd shape) { film_.set_thermal_shape(std::move(shape)); }
+
   // How near to an answer it comes, on the way to one of film and temperature.
   void set_tolerance(double rtol) {
     rtol_ = rtol;
@@ -205,6 +207,7 @@ class Search {
     state.turn = film_.turn(x_);
     state.d_shell = film_.shell_displacement(x_);
     state.d_journal = film_.journal_displacement(x_);
+    state.thermal_shape = film_.thermal_shape();
     state.film = film::observe_film(model_, film_.surfaces(e_, x_), film_.history(), e_, state.u, state.tilt);
     state.load = state.film.wrench_on_shell.segment<2>(3);
     state.coefficients = coefficients();
@@ -357,7 +360,7 @@ class Search {
   }
 
   [[nodiscard]] double gap_at(const Eigen::Vector2d& e) const {
-    return smallest_gap(model_, parameters_of(model_, point_, e));
+    return film_.undeformed_gap(e);
   }
 
   // Whether the journal stands inside its bore, as far as a rigid one must.
@@ -600,6 +603,7 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
   for (int k = 0; k < kMostHeatIterations; ++k) {
     search.set_tolerance(std::max(options.rtol, kShareOfNearness * path.nearness()));
     search.set_viscosity(path.heat().viscosity());
+    search.set_thermal_shape(path.heat().shell_opening());
     summary = k == 0 ? search.solve() : search.once_more();
     summary.heat_iterations = k + 1;
     if (!summary.converged) {
@@ -610,7 +614,8 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
     path.take();
     if (path.nearness() <= kHeatTolerance && search.is_settled()) {
       state = search.state();
-      state.heat = SteadyHeat{path.heat().state(), path.heat().observables(), path.heat().fields()};
+      state.heat = SteadyHeat{path.heat().state(), path.heat().observables(), path.heat().fields(),
+                              path.heat().body_temperatures()};
       return summary;
     }
     path.step_on(k);
@@ -643,6 +648,7 @@ film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& 
   OperatingPoint loaded = state.point;
   loaded.tilt = state.tilt;
   film::SurfaceMotion motion = steady_surfaces(model, loaded, state.e);
+  add_to_shell(state.thermal_shape, motion);
   if (state.d_shell.size() > 0) motion.g += state.d_shell;
   if (state.d_journal.size() > 0) motion.g -= state.d_journal;
   film::FilmFields fields = film::film_fields(model, motion, state.u);

@@ -121,11 +121,22 @@ void SteadyFilm::lay_openings() {
   }
 }
 
+film::SurfaceMotion SteadyFilm::rigid_surfaces(const OperatingPoint& point, const Eigen::Vector2d& e) const {
+  film::SurfaceMotion motion = steady_surfaces(model_, point, e);
+  add_to_shell(thermal_shape_, motion);
+  return motion;
+}
+
+double SteadyFilm::undeformed_gap(const Eigen::Vector2d& e) const {
+  return thermal_shape_.size() > 0 ? rigid_surfaces(point_, e).g.minCoeff()
+                                   : smallest_gap(model_, parameters_of(model_, point_, e));
+}
+
 film::SurfaceMotion SteadyFilm::surfaces(const Eigen::Vector2d& e, const VectorXd& x) {
-  if (!deforms()) return steady_surfaces(model_, point_, e);
+  if (!deforms()) return rigid_surfaces(point_, e);
   OperatingPoint tilted = point_;
   tilted.tilt = tilt(x);
-  film::SurfaceMotion motion = steady_surfaces(model_, tilted, e);
+  film::SurfaceMotion motion = rigid_surfaces(tilted, e);
   // What rests in the bearing's axes opens the gap at no rate, a journal that turns beneath its deformation included.
   deforming_.place(amplitudes_of(x), VectorXd::Zero(amplitudes()), {.angle = point_.journal_angle}, motion);
   return motion;

@@ -39,10 +39,16 @@ class SteadyFilm {
 
   /// Viscosities by the oil's temperatures from now on.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
+  /// How far the shell lies outside its cylinder at the nodes by temperature from now on [m] (thermal.46); empty: nowhere.
+  void set_thermal_shape(Eigen::VectorXd shape) { thermal_shape_ = std::move(shape); }
+  [[nodiscard]] const Eigen::VectorXd& thermal_shape() const { return thermal_shape_; }
   /// On the film's relative residual, instead of SteadyOptions::rtol.
   void set_tolerance(double rtol) { film_options_.rtol = rtol; }
   /// Of a steady film, with its viscosities.
   [[nodiscard]] const film::FilmHistory& history() const { return history_; }
+
+  /// Smallest gap of the surfaces with the journal at `e` before anything but temperature deforms them [m].
+  [[nodiscard]] double undeformed_gap(const Eigen::Vector2d& e) const;
 
   /// No film known, the bodies deformed by their spin alone.
   [[nodiscard]] Eigen::VectorXd start() const;
@@ -97,6 +103,7 @@ class SteadyFilm {
   [[nodiscard]] film::FilmSolveSummary solve_in_turn(const Eigen::Vector2d& e, Eigen::VectorXd& x);
   [[nodiscard]] Eigen::VectorXd cut(const Eigen::Vector2d& e, const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
   void eliminate_deformation();
+  [[nodiscard]] film::SurfaceMotion rigid_surfaces(const OperatingPoint& point, const Eigen::Vector2d& e) const;
   [[nodiscard]] Eigen::VectorXd answer(const Eigen::VectorXd& Q, const Vector6& W) const;
   [[nodiscard]] Eigen::MatrixXd wrench_by_amplitudes() const;
   void lay_openings();
@@ -108,6 +115,7 @@ class SteadyFilm {
   DeformingSurfaces deforming_;
   film::Reynolds reynolds_;
   film::FilmHistory history_;                       // dt = 0: a steady film
+  Eigen::VectorXd thermal_shape_;
   Eigen::MatrixXd C_, C_W_;                         // of both bodies, shell first; C_W for the wrench on the shell
   Eigen::VectorXd s_0_;                             // what the spin of the bodies does
   Eigen::MatrixXd offset_by_s_, by_offset_moment_;  // of the shell's body, SurfaceFlexibility

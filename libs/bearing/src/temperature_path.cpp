@@ -20,6 +20,8 @@ constexpr double kHeatOfShear = 30;
 TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal,
                                  const OperatingPoint& point, const std::optional<film::HeatState>& start)
     : model_(model), thermal_(thermal), heat_(model, thermal) {
+  if (const auto* body = std::get_if<film::BodyWall>(&thermal.shell); body != nullptr && body->conduction->deforms())
+    per_watt_ = body->conduction->rise.rowwise().sum().mean();
   if (start) {
     heat_.set_state(*start);
     tried_ = state();
@@ -37,13 +39,15 @@ void TemperaturePath::fill(double T_oil) {
 
 Eigen::VectorXd TemperaturePath::state() const {
   const film::HeatState& now = heat_.state();
-  Eigen::VectorXd x(now.film.size() + now.thinning.size());
-  x << now.film.array() - thermal_.T_supply, kHeatOfShear * now.thinning.array().log();
+  const Eigen::VectorXd heat = per_watt_ * now.wall_heat.head(per_watt_ > 0 ? now.wall_heat.size() : 0);
+  Eigen::VectorXd x(now.film.size() + heat.size() + now.thinning.size());
+  x << now.film.array() - thermal_.T_supply, heat, kHeatOfShear * now.thinning.array().log();
   return x;
 }
 
 void TemperaturePath::put(const Eigen::VectorXd& x, film::HeatState& next) const {
   next.film = x.head(next.film.size()).array() + thermal_.T_supply;
+  if (per_watt_ > 0) next.wall_heat = x.segment(next.film.size(), next.wall_heat.size()) / per_watt_;
   next.thinning = (x.tail(next.thinning.size()) / kHeatOfShear).array().exp();
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hersey/bearing/bearing_numbers.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "relative.h"
 
@@ -54,6 +55,50 @@ TEST_CASE("HousingThatCools_SetsTheTemperature") {
   REQUIRE(solve_global(model, point(), heat, {}, state).converged);
   CHECK((state.effective->T - heat.T_ambient) * 20 * 2 == relative(state.film.power_film).epsilon(1e-6));  // as above
   CHECK(state.effective->T_out == state.effective->T);
+}
+
+/// Heat into an angle warms all of the shell by the same, and widens it.
+film::BodyWall even_body(const film::Grid& grid, double rise, double growth) {
+  auto wall = std::make_shared<film::WallConduction>();
+  wall->T0.setConstant(grid.n_phi, 40 + zero_celsius);
+  wall->rise.setConstant(grid.n_phi, grid.n_phi, rise);
+  wall->T_body0 = wall->T0.head(1);
+  wall->rise_body.setConstant(1, grid.n_phi, rise);
+  if (growth != 0) {
+    wall->shape0.setZero(grid.size());
+    wall->shape_by_heat.setConstant(grid.size(), grid.n_phi, growth);
+    wall->shape_by_rise.setZero(grid.size());
+  }
+  return {.conduction = wall};
+}
+
+// A bore that heat widens everywhere alike is one of larger clearance.
+TEST_CASE("BoreThatHeatWidens_IsOneOfLargerClearance") {
+  film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  model.supply = {};  // a line is as thick as the clearance that is given
+  model.edge_left = model.edge_right = {film::EdgeKind::pressure, 1e5, 0};
+  SteadyOptions options{.thermal = film::ThermalModel{.T_supply = 50 + zero_celsius, .T_edges = 50 + zero_celsius}};
+  options.thermal->shell = even_body(model.grid, 0.1, 5e-8);
+  SteadyState grown;
+  const SteadySummary summary = solve_steady(model, point(), options, grown);
+  REQUIRE(summary.converged);
+  CHECK(summary.heat_iterations <= 25);
+  REQUIRE(grown.thermal_shape.size() == model.grid.size());
+  const double growth = grown.thermal_shape[0];
+  CHECK(growth > 3e-6);  // a share of the clearance of 50 um that matters
+  CHECK(growth == relative(5e-8 * grown.heat->seen.balance.to_shell).epsilon(1e-7));  // 1e-8 of temperatures
+  CHECK(grown.heat->seen.T_body_max - grown.heat->T_body[0] == 0);
+  CHECK(grown.heat->T_body[0] == relative(313.15 + 0.1 * grown.heat->seen.balance.to_shell).epsilon(1e-12));  // eps
+  model.c += growth;
+  options.thermal->shell = even_body(model.grid, 0.1, 0);
+  SteadyState wide;
+  REQUIRE(solve_steady(model, point(), options, wide).converged);
+  CHECK((grown.e - wide.e).norm() < 1e-6 * model.c);  // 1e-8 of temperatures, by the slope of the position
+  CHECK(grown.film.p_max == relative(wide.film.p_max).epsilon(1e-5));  // as well
+  CHECK(grown.heat->seen.T_max == relative(wide.heat->seen.T_max).epsilon(1e-7));
+  CHECK(steady_fields(model, wide).h.minCoeff() == relative(wide.film.h_min).epsilon(1e-2));  // nodes, and between them
+  const GridError error = estimate_grid_error(model, wide, options);
+  CHECK(error.known);
 }
 
 TEST_CASE("HotBearing_CarriesItsLoadAndBalances") {

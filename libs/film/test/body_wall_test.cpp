@@ -135,5 +135,31 @@ TEST_CASE("ShapeOfABody_IsLinearInTheHeat") {
   CHECK(heat.body_temperatures().size() == 0);
 }
 
+// Even heat warms and shapes as before, and what varies around is the same to the square of the angles' distance.
+TEST_CASE("BodyOnACoarserGrid_IsTheSameBody") {
+  const FilmModel model = closed_bearing();
+  WallConduction wall = *ring_as_body(model, {.outer_radius = 0.09, .T_ambient = 300}).conduction;
+  const Grid fine = model.grid, coarse = resampled(fine, 24, 3);
+  wall.shape_by_heat.resize(fine.size(), fine.n_phi);
+  for (int i = 0; i < fine.n_phi; ++i)
+    for (int j = 0; j < fine.n_z; ++j)
+      wall.shape_by_heat.row(fine.index(i, j)).setConstant(1e-8 * (2 + std::cos(fine.phi(i)) + fine.z_over_L(j)));
+  wall.shape0.setConstant(fine.size(), 1e-6);
+  wall.shape_by_rise.setConstant(fine.size(), 6e-7);
+  const WallConduction seen = on_grid(wall, fine, coarse);
+  constexpr double round_off = 1e-12;  // of sums over angles
+  CHECK((seen.T0.array() - 300).abs().maxCoeff() < 300 * round_off);
+  CHECK((seen.rise - seen.rise.transpose()).cwiseAbs().maxCoeff() < round_off);
+  const Eigen::VectorXd even = Eigen::VectorXd::Ones(24);
+  CHECK(seen.temperatures(even)[3] == relative(wall.temperatures(0.5 * Eigen::VectorXd::Ones(48))[6]).epsilon(round_off));
+  Eigen::VectorXd wave(24), fine_wave(48);
+  for (int i = 0; i < 24; ++i) wave[i] = std::cos(coarse.phi(i));
+  for (int i = 0; i < 48; ++i) fine_wave[i] = 0.5 * std::cos(fine.phi(i));
+  const double rise = wall.temperatures(fine_wave)[0] - 300;
+  CHECK(seen.temperatures(wave)[0] - 300 == relative(rise).epsilon(std::pow(2 * pi / 24, 2) / 3));
+  CHECK(seen.shape(even)[coarse.index(6, 2)] ==
+        relative(wall.shape(0.5 * Eigen::VectorXd::Ones(48))[fine.index(12, 4)]).epsilon(round_off));
+}
+
 }  // namespace body_wall_test
 }  // namespace hersey::film

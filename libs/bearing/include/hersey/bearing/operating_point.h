@@ -56,6 +56,9 @@ struct SteadyOptions {
 [[nodiscard]] film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
                                                   const Eigen::Vector2d& e);
 
+/// The shell lies further out at the nodes by `shape` [m]; an empty one changes nothing.
+void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
+
 /// Where the bodies of rigid surfaces stand and how they move with the journal at `e`.
 [[nodiscard]] ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point,
                                             const Eigen::Vector2d& e);

@@ -33,6 +33,7 @@ struct SteadyHeat {
   film::HeatState state;
   film::HeatObservables seen;
   film::TemperatureFields fields;
+  Eigen::VectorXd T_body;  ///< of the body the shell is in, at the nodes of its mesh [K]; empty: it is in none
 };
 
 /// A solved operating point.
@@ -45,6 +46,8 @@ struct SteadyState {
   Eigen::VectorXd u;  ///< the film's unknowns
   Eigen::VectorXd s;  ///< amplitudes of the shapes of both surfaces' bodies, shell first; empty: both rigid
   Eigen::VectorXd d_shell, d_journal;  ///< radial displacement at the nodes, away from the axis [m]; empty where rigid
+  /// By how much the shell's body puts it further out at the nodes by its temperature [m]; empty: not at all.
+  Eigen::VectorXd thermal_shape;
   film::FilmObservables film;
   DynamicCoefficients coefficients;               ///< with the temperatures, and so the viscosities, as they are
   std::optional<SteadyHeat> heat;                 ///< of a film with temperatures

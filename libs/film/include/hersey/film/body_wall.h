@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "hersey/film/grid.h"
+
 namespace hersey::film {
 
 /// What heat from a film does to the body whose surface it lies on, which conducts it steadily (theory manual,
@@ -29,6 +31,10 @@ struct WallConduction {
   /// Its shape by the same heat [m], shape (grid.size()).
   [[nodiscard]] Eigen::VectorXd shape(const Eigen::VectorXd& heat) const { return shape0 + shape_by_heat * heat; }
 };
+
+/// The same wall seen from a coarser grid, whose angles are among those of the finer one: heat and shape are the same to
+/// what its lines between nodes can say.
+[[nodiscard]] WallConduction on_grid(const WallConduction& wall, const Grid& from, const Grid& to);
 
 /// A shell in a body that conducts heat. A steady film is in balance with it; over a time step it keeps its temperature.
 struct BodyWall {
