@@ -12,9 +12,9 @@ struct RingFile {
   double inner = 22.5, outer = 30, width = 15.6;  ///< radii and width [mm]
   int around = 24, along = 3, through = 1;        ///< elements
 
-  /// With sets `bore`, `outside`, and `foot`: three nodes around on the outside, all along.
+  /// With sets `bore`, `outside`, `ends`, and `foot`: three nodes around on the outside, all along.
   [[nodiscard]] std::string text() const {
-    std::ostringstream nodes, elements, bore, outside, foot;
+    std::ostringstream nodes, elements, bore, outside, ends, foot;
     nodes.precision(12);
     nodes << "*NODE\n";
     for (int k = 0; k <= along; ++k)
@@ -25,6 +25,7 @@ struct RingFile {
                 << width * k / along - width / 2 << "\n";
           if (layer == 0) bore << label(layer, i, k) << ",\n";
           if (layer == through) outside << label(layer, i, k) << ",\n";
+          if (k == 0 || k == along) ends << label(layer, i, k) << ",\n";
           if (layer == through && i < 3) foot << label(layer, i, k) << ",\n";
         }
     elements << "*ELEMENT, TYPE=C3D8, ELSET=all\n";
@@ -39,7 +40,7 @@ struct RingFile {
           elements << "\n";
         }
     return nodes.str() + elements.str() + "*NSET, NSET=bore\n" + bore.str() + "*NSET, NSET=outside\n" + outside.str() +
-           "*NSET, NSET=foot\n" + foot.str();
+           "*NSET, NSET=ends\n" + ends.str() + "*NSET, NSET=foot\n" + foot.str();
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "deforming_surfaces.h"
+#include "hersey/bearing/operating_point.h"
 #include "hersey/core/contract.h"
 
 namespace hersey::bearing {
@@ -52,6 +53,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
   if (options_.thermal) {
     heat_.emplace(model, *options_.thermal);
     history_.viscosity = heat_->viscosity();
+    shape_by_temperature();
   }
   history_start_ = observed_history_ = history_;
   observed_s_ = Eigen::VectorXd::Zero(deforming_->amplitudes());
@@ -68,6 +70,7 @@ void FilmForce::place(const mbd::RelativeMotion& motion) {
   parameters_.head(acting_) = gap_->parameters();
   parameters_.segment(acting_, motion.s.size()) = motion.s;
   parameters_.tail(motion.s.size()) = motion.s_rate;
+  add_to_shell(thermal_shape_, surfaces_);
   deforming_->place(motion.s, motion.s_rate, gap_->turning(), surfaces_);
   feed(motion.t);
   // A liner may be pushed beyond its undeformed surface; surfaces without one may not meet.
@@ -84,7 +87,17 @@ void FilmForce::feed(double t) {
 }
 
 /// Of the surfaces as their bodies deform, without the liner.
-double FilmForce::smallest_gap() const { return deforming_->deform() ? surfaces_.g.minCoeff() : gap_->smallest_gap(); }
+double FilmForce::smallest_gap() const {
+  return deforming_->deform() || thermal_shape_.size() > 0 ? surfaces_.g.minCoeff() : gap_->smallest_gap();
+}
+
+/// Over a run a shell's body stays at the temperature it begins with (thermal.49).
+void FilmForce::shape_by_temperature() {
+  const auto* body = std::get_if<film::BodyWall>(&options_.thermal->shell);
+  if (body == nullptr || !body->conduction->deforms()) return;
+  const double T = body->T_start.value_or(options_.thermal->T_supply);
+  thermal_shape_ = body->conduction->shape_by_rise * (T - body->conduction->T_reference);
+}
 
 void FilmForce::report_contact() {
   Eigen::Index node = 0;

@@ -44,7 +44,8 @@ class TemperaturePath {
   const film::ThermalModel& thermal_;
   film::FilmHeat heat_;
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
-  double per_watt_ = 0;  ///< heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
+  /// Heat into an angle of the shell's body as a temperature (thermal.48) [K/W]; 0: that is of no account.
+  double per_watt_ = 0;
   /// Rises of temperature over the supply's [K], heat that gives the shell its shape and what shear leaves of viscosities
   /// as if they were more of them [K]: being tried; those with which a film was found last; what that made.
   Eigen::VectorXd tried_, last_, image_;

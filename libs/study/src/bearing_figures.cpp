@@ -290,6 +290,15 @@ std::vector<std::string> supply_names(const Solution& s) {
   return names;
 }
 
+bool is_in_body(const Solution& s) { return s.state.heat && s.state.heat->T_body.size() > 0; }
+
+bool has_thermal_shape(const Solution& s) { return s.state.thermal_shape.size() > 0; }
+
+/// Of how far temperature puts the shell's surface out: its mean over the nodes, and the most it differs from it.
+double growth(const Solution& s) { return s.state.thermal_shape.mean(); }
+
+double distortion(const Solution& s) { return (s.state.thermal_shape.array() - growth(s)).abs().maxCoeff(); }
+
 Group heat() {
   using Seen = film::HeatObservables;
   using Balance = film::HeatBalance;
@@ -329,6 +338,17 @@ Group heat() {
         kCelsius,
         celsius(&Seen::T_shell_mean),
         {.only = has_heat}},
+       {"T_body_max", "hottest place of the shell's body", kCelsius, celsius(&Seen::T_body_max), {.only = is_in_body}},
+       {"bore_growth",
+        "growth of the bore's radius by temperature, mean",
+        kMicrometre,
+        growth,
+        {.only = has_thermal_shape}},
+       {"bore_distortion",
+        "  largest deviation from it, around and along",
+        kMicrometre,
+        distortion,
+        {.only = has_thermal_shape}},
        {"T_journal",
         "mean temperature of the journal's surface",
         kCelsius,

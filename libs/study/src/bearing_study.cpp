@@ -22,6 +22,7 @@
 #include "hersey/core/units.h"
 #include "hersey/model/read.h"
 #include "hersey/model/steady_elasticity.h"
+#include "hersey/model/wall_conduction.h"
 
 namespace hersey::study {
 namespace {
@@ -32,38 +33,52 @@ Eigen::Vector2d polar(double length, double angle) {
   return length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
-// How surfaces give way, of every mesh seen so far: it takes long, and most sweeps leave the bodies as they are.
-class Elasticities {
+// How surfaces give way and bodies conduct heat, of every mesh seen so far: it takes long, and most sweeps leave the
+// bodies as they are.
+class KnownBodies {
  public:
-  [[nodiscard]] std::shared_ptr<const bearing::SteadyElasticity> of(const model::Model& model,
-                                                                    const model::Bearing& bearing) {
+  [[nodiscard]] std::shared_ptr<const bearing::SteadyElasticity> elasticity(const model::Model& model,
+                                                                            const model::Bearing& bearing) {
     if (!bearing.shell_surface && !bearing.journal_surface) return nullptr;
     std::string fingerprint = model::fingerprint_of_elasticity(model, bearing);
     const std::lock_guard lock(mutex_);
-    if (const auto found = known_.find(fingerprint); found != known_.end()) return found->second;
-    return known_.emplace(std::move(fingerprint), model::steady_elasticity(model, bearing)).first->second;
+    if (const auto found = elastic_.find(fingerprint); found != elastic_.end()) return found->second;
+    return elastic_.emplace(std::move(fingerprint), model::steady_elasticity(model, bearing)).first->second;
+  }
+
+  [[nodiscard]] std::shared_ptr<const film::WallConduction> conduction(const model::Model& model,
+                                                                       const model::Bearing& bearing) {
+    std::string fingerprint = model::fingerprint_of_wall(model, bearing);
+    const std::lock_guard lock(mutex_);
+    if (const auto found = conducting_.find(fingerprint); found != conducting_.end()) return found->second;
+    return conducting_.emplace(std::move(fingerprint), model::wall_conduction(model, bearing)).first->second;
   }
 
  private:
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<const bearing::SteadyElasticity>> known_;
+  std::map<std::string, std::shared_ptr<const bearing::SteadyElasticity>> elastic_;
+  std::map<std::string, std::shared_ptr<const film::WallConduction>> conducting_;
 };
 
 // From `start` where there is one.
 void solve_one(const model::Model& model, const BearingStudyOptions& options, const bearing::SteadyState* start,
-               Elasticities& elasticities, BearingSolution& solution) {
+               KnownBodies& bodies, BearingSolution& solution) {
   const auto began = std::chrono::steady_clock::now();
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
   solution.model = bearing::scaled_for(bearing.film, point);
-  solution.elasticity = elasticities.of(model, bearing);
+  solution.elasticity = bodies.elasticity(model, bearing);
   bearing::SteadyOptions steady{.solver = bearing.solver, .elasticity = solution.elasticity};
   if (start != nullptr) {
     steady.start = start->e;
     if (start->u.size() == bearing.film.grid.size()) steady.start_film = start->u;
     steady.start_deformation = start->s;
   }
-  if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) steady.thermal = *heat;
+  if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) {
+    steady.thermal = *heat;
+    if (auto* body = std::get_if<film::BodyWall>(&steady.thermal->shell))
+      body->conduction = bodies.conduction(model, bearing);
+  }
   if (const auto* heat = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
     solution.summary = bearing::solve_global(solution.model, point, *heat, steady, solution.state);
   } else {
@@ -147,7 +162,7 @@ const BearingSolution* solved_neighbour(const std::vector<BearingSolution>& solu
 }
 
 // Runs without a solution start again from their neighbours' solutions, as long as that finds new ones.
-void follow_neighbours(const std::string& path, const BearingStudyOptions& options, Elasticities& elasticities,
+void follow_neighbours(const std::string& path, const BearingStudyOptions& options, KnownBodies& bodies,
                        std::vector<BearingSolution>& solutions) {
   bool found = true;
   while (found) {
@@ -157,7 +172,7 @@ void follow_neighbours(const std::string& path, const BearingStudyOptions& optio
       if (neighbour == nullptr) continue;
       BearingSolution again{.run = solutions[i].run, .error = {}};
       try {
-        solve_one(model::read(path, again.run.overrides), options, &neighbour->state, elasticities, again);
+        solve_one(model::read(path, again.run.overrides), options, &neighbour->state, bodies, again);
       } catch (const std::exception& error) {
         again.error = error_text(error);
       }
@@ -199,6 +214,11 @@ void require_rest(const model::Bearing& bearing) {
         Fault{point.position, path + "radial_velocity", "a velocity of the journal between surfaces that deform",
               "0: how fast the surfaces follow is part of a motion, which `hersey run` finds",
               rigid + (bearing.shell_surface ? "shell" : "journal") + "_surface=rigid` for rigid surfaces"});
+  if (bearing.heated_shell && point.shell_speed != 0)
+    throw InputError(Fault{point.position, path + "shell_speed",
+                           "a shell that turns, whose temperatures are those of a body",
+                           "0: the body rests under the film's heat, and the journal turns",
+                           "another wall: `ring`, `given`, `insulated`"});
   if (bearing.shell_surface && point.shell_speed != 0)
     throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns and deforms",
                            "0: the shell's body is held at rest, and the journal turns",
@@ -252,16 +272,16 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
   const model::Model first = options.first != nullptr ? *options.first : model::read(path, runs.front().overrides);
   (void)operating_point_of(bearing_called(first, options.bearing));
   std::atomic<std::size_t> next{0};
-  Elasticities elasticities;
+  KnownBodies bodies;
   const auto work = [&] {
     const TaskPool::OwnThread one(TaskPool::shared());
     for (std::size_t i = next++; i < runs.size(); i = next++) {
       solutions[i].run = runs[i];
       try {
         if (i == 0) {
-          solve_one(first, options, nullptr, elasticities, solutions[i]);
+          solve_one(first, options, nullptr, bodies, solutions[i]);
         } else {
-          solve_one(model::read(path, runs[i].overrides), options, nullptr, elasticities, solutions[i]);
+          solve_one(model::read(path, runs[i].overrides), options, nullptr, bodies, solutions[i]);
         }
       } catch (const std::exception& error) {
         solutions[i].error = error_text(error);
@@ -273,7 +293,7 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
   for (std::size_t i = 1; i < std::min(std::max<std::size_t>(wanted, 1), runs.size()); ++i) threads.emplace_back(work);
   work();
   threads.clear();
-  follow_neighbours(path, options, elasticities, solutions);
+  follow_neighbours(path, options, bodies, solutions);
   return solutions;
 }
 

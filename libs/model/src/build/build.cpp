@@ -13,6 +13,7 @@
 #include "hersey/mbd/bushing.h"
 #include "hersey/mbd/coordinate_laws.h"
 #include "hersey/mbd/spring_damper.h"
+#include "hersey/model/wall_conduction.h"
 
 namespace hersey::model {
 namespace {
@@ -436,7 +437,11 @@ class Builder {
     options.relaxation = bearing.coupling.relaxation;
     options.film.solver = bearing.solver;
     options.initial_dt = model_.simulation.step;
-    if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) options.thermal = *heat;
+    if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) {
+      options.thermal = *heat;
+      if (auto* body = std::get_if<film::BodyWall>(&options.thermal->shell))
+        body->conduction = wall_conduction(model_, bearing);
+    }
     for (const Function& pressure : bearing.feature_pressures) {
       options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
     }

@@ -100,6 +100,9 @@ void require_function_of_time(Context& context, const Function& function, const 
 /// `frames` too. Reports what is wrong with its mesh, materials and frames.
 [[nodiscard]] std::optional<Flexible> flexible_of(Context& context, const Value& body, std::vector<Frame>& frames);
 
+/// How a body of that mesh conducts heat and expands; reports unknown surfaces and heat that has nowhere to go.
+[[nodiscard]] BodyHeat body_heat_of(Context& context, const Value& value, const fem::Mesh& mesh);
+
 /// The faces of the surface or node set of `mesh` that `name` names; reports where there are none.
 [[nodiscard]] std::vector<fem::ElementFace> faces_of(Context& context, const Value& name, const fem::Mesh& mesh);
 
@@ -108,6 +111,11 @@ void require_function_of_time(Context& context, const Function& function, const 
 [[nodiscard]] std::optional<DeformingSurface> deforming_surface_of(Context& context, const Value& bearing,
                                                                    const std::string& side, const FrameName& on,
                                                                    const film::FilmModel& film);
+
+/// The faces of the shell's body that a film lies on whose shell is that body (`wall: body`); null where it is not, or
+/// cannot be, which is reported. @param bearing  all else of it has been read
+[[nodiscard]] std::shared_ptr<const fem::FilmSurface> heated_shell_of(Context& context, const Value& value,
+                                                                      const Bearing& bearing);
 
 /// Reports a shell and a journal on meshes of different size.
 void require_facing_surfaces(Context& context, const Value& value, const Bearing& bearing);

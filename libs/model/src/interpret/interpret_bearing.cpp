@@ -370,6 +370,7 @@ void interpret_bearings(Context& context) {
     bearing.shell_surface = deforming_surface_of(context, value, "shell", bearing.shell, bearing.film);
     bearing.journal_surface = deforming_surface_of(context, value, "journal", bearing.journal, bearing.film);
     require_facing_surfaces(context, value, bearing);
+    bearing.heated_shell = heated_shell_of(context, value, bearing);
     bearing.solver = meaning_of(value, "solver", film_solver_words);
     bearing.coupling = coupling_of(value);
     bearing.operating_point = operating_point_of(context, value, bearing.film);

@@ -23,34 +23,54 @@ class FilmSurfaceReader {
 
   std::optional<DeformingSurface> read() {
     const Body* body = flexible_body();
-    if (body == nullptr || film_.R <= 0 || film_.L <= 0) return std::nullopt;
-    const fem::FilmCylinder cylinder{.X = pose_in(*body), .R = film_.R, .L = film_.L, .is_bore = is_shell_};
-    const fem::Mesh& mesh = *body->flexible->mesh;
+    if (body == nullptr) return std::nullopt;
     const Value *named = value_.find("faces"), *within = value_.find("within");
     if (named == nullptr && within == nullptr) return std::nullopt;  // told
     const Value& choice = named != nullptr ? *named : *within;
-    if (choice.broken || context_.has_fault_in(value_.path)) return std::nullopt;
-    if (!has_enough_functions()) return std::nullopt;
-    std::vector<fem::ElementFace> faces;
-    if (named != nullptr) faces = faces_of(context_, *named, mesh);
-    if (named != nullptr && faces.empty()) return std::nullopt;  // told
-    const double tolerance = named != nullptr ? near_radius * film_.R : within->number;
-    if (named == nullptr) faces = fem::faces_on_cylinder(mesh, cylinder, tolerance);
-    const fem::FilmSurfaceResult result =
-        fem::film_surface(mesh, faces, cylinder, functions_of(mesh, faces, cylinder), tolerance);
-    if (!result.ok()) {
-      context_.fault(choice, result.message, expected(), result.remedy);
-      return std::nullopt;
-    }
-    refuse_if_held(*body, *result.surface, choice);
+    if (choice.broken || !has_enough_functions()) return std::nullopt;
+    const std::optional<fem::FilmSurface> found =
+        surface_of(*body, named, within != nullptr ? within->number : 0, choice);
+    if (!found) return std::nullopt;
+    refuse_if_held(*body, *found, choice);
     DeformingSurface surface;
-    surface.surface = std::make_shared<const fem::FilmSurface>(*result.surface);
+    surface.surface = std::make_shared<const fem::FilmSurface>(*found);
     if (const Value* modes = value_.find("modes")) surface.modes = static_cast<int>(modes->number);
     surface.position = choice.position;
     return surface;
   }
 
+  /// Of a wall that passes heat: where no faces are named, those near the cylinder.
+  std::shared_ptr<const fem::FilmSurface> read_wall() {
+    is_wall_ = true;
+    what_ = "a wall that conducts";
+    remedy_ = "a `ring`, or a flexible body with a `mesh` and `heat`";
+    const Body* body = flexible_body();
+    if (body == nullptr) return nullptr;
+    const Value* named = value_.find("faces");
+    const std::optional<fem::FilmSurface> found =
+        surface_of(*body, named, near_radius * film_.R, named != nullptr ? *named : value_);
+    return found ? std::make_shared<const fem::FilmSurface>(*found) : nullptr;
+  }
+
  private:
+  /// The film's faces of a body: those named, or all within a distance [m] of its cylinder. Reported where there are
+  /// none.
+  std::optional<fem::FilmSurface> surface_of(const Body& body, const Value* named, double within, const Value& at) {
+    if (film_.R <= 0 || film_.L <= 0) return std::nullopt;
+    const fem::FilmCylinder cylinder{.X = pose_in(body), .R = film_.R, .L = film_.L, .is_bore = is_shell_};
+    const fem::Mesh& mesh = *body.flexible->mesh;
+    if (context_.has_fault_in(value_.path)) return std::nullopt;
+    std::vector<fem::ElementFace> faces;
+    if (named != nullptr) faces = faces_of(context_, *named, mesh);
+    if (named != nullptr && faces.empty()) return std::nullopt;  // told
+    const double tolerance = named != nullptr ? near_radius * film_.R : within;
+    if (named == nullptr) faces = fem::faces_on_cylinder(mesh, cylinder, tolerance);
+    const fem::FilmSurfaceResult result =
+        fem::film_surface(mesh, faces, cylinder, functions_of(mesh, faces, cylinder), tolerance);
+    if (!result.ok()) context_.fault(at, result.message, expected(), result.remedy);
+    return result.surface;
+  }
+
   [[nodiscard]] std::string side() const { return is_shell_ ? "shell" : "journal"; }
 
   [[nodiscard]] std::string expected() const {
@@ -63,7 +83,7 @@ class FilmSurfaceReader {
   /// The body of this side where it has a mesh; null where there is none, reported.
   const Body* flexible_body() {
     if (on_.body.empty()) {
-      context_.fault_at_key(value_, "a deforming surface of a bearing without bodies", "`" + side() + ": BODY.FRAME`",
+      context_.fault_at_key(value_, what_ + " of a bearing without bodies", "`" + side() + ": BODY.FRAME`",
                             "a bearing by itself has rigid surfaces, or columns: 'compliance'");
       return nullptr;
     }
@@ -72,23 +92,21 @@ class FilmSurfaceReader {
     const auto body =
         std::find_if(bodies.begin(), bodies.end(), [&](const Body& candidate) { return candidate.name == on_.body; });
     if (body == bodies.end() && on_.body != "ground") return nullptr;  // told
-    const std::string instead = "`rigid`, or a flexible body with a `mesh`";
     if (body == bodies.end() || !body->flexible) {
       const bool is_beam = body != bodies.end() && body->beam;
-      context_.fault_at_key(
-          value_, "a deforming surface on " + std::string(is_beam ? "the beam '" : "rigid body '") + on_.body + "'",
-          instead, "give 'flexible: {mesh: ...}' to the body, or leave '" + side() + "_surface' out");
+      context_.fault_at_key(value_,
+                            what_ + " on " + std::string(is_beam ? "the beam '" : "rigid body '") + on_.body + "'",
+                            remedy_, "give 'flexible: {mesh: ...}' to the body, or leave '" + side() + "_surface' out");
       return nullptr;
     }
     if (body->flexible->reduced) {
       context_.fault_at_key(
-          value_,
-          "a deforming surface on the reduced body '" + on_.body + "', whose file holds no answers to film pressure",
-          instead, "give the body its 'mesh' in place of 'reduced'");
+          value_, what_ + " on the reduced body '" + on_.body + "', whose file holds no answers to film pressure",
+          remedy_, "give the body its 'mesh' in place of 'reduced'");
       return nullptr;
     }
     if (body->flexible->strain == mbd::Strain::finite) {
-      context_.fault_at_key(value_, "a deforming surface on '" + on_.body + "', a body of finite strain",
+      context_.fault_at_key(value_, what_ + " on '" + on_.body + "', a body of finite strain",
                             "`rigid`, or a body of `strain: small`",
                             "surfaces move by static shapes, which a large bend is not; give the bearing a rigid frame "
                             "of its own on the body");
@@ -106,7 +124,7 @@ class FilmSurfaceReader {
 
   [[nodiscard]] SurfaceFunctions functions_of(const fem::Mesh& mesh, const std::vector<fem::ElementFace>& faces,
                                               const fem::FilmCylinder& cylinder) const {
-    const Value* given = value_.find("functions");
+    const Value* given = is_wall_ ? nullptr : value_.find("functions");
     if (given != nullptr && given->members.size() == 2)
       return {static_cast<int>(given->members[0].value.number), static_cast<int>(given->members[1].value.number),
               cylinder.L};
@@ -142,6 +160,8 @@ class FilmSurfaceReader {
   const FrameName& on_;
   const film::FilmModel& film_;
   bool is_shell_;
+  bool is_wall_ = false;  ///< asked for its heat, not for how it deforms
+  std::string what_ = "a deforming surface", remedy_ = "`rigid`, or a flexible body with a `mesh`";
 };
 
 /// Mean radius of the nodes of a surface.
@@ -169,6 +189,39 @@ std::optional<DeformingSurface> deforming_surface_of(Context& context, const Val
   const Value& choice = value->members.front().value;
   if (choice.broken || choice.text == "rigid") return std::nullopt;
   return FilmSurfaceReader(context, choice, on, film, side == "shell").read();
+}
+
+std::shared_ptr<const fem::FilmSurface> heated_shell_of(Context& context, const Value& value, const Bearing& bearing) {
+  const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
+  if (heat == nullptr || !std::holds_alternative<film::BodyWall>(heat->shell)) return nullptr;
+  const Value& wall = *value.find("thermal")->find("shell");
+  const bool is_named = wall.find("faces") != nullptr;
+  std::shared_ptr<const fem::FilmSurface> surface;
+  if (bearing.shell_surface && !is_named)
+    surface = bearing.shell_surface->surface;
+  else
+    surface = FilmSurfaceReader(context, wall, bearing.shell, bearing.film, true).read_wall();
+  if (!surface) return nullptr;
+  const Body& body = *std::find_if(context.model.bodies.begin(), context.model.bodies.end(),
+                                   [&](const Body& candidate) { return candidate.name == bearing.shell.body; });
+  if (!body.flexible->heat) {
+    context.fault_at_key(wall, "a wall in body '" + body.name + "', which does not say how it conducts heat",
+                         "`heat` of `bodies." + body.name + ".flexible`",
+                         "add `heat: {conductivity: 46 W/m/K, cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: "
+                         "40 degC}}}` there");
+    return nullptr;
+  }
+  const auto is_same = [](fem::ElementFace a, fem::ElementFace b) {
+    return a.element == b.element && a.face == b.face;
+  };
+  for (const fem::CooledFaces& cooled : body.flexible->heat->surroundings.cooled)
+    for (const fem::ElementFace face : cooled.faces)
+      if (std::any_of(surface->faces.begin(), surface->faces.end(), [&](auto film) { return is_same(face, film); })) {
+        context.fault_at_key(wall, "a film on faces of '" + body.name + "' that `cooling` names too",
+                             "surfaces of `cooling` that no film lies on");
+        return nullptr;
+      }
+  return surface;
 }
 
 void require_facing_surfaces(Context& context, const Value& value, const Bearing& bearing) {

@@ -41,6 +41,7 @@ class FlexibleReader {
     place_frames(*mesh, frames);
     refuse_averages(flexible, frames);
     read_load_surfaces(value, *mesh, flexible);
+    if (const Value* heat = value.find("heat")) flexible.heat = body_heat_of(context_, *heat, *mesh);
     flexible.mesh = std::make_shared<const fem::Mesh>(std::move(*mesh));
     return flexible;
   }
@@ -80,8 +81,8 @@ class FlexibleReader {
 
   /// A file of `hersey reduce`: its frames are the body's, in its order.
   void read_reduced(const Value& value, Flexible& flexible, std::vector<Frame>& frames) {
-    for (const char* key :
-         {"length_unit", "material", "modes", "highest_frequency", "load_surfaces", "static_error", "load_harmonics"})
+    for (const char* key : {"length_unit", "material", "heat", "modes", "highest_frequency", "load_surfaces",
+                            "static_error", "load_harmonics"})
       if (const Value* given = value.find(key); given != nullptr && given->given)
         context_.fault_at_key(*given, std::string("`") + key + "` of a reduced body", "what the file was made with",
                               "remove the key, or make the file anew");

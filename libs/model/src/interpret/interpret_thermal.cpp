@@ -40,7 +40,8 @@ void check_walls(Context& context, const Value& thermal, const film::FilmModel& 
                          "`carry_over: 0`, or `cavitation: mass_conserving`");
   }
   const bool leaves = !film::is_closed(film);
-  const bool takes = ring != nullptr || std::holds_alternative<film::WallAtTemperature>(heat.shell) ||
+  const bool takes = ring != nullptr || std::holds_alternative<film::BodyWall>(heat.shell) ||
+                     std::holds_alternative<film::WallAtTemperature>(heat.shell) ||
                      std::holds_alternative<film::WallAtTemperature>(heat.journal);
   if (!leaves && !takes)
     context.fault_at_key(thermal, "closed edges, and walls that take no heat: it has nowhere to go",

@@ -1,8 +1,36 @@
 #include "schema/format.h"
 #include "schema/machine_vocabulary.h"
+#include "schema/oil_laws.h"
 
 // Bodies that deform.
 namespace hersey::model {
+
+TypePtr body_heat_format() {
+  const TypePtr cooling =
+      object("heat transfer to surroundings",
+             {
+                 required("heat_transfer", quantity("W/m^2/K", "80 W/m^2/K", Range::not_negative()), "Coefficient."),
+                 required("ambient", temperature("40 degC"), "Temperature of what is around."),
+             });
+  return object(
+      "heat in a body",
+      {
+          required("conductivity", quantity("W/m/K", "46 W/m/K", Range::positive()), "Of its material."),
+          optional("expansion", quantity("1/K", "12e-6 1/K", Range::not_negative()),
+                   "Linear thermal expansion: a bearing's surface that takes its temperature from the body takes its "
+                   "shape too.",
+                   "the body keeps its shape"),
+          defaulted("reference_temperature", temperature("20 degC"), "20 degC",
+                    "At which it has the shape of the mesh."),
+          optional("cooling", named("a mapping from surfaces or sets of nodes to surroundings", cooling),
+                   "Where the body gives heat off; no heat passes other surfaces.", "none"),
+          optional("temperatures",
+                   named("a mapping from surfaces or sets of nodes to temperatures", temperature("60 degC")),
+                   "Where its temperature is given.", "none"),
+          optional("fixed", list("sets of nodes", text("a set of nodes", "base")),
+                   "Nodes that keep their places as the body expands.", "none: it expands freely"),
+      });
+}
 
 TypePtr flexible_format() {
   const Key density = required("density", quantity("kg/m^3", "7850 kg/m^3", Range::positive()), "Density.");
@@ -49,6 +77,8 @@ TypePtr flexible_format() {
           optional("length_unit", quantity("m", "1 mm", Range::positive()), "What a length of 1 in the mesh means.",
                    "must be given with `mesh`"),
           optional("material", material, "Material of all elements.", "the materials of the mesh file"),
+          optional("heat", body_heat_format(), "How the body conducts heat, steadily, and expands.",
+                   "no bearing takes its temperature from it"),
           defaulted("form", choice(form_words), "modal", "What deforms."),
           defaulted("strain", choice(strain_words), "small", "How displacements strain the body."),
           defaulted("modes", integer(10, {.low = 0, .high = 1000}), "10",

@@ -36,6 +36,18 @@ const std::vector<Alternative<film::ShellWall>>& shell_walls() {
                                .heat_capacity = heat_of_steel,
                                .T_start = start_of(wall)};
        }},
+      {{"body",
+        "the mesh of the shell's body conducts the heat, steadily: its `heat` says how and where to",
+        {optional("faces", text("a surface or a set of nodes", "bore"),
+                  "Surface or set of nodes of the mesh that the film lies on.",
+                  "those of `shell_surface`, or all faces on the bearing's cylinder"),
+         optional("temperature", temperature("60 degC"),
+                  "Of all of the body in a simulation, in which it stays as it is.", "that of the supply")}},
+       [](const Value& wall) {
+         const Value* T = wall.find("temperature");
+         return film::BodyWall{.conduction = {},
+                               .T_start = T != nullptr && !T->broken ? std::optional<double>(T->number) : std::nullopt};
+       }},
   };
   return walls;
 }

@@ -115,6 +115,11 @@ struct WordsOfShell {
     return fmt::format("a ring to {:.4g} mm, {:.4g} W/m/K, {:.4g} W/m^2/K to surroundings at {:.4g} degC",
                        2e3 * ring.outer_radius, ring.conductivity, ring.transfer, celsius(ring.T_ambient));
   }
+  std::string operator()(const film::BodyWall& wall) const {
+    return "in a body whose mesh conducts heat steadily" +
+           (wall.T_start ? fmt::format("; in a simulation it stays at {:.4g} degC", celsius(*wall.T_start))
+                         : std::string("; in a simulation it stays at the temperature of the supply"));
+  }
 };
 
 struct WordsOfJournal {

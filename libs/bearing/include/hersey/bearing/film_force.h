@@ -120,6 +120,7 @@ class FilmForce : public mbd::TwoBodyForce {
 
  private:
   void place(const mbd::RelativeMotion& motion);
+  void shape_by_temperature();
   void feed(double t);
   void report_contact();
   [[nodiscard]] double smallest_gap() const;
@@ -140,6 +141,7 @@ class FilmForce : public mbd::TwoBodyForce {
   film::Reynolds reynolds_;
   std::optional<film::FilmHeat> heat_;  // at the state last accepted
   film::WallCorrection walls_;
+  Eigen::VectorXd thermal_shape_;       // of a shell whose body keeps its temperature, at the nodes; empty: none
   std::unique_ptr<GapKinematics> gap_;
   std::unique_ptr<DeformingSurfaces> deforming_;
   film::SurfaceMotion surfaces_;

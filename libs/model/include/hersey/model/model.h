@@ -16,6 +16,7 @@
 #include "hersey/fem/beam.h"
 #include "hersey/fem/elastic_material.h"
 #include "hersey/fem/film_surface.h"
+#include "hersey/fem/heat_conduction.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/thermal_model.h"
@@ -66,6 +67,14 @@ struct Frame {
   fem::Connection connection = fem::Connection::rigid;
 };
 
+/// How a body conducts heat and expands.
+struct BodyHeat {
+  fem::ThermalMaterial material;  ///< of all of its elements; expansion 0: it keeps its shape
+  double T_reference = 293.15;    ///< at which it has the shape of its mesh [K]
+  fem::ThermalSurroundings surroundings;
+  std::vector<int> fixed;  ///< nodes that keep their places as it expands; none: it expands freely
+};
+
 /// How a body deforms.
 struct Flexible {
   std::shared_ptr<const fem::Mesh> mesh;            ///< in metres; null where the file is broken
@@ -80,7 +89,8 @@ struct Flexible {
   std::vector<std::vector<fem::ElementFace>> contact_faces;  ///< that touch other bodies
   double highest = 0;                                        ///< leave out modes above this frequency [Hz]; 0: none
   mbd::RayleighDamping damping;
-  double vtu_every = 0;  ///< interval of the deformed meshes written beside the results [s]; 0: none
+  std::optional<BodyHeat> heat;  ///< unset: nothing is known of it
+  double vtu_every = 0;          ///< interval of the deformed meshes written beside the results [s]; 0: none
   SourcePosition position;
 };
 
@@ -317,6 +327,8 @@ struct Bearing {
   Coupling coupling;
   std::optional<fem::ElasticMaterial> shell_material, journal_material;
   std::optional<DeformingSurface> shell_surface, journal_surface;  ///< unset: rigid
+  /// On the mesh of the shell's body, of a shell whose wall is that body (film::BodyWall); else null.
+  std::shared_ptr<const fem::FilmSurface> heated_shell;
   std::optional<OperatingPoint> operating_point;
   SourcePosition position;
 };

@@ -1,0 +1,95 @@
+#include "hersey/model/wall_conduction.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "build/build_flexible.h"
+#include "build/fingerprint.h"
+#include "hersey/core/contract.h"
+#include "hersey/core/input_error.h"
+#include "hersey/fem/heated_surface.h"
+#include "hersey/fem/held_stiffness.h"
+
+namespace hersey::model {
+namespace {
+
+using Eigen::MatrixXd;
+
+const Body& body_of_shell(const Model& model, const Bearing& bearing) {
+  const auto found = std::find_if(model.bodies.begin(), model.bodies.end(),
+                                  [&](const Body& body) { return body.name == bearing.shell.body; });
+  HERSEY_REQUIRE(found != model.bodies.end() && found->flexible && found->flexible->heat, "the reader checks bodies");
+  return *found;
+}
+
+/// Values of the surface's functions at the nodes of the film's grid, (nodes, functions).
+MatrixXd at_nodes(const SurfaceFunctions& functions, const film::FilmModel& film) {
+  const film::Grid& grid = film.grid;
+  MatrixXd psi = MatrixXd::Zero(grid.size(), functions.count());
+  std::vector<SurfaceTerm> terms;
+  for (int node = 0; node < grid.size(); ++node) {
+    functions.at(grid.phi(node / grid.n_z), film.L * grid.z_over_L(node % grid.n_z), terms);
+    for (const SurfaceTerm& term : terms) psi(node, term.index) = term.value;
+  }
+  return psi;
+}
+
+std::vector<double> angles_of(const film::Grid& grid) {
+  std::vector<double> angles;
+  angles.reserve(static_cast<std::size_t>(grid.n_phi));
+  for (int i = 0; i < grid.n_phi; ++i) angles.push_back(grid.phi(i));
+  return angles;
+}
+
+}  // namespace
+
+std::shared_ptr<const film::WallConduction> wall_conduction(const Model& model, const Bearing& bearing) {
+  if (!bearing.heated_shell) return nullptr;
+  const Body& body = body_of_shell(model, bearing);
+  const BodyHeat& heat = *body.flexible->heat;
+  const fem::HeatedSurfaceOptions options{.angles = angles_of(bearing.film.grid),
+                                          .T_reference = heat.T_reference,
+                                          .held = fem::dofs_of(heat.fixed),
+                                          .expands = heat.material.expansion > 0};
+  const std::vector<fem::ThermalMaterial> materials(body.flexible->materials.size(), heat.material);
+  fem::HeatedSurface found =
+      fem::heated_surface(assembled(body), materials, heat.surroundings, *bearing.heated_shell, options);
+  if (!found.ok)
+    throw InputError(Fault{body.flexible->position, "bodies." + body.name + ".flexible.heat", found.message,
+                           "a body that `cooling` or `temperatures` reach, and that `fixed` holds if at all", ""});
+  auto wall = std::make_shared<film::WallConduction>();
+  wall->T0 = std::move(found.T0);
+  wall->rise = std::move(found.rise);
+  wall->T_body0 = std::move(found.T_body0);
+  wall->rise_body = std::move(found.rise_body);
+  wall->T_reference = heat.T_reference;
+  if (!options.expands) return wall;
+  const MatrixXd psi = at_nodes(bearing.heated_shell->functions, bearing.film);
+  wall->shape0 = psi * found.shape0;
+  wall->shape_by_heat = psi * found.shape_by_heat;
+  wall->shape_by_rise = psi * found.shape_by_rise;
+  return wall;
+}
+
+std::string fingerprint_of_wall(const Model& model, const Bearing& bearing) {
+  Fingerprint print;
+  if (!bearing.heated_shell) return print.take();
+  const Body& body = body_of_shell(model, bearing);
+  const BodyHeat& heat = *body.flexible->heat;
+  add_mesh(*body.flexible->mesh, print);
+  for (const fem::SolidMaterial& material : body.flexible->materials) print.add(material.D);
+  print.add(heat.material.conductivity), print.add(heat.material.expansion), print.add(heat.T_reference);
+  for (const fem::CooledFaces& cooled : heat.surroundings.cooled)
+    print.add(cooled.faces), print.add(cooled.transfer), print.add(cooled.T_ambient);
+  for (const fem::HeldNodes& held : heat.surroundings.held) print.add(held.nodes), print.add(held.T);
+  print.add(heat.fixed);
+  const fem::FilmSurface& film = *bearing.heated_shell;
+  print.add(film.cylinder.X.R), print.add(film.cylinder.X.r), print.add(film.cylinder.R), print.add(film.cylinder.L);
+  print.add(film.functions.around()), print.add(film.functions.along()), print.add(film.faces);
+  for (const double phi : angles_of(bearing.film.grid)) print.add(phi);
+  for (int j = 0; j < bearing.film.grid.n_z; ++j) print.add(bearing.film.grid.z_over_L(j));
+  return print.take();
+}
+
+}  // namespace hersey::model

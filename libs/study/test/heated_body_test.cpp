@@ -1,0 +1,155 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "hersey/core/input_error.h"
+#include "hersey/study/bearing_study.h"
+#include "ring_file.h"
+
+// Bearings whose shell is in a body that conducts heat, from the model file to the figures.
+namespace hersey::study {
+namespace heated_body_test {
+
+/// Case F3 of an independent program that conducts heat in three dimensions: a steel ring of 200 mm in air around a
+/// film.
+const std::string machine = R"(hersey: 1
+title: A ring that conducts
+bodies:
+  ring:
+    flexible:
+      mesh: heated_body_test_ring.inp
+      length_unit: 1 mm
+      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
+      heat:
+        conductivity: 50 W/m/K
+        cooling:
+          outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}
+          ends: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}
+    frames:
+      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
+  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+joints:
+  clamp: {type: fixed, between: [ground, ring.hub]}
+  slide: {type: planar, between: [ground, shaft]}
+lubricants:
+  oil:
+    viscosity: {law: exponential, viscosity: 27.7 mPa.s, reference: 40 degC, coefficient: 0.034 1/K}
+    density: 860 kg/m^3
+    specific_heat: 2000 J/kg/K
+    conductivity: 0.13 W/m/K
+bearings:
+  main:
+    shell: ring.hub
+    journal: shaft
+    diameter: 100 mm
+    width: 80 mm
+    radial_clearance: 145 um
+    lubricant: oil
+    shear_force: torque_only
+    grid: {circumferential: 60, axial: 13}
+    features:
+      groove: {shape: axial_groove, angle: 0 deg, arc: 18 deg, length: 70 mm, pressure: 70 kPa}
+    thermal: {model: film, supply_temperature: 40 degC, shell: {wall: body}}
+    operating_point: {journal_speed: 2000 rpm, eccentricity_ratio: 0.7, eccentricity_angle: 230 deg}
+simulation: {duration: 1 ms, step: 0.1 ms}
+)";
+
+/// Model and mesh in the working directory.
+struct Written {
+  Written() {
+    std::ofstream("heated_body_test_ring.inp")
+        << RingFile{.inner = 50, .outer = 100, .width = 80, .around = 60, .along = 6, .through = 8}.text();
+    std::ofstream("heated_body_test.yaml") << machine;
+  }
+  ~Written() {
+    std::filesystem::remove("heated_body_test_ring.inp");
+    std::filesystem::remove("heated_body_test.yaml");
+  }
+  Written(const Written&) = delete;
+  Written& operator=(const Written&) = delete;
+};
+
+BearingSolution solved(const std::vector<std::string>& overrides, bool grid_error = false) {
+  auto solutions =
+      solve_bearings("heated_body_test.yaml", {{overrides, "", "", {}}}, {.bearing = "", .grid_error = grid_error});
+  INFO(solutions.at(0).error);
+  REQUIRE(solutions.at(0).solved());
+  return solutions.front();
+}
+
+double figure(const BearingSolution& solution, const std::string& key) {
+  const std::vector<BearingFigure> all = figures_of(solution);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const BearingFigure& f) { return f.key == key; });
+  REQUIRE_MESSAGE(found != all.end(), key);
+  return found->value;
+}
+
+TEST_CASE("MeshedRing_IsThatOfAnIndependentProgram") {
+  const Written files;
+  const BearingSolution body = solved({});
+  CHECK(figure(body, "load") == doctest::Approx(6775).epsilon(0.01));           // bars of the reference
+  CHECK(std::abs(figure(body, "T_journal") - 45.78) < 0.2);                     // as well
+  CHECK(std::abs(figure(body, "T_body_max") - 51.44) < 0.3);                    // as well
+  CHECK(figure(body, "heat_to_shell") == doctest::Approx(40.3).epsilon(0.01));  // its digits and both grids
+  CHECK(figure(body, "heat_balance_error") < 1e-8);                             // the film's residual
+  CHECK(body.summary.heat_iterations <= 20);
+  // And nearly that of a ring with one temperature per angle.
+  const BearingSolution ring =
+      solved({"bearings.main.thermal.shell={wall: ring, outer_diameter: 200 mm, ambient: 40 degC}"});
+  CHECK(figure(body, "load") == doctest::Approx(figure(ring, "load")).epsilon(3e-3));  // half the wall to each side
+  CHECK(std::abs(figure(body, "T_shell_max") - figure(ring, "T_shell_max")) < 0.5);    // as well: it has the middle's
+  CHECK(figure(body, "heat_to_shell") == doctest::Approx(figure(ring, "heat_to_shell")).epsilon(0.03));  // as well
+  bool has_growth = false;
+  for (const BearingFigure& f : figures_of(body)) has_growth = has_growth || f.key == "bore_growth";
+  CHECK_FALSE(has_growth);
+}
+
+// Free, the ring grows with its mean temperature; held at its outside it grows inwards.
+TEST_CASE("RingThatExpands_OpensItsBearing_OrClosesItWhereItIsHeld") {
+  const Written files;
+  const std::string expands = "bodies.ring.flexible.heat.expansion=12e-6 1/K";
+  const BearingSolution cold = solved({}), free = solved({expands});
+  const double growth = figure(free, "bore_growth");
+  const double T_mean = free.state.heat->T_body.mean() - 273.15;
+  CHECK(growth == doctest::Approx(12e-6 * 50e3 * (T_mean - 20)).epsilon(0.05));  // um; even but for a few kelvin
+  CHECK(figure(free, "bore_distortion") < 0.2 * growth);
+  CHECK(figure(free, "load") < 0.8 * figure(cold, "load"));
+  CHECK(figure(free, "h_min") == doctest::Approx(43.5 + growth).epsilon(0.02));  // um; and a distortion of half of one
+  const BearingSolution held = solved({expands, "bodies.ring.flexible.heat.fixed=[outside]"});
+  CHECK(figure(held, "bore_growth") < -10);
+  CHECK(figure(held, "load") > 1.5 * figure(cold, "load"));
+  // At the reference temperature of its surroundings it is cold where no film warms it.
+  const BearingSolution warm = solved({expands, "bodies.ring.flexible.heat.reference_temperature=40 degC"});
+  CHECK(figure(warm, "bore_growth") ==
+        doctest::Approx(growth - 12e-6 * 50e3 * 20).epsilon(0.2));  // a thinner film: hotter
+}
+
+// With a surface that pressure deforms on the same mesh, under a load, and with its error of the grid.
+TEST_CASE("ShellThatHeatAndPressureDeform_CarriesItsLoad") {
+  const Written files;
+  const BearingSolution both = solved({"bodies.ring.flexible.heat.expansion=12e-6 1/K",
+                                       "bearings.main.shell_surface={faces: bore, functions: [16, 3], modes: 12}",
+                                       "bearings.main.grid={circumferential: 48, axial: 9}",
+                                       "bearings.main.operating_point={journal_speed: 2000 rpm, load: 5 kN}"},
+                                      true);
+  CHECK(both.grid_error.known);
+  CHECK(both.state.d_shell.size() == both.state.thermal_shape.size());
+  CHECK(figure(both, "load") == doctest::Approx(5000).epsilon(1e-9));  // Newton's tolerance, 1e-10
+  CHECK(both.summary.heat_iterations <= 30);
+  const film::FilmFields fields = bearing::steady_fields(both.model, both.state);
+  CHECK(1e6 * fields.h.minCoeff() ==
+        doctest::Approx(figure(both, "h_min")).epsilon(0.02));  // between nodes it is smaller
+}
+
+TEST_CASE("ShellInABodyThatTurns_IsRefused") {
+  const Written files;
+  CHECK_THROWS_AS((void)solved({"bearings.main.operating_point.shell_speed=10 rad/s"}), InputError);
+}
+
+}  // namespace heated_body_test
+}  // namespace hersey::study
