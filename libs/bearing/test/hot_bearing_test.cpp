@@ -94,8 +94,8 @@ TEST_CASE("BoreThatHeatWidens_IsOneOfLargerClearance") {
   SteadyState wide;
   REQUIRE(solve_steady(model, point(), options, wide).converged);
   CHECK((grown.e - wide.e).norm() < 1e-6 * model.c);  // 1e-8 of temperatures, by the slope of the position
-  CHECK(grown.film.p_max == relative(wide.film.p_max).epsilon(1e-5));  // as well
-  CHECK(grown.heat->seen.T_max == relative(wide.heat->seen.T_max).epsilon(1e-7));
+  CHECK(grown.film.p_max == relative(wide.film.p_max).epsilon(1e-5));                         // as well
+  CHECK(grown.heat->seen.T_max == relative(wide.heat->seen.T_max).epsilon(1e-7));             // as well
   CHECK(steady_fields(model, wide).h.minCoeff() == relative(wide.film.h_min).epsilon(1e-2));  // nodes, and between them
   const GridError error = estimate_grid_error(model, wide, options);
   CHECK(error.known);

@@ -17,6 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr Index at_once = 48;  // displacements kept: all of them would take a gigabyte on a large mesh
+
 /// The two angles between which one lies, and the share of the way from the first to the second.
 struct Between {
   Index first = 0, second = 0;
@@ -127,8 +129,13 @@ HeatedSurface heated_surface(const ElasticBody& body, const std::vector<ThermalM
   if (summary.status == solver::FactorStatus::singular)
     return {.message = "what holds the body as it expands leaves it a motion"};
   if (!summary.ok()) return {.message = summary.message};
-  const MatrixXd shapes = without_rigid_motion(
-      surface, body.mesh, surface.coefficients(stiffness.solve(expansion_load(body, thermal, rises))));
+  MatrixXd shapes(surface.functions.count(), rises.cols());
+  for (Index first = 0; first < rises.cols(); first += at_once) {
+    const Index columns = std::min(at_once, rises.cols() - first);
+    shapes.middleCols(first, columns) =
+        surface.coefficients(stiffness.solve(expansion_load(body, thermal, rises.middleCols(first, columns))));
+  }
+  shapes = without_rigid_motion(surface, body.mesh, shapes);
   result.shape_by_heat = shapes.leftCols(P.cols());
   result.shape0 = shapes.col(P.cols());
   result.shape_by_rise = shapes.col(P.cols() + 1);
