@@ -14,6 +14,7 @@
 #include "exit_code.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/write_file.h"
+#include "hersey/fem/vtu_file.h"
 #include "hersey/model/read.h"
 #include "hersey/results/error.h"
 #include "output_file.h"
@@ -133,6 +134,29 @@ void write(const std::filesystem::path& path, const std::string& text) {
   }
 }
 
+// Reports files that a study or another kind of shell has no content for.
+void require_one(const BearingArguments& arguments, const model::Model& model, std::size_t runs) {
+  for (const auto& [option, file] : {std::pair("--fields", arguments.fields), std::pair("--vtu", arguments.vtu)})
+    if (!file.empty() && runs > 1)
+      throw InputError(Fault{{option, 0, 0}, "", fmt::format("{} solutions", runs), "a single one", ""});
+  if (arguments.vtu.empty() || study::bearing_called(model, arguments.bearing).heated_shell) return;
+  throw InputError(Fault{{"--vtu", 0, 0},
+                         "",
+                         "a bearing whose shell is in no body that conducts heat",
+                         "a bearing with `thermal: {model: film, shell: {wall: body}}`",
+                         ""});
+}
+
+// Temperatures of the body that the shell is in, on its mesh.
+void write_body(const BearingArguments& arguments, const model::Model& model, const study::BearingSolution& solution) {
+  const std::string& name = study::bearing_called(model, arguments.bearing).shell.body;
+  const auto body = std::find_if(model.bodies.begin(), model.bodies.end(),
+                                 [&](const model::Body& candidate) { return candidate.name == name; });
+  fem::VtuFrame frame;
+  frame.node_fields.push_back({"temperature", solution.state.heat->T_body.transpose()});
+  fem::write_vtu(arguments.vtu, *body->flexible->mesh, frame);
+}
+
 void print(const BearingArguments& arguments, const std::vector<study::BearingSolution>& solutions) {
   if (arguments.json) {
     nlohmann::json document{{"model", arguments.model}, {"solutions", nlohmann::json::array()}};
@@ -150,12 +174,13 @@ void print(const BearingArguments& arguments, const std::vector<study::BearingSo
 int bearing_command(const BearingArguments& arguments) {
   const std::vector<model::StudyRun> runs = runs_of(arguments, plan_of(arguments));
   const model::Model model = model::read(arguments.model, runs.front().overrides);
-  require_separate({{"--csv", arguments.csv}, {"--fields", arguments.fields}, {"--report", arguments.report}},
+  require_separate({{"--csv", arguments.csv},
+                    {"--fields", arguments.fields},
+                    {"--vtu", arguments.vtu},
+                    {"--report", arguments.report}},
                    files_of(model));
   warn(model.warnings);
-  if (!arguments.fields.empty() && runs.size() > 1) {
-    throw InputError(Fault{{"--fields", 0, 0}, "", fmt::format("{} solutions", runs.size()), "a single one", ""});
-  }
+  require_one(arguments, model, runs.size());
   const std::vector<study::BearingSolution> solutions = study::solve_bearings(arguments.model, runs,
                                                                               {.bearing = arguments.bearing,
                                                                                .grid_error = !arguments.no_grid_error,
@@ -172,6 +197,7 @@ int bearing_command(const BearingArguments& arguments) {
   }
   if (!arguments.csv.empty()) write(arguments.csv, bearing_csv(solutions));
   if (!arguments.fields.empty() && all_solved) write(arguments.fields, bearing_fields_csv(solutions.front()));
+  if (!arguments.vtu.empty() && all_solved) write_body(arguments, model, solutions.front());
   if (!arguments.report.empty()) {
     report::write_html(bearing_page(arguments, solutions), arguments.report);
     if (!arguments.json) fmt::print("report: {}\n", arguments.report.string());

@@ -48,7 +48,7 @@ struct BearingArguments {
   std::string bearing;                                                                       ///< empty: the only one
   std::string speed, shell_speed, load, load_angle, eccentricity_ratio, eccentricity_angle;  ///< empty: the file's
   std::vector<std::string> sweeps;
-  std::filesystem::path csv, fields, report;  ///< files to write; empty: none
+  std::filesystem::path csv, fields, vtu, report;  ///< files to write; empty: none
   bool json = false;
   bool no_grid_error = false;
   int jobs = 0;     ///< 0: one per thread

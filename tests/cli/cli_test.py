@@ -453,6 +453,28 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         self.assertEqual(turning.returncode, WRONG_INPUT)
         self.assertIn("a shell that turns and deforms", turning.stderr)
 
+    def test_bearing_in_a_body_that_conducts_heat(self):
+        pedestal = os.path.join(HERE, "../../examples/hot_pedestal/model.yaml")
+        vtu = os.path.join(self._folder.name, "pedestal.vtu")
+        grid = ("--set", "bearings.main.grid={circumferential: 40, axial: 9}", "--no-grid-error")
+        run = hersey("bearing", pedestal, *grid, "--vtu", vtu, "--json")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        figures = json.loads(run.stdout)["solutions"][0]["figures"]
+        self.assertLess(figures["T_shell_max"]["value"], figures["T_body_max"]["value"] + 1)
+        self.assertGreater(figures["heat_to_shell"]["value"], 0.4 * figures["heat_dissipated"]["value"])
+        self.assertTrue(5e-6 < figures["bore_growth"]["value"] < 15e-6)
+        with open(vtu, "rb") as file:
+            self.assertIn(b'Name="temperature"', file.read())
+        run = hersey("bearing", ALONE, "--vtu", vtu)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("shell: {wall: body}", run.stderr)
+        run = hersey("bearing", pedestal, *grid, "--vtu", vtu, "--sweep", "load=1kN,2kN")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("2 solutions", run.stderr)
+        run = hersey("bearing", pedestal, *grid, "--shell-speed", "10rpm")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("temperatures are those of a body", run.stderr)
+
     def test_bearing_sweeps_combine_and_are_written_as_a_table(self):
         table = os.path.join(self._folder.name, "table.csv")
         run = hersey("bearing", ALONE, "--set", "bearings.main.grid.circumferential=40", "--set",

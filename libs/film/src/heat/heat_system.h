@@ -89,6 +89,7 @@ class HeatSystem {
   [[nodiscard]] int next_but_one(int node, int side) const { return neighbour(neighbour(node, side), side); }
   [[nodiscard]] Row balance_entries(int i) const;
   void solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
+  [[nodiscard]] Row answer_entries(int i) const;
   void prepare_ring();
   void solve_ring(Eigen::VectorXd& x) const;
 

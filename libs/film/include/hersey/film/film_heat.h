@@ -75,6 +75,12 @@ class FilmHeat {
   /// step; the film follows, and the heat they take up is exchange().heat + exchange().by_T (T - exchange().T).
   void move_walls(const Eigen::Vector2d& T);
 
+  /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.46); empty:
+  /// it does not.
+  [[nodiscard]] Eigen::VectorXd shell_opening() const;
+  /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.
+  [[nodiscard]] Eigen::VectorXd body_temperatures() const;
+
   /// After advance(): fields and numbers of that film; before, of one at the temperatures of its supply and walls.
   [[nodiscard]] TemperatureFields fields() const;
   /// Likewise.
