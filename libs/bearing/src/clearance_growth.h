@@ -6,9 +6,6 @@
 
 namespace hersey::bearing {
 
-/// Below this share of the clearance as given one at temperature is closed.
-inline constexpr double seized = 0.01;
-
 /// How the clearance moves with the temperatures of its walls from step to step (theory manual, thermal.33).
 class ClearanceGrowth {
  public:

@@ -374,28 +374,6 @@ void FilmForce::move_walls(const Eigen::Vector2d& T) {
   growth_->change_target(growth_by_temperature());
 }
 
-std::string FilmForce::thermal_trouble() const {
-  if (!heat_) return {};
-  const film::HeatObservables& seen = heat_->observables();
-  const auto celsius = [](double T) { return T - film::zero_celsius; };
-  const double c = model().c, hot = c + growth_->target();
-  if (hot <= seized * c)
-    return fmt::format(
-        "a seizure: the clearance of {:.4g} um closes to {:.4g} um with the shell at {:.0f} degC and the journal at "
-        "{:.0f} degC ({})",
-        1e6 * c, 1e6 * hot, celsius(seen.T_shell_wall), celsius(seen.T_journal_wall), gap_->position_text());
-  if (seen.T_max < hottest_trial) return {};
-  return fmt::format("a thermal runaway: the hottest oil has {:.0f} degC, at {:.0f} deg, z = {:.3g} mm",
-                     celsius(seen.T_max), seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
-}
-
-void FilmForce::move_walls(const Eigen::Vector2d& T) {
-  HERSEY_REQUIRE(heat_.has_value(), "a film with temperatures");
-  heat_->move_walls(T);
-  history_start_.viscosity = heat_->viscosity();
-  growth_->change_target(growth_by_temperature());
-}
-
 std::string FilmForce::thermal_trouble(double closed) const {
   if (!heat_) return {};
   const film::HeatObservables& seen = heat_->observables();

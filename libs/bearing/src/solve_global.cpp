@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clearance_growth.h"
 #include "hersey/bearing/global_heat.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/solver/fixed_point_iteration.h"

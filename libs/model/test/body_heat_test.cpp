@@ -85,6 +85,25 @@ TEST_CASE("ShellInABody_IsReadAndItsConductionFound") {
   CHECK(fingerprint_of_wall(model, bearing) != fingerprint_of_wall(other, other.bearings[0]));
 }
 
+// All of the surface but the film's: outside and both ends of the ring.
+TEST_CASE("RestOfABody_IsItsSurfaceWithoutFilmsAndWhatIsNamed") {
+  const WrittenRing file;
+  const Model named = read_text(
+      edited(machine_text, "cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}",
+             "cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}, ends: {heat_transfer: 80 W/m^2/K, "
+             "ambient: 40 degC}}"),
+      "m.yaml");
+  const Model rest = read_text(edited(machine_text, "cooling: {outside:", "cooling: {rest:"), "m.yaml");
+  const auto conduction_of = [](const Model& model) { return wall_conduction(model, model.bearings[0]); };
+  constexpr double round_off = 1e-10;  // of two factorisations
+  CHECK((conduction_of(named)->rise - conduction_of(rest)->rise).cwiseAbs().maxCoeff() <
+        round_off * conduction_of(named)->rise.maxCoeff());
+  const Model held = read_text(
+      edited(machine_text, "cooling: {outside:", "temperatures: {ends: 50 degC}\n        cooling: {rest:"), "m.yaml");
+  const BodyHeat& heat = *held.bodies[0].flexible->heat;
+  CHECK(heat.surroundings.cooled.at(*heat.rest).faces.size() == 2 * 24 * 3);  // bore and outside; the film's go later
+}
+
 TEST_CASE("FaultsOfHeatInBodies_SayWhereAndWhatToDo") {
   const WrittenRing file;
   const std::string cooling = "cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}";

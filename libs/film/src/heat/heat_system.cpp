@@ -37,7 +37,7 @@ HeatSystem::Row HeatSystem::entries(int node, int layer) const {
   return entries;
 }
 
-HeatSystem::Row HeatSystem::balance_entries(int i) const {
+HeatSystem::Row HeatSystem::ring_entries(int i) const {
   const int n = ring_rows();
   if (answer_.is_set()) return answer_entries(i);
   Row entries{{ring_row(i), ring_[i].self},
@@ -47,12 +47,15 @@ HeatSystem::Row HeatSystem::balance_entries(int i) const {
   return entries;
 }
 
-HeatSystem::Row HeatSystem::ring_entries(int i) const {
-  if (!answer_.is_set()) return balance_entries(i);
-  Row entries{{ring_row(i), answer_.scale()}};
-  for (int j = 0; j < ring_rows(); ++j)
-    for (const auto& [column, entry] : balance_entries(j))
-      entries.emplace_back(column, answer_.scale() * answer_.rise()(i, j) * entry);
+/// All of the ring and of the film beside it.
+HeatSystem::Row HeatSystem::answer_entries(int i) const {
+  Row entries;
+  for (int j = 0; j < ring_rows(); ++j) {
+    const double heat = answer_.by_balance(i, j);
+    entries.emplace_back(ring_row(j), heat * ring_[j].self + (i == j ? answer_.scale() : 0));
+    for (int k = 0; k < grid_.n_z; ++k)
+      entries.emplace_back(row(grid_.index(j, k), 0), heat * from_film_[grid_.index(j, k)]);
+  }
   return entries;
 }
 
@@ -158,11 +161,11 @@ void HeatSystem::solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorX
 void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   x.head(size()).setZero();
   if (!ring_.empty()) {
-    const auto known = b.segment(film_rows(), ring_rows());
     if (answer_.is_set()) {
-      x.segment(film_rows(), ring_rows()) = answer_.solve(known, Eigen::VectorXd::Zero(ring_rows()));
+      x.segment(film_rows(), ring_rows()) =
+          answer_.solve(b.segment(film_rows(), ring_rows()), Eigen::VectorXd::Zero(ring_rows()));
     } else {
-      x.segment(film_rows(), ring_rows()) = known;
+      x.segment(film_rows(), ring_rows()) = b.segment(film_rows(), ring_rows());
       solve_ring(x);
     }
   }

@@ -87,7 +87,6 @@ class HeatSystem {
   [[nodiscard]] int ring_rows() const { return static_cast<int>(ring_.size()); }
   [[nodiscard]] int neighbour(int node, int side) const { return neighbours_[node][side]; }
   [[nodiscard]] int next_but_one(int node, int side) const { return neighbour(neighbour(node, side), side); }
-  [[nodiscard]] Row balance_entries(int i) const;
   void solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
   [[nodiscard]] Row answer_entries(int i) const;
   void prepare_ring();

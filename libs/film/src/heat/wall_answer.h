@@ -15,10 +15,10 @@ class WallAnswer {
   /// @param scale [W/K], of the size of C
   void set(const Eigen::MatrixXd* rise, double scale) { rise_ = rise, scale_ = scale; }
   [[nodiscard]] bool is_set() const { return rise_ != nullptr; }
-  /// Of a wall that is set, as given.
-  [[nodiscard]] const Eigen::MatrixXd& rise() const { return *rise_; }
-  /// Likewise.
+
   [[nodiscard]] double scale() const { return scale_; }
+  /// What the balance of angle j adds to row i.
+  [[nodiscard]] double by_balance(int i, int j) const { return scale_ * (*rise_)(i, j); }
 
   /// Makes ready for solve(). @param C  shape (n_phi) [W/K]
   void prepare(const Eigen::VectorXd& C) {

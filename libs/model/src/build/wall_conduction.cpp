@@ -1,6 +1,7 @@
 #include "hersey/model/wall_conduction.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,23 @@ MatrixXd at_nodes(const SurfaceFunctions& functions, const film::FilmModel& film
   return psi;
 }
 
+/// What cools a body, less the faces that films lie on of what is cooled as the rest of it.
+fem::ThermalSurroundings surroundings_of(const Model& model, const Body& body) {
+  fem::ThermalSurroundings surroundings = body.flexible->heat->surroundings;
+  if (!body.flexible->heat->rest) return surroundings;
+  std::set<std::pair<int, int>> films;
+  const auto take = [&](const fem::FilmSurface& film) {
+    for (const fem::ElementFace face : film.faces) films.emplace(face.element, face.face);
+  };
+  for (const Bearing& bearing : model.bearings)
+    if (bearing.shell.body == body.name && bearing.heated_shell) take(*bearing.heated_shell);
+  for (const DeformingSurface* surface : surfaces_on(model, body)) take(*surface->surface);
+  std::erase_if(surroundings.cooled[*body.flexible->heat->rest].faces, [&](fem::ElementFace face) {
+    return films.count({face.element, face.face}) > 0;
+  });
+  return surroundings;
+}
+
 std::vector<double> angles_of(const film::Grid& grid) {
   std::vector<double> angles;
   angles.reserve(static_cast<std::size_t>(grid.n_phi));
@@ -54,7 +72,7 @@ std::shared_ptr<const film::WallConduction> wall_conduction(const Model& model, 
                                           .expands = heat.material.expansion > 0};
   const std::vector<fem::ThermalMaterial> materials(body.flexible->materials.size(), heat.material);
   fem::HeatedSurface found =
-      fem::heated_surface(assembled(body), materials, heat.surroundings, *bearing.heated_shell, options);
+      fem::heated_surface(assembled(body), materials, surroundings_of(model, body), *bearing.heated_shell, options);
   if (!found.ok)
     throw InputError(Fault{body.flexible->position, "bodies." + body.name + ".flexible.heat", found.message,
                            "a body that `cooling` or `temperatures` reach, and that `fixed` holds if at all", ""});
@@ -80,7 +98,7 @@ std::string fingerprint_of_wall(const Model& model, const Bearing& bearing) {
   add_mesh(*body.flexible->mesh, print);
   for (const fem::SolidMaterial& material : body.flexible->materials) print.add(material.D);
   print.add(heat.material.conductivity), print.add(heat.material.expansion), print.add(heat.T_reference);
-  for (const fem::CooledFaces& cooled : heat.surroundings.cooled)
+  for (const fem::CooledFaces& cooled : surroundings_of(model, body).cooled)
     print.add(cooled.faces), print.add(cooled.transfer), print.add(cooled.T_ambient);
   for (const fem::HeldNodes& held : heat.surroundings.held) print.add(held.nodes), print.add(held.T);
   print.add(heat.fixed);

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "hersey/core/spelling.h"
+#include "hersey/fem/skin.h"
 #include "hersey/fem/surface_loads.h"
 #include "interpret/interpret.h"
 
@@ -23,6 +26,28 @@ std::vector<int> nodes_called(Context& context, const Value& at, const std::stri
   return {};
 }
 
+bool is_known(const fem::Mesh& mesh, const std::string& name) {
+  return mesh.node_sets.count(name) + mesh.surfaces.count(name) > 0;
+}
+
+/// Outer faces that are not cooled otherwise and have a node whose temperature is not given.
+std::vector<fem::ElementFace> rest_of(const fem::Mesh& mesh, const fem::ThermalSurroundings& named) {
+  std::vector<char> is_held(mesh.nodes.size(), 0);
+  for (const fem::HeldNodes& held : named.held)
+    for (const int node : held.nodes) is_held[static_cast<std::size_t>(node)] = 1;
+  std::set<std::pair<int, int>> taken;
+  for (const fem::CooledFaces& cooled : named.cooled)
+    for (const fem::ElementFace face : cooled.faces) taken.emplace(face.element, face.face);
+  std::vector<fem::ElementFace> rest = fem::outer_faces(mesh);
+  std::erase_if(rest, [&](fem::ElementFace face) {
+    const std::vector<int> nodes = fem::nodes_of(mesh, face);
+    return taken.count({face.element, face.face}) > 0 || std::all_of(nodes.begin(), nodes.end(), [&](int node) {
+             return is_held[static_cast<std::size_t>(node)] != 0;
+           });
+  });
+  return rest;
+}
+
 }  // namespace
 
 BodyHeat body_heat_of(Context& context, const Value& value, const fem::Mesh& mesh) {
@@ -31,19 +56,29 @@ BodyHeat body_heat_of(Context& context, const Value& value, const fem::Mesh& mes
   heat.material = {.conductivity = number_of(value, "conductivity"), .expansion = number_of(value, "expansion")};
   heat.T_reference = number_of(value, "reference_temperature");
   double transfer = 0;
+  const Value* rest = nullptr;
   for (const auto& [name, cooling] : section(value, "cooling")) {
     if (cooling.broken) continue;
+    transfer += number_of(cooling, "heat_transfer");
+    if (name == "rest" && !is_known(mesh, name)) {
+      rest = &cooling;
+      continue;
+    }
     const std::vector<int> nodes = nodes_called(context, cooling, name, mesh);
     fem::CooledFaces cooled{fem::faces_called(mesh, name), number_of(cooling, "heat_transfer"),
                             number_of(cooling, "ambient")};
     if (!nodes.empty() && cooled.faces.empty())
       context.fault_at_key(cooling, "set '" + name + "', whose nodes make up no face of the body's surface",
                            "a set that holds all nodes of each face");
-    transfer += cooled.transfer;
     heat.surroundings.cooled.push_back(std::move(cooled));
   }
   for (const auto& [name, T] : section(value, "temperatures"))
     if (!T.broken) heat.surroundings.held.push_back({nodes_called(context, T, name, mesh), T.number});
+  if (rest != nullptr) {
+    heat.rest = heat.surroundings.cooled.size();
+    heat.surroundings.cooled.push_back(
+        {rest_of(mesh, heat.surroundings), number_of(*rest, "heat_transfer"), number_of(*rest, "ambient")});
+  }
   for (const auto& [index, name] : section(value, "fixed")) {
     if (name.broken) continue;
     const std::vector<int> nodes = nodes_called(context, name, name.text, mesh);

@@ -214,8 +214,10 @@ std::shared_ptr<const fem::FilmSurface> heated_shell_of(Context& context, const 
   const auto is_same = [](fem::ElementFace a, fem::ElementFace b) {
     return a.element == b.element && a.face == b.face;
   };
-  for (const fem::CooledFaces& cooled : body.flexible->heat->surroundings.cooled)
-    for (const fem::ElementFace face : cooled.faces)
+  const BodyHeat& of_body = *body.flexible->heat;
+  for (std::size_t s = 0; s < of_body.surroundings.cooled.size(); ++s)
+    for (const fem::ElementFace face :
+         s == of_body.rest ? std::vector<fem::ElementFace>() : of_body.surroundings.cooled[s].faces)
       if (std::any_of(surface->faces.begin(), surface->faces.end(), [&](auto film) { return is_same(face, film); })) {
         context.fault_at_key(wall, "a film on faces of '" + body.name + "' that `cooling` names too",
                              "surfaces of `cooling` that no film lies on");

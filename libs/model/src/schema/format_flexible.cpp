@@ -22,8 +22,11 @@ TypePtr body_heat_format() {
                    "the body keeps its shape"),
           defaulted("reference_temperature", temperature("20 degC"), "20 degC",
                     "At which it has the shape of the mesh."),
-          optional("cooling", named("a mapping from surfaces or sets of nodes to surroundings", cooling),
-                   "Where the body gives heat off; no heat passes other surfaces.", "none"),
+          optional(
+              "cooling", named("a mapping from surfaces or sets of nodes to surroundings", cooling),
+              "Where the body gives heat off; no heat passes other surfaces. `rest` is all of its surface that has "
+              "no other cooling, no given temperature and no film.",
+              "none"),
           optional("temperatures",
                    named("a mapping from surfaces or sets of nodes to temperatures", temperature("60 degC")),
                    "Where its temperature is given.", "none"),

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "hersey/bearing/global_heat.h"
+
 namespace hersey::run {
 
 void warm_bodies(model::Machine& machine, double dt) {
@@ -35,9 +37,11 @@ void settle_walls(model::Machine& machine) {
   }
 }
 
-std::string thermal_trouble(const model::Machine& machine) {
+std::string thermal_trouble(const model::Machine& machine, bool has_failed) {
+  constexpr double all_but_closed = 0.3;  // of the clearance as given
   for (const model::BuiltBearing& built : machine.bearings)
-    if (const std::string trouble = built.bearing->thermal_trouble(); !trouble.empty())
+    if (const std::string trouble = built.bearing->thermal_trouble(has_failed ? all_but_closed : bearing::seized);
+        !trouble.empty())
       return "bearing " + built.bearing->name() + ": " + trouble;
   return {};
 }

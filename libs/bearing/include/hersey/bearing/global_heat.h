@@ -6,6 +6,9 @@
 
 namespace hersey::bearing {
 
+/// Below this share of the clearance as given one at temperature is closed.
+inline constexpr double seized = 0.01;
+
 /// Thermal expansion of walls around a film of one temperature.
 struct WallExpansion {
   film::ThermalExpansion material;

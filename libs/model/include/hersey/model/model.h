@@ -332,7 +332,7 @@ struct Bearing {
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
   Heat heat;             ///< none: one temperature
   std::optional<bearing::WallExpansion> expansion;  ///< of the walls, whatever heats the film; unset: they keep size
-  double growth = 0;  ///< of the clearance of a film with one given temperature: expansion at that [m]
+  double growth = 0;     ///< of the clearance of a film with one given temperature: expansion at that [m]
   OilValidity validity;  ///< of its oil
   std::vector<Function> feature_pressures;  ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
