@@ -369,8 +369,6 @@ class Search {
 
   [[nodiscard]] double clearance() const { return bearing::clearance(model_, point_); }
 
-  [[nodiscard]] double clearance() const { return bearing::clearance(model_, point_); }
-
   // Whether the journal stands inside its bore, as far as a rigid one must.
   [[nodiscard]] bool stands_inside() const { return film_.yields() || gap_at(e_) > 0; }
 

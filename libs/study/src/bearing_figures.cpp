@@ -309,22 +309,6 @@ double growth(const Solution& s) { return s.state.thermal_shape.mean(); }
 
 double distortion(const Solution& s) { return (s.state.thermal_shape.array() - growth(s)).abs().maxCoeff(); }
 
-/// The clearance as given and at temperature.
-Group clearance() {
-  const auto expands = [](const Solution& s) { return s.expands; };
-  return {"clearance",
-          {{"clearance_cold",
-            "radial clearance as given, cold",
-            kMicrometre,
-            [](const Solution& s) { return s.model.c; },
-            {.only = expands}},
-           {"clearance_hot",
-            "radial clearance at temperature, hot",
-            kMicrometre,
-            [](const Solution& s) { return bearing::clearance(s.model, s.state.point); },
-            {.only = expands}}}};
-}
-
 Group heat() {
   using Seen = film::HeatObservables;
   using Balance = film::HeatBalance;
@@ -468,8 +452,9 @@ Group stability() {
 
 /// The table of all figures, in the order in which they are told.
 const std::vector<Group>& table() {
-  static const std::vector<Group> groups{operating_point(), clearance(), film_figures(), deformation(), dimensionless(),
-                                         friction(),        oil(),       heat(),         dynamics(),    stability()};
+  static const std::vector<Group> groups{operating_point(), film_figures(), deformation(), dimensionless(),
+                                         friction(),        oil(),          heat(),        dynamics(),
+                                         stability()};
   return groups;
 }
 

@@ -222,16 +222,6 @@ Eigen::VectorXd FilmHeat::body_temperatures() const {
   return wall == nullptr || wall->T_body0.size() == 0 ? Eigen::VectorXd() : wall->body(impl_->state.wall_heat);
 }
 
-Eigen::VectorXd FilmHeat::shell_opening() const {
-  const WallConduction* wall = conduction_of(impl_->thermal.shell);
-  return wall == nullptr || !wall->deforms() ? Eigen::VectorXd() : wall->shape(impl_->state.wall_heat);
-}
-
-Eigen::VectorXd FilmHeat::body_temperatures() const {
-  const WallConduction* wall = conduction_of(impl_->thermal.shell);
-  return wall == nullptr || wall->T_body0.size() == 0 ? Eigen::VectorXd() : wall->body(impl_->state.wall_heat);
-}
-
 LayeredViscosity FilmHeat::viscosity() const {
   const FilmModel& model = impl_->flow.model();
   const int layers = impl_->thermal.layers;

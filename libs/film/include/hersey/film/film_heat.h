@@ -69,18 +69,6 @@ class FilmHeat {
   /// step; the film follows, and the heat they take up is exchange().heat + exchange().by_T (T - exchange().T).
   void move_walls(const Eigen::Vector2d& T);
 
-  /// After advance(), of walls that are nodes: those were held at the temperatures they had.
-  [[nodiscard]] const WallExchange& exchange() const;
-  /// After advance(): walls that are nodes had rather these temperatures, shell and journal [K], at the end of the
-  /// step; the film follows, and the heat they take up is exchange().heat + exchange().by_T (T - exchange().T).
-  void move_walls(const Eigen::Vector2d& T);
-
-  /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.46); empty:
-  /// it does not.
-  [[nodiscard]] Eigen::VectorXd shell_opening() const;
-  /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.
-  [[nodiscard]] Eigen::VectorXd body_temperatures() const;
-
   /// After advance(): fields and numbers of that film; before, of one at the temperatures of its supply and walls.
   [[nodiscard]] TemperatureFields fields() const;
   /// Likewise.

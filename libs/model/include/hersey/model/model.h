@@ -74,6 +74,8 @@ struct BodyHeat {
   fem::ThermalMaterial material;  ///< of all of its elements; expansion 0: it keeps its shape
   double T_reference = 293.15;    ///< at which it has the shape of its mesh [K]
   fem::ThermalSurroundings surroundings;
+  /// Place in surroundings.cooled of all outer faces that nothing else names; those that films lie on are not cooled.
+  std::optional<std::size_t> rest;
   std::vector<int> fixed;  ///< nodes that keep their places as it expands; none: it expands freely
 };
 
