@@ -162,6 +162,33 @@ TEST_CASE("SmallCapacity_DoesNotLimitTheStep") {
   for (std::size_t k = 2; k < T.size(); ++k) CHECK(std::abs(T[k] - T[k - 1]) < 2);  // and does not ring
 }
 
+// Walls that are held for a cycle jump at its end, by kelvins: no motion, and no squeeze of the film.
+TEST_CASE("WallsThatSettleOverCycles_DoNotSqueezeTheFilm") {
+  const TemporaryDirectory scratch;
+  std::vector<double> loads;
+  for (const char* expansion : {"", ", expansion: {shell: 12e-6 1/K, journal: 12e-6 1/K}"}) {
+    std::string text = warm_rig("model: film, supply_temperature: 40 degC, layers: 3" + std::string(expansion));
+    text = edited(text, "  duration: \"${duration}\"\n", "  cycle: {period: 10 ms, most: 5}\n");
+    const Summary summary = simulate(rig(text), {.results = scratch / "cycles.h5", .overwrite = true});
+    CAPTURE(summary.message);
+    REQUIRE(summary.status == Status::completed);
+    const results::Reader file(scratch / "cycles.h5");
+    const std::vector<double> t = series(file, "/time"), p = series(file, bearing + "p_max"),
+                              T = series(file, bearing + "T_journal");
+    CHECK(largest(T) - T[0] > 2);  // they do jump
+    double after_the_first = 0;
+    for (std::size_t k = 0; k < t.size(); ++k)
+      if (t[k] > 9.9e-3) after_the_first = std::max(after_the_first, p[k]);
+    loads.push_back(after_the_first);
+    if (*expansion != 0) {
+      const std::vector<double> c = series(file, bearing + "clearance");
+      CHECK(std::abs(c.back() - c.front()) > 0.2e-6);
+      CHECK(largest(series(file, bearing + "mass_balance_error")) < 1e-9);  // round-off of a step over its flow
+    }
+  }
+  CHECK(loads[1] == doctest::Approx(loads[0]).epsilon(0.1));  // of films whose clearances differ by percents
+}
+
 TEST_CASE("SeizureInARun_IsToldWithItsTime_AndKeepsTheResults") {
   const TemporaryDirectory scratch;
   std::string text = warm_rig(nodes + ", expansion: {shell: 0 1/K, journal: 80e-6 1/K}");

@@ -368,6 +368,7 @@ WallCorrection FilmHeat::settle_walls(const Eigen::Vector2d& T_nodes) {
     m.set_held_walls(is_shell || is_journal ? after : m.settling.next(before, after));
   }
   if (!std::isfinite(correction.rise)) correction.rise = 0;
+  m.average_walls();
   return correction;
 }
 
