@@ -88,7 +88,7 @@ FAULTS = [
     Fault("bearing: a journal's shape turns backwards", "bearing/src/rigid_surfaces.cpp",
           "motion.g_rate += omega * first_;", "motion.g_rate -= omega * first_;"),
     Fault("bearing: damping over the load without the speed", "bearing/src/bearing_numbers.cpp",
-          "(model.c * omega / W);", "(model.c / W);"),
+          "(c * omega / W);", "(c / W);"),
     # -- mbd
     Fault("mbd: gyroscopic term", "mbd/src/tree/inertia.cpp", "F_[l] = IA + Vh;", "F_[l] = IA;"),
     Fault("mbd: row of a universal joint", "mbd/src/tree/constraint_row.cpp",
