@@ -152,9 +152,11 @@ void FilmForce::fill_gap() {
       domain_error_ = "no film at the start: " + summary.message;
       return;
     }
-    if (!heat_ || heat_->thin(surfaces_, history_, u_) <= kAsThin) return;
-    history_.viscosity = heat_->viscosity();
+    // Later films of this start have the same viscosities: what asks for them compares forces.
+    if (!heat_ || is_thinned_ || heat_->thin(surfaces_, history_, u_) <= kAsThin) break;
+    if (k + 1 < kMostFirstFilms) history_.viscosity = heat_->viscosity();
   }
+  is_thinned_ = true;
 }
 
 void FilmForce::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {

@@ -153,11 +153,15 @@ TEST_CASE("ResumedFilmWithTemperature_IsTheSame") {
         "ambient: 30 degC}}\n";
     std::string text = rig_with(line, line + heat + "    coupling: " + coupling + "\n");
     const std::string oil = "viscosity: 15 mPa.s";
-    text.replace(text.find(oil), oil.size(), "grade: iso_vg_22");
-    check_resumed(text, 7, 12);
-    // Walls at the mean heat of cycles of eight steps: interrupted within the first and within the second.
-    check_resumed(edited(text, "duration: \"${duration}\"", "cycle: {period: 16 deg, until_converged: 0, most: 4}"), 7,
-                  12);
+    for (const char* grade : {"grade: iso_vg_22", "grade: sae_5w_20"}) {  // the second thins by the shear in its layers
+      CAPTURE(grade);
+      std::string with_grade = text;
+      with_grade.replace(with_grade.find(oil), oil.size(), grade);
+      check_resumed(with_grade, 7, 12);
+      // Walls at the mean heat of cycles of eight steps: interrupted within the first and within the second.
+      check_resumed(
+          edited(with_grade, "duration: \"${duration}\"", "cycle: {period: 16 deg, until_converged: 0, most: 4}"), 7, 12);
+    }
   }
 }
 

@@ -151,16 +151,16 @@ void FilmHeat::Impl::thin() {
   const auto layers = static_cast<std::size_t>(thermal.layers);
   const Lubricant& oil = flow.model().lubricant;
   Eigen::VectorXd mu = viscosities_at_rest();
+  LayerShear shear(oil.shear_thinning, thermal.layers);
   for (int node = 0; node < flow.size(); ++node) {
     const Eigen::Index first = node * thermal.layers;
-    const std::span<double> at{mu.data() + first, layers};
+    const std::span<double> at{mu.data() + first, layers}, left{state.thinning.data() + first, layers};
     const Node& film = flow.nodes()[node];
     const double at_rest = 1 / profile_of(at).shear_fluidity;
     const double by_pressure = std::exp(log_viscosity_ratio(oil, film.p, at_rest).value);
     for (double& one : at) one *= by_pressure;
-    state.thinning.segment<2>(mu.size() + 2 * node) =
-        thin_layers(oil.shear_thinning, at, {flow.slip() / film.h, film.h * steepest_gradient(flow, node)},
-                    {state.thinning.data() + first, layers});
+    shear.thin(at, {flow.slip() / film.h, film.h * one_sided_gradient(flow, node)}, left);
+    state.thinning.segment<2>(mu.size() + 2 * node) = shear.flow_factors();
   }
 }
 

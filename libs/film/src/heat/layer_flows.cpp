@@ -20,20 +20,23 @@ Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node) {
   return {around, slope(grid.index(i, below), grid.index(i, above), geometry.z[above] - geometry.z[below])};
 }
 
-Eigen::Vector2d steepest_gradient(const FlowBalance& balance, int node) {
-  Eigen::Vector2d gradient = pressure_gradient(balance, node);
-  if (!balance.is_held(node)) return gradient;
+Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
+  if (!balance.is_held(node)) return pressure_gradient(balance, node);
   const Grid& grid = balance.model().grid;
+  const GridGeometry& geometry = balance.geometry();
   const int i = node / grid.n_z, j = node % grid.n_z, last = (i + grid.n_phi - 1) % grid.n_phi;
-  const auto see = [&](double& steepest, int from, int to, double length) {
-    const double slope = (balance.nodes()[to].p - balance.nodes()[from].p) / length;
-    if (std::abs(slope) > std::abs(steepest)) steepest = slope;
+  const auto slope = [&](int from, int to, double length) {
+    return (balance.nodes()[to].p - balance.nodes()[from].p) / length;
   };
-  see(gradient.x(), grid.index(last, j), node, balance.geometry().dx[last]);
-  see(gradient.x(), node, grid.index((i + 1) % grid.n_phi, j), balance.geometry().dx[i]);
-  if (j > 0) see(gradient.y(), node - 1, node, balance.geometry().dz[j - 1]);
-  if (j + 1 < grid.n_z) see(gradient.y(), node, node + 1, balance.geometry().dz[j]);
-  return gradient;
+  const auto weighted = [](double a, double b) {
+    const double size = std::abs(a) + std::abs(b);
+    return size > 0 ? (a * std::abs(a) + b * std::abs(b)) / size : 0;
+  };
+  const double before = slope(grid.index(last, j), node, geometry.dx[last]),
+               after = slope(node, grid.index((i + 1) % grid.n_phi, j), geometry.dx[i]);
+  const double below = j > 0 ? slope(node - 1, node, geometry.dz[j - 1]) : 0,
+               above = j + 1 < grid.n_z ? slope(node, node + 1, geometry.dz[j]) : 0;
+  return {weighted(before, after), weighted(below, above)};
 }
 
 LayerFlows::LayerFlows(const FilmModel& model, int layers)

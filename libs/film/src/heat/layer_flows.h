@@ -12,8 +12,9 @@ namespace hersey::film {
 /// Gradient of the pressure that drives the flow at a node, around and along the axis [Pa/m].
 [[nodiscard]] Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node);
 
-/// The same; on supply line and features, where the pressure has a kink, that of the steeper side.
-[[nodiscard]] Eigen::Vector2d steepest_gradient(const FlowBalance& balance, int node);
+/// The same; on supply line and features, where the pressure has a kink, the slopes of both sides, each weighted by its
+/// own size: that of the film beside a groove, and nothing on a peak.
+[[nodiscard]] Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node);
 
 /// How the oil of a solved film flows in its layers, and what they dissipate (theory manual, thermal.7 to thermal.9).
 /// Flows of all layers of a face add up to the film's own, dissipation to the film's power.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <span>
+#include <vector>
 
 #include "hersey/film/shear_law.h"
 
@@ -13,14 +14,40 @@ struct ShearOfGap {
   Eigen::Vector2d fall = Eigen::Vector2d::Zero();  ///< gap times the pressure's gradient: tau(h) - tau(0) [Pa]
 };
 
-/// What shear leaves of the viscosity in each layer, R [-], so that every layer is sheared at the rate its own stress
-/// takes and all rates together make up the sliding (thermal.24). Newton's method, or where that does not arrive
-/// Kacanov's, by which viscosities follow the rates they have led to.
-/// @param mu_n  of the layers at rest at their temperatures and the pressure of the place [Pa s]
-/// @param left  R: a start (1 is one) and the answer, same shape
-/// @returns by what the flow along pressure is easier, around and along the axis, than between layers each of which is
-///          as thin as in its middle [-]: within a layer it sees the tangent of the stress (thermal.25)
-[[nodiscard]] Eigen::Vector2d thin_layers(const ShearThinning& thinning, std::span<const double> mu_n,
-                                          const ShearOfGap& shear, std::span<double> left);
+/// Shear rates of the layers of a film, place by place: every layer is sheared at the rate its own stress takes, and
+/// all rates make up the sliding (thermal.24).
+class LayerShear {
+ public:
+  /// @param thinning  not Newtonian; the caller keeps it alive
+  LayerShear(const ShearThinning& thinning, int layers);
+
+  /// Newton's method, or where that does not arrive Kacanov's, by which viscosities follow the rates they have led to.
+  /// @param mu_n  of the layers at rest at their temperatures and the pressure of the place [Pa s]; the caller keeps it
+  /// @param left  what shear leaves of them, R [-]: a start (1 is one) and the answer
+  void thin(std::span<const double> mu_n, const ShearOfGap& shear, std::span<double> left);
+
+  /// Of the place last thinned: by what the flow along pressure is easier, around and along the axis, than between
+  /// layers each of which is as thin as in its middle [-]; within a layer it sees the tangent of the stress
+  /// (thermal.25).
+  [[nodiscard]] Eigen::Vector2d flow_factors();
+
+ private:
+  void follow(std::span<const double> left);
+  void look();
+  [[nodiscard]] double newton_step();
+  [[nodiscard]] bool by_newton(std::span<double> left);
+  void by_kacanov(std::span<double> left);
+  [[nodiscard]] Eigen::Vector2d beyond_mean(std::size_t l) const;
+
+  const ShearThinning& thinning_;
+  double width_;
+  std::span<const double> mu_n_;
+  ShearOfGap shear_;
+  std::vector<Eigen::Vector2d> rates_, missing_;  ///< around and along the axis [1/s]; [Pa]
+  std::vector<Eigen::Matrix2d> by_stress_;        ///< of the rates [1/(Pa s)]
+  std::vector<ShearRatio> ratios_;                ///< of the rates last looked at
+  std::vector<double> sizes_;                     ///< of these [1/s]
+  std::vector<double> left_, mu_;                 ///< R at the rates; viscosities with it [Pa s]
+};
 
 }  // namespace hersey::film

@@ -172,6 +172,7 @@ class FilmForce : public mbd::TwoBodyForce {
   Eigen::VectorXd parameters_linearised_, parameter_change_;
   film::CondensedFilm condensed_;
   bool linearised_ = false;
+  bool is_thinned_ = false;  // the layers' shear has been found at the start
 
   // The film at the start of the step: what a rejected step returns to.
   film::FilmHistory history_;           // of the step being solved
