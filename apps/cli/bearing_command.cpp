@@ -181,9 +181,12 @@ int bearing_command(const BearingArguments& arguments) {
                    files_of(model));
   warn(model.warnings);
   require_one(arguments, model, runs.size());
+  const auto coefficients = arguments.thermal_coefficients == "total" ? study::ThermalCoefficients::total
+                                                                      : study::ThermalCoefficients::frozen;
   const std::vector<study::BearingSolution> solutions = study::solve_bearings(arguments.model, runs,
                                                                               {.bearing = arguments.bearing,
                                                                                .grid_error = !arguments.no_grid_error,
+                                                                               .thermal_coefficients = coefficients,
                                                                                .threads = arguments.jobs,
                                                                                .first = &model});
   print(arguments, solutions);

@@ -77,6 +77,8 @@ report::BearingPage bearing_page(const BearingArguments& arguments, const std::v
   page.conditions = run::bearing_assumptions(bearing);
   for (auto& [surface, text] : surface_remarks(solutions.front()))
     page.conditions.emplace_back(bearing.name + ": " + surface, std::move(text));
+  if (const std::string remark = heat_remark(solutions.front()); !remark.empty())
+    page.conditions.emplace_back(bearing.name + ": heat", remark);
   page.solutions.reserve(solutions.size());
   for (const BearingSolution& solution : solutions) page.solutions.push_back(page_of(solution));
   return page;

@@ -66,6 +66,11 @@ std::string roughness_of(const film::Roughness& roughness) {
                      surface(roughness.shell), surface(roughness.journal));
 }
 
+std::string heat_of(const BearingSolution& solution) {
+  const std::string remark = heat_remark(solution);
+  return remark.empty() ? "" : "  " + remark + "\n";
+}
+
 // Under which condition the figures hold: at light loads it decides about them.
 std::string condition_of(const BearingSolution& solution) {
   constexpr std::array<const char*, 3> cavitation{"guembel", "reynolds", "mass_conserving"};
@@ -78,7 +83,7 @@ std::string condition_of(const BearingSolution& solution) {
   return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} film linearisations{}, {:.3g} s\n",
                      cavitation[static_cast<std::size_t>(film.cavitation)], 1e-5 * film.p_cav, pressures_of(film),
                      film.grid.n_phi, film.grid.n_z, work.iterations, film_work, solution.wall_time) +
-         roughness_of(film.roughness) + surfaces;
+         roughness_of(film.roughness) + surfaces + heat_of(solution);
 }
 
 const BearingFigure& figure(const std::vector<BearingFigure>& figures, const std::string& key) {
@@ -91,6 +96,13 @@ std::string whirl_remark(const BearingSolution& solution) {
   if (solution.whirl.always_stable) return "a rigid rotor is stable at every mass";
   if (solution.whirl.never_stable) return "a rigid rotor is unstable at every mass";
   return "";
+}
+
+std::string heat_remark(const BearingSolution& solution) {
+  if (!solution.has_temperatures()) return "";
+  if (solution.thermal_coefficients == study::ThermalCoefficients::total)
+    return "stiffness and damping with temperatures that follow the motion";
+  return "stiffness and damping at the temperatures as they are (--thermal-coefficients total: as they follow)";
 }
 
 std::vector<std::pair<std::string, std::string>> surface_remarks(const BearingSolution& solution) {
@@ -120,15 +132,24 @@ std::string bearing_text(const BearingSolution& solution) {
 }
 
 std::string bearing_comparison_text(const std::vector<BearingSolution>& solutions) {
-  const std::array<std::pair<const char*, const char*>, 9> wanted{{{"load", "W"},
-                                                                   {"eccentricity_ratio", "ecc. ratio"},
-                                                                   {"attitude", "attitude"},
-                                                                   {"h_min", "h_min"},
-                                                                   {"p_max", "p_max"},
-                                                                   {"friction_journal", "friction"},
-                                                                   {"asperity_share", "contact"},
-                                                                   {"side_flow", "side flow"},
-                                                                   {"sommerfeld_S", "S"}}};
+  std::vector<std::pair<const char*, const char*>> wanted{{"load", "W"},
+                                                          {"eccentricity_ratio", "ecc. ratio"},
+                                                          {"attitude", "attitude"},
+                                                          {"h_min", "h_min"},
+                                                          {"p_max", "p_max"},
+                                                          {"friction_journal", "friction"},
+                                                          {"asperity_share", "contact"},
+                                                          {"side_flow", "side flow"},
+                                                          {"sommerfeld_S", "S"}};
+  // Of films with temperatures, where all have them.
+  for (const auto& [key, heading] : {std::pair{"T_effective", "oil"}, {"T_max", "hottest oil"}}) {
+    const bool all_have = std::all_of(solutions.begin(), solutions.end(), [&, key = key](const BearingSolution& s) {
+      const std::vector<BearingFigure> figures = s.solved() ? study::figures_of(s) : std::vector<BearingFigure>{};
+      return !s.solved() ||
+             std::any_of(figures.begin(), figures.end(), [&](const BearingFigure& f) { return f.key == key; });
+    });
+    if (all_have) wanted.emplace_back(key, heading);
+  }
   std::vector<std::vector<std::string>> lines;
   for (const BearingSolution& solution : solutions) {
     if (!solution.solved()) continue;
@@ -229,6 +250,10 @@ nlohmann::json bearing_json(const BearingSolution& solution) {
     for (Eigen::Index i = 0; i < 4; ++i) list.push_back({M(i, 0), M(i, 1), M(i, 2), M(i, 3)});
     return list;
   };
+  if (solution.has_temperatures()) {
+    const bool follow = solution.thermal_coefficients == study::ThermalCoefficients::total;
+    document["thermal_coefficients"] = follow ? "total" : "frozen";
+  }
   document["stiffness_with_tilt"] = rows(solution.state.coefficients.stiffness);
   document["damping_with_tilt"] = rows(solution.state.coefficients.damping);
   return document;

@@ -12,6 +12,10 @@ namespace hersey::cli {
 /// Whether any rigid rotor is stable on the film, where its mass decides nothing; else empty.
 [[nodiscard]] std::string whirl_remark(const study::BearingSolution& solution);
 
+/// Of a film whose temperatures have been solved for: whether they follow the motion in stiffness and damping; else
+/// empty.
+[[nodiscard]] std::string heat_remark(const study::BearingSolution& solution);
+
 /// What is said of each surface that deforms: its name, "shell", and how its body is held.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> surface_remarks(const study::BearingSolution& solution);
 

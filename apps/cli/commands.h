@@ -51,8 +51,9 @@ struct BearingArguments {
   std::filesystem::path csv, fields, vtu, report;  ///< files to write; empty: none
   bool json = false;
   bool no_grid_error = false;
-  int jobs = 0;     ///< 0: one per thread
-  int threads = 0;  ///< 0: one per processor
+  std::string thermal_coefficients = "frozen";  ///< or total
+  int jobs = 0;                                 ///< 0: one per thread
+  int threads = 0;                              ///< 0: one per processor
 };
 
 /// `hersey bearing`: equilibrium or load of one bearing by itself, once or over sweeps. @returns an ExitCode.

@@ -89,6 +89,12 @@ CLI::App* add_bearing_command(CLI::App& app, BearingArguments& bearing) {
       ->type_name("FILE");
   command->add_flag("--json", bearing.json, "Print every figure as JSON");
   command->add_flag("--no-grid-error", bearing.no_grid_error, "Leave out the estimate of the grid's error");
+  command
+      ->add_option("--thermal-coefficients", bearing.thermal_coefficients,
+                   "Stiffness and damping with temperatures as they are (frozen, the default) or as they follow the "
+                   "motion (total)")
+      ->check(CLI::IsMember({"frozen", "total"}))
+      ->type_name("frozen|total");
   command->add_option("--jobs", bearing.jobs, "Solutions at the same time (default: one per processor)")
       ->check(CLI::PositiveNumber);
   add_threads(*command, bearing.threads);

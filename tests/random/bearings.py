@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from heat import Heat
 from model_text import bar, deg, mm, number, um
 
 PI = math.pi
@@ -116,11 +117,12 @@ class Bearing:
     solver: str = "newton"
     pressures: str = "gauge"
     coupling: dict | None = None
+    heat: Heat | None = None
 
     # -- what it is in a model file
 
     def lubricant(self):
-        entry = {"viscosity": f"{number(1e3 * self.mu)} mPa.s"}
+        entry = {"viscosity": self.heat.viscosity(self.mu) if self.heat else f"{number(1e3 * self.mu)} mPa.s"}
         if self.viscosity_law:
             law, value = self.viscosity_law
             entry["pressure_viscosity"] = ({"law": "roelands", "z": value} if law == "roelands"
@@ -164,6 +166,8 @@ class Bearing:
                 entry[key] = getattr(self, key)
         if self.coupling:
             entry["coupling"] = self.coupling
+        if self.heat:
+            entry["thermal"] = self.heat.text()
         return entry
 
     def asperities_text(self):

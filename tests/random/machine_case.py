@@ -16,13 +16,14 @@ class Runs:
     def __init__(self, program, folder):
         self.program, self.folder, self.models = program, folder, {}
 
-    def run(self, machine, label):
+    def run(self, machine, label, threads=1):
         """(ending, results or None)"""
         text = machine.text()
         self.models[label] = text
         model, output = os.path.join(self.folder, label + ".yaml"), os.path.join(self.folder, label)
         write(model, text)
-        ending = hersey.run(self.program, "run", model, "--output", output, "--json", "--jobs", "1")
+        ending = hersey.run(self.program, "run", model, "--output", output, "--json", "--jobs", "1",
+                            "--threads", str(threads))
         path = os.path.join(output, "results.h5")
         if ending.kind not in ("answer", "message") or not os.path.exists(path):
             return ending, None
@@ -49,6 +50,11 @@ def examine(program, rng, folder):
             compare(machine, results, *runs.run(variant, label), label, invariant, symmetry, found)
             if len(found) > before:
                 failed |= {"model", label}
+    if results.status == "completed" and any(b.heat for b in machine.named_bearings().values()):
+        before = len(found)
+        compare_bits(results, runs.run(machine, "threads", threads=3)[1], found)
+        if len(found) > before:
+            failed |= {"model"}
     models = {k: v for k, v in runs.models.items() if k in failed or ending.kind not in ("answer", "message")}
     return ending.kind, ending.text if ending.kind != "answer" else "", list(found), models
 
@@ -65,6 +71,14 @@ def variants(machine):
     if not any(place["towards"] != "edges" for b in machine.named_bearings().values() for place in b.refine):
         yield "mirrored_phi", "mirror phi", machine.mirrored_phi(), Symmetry(flip_phi=True)
     yield "reordered", "order of bodies", machine.reordered(), Symmetry()
+
+
+def compare_bits(one, other, found):
+    """Threads change no result."""
+    for name, film in one.films.items():
+        numbers = {key: row for key, row in film.rows.items() if other and row.dtype.kind == "f"}
+        bad = [key for key, row in numbers.items() if not np.array_equal(row, other.films[name].rows[key], equal_nan=True)]
+        found.require("threads change nothing", other is not None and not bad, f"{name}: {', '.join(bad) or 'no results'}")
 
 
 def compare(machine, one, ending, other, label, invariant, symmetry, found):
@@ -86,6 +100,9 @@ def compare(machine, one, ending, other, label, invariant, symmetry, found):
         # The largest node, not the peak between nodes: over a pocket all have one pressure, and round-off says around which.
         scales = {"h_min": b.c, "p_max_node": rows["p_max_node"].max(), "power_film": power, "flow_left": flow, "flow_right": flow,
                   "flow_supply": flow, "oil_volume": rows["oil_volume"].max()}
+        if "T_max" in rows:
+            rise = max(float(rows["T_max"].max()) - min(b.heat.given()), 1.0)
+            scales |= {"T_max": rise, "T_journal": rise, "heat_dissipated": power}
         swapped = {"flow_left": "flow_right", "flow_right": "flow_left"} if symmetry.flip_z else {}
         for key, scale in scales.items():
             off = np.abs(rows[key] - others[swapped.get(key, key)])

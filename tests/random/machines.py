@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, field
 
 import bearings
+import heat
 from bearings import PI, log_uniform, rounded
 from model_text import deg, mm, number, rpm, um, yaml
 
@@ -169,6 +170,7 @@ def machine_bearing(rng, speed):
     b = bearings.random_bearing(rng, GRIDS, is_plain=rng.random() < 0.3)
     b.solver = rng.choice(["newton", "newton", "multigrid"])
     b.coupling = random_coupling(rng)
+    b.heat = heat.random_heat(rng, b, ["isothermal", "film", "film", "film"])
     return b
 
 

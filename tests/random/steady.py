@@ -9,6 +9,7 @@ import numpy as np
 import bearings
 import film_integrals as film
 import film_laws
+import heat
 from bearings import PI, log_uniform, rounded
 from findings import Findings
 from model_text import deg, number, rpm, yaml
@@ -83,6 +84,9 @@ class Steady:
     def with_solver(self, solver):
         return self._with(self.bearing.with_solver(solver))
 
+    def of_constant_oil(self, model):
+        return self._with(heat.of_constant_oil(self.bearing, model))
+
     def at(self, position):
         """The same with a position in place of the load."""
         return self._with(self.bearing, load=None, position=position)
@@ -129,6 +133,7 @@ def random_steady(rng):
     if any(part.on == "journal" for part in (*b.features, *b.profiles)):
         case.journal_angle = rounded(rng.uniform(-PI, PI))
     soften(b, size)
+    b.heat = heat.random_heat(rng, b, ["isothermal", "global", "film", "film", "film", "film"])
     return case
 
 
@@ -158,6 +163,8 @@ class Answer:
         shape = (len(self.phi), len(self.z))
         self.p, self.p_asperity = (1e6 * table[:, k].reshape(shape) for k in (2, 3))
         self.h, self.theta = 1e-6 * table[:, 4].reshape(shape), table[:, 5].reshape(shape)
+        columns = zip(("middle", "shell", "journal", "hottest"), table[:, 6:10].T) if table.shape[1] >= 10 else ()
+        self.temperatures = {name: column.reshape(shape) for name, column in columns}
 
     def __getitem__(self, key):
         return self.values[key]
@@ -169,7 +176,7 @@ class Answer:
 
 # What may be infinite or undefined for a good reason: stability of a rotor, ratios by a load of nothing.
 MAY_BE_MISSING = ("critical_mass", "whirl_ratio", "stability_number", "threshold_speed", "film_ratio", "attitude",
-                  "sommerfeld_S", "sommerfeld_So", "hersey", "friction_journal", "friction_shell")
+                  "sommerfeld_S", "sommerfeld_So", "hersey", "friction_journal", "friction_shell", "T_side", "T_film", "T_out")
 
 
 def check(case, a):
@@ -192,6 +199,7 @@ def check(case, a):
     check_load(case, a, found)
     check_asperities(case, a, found)
     check_power(case, a, found)
+    heat.check_steady(case, a, found)
     return found
 
 
@@ -344,6 +352,7 @@ def check_power(case, a, found):
     mu = film_laws.viscosity(b, a.p)
     if b.roughness:
         return  # flow factors would have to be repeated
+    thins = b.heat is not None and b.heat.model != "isothermal"  # where, only the program knows
     fed = b.is_fed(a.phi[:, None], a.z[None, :], case.journal_angle)
     couette = film.couette_power(film_laws.shear_shares(b, a.p, a.theta, fed), mu, a.h, slip, b.R, a.phi, a.z)
     poiseuille = film.poiseuille_power(a.p, mu, a.h, b.R, a.phi, a.z)
@@ -351,7 +360,7 @@ def check_power(case, a, found):
     # The edge of a cavitated region is resolved to a cell: the estimate sees that. A step of depth lies somewhere in a cell.
     pumped = pumping(b, a)
     error = 1.5 * (couette.error + poiseuille.error) + 1e-3 * own + border_power(b, a, mu, slip) + bearings.corner_power(b, pumped)
-    found.bound("power: film by own integral", abs(own - told), error, f"W: own {own:.6g}, told {told:.6g}")
+    found.bound("power: film by own integral", 0.0 if thins else abs(own - told), error, f"W: own {own:.6g}, told {told:.6g}")
     turned = -(case.journal_speed * a["torque_journal"] + case.shell_speed * a["torque_shell"])
     # the film pushes the shell away from the journal, and this back
     turned += case.radial_velocity * a["load"] * math.cos(a["load_angle"] - a["eccentricity_angle"])
@@ -413,9 +422,11 @@ def differences(case, one, other, tolerance, is_mirrored_z=False, is_mirrored_ph
             scales[key] = flow
         if key.startswith("torque_"):
             scales[key] = max(abs(one["torque_journal"]), abs(one["torque_shell"]), one["load"] * b.c)
+    if "T_max" in one.values:
+        scales |= heat.scales(b.heat, one)
     swapped = {"flow_left": "flow_right", "flow_right": "flow_left"}
     for key, scale in scales.items():
-        if scale <= 0 or key not in one.values:
+        if scale <= 0 or key not in one.values or key not in other.values:
             continue
         name = swapped.get(key, key) if is_mirrored_z else key
         value = -other[name] if is_mirrored_phi and key.startswith("torque_") else other[name]

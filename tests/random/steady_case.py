@@ -66,6 +66,7 @@ def examine(program, rng, folder):
             found.append((invariant, f"{label}: no answer: {other_ending.text}"))
         if len(found) > before:
             failed |= {"model", label}
+    failed |= compare_constant_oils(case, answer, runs, found)
     if refine(case, answer, runs, found):
         failed |= {"model", "fine", "finest", "last"}
     return "answer", "", list(found), {k: v for k, v in runs.models.items() if k in failed}
@@ -89,6 +90,25 @@ def variants(case, answer, rng):
         yield "turned", "turned by whole cells", case.turned(turn), {"turn": turn}
     if len(case.bearing.features) > 1 or len(case.bearing.profiles) > 1:
         yield "reordered", "order of features", case.reordered(), {}
+
+
+def compare_constant_oils(case, answer, runs, found):
+    """The film of an oil that does not thin is the same whether it has a temperature or not."""
+    if not case.bearing.heat or case.bearing.heat.model != "film":
+        return set()
+    there = (answer["eccentricity_ratio"], answer["eccentricity_angle"])
+    if there[0] >= 1:
+        return set()
+    _, with_heat = runs.solve(case.at(there).of_constant_oil("film"), "layers")
+    ending, without = runs.solve(case.at(there).of_constant_oil("isothermal"), "isothermal")
+    if without is None:
+        return set()
+    if with_heat is None:
+        found.append(("layers of one viscosity", f"no answer with layers, one without: {ending.text}"))
+        return {"layers", "isothermal"}
+    off = steady.differences(case, without, with_heat, tolerance(case, without))
+    found.require("layers of one viscosity", not off, "; ".join(off))
+    return {"layers", "isothermal"} if off else set()
 
 
 def refine(case, coarse, runs, found):

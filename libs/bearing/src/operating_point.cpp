@@ -41,6 +41,7 @@ ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint
   parameters.segment<2>(kEx) = e;
   parameters.segment<2>(kTx) = point.tilt;
   parameters.segment<2>(kExRate) = point.e_rate;
+  parameters.segment<2>(kTxRate) = point.tilt_rate;
   parameters[kJournalSpeed] = model.R * point.journal_speed;
   parameters[kRotation] = point.journal_angle;
   parameters[kSupplyAngle] = e.squaredNorm() > 0 ? std::atan2(-e.y(), -e.x()) : 0.0;

@@ -14,6 +14,7 @@
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 #include "hersey/film/film_solver.h"
+#include "hersey/film/grid_transfer.h"
 #include "hersey/film/reynolds.h"
 #include "short_bearing.h"
 #include "steady_film.h"
@@ -59,11 +60,17 @@ constexpr double kFreshTurn = 0.2;
 constexpr int kMostHeatIterations = 150;
 constexpr double kHeatTolerance = 1e-8;
 
+// On half the grid they come as near as its films are to those on the whole one.
+constexpr double kHalfGridTolerance = 0.1;
+
 // The film is solved to this share of how far its temperatures still move.
-constexpr double kShareOfNearness = 1e-2;
+constexpr double kShareOfNearness = 0.1;
 
 // What Newton's method leaves of a small residual is this many times its square.
-constexpr double kCurvature = 10;
+constexpr double kCurvature = 3;
+
+// A step of the journal over the smallest gap that needs no care.
+constexpr double kSmallStep = 0.05;
 
 using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
@@ -107,7 +114,19 @@ class Search {
     return false;
   }
 
-  [[nodiscard]] SteadySummary solve() { return point_.load ? under_load() : at_given_position(); }
+  [[nodiscard]] SteadySummary solve() {
+    has_film_ = true;
+    if (!point_.load && options_.start_heat) take_start();
+    return point_.load ? under_load() : at_given_position();
+  }
+
+  // A film and a position to go on from.
+  void begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u) {
+    e_ = e;
+    x_.head(u.size()) = u;
+    has_film_ = true;
+  }
+  [[nodiscard]] bool has_film() const { return has_film_; }
 
   [[nodiscard]] SteadySummary at_given_position() {
     summary_.converged = film_at(point_.e);
@@ -202,6 +221,9 @@ class Search {
     result.damping = generalised(by_rate);
     return result;
   }
+
+  [[nodiscard]] const Eigen::Vector2d& position() const { return e_; }
+  [[nodiscard]] Eigen::VectorXd film() const { return film_.film_of(x_); }
 
   [[nodiscard]] SteadyState state() {
     SteadyState state;
@@ -391,9 +413,12 @@ class Search {
     if (is_swept()) return false;
     const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());
     if (kCurvature * off * off > rtol_) return false;
-    const Step step = newton_step(target);
-    e_ += step.de;
-    x_ += step.dx;
+    Columns dW;
+    respond(2, dx_de_, dW);
+    const Eigen::Vector2d de = film_.change_of_force(dx_de_, dW).fullPivLu().solve(target - force_);
+    if (!(de.norm() < kSmallStep * gap_at(e_))) return false;
+    e_ += de;
+    x_ += film_.increment() + dx_de_ * de;
     return true;
   }
 
@@ -596,6 +621,7 @@ class Search {
   SteadySummary summary_;
   Limit limit_;
   double rtol_ = options_.rtol;
+  bool has_film_ = false;     // to go on from
   bool is_unsolved_ = false;  // the solver has not found the film last sought
   int budget_ = 0;            // of linearisations
 };
@@ -607,30 +633,40 @@ void balance(film::ThermalNetwork& network, film::FilmHeat& heat) {
   heat.move_walls(network.walls(at, heat.exchange().T));
 }
 
-// Where temperatures have gone that no film follows.
-std::string why_not(const film::FilmModel& model, const TemperaturePath& path, double growth) {
-  const film::HeatObservables& seen = path.heat().observables();
-  const auto celsius = [](double T) { return T - film::zero_celsius; };
-  if (model.c + growth <= seized * model.c)
-    return fmt::format(
-        "a seizure: the clearance of {:.4g} um closes to {:.4g} um with the shell at {:.0f} degC and the journal at "
-        "{:.0f} degC",
-        1e6 * model.c, 1e6 * (model.c + growth), celsius(seen.T_shell_wall), celsius(seen.T_journal_wall));
-  const std::string where = fmt::format("{:.0f} degC at {:.0f} deg, z = {:.3g} mm", celsius(seen.T_max),
-                                        seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
-  if (seen.T_max >= hottest_trial)
-    return "a thermal runaway: the more the oil warms, the more heat is made than goes; hottest oil " + where;
-  return fmt::format("film and temperature do not come together in {} turns; hottest oil {}", kMostHeatIterations,
-                     where);
+double celsius(double T) { return T - film::zero_celsius; }
+
+// Where the hottest oil is.
+std::string hottest_of(const film::HeatObservables& seen) {
+  return fmt::format("{:.0f} degC at {:.0f} deg, z = {:.3g} mm", celsius(seen.T_max),
+                     seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
+}
+
+// A film that was there and is lost as its oil warms and thins, or heat that leaves only at temperatures of no oil:
+// told as what it is.
+void tell_runaway(const film::HeatObservables& seen, bool has_lost_film, SteadySummary& summary) {
+  if (has_lost_film) {
+    summary.message = fmt::format("thermal runaway: oil that warms to {} is too thin for the film to stay; {}",
+                                  hottest_of(seen), summary.message);
+  } else if (seen.T_max > hottest_oil) {
+    summary.converged = false;
+    summary.message = fmt::format(
+        "thermal runaway: the film's heat leaves it with oil of {} only, and no oil is one above {:.0f} degC",
+        hottest_of(seen), celsius(hottest_oil));
+  }
+}
+
+// Walls have grown into each other.
+std::string seizure(const film::FilmModel& model, double growth, const film::HeatObservables& seen) {
+  return fmt::format(
+      "a seizure: the clearance of {:.4g} um closes to {:.4g} um with the shell at {:.0f} degC and the journal at "
+      "{:.0f} degC",
+      1e6 * model.c, 1e6 * (model.c + growth), celsius(seen.T_shell_wall), celsius(seen.T_journal_wall));
 }
 
 // Film and temperature in turn until the film's temperatures, and the clearance with those of its walls, stay.
-SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalModel& thermal,
-                              const OperatingPoint& point, const SteadyOptions& options, Search& search,
-                              SteadyState& state) {
-  TemperaturePath path(model, thermal, point, options.start_heat);
-  std::optional<film::ThermalNetwork> network;
-  if (options.network && has_nodes(thermal)) network.emplace(*options.network);
+// @param network  of walls that are nodes; null: none is
+SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& options, double nearness, Search& search,
+                            TemperaturePath& path, film::ThermalNetwork* network) {
   SteadySummary summary;
   for (int k = 0; k < kMostHeatIterations; ++k) {
     const bool is_open = model.c + path.growth() > seized * model.c;
@@ -640,28 +676,71 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const film::ThermalM
       search.set_tolerance(std::max(options.rtol, kShareOfNearness * path.nearness()));
       search.set_viscosity(path.heat().viscosity());
       search.set_thermal_shape(path.heat().shell_opening());
-      summary = path.is_first() ? search.solve() : search.once_more();
+      summary = search.has_film() ? search.once_more() : search.solve();
     }
     summary.heat_iterations = k + 1;
     if (!summary.converged) {
       if (path.step_back()) continue;
-      if (!is_open) summary.message = why_not(model, path, path.growth());
+      if (!is_open)
+        summary.message = seizure(model, path.growth(), path.heat().observables());
+      else if (path.has_film())
+        tell_runaway(path.heat().observables(), true, summary);
       return summary;
     }
     search.heat(path.heat());
-    if (network) balance(*network, path.heat());
+    if (network != nullptr) balance(*network, path.heat());
     path.take();
-    if (path.nearness() <= kHeatTolerance && search.is_settled()) {
-      state = search.state();
-      state.heat = SteadyHeat{
-          path.heat().state(), path.heat().observables(), path.heat().fields(), path.heat().body_temperatures(), {}};
-      if (network) state.heat->network = network->observables();
+    if (path.nearness() <= nearness && (nearness > kHeatTolerance || search.is_settled())) {
+      tell_runaway(path.heat().observables(), false, summary);
       return summary;
     }
     path.step_on(k);
   }
   summary.converged = false;
-  summary.message = why_not(model, path, path.growth());
+  summary.message = fmt::format("film and temperature do not come together in {} turns; hottest oil {}",
+                                kMostHeatIterations, hottest_of(path.heat().observables()));
+  tell_runaway(path.heat().observables(), false, summary);
+  return summary;
+}
+
+// From the same film on half the nodes each way, where a turn costs a quarter. Without an answer there, all stays.
+void begin_on_half_grid(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
+                        Search& search, TemperaturePath& path) {
+  if (options.start_heat || options.elasticity || !film::can_be_coarsened(model.grid)) return;
+  // Walls that move with their heat find their way with the film of the grid itself.
+  if (has_nodes(*options.thermal) || options.thermal->expansion ||
+      std::holds_alternative<film::BodyWall>(options.thermal->shell))
+    return;
+  film::FilmModel half = model;
+  half.grid = film::half_of(model.grid);
+  SteadyOptions on_half = options;
+  film::ThermalModel& thermal = *on_half.thermal;
+  if (auto* wall = std::get_if<film::WallAtTemperature>(&thermal.shell); wall != nullptr && wall->around.size() > 0)
+    wall->around = film::GridTransfer(model.grid, half.grid).around(wall->around);
+  Search search_there(half, point, on_half);
+  TemperaturePath path_there(half, thermal, point, std::nullopt);
+  if (!come_together(half, on_half, kHalfGridTolerance, search_there, path_there, nullptr).converged) return;
+  const film::GridTransfer transfer(half.grid, model.grid);
+  const double fill = film::fill_scale(model) / film::fill_scale(half);
+  search.begin_at(search_there.position(),
+                  transfer(search_there.film().unaryExpr([fill](double u) { return u < 0 ? fill * u : u; })));
+  path.begin_at(transfer(path_there.heat().state().film, thermal.layers));
+}
+
+SteadySummary solve_with_heat(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
+                              SteadyState& state) {
+  Search search(model, point, options);
+  TemperaturePath path(model, *options.thermal, point, options.start_heat);
+  std::optional<film::ThermalNetwork> network;
+  if (options.network && has_nodes(*options.thermal)) network.emplace(*options.network);
+  begin_on_half_grid(model, point, options, search, path);
+  const SteadySummary summary =
+      come_together(model, options, kHeatTolerance, search, path, network ? &*network : nullptr);
+  if (!summary.converged) return summary;
+  state = search.state();
+  state.heat = SteadyHeat{
+      path.heat().state(), path.heat().observables(), path.heat().fields(), path.heat().body_temperatures(), {}};
+  if (network) state.heat->network = network->observables();
   return summary;
 }
 
@@ -675,8 +754,8 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   const ParameterVector first = parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e);
   const double gap = smallest_gap(model, first, point.growth);
   HERSEY_REQUIRE(gap > 0, "a journal inside its bore");
+  if (options.thermal) return solve_with_heat(model, point, options, state);
   Search search(model, point, options);
-  if (options.thermal) return solve_with_heat(model, *options.thermal, point, options, search, state);
   const SteadySummary summary = search.solve();
   if (summary.converged) state = search.state();
   return summary;

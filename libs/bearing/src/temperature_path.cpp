@@ -73,6 +73,13 @@ void TemperaturePath::try_next(const Eigen::VectorXd& x) {
   try_next(std::move(next), per_metre_ > 0 ? x[x.size() - 1] / per_metre_ : 0);
 }
 
+void TemperaturePath::begin_at(Eigen::VectorXd film) {
+  T_oil_.reset();
+  film::HeatState state = heat_.state();
+  state.film = std::move(film);
+  try_next(std::move(state), growth_);
+}
+
 void TemperaturePath::try_next(film::HeatState next, double growth) {
   next.film = next.film.cwiseMax(coldest_trial).cwiseMin(hottest_trial);
   heat_.set_state(next);

@@ -9,6 +9,9 @@
 
 namespace hersey::bearing {
 
+/// No oil is one above: mineral and synthetic oils have cracked or burnt before [K].
+inline constexpr double hottest_oil = 673.15;
+
 /// No trial on the way to an answer is colder or hotter [K]: laws of viscosity mean nothing there.
 inline constexpr double coldest_trial = 200, hottest_trial = 800;
 
@@ -21,16 +24,19 @@ class TemperaturePath {
   TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal, const OperatingPoint& point,
                   const std::optional<film::HeatState>& start);
 
+  /// Begins with these temperatures of the layers [K] instead.
+  void begin_at(Eigen::VectorXd film);
+
   /// At the temperatures to be tried; once their film has been found, whoever found it advances it.
   [[nodiscard]] film::FilmHeat& heat() { return heat_; }
   [[nodiscard]] const film::FilmHeat& heat() const { return heat_; }
   /// Of the clearance, to be tried with them [m]; 0 where walls keep their size.
   [[nodiscard]] double growth() const { return growth_; }
-  /// Whether no film has been found yet.
-  [[nodiscard]] bool is_first() const { return last_.size() == 0; }
   /// Largest change of the last turn over the largest rise (plus 1 K).
   [[nodiscard]] double nearness() const { return nearness_; }
 
+  /// Whether a film has been found at one of the temperatures tried.
+  [[nodiscard]] bool has_film() const { return last_.size() > 0; }
   /// heat() has been advanced with the film of the temperatures tried.
   void take();
   /// To the next temperatures, after `turn` others.

@@ -7,6 +7,7 @@
 
 #include "hersey/bearing/bearing_numbers.h"
 #include "hersey/bearing/steady_bearing.h"
+#include "hersey/bearing/total_coefficients.h"
 #include "relative.h"
 
 namespace hersey::bearing {
@@ -161,6 +162,70 @@ TEST_CASE("ThinningLayers_AgreeWithTheTangentViscosity") {
   constexpr double both = 1e-6;  // of films and layers found to 1e-8 on their own ways
   CHECK(mirrored.film.h_min == relative(forwards.film.h_min).epsilon(both));
   CHECK(mirrored.film.power_film == relative(forwards.film.power_film).epsilon(both));
+}
+
+/// Film and heat at a point, from those of `near`.
+SteadySummary solve_beside(const film::FilmModel& model, const SteadyOptions& options, const SteadyState& near,
+                           const OperatingPoint& at, SteadyState& state) {
+  SteadyOptions nearby = options;
+  nearby.start_film = near.u;
+  if (near.heat) nearby.start_heat = near.heat->state;
+  return solve_steady(model, at, nearby, state);
+}
+
+// An oil that does not thin: what its temperatures do is of no account.
+TEST_CASE("TotalCoefficientsOfAConstantOil_AreTheFrozenOnes") {
+  film::FilmModel model = scaled_for(model_of(vg46(323.15), 60, 13), point());
+  model.lubricant.temperature_law = film::ExponentialViscosity{.mu_ref = 0.02, .T_ref = 323.15, .beta = 0};
+  model.cavitation = film::Cavitation::guembel;  // no cells that switch within a difference
+  SteadyOptions options;
+  options.thermal = film::ThermalModel{.layers = 3, .T_supply = 323.15, .T_edges = 323.15};
+  SteadyState state;
+  REQUIRE(solve_steady(model, point(), options, state).converged);
+  DynamicCoefficients total;
+  const auto beside = [&](const OperatingPoint& at, SteadyState& other) {
+    return solve_beside(model, options, state, at, other);
+  };
+  REQUIRE(find_total_coefficients(model, state, beside, total).converged);
+  // Square of the step, 1e-3 of the gap, and half a cell of pressure that guembel cuts off.
+  constexpr double tolerance = 2e-3;
+  const DynamicCoefficients& frozen = state.coefficients;
+  CHECK((total.stiffness.topLeftCorner<2, 2>() - frozen.stiffness.topLeftCorner<2, 2>()).norm() <
+        tolerance * frozen.stiffness.topLeftCorner<2, 2>().norm());
+  CHECK((total.damping.topLeftCorner<2, 2>() - frozen.damping.topLeftCorner<2, 2>()).norm() <
+        tolerance * frozen.damping.topLeftCorner<2, 2>().norm());
+  CHECK((total.stiffness.bottomRightCorner<2, 2>() - frozen.stiffness.bottomRightCorner<2, 2>()).norm() <
+        tolerance * frozen.stiffness.bottomRightCorner<2, 2>().norm());
+  CHECK((total.damping.bottomRightCorner<2, 2>() - frozen.damping.bottomRightCorner<2, 2>()).norm() <
+        tolerance * frozen.damping.bottomRightCorner<2, 2>().norm());
+}
+
+// A little more load moves a hot bearing by what its total stiffness says, and not by what the frozen one does.
+TEST_CASE("TotalStiffness_IsThatUnderALittleMoreLoad") {
+  const film::FilmModel model = scaled_for(model_of(vg46(323.15), 60, 13), point());
+  SteadyOptions options;
+  options.thermal = film::ThermalModel{.layers = 3, .T_supply = 323.15, .T_edges = 323.15};
+  options.thermal->shell = film::RingWall{.outer_radius = 0.08, .T_ambient = 303.15};
+  SteadyState state;
+  REQUIRE(solve_steady(model, point(), options, state).converged);
+  DynamicCoefficients total;
+  const auto beside = [&](const OperatingPoint& at, SteadyState& other) {
+    return solve_beside(model, options, state, at, other);
+  };
+  REQUIRE(find_total_coefficients(model, state, beside, total).converged);
+  const Eigen::Vector2d more(20, -50);
+  Eigen::Vector2d moved = Eigen::Vector2d::Zero();
+  for (const double side : {1.0, -1.0}) {
+    OperatingPoint at = point();
+    *at.load += side * more;
+    SteadyState other;
+    REQUIRE(solve_beside(model, options, state, at, other).converged);
+    moved += 0.5 * side * other.e;
+  }
+  const Eigen::Vector2d carried = total.stiffness.topLeftCorner<2, 2>() * moved;
+  CHECK((carried - more).norm() < 0.02 * more.norm());  // cells of the cavity's edge that fill or empty
+  const Eigen::Vector2d frozen = state.coefficients.stiffness.topLeftCorner<2, 2>() * moved;
+  CHECK((frozen - more).norm() > 0.05 * more.norm());  // temperatures matter, or there is nothing to test
 }
 
 // Seen from axes that are turned, and with the sense of rotation mirrored, the bearing is the same.

@@ -81,18 +81,18 @@ void FixedPointIteration::remember(const Eigen::VectorXd& residual, const Eigen:
 Eigen::VectorXd FixedPointIteration::quasi_newton(const Eigen::VectorXd& image, const Eigen::VectorXd& residual) const {
   const Eigen::MatrixXd V = columns(residual_changes_), W = columns(image_changes_);
   // Newest changes first, so that old ones only fill directions the new ones leave open (Gram-Schmidt, filtered).
-  Eigen::MatrixXd Q(V.rows(), 0), C(W.rows(), 0);
-  for (Eigen::Index k = 0; k < V.cols() && Q.cols() < V.rows(); ++k) {
-    const Eigen::VectorXd share = Q.transpose() * V.col(k);
-    Eigen::VectorXd independent = V.col(k) - Q * share;
+  Eigen::MatrixXd Q(V.rows(), V.cols()), C(W.rows(), V.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index k = 0; k < V.cols() && count < V.rows(); ++k) {
+    const Eigen::VectorXd share = Q.leftCols(count).transpose() * V.col(k);
+    Eigen::VectorXd independent = V.col(k) - Q.leftCols(count) * share;
     const double norm = independent.norm();
     if (norm <= kIndependence * V.col(k).norm() || norm == 0) continue;
-    Q.conservativeResize(Eigen::NoChange, Q.cols() + 1);
-    C.conservativeResize(Eigen::NoChange, C.cols() + 1);
-    Q.col(Q.cols() - 1) = independent / norm;
-    C.col(C.cols() - 1) = (W.col(k) - C.leftCols(share.size()) * share) / norm;
+    Q.col(count) = independent / norm;
+    C.col(count) = (W.col(k) - C.leftCols(count) * share) / norm;
+    ++count;
   }
-  return image - C * (Q.transpose() * residual);
+  return image - C.leftCols(count) * (Q.leftCols(count).transpose() * residual);
 }
 
 void FixedPointIteration::persist(Archive& archive) {

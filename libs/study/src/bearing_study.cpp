@@ -12,10 +12,12 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <variant>
 
+#include "hersey/bearing/total_coefficients.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
@@ -86,6 +88,60 @@ std::vector<std::string> doubts_of(const model::Bearing& bearing, const bearing:
   return model::doubts_of_film(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
 }
 
+// Those of a solution nearby, if it has as many.
+std::optional<film::HeatState> temperatures_of(const bearing::SteadyState& from, const film::FilmModel& film,
+                                               const film::ThermalModel& thermal) {
+  if (!from.heat) return std::nullopt;
+  const film::HeatState rest = film::FilmHeat(film, thermal).state(), &found = from.heat->state;
+  const bool fits = rest.film.size() == found.film.size() && rest.shell.size() == found.shell.size() &&
+                    rest.supplies.size() == found.supplies.size();
+  if (!fits) return std::nullopt;
+  film::HeatState start = rest;
+  start.film = found.film;
+  return start;
+}
+
+bearing::SteadySummary solve_at(film::FilmModel& film, const bearing::OperatingPoint& point, const model::Heat& heat,
+                                const bearing::SteadyOptions& options, bearing::SteadyState& state) {
+  if (const auto* global = std::get_if<bearing::GlobalHeat>(&heat))
+    return bearing::solve_global(film, point, *global, options, state);
+  return bearing::solve_steady(film, point, options, state);
+}
+
+[[noreturn]] void refuse_total(const model::Bearing& bearing, const std::string& found, const std::string& instead) {
+  throw InputError(Fault{{"--thermal-coefficients", 0, 0},
+                         "bearings." + bearing.name,
+                         "'total' of " + found,
+                         "'frozen', or " + instead,
+                         ""});
+}
+
+// Stiffness and damping with temperatures that follow the motion, where that is asked for; false where they are not
+// found.
+bool let_heat_follow(const model::Bearing& bearing, const BearingStudyOptions& options,
+                     const bearing::SteadyOptions& steady, BearingSolution& solution) {
+  if (options.thermal_coefficients == ThermalCoefficients::frozen || !solution.has_temperatures()) return true;
+  const auto* film = std::get_if<film::ThermalModel>(&bearing.heat);
+  if (solution.elasticity || (film != nullptr && std::holds_alternative<film::BodyWall>(film->shell)))
+    refuse_total(bearing, "surfaces that deform", "rigid surfaces");
+  if (bearing.expansion) refuse_total(bearing, "walls that expand", "a clearance without `expansion`");
+  if (film != nullptr && has_nodes(*film)) refuse_total(bearing, "walls in a network", "walls by themselves");
+  bearing::SteadyOptions nearby = steady;
+  nearby.start_film = solution.state.u;
+  if (solution.state.heat) nearby.start_heat = solution.state.heat->state;
+  const auto beside = [&](const bearing::OperatingPoint& point, bearing::SteadyState& state) {
+    film::FilmModel film = solution.model;
+    return solve_at(film, point, bearing.heat, nearby, state);
+  };
+  const bearing::SteadySummary summary =
+      bearing::find_total_coefficients(solution.model, solution.state, beside, solution.state.coefficients);
+  solution.thermal_coefficients = ThermalCoefficients::total;
+  if (summary.converged) return true;
+  solution.error =
+      fmt::format("bearing {}: no coefficients with temperatures that follow: {}", bearing.name, summary.message);
+  return false;
+}
+
 // From `start` where there is one.
 void solve_one(const model::Model& model, const BearingStudyOptions& options, const bearing::SteadyState* start,
                KnownBodies& bodies, BearingSolution& solution) {
@@ -110,19 +166,17 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
       steady.network = model.thermal.network;
       for (const film::ThermalNode& node : model.thermal.network.nodes) solution.node_names.push_back(node.name);
     }
+    if (start != nullptr) steady.start_heat = temperatures_of(*start, bearing.film, *steady.thermal);
   }
-  if (const auto* heat = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
-    solution.summary = bearing::solve_global(solution.model, point, *heat, steady, solution.state);
-  } else {
-    solution.summary = bearing::solve_steady(solution.model, point, steady, solution.state);
-  }
+  solution.summary = solve_at(solution.model, point, bearing.heat, steady, solution.state);
   if (!solution.summary.converged) {
     solution.error = fmt::format("bearing {}: {}", bearing.name, solution.summary.message);
     return;
   }
   for (const std::string& doubt : doubts_of(bearing, solution.state))
     solution.doubts.push_back("bearing " + bearing.name + ", " + doubt);
-  steady.start_film = {};
+  if (!let_heat_follow(bearing, options, steady, solution)) return;
+  steady.start_film = {}, steady.start_heat = {};
   const double omega = std::abs(point.entraining_speed());
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);

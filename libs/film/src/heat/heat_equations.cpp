@@ -16,7 +16,7 @@ constexpr double least_fill = 1e-6;
 
 // How far the equations are solved, as a share of what is missing at the start: of a steady film, which is taken in
 // turn with its temperature, and of a step.
-constexpr double steady_share = 1e-5, step_share = 1e-9;
+constexpr double steady_share = 1e-4, step_share = 1e-9;
 // Likewise the answers to temperatures of walls, which multiply what these move in a step.
 constexpr double response_share = 1e-7;
 
@@ -47,8 +47,11 @@ double HeatEquations::fresh(int supply) const {
   return thermal_.T_features[static_cast<std::size_t>(feature)];
 }
 
+// With the weights of the film's own power (film.53), so that what warms is what rubs.
 double HeatEquations::asperity_power(const CarryingFilm& film, int node) const {
-  return film.balance.area(node) * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact();
+  const GridGeometry& geometry = film.balance.geometry();
+  const double area = geometry.weight_phi[node / model_.grid.n_z] * geometry.weight_z[node % model_.grid.n_z];
+  return area * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact();
 }
 
 // Half a layer of oil lies between, and what else resists. Oil that stands in a supply is no film: it heats no wall.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "balance/node.h"
+#include "hersey/film/grid_transfer.h"
 #include "solve/coarse_film.h"
 #include "solve/sor.h"
 

@@ -20,11 +20,12 @@ struct OperatingPoint {
   double shell_speed = 0;    ///< angular velocity of the shell about z [rad/s]
   /// On the journal [N], not zero, in the bearing's axes while nothing deforms; without it the position is given.
   std::optional<Eigen::Vector2d> load;
-  Eigen::Vector2d e = Eigen::Vector2d::Zero();       ///< position of the journal, where no load is given [m]
-  Eigen::Vector2d e_rate = Eigen::Vector2d::Zero();  ///< velocity of the journal's centre [m/s]
-  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();    ///< slope of the journal's axis while nothing deforms [-]
-  double journal_angle = 0;                          ///< by which the journal, with its holes, stands turned [rad]
-  double growth = 0;                                 ///< of the radial clearance with the temperatures of its walls [m]
+  Eigen::Vector2d e = Eigen::Vector2d::Zero();          ///< position of the journal, where no load is given [m]
+  Eigen::Vector2d e_rate = Eigen::Vector2d::Zero();     ///< velocity of the journal's centre [m/s]
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();       ///< slope of the journal's axis while nothing deforms [-]
+  Eigen::Vector2d tilt_rate = Eigen::Vector2d::Zero();  ///< at which it changes [1/s]
+  double journal_angle = 0;                             ///< by which the journal, with its holes, stands turned [rad]
+  double growth = 0;  ///< of the radial clearance with the temperatures of its walls [m]
 
   /// Sum of both speeds, which drags the oil [rad/s].
   [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed; }

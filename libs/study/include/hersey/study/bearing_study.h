@@ -10,6 +10,9 @@
 
 namespace hersey::study {
 
+/// What temperatures do while a bearing's journal moves about its position.
+enum class ThermalCoefficients { frozen, total };
+
 /// A bearing by itself at one operating point, and all that is to be said about it.
 struct BearingSolution {
   model::StudyRun run;
@@ -23,18 +26,23 @@ struct BearingSolution {
   bearing::BearingNumbers numbers;
   bearing::LoadAxesCoefficients coefficients;
   bearing::WhirlStability whirl;
+  ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;  ///< those of `state`
   bearing::GridError grid_error;
   std::vector<std::string> doubts;  ///< where the film goes beyond what is known of its oil
   double wall_time = 0;             ///< grid error included [s]
   bool from_neighbour = false;      ///< found from a neighbour's solution after a cold start had failed
 
+  /// Whether its temperatures have been solved for.
+  [[nodiscard]] bool has_temperatures() const { return state.heat || state.effective; }
   /// Whether there is a solution.
   [[nodiscard]] bool solved() const { return error.empty(); }
 };
 
 struct BearingStudyOptions {
-  std::string bearing;                  ///< empty: the only one of the model
-  bool grid_error = true;               ///< solve on coarser grids too
+  std::string bearing;     ///< empty: the only one of the model
+  bool grid_error = true;  ///< solve on coarser grids too
+  /// Of stiffness, damping and stability; without meaning where the oil has one temperature that is given.
+  ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;
   int threads = 0;                      ///< solutions at the same time; 0: one per core
   const model::Model* first = nullptr;  ///< the model of the first run where it has been read already
 };

@@ -1,0 +1,206 @@
+"""Random temperatures of films: models, walls and oils that thin as they warm, and what must hold of their heat. Temperatures in degC."""
+
+import copy
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from model_text import mm, number
+
+# Films with temperatures are found to 1e-8 of the largest rise; the balance is made of differences of flows solved to 1e-8 of the
+# largest through a node's volume.
+BALANCED = 1e-7
+
+# Linear extrapolation along the flow overshoots beside a front; as a share of the largest rise.
+OVERSHOOT = 0.05
+
+
+def degrees(value):
+    return f"{number(value)} degC"
+
+
+@dataclass
+class Heat:
+    """A bearing's `thermal` and its oil's law of temperature."""
+
+    model: str  # isothermal, global, film
+    T: float  # of the oil supplied, or everywhere
+    law: tuple | None  # None: a viscosity that does not change; ("exponential", beta), ("vogel", c) or ("table",)
+    layers: int = 5
+    T_edges: float | None = None
+    shell: tuple = ("insulated",)
+    journal: tuple = ("free",)
+    carry_over: float = 1.0
+    cooling: tuple | None = None  # (area, transfer, ambient), of a global one
+
+    def viscosity(self, mu):
+        """Of an oil that has the viscosity `mu` at T."""
+        pascal_seconds = lambda value: f"{number(1e3 * value)} mPa.s"
+        if self.law is None:
+            return pascal_seconds(mu)
+        if self.law[0] == "exponential":
+            return {"law": "exponential", "viscosity": pascal_seconds(mu), "reference": degrees(self.T),
+                    "coefficient": f"{number(self.law[1])} 1/K"}
+        b, c = 900.0, self.law[1]
+        if self.law[0] == "vogel":
+            return {"law": "vogel", "a": pascal_seconds(mu / math.exp(b / (self.T + 273.15 - c))), "b": f"{number(b)} K",
+                    "c": f"{number(c)} K"}
+        places = [self.T - 20, self.T, self.T + 40, self.T + 100]
+        at = [mu * math.exp(b / (T + 273.15 - c) - b / (self.T + 273.15 - c)) for T in places]
+        return {"law": "table", "temperatures": [degrees(T) for T in places], "viscosities": [pascal_seconds(value) for value in at]}
+
+    def wall(self, kind):
+        if kind[0] == "given":
+            return {"wall": "given", "temperature": degrees(kind[1])}
+        if kind[0] == "ring":
+            return {"wall": "ring", "outer_diameter": mm(kind[1]), "heat_transfer": f"{number(kind[2])} W/m^2/K",
+                    "ambient": degrees(kind[3])}
+        return kind[0]
+
+    def text(self):
+        if self.model == "isothermal":
+            return {"model": "isothermal", "temperature": degrees(self.T)}
+        if self.model == "global":
+            if self.cooling:
+                area, transfer, ambient = self.cooling
+                return {"model": "global", "cooling": {"area": f"{number(area)} m^2", "heat_transfer": f"{number(transfer)} W/m^2/K",
+                                                       "ambient": degrees(ambient)}}
+            return {"model": "global", "supply_temperature": degrees(self.T)}
+        entry = {"model": "film", "supply_temperature": degrees(self.T), "layers": self.layers, "shell": self.wall(self.shell),
+                 "journal": self.wall(self.journal)}
+        if self.T_edges is not None:
+            entry["edge_temperature"] = degrees(self.T_edges)
+        if self.carry_over != 1:
+            entry["carry_over"] = self.carry_over
+        return entry
+
+    def given(self):
+        """All temperatures given."""
+        walls = [wall[-1] for wall in (self.shell, self.journal) if wall[0] in ("given", "ring")]
+        return [self.T, *([self.T_edges] if self.T_edges is not None else []), *walls]
+
+
+def of_constant_oil(b, model):
+    """The bearing with an oil that does not thin and this model of temperature."""
+    other = copy.deepcopy(b)
+    other.heat.law = None
+    other.heat.model = model
+    return other
+
+
+def random_heat(rng, b, models):
+    """Temperatures of a bearing, or None."""
+    if rng.random() < 0.5:
+        return None
+    T = round(rng.uniform(20, 90), 1)
+    law = rng.choice([("exponential", round(rng.uniform(0.005, 0.045), 4)), ("vogel", round(rng.uniform(120, 190), 1)), ("table", 160.0)])
+    heat = Heat(rng.choice(models), T, law)
+    near = lambda: round(T + rng.uniform(-15, 30), 1)
+    heat.layers = rng.choice([1, 2, 3, 5, 5, 5, 8])
+    if rng.random() < 0.3:
+        heat.T_edges = near()
+    ring = ("ring", round(2 * b.R * rng.uniform(1.1, 2.5), 5), round(rng.uniform(0, 200), 1), round(T - rng.uniform(0, 30), 1))
+    heat.shell = rng.choice([("insulated",), ("given", near()), ring, ring])
+    heat.journal = rng.choice([("insulated",), ("given", near()), ("free",), ("free",)])
+    heat.carry_over = rng.choice([1.0, 1.0, round(rng.random(), 2), 0.0])
+    if rng.random() < 0.3:
+        heat.cooling = (round(rng.uniform(10, 100) * b.R * b.L, 5), round(rng.uniform(10, 40), 1), round(T - rng.uniform(0, 40), 1))
+    if b.cavitation == "reynolds":
+        heat.carry_over = 0.0  # refused: its grooves have no finite temperature
+    takes = heat.shell[0] != "insulated" or heat.journal[0] == "given"
+    if all(b.walls) and not takes:
+        heat.shell = ("given", near())  # refused: heat has nowhere to go
+    if heat.cooling and heat.model == "global":
+        heat.T = heat.cooling[2]
+    return heat
+
+
+# -- a bearing by itself
+
+
+def check_steady(case, a, found):
+    """The balance of heat, term by term, and its temperatures."""
+    heat = case.bearing.heat
+    if not heat or heat.model != "film":
+        return
+    made = a["heat_dissipated"]
+    scale = max(made, abs(a["heat_to_oil"]), abs(a["heat_to_shell"]), abs(a["heat_to_journal"]), 1e-12)
+    if not moves(case) and not case.radial_velocity:
+        off = made - a["heat_to_oil"] - a["heat_to_shell"] - a["heat_to_journal"]
+        found.bound("heat: made = carried away", abs(off), BALANCED * scale, f"W of {made:.6g}")
+    found.bound("heat: told error of the balance", abs(a["heat_balance_error"]), BALANCED, "")
+    film = a["power_film"] + a["power_asperity"]
+    found.bound("heat: made = film's power", abs(made - film), 1e-6 * max(film, 1e-12), f"W: made {made:.8g}, power {film:.8g}")
+    check_temperatures(heat, a, found)
+    check_oil(case, a, scale, found)
+
+
+def moves(case):
+    b = case.bearing
+    return (case.journal_speed and b.varies_on("journal")) or (case.shell_speed and b.varies_on("shell"))
+
+
+def check_temperatures(heat, a, found):
+    low, rise = min(heat.given()), max(a["T_max"] - min(heat.given()), 1.0)
+    for name, field in a.temperatures.items():
+        found.require("heat: finite", bool(np.isfinite(field).all()), f"{name} is not finite")
+        found.bound("heat: no colder than anything given", low - field.min(), OVERSHOOT * rise, f"K: {name} down to {field.min():.6g} degC")
+    found.bound("heat: T_max", abs(a["T_max"] - a.temperatures["hottest"].max()), 1e-6 * abs(a["T_max"]) + 1e-6, "K off the field's")
+    if heat.shell[0] == "given":
+        found.bound("heat: walls given", np.abs(a.temperatures["shell"] - heat.shell[1]).max(), 1e-5, "K at the shell")
+    if heat.journal[0] == "given":
+        found.bound("heat: walls given", np.abs(a.temperatures["journal"] - heat.journal[1]).max(), 1e-5, "K at the journal")
+    if heat.journal[0] != "given":
+        found.bound("heat: journal takes nothing", abs(a["heat_to_journal"]), BALANCED * max(a["heat_dissipated"], 1e-12), "W")
+
+
+def check_oil(case, a, scale, found):
+    """What the oil carries away, from its flows and temperatures, where all of it comes from supplies and leaves over edges."""
+    b, heat = case.bearing, case.bearing.heat
+    edges_only_leave = all(p <= b.p_cav or wall for p, wall in zip(b.p_edge, b.walls)) and not any(b.ambient)
+    flows = [a[f"flow_feature_{f.name}"] for f in b.features if f.pressure is not None]
+    if b.supply:
+        flows.append(a["flow_supply"] - sum(flows))
+    # several supplies, or one that takes oil away: their nodes have flows of both signs
+    if not edges_only_leave or heat.carry_over != 1 or len(flows) != 1 or moves(case) or b.cavitation != "mass_conserving" or "T_side" not in a.values:
+        return
+    if case.radial_velocity:
+        return
+    side = a["side_flow"]
+    oil = 850 * 2000 * (side * a["T_side"] - a["flow_supply"] * heat.T)
+    found.bound("heat: oil by its flows", abs(oil - a["heat_to_oil"]), 1e-5 * scale + 850 * 2000 * 1e-6 * abs(side) * abs(heat.T),
+                f"W: flows {oil:.6g}, told {a['heat_to_oil']:.6g}")
+
+
+def scales(heat, a):
+    """Of the figures that symmetric cases share."""
+    rise = max(a["T_max"] - min(heat.given()), 1.0)
+    powers = max(a["heat_dissipated"], abs(a["heat_to_shell"]), abs(a["heat_to_oil"]), 1e-12)
+    return {key: rise for key in ("T_max", "T_shell_max", "T_shell_mean", "T_journal", "T_film", "T_side")} | {
+        key: powers for key in ("heat_dissipated", "heat_to_oil", "heat_to_shell")}
+
+
+# -- in a run
+
+
+def check_run(b, rows, name, found):
+    """Every step's balance of heat, and that it is the film's power that warms."""
+    if not b.heat or b.heat.model != "film":
+        return
+    made = rows["heat_dissipated"]
+    terms = [rows[key] for key in ("heat_to_oil", "heat_to_shell", "heat_to_journal", "heat_stored")]
+    scale = np.maximum(np.abs(np.array([made, *terms])).max(0), 1e-12)
+    off = np.abs(made - sum(terms)) / scale
+    k = int(np.argmax(off))
+    found.bound("heat: made = carried away + stored", float(off[k]), 1e-5, f" of {scale[k]:.4g} W in row {k} of {name}")
+    found.bound("heat: told error of the balance", float(np.abs(rows["heat_balance_error"]).max()), 1e-5, f": {name}")
+    film = rows["power_film"] + rows["power_asperity"]
+    off = np.abs(made - film) / np.maximum(film, 1e-12)
+    k = int(np.argmax(off))
+    found.bound("heat: made = film's power", float(off[k]), 1e-6, f" in row {k} of {name}: made {made[k]:.8g}, power {film[k]:.8g} W")
+    low = min(b.heat.given())
+    rise = max(float(rows["T_max"].max()) - low, 1.0)
+    for key in ("T_max", "T_film", "T_journal", "T_shell_mean"):
+        coldest = float(np.nanmin(rows[key]))
+        found.bound("heat: no colder than anything given", low - coldest, OVERSHOOT * rise, f"K: {name} {key} down to {coldest:.6g} degC")
