@@ -183,7 +183,7 @@ CLI::App* add_oil_command(CLI::App& app, OilArguments& oil) {
   command
       ->add_option(
           "oil", oil.oil,
-          "A grade such as iso_vg_46 or sae_5w_30, or a model file, of several lubricants with the name of one")
+          "A grade such as iso_vg_46 or sae_5w30, or a model file, of several lubricants with the name of one")
       ->required()
       ->type_name("GRADE|MODEL[:OIL]");
   add_overrides(*command, oil.overrides);

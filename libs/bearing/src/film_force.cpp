@@ -67,7 +67,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
 
 FilmForce::~FilmForce() = default;
 
-// By the walls as they are now (thermal.32).
+// By the walls as they are now (thermal.41).
 double FilmForce::growth_by_temperature() const {
   if (!heat_) return options_.growth;
   const std::optional<film::ThermalExpansion>& walls = heat_->thermal().expansion;
@@ -104,7 +104,7 @@ double FilmForce::smallest_gap() const {
   return deforming_->deform() || thermal_shape_.size() > 0 ? surfaces_.g.minCoeff() : gap_->smallest_gap();
 }
 
-/// Over a run a shell's body stays at the temperature it begins with (thermal.49).
+/// Over a run a shell's body stays at the temperature it begins with (thermal.38).
 void FilmForce::shape_by_temperature() {
   const auto* body = std::get_if<film::BodyWall>(&options_.thermal->shell);
   if (body == nullptr || !body->conduction->deforms()) return;
@@ -415,7 +415,7 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
   if (deforming_->deform())
     seen.power_into_bodies += (deforming_->openings().transpose() * seen.film.normal_forces).dot(motion.s_rate);
-  // Walls that grow apart are pushed on as shapes that open the gap everywhere are (thermal.34).
+  // Walls that grow apart are pushed on as shapes that open the gap everywhere are (thermal.43).
   seen.power_of_growth = growth_->rate() * seen.film.normal_forces.sum();
   seen.power_into_bodies += seen.power_of_growth;
   seen.clearance = model().c + growth_->now();

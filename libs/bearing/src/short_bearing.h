@@ -11,7 +11,7 @@ namespace hersey::bearing {
 [[nodiscard]] Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoint& point);
 
 /// One temperature of the oil at which power and side flow of such a bearing agree with oil that comes at T_supply
-/// (theory manual, thermal.41) [K].
+/// (theory manual, thermal.30) [K].
 [[nodiscard]] double likely_temperature(const film::FilmModel& model, double T_supply, const OperatingPoint& point);
 
 }  // namespace hersey::bearing

@@ -14,7 +14,7 @@ namespace {
 constexpr int most_iterations = 40;
 constexpr double tolerance = 1e-8;
 
-/// The balance of heat of a bearing solved (thermal.18).
+/// The balance of heat of a bearing solved (thermal.20).
 EffectiveTemperature balance(const film::Lubricant& oil, const GlobalHeat& heat, const film::FilmObservables& film) {
   const double power = film.power_film + film.power_asperity;
   if (heat.cools_by_surroundings) {

@@ -626,7 +626,7 @@ class Search {
   int budget_ = 0;            // of linearisations
 };
 
-// Bodies of a network in balance with the film's heat, and the film with their temperatures (thermal.38).
+// Bodies of a network in balance with the film's heat, and the film with their temperatures (thermal.47).
 void balance(film::ThermalNetwork& network, film::FilmHeat& heat) {
   const film::FilmTerminals at = film::terminals_of(heat.thermal());
   network.advance(0, {{at, heat.exchange()}});

@@ -39,7 +39,7 @@ class SteadyFilm {
 
   /// Viscosities by the oil's temperatures from now on.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
-  /// How far the shell lies outside its cylinder at the nodes by temperature from now on [m] (thermal.46); empty:
+  /// How far the shell lies outside its cylinder at the nodes by temperature from now on [m] (thermal.35); empty:
   /// nowhere.
   void set_thermal_shape(Eigen::VectorXd shape) { thermal_shape_ = std::move(shape); }
   [[nodiscard]] const Eigen::VectorXd& thermal_shape() const { return thermal_shape_; }

@@ -20,7 +20,7 @@ inline constexpr double coldest_trial = 200, hottest_trial = 800;
 class TemperaturePath {
  public:
   /// What keeps `model` and `thermal` alive is the caller's. @param start  unset: one temperature of all oil that is
-  /// likely at `point` (thermal.41)
+  /// likely at `point` (thermal.30)
   TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal, const OperatingPoint& point,
                   const std::optional<film::HeatState>& start);
 
@@ -58,7 +58,7 @@ class TemperaturePath {
   const film::ThermalModel& thermal_;
   film::FilmHeat heat_;
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
-  /// (thermal.48): heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
+  /// (thermal.37): heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
   double per_watt_ = 0;
   double per_metre_ = 0;  ///< a growth of the clearance as a temperature [K/m]; 0: walls keep their size
   double growth_ = 0;

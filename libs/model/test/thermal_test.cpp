@@ -112,9 +112,9 @@ TEST_CASE("ShearThinning_IsRead") {
                                           .shear_thinning;
   CHECK(carreau.ratio(1e6, 0.01).value == relative(0.25 + 0.75 * std::pow(2, -0.2)).epsilon(digits));
   // A grade's own, through its viscosity at high shear; none where it is said, nor of an oil without polymers.
-  const film::Lubricant hot = of("grade: sae_5w_30, temperature: 150 degC");
+  const film::Lubricant hot = of("grade: sae_5w30, temperature: 150 degC");
   CHECK(hot.mu0 * hot.shear_thinning.ratio(1e6, hot.mu0).value == relative(3.1e-3).epsilon(1e-9));  // of 150 degC in K
-  CHECK(of("grade: sae_5w_30, temperature: 150 degC, shear_thinning: none").shear_thinning.is_newtonian());
+  CHECK(of("grade: sae_5w30, temperature: 150 degC, shear_thinning: none").shear_thinning.is_newtonian());
   CHECK(of("grade: sae_30, temperature: 150 degC").shear_thinning.is_newtonian());
 }
 

@@ -153,7 +153,7 @@ TEST_CASE("ResumedFilmWithTemperature_IsTheSame") {
         "ambient: 30 degC}}\n";
     std::string text = rig_with(line, line + heat + "    coupling: " + coupling + "\n");
     const std::string oil = "viscosity: 15 mPa.s";
-    for (const char* grade : {"grade: iso_vg_22", "grade: sae_5w_20"}) {  // the second thins by the shear in its layers
+    for (const char* grade : {"grade: iso_vg_22", "grade: sae_5w20"}) {  // the second thins by the shear in its layers
       CAPTURE(grade);
       std::string with_grade = text;
       with_grade.replace(with_grade.find(oil), oil.size(), grade);

@@ -96,7 +96,7 @@ void NodeLaw::rheology(const NodeViscosity& viscosity, const Sliding& sliding, N
   node.content_u = node.density_u * node.theta + node.density * node.theta_u;
 }
 
-// What sliding leaves of a viscosity that grows with u by `log_slope` (thermal.23): more pressure drives a
+// What sliding leaves of a viscosity that grows with u by `log_slope` (thermal.24): more pressure drives a
 // flow along the sliding against the tangent of the stress, one across it against the stress itself.
 void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
   const ShearThinning& thinning = model_.lubricant.shear_thinning;

@@ -7,7 +7,7 @@
 
 namespace hersey::film {
 
-/// How the surfaces of a film slide past each other, of which alone an oil in one layer thins (thermal.23).
+/// How the surfaces of a film slide past each other, of which alone an oil in one layer thins (thermal.24).
 struct Sliding {
   double speed = 0;      ///< [m/s]
   double share_phi = 1;  ///< of its square, what goes around [-]

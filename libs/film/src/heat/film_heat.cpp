@@ -264,7 +264,7 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   if (has_nodes(m.thermal) && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
 }
 
-// What walls that are nodes take up, and by how much more of a film that follows them (thermal.36).
+// What walls that are nodes take up, and by how much more of a film that follows them (thermal.45).
 void FilmHeat::Impl::find_exchange() {
   const CarryingFilm film = carrying();
   exchange = {};

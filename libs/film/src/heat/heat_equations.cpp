@@ -39,7 +39,7 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }
 
-// Oil of its own temperature, or the film's (thermal.30).
+// Oil of its own temperature, or the film's (thermal.39).
 double HeatEquations::fresh(int supply) const {
   const int feature = supply - (has_line() ? 1 : 0);
   if (feature < 0) return thermal_.T_line.value_or(thermal_.T_supply);
@@ -176,7 +176,7 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   return A;
 }
 
-// Linear in what is known: the system stays, and no heat is made (thermal.36).
+// Linear in what is known: the system stays, and no heat is made (thermal.45).
 HeatState HeatEquations::response(const Eigen::VectorXd& known) {
   const int rows = system_.size(), film = model_.grid.size() * layers();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(known.size());
@@ -407,7 +407,7 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
   if (const WallConduction* body = conduction_of(thermal_.shell)) add_body(*body, film, start);
 }
 
-// A steady body answers all of the heat at once (thermal.47); over a step it keeps its temperatures.
+// A steady body answers all of the heat at once (thermal.36); over a step it keeps its temperatures.
 void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start) {
   const int n = model_.grid.n_phi, first = system_.ring_row(0);
   if (film.dt > 0) {

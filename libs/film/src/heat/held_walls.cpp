@@ -77,7 +77,7 @@ void HeatEquations::hold_journal(const HeatState& start) {
   known_[system_.size()] = start.journal;
 }
 
-// What walls lack to keep their temperatures (thermal.50).
+// What walls lack to keep their temperatures (thermal.18).
 void HeatEquations::add_heat_to_mean(const CarryingFilm& film, const HeatState& start, const HeatState& end) {
   const int rows = system_.size(), n = model_.grid.n_phi;
   Eigen::VectorXd into = Eigen::VectorXd::Zero(rows + 1);

@@ -15,7 +15,7 @@ struct ShearOfGap {
 };
 
 /// Shear rates of the layers of a film, place by place: every layer is sheared at the rate its own stress takes, and
-/// all rates make up the sliding (thermal.24).
+/// all rates make up the sliding (thermal.25).
 class LayerShear {
  public:
   /// @param thinning  not Newtonian; the caller keeps it alive
@@ -28,7 +28,7 @@ class LayerShear {
 
   /// Of the place last thinned: by what the flow along pressure is easier, around and along the axis, than between
   /// layers each of which is as thin as in its middle [-]; within a layer it sees the tangent of the stress
-  /// (thermal.25).
+  /// (thermal.26).
   [[nodiscard]] Eigen::Vector2d flow_factors();
 
  private:

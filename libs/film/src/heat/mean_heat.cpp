@@ -77,7 +77,7 @@ Eigen::Vector2d MeanHeat::heat_of(const Eigen::VectorXd& x) const {
   return heat;
 }
 
-// Temperatures at which nothing is stored and walls take up no heat (thermal.51); nodes leave that to their network.
+// Temperatures at which nothing is stored and walls take up no heat (thermal.19); nodes leave that to their network.
 MeanHeat::Answer MeanHeat::answer() {
   HERSEY_REQUIRE(has_steps(), "a mean over some time");
   const Eigen::SparseMatrix<double> A = matrix();

@@ -12,7 +12,7 @@
 namespace hersey::film {
 
 /// What a film gives to walls that keep their temperature, and how that follows them: means over time of the heat that
-/// they take up, and of the film's equations of heat without storage (theory manual, thermal.50, thermal.51).
+/// they take up, and of the film's equations of heat without storage (theory manual, thermal.18, thermal.19).
 class MeanHeat {
  public:
   /// Walls that take up heat. A ring and a free journal settle with the film; nodes of a network with all of its films.

@@ -15,13 +15,13 @@ struct WallExpansion {
   std::optional<double> T_shell = {}, T_journal = {};  ///< means of the walls [K]; unset: that of the oil
 
   /// By how much the radial clearance of a bearing of radius R [m] has grown with oil of temperature T [K]
-  /// (theory manual, thermal.32).
+  /// (theory manual, thermal.41).
   [[nodiscard]] double growth(double R, double T) const {
     return material.growth(R, T_shell.value_or(T), T_journal.value_or(T));
   }
 };
 
-/// One effective temperature of a bearing's oil by a balance of heat (theory manual, thermal.18): the oil takes all of
+/// One effective temperature of a bearing's oil by a balance of heat (theory manual, thermal.20): the oil takes all of
 /// it along, warming from T_supply and being effective half-way, or the housing gives all of it off.
 struct GlobalHeat {
   double T_supply = 313.15;  ///< of the oil that comes [K]; of no account with cooling by the surroundings

@@ -66,7 +66,7 @@ struct SteadyState {
 [[nodiscard]] SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point,
                                          const SteadyOptions& options, SteadyState& state);
 
-/// The same with one temperature of the oil, at which heat is in balance (theory manual, thermal.18). @param model  its
+/// The same with one temperature of the oil, at which heat is in balance (theory manual, thermal.20). @param model  its
 /// oil is left at that temperature
 [[nodiscard]] SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, const GlobalHeat& heat,
                                          const SteadyOptions& options, SteadyState& state);

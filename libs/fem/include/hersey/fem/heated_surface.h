@@ -8,7 +8,7 @@
 #include "hersey/fem/film_surface.h"
 #include "hersey/fem/heat_conduction.h"
 
-/// What the heat of a film does to the body on whose mesh it lies (theory manual, thermal.45, thermal.46).
+/// What the heat of a film does to the body on whose mesh it lies (theory manual, thermal.34, thermal.35).
 namespace hersey::fem {
 
 struct HeatedSurfaceOptions {

@@ -9,7 +9,7 @@
 namespace hersey::film {
 
 /// What heat from a film does to the body whose surface it lies on, which conducts it steadily (theory manual,
-/// thermal.45, thermal.46): temperatures and shape of that surface are linear in the heat, angle by angle.
+/// thermal.34, thermal.35): temperatures and shape of that surface are linear in the heat, angle by angle.
 struct WallConduction {
   Eigen::VectorXd T0;    ///< of the surface where the film gives no heat, mean over its width, shape (n_phi) [K]
   Eigen::MatrixXd rise;  ///< by the heat into each angle, shape (n_phi, n_phi) [K/W]

@@ -12,7 +12,7 @@
 namespace hersey::film {
 
 /// A start for film and heat in turn: what is left of temperatures `image`, found with the viscosity at T_oil [K]
-/// everywhere, once the oil thins as it warms (theory manual, thermal.40). Of an adiabatic film between walls a
+/// everywhere, once the oil thins as it warms (theory manual, thermal.29). Of an adiabatic film between walls a
 /// constant distance apart exactly: there exp(beta rise) - 1 is beta times the rise at the viscosity of the supply.
 [[nodiscard]] HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, double T_oil, HeatState image);
 
@@ -37,7 +37,7 @@ class FilmHeat {
   void set_state(const HeatState& state);
 
   /// Viscosities by the temperatures now (thermal.4, thermal.5), and by the shear in the layers of the film that has
-  /// last advanced (thermal.24).
+  /// last advanced (thermal.25).
   [[nodiscard]] LayeredViscosity viscosity() const;
 
   /// Temperatures at the end of a step of the film `u`, solved with `history` (its viscosities included); of a steady
@@ -53,11 +53,11 @@ class FilmHeat {
   /// nodes take up, rings and free journals following. @throws ContractError without a step since then
   const WallExchange& mean_exchange();
   /// After mean_exchange(): nodes have these temperatures, shell and journal [K]; rings and free journals take those at
-  /// which they would take up no heat; call after call ever better (theory manual, thermal.51). Returns how far off
+  /// which they would take up no heat; call after call ever better (theory manual, thermal.19). Returns how far off
   /// they were.
   WallCorrection settle_walls(const Eigen::Vector2d& T_nodes);
 
-  /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.46); empty:
+  /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.35); empty:
   /// it does not.
   [[nodiscard]] Eigen::VectorXd shell_opening() const;
   /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.

@@ -64,7 +64,7 @@ struct HeatObservables {
 };
 
 /// What walls that are nodes of a network have taken up, and how that follows their temperatures (theory manual,
-/// thermal.36): shell, then journal; zero for a wall that is no node.
+/// thermal.45): shell, then journal; zero for a wall that is no node.
 struct WallExchange {
   Eigen::Vector2d T = Eigen::Vector2d::Zero();     ///< of the walls [K]
   Eigen::Vector2d heat = Eigen::Vector2d::Zero();  ///< into them at these temperatures [W]

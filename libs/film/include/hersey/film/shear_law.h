@@ -11,11 +11,11 @@ namespace hersey::film {
 /// first and second derivative by the logarithm of the shear rate.
 struct ShearRatio {
   double value = 1, slope = 0, bend = 0;
-  /// Of the tangent viscosity d tau/d gamma over mu_n, and its slope by that logarithm (thermal.22).
+  /// Of the tangent viscosity d tau/d gamma over mu_n, and its slope by that logarithm (thermal.23).
   [[nodiscard]] ValueAndSlope tangent() const { return {value + slope, slope + bend}; }
 };
 
-// Each law (thermal.20, thermal.21) gives R at x, the shear rate over the critical one. A new law is a struct like
+// Each law (thermal.21, thermal.22) gives R at x, the shear rate over the critical one. A new law is a struct like
 // these and its name in ShearLaw.
 
 /// The same viscosity at every shear rate.

@@ -47,7 +47,7 @@ struct VogelViscosity {
 /// By which mineral oils expand at 15 degC [1/K].
 inline constexpr double mineral_oil_expansion = 0.00065;
 
-/// Density at T [K] of an oil that has rho15 at 15 degC and expands from there [1/K] (thermal.27).
+/// Density at T [K] of an oil that has rho15 at 15 degC and expands from there [1/K] (thermal.28).
 [[nodiscard]] inline double density_at(double T, double rho15, double expansion) {
   return rho15 * (1 - expansion * (T - 288.15));
 }

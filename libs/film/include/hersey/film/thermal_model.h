@@ -42,7 +42,7 @@ struct FreeJournal {
 };
 
 /// A wall that is a lumped body, node of a ThermalNetwork: it has one temperature, which moves with the network
-/// (theory manual, thermal.35).
+/// (theory manual, thermal.44).
 struct NodeWall {
   double T = 293.15;      ///< at the start [K]
   std::size_t node = 0;   ///< of the network
@@ -58,7 +58,7 @@ struct ThermalExpansion {
   double T_reference = 293.15;    ///< of both walls, at which the clearance is as given [K]
 
   /// By how much the radial clearance of a bearing of radius R [m] is larger between walls at these temperatures [K]
-  /// (theory manual, thermal.32).
+  /// (theory manual, thermal.41).
   [[nodiscard]] double growth(double R, double T_shell, double T_journal) const {
     return R * (shell * (T_shell - T_reference) - journal * (T_journal - T_reference));
   }

@@ -42,7 +42,7 @@ struct Roelands {
 };
 
 /// Between the columns of a table over temperature and pressure ln mu is linear in p, beyond them as in the interval
-/// beside, and between its rows in 1/T (thermal.26). The temperature of a place is that of its viscosity at p = 0.
+/// beside, and between its rows in 1/T (thermal.27). The temperature of a place is that of its viscosity at p = 0.
 struct TabledPressure {
   std::vector<double> p;       ///< ascending from 0 [Pa], two at least
   std::vector<double> log_mu;  ///< of mu [Pa s] row by row of falling viscosity, shape (rows, p.size())

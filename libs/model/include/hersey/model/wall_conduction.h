@@ -9,7 +9,7 @@
 namespace hersey::model {
 
 /// What the heat of a bearing's film does to the body its shell is in, null where the shell is none (theory manual,
-/// thermal.45, thermal.46). Films of other bearings on that body give it no heat.
+/// thermal.34, thermal.35). Films of other bearings on that body give it no heat.
 /// @throws InputError where the body has no steady temperature, or what keeps it in place leaves it a motion
 /// @cost a factorisation of the mesh for temperatures and, where it expands, one for displacements; a solution of each
 ///   per angle of the film's grid
