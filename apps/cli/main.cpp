@@ -181,9 +181,8 @@ CLI::App* add_oil_command(CLI::App& app, OilArguments& oil) {
   CLI::App* command =
       app.add_subcommand("oil", "Tell viscosity and density of an oil over temperature, pressure and shear rate");
   command
-      ->add_option(
-          "oil", oil.oil,
-          "A grade such as iso_vg_46 or sae_5w30, or a model file, of several lubricants with the name of one")
+      ->add_option("oil", oil.oil,
+                   "A grade such as iso_vg_46 or sae_5w30, or a model file, of several lubricants with the name of one")
       ->required()
       ->type_name("GRADE|MODEL[:OIL]");
   add_overrides(*command, oil.overrides);

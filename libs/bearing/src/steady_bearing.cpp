@@ -66,6 +66,9 @@ constexpr double kHalfGridTolerance = 0.1;
 // The film is solved to this share of how far its temperatures still move.
 constexpr double kShareOfNearness = 0.1;
 
+// No film is solved less well than this: none at all would do.
+constexpr double kCoarsest = 1e-3;
+
 // What Newton's method leaves of a small residual is this many times its square.
 constexpr double kCurvature = 3;
 
@@ -673,7 +676,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     summary.converged = false;
     if (is_open) {
       search.set_growth(path.growth());
-      search.set_tolerance(std::max(options.rtol, kShareOfNearness * path.nearness()));
+      search.set_tolerance(std::max(options.rtol, std::min(kCoarsest, kShareOfNearness * path.nearness())));
       search.set_viscosity(path.heat().viscosity());
       search.set_thermal_shape(path.heat().shell_opening());
       summary = search.has_film() ? search.once_more() : search.solve();

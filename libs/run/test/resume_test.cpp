@@ -160,7 +160,8 @@ TEST_CASE("ResumedFilmWithTemperature_IsTheSame") {
       check_resumed(with_grade, 7, 12);
       // Walls at the mean heat of cycles of eight steps: interrupted within the first and within the second.
       check_resumed(
-          edited(with_grade, "duration: \"${duration}\"", "cycle: {period: 16 deg, until_converged: 0, most: 4}"), 7, 12);
+          edited(with_grade, "duration: \"${duration}\"", "cycle: {period: 16 deg, until_converged: 0, most: 4}"), 7,
+          12);
     }
   }
 }

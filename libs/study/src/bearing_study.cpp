@@ -121,11 +121,11 @@ bearing::SteadySummary solve_at(film::FilmModel& film, const bearing::OperatingP
 bool let_heat_follow(const model::Bearing& bearing, const BearingStudyOptions& options,
                      const bearing::SteadyOptions& steady, BearingSolution& solution) {
   if (options.thermal_coefficients == ThermalCoefficients::frozen || !solution.has_temperatures()) return true;
-  const auto* film = std::get_if<film::ThermalModel>(&bearing.heat);
-  if (solution.elasticity || (film != nullptr && std::holds_alternative<film::BodyWall>(film->shell)))
+  const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
+  if (solution.elasticity || (heat != nullptr && std::holds_alternative<film::BodyWall>(heat->shell)))
     refuse_total(bearing, "surfaces that deform", "rigid surfaces");
   if (bearing.expansion) refuse_total(bearing, "walls that expand", "a clearance without `expansion`");
-  if (film != nullptr && has_nodes(*film)) refuse_total(bearing, "walls in a network", "walls by themselves");
+  if (heat != nullptr && has_nodes(*heat)) refuse_total(bearing, "walls in a network", "walls by themselves");
   bearing::SteadyOptions nearby = steady;
   nearby.start_film = solution.state.u;
   if (solution.state.heat) nearby.start_heat = solution.state.heat->state;

@@ -17,6 +17,8 @@ constexpr double least_fill = 1e-6;
 // How far the equations are solved, as a share of what is missing at the start: of a steady film, which is taken in
 // turn with its temperature, and of a step.
 constexpr double steady_share = 1e-4, step_share = 1e-9;
+// A body that answers heat as a whole by temperatures has small rows: little is missing in them.
+constexpr double body_share = 1e-7;
 // Likewise the answers to temperatures of walls, which multiply what these move in a step.
 constexpr double response_share = 1e-7;
 
@@ -112,7 +114,8 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   x.tail(supplies()) = start.supplies;
   multiply(x, missing);
   missing = known_ - missing;
-  solve_for(missing, film.dt == 0 ? steady_share : step_share, change);
+  const double steady = conduction_of(thermal_.shell) != nullptr ? body_share : steady_share;
+  solve_for(missing, film.dt == 0 ? steady : step_share, change);
   x += change;
 
   HeatState end = start;

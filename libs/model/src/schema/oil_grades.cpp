@@ -37,20 +37,20 @@ film::ShearThinning OilGrade::shear_thinning() const {
 
 const std::vector<OilGrade>& oil_grades() {
   static const std::vector<OilGrade> grades{
-      grade("iso_vg_10", 10, 2.6, 848, -30, 160, 0, iso),      grade("iso_vg_15", 15, 3.4, 855, -27, 180, 0, iso),
-      grade("iso_vg_22", 22, 4.3, 860, -24, 200, 0, iso),      grade("iso_vg_32", 32, 5.4, 863, -24, 210, 0, iso),
-      grade("iso_vg_46", 46, 6.8, 869, -21, 220, 0, iso),      grade("iso_vg_68", 68, 8.7, 874, -21, 230, 0, iso),
-      grade("iso_vg_100", 100, 11.3, 880, -18, 240, 0, iso),   grade("iso_vg_150", 150, 14.8, 887, -15, 250, 0, iso),
-      grade("iso_vg_220", 220, 19.0, 893, -12, 260, 0, iso),   grade("iso_vg_320", 320, 24.4, 898, -12, 265, 0, iso),
-      grade("iso_vg_460", 460, 30.8, 903, -9, 270, 0, iso),    grade("sae_0w16", 33, 7.1, 845, -42, 215, 2.4, sae),
+      grade("iso_vg_10", 10, 2.6, 848, -30, 160, 0, iso),     grade("iso_vg_15", 15, 3.4, 855, -27, 180, 0, iso),
+      grade("iso_vg_22", 22, 4.3, 860, -24, 200, 0, iso),     grade("iso_vg_32", 32, 5.4, 863, -24, 210, 0, iso),
+      grade("iso_vg_46", 46, 6.8, 869, -21, 220, 0, iso),     grade("iso_vg_68", 68, 8.7, 874, -21, 230, 0, iso),
+      grade("iso_vg_100", 100, 11.3, 880, -18, 240, 0, iso),  grade("iso_vg_150", 150, 14.8, 887, -15, 250, 0, iso),
+      grade("iso_vg_220", 220, 19.0, 893, -12, 260, 0, iso),  grade("iso_vg_320", 320, 24.4, 898, -12, 265, 0, iso),
+      grade("iso_vg_460", 460, 30.8, 903, -9, 270, 0, iso),   grade("sae_0w16", 33, 7.1, 845, -42, 215, 2.4, sae),
       grade("sae_0w20", 44, 8.4, 846, -42, 220, 2.7, sae),    grade("sae_0w30", 55, 10.3, 848, -42, 220, 3, sae),
       grade("sae_0w40", 75, 13.5, 850, -42, 220, 3.6, sae),   grade("sae_5w20", 48, 8.5, 852, -39, 220, 2.7, sae),
       grade("sae_5w30", 64, 11.0, 855, -39, 220, 3.1, sae),   grade("sae_5w40", 85, 14.0, 857, -39, 220, 3.7, sae),
       grade("sae_10w30", 70, 10.8, 865, -36, 220, 3.1, sae),  grade("sae_10w40", 95, 14.4, 868, -36, 220, 3.8, sae),
       grade("sae_15w40", 108, 14.6, 878, -30, 225, 4, sae),   grade("sae_15w50", 138, 18.8, 880, -30, 225, 4.7, sae),
       grade("sae_20w50", 155, 18.3, 884, -24, 230, 4.6, sae), grade("sae_20", 58, 8.0, 876, -24, 215, 0, sae),
-      grade("sae_30", 95, 11.0, 885, -21, 225, 0, sae),        grade("sae_40", 140, 14.6, 890, -18, 235, 0, sae),
-      grade("sae_50", 215, 19.3, 895, -15, 240, 0, sae),       grade("sae_60", 320, 24.5, 900, -12, 250, 0, sae),
+      grade("sae_30", 95, 11.0, 885, -21, 225, 0, sae),       grade("sae_40", 140, 14.6, 890, -18, 235, 0, sae),
+      grade("sae_50", 215, 19.3, 895, -15, 240, 0, sae),      grade("sae_60", 320, 24.5, 900, -12, 250, 0, sae),
   };
   return grades;
 }
