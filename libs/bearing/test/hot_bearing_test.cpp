@@ -362,10 +362,12 @@ TEST_CASE("WallsOfANetwork_AreInBalance") {
     CHECK(balance.error() < 1e-8);  // what the last change of temperature leaves
     const double block = seen.T[0], shaft = seen.T[1];
     CHECK(hot.heat->state.shell[5] == relative(block).epsilon(1e-12));  // round-off
+    // Likewise.
     CHECK(hot.heat->state.journal == relative(seen.T[static_cast<Eigen::Index>(journal)]).epsilon(1e-12));
     const double to_shaft = journal == 1 ? balance.to_journal : 0;
     CHECK(balance.to_shell + balance.to_journal - to_shaft ==
           relative(8 * (block - 298.15) + (block - shaft)).epsilon(1e-8));  // round-off of both sums
+    // Likewise.
     CHECK(3 * (shaft - 298.15) - (block - shaft) == relative(to_shaft).epsilon(1e-8).scale(1));
     SteadyOptions held = options;
     held.network.reset();
@@ -373,7 +375,7 @@ TEST_CASE("WallsOfANetwork_AreInBalance") {
     held.thermal->journal = film::WallAtTemperature{.T = hot.heat->state.journal};
     REQUIRE(solve_steady(model, point(), held, given).converged);
     CHECK(given.heat->seen.T_max - 323.15 == relative(hot.heat->seen.T_max - 323.15).epsilon(1e-6));  // on two ways
-    CHECK(given.heat->seen.balance.to_shell == relative(balance.to_shell).epsilon(1e-5));
+    CHECK(given.heat->seen.balance.to_shell == relative(balance.to_shell).epsilon(1e-5));             // likewise
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hersey/report/curve_page.h"
+#include "hersey/report/curve_chart.h"
 
 namespace hersey::report {
 

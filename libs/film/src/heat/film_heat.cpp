@@ -13,7 +13,6 @@
 #include "heat/layer_profile.h"
 #include "heat/layer_shear.h"
 #include "hersey/core/contract.h"
-#include "hersey/solver/fixed_point_iteration.h"
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
 
@@ -91,7 +90,6 @@ struct FilmHeat::Impl {
   HeatEquations equations;
   HeatState state;
   MeanHeat::Answer mean;
-  solver::FixedPointIteration settling{solver::Acceleration::quasi_newton, 1};
   HeatState start_of_step;
   double dt = 0;                   // of the last step [s]
   HeatState by_shell, by_journal;  // changes of the state with temperatures of nodes, per kelvin
@@ -364,8 +362,7 @@ WallCorrection FilmHeat::settle_walls(const Eigen::Vector2d& T_nodes) {
     if (is_shell) follow(m.mean.by_shell, by[0]);
     if (is_journal) follow(m.mean.by_journal, by[1]);
     note((after - before).cwiseAbs().maxCoeff(), after.maxCoeff());
-    // Beside nodes, which move by themselves, there is no one map to accelerate.
-    m.set_held_walls(is_shell || is_journal ? after : m.settling.next(before, after));
+    m.set_held_walls(after);
   }
   if (!std::isfinite(correction.rise)) correction.rise = 0;
   m.average_walls();
@@ -451,8 +448,6 @@ void FilmHeat::persist(Archive& archive) {
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
   if (!impl_->holds_walls()) return;
   impl_->equations.mean().persist(archive);
-  const Archive::Group settling(archive, "settling");
-  impl_->settling.persist(archive);
 }
 
 }  // namespace hersey::film

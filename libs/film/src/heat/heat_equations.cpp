@@ -35,8 +35,7 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
             {.ring = has_own_temperatures(thermal.shell),
              .shell_node = std::holds_alternative<NodeWall>(thermal.shell),
              .free_journal = std::holds_alternative<FreeJournal>(thermal.journal),
-             .journal_node = std::holds_alternative<NodeWall>(thermal.journal)},
-            supplies()) {
+             .journal_node = std::holds_alternative<NodeWall>(thermal.journal)}) {
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }
@@ -101,10 +100,11 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   add_conduction(film);
   add_shell(film, start);
   add_journal(film);
+  if (holds_walls(film)) add_equations_to_mean(film, start);
   add_supplies(film);
   renew(film);
   add_remainder(film, start);
-  if (holds_walls(film)) hold_walls(film, start);
+  if (holds_walls(film)) hold_walls(start);
   prepare_sweeps(film);
 
   Eigen::VectorXd x(known_.size()), missing, change;

@@ -94,8 +94,9 @@ class HeatEquations {
   [[nodiscard]] double renewed(const HeatState& state, int supply) const;
   void add_remainder(const CarryingFilm& film, const HeatState& start);
   [[nodiscard]] bool holds_walls(const CarryingFilm& film) const;
-  void hold_walls(const CarryingFilm& film, const HeatState& start);
+  void hold_walls(const HeatState& start);
   void hold_journal(const HeatState& start);
+  [[nodiscard]] std::vector<double> fresh_shares(const CarryingFilm& film) const;
   void add_equations_to_mean(const CarryingFilm& film, const HeatState& start);
   void add_heat_to_mean(const CarryingFilm& film, const HeatState& start, const HeatState& end);
   /// y = A x, x = [layers; ring; journal; supplies].

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <variant>
+#include <vector>
 
 #include "heat/heat_equations.h"
 
@@ -15,9 +17,8 @@ bool HeatEquations::holds_walls(const CarryingFilm& film) const {
   return film.dt > 0 && thermal_.walls == WallMotion::held;
 }
 
-// The walls' rows as they are go into the means; then they say that temperatures stay.
-void HeatEquations::hold_walls(const CarryingFilm& film, const HeatState& start) {
-  add_equations_to_mean(film, start);
+// The walls' rows say that temperatures stay.
+void HeatEquations::hold_walls(const HeatState& start) {
   if (std::holds_alternative<RingWall>(thermal_.shell)) {
     system_.hold_ring();
     known_.segment(system_.ring_row(0), model_.grid.n_phi) = start.shell;
@@ -25,51 +26,50 @@ void HeatEquations::hold_walls(const CarryingFilm& film, const HeatState& start)
   hold_journal(start);
 }
 
-// Without storage; and where oil is warmer, less heat is made: at a given speed in proportion to its viscosity.
-void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatState& start) {
-  Eigen::VectorXd added = -(1 - least_storage) * storage_;
+// Of the oil that a supply gives, line and then features: what is not the film's own that it has taken in elsewhere.
+std::vector<double> HeatEquations::fresh_shares(const CarryingFilm& film) const {
+  std::vector<double> given(static_cast<std::size_t>(supplies()), 0.0), net = given;
   for (int node = 0; node < model_.grid.size(); ++node) {
+    if (!film.balance.is_held(node)) continue;
+    const auto supply = static_cast<std::size_t>(film.balance.feature_at(node) + (has_line() ? 1 : 0));
+    given[supply] += std::max(film.balance.supply(node), 0.0), net[supply] += film.balance.supply(node);
+  }
+  for (std::size_t s = 0; s < given.size(); ++s) net[s] = given[s] > 0 ? std::max(net[s], 0.0) / given[s] : 0;
+  return net;
+}
+
+// As if nothing were stirred: a supply may go round with the journal, and the mean of what it stirs is none. Without
+// storage; fresh oil comes at its temperature; and where oil is warmer, less heat is made: at a given speed in
+// proportion to its viscosity.
+void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatState& start) {
+  const std::vector<double> fresh = fresh_shares(film);
+  Eigen::VectorXd added = -(1 - least_storage) * storage_;
+  Eigen::VectorXd conductance_shell(model_.grid.size()), conductance_journal(model_.grid.size());
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    conductance_shell[node] = to_shell(film, node);
+    conductance_journal[node] = to_journal(film, node);
+    double renewed = 0;
+    if (film.balance.is_held(node)) {
+      const auto supply = static_cast<std::size_t>(film.balance.feature_at(node) + (has_line() ? 1 : 0));
+      const double replaced = (1 - thermal_.carry_over) * (1 - film.balance.balance_share(node));
+      renewed = rc_ * (fresh[supply] * std::max(film.balance.supply(node), 0.0) +
+                       replaced * inflow_[static_cast<std::size_t>(node)]);
+    }
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double T = start.film[row];
       const double thinning =
           -std::visit([T](const auto& law) { return law.log_viscosity(T).slope; }, model_.lubricant.temperature_law);
-      added[row] += film.flows.dissipation(node, l) * thinning;
+      added[row] += film.flows.dissipation(node, l) * thinning + renewed / layers();
     }
-  }
-  const int rows = system_.size();
-  Eigen::MatrixXd of_supplies = Eigen::MatrixXd::Zero(known_.size(), supplies());
-  Eigen::MatrixXd by_supplies = Eigen::MatrixXd::Zero(rows, supplies()), capacity_of_supplies = by_supplies;
-  Eigen::VectorXd capacity = film.dt * storage_;
-  for (int s = 0; s < supplies(); ++s) of_supplies(rows + 1 + s, s) = supply_self_[s];
-  for (const Renewal& renewal : renewals_) of_supplies(renewal.row, renewal.supply) += renewal.heat;
-  for (const Held& held : held_) {
-    for (const Held::Row& row : held.rows) {
-      const int own = row.entries.front().first;
-      for (const auto& [column, entry] : row.entries) of_supplies(column, held.supply) += entry;
-      of_supplies(own, held.supply) += added[own];
-      of_supplies(rows, held.supply) -= row.by_journal;
-      by_supplies(own, held.supply) = by_supply_[own];
-      capacity_of_supplies(own, held.supply) = capacity[own];
-    }
-    added.segment(held.node * layers(), layers()) *= 1 - held.chi;
-    capacity.segment(held.node * layers(), layers()) *= 1 - held.chi;
-  }
-  Eigen::VectorXd conductance_shell(model_.grid.size()), conductance_journal(model_.grid.size());
-  for (int node = 0; node < model_.grid.size(); ++node) {
-    conductance_shell[node] = to_shell(film, node);
-    conductance_journal[node] = to_journal(film, node);
   }
   mean_.add_equations(film.dt, {.system = system_,
                                 .added = added,
                                 .by_journal = by_journal_,
-                                .by_shell = by_shell_,
+                                .by_shell = by_shell_.head(system_.size()),
                                 .to_shell = conductance_shell,
                                 .to_journal = conductance_journal,
-                                .by_supplies = by_supplies,
-                                .of_supplies = of_supplies,
-                                .capacity = capacity,
-                                .capacity_of_supplies = capacity_of_supplies});
+                                .capacity = film.dt * storage_});
 }
 
 void HeatEquations::hold_journal(const HeatState& start) {

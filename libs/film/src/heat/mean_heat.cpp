@@ -7,8 +7,8 @@
 
 namespace hersey::film {
 
-MeanHeat::MeanHeat(const Grid& grid, int layers, const Walls& walls, int supplies)
-    : grid_(grid), layers_(layers), walls_(walls), supplies_(supplies), system_(grid, layers, walls.ring) {
+MeanHeat::MeanHeat(const Grid& grid, int layers, const Walls& walls)
+    : grid_(grid), layers_(layers), walls_(walls), system_(grid, layers, walls.ring) {
   clear();
 }
 
@@ -16,14 +16,11 @@ void MeanHeat::clear() {
   time_ = 0;
   system_.set_zero();
   by_journal_.setZero(system_.size());
-  by_shell_.setZero(system_.size() + 1 + supplies_);
+  by_shell_.setZero(system_.size());
   to_shell_.setZero(grid_.size()), to_journal_.setZero(grid_.size());
   into_nodes_.setZero();
   into_.setZero(system_.size() + 1);
   capacity_.setZero(grid_.size() * layers_);
-  by_supplies_.setZero(system_.size(), supplies_);
-  capacity_of_supplies_ = by_supplies_;
-  of_supplies_.setZero(system_.size() + 1 + supplies_, supplies_);
 }
 
 void MeanHeat::add_equations(double dt, const Equations& equations) {
@@ -31,9 +28,6 @@ void MeanHeat::add_equations(double dt, const Equations& equations) {
   for (Eigen::Index row = 0; row < equations.added.size(); ++row)
     system_.diagonal(static_cast<int>(row)) += dt * equations.added[row];
   capacity_ += dt * equations.capacity;
-  capacity_of_supplies_ += dt * equations.capacity_of_supplies;
-  by_supplies_ += dt * equations.by_supplies;
-  of_supplies_ += dt * equations.of_supplies;
   if (walls_.free_journal || walls_.journal_node) {
     by_journal_ += dt * equations.by_journal;
     to_journal_ += dt * equations.to_journal;
@@ -52,13 +46,10 @@ void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vec
   into_nodes_ += dt * into_nodes;
 }
 
-// What the film has stored since the beginning, it has taken from walls and supplies.
+// What the film has stored since the beginning, it has taken from walls.
 Eigen::VectorXd MeanHeat::missing() const {
-  const Eigen::Index film = capacity_.size();
-  const Eigen::VectorXd rise = (end_ - begin_) / time_;
-  Eigen::VectorXd missing(into_.size() + supplies_);
-  missing << into_, capacity_of_supplies_.topRows(film).transpose() * rise;
-  missing.head(film) += capacity_.cwiseProduct(rise);
+  Eigen::VectorXd missing = into_;
+  missing.head(capacity_.size()) += capacity_.cwiseProduct(end_ - begin_) / time_;
   return missing;
 }
 
@@ -93,7 +84,9 @@ MeanHeat::Answer MeanHeat::answer() {
   answer.without = change_of(x);
   answer.exchange.heat = (into_nodes_ + heat_of(x)) / time_;
   if (walls_.shell_node) {
-    const Eigen::VectorXd by_shell = solve(by_shell_);
+    Eigen::VectorXd by_shell(system_.size() + 1);
+    by_shell << by_shell_, 0;
+    by_shell = solve(by_shell);
     answer.by_shell = change_of(by_shell);
     answer.exchange.by_T.col(0) = (heat_of(by_shell) - Eigen::Vector2d(to_shell_.sum(), 0)) / time_;
   }
@@ -117,15 +110,12 @@ Eigen::SparseMatrix<double> MeanHeat::matrix() const {
         row < film ? system_.entries(row / layers_, row % layers_) : system_.ring_entries(row - film);
     for (const auto& [column, entry] : of) add(row, column, entry);
     add(row, rows, -by_journal_[row]);
-    for (int s = 0; s < supplies_; ++s) add(row, rows + 1 + s, -by_supplies_(row, s));
   }
   const double journal_self = walls_.free_journal ? to_journal_.sum() : 0;
   add(rows, rows, journal_self != 0 ? journal_self : 1);
   for (int node = 0; walls_.free_journal && node < grid_.size(); ++node)
     add(rows, system_.row(node, layers_ - 1), -to_journal_[node]);
-  for (int s = 0; s < supplies_; ++s)
-    for (int column = 0; column < rows + 1 + supplies_; ++column) add(rows + 1 + s, column, of_supplies_(column, s));
-  Eigen::SparseMatrix<double> A(rows + 1 + supplies_, rows + 1 + supplies_);
+  Eigen::SparseMatrix<double> A(rows + 1, rows + 1);
   A.setFromTriplets(entries.begin(), entries.end());
   return A;
 }
@@ -137,9 +127,8 @@ void MeanHeat::persist(Archive& archive) {
   archive.io("by_shell", by_shell_), archive.io("to_shell", to_shell_);
   archive.io("by_journal", by_journal_), archive.io("to_journal", to_journal_);
   archive.io("into_nodes", into_nodes_);
-  archive.io("by_supplies", by_supplies_), archive.io("of_supplies", of_supplies_);
   archive.io("into", into_), archive.io("begin_T", begin_), archive.io("end_T", end_);
-  archive.io("capacity", capacity_), archive.io("capacity_of_supplies", capacity_of_supplies_);
+  archive.io("capacity", capacity_);
 }
 
 }  // namespace hersey::film

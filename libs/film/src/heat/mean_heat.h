@@ -23,15 +23,12 @@ class MeanHeat {
   /// The equations of a step, walls' rows included.
   struct Equations {
     const HeatSystem& system;
-    const Eigen::VectorXd& added;                 ///< to the diagonals of the film's rows: they store nothing [W/K]
-    const Eigen::VectorXd& by_journal;            ///< of the rows, by the journal's temperature [W/K]
-    const Eigen::VectorXd& by_shell;              ///< of all rows, by the temperature of a shell that is a node [W/K]
-    const Eigen::VectorXd& to_shell;              ///< conductances between layers and such a shell, by node [W/K]
-    const Eigen::VectorXd& to_journal;            ///< and between layers and journal [W/K]
-    const Eigen::MatrixXd& by_supplies;           ///< of the rows, by the supplies' temperatures [W/K]
-    const Eigen::MatrixXd& of_supplies;           ///< rows of supplies as columns: of system, journal, supplies [W/K]
-    const Eigen::VectorXd& capacity;              ///< heat capacity of the film's rows [J/K]
-    const Eigen::MatrixXd& capacity_of_supplies;  ///< and what of it the supplies' rows have [J/K]
+    const Eigen::VectorXd& added;       ///< to the diagonals of the film's rows: they store nothing [W/K]
+    const Eigen::VectorXd& by_journal;  ///< of the rows, by the journal's temperature [W/K]
+    const Eigen::VectorXd& by_shell;    ///< of the rows, by the temperature of a shell that is a node [W/K]
+    const Eigen::VectorXd& to_shell;    ///< conductances between layers and such a shell, by node [W/K]
+    const Eigen::VectorXd& to_journal;  ///< and between layers and journal [W/K]
+    const Eigen::VectorXd& capacity;    ///< heat capacity of the film's rows [J/K]
   };
 
   /// Of a ring and a free journal [K].
@@ -47,7 +44,7 @@ class MeanHeat {
     WallExchange exchange;        ///< without temperatures
   };
 
-  MeanHeat(const Grid& grid, int layers, const Walls& walls, int supplies);
+  MeanHeat(const Grid& grid, int layers, const Walls& walls);
 
   /// Takes those of a step of length dt.
   void add_equations(double dt, const Equations& equations);
@@ -72,12 +69,10 @@ class MeanHeat {
   Grid grid_;
   int layers_;
   Walls walls_;
-  int supplies_;
   double time_ = 0;
   HeatSystem system_;
   Eigen::VectorXd by_shell_, by_journal_, to_shell_, to_journal_, into_, capacity_;
   Eigen::Vector2d into_nodes_;
-  Eigen::MatrixXd by_supplies_, of_supplies_, capacity_of_supplies_;
   Eigen::VectorXd begin_, end_;  // temperatures of the film
 };
 

@@ -18,6 +18,7 @@ namespace hersey::film {
 /// resampled().
 class GridTransfer {
  public:
+  /// Between these grids.
   GridTransfer(const Grid& from, const Grid& to);
   /// @param field  shape (from.size() per_node), `per_node` values of each node side by side
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& field, int per_node = 1) const;

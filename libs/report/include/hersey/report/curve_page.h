@@ -5,21 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "hersey/report/curve_chart.h"
+
 namespace hersey::report {
-
-/// One line of a chart.
-struct CurveLine {
-  std::string label;
-  std::vector<double> x, y;
-};
-
-/// Values over one variable; y is logarithmic.
-struct CurveChart {
-  std::string title, note;
-  std::string x_name, x_unit, y_name, y_unit;
-  bool x_is_logarithmic = false;
-  std::vector<CurveLine> lines;
-};
 
 /// A page of curves, by itself in one file without scripts.
 struct CurvePage {
