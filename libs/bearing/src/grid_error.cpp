@@ -38,7 +38,7 @@ void take_to(const film::Grid& coarse, const film::Grid& fine, film::ThermalMode
   auto* wall = std::get_if<film::WallAtTemperature>(&thermal.shell);
   if (wall == nullptr || wall->around.size() == 0) return;
   const Eigen::VectorXd T = wall->around;
-  const auto phi = [&](int k) { return fine.phi(k % fine.n_phi) + turn * (k / fine.n_phi); };
+  const auto phi = [&](int k) { return fine.phi(k % fine.n_phi) + (k < fine.n_phi ? 0 : turn); };
   wall->around.resize(coarse.n_phi);
   for (int i = 0, k = 0; i < coarse.n_phi; ++i) {
     double at = coarse.phi(i);

@@ -77,7 +77,8 @@ std::vector<double> label_places(std::vector<double> wanted) {
   double next = top + 4;
   for (const std::size_t k : order) next = (wanted[k] = std::max(wanted[k], next)) + line_height;
   double room = height - bottom;
-  for (auto k = order.rbegin(); k != order.rend(); ++k) room = (wanted[*k] = std::min(wanted[*k], room)) - line_height;
+  std::reverse(order.begin(), order.end());
+  for (const std::size_t k : order) room = (wanted[k] = std::min(wanted[k], room)) - line_height;
   return wanted;
 }
 

@@ -1,5 +1,6 @@
 #include "hersey/film/body_wall.h"
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <vector>
 
@@ -17,7 +18,7 @@ using Weights = Eigen::SparseMatrix<double>;
 /// Straight lines between values at the angles of one grid, at those of another, (to, from).
 Weights around(const Grid& from, const Grid& to) {
   std::vector<Triplet<double>> entries;
-  const auto phi = [&](int k) { return from.phi(k % from.n_phi) + turn * (k / from.n_phi); };
+  const auto phi = [&](int k) { return from.phi(k % from.n_phi) + (k < from.n_phi ? 0 : turn); };
   for (int i = 0; i < to.n_phi; ++i) {
     const double at = to.phi(i) < phi(0) ? to.phi(i) + turn : to.phi(i);
     int k = 0;
