@@ -105,6 +105,7 @@ std::vector<int> statically_determinate(const Mesh& mesh) {
   motions.leftCols<3>() /= (mesh.nodes[static_cast<std::size_t>(b)] - A).norm();
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(MatrixXd(motions(dofs, Eigen::all)).transpose());
   std::vector<int> held;
+  held.reserve(6);
   for (int i = 0; i < 6; ++i) held.push_back(dofs[static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
   return held;
 }
