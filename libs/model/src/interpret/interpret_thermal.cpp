@@ -140,6 +140,10 @@ film::ThermalModel film_heat(Context& context, const Value& value, const film::F
   complete_walls(context, thermal, film.grid, heat);
   read_supplies(context, value, film, heat);
   if (const auto walls = expansion_of(thermal)) heat.expansion = walls->material;
+  if (heat.expansion && heat.expansion->shell != 0 && std::holds_alternative<film::BodyWall>(heat.shell)) {
+    context.fault(*thermal.find("expansion"), "a shell that grows by its body's mesh and by a coefficient as well",
+                  "'shell: 0 1/K' beside 'shell: {wall: body}'", "the body's `heat.expansion` says how the bore grows");
+  }
   check_walls(context, thermal, film, heat);
   return heat;
 }
