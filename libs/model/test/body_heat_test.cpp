@@ -125,6 +125,10 @@ TEST_CASE("FaultsOfHeatInBodies_SayWhereAndWhatToDo") {
   CHECK(contains(told("conductivity: 46 W/m/K", "conductivity: 0 W/m/K"), "conductivity"));
   CHECK(contains(told(cooling, cooling + "\n        fixed: [fot]"), "did you mean 'foot'"));
   CHECK(faults_of(edited(machine_text, cooling, "temperatures: {outside: 40 degC}")) == "no fault");
+  const std::string shell = "shell: {wall: body,";
+  CHECK(contains(told(shell, "expansion: {shell: 12e-6 1/K, journal: 12e-6 1/K}, " + shell),
+                 "a shell that grows by its body's mesh and by a coefficient as well"));
+  CHECK(told(shell, "expansion: {shell: 0 1/K, journal: 12e-6 1/K}, " + shell) == "no fault");
 }
 
 }  // namespace body_heat_test
