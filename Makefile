@@ -12,7 +12,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help program demo test bench validate mutations fuzz random-models web web-check web-test docs format lint install clean
+.PHONY: help program demo test bench validate mutations fuzz random-models web web-check web-test docs docs-test package package-test format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -62,6 +62,19 @@ docs:  ## builds the documentation site: build/docs/index.html
 	@scripts/setup docs
 	@$(PHASE) docs build/log/docs.log scripts/docs
 	@echo "documentation: build/docs/index.html"
+
+docs-test: docs  ## opens the site in headless Chromium: both themes, two sizes, every page
+	@scripts/setup web browser
+	@scripts/docs test
+
+package: program  ## makes the Debian packages: build/release/packages/*.deb (with the site, where `make docs` was run)
+	@scripts/setup package
+	@$(PHASE) package build/log/package.log scripts/package $(BUILD)
+	@ls $(BUILD)/packages/*.deb
+
+package-test: package  ## tries the packages in a bare Debian 12 made by debootstrap (root; a minute and a half the first time)
+	@scripts/setup package-test
+	@packaging/try_in_debian $(BUILD)/packages/*.deb
 
 format:  ## formats every C++ file
 	@scripts/setup lint

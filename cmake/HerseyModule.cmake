@@ -49,7 +49,7 @@ function(hersey_module name)
   target_link_libraries(hersey_${name} PUBLIC ${M_LINK} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:hersey_options>)
   target_precompile_headers(hersey_${name} REUSE_FROM hersey_pch)
   include(${dir}/module.cmake OPTIONAL)  # what only this module needs, such as generated sources
-  install(TARGETS hersey_${name} EXPORT herseyTargets FILE_SET HEADERS)
+  install(TARGETS hersey_${name} EXPORT herseyTargets ARCHIVE COMPONENT dev FILE_SET HEADERS COMPONENT dev)
   set_property(GLOBAL APPEND PROPERTY HERSEY_MODULES ${name})
 
   if(HERSEY_FUZZ)

@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+"""packaging_test.py PROGRAM SOURCE   man pages and completion follow the program's own help: every command, every option."""
+
+import gzip
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = os.path.abspath(sys.argv.pop(1)), os.path.abspath(sys.argv.pop(1))
+
+
+def made_by(script, folder):
+    subprocess.run([sys.executable, os.path.join(SOURCE, "packaging", script), PROGRAM, folder], check=True)
+
+
+def help_of(*command):
+    return subprocess.run([PROGRAM, *command, "--help"], text=True, capture_output=True, check=True).stdout
+
+
+def commands():
+    section = help_of().split("Subcommands:\n")[1].split("\n\n")[0]
+    return re.findall(r"^  (\w+)", section, re.MULTILINE)
+
+
+def options_of(command):
+    section = help_of(command).split("\nOptions:\n")[1].split("\n\n")[0]
+    return re.findall(r"^  (?:-\w,)?(--[\w-]+)", section, re.MULTILINE)
+
+
+class Packaging(unittest.TestCase):
+    def test_man_pages_hold_every_command_and_option(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made_by("man_pages.py", folder)
+            for command in commands():
+                with gzip.open(os.path.join(folder, f"hersey-{command}.1.gz"), "rt", encoding="utf-8") as file:
+                    text = file.read().replace("\\-", "-")
+                self.assertTrue(text.startswith(f'.TH HERSEY-{command.upper()} 1 '), text[:60])
+                for option in options_of(command):
+                    self.assertIn(option, text, f"the man page of {command}")
+
+    def test_completion_offers_every_command_and_option(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made_by("completions.py", folder)
+            for command in commands():
+                self.assertIn(command, self.completed(folder, "hersey", command[:2]))
+                self.assertLessEqual(set(options_of(command)), set(self.completed(folder, "hersey", command, "--")), command)
+            for name in ("_hersey", "hersey.fish"):
+                with open(os.path.join(folder, name), encoding="utf-8") as file:
+                    text = file.read()
+                for option in options_of("run"):
+                    self.assertIn(option.removeprefix("--"), text, name)
+
+    def completed(self, folder, *words):
+        script = f'source {folder}/hersey; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _hersey 2>/dev/null; printf "%s\\n" "${{COMPREPLY[@]}}"'
+        return subprocess.run(["bash", "-c", script, "bash", *words], text=True, capture_output=True, check=True).stdout.split()
+
+    def test_the_release_has_a_place_in_the_changelog(self):
+        with open(os.path.join(SOURCE, "CHANGELOG.md"), encoding="utf-8") as file:
+            headings = re.findall(r"^## (.+)$", file.read(), re.MULTILINE)
+        self.assertTrue(headings)
+        for heading in headings:
+            self.assertRegex(heading, r"^(Unreleased|\d+\.\d+\.\d+ \(\d{4}-\d\d-\d\d\))$")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
