@@ -24,6 +24,29 @@ const colouredPixels = (figure) =>
 const picture = (page, kind) =>
   page.evaluate((k) => [...document.querySelectorAll(`[data-figure="${k}"] canvas`)].map((c) => c.toDataURL()).join(), kind);
 
+/** What the first screen of a desk must show without scrolling. */
+async function onFirstScreen(page, locator, what) {
+  const box = await locator.boundingBox();
+  assert.ok(box !== null, `${what} is not shown`);
+  assert.ok(box.y >= 0 && box.y + box.height <= 768, `${what} ends ${Math.round(box.y + box.height)} px down a screen of 768 px`);
+}
+
+const firstScreen = async (page) => {
+  await page.setViewportSize({ width: 1366, height: 768 });
+  await page.evaluate(() => scrollTo(0, 0));
+  await frame(page);
+  assert.ok((await page.locator(".verdict .judgements li").count()) > 0, "there is no verdict");
+  await onFirstScreen(page, page.locator(".verdict").first(), "the verdict");
+  const tiles = page.locator(".tiles").first();
+  assert.match(await tiles.innerText(), /\d/, "there are no key numbers");
+  await onFirstScreen(page, tiles, "the row of key numbers");
+  await page.setViewportSize({ width: 1280, height: 900 });
+};
+
+async function openAssumptions(page) {
+  if ((await page.locator("details.assumptions").first().getAttribute("open")) === null) await page.locator("details.assumptions > summary").first().click();
+}
+
 async function pressOnSlider(page, key) {
   await page.locator(".timeline-slider").focus();
   await page.keyboard.press(key);
@@ -31,6 +54,8 @@ async function pressOnSlider(page, key) {
 }
 
 export const everyReport = {
+  "verdict and key numbers are on the first screen": firstScreen,
+
   "the licences of what the page contains stand at its foot": async (page) => {
     const foot = page.locator("footer.licences");
     await foot.locator("summary").click();
@@ -41,6 +66,7 @@ export const everyReport = {
 
   "title, assumptions and status come first": async (page) => {
     assert.ok((await page.locator("h1").innerText()).trim().length > 0, "there is no title");
+    await openAssumptions(page);
     const assumptions = await page.locator(".assumptions").first().innerText();
     assert.match(assumptions, /cavitation/i, "the assumptions do not name the cavitation condition");
     assert.ok((await page.locator(".status").count()) > 0, "how the run ended is not shown");
@@ -220,6 +246,8 @@ export const everyReport = {
 
 /** Of small motions about one state. */
 export const modesReport = {
+  "verdict and key numbers are on the first screen": firstScreen,
+
   "modes are listed with their frequencies, in the table too": async (page) => {
     const options = await page.locator(".mode-player option").allTextContents();
     assert.ok(options.length > 0 && options.every((text) => /^Mode \d+: .*\d Hz/.test(text)), options.join(" | "));
@@ -289,7 +317,24 @@ export const comparisonReport = {
 
 /** Reports of a machine with several bearings. */
 export const machineReport = {
+  "verdict and key numbers are on the first screen": firstScreen,
+
+  "all bearings stand in one table, the worst first, and the verdict names it": async (page) => {
+    const rows = page.locator(".overview tbody tr");
+    const names = await rows.locator("th").allInnerTexts();
+    assert.ok(names.length > 1, "there are not several bearings");
+    const thickness = (await rows.locator("td:nth-child(2) .extreme-value").allInnerTexts()).map(parseFloat);
+    assert.deepEqual(thickness, [...thickness].sort((a, b) => a - b), "the thinnest film is not first");
+    assert.equal((await page.locator(".verdict-line strong").innerText()).trim(), names[0].trim(), "the verdict names another bearing");
+    for (const row of await rows.all()) {
+      assert.equal(await row.locator(".spark-curve").count(), 2, "a bearing has no spark lines");
+      assert.equal((await row.locator(".where").allInnerTexts()).length, 2, "an extreme has no place");
+    }
+    assert.match(await page.locator(".overview tfoot").innerText(), /together.*\d/s, "there are no sums");
+  },
+
   "assumptions name each topic once, and bearings where they differ": async (page) => {
+    await openAssumptions(page);
     const topics = await page.locator(".assumptions dt").allInnerTexts();
     assert.equal(new Set(topics).size, topics.length, `a topic stands twice: ${topics.join(", ")}`);
     const answer = (topic) => page.locator(`.assumptions dt:text-is("${topic}") + dd`).innerText();
@@ -303,15 +348,22 @@ export const machineReport = {
   },
 
   "each bearing can be chosen": async (page) => {
-    const before = await page.locator(".tile").first().innerText();
-    await page.getByText("small end", { exact: true }).first().click();
+    const tile = page.locator(".bearing-tiles .tile").first();
+    const before = await tile.innerText();
+    await page.locator(".overview").getByText("main left", { exact: true }).click();
     await frame(page);
-    assert.notEqual(await page.locator(".tile").first().innerText(), before, "the figures are still those of the first bearing");
+    const after = await tile.innerText();
+    assert.notEqual(after, before, "the figures are still those of the worst bearing");
+    await page.getByLabel("Bearing shown in detail").selectOption("small_end");
+    await frame(page);
+    assert.notEqual(await tile.innerText(), after, "the list of bearings chooses none");
+    assert.equal(await page.locator(".overview tr.chosen button").innerText(), "small end", "the overview marks another bearing");
   },
 };
 
 /** Reports of a bearing by itself. */
 export const bearingReport = {
+  "verdict and key numbers are on the first screen": firstScreen,
   "title, conditions and status come first": everyReport["title, assumptions and status come first"],
   "the licences of what the page contains stand at its foot": everyReport["the licences of what the page contains stand at its foot"],
 

@@ -1,6 +1,7 @@
 // A bearing by itself: its operating point, or a sweep with one of its solutions in detail.
 
 import { figureOf, Sweep, type Line } from "./bearing_sweep";
+import { bearingVerdict, placeOf } from "./bearing_verdict";
 import { sweepDrawings } from "./canvas";
 import { fieldsOnly, type BearingText, type FigureText, type SolutionText } from "./data";
 import { figure, h, segmented } from "./dom";
@@ -10,7 +11,7 @@ import { assumptions, date, themeButton } from "./header";
 import { LinePlot, sweepPlots, type Curve, type LineFigure } from "./line_plot";
 import { Locus } from "./locus";
 import { capital } from "./summary_table";
-import { format, megapascal, micrometre, typeset } from "./units";
+import { format, megapascal, micrometre, shownUnit, typeset } from "./units";
 
 const groups: [string, string][] = [
   ["operating point", "Operating point"],
@@ -36,7 +37,7 @@ const tiles: [string, string][] = [
 export function showBearing(page: HTMLElement, title: string, bearing: BearingText): void {
   const sweep = new Sweep(bearing);
   const solved = bearing.solutions.flatMap((s, i) => (s.error ? [] : [i]));
-  page.append(head(title, bearing, solved.length));
+  page.append(head(title, bearing, solved.length), bearingVerdict(bearing, sweep));
   const notes = assumptions(bearing.conditions);
   if (notes) page.append(notes);
   if (bearing.solutions.length === 1) {
@@ -257,14 +258,9 @@ class SolutionView {
       { class: "tiles" },
       ...tiles.flatMap(([key, label]) => {
         const f = figureOf(this.solution, key);
-        return f ? [tile(label, f, this.where(key))] : [];
+        return f ? [tile(label, f, placeOf(this.solution, key))] : [];
       }),
     );
-  }
-
-  private where(key: string): string {
-    const [angle, z] = [this.value(`${key}_angle`), this.value(`${key}_z`)];
-    return angle === null || z === null ? "" : `φ\u00a0=\u00a0${format(angle, 4)}°, z\u00a0=\u00a0${format(z, 3)}\u00a0mm`;
   }
 
   private addFilm(figures: HTMLElement): void {
@@ -344,10 +340,6 @@ function symbols(name: string): string {
 function heading(name: string): string {
   const text = symbols(name);
   return /^[a-z]/.test(text) ? capital(text) : text;
-}
-
-function shownUnit(unit: string): string {
-  return unit.replace("mm^3/s", "mm³/s").replace("mm^3", "mm³").replace(/^deg$/, "°").replace(/^um$/, "µm").replace("N.m", "N·m").replace("N.s", "N·s");
 }
 
 /** With as many digits as its error leaves: 5.618. */

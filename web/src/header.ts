@@ -51,19 +51,17 @@ export function statusName(run: Run): string {
   return statusText[value] ?? value;
 }
 
-/** How a run ended, and what it says of that. */
+/** How a run ended, in a word; the verdict says more. */
 export function status(run: Run): HTMLElement {
-  const value = run.attribute("/", "status");
-  const message = run.attribute("/", "message");
-  const text = statusName(run);
-  return h("span", { class: `status ${value}` }, message ? `${text}: ${message}` : text);
+  return h("span", { class: `status ${run.attribute("/", "status")}` }, statusName(run));
 }
 
 export function assumptions(list: [string, string][]): HTMLElement | null {
   if (list.length === 0) return null;
   const owners = new Set(list.map(([name]) => split(name).owner).filter((owner) => owner));
   const items = [...byTopic(list)].flatMap(([topic, said]) => [h("dt", {}, topic), h("dd", {}, ...sayings(said, owners.size))]);
-  return h("section", { class: "assumptions", "aria-label": "Assumptions" }, h("h2", {}, "Assumptions"), h("dl", {}, ...items));
+  const topics = byTopic(list).size;
+  return h("details", { class: "assumptions" }, h("summary", {}, "Assumptions", h("span", { class: "where" }, `${topics} ${topics === 1 ? "topic" : "topics"}`)), h("dl", {}, ...items));
 }
 
 type Said = { owner: string; text: string };

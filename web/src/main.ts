@@ -8,10 +8,11 @@ import { licences } from "./licences";
 import { showBearing } from "./bearing_page";
 import { RunView } from "./run_view";
 import { StudyView } from "./study_view";
+import { studyVerdict } from "./study_verdict";
 import { followSystem } from "./theme";
 
 function showRun(page: HTMLElement, report: Report): void {
-  page.append(...[header(report), assumptions(report.runs[0]!.assumptions), new RunView(report.runs[0]!).element].filter((e) => e !== null));
+  page.append(header(report), new RunView(report.runs[0]!, assumptions(report.runs[0]!.assumptions)).element);
 }
 
 function showStudy(page: HTMLElement, report: Report): void {
@@ -22,12 +23,13 @@ function showStudy(page: HTMLElement, report: Report): void {
   const show = (run: Run, scroll: boolean) => {
     picker.value = String(study.runs.indexOf(run));
     detail.replaceChildren(
-      ...[h("div", { class: "detail-head" }, h("h2", {}, "Run in detail"), picker, status(run)), assumptions(ownAssumptions(report.runs, run)), new RunView(run).element].filter((e) => e !== null),
+      h("div", { class: "detail-head" }, h("h2", {}, "Run in detail"), picker, status(run)),
+      new RunView(run, assumptions(ownAssumptions(report.runs, run))).element,
     );
     study.highlight(run);
     if (scroll) detail.scrollIntoView({ behavior: "smooth" });
   };
-  page.append(...[header(report), sharedAssumptions(study), study.element, detail].filter((e) => e !== null));
+  page.append(...[header(report), studyVerdict(study), sharedAssumptions(study), study.element, detail].filter((e) => e !== null));
   show(study.runs[study.runs.length - 1]!, false);
 }
 

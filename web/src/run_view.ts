@@ -2,24 +2,27 @@
 
 import { BearingView } from "./bearing_view";
 import { sweepDrawings } from "./canvas";
-import type { Run, SummaryRow } from "./data";
+import type { Run } from "./data";
 import { h, segmented } from "./dom";
 import { nearest } from "./film_fields";
+import { filmLoss, hottestOil, keyRow, largestLoad, moft, pofp, spaced, tileOf, worstFirst } from "./key_figures";
 import { sweepPlots } from "./line_plot";
 import { MachineView, sweepMachineViews } from "./machine_view";
 import { ModePlayer } from "./mode_player";
+import { Overview } from "./overview";
 import type { Abscissa } from "./series";
-import { place, summaryTables } from "./summary_table";
+import { summaryTables } from "./summary_table";
 import { SystemView } from "./system_view";
 import { Timeline } from "./timeline";
-import { format } from "./units";
+import { verdict } from "./verdict";
 
-/** The rows of the summary that stand large above the figures. */
+/** The rows of the summary that stand large above the figures of one of several bearings. */
 const keyFigures: [string, string][] = [
-  ["minimum film thickness (MOFT)", "Minimum film thickness"],
-  ["peak film pressure (POFP)", "Peak film pressure"],
-  ["largest load", "Largest load"],
-  ["mean power loss in the film", "Mean film power loss"],
+  [moft, "Minimum film thickness"],
+  [pofp, "Peak film pressure"],
+  [hottestOil, "Hottest oil"],
+  [largestLoad, "Largest load"],
+  [filmLoss, "Mean film power loss"],
   ["worst mass-balance error of the film", "Worst mass-balance error"],
 ];
 
@@ -29,10 +32,17 @@ export class RunView {
   private abscissa: Abscissa;
   private timeline: Timeline | null = null;
   private time: number | null = null;
+  private readonly overview: Overview | null;
+  private readonly changing = h("div", { class: "changing" });
 
-  constructor(private readonly run: Run) {
-    this.bearing = run.children("/bearings")[0] ?? "";
+  constructor(
+    private readonly run: Run,
+    notes: HTMLElement | null,
+  ) {
+    this.bearing = worstFirst(run)[0] ?? "";
     this.abscissa = run.column("/crank_angle") ? "angle" : "time";
+    this.overview = this.bearing ? new Overview(run, (bearing) => this.change(() => (this.bearing = bearing))) : null;
+    this.element.append(...[verdict(run), this.overview?.element ?? null, notes, this.changing].filter((e) => e !== null));
     this.render();
   }
 
@@ -50,10 +60,12 @@ export class RunView {
       view?.show(time, index);
       machine?.show(time);
       system.show(time);
+      this.overview?.show(time);
     });
     this.timeline = timeline;
-    this.element.replaceChildren(
-      ...[this.controls(), this.headline(), this.table(), view?.element ?? null, modes?.element ?? null, machine ? h("div", { class: "figures" }, machine.element) : null, this.notes(), system.element, timeline.element].filter((e) => e !== null),
+    this.overview?.highlight(bearing);
+    this.changing.replaceChildren(
+      ...[this.controls(), this.headline(), view?.element ?? null, modes?.element ?? null, machine ? h("div", { class: "figures" }, machine.element) : null, this.table(), this.notes(), system.element, timeline.element].filter((e) => e !== null),
     );
     sweepPlots();
     sweepDrawings();
@@ -86,27 +98,34 @@ export class RunView {
   private controls(): HTMLElement | null {
     const bearings = this.run.children("/bearings");
     const parts: HTMLElement[] = [];
-    if (bearings.length > 1)
-      parts.push(segmented("Bearing", bearings.map((b) => ({ value: b, label: b.replaceAll("_", " ") })), this.bearing, (b) => this.change(() => (this.bearing = b))));
+    if (bearings.length > 1) {
+      const picker = h("select", { "aria-label": "Bearing shown in detail", change: () => this.change(() => (this.bearing = picker.value)) });
+      for (const b of worstFirst(this.run)) picker.append(h("option", { value: b, selected: b === this.bearing }, spaced(b)));
+      parts.push(h("h2", {}, `Bearing ${spaced(this.bearing)}`), picker);
+    }
     if (this.run.column("/crank_angle"))
       parts.push(segmented("Abscissa", [{ value: "angle", label: "Crank angle" }, { value: "time", label: "Time" }], this.abscissa, (a) => this.change(() => (this.abscissa = a as Abscissa))));
     return parts.length > 0 ? h("div", { class: "controls view-controls" }, ...parts) : null;
   }
 
   private change(set: () => void): void {
+    const focused = document.activeElement?.getAttribute("aria-label");
     set();
     const scroll = scrollY;
     this.render();
     scrollTo(0, scroll);
+    // A control that was drawn anew keeps the keyboard.
+    if (focused) this.changing.querySelector<HTMLElement>(`select[aria-label="${focused}"]`)?.focus();
   }
 
   private headline(): HTMLElement | null {
-    const rows = this.run.summary.filter((row) => row.group === this.bearing);
+    // The verdict has told those of an only bearing.
+    if (this.run.children("/bearings").length < 2) return null;
     const tiles = keyFigures.flatMap(([name, label]) => {
-      const row = rows.find((r) => r.name === name);
-      return row ? [tile(label, row)] : [];
+      const row = keyRow(this.run, this.bearing, name);
+      return row ? [tileOf(label, row)] : [];
     });
-    return tiles.length > 0 ? h("div", { class: "tiles" }, ...tiles) : null;
+    return tiles.length > 0 ? h("div", { class: "tiles bearing-tiles" }, ...tiles) : null;
   }
 
   private notes(): HTMLElement | null {
@@ -125,16 +144,6 @@ export class RunView {
     ];
     return h("section", { class: "summary", "aria-label": "Summary" }, ...tables);
   }
-}
-
-function tile(label: string, row: SummaryRow): HTMLElement {
-  return h(
-    "div",
-    { class: "tile" },
-    h("div", { class: "tile-label" }, label),
-    h("div", { class: "tile-value" }, format(row.value), row.unit ? h("span", { class: "unit" }, ` ${row.unit}`) : null),
-    h("div", { class: "tile-where" }, place(row.where) || "\u00a0"),
-  );
 }
 
 function ordinal(n: number): string {

@@ -2,6 +2,7 @@
 
 import type { Run, SummaryRow } from "./data";
 import { h } from "./dom";
+import { place } from "./key_figures";
 import { format } from "./units";
 
 /** The rows of a group (SummaryRow.group); a long one in two tables side by side. */
@@ -21,11 +22,6 @@ function tableRow(row: SummaryRow): HTMLElement {
   const name = h("th", { scope: "row" }, capital(row.name), row.where ? h("span", { class: "where" }, place(row.where)) : null);
   const value = h("td", { class: "number" }, format(row.value), row.unit ? h("span", { class: "unit" }, row.unit === "°" ? "°" : ` ${row.unit}`) : null);
   return h("tr", { "data-quantity": row.name }, name, value);
-}
-
-/** With true minus signs, and line breaks only after commas. */
-export function place(text: string): string {
-  return text.replace(/-(?=\d)/g, "−").replace(/(?<!,) /g, "\u00a0");
 }
 
 export function capital(text: string): string {

@@ -1,0 +1,77 @@
+// The first lines about a bearing by itself: whether it was solved, what is worst and where.
+
+import { figureOf, type Sweep } from "./bearing_sweep";
+import type { BearingText, FigureText, SolutionText } from "./data";
+import { h } from "./dom";
+import { place, spaced, tile } from "./key_figures";
+import { capital } from "./summary_table";
+import { format, shownUnit, withUnit } from "./units";
+import { judgementList, worstLevel, type Judgement } from "./verdict";
+
+/** Where an extreme lies on the film, "φ = 194.2°, z = 0 mm". */
+export function placeOf(solution: SolutionText, key: string): string {
+  const value = (name: string) => figureOf(solution, name)?.value ?? null;
+  const [angle, z] = [value(`${key}_angle`), value(`${key}_z`)];
+  return angle === null || z === null ? "" : `φ\u00a0=\u00a0${format(angle, 4)}°, z\u00a0=\u00a0${format(z, 3)}\u00a0mm`;
+}
+
+export function bearingVerdict(bearing: BearingText, sweep: Sweep): HTMLElement {
+  const list = judged(bearing);
+  const sweeps = bearing.solutions.length > 1;
+  return h(
+    "section",
+    { class: `verdict ${worstLevel(list)}`, "aria-label": "Verdict" },
+    sentence(bearing, sweep, sweeps),
+    judgementList(list),
+    sweeps ? h("div", { class: "tiles key-tiles" }, ...tiles(bearing, sweep)) : null,
+  );
+}
+
+function judged(bearing: BearingText): Judgement[] {
+  const { solutions } = bearing;
+  const failed = solutions.filter((s) => s.error).length;
+  const list: Judgement[] = [failed === 0 ? { level: "good", text: "Solved" } : { level: "bad", text: `${failed} of ${solutions.length} without a solution` }];
+  const touching = solutions.filter((s) => (figureOf(s, "asperity_share")?.value ?? 0) > 1e-3).length;
+  if (touching > 0) list.push({ level: "warn", text: solutions.length > 1 ? `Surfaces touch at ${touching} of ${solutions.length} operating points` : "Surfaces touch" });
+  const remark = solutions.length === 1 ? solutions[0]!.remark : "";
+  if (remark) list.push({ level: remark.includes("unstable") ? "warn" : "good", text: capital(remark) });
+  return list;
+}
+
+type Worst = { figure: FigureText; index: number };
+
+function worst(bearing: BearingText, key: string, worse: (a: number, b: number) => boolean): Worst | null {
+  let best: Worst | null = null;
+  bearing.solutions.forEach((solution, index) => {
+    const figure = solution.error ? undefined : figureOf(solution, key);
+    if (figure && figure.value !== null && (best === null || worse(figure.value, best.figure.value!))) best = { figure, index };
+  });
+  return best;
+}
+
+const below = (a: number, b: number) => a < b;
+const above = (a: number, b: number) => a > b;
+
+function sentence(bearing: BearingText, sweep: Sweep, sweeps: boolean): HTMLElement | null {
+  const thinnest = worst(bearing, "h_min", below);
+  if (!thinnest) return null;
+  const { figure, index } = thinnest;
+  const at = placeOf(bearing.solutions[index]!, "h_min");
+  const who = sweeps ? sweep.label(index) : spaced(bearing.name);
+  return h("p", { class: "verdict-line" }, sweeps ? `Thinnest film of ${bearing.solutions.length} operating points: ` : "Thinnest film: ", h("strong", {}, who), `, ${withUnit(figure.value, shownUnit(figure.unit))}${at ? ` at ${place(at)}` : ""}`);
+}
+
+function tiles(bearing: BearingText, sweep: Sweep): HTMLElement[] {
+  const asked: [string, string, typeof below][] = [
+    ["Thinnest film", "h_min", below],
+    ["Peak film pressure", "p_max", above],
+    ["Hottest oil", "T_max", above],
+    ["Greatest film loss", "power_film", above],
+    ["Largest side flow", "side_flow", above],
+    ["Least critical mass", "critical_mass", below],
+  ];
+  return asked.flatMap(([label, key, worse]) => {
+    const found = worst(bearing, key, worse);
+    return found ? [tile({ label, value: found.figure.value, unit: shownUnit(found.figure.unit), owner: sweep.label(found.index), where: placeOf(bearing.solutions[found.index]!, key) })] : [];
+  });
+}
