@@ -12,7 +12,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help program demo test bench validate mutations fuzz random-models web web-check web-test docs docs-test package package-test format lint install clean
+.PHONY: help program demo test bench validate mutations fuzz random-models web web-check web-test python docs docs-test package package-test format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -57,6 +57,12 @@ web-check:  ## checks the front end's types and that the committed bundle is wha
 
 web-test: program  ## opens a report in headless Chromium and tries it
 	@scripts/web test $(BUILD)
+
+python: $(BUILD)/build.ninja  ## builds the Python package below build/release/python and runs its tests (FILTER=word: some of them)
+	@scripts/setup build test python
+	@$(PHASE) configure build/log/python-configure.log cmake $(BUILD) -DHERSEY_PYTHON_PACKAGE=ON -DPython3_EXECUTABLE=/usr/bin/python3
+	@$(PHASE) compile build/log/python.log cmake --build $(BUILD) --target hersey_python hersey -j $(JOBS)
+	@scripts/python-tests $(BUILD) '$(FILTER)'
 
 docs:  ## builds the documentation site: build/docs/index.html
 	@scripts/setup docs

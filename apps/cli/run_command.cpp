@@ -14,6 +14,7 @@
 #include "hersey/report/report.h"
 #include "hersey/results/error.h"
 #include "hersey/run/simulate.h"
+#include "hersey/run/summary_json.h"
 #include "hersey/study/study.h"
 #include "interrupt.h"
 #include "output_file.h"
@@ -69,83 +70,6 @@ int exit_code(run::Status status) {
   return kFailed;
 }
 
-const char* word(run::Status status) {
-  switch (status) {
-    case run::Status::completed:
-      return "completed";
-    case run::Status::stopped:
-      return "stopped";
-    case run::Status::failed:
-      return "failed";
-  }
-  return "";
-}
-
-nlohmann::json json_of(const run::PerStep& figures) {
-  return {{"median", figures.median}, {"mean", figures.mean}, {"most", figures.most}};
-}
-
-nlohmann::json json_of(const run::Work& work) {
-  nlohmann::json document{{"start_up", work.start_up},
-                          {"stepping", work.stepping},
-                          {"newton_iterations", json_of(work.newton_iterations)},
-                          {"parts", nlohmann::json::object()},
-                          {"couplings", nlohmann::json::object()}};
-  for (const run::WorkPart& part : work.parts) document["parts"][part.name] = part.seconds;
-  for (const run::CouplingWork& coupling : work.couplings)
-    document["couplings"][coupling.bearing] = {{"scheme", coupling.scheme},
-                                               {"film_iterations", json_of(coupling.film_iterations)},
-                                               {"exchanges", json_of(coupling.exchanges)},
-                                               {"steps_as_one", coupling.steps_as_one}};
-  return document;
-}
-
-nlohmann::json json_of(const run::EnergySummary& energy) {
-  return {{"put_in", energy.put_in},
-          {"film_dissipation", energy.films},
-          {"boundary_friction", energy.boundary_friction},
-          {"contacts", energy.contacts},
-          {"dampers", energy.dampers},
-          {"oil", energy.oil},
-          {"film_storage", energy.film_storage},
-          {"stored", energy.stored},
-          {"unexplained", energy.unexplained()},
-          {"error", energy.error()}};
-}
-
-// What was not asked for is null.
-nlohmann::json step_errors_of(const run::Summary& summary) {
-  const auto number = [](double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); };
-  nlohmann::json bearings = nlohmann::json::object();
-  for (const run::BearingSummary& bearing : summary.bearings) {
-    const run::StepErrors& errors = bearing.step_error;
-    bearings[bearing.name] = {{"moft", number(errors.moft)},
-                              {"pofp", number(errors.pofp)},
-                              {"max_force", number(errors.max_force)},
-                              {"mean_power", number(errors.mean_power)},
-                              {"mean_flow", number(errors.mean_flow)}};
-  }
-  return {{"largest_of_a_step", summary.worst_step_error}, {"bearings", bearings}};
-}
-
-nlohmann::json json_of(const run::Summary& summary) {
-  return {{"status", word(summary.status)},
-          {"message", summary.message},
-          {"results", summary.results.string()},
-          {"t_end", summary.t_end},
-          {"t_results", summary.t_results},
-          {"steps", summary.steps},
-          {"rejected_steps", summary.rejected_steps},
-          {"cycles", summary.cycles},
-          {"newton_iterations", summary.newton_iterations},
-          {"worst_constraint_drift", summary.worst_constraint_drift},
-          {"worst_power_balance", summary.worst_power_balance},
-          {"step_error", step_errors_of(summary)},
-          {"energy", json_of(summary.energy)},
-          {"wall_time", summary.wall_time},
-          {"work", json_of(summary.work)}};
-}
-
 // Of what has one in `runs`; the rows of `summary` name their own.
 nlohmann::json units_of_runs() {
   const nlohmann::json errors{
@@ -168,7 +92,8 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
   }
   if (arguments.json) {
     nlohmann::json document{{"report", page.string()}, {"units", units_of_runs()}, {"runs", nlohmann::json::array()}};
-    for (const run::Summary& summary : summaries) document["runs"].push_back(json_of(summary));
+    for (const run::Summary& summary : summaries)
+      document["runs"].push_back(nlohmann::json::parse(run::summary_json(summary)));
     document["summary"] = nlohmann::json::parse(report::summary_json(files));
     fmt::print("{}\n", document.dump(2));
     return code;

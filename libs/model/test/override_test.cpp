@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/model/written.h"
 #include "model_text.h"
 
 namespace hersey::model {
@@ -184,6 +185,17 @@ TEST_CASE("ResolvedText_NamesTheOverrides") {
   const Model model = read_text(good_model, "m.yaml", {"load=800 N", "title=New"});
   CHECK(model.resolved_text == "# --set load=800 N\n# --set title=New\n" + good_model);
   CHECK(read_text(good_model, "m.yaml").resolved_text == good_model);
+}
+
+TEST_CASE("WrittenValues_AreThoseOfOverridesAndParameters") {
+  const auto at = [](const std::string& path, const std::vector<std::string>& overrides = {}) {
+    return written_json(good_model, "m.yaml", overrides, path);
+  };
+  CHECK(at("parameters.load") == "\"500 N\"");
+  CHECK(at("forces.push.components.1", {"load=800 N"}) == "\"-(800 N)\"");
+  CHECK(at("bearings.big_end.grid", {"bearings.big_end.grid={axial: 9}"}) == "{\"axial\":\"9\"}");
+  CHECK_THROWS_WITH_AS((void)at("bearings.big_end.widht"), doctest::Contains("did you mean 'width'?"), InputError);
+  CHECK_THROWS_AS((void)at("forces.push.components.7"), InputError);
 }
 
 }  // namespace override_test

@@ -28,13 +28,6 @@
 #include "hersey/model/wall_conduction.h"
 
 namespace hersey::study {
-namespace {
-
-constexpr int kMostSweepValues = 10'000;
-
-Eigen::Vector2d polar(double length, double angle) {
-  return length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-}
 
 // How surfaces give way and bodies conduct heat, of every mesh seen so far: it takes long, and most sweeps leave the
 // bodies as they are.
@@ -62,6 +55,14 @@ class KnownBodies {
   std::map<std::string, std::shared_ptr<const bearing::SteadyElasticity>> elastic_;
   std::map<std::string, std::shared_ptr<const film::WallConduction>> conducting_;
 };
+
+namespace {
+
+constexpr int kMostSweepValues = 10'000;
+
+Eigen::Vector2d polar(double length, double angle) {
+  return length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+}
 
 // A steady film whose oil stays in and whose walls are bodies that nothing cools has no temperature.
 void require_way_out(const model::Model& model, const model::Bearing& bearing, const film::ThermalModel& heat) {
@@ -251,7 +252,7 @@ const BearingSolution* solved_neighbour(const std::vector<BearingSolution>& solu
 }
 
 // Runs without a solution start again from their neighbours' solutions, as long as that finds new ones.
-void follow_neighbours(const std::string& path, const BearingStudyOptions& options, KnownBodies& bodies,
+void follow_neighbours(const ModelReader& read, const BearingStudyOptions& options, KnownBodies& bodies,
                        std::vector<BearingSolution>& solutions) {
   bool found = true;
   while (found) {
@@ -261,7 +262,7 @@ void follow_neighbours(const std::string& path, const BearingStudyOptions& optio
       if (neighbour == nullptr) continue;
       BearingSolution again{.run = solutions[i].run, .error = {}};
       try {
-        solve_one(model::read(path, again.run.overrides), options, &neighbour->state, bodies, again);
+        solve_one(read(again.run.overrides), options, &neighbour->state, bodies, again);
       } catch (const std::exception& error) {
         again.error = error_text(error);
       }
@@ -353,12 +354,12 @@ bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
   return with_growth(point, bearing.film, bearing.growth);
 }
 
-std::vector<BearingSolution> solve_bearings(const std::string& path, const std::vector<model::StudyRun>& runs,
+std::vector<BearingSolution> solve_bearings(const ModelReader& read, const std::vector<model::StudyRun>& runs,
                                             const BearingStudyOptions& options) {
   std::vector<BearingSolution> solutions(runs.size());
   if (runs.empty()) return solutions;
   // Faults of the model itself are told once, from here, before any thread is started.
-  const model::Model first = options.first != nullptr ? *options.first : model::read(path, runs.front().overrides);
+  const model::Model first = options.first != nullptr ? *options.first : read(runs.front().overrides);
   (void)operating_point_of(bearing_called(first, options.bearing));
   std::atomic<std::size_t> next{0};
   KnownBodies bodies;
@@ -370,7 +371,7 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
         if (i == 0) {
           solve_one(first, options, nullptr, bodies, solutions[i]);
         } else {
-          solve_one(model::read(path, runs[i].overrides), options, nullptr, bodies, solutions[i]);
+          solve_one(read(runs[i].overrides), options, nullptr, bodies, solutions[i]);
         }
       } catch (const std::exception& error) {
         solutions[i].error = error_text(error);
@@ -382,8 +383,22 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
   for (std::size_t i = 1; i < std::min(std::max<std::size_t>(wanted, 1), runs.size()); ++i) threads.emplace_back(work);
   work();
   threads.clear();
-  follow_neighbours(path, options, bodies, solutions);
+  follow_neighbours(read, options, bodies, solutions);
   return solutions;
+}
+
+std::vector<BearingSolution> solve_bearings(const std::string& path, const std::vector<model::StudyRun>& runs,
+                                            const BearingStudyOptions& options) {
+  const auto read = [&](const std::vector<std::string>& overrides) { return model::read(path, overrides); };
+  return solve_bearings(ModelReader(read), runs, options);
+}
+
+BearingSolver::BearingSolver() : bodies_(std::make_shared<KnownBodies>()) {}
+
+BearingSolution BearingSolver::solve(const model::Model& model, const BearingStudyOptions& options) const {
+  BearingSolution solution;
+  solve_one(model, options, nullptr, *bodies_, solution);
+  return solution;
 }
 
 model::StudyParameter parse_sweep(const std::string& text) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hersey/core/input_error.h"
+#include "hersey/model/read.h"
 
 namespace hersey::study {
 namespace bearing_study_test {
@@ -224,6 +225,15 @@ TEST_CASE("LemonBoreMadeRound_HasTheCoefficientsOfLundAndThomsen") {
       CHECK(std::abs(value_of(solution, std::string("C_") + pairs[k]) - c.C[k]) < 0.01 * 9.93);
     }
   }
+}
+
+TEST_CASE("SolvingOneByOne_GivesTheBitsOfAStudy") {
+  const std::vector<std::string> overrides{"load=800 N"};
+  const BearingSolution one =
+      BearingSolver().solve(model::read(example, overrides), {.bearing = "main", .grid_error = false});
+  const auto all = solve_bearings(example, {{overrides, "", "", {}}}, {.bearing = "main", .grid_error = false});
+  REQUIRE(one.solved());
+  CHECK(value_of(one, "h_min") == value_of(all.front(), "h_min"));
 }
 
 }  // namespace bearing_study_test

@@ -54,12 +54,38 @@ struct BearingStudyOptions {
 /// @throws InputError where the bearing has none.
 [[nodiscard]] bearing::OperatingPoint operating_point_of(const model::Bearing& bearing);
 
-/// Solves the bearing of the model file at `path` at every run of `runs`, several at a time. One that fails is
+/// Gives the model with overrides in place, as model::read does; called from several threads at once.
+using ModelReader = std::function<model::Model(const std::vector<std::string>& overrides)>;
+
+/// Solves the bearing of the model that `read` gives at every run of `runs`, several at a time. One that fails is
 /// tried again from the solution of a neighbour, a run that differs in one value only; one without any does not stop
 /// the others.
+[[nodiscard]] std::vector<BearingSolution> solve_bearings(const ModelReader& read,
+                                                          const std::vector<model::StudyRun>& runs,
+                                                          const BearingStudyOptions& options);
+/// The same of the model file at `path`.
 [[nodiscard]] std::vector<BearingSolution> solve_bearings(const std::string& path,
                                                           const std::vector<model::StudyRun>& runs,
                                                           const BearingStudyOptions& options);
+
+class KnownBodies;
+
+/// Solves bearings one after another, as a caller comes to them. How bodies give way and conduct heat is worked out
+/// once for all solutions that leave them as they are.
+/// @verified_by bearing_study_test.cpp
+class BearingSolver {
+ public:
+  /// Knows no bodies yet.
+  BearingSolver();
+  /// The bearing of `model` that `options` name; `options.threads` and `options.first` are without meaning. May be
+  /// called from several threads at once.
+  /// @returns a solution, or why there is none in BearingSolution::error.
+  /// @throws InputError where the model gives no operating point, or one that cannot be solved.
+  [[nodiscard]] BearingSolution solve(const model::Model& model, const BearingStudyOptions& options) const;
+
+ private:
+  std::shared_ptr<KnownBodies> bodies_;
+};
 
 /// "load=100N:2500N:10", "journal_speed=1rpm:1000rpm:7:log" or "load=100N,200N,500N" as a study's parameter with its
 /// values written out. @throws InputError for any other text.

@@ -1,0 +1,77 @@
+#include "hersey/model/written.h"
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "hersey/core/spelling.h"
+#include "interpret/overrides.h"
+#include "interpret/reader.h"
+
+namespace hersey::model {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::scalar:
+      return written(node);
+    case Node::Kind::sequence: {
+      Json list = Json::array();
+      for (const Node& item : node.items) list.push_back(json_of(item));
+      return list;
+    }
+    case Node::Kind::mapping: {
+      Json mapping = Json::object();
+      for (const Entry& entry : node.entries) mapping[entry.key] = json_of(entry.value);
+      return mapping;
+    }
+    case Node::Kind::null:
+      return nullptr;
+  }
+  return nullptr;
+}
+
+const Node* item_called(const Node& node, const std::string& key) {
+  if (node.kind != Node::Kind::sequence) return node.find(key);
+  std::size_t index = node.items.size();
+  std::from_chars(key.data(), key.data() + key.size(), index);
+  return index < node.items.size() ? &node.items[index] : nullptr;
+}
+
+// Nothing stands at `path`: as far as it goes there is `node`, which has no `key`.
+[[noreturn]] void refuse(const Node& node, const std::string& path, const std::string& key) {
+  std::vector<std::string> keys;
+  for (const Entry& entry : node.entries) keys.push_back(entry.key);
+  const std::string expected = keys.empty() ? "a key path of the model" : one_of(keys);
+  throw InputError(Fault{node.position, path, "no '" + key + "' in the model", expected, did_you_mean(key, keys)});
+}
+
+}  // namespace
+
+std::string written_json(const std::string& text, const std::string& file, const std::vector<std::string>& overrides,
+                         const std::string& path) {
+  std::vector<Fault> faults;
+  const std::vector<Override> changes = parse_overrides(overrides, faults);
+  const Node root = [&] {
+    std::optional<Node> tree = parse_yaml(text, file, faults);
+    if (!tree) return Node{};
+    apply_overrides(*tree, changes, top_level_keys(), faults);
+    substitute_parameters(*tree, faults);
+    return std::move(*tree);
+  }();
+  if (!faults.empty()) throw InputError(std::move(faults));
+  const Node* node = &root;
+  for (std::size_t from = 0; from < path.size();) {
+    const std::size_t dot = std::min(path.find('.', from), path.size());
+    const std::string key = path.substr(from, dot - from);
+    const Node* next = item_called(*node, key);
+    if (next == nullptr) refuse(*node, path, key);
+    node = next;
+    from = dot + 1;
+  }
+  return json_of(*node).dump();
+}
+
+}  // namespace hersey::model

@@ -1,0 +1,24 @@
+"""Oil-film journal bearings inside moving machines.
+
+    import hersey
+
+    model = hersey.Model.load("engine.yaml")
+    model["bearings.big_end.radial_clearance"] = "40 um"
+    results = model.run(output="out", progress=True)
+    results.bearing("big_end")["h_min"].plot()
+
+Numbers that come out are SI; quantities that go in are texts with their unit.
+"""
+
+from ._core import Progress, __version__
+from .bearing import BearingSolution, bearing, bearing_model
+from .errors import Fault, HerseyError, InputError, RunError, SolutionError, Stopped, UserFunctionError
+from .figure import Figure
+from .model import Model
+from .results import Results, Summary, open_results, report
+
+__all__ = [
+    "BearingSolution", "Fault", "Figure", "HerseyError", "InputError", "Model", "Progress", "Results", "RunError",
+    "SolutionError", "Stopped", "Summary", "UserFunctionError", "__version__", "bearing", "bearing_model",
+    "open_results", "report",
+]

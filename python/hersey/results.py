@@ -1,0 +1,165 @@
+"""A results file: its summary, its tables, its fields when they are asked for."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Iterator, Optional
+
+import numpy as np
+
+from . import _core
+
+
+class Summary(Mapping):
+    """How a run went: status, steps, times [s], energies [J]; nested mappings as `hersey run --json` gives them."""
+
+    def __init__(self, content: dict[str, Any]):
+        self._content = content
+
+    def __getitem__(self, key: str) -> Any:
+        return self._content[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._content)
+
+    def __len__(self) -> int:
+        return len(self._content)
+
+    def __repr__(self) -> str:
+        return (f"<Summary: {self['status']} at t = {self['t_end']:.6g} s after {self['steps']} steps, "
+                f"{self['wall_time']:.3g} s>")
+
+
+class _SolversLock:
+    """HDF5 serves one thread at a time: a run in another thread waits while this one reads."""
+
+    def __enter__(self) -> None:
+        _core.lock_hdf5()
+
+    def __exit__(self, *_: Any) -> None:
+        _core.unlock_hdf5()
+
+
+class Results:
+    """The results of one run. Nothing is read before it is asked for.
+
+    `results["bearings/big_end"]` is a group as `xarray.Dataset` with named dimensions, coordinates and units;
+    `results.bearing("big_end")` and `results.film("big_end")` are short for those of films. Everything is SI.
+    """
+
+    def __init__(self, path: Any, summary: Optional[Summary] = None):
+        self.path = Path(os.fspath(path))
+        if not self.path.exists():
+            raise FileNotFoundError(f"{self.path}: no such results file")
+        #: of the run that wrote it, if that was made from here
+        self.summary = summary
+
+    def __repr__(self) -> str:
+        return f"<Results {self.path}: {self.title or 'without title'}, {self.status}>"
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Of the file: title, status, message, the model's text, ..."""
+        import h5py
+
+        with _SolversLock(), h5py.File(self.path, "r") as file:
+            return dict(file.attrs)
+
+    @property
+    def title(self) -> str:
+        return str(self.attributes.get("title", ""))
+
+    @property
+    def status(self) -> str:
+        """completed, stopped, failed, or running."""
+        return str(self.attributes["status"])
+
+    @property
+    def groups(self) -> list[str]:
+        """Paths of all groups that hold data, for `results[path]`."""
+        import h5py
+
+        found: list[str] = []
+
+        def visit(name: str, item: Any) -> None:
+            if isinstance(item, h5py.Group) and any(isinstance(part, h5py.Dataset) for part in item.values()):
+                found.append(name)
+
+        with _SolversLock(), h5py.File(self.path, "r") as file:
+            file.visititems(visit)
+        return found
+
+    @property
+    def bearings(self) -> list[str]:
+        """Names of the bearings."""
+        import h5py
+
+        with _SolversLock(), h5py.File(self.path, "r") as file:
+            return list(file.get("bearings", {}))
+
+    def __getitem__(self, group: str):
+        """A group as `xarray.Dataset`; large ones are read where they are used."""
+        import xarray
+
+        with _SolversLock():
+            try:
+                return xarray.open_dataset(self.path, group=group or "/", engine="h5netcdf")
+            except OSError as error:
+                raise KeyError(f"no group '{group}' in {self.path}; there are {', '.join(self.groups)}") from error
+
+    def bearing(self, name: Optional[str] = None):
+        """Series of a bearing over time [s], with the crank angle as a coordinate where the machine has a crank."""
+        return self._with_crank(self[f"bearings/{self._called(name)}"])
+
+    def film(self, name: Optional[str] = None):
+        """Stored fields of a film over time [s], bearing angle `phi` [rad] and `z` [m], read where they are used."""
+        return self._with_crank(self[f"bearings/{self._called(name)}/fields"])
+
+    def _called(self, name: Optional[str]) -> str:
+        names = self.bearings
+        if name is None and len(names) == 1:
+            return names[0]
+        if name not in names:
+            raise KeyError(f"{'several bearings' if name is None else f'no bearing {name!r}'} in {self.path}: "
+                           f"expected one of {', '.join(names) or 'none'}")
+        return name
+
+    def _with_crank(self, data):
+        import h5py
+
+        with _SolversLock(), h5py.File(self.path, "r") as file:
+            if "crank_angle" not in file or "time" not in data.dims:
+                return data
+            crank = file["crank_angle"]
+            time, angle = file["time"][:], crank[:]
+            attributes = {key: crank.attrs[key] for key in ("units", "long_name") if key in crank.attrs}
+        at = np.interp(data["time"].values, time, angle)
+        return data.assign_coords(crank_angle=("time", at, attributes))
+
+    def table(self):
+        """The closing table as a `pandas.DataFrame`, in SI: group, name, value, unit, where."""
+        import pandas
+
+        rows = json.loads(_core.summary_table_json([os.fspath(self.path)]))
+        return pandas.DataFrame(rows).drop(columns="run").set_index(["group", "name"])
+
+    def report(self, out: Any, title: str = "") -> Path:
+        """Writes the report: one HTML file, no network, any browser."""
+        _core.write_report([os.fspath(self.path)], os.fspath(out), title)
+        return Path(os.fspath(out))
+
+
+def open_results(path: Any) -> Results:
+    """Opens a results file, or the one in a folder."""
+    path = Path(os.fspath(path))
+    return Results(path / "results.h5" if path.is_dir() else path)
+
+
+def report(results: Any, out: Any, title: str = "") -> Path:
+    """One report of several results, compared or as the study they are of."""
+    files = [os.fspath(item.path if isinstance(item, Results) else item) for item in results]
+    _core.write_report(files, os.fspath(out), title)
+    return Path(os.fspath(out))

@@ -1,0 +1,86 @@
+"""A run from its beginning to its results."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from pathlib import Path
+from typing import Any, Callable, Optional, Union
+
+from . import _core
+from .errors import InputError, RunError, Stopped
+from .results import Results, Summary
+
+
+def results_file(model: Any, output: Optional[Any]) -> Path:
+    """Where results go: as `hersey run` chooses, or `output`, a folder or an .h5 file."""
+    if output is None:
+        path = Path(model.file).absolute()
+        plain = path.stem == "model" and path.parent.name
+        return Path("results") / (path.parent.name if plain else path.stem) / "results.h5"
+    path = Path(os.fspath(output))
+    return path if path.suffix == ".h5" else path / "results.h5"
+
+
+class _Bar:
+    """A bar of tqdm's where there is tqdm, else a line now and then."""
+
+    def __init__(self, label: str):
+        self._label, self._bar, self._told = label, None, 0.0
+
+    def __call__(self, progress: "_core.Progress") -> None:
+        share = (progress.t - progress.t_start) / max(progress.t_end - progress.t_start, 1e-300)
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            if progress.elapsed - self._told > 5:
+                self._told = progress.elapsed
+                print(f"{self._label} {100 * share:.0f} %, t = {progress.t:.5g} s", file=sys.stderr)
+            return
+        if self._bar is None:
+            self._bar = tqdm(total=100, desc=self._label, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}{postfix}")
+        if share * 100 - self._bar.n >= 0.1 or share >= 1:
+            moft = f", MOFT {1e6 * progress.moft:.2f} um" if progress.moft < 1 else ""
+            self._bar.set_postfix_str(f"t {progress.t:.5g} s{moft}", refresh=False)
+            self._bar.update(min(100 * share, 100) - self._bar.n)
+
+    def close(self) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+
+def run(model: Any, output: Optional[Any], *, overwrite: bool, resume: bool, step_error: bool,
+        progress: Union[bool, Callable[["_core.Progress"], Any]]) -> Results:
+    """See `Model.run`."""
+    varied = [name for name, texts in model.study.items()
+              if len(texts) > 1 and not any(change.startswith(name + "=") for change in model.changes)]
+    if varied:
+        raise InputError(f"{model.file}: the model's study varies {', '.join(varied)}: expected one run; "
+                         f"model.set({varied[0]}=...) fixes it, model.runs() gives a model for each combination")
+    if model._checked.is_of_bearings_alone:
+        raise InputError(f"{model.file}: bearings alone: expected bodies and a simulation to run; "
+                         "model.bearing() solves bearings by themselves")
+    file = results_file(model, output)
+    if file.exists() and not (overwrite or resume):
+        raise FileExistsError(f"{file}: the results file exists already and was kept; overwrite=True replaces it, "
+                              "resume=True goes on with it")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    bar = _Bar(model.title or Path(model.file).stem) if progress is True else None
+    listener = bar or (progress if callable(progress) else None)
+    try:
+        text, raised = _core.simulate(model._checked, os.fspath(file), overwrite, resume, step_error, listener)
+    finally:
+        if bar:
+            bar.close()
+    summary = Summary(json.loads(text))
+    results = Results(file, summary=summary)
+    if isinstance(raised, KeyboardInterrupt):
+        raise Stopped(f"stopped at t = {summary['t_results']:.6g} s, results in {file}; resume=True goes on from there",
+                      results, summary) from None
+    if raised is not None:
+        raise raised
+    if summary["status"] == "failed":
+        raise RunError(f"{summary['message']}; results up to t = {summary['t_results']:.6g} s are in {file}", results,
+                       summary)
+    return results

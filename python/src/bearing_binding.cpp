@@ -1,0 +1,115 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "bindings.h"
+#include "hersey/bearing/steady_bearing.h"
+#include "hersey/model/read.h"
+#include "hersey/run/film_fields.h"
+#include "hersey/study/bearing_study.h"
+#include "model_binding.h"
+
+namespace hersey::python {
+namespace {
+
+namespace py = pybind11;
+using study::BearingSolution;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+study::BearingStudyOptions options_of(const std::string& bearing, bool grid_error, const std::string& coefficients) {
+  study::BearingStudyOptions options{.bearing = bearing, .grid_error = grid_error};
+  if (coefficients == "total") options.thermal_coefficients = study::ThermalCoefficients::total;
+  return options;
+}
+
+BearingSolution solve(const study::BearingSolver& solver, const CheckedModel& checked, const std::string& bearing,
+                      bool grid_error, const std::string& coefficients) {
+  return solver.solve(checked.model, options_of(bearing, grid_error, coefficients));
+}
+
+// One combination of a sweep: label, overrides, and the values that tell neighbours.
+using Combination = std::tuple<std::string, std::vector<std::string>, std::vector<std::string>>;
+
+std::vector<BearingSolution> solve_all(const CheckedModel& checked, const std::vector<Combination>& combinations,
+                                       const std::string& bearing, bool grid_error, const std::string& coefficients,
+                                       int threads) {
+  std::vector<model::StudyRun> runs;
+  for (const auto& [label, overrides, values] : combinations) {
+    model::StudyRun& run = runs.emplace_back();
+    run.label = label;
+    run.overrides = overrides;
+    for (const std::string& value : values) run.values.push_back({"", value, 0, ""});
+  }
+  study::BearingStudyOptions options = options_of(bearing, grid_error, coefficients);
+  options.threads = threads;
+  const auto read = [&](const std::vector<std::string>& overrides) {
+    return model::read_text(checked.text, checked.file, overrides);
+  };
+  return study::solve_bearings(study::ModelReader(read), runs, options);
+}
+
+// key, name, group, unit, SI unit, size of the unit, value in the unit, grid error in the unit, words
+py::list figures_of(const BearingSolution& solution) {
+  py::list figures;
+  if (!solution.solved()) return figures;
+  for (const study::BearingFigure& f : study::figures_of(solution))
+    figures.append(py::make_tuple(f.key, f.name, f.group, f.unit, f.si_unit, f.si, f.value, f.grid_error, f.words));
+  return figures;
+}
+
+py::array_t<double> on_grid(const film::FilmModel& model, const Eigen::VectorXd& values) {
+  py::array_t<double> grid({model.grid.n_phi, model.grid.n_z});
+  auto view = grid.mutable_unchecked<2>();
+  for (int i = 0; i < model.grid.n_phi; ++i)
+    for (int j = 0; j < model.grid.n_z; ++j) view(i, j) = values[model.grid.index(i, j)];
+  return grid;
+}
+
+// {name: (unit, text, values over angle and z)}
+py::dict fields_of(const BearingSolution& solution) {
+  py::dict fields;
+  const film::FilmFields found = bearing::steady_fields(solution.model, solution.state);
+  for (const run::FilmField& field : run::film_fields())
+    if (const Eigen::VectorXd values = field.values(found); values.size() > 0)
+      fields[py::str(field.name)] = py::make_tuple(field.unit, field.text, on_grid(solution.model, values));
+  return fields;
+}
+
+Eigen::VectorXd angles_of(const BearingSolution& solution) {
+  Eigen::VectorXd phi(solution.model.grid.n_phi);
+  for (int i = 0; i < phi.size(); ++i) phi[i] = solution.model.grid.phi(i);
+  return phi;
+}
+
+Eigen::VectorXd places_along(const BearingSolution& solution) {
+  Eigen::VectorXd z(solution.model.grid.n_z);
+  for (int j = 0; j < z.size(); ++j) z[j] = solution.model.L * solution.model.grid.z_over_L(j);
+  return z;
+}
+
+}  // namespace
+
+void bind_bearing(py::module_& core) {
+  using Guard = py::call_guard<py::gil_scoped_release>;
+  py::class_<BearingSolution>(core, "BearingSolution")
+      .def_property_readonly("error", [](const BearingSolution& s) { return s.error; })
+      .def_property_readonly("label", [](const BearingSolution& s) { return s.run.label; })
+      .def_property_readonly("warnings", [](const BearingSolution& s) { return s.doubts; })
+      .def_property_readonly("linearisations", [](const BearingSolution& s) { return s.summary.iterations; })
+      .def_property_readonly("wall_time", [](const BearingSolution& s) { return s.wall_time; })
+      .def_property_readonly("eccentricity", [](const BearingSolution& s) { return s.state.e; })
+      .def_property_readonly("load", [](const BearingSolution& s) { return s.state.load; })
+      .def_property_readonly("clearance",
+                             [](const BearingSolution& s) { return bearing::clearance(s.model, s.state.point); })
+      .def_property_readonly("stiffness",
+                             [](const BearingSolution& s) -> RowMajor { return s.state.coefficients.stiffness; })
+      .def_property_readonly("damping",
+                             [](const BearingSolution& s) -> RowMajor { return s.state.coefficients.damping; })
+      .def_property_readonly("phi", &angles_of)
+      .def_property_readonly("z", &places_along)
+      .def("figures", &figures_of)
+      .def("fields", &fields_of);
+  py::class_<study::BearingSolver>(core, "BearingSolver").def(py::init<>()).def("solve", &solve, Guard());
+  core.def("solve_all", &solve_all, Guard());
+}
+
+}  // namespace hersey::python

@@ -1,0 +1,100 @@
+"""The strict reader from Python."""
+
+import json
+import subprocess
+
+import pytest
+
+import hersey
+
+
+def test_values_read_as_written(alone):
+    assert alone["bearings.main.radial_clearance"] == "34 um"
+    assert alone["load"] == alone["parameters.load"] == "2500 N"
+    assert alone["bearings.main.grid"] == {"circumferential": 120, "axial": 25}
+    assert alone["bearings.main.operating_point.load"] == "2500 N"  # its parameter in place
+
+
+def test_assigned_value_is_in_the_model_and_in_what_the_program_is_told(alone, program, bearing_file):
+    alone["bearings.main.radial_clearance"] = "40 um"
+    alone["load"] = "1 kN"
+    assert alone["bearings.main.radial_clearance"] == "40 um"
+    told = [part for change in alone.changes for part in ("--set", change)]
+    run = subprocess.run([program, "bearing", bearing_file, "--json", *told], capture_output=True, text=True, check=True)
+    figures = json.loads(run.stdout)["solutions"][0]["figures"]
+    solution = alone.bearing()
+    for key, figure in figures.items():
+        if figure["value"] is not None:
+            assert solution[key] == figure["value"], key  # the same arithmetic: the same bits
+            assert solution[key].unit == (figure["unit"] or "1")
+
+
+def test_assigning_twice_keeps_one_change(alone):
+    for clearance in ("40 um", "50 um"):
+        alone["bearings.main.radial_clearance"] = clearance
+    assert alone.changes == ["bearings.main.radial_clearance=50 um"]
+
+
+def test_wrong_value_tells_file_line_and_key_and_changes_nothing(alone, bearing_file):
+    with pytest.raises(hersey.InputError) as caught:
+        alone["bearings.main.radial_clearance"] = "40 kPa"
+    error = caught.value
+    line = 1 + [*map(str.strip, alone.text.split("\n"))].index("radial_clearance: 34 um")
+    assert (error.file, error.line, error.key) == (str(bearing_file), line, "bearings.main.radial_clearance")
+    assert "a pressure (kPa)" in str(error) and "a length > 0" in str(error)
+    assert alone["bearings.main.radial_clearance"] == "34 um"
+
+
+def test_every_fault_of_a_file_is_told(tmp_path, alone):
+    file = tmp_path / "model.yaml"
+    file.write_text(alone.text.replace("diameter: 45 mm", "diamter: 45 mm").replace("width: 15.6 mm", "width: 15.6"))
+    with pytest.raises(hersey.InputError) as caught:
+        hersey.Model.load(file)
+    assert len(caught.value.faults) >= 2
+    assert any("did you mean 'diameter'?" in fault.text and fault.line > 0 for fault in caught.value.faults)
+
+
+def test_missing_file_is_told_as_by_the_program(tmp_path):
+    with pytest.raises(hersey.InputError, match="nothing.yaml"):
+        hersey.Model.load(tmp_path / "nothing.yaml")
+
+
+def test_missing_key_names_the_nearest(alone):
+    with pytest.raises(hersey.InputError, match="did you mean 'radial_clearance'"):
+        alone["bearings.main.radial_clearanc"]
+    assert "bearings.main.coupling" not in alone and alone.get("bearings.main.coupling", 3) == 3
+
+
+def test_dictionary_makes_the_same_model_as_its_file(alone):
+    again = hersey.Model.from_dict(alone.to_dict())
+    assert dict(again.bearing()) == pytest.approx(dict(alone.bearing()), nan_ok=True, rel=0, abs=0)
+
+
+def test_dictionary_takes_numpy_numbers(machine):
+    numpy = pytest.importorskip("numpy")
+    machine["bearings"]["main"]["grid"] = {"circumferential": numpy.int64(48), "axial": numpy.int32(9)}
+    assert hersey.Model.from_dict(machine)["bearings.main.grid.axial"] == 9
+
+
+def test_value_without_place_in_a_model_is_refused(alone):
+    with pytest.raises(TypeError, match="has no place in a model"):
+        alone["load"] = object()
+
+
+def test_text_cannot_break_out_of_its_place(alone):
+    alone["title"] = 'a: "b", {c: [d]} # e'
+    assert alone["title"] == alone.title == 'a: "b", {c: [d]} # e'
+
+
+def test_study_becomes_a_model_for_each_combination():
+    from conftest import EXAMPLES
+
+    model = hersey.Model.load(EXAMPLES / "paper_big_end" / "model.yaml")
+    models = model.runs()
+    count = 1
+    for texts in model.study.values():
+        count *= len(texts)
+    assert len(models) == count > 1
+    assert len({tuple(each.changes) for each in models}) == count
+    with pytest.raises(hersey.InputError, match="study varies"):
+        model.run()

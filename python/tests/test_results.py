@@ -1,0 +1,61 @@
+"""Results as xarray and pandas, lazily, with everything named."""
+
+import numpy as np
+import pytest
+import xarray
+
+import hersey
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    from conftest import MACHINE
+
+    return hersey.Model.from_dict(MACHINE).run(tmp_path_factory.mktemp("results"))
+
+
+def test_series_have_time_units_and_names(results):
+    film = results.bearing()
+    assert film["h_min"].dims == ("time",) and film["h_min"].attrs["units"] == "m"
+    assert film["h_min"].attrs["long_name"] and film["time"].attrs["units"] == "s"
+    assert float(film["h_min"].sel(time=5e-3, method="nearest")) > 0
+
+
+def test_fields_are_read_where_they_are_used(results):
+    film = results.film()
+    assert film["pressure"].dims == ("time", "phi", "z")
+    assert not film["pressure"].variable._in_memory
+    assert {"phi", "z", "time"} <= set(film.coords)
+    assert len(film["time"]) == 6  # every 2 ms of 10 ms
+
+
+def test_every_group_opens_by_itself_with_names_and_units(results):
+    assert "bearings/main" in results.groups
+    for group in ["", *results.groups]:
+        with xarray.open_dataset(results.path, group=group or "/", engine="h5netcdf") as data:
+            assert not [name for name in data.dims if str(name).startswith("phony")], group
+            for name, variable in data.variables.items():
+                if variable.dtype.kind == "f":
+                    assert "units" in variable.attrs and "long_name" in variable.attrs, f"{group}/{name}"
+
+
+def test_table_is_the_closing_one(results):
+    table = results.table()
+    moft = table.loc[("main", "minimum film thickness (MOFT)")]
+    assert moft["value"] == pytest.approx(float(results.bearing()["h_min"].min()), rel=1e-12)
+
+
+def test_report_is_one_page(results, tmp_path):
+    page = results.report(tmp_path / "x.html", title="Mine")
+    assert '"Mine"' in page.read_text(encoding="utf-8")
+    with pytest.raises(OSError):
+        results.report(tmp_path / "nowhere" / "x.html")
+
+
+def test_missing_things_are_told(results, tmp_path):
+    with pytest.raises(KeyError, match="expected one of main"):
+        results.bearing("big_end")
+    with pytest.raises(KeyError, match="no group 'bearing/main'"):
+        results["bearing/main"]
+    with pytest.raises(FileNotFoundError):
+        hersey.open_results(tmp_path / "results.h5")

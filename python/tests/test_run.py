@@ -1,0 +1,129 @@
+"""Runs from Python: the program's numbers, progress, interruptions, failures."""
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+
+import h5py
+import numpy as np
+import pytest
+
+import hersey
+
+
+def test_run_has_the_bits_of_the_program(machine, tmp_path, program):
+    model = hersey.Model.from_dict(machine)
+    results = model.run(tmp_path / "python")
+    file = tmp_path / "model.yaml"
+    file.write_text(model.text)
+    subprocess.run([program, "run", file, "--output", tmp_path / "program"], check=True, capture_output=True)
+    with h5py.File(tmp_path / "program" / "results.h5") as told:
+        for name in ("h_min", "force", "p_max"):
+            assert np.array_equal(results["bearings/main"][name].values, told[f"bearings/main/{name}"][:]), name
+    assert results.status == "completed" and results.summary["steps"] == 50
+
+
+def test_existing_results_are_kept(machine, tmp_path):
+    model = hersey.Model.from_dict(machine)
+    model.run(tmp_path)
+    with pytest.raises(FileExistsError, match="overwrite=True"):
+        model.run(tmp_path)
+    model.run(tmp_path, overwrite=True)
+
+
+def test_progress_is_told_at_the_start_and_after_every_step(machine, tmp_path):
+    times = []
+    results = hersey.Model.from_dict(machine).run(tmp_path, progress=lambda progress: times.append(progress.t))
+    assert len(set(times)) == results.summary["steps"] + 1 and times == sorted(times)
+
+
+def test_bar_counts_to_its_end(machine, tmp_path, capsys):
+    pytest.importorskip("tqdm")
+    hersey.Model.from_dict(machine).run(tmp_path, progress=True)
+    assert "100%" in capsys.readouterr().err
+
+
+def test_exception_of_a_progress_function_comes_out_and_results_stay(machine, tmp_path):
+    def listen(progress):
+        if progress.t > 5e-3:
+            raise ValueError("enough")
+
+    with pytest.raises(ValueError, match="enough"):
+        hersey.Model.from_dict(machine).run(tmp_path, progress=listen)
+    results = hersey.open_results(tmp_path)
+    assert results.status == "stopped" and float(results.bearing()["time"][-1]) == pytest.approx(5.2e-3)
+
+
+def test_ctrl_c_ends_a_run_with_results_and_the_run_goes_on(machine, tmp_path):
+    machine["simulation"]["duration"] = "200 ms"
+    model = hersey.Model.from_dict(machine)
+
+    def interrupt(progress):
+        if progress.t > 5e-3:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt) as caught:
+        model.run(tmp_path, progress=interrupt)
+    stopped = caught.value
+    assert isinstance(stopped, hersey.Stopped) and stopped.summary["status"] == "stopped"
+    assert 0 < stopped.summary["t_results"] < 0.1
+    assert len(stopped.results.bearing()["time"]) > 1
+    assert model.run(tmp_path, resume=True).status == "completed"
+
+
+def test_ctrl_c_is_heard_without_progress(machine, tmp_path):
+    """A process of its own, interrupted from outside while no Python function is called."""
+    machine["simulation"]["duration"] = "1000 s"
+    machine["output"] = {"fields_every": "100 s", "every": 10000}
+    script = textwrap.dedent(f"""
+        import hersey
+        model = hersey.Model.from_dict({machine!r})
+        print("begin", flush=True)
+        try:
+            model.run({str(tmp_path)!r})
+        except hersey.Stopped as stopped:
+            print(stopped.results.status, flush=True)
+    """)
+    child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+    try:
+        assert child.stdout.readline() == "begin\n"
+        timer = threading.Timer(1.5, child.send_signal, [signal.SIGINT])
+        timer.start()
+        out, _ = child.communicate(timeout=60)
+    finally:
+        child.kill()
+    assert out == "stopped\n"
+
+
+def test_other_threads_run_meanwhile(machine, tmp_path):
+    machine["simulation"]["duration"] = "100 ms"
+    model, counted, done = hersey.Model.from_dict(machine), [0], threading.Event()
+
+    def count():
+        while not done.wait(1e-3):
+            counted[0] += 1
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    model.run(tmp_path)
+    done.set()
+    thread.join()
+    assert counted[0] > 10  # a run of some tenths of a second
+
+
+def test_failed_run_tells_when_and_why_with_results(machine, tmp_path):
+    machine["forces"]["push"]["components"] = ["0 N", {"expression": "t < 0.004 ? -500 : log(-1)", "unit": "N"}, "0 N"]
+    machine["simulation"]["smallest_step"] = "0.1 ms"
+    with pytest.raises(hersey.HerseyError) as caught:
+        hersey.Model.from_dict(machine).run(tmp_path)
+    assert isinstance(caught.value, hersey.RunError), caught.value
+    assert 3e-3 < caught.value.summary["t_results"] <= 4.2e-3
+    assert len(caught.value.results.bearing()["time"]) > 10
+
+
+def test_bearings_alone_are_no_run(alone):
+    with pytest.raises(hersey.InputError, match="model.bearing"):
+        alone.run()
