@@ -14,11 +14,12 @@ from ._core import Progress, __version__
 from .bearing import BearingSolution, bearing, bearing_model
 from .errors import Fault, HerseyError, InputError, RunError, SolutionError, Stopped, UserFunctionError
 from .figure import Figure
+from .functions import Function, surface_profile, viscosity_law
 from .model import Model
 from .results import Results, Summary, open_results, report
 
 __all__ = [
-    "BearingSolution", "Fault", "Figure", "HerseyError", "InputError", "Model", "Progress", "Results", "RunError",
+    "BearingSolution", "Fault", "Figure", "Function", "HerseyError", "InputError", "Model", "Progress", "Results", "RunError",
     "SolutionError", "Stopped", "Summary", "UserFunctionError", "__version__", "bearing", "bearing_model",
-    "open_results", "report",
+    "open_results", "report", "surface_profile", "viscosity_law",
 ]

@@ -12,6 +12,7 @@ from typing import Any, Callable, Optional, Union
 from . import _core
 from .bearing import BearingSolution, solved
 from .errors import InputError
+from .functions import Function
 from .overrides import assignment, plain, value_of, yaml_of
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -35,6 +36,7 @@ class Model:
     def __init__(self, checked: "_core.CheckedModel", solver: Optional["_core.BearingSolver"] = None):
         self._checked = checked
         self._solver = solver or _core.BearingSolver()  # knows the bodies it has seen
+        self._functions: dict[str, Function] = {}
 
     # Where models come from
 
@@ -62,7 +64,12 @@ class Model:
 
     def copy(self) -> "Model":
         """Another model with the same values; changing one leaves the other."""
-        return Model(self._checked, self._solver)
+        return self._as(self._checked)
+
+    def _as(self, checked: "_core.CheckedModel") -> "Model":
+        model = Model(checked, self._solver)
+        model._functions = dict(self._functions)
+        return model
 
     # What stands in it
 
@@ -133,11 +140,24 @@ class Model:
     def set(self, values: Optional[Mapping[str, Any]] = None, **named: Any) -> "Model":
         """Replaces several values at once, which may be wrong one by one: a load for an eccentricity, say.
 
-        Values are texts with units, numbers where no unit is due, lists, mappings; `None` is the word none. Raises
+        Values are texts with units, numbers where no unit is due, lists, mappings; `None` is the word none; where an
+        expression may stand a `Function`, Python's own. Raises
         `InputError` with file, line and key, and leaves the model as it was.
         """
-        self._checked = self._with({**(values or {}), **named})
+        values = {**(values or {}), **named}
+        given = {path: value for path, value in values.items() if isinstance(value, Function)}
+        stand_ins = {path: function.stand_in() for path, function in given.items()}
+        checked = self._with({**values, **stand_ins})
+        kept = {path: function for path, function in self._functions.items() if path not in values}
+        functions = {**kept, **given}
+        if given:
+            _with_functions(checked, functions)  # each has its place
+        self._checked, self._functions = checked, functions
         return self
+
+    def _runnable(self):
+        """The model with Python's functions in place, and their counters."""
+        return _with_functions(self._checked, self._functions) if self._functions else (self._checked, [])
 
     def _path(self, path: str) -> str:
         """A parameter's name stands for its value, as with --set."""
@@ -240,7 +260,7 @@ class Model:
 
     def check(self) -> list[str]:
         """Builds the machine and finds its start, as a run does first: what the user should know though it runs."""
-        return self._checked.check()
+        return self._runnable()[0].check()
 
     def runs(self) -> list["Model"]:
         """A model for each combination of the file's study; the model itself where it has none."""
@@ -249,7 +269,7 @@ class Model:
                   if not any(change.startswith(name + "=") for change in self.changes)}
         for chosen in itertools.product(*varied.values()):
             changes = self.changes + [f"{name}={text}" for name, text in zip(varied, chosen)]
-            models.append(Model(self._read(changes), self._solver))
+            models.append(self._as(self._read(changes)))
         return models
 
     def run(self, output: Optional[PathLike] = None, *, overwrite: bool = False, resume: bool = False,
@@ -276,3 +296,8 @@ _POINT = ("journal_speed", "shell_speed", "load", "load_angle", "eccentricity_ra
 def _require_coefficients(name: str) -> None:
     if name not in ("frozen", "total"):
         raise InputError(f"thermal_coefficients: {name!r}: expected 'frozen' or 'total'")
+
+
+def _with_functions(checked: "_core.CheckedModel", functions: Mapping[str, Function]):
+    return _core.with_functions(checked, [(path, each.function, each.derivative, len(each.variables))
+                                          for path, each in functions.items()])

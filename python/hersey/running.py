@@ -10,6 +10,7 @@ from typing import Any, Callable, Optional, Union
 
 from . import _core
 from .errors import InputError, RunError, Stopped
+from .functions import cost_of, trouble_of
 from .results import Results, Summary
 
 
@@ -68,13 +69,24 @@ def run(model: Any, output: Optional[Any], *, overwrite: bool, resume: bool, ste
     file.parent.mkdir(parents=True, exist_ok=True)
     bar = _Bar(model.title or Path(model.file).stem) if progress is True else None
     listener = bar or (progress if callable(progress) else None)
+    checked, calls = model._runnable()
+
+    def is_in_trouble() -> bool:
+        return any(each.trouble for each in calls)
+
     try:
-        text, raised = _core.simulate(model._checked, os.fspath(file), overwrite, resume, step_error, listener)
+        text, raised, t = _core.simulate(checked, os.fspath(file), overwrite, resume, step_error, listener, is_in_trouble)
     finally:
         if bar:
             bar.close()
-    summary = Summary(json.loads(text))
+    if not text:
+        trouble_of(calls, t, None)
+    content = json.loads(text)
+    if calls:
+        content["functions"] = cost_of(calls)
+    summary = Summary(content)
     results = Results(file, summary=summary)
+    trouble_of(calls, t, results)
     if isinstance(raised, KeyboardInterrupt):
         raise Stopped(f"stopped at t = {summary['t_results']:.6g} s, results in {file}; resume=True goes on from there",
                       results, summary) from None

@@ -1,3 +1,4 @@
+#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <atomic>
@@ -26,6 +27,7 @@ class Listener {
 
   void tell(const run::Progress& progress) {
     const Clock::time_point now = Clock::now();
+    t_ = progress.t;
     const bool is_asked_for = !on_progress_.is_none();
     if (stop_ || (!is_asked_for && now - last_ < kPatience)) return;
     last_ = now;
@@ -40,6 +42,8 @@ class Listener {
   }
 
   [[nodiscard]] const std::atomic<bool>& stop() const { return stop_; }
+  /// The time the run had come to [s].
+  [[nodiscard]] double t() const { return t_; }
   /// What Python raised meanwhile, or None.
   [[nodiscard]] py::object raised() const { return raised_ ? py::object(raised_->value()) : py::none(); }
 
@@ -48,11 +52,13 @@ class Listener {
   std::optional<py::error_already_set> raised_;
   std::atomic<bool> stop_{false};
   Clock::time_point last_ = Clock::now();
+  double t_ = 0;
 };
 
-// The summary as JSON, and the exception that ended the run, or None.
+// The summary as JSON, the exception that ended the run, or None, and the time it had come to. A run that could not
+// begin gives no summary where a function of Python's is why; Python looks after that.
 py::tuple simulate(const CheckedModel& checked, const std::string& results, bool overwrite, bool resume,
-                   bool step_error, py::object on_progress) {
+                   bool step_error, py::object on_progress, const std::function<bool()>& is_in_trouble) {
   Listener listener(std::move(on_progress));
   run::Options options;
   options.results = results;
@@ -64,9 +70,14 @@ py::tuple simulate(const CheckedModel& checked, const std::string& results, bool
   std::string json;
   {
     const py::gil_scoped_release open;
-    json = run::summary_json(run::simulate(checked.model, options));
+    try {
+      json = run::summary_json(run::simulate(checked.model, options));
+    } catch (const std::exception&) {
+      const py::gil_scoped_acquire lock;
+      if (!is_in_trouble()) throw;
+    }
   }
-  return py::make_tuple(json, listener.raised());
+  return py::make_tuple(json, listener.raised(), listener.t());
 }
 
 }  // namespace
