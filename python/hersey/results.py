@@ -11,6 +11,7 @@ from typing import Any, Iterator, Optional
 import numpy as np
 
 from . import _core
+from .reading import SolversLock, read_group
 
 
 class Summary(Mapping):
@@ -31,16 +32,6 @@ class Summary(Mapping):
     def __repr__(self) -> str:
         return (f"<Summary: {self['status']} at t = {self['t_end']:.6g} s after {self['steps']} steps, "
                 f"{self['wall_time']:.3g} s>")
-
-
-class _SolversLock:
-    """HDF5 serves one thread at a time: a run in another thread waits while this one reads."""
-
-    def __enter__(self) -> None:
-        _core.lock_hdf5()
-
-    def __exit__(self, *_: Any) -> None:
-        _core.unlock_hdf5()
 
 
 class Results:
@@ -65,7 +56,7 @@ class Results:
         """Of the file: title, status, message, the model's text, ..."""
         import h5py
 
-        with _SolversLock(), h5py.File(self.path, "r") as file:
+        with SolversLock(), h5py.File(self.path, "r") as file:
             return dict(file.attrs)
 
     @property
@@ -88,7 +79,7 @@ class Results:
             if isinstance(item, h5py.Group) and any(isinstance(part, h5py.Dataset) for part in item.values()):
                 found.append(name)
 
-        with _SolversLock(), h5py.File(self.path, "r") as file:
+        with SolversLock(), h5py.File(self.path, "r") as file:
             file.visititems(visit)
         return found
 
@@ -97,18 +88,15 @@ class Results:
         """Names of the bearings."""
         import h5py
 
-        with _SolversLock(), h5py.File(self.path, "r") as file:
+        with SolversLock(), h5py.File(self.path, "r") as file:
             return list(file.get("bearings", {}))
 
     def __getitem__(self, group: str):
         """A group as `xarray.Dataset`; large ones are read where they are used."""
-        import xarray
-
-        with _SolversLock():
-            try:
-                return xarray.open_dataset(self.path, group=group or "/", engine="h5netcdf")
-            except OSError as error:
-                raise KeyError(f"no group '{group}' in {self.path}; there are {', '.join(self.groups)}") from error
+        try:
+            return read_group(self.path, group or "/")
+        except KeyError:
+            raise KeyError(f"no group '{group}' in {self.path}; there are {', '.join(self.groups)}") from None
 
     def bearing(self, name: Optional[str] = None):
         """Series of a bearing over time [s], with the crank angle as a coordinate where the machine has a crank."""
@@ -130,7 +118,7 @@ class Results:
     def _with_crank(self, data):
         import h5py
 
-        with _SolversLock(), h5py.File(self.path, "r") as file:
+        with SolversLock(), h5py.File(self.path, "r") as file:
             if "crank_angle" not in file or "time" not in data.dims:
                 return data
             crank = file["crank_angle"]

@@ -24,9 +24,29 @@ def test_series_have_time_units_and_names(results):
 def test_fields_are_read_where_they_are_used(results):
     film = results.film()
     assert film["pressure"].dims == ("time", "phi", "z")
-    assert not film["pressure"].variable._in_memory
     assert {"phi", "z", "time"} <= set(film.coords)
     assert len(film["time"]) == 6  # every 2 ms of 10 ms
+
+
+def test_long_fields_are_read_where_they_are_used(results, monkeypatch):
+    everything = results.film().load()
+    monkeypatch.setattr("hersey.reading._AT_ONCE", 0)
+    film = results.film()
+    assert not film["pressure"].variable._in_memory
+    late = film["pressure"].isel(time=-1, phi=slice(3, 20), z=[1, 5])
+    assert not late.variable._in_memory
+    assert np.array_equal(late.values, everything["pressure"].values[-1, 3:20][:, [1, 5]])
+
+
+def test_groups_are_those_that_xarray_opens_itself(results):
+    for group in ["", *results.groups]:
+        with xarray.open_dataset(results.path, group=group or "/", engine="h5netcdf") as expected:
+            found = results[group]
+            assert set(found.variables) == set(expected.variables), group
+            for name, variable in expected.variables.items():
+                assert found[name].dims == variable.dims, f"{group}/{name}"
+                assert found[name].variable.equals(variable), f"{group}/{name}"
+                assert found[name].attrs.get("units") == variable.attrs.get("units")
 
 
 def test_every_group_opens_by_itself_with_names_and_units(results):

@@ -1,0 +1,95 @@
+"""Groups of a results file as xarray: short series at once, fields where they are used, the file never left open."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+
+# Datasets of more are read where they are used [bytes].
+_AT_ONCE = 1 << 20
+
+# What HDF5 itself says of scales.
+_HIDDEN = {"DIMENSION_LIST", "REFERENCE_LIST", "CLASS", "NAME", "_Netcdf4Dimid"}
+
+
+class SolversLock:
+    """HDF5 serves one thread at a time: a run in another thread waits while this one reads."""
+
+    def __enter__(self) -> None:
+        _core.lock_hdf5()
+
+    def __exit__(self, *_: Any) -> None:
+        _core.unlock_hdf5()
+
+
+def _content(dataset: Any) -> np.ndarray:
+    import h5py
+
+    if h5py.check_string_dtype(dataset.dtype):
+        return np.asarray(dataset.asstr()[()], dtype=object)
+    return dataset[()]
+
+
+def _lazy(path: Path, name: str, shape: tuple[int, ...], dtype: Any) -> Any:
+    """The dataset as an array that xarray reads piece by piece."""
+    from xarray.backends import BackendArray
+    from xarray.core import indexing
+
+    class Stored(BackendArray):
+        def __init__(self) -> None:
+            self.shape, self.dtype = shape, dtype
+
+        def __getitem__(self, key: Any) -> np.ndarray:
+            return indexing.explicit_indexing_adapter(key, shape, indexing.IndexingSupport.OUTER_1VECTOR, self._read)
+
+        def _read(self, key: tuple[Any, ...]) -> np.ndarray:
+            import h5py
+
+            with SolversLock(), h5py.File(path, "r") as file:
+                return file[name][key]
+
+    return indexing.LazilyIndexedArray(Stored())
+
+
+def _dimensions(dataset: Any, scales: dict[Any, str], file: Any) -> tuple[str, ...]:
+    """Names of a dataset's dimensions: of a scale its own, of others those of their scales in the group."""
+    if "DIMENSION_LIST" not in dataset.attrs:
+        own = dataset.name.rpartition("/")[2]
+        return (own,) if dataset.ndim == 1 else tuple(f"{own}_{axis}" for axis in range(dataset.ndim))
+    names = []
+    for references in dataset.attrs["DIMENSION_LIST"]:
+        scale = file[references[0]]
+        names.append(scales.get(scale.id) or scale.name.rpartition("/")[2])
+    return tuple(names)
+
+
+def _text(value: Any) -> Any:
+    return value.decode() if isinstance(value, bytes) else value
+
+
+def read_group(path: Path, group: str):
+    """The group as `xarray.Dataset`. @raises KeyError where there is none."""
+    import h5py
+    import xarray
+
+    coordinates, data = {}, {}
+    with SolversLock(), h5py.File(path, "r") as file:
+        if group not in file or not isinstance(file[group], h5py.Group):
+            raise KeyError(group)
+        place = file[group]
+        found = {name: item for name, item in place.items() if isinstance(item, h5py.Dataset)}
+        scales = {item.id: name for name, item in found.items() if h5py.h5ds.is_scale(item.id)}
+        for name, item in found.items():
+            attributes = {key: _text(value) for key, value in item.attrs.items() if key not in _HIDDEN}
+            is_text = h5py.check_string_dtype(item.dtype) is not None
+            values = (_content(item) if is_text or item.nbytes <= _AT_ONCE
+                      else _lazy(path, item.name, item.shape, item.dtype))
+            dimensions = _dimensions(item, scales, file) if item.ndim else ()
+            target = coordinates if dimensions == (name,) else data
+            target[name] = xarray.Variable(dimensions, values, attributes)
+        attributes = {key: _text(value) for key, value in place.attrs.items() if key not in _HIDDEN}
+    return xarray.Dataset(data, coordinates, attributes)
