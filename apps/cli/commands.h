@@ -35,7 +35,8 @@ struct CheckArguments {
 
 struct ReportArguments {
   std::vector<std::filesystem::path> results;
-  std::filesystem::path output;  ///< empty: report.html beside the first results file
+  std::filesystem::path output;    ///< empty: report.html beside the first results file
+  std::vector<std::string> names;  ///< of the runs; empty: by their files and folders
   bool json = false;
 };
 

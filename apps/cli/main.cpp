@@ -297,6 +297,9 @@ int dispatch(int argc, char** argv) {
   report_app->add_option("RESULTS", report.results, "Results files (.h5)")->required();
   report_app->add_option("--output", report.output, "The page to write (default: report.html beside the results)")
       ->type_name("FILE");
+  report_app->add_option("--names", report.names, "Names of the runs, in the order of the files: --names before,after")
+      ->delimiter(',')
+      ->type_name("A,B");
   report_app->add_flag("--json", report.json, "Print the summary as JSON");
 
   BearingArguments bearing;

@@ -51,6 +51,25 @@ void add_new(const std::vector<Fault>& more, std::vector<Fault>& warnings) {
   }
 }
 
+/// One for each file, and no two the same.
+void require_names(const ReportArguments& arguments) {
+  const std::vector<std::string>& names = arguments.names;
+  if (names.empty()) return;
+  if (names.size() != arguments.results.size())
+    throw InputError(Fault{{"--names", 0, 0},
+                           "",
+                           fmt::format("names: {}, results files: {}", names.size(), arguments.results.size()),
+                           "a name for each file, with commas between them",
+                           ""});
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (name->empty() || std::find(names.begin(), name, *name) != name)
+      throw InputError(Fault{{"--names", 0, 0},
+                             "",
+                             name->empty() ? "an empty name" : "'" + *name + "' twice",
+                             "names that tell the runs from each other",
+                             ""});
+}
+
 }  // namespace
 
 void warn(const std::vector<Fault>& warnings) {
@@ -83,13 +102,14 @@ int check_command(const CheckArguments& arguments) {
 int report_command(const ReportArguments& arguments) {
   const std::filesystem::path page =
       arguments.output.empty() ? arguments.results.front().parent_path() / "report.html" : arguments.output;
+  require_names(arguments);
   require_separate({{"--output", page}}, arguments.results);
-  report::write_html(arguments.results, page);
+  report::write_html(arguments.results, page, {.names = arguments.names});
   if (arguments.json) {
-    fmt::print("{}\n", report::summary_json(arguments.results));
+    fmt::print("{}\n", report::summary_json(arguments.results, arguments.names));
     return kOk;
   }
-  const std::vector<report::SummaryRow> rows = report::summary_table(arguments.results);
+  const std::vector<report::SummaryRow> rows = report::summary_table(arguments.results, arguments.names);
   fmt::print("{}\nreport: {}\n", arguments.results.size() > 1 ? comparison_text(rows) : summary_text(rows),
              page.string());
   return kOk;

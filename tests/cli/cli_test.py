@@ -857,6 +857,22 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         for name in runs:
             self.assertRegex(table, rf"(?m)^ +{name} +main .*\b{1e6 * summaries[name][key]:.5g}")
 
+    def test_report_takes_names_for_runs(self):
+        folders = [os.path.join(self.out, name) for name in ("one", "two")]
+        for folder in folders:
+            self.assertEqual(hersey("run", MODEL, "--output", folder).returncode, OK)
+        files = [os.path.join(folder, "results.h5") for folder in folders]
+        page = os.path.join(self.out, "named.html")
+        rows = json.loads(hersey("report", *files, "--names", "before,after", "--output", page, "--json").stdout)
+        self.assertEqual({row["run"] for row in rows}, {"before", "after"})
+        with open(page, encoding="utf-8") as text:
+            self.assertIn('"name":"after"', text.read())
+        for names, told in (("before", "names: 1, results files: 2"), ("same,same", "'same' twice")):
+            wrong = hersey("report", *files, "--names", names, "--output", os.path.join(self.out, "none.html"))
+            self.assertEqual(wrong.returncode, WRONG_INPUT, names)
+            self.assertIn(told, wrong.stderr)
+            self.assertFalse(os.path.exists(os.path.join(self.out, "none.html")))
+
     def test_resume_of_another_model_is_refused(self):
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,

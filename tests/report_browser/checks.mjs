@@ -1,5 +1,6 @@
 // What a report must do in a real browser. Each check gets an open page and throws where the report falls short.
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 
 const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
@@ -73,7 +74,7 @@ export const everyReport = {
   },
 
   "the summary gives numbers with units": async (page) => {
-    const moft = page.locator('tr[data-quantity^="minimum film thickness (MOFT)"]').first();
+    const moft = page.locator('.summary tr[data-quantity^="minimum film thickness (MOFT)"]').first();
     assert.match(await moft.innerText(), /\d.*µm/s, "the minimum film thickness has no value in µm");
     assert.ok((await page.locator(".tile").count()) >= 4, "key figures are missing");
   },
@@ -186,6 +187,39 @@ export const everyReport = {
     await map.scrollIntoViewIfNeeded();
     await map.hover();
     assert.match(await page.locator('[data-figure="map"] .tooltip').innerText(), /φ .*°, z .*mm/, "the map's tooltip does not tell where");
+  },
+
+  "figures are saved as drawings, pictures and tables": async (page) => {
+    const saved = async (kind, format) => {
+      const waiting = page.waitForEvent("download");
+      await page.locator(`[data-figure="${kind}"]`).first().getByRole("button", { name: new RegExp(`as ${format}$`) }).click();
+      const download = await waiting;
+      return { name: download.suggestedFilename(), content: await readFile(await download.path()) };
+    };
+    const drawing = await saved("thickness", "SVG");
+    assert.match(drawing.name, /\.svg$/);
+    const text = drawing.content.toString();
+    assert.match(text, /^<svg[^]*film thickness \[µm\][^]*<path d="M[\d. ]+L[^]*<\/svg>$/, "the drawing has no axis or no curve");
+    const wellFormed = await page.evaluate((t) => new DOMParser().parseFromString(t, "image/svg+xml").querySelector("parsererror") === null, text);
+    assert.ok(wellFormed, "the drawing is not well-formed");
+    for (const kind of ["thickness", "map", "orbit", "machine"]) {
+      const { content } = await saved(kind, "PNG");
+      assert.ok(content.length > 2000 && content.toString("latin1", 1, 4) === "PNG", `the picture of ${kind} is none`);
+    }
+    for (const [kind, columns] of [["thickness", 2], ["map", 3], ["orbit", 3], ["cycle", 3], ["around", 3]]) {
+      const rows = (await saved(kind, "CSV")).content.toString().split("\n");
+      assert.ok(rows.length > 2 && rows[1].split(",").length >= columns, `the table of ${kind} has too little`);
+      assert.ok(rows[1].split(",").every((cell) => cell === "" || Number.isFinite(Number(cell))), `the table of ${kind} has no numbers: ${rows[1]}`);
+    }
+  },
+
+  "figures over one abscissa share their cursor": async (page) => {
+    const plot = page.locator('[data-figure="peak-pressure"] .u-over');
+    await plot.scrollIntoViewIfNeeded();
+    await plot.hover();
+    const cursors = await page.locator('[data-figure="force"] .u-cursor-x').evaluate((e) => e.style.transform);
+    assert.doesNotMatch(cursors, /translate\(-/, "the cursor of another figure does not follow");
+    assert.equal(await page.locator('[data-figure="force"] .tooltip:visible').count(), 0, "a tooltip stands where no pointer is");
   },
 
   "a legend entry hides its curve": async (page) => {
@@ -302,6 +336,30 @@ export const comparisonReport = {
     const curves = await page.locator('[data-figure="study-midplane"] .legend-entry').allInnerTexts();
     assert.deepEqual(curves.map((text) => text.trim().split("\n")[0]), names, "the curves have other names");
     assert.deepEqual(await page.locator(".detail select option").allInnerTexts(), names, "the runs to choose from have other names");
+  },
+
+  "runs are laid over each other, with their differences and a table of changes": async (page) => {
+    const names = await page.locator(".study > .wide-table .comparison tbody td:first-child").allInnerTexts();
+    for (const figure of await page.locator('[data-figure="overlay"]').all())
+      assert.deepEqual(await figure.locator(".legend-entry").allInnerTexts(), names, "an overlay lacks a run");
+    assert.ok((await page.locator('[data-figure="overlay"]').count()) >= 5, "too few quantities are laid over each other");
+    assert.equal(await page.locator('[data-figure="difference"]').count(), await page.locator('[data-figure="overlay"]').count(), "an overlay has no differences");
+    const row = page.locator('.changes tr[data-quantity="minimum film thickness at the end"]');
+    const [before, after, change] = (await row.locator("td").allInnerTexts()).map((text) => parseFloat(text.replace("−", "-")));
+    // Each is printed with four digits.
+    assert.ok(Math.abs(after - before - change) <= 2e-3 * Math.abs(after), `${after} less ${before} is told as ${change}`);
+    assert.match(await row.innerText(), /\([+−][\d.]+ %\)/, "the change has no share");
+    const picker = page.getByLabel("Further quantity laid over each other");
+    assert.ok((await picker.locator("option").count()) > 10, "the film's further quantities cannot be chosen");
+    const shown = await page.locator('[data-figure="overlay"] figcaption').last().innerText();
+    await picker.selectOption("cavitated_share");
+    await frame(page);
+    assert.notEqual(await page.locator('[data-figure="overlay"] figcaption').last().innerText(), shown, "the chosen quantity is not shown");
+    const reference = page.getByLabel("Run the others are compared with");
+    await reference.selectOption("1");
+    await frame(page);
+    assert.match(await page.locator('[data-figure="difference"] .legend').first().innerText(), new RegExp(`${names[0]} − ${names[1]}`), "the reference stays the same");
+    await reference.selectOption("0");
   },
 
   "each run can be shown": async (page) => {

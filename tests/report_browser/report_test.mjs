@@ -1,6 +1,6 @@
 // node report_test.mjs REPORT.html ...: opens reports in headless Chromium and checks that they work.
 // Needs `npm ci` in web/ and a Chromium (CHROMIUM=/path/to/it, default /usr/bin/chromium).
-import { existsSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -24,6 +24,15 @@ function playwright() {
   }
 }
 
+function axe() {
+  try {
+    return readFileSync(createRequire(new URL("../../web/package.json", import.meta.url)).resolve("axe-core/axe.min.js"), "utf8");
+  } catch {
+    return giveUp("axe-core is missing: run `npm ci` in web/");
+  }
+}
+
+const axeSource = axe();
 let passed = 0;
 let failed = 0;
 
@@ -57,6 +66,55 @@ async function open(browser, file) {
   return { page, complaints };
 }
 
+/** Axe-core's findings that keep somebody out, with all sections open. */
+async function accessibilityFaults(page, { width, height, scheme }) {
+  await page.setViewportSize({ width, height });
+  await page.emulateMedia({ colorScheme: scheme });
+  await page.evaluate(() => document.querySelectorAll("details").forEach((d) => (d.open = true)));
+  await page.waitForTimeout(300); // sections draw when they open
+  await page.evaluate(axeSource);
+  const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+  return violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((node) => node.target.join(" ")).join("; ")}`);
+}
+
+/** What a keyboard reaches: each press of Tab focuses something new and visible until the page is through. */
+async function keyboardFaults(page) {
+  await page.evaluate(() => {
+    document.activeElement?.blur();
+    document.querySelectorAll("[data-tab]").forEach((e) => e.removeAttribute("data-tab"));
+  });
+  const count = await page.evaluate(() => [...document.querySelectorAll("button, select, summary, input, a[href], [tabindex='0']")].filter((e) => e.checkVisibility() && !e.disabled && e.type !== "radio").length);
+  for (let i = 0; i < count + 60; i++) {
+    await page.keyboard.press("Tab");
+    await page.evaluate(() => document.activeElement?.setAttribute("data-tab", ""));
+  }
+  return page.evaluate(() =>
+    [...document.querySelectorAll("button, select, summary, input, a[href], [tabindex='0']")]
+      .filter((e) => e.checkVisibility() && !e.disabled && e.type !== "radio" && !e.hasAttribute("data-tab"))
+      .map((e) => `${e.tagName.toLowerCase()} "${(e.getAttribute("aria-label") ?? e.textContent).trim().slice(0, 40)}"`),
+  );
+}
+
+async function testAccess(page) {
+  const looks = [
+    { width: 1366, height: 768, scheme: "light" },
+    { width: 1366, height: 768, scheme: "dark" },
+    { width: 390, height: 844, scheme: "light" },
+    { width: 390, height: 844, scheme: "dark" },
+  ];
+  for (const look of looks)
+    await check(`axe-core finds nothing serious at ${look.width} x ${look.height}, ${look.scheme}`, async () => {
+      const faults = await accessibilityFaults(page, look);
+      if (faults.length > 0) throw new Error(faults.join("\n"));
+    });
+  await check("the keyboard reaches every control", async () => {
+    const faults = await keyboardFaults(page);
+    if (faults.length > 0) throw new Error(faults.slice(0, 10).join("\n"));
+  });
+}
+
 async function testReport(browser, file) {
   console.log(file);
   let opened;
@@ -78,6 +136,7 @@ async function testReport(browser, file) {
         ? machineReport
         : { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : {}), ...everyReport };
   for (const [name, test] of Object.entries(tests)) await check(name, () => test(page));
+  await testAccess(page);
   await check("nothing on the console and nothing over the network", async () => {
     if (complaints.length > 0) throw new Error(complaints.join("\n"));
   });

@@ -7,7 +7,7 @@ import type { Numbers, Run } from "./data";
 import { extent, type FieldKind } from "./film_fields";
 import type { Axis } from "./series";
 import { palette } from "./theme";
-import { format, megapascal, micrometre, withUnit } from "./units";
+import { axisLabel, format, megapascal, micrometre, withUnit } from "./units";
 
 /** Extremes over the width that the results keep for every row. */
 const kinds: FieldKind[] = [
@@ -68,6 +68,14 @@ export class AngleTimeMap extends Drawing {
   mark(x: number | null): void {
     this.at = x;
     this.draw();
+  }
+
+  /** The map shown as a table: a row for each instant, a column for each angle. */
+  numbers(): (string | number)[][] {
+    const { phi, x, kind, axis } = this;
+    const values = this.fields.get(kind.key)!;
+    const head = [axisLabel(axis.label, axis.unit), ...Array.from(phi, (angle) => `${kind.label} [${kind.display.unit}] at ${format((180 / Math.PI) * angle)}°`)];
+    return [head, ...Array.from(x, (at, k) => [at, ...Array.from(phi, (_, i) => values[k * phi.length + i]! * kind.display.factor)])];
   }
 
   protected heightFor(width: number): number {

@@ -4,7 +4,7 @@ import { figureOf, Sweep, type Line } from "./bearing_sweep";
 import { bearingVerdict, placeOf } from "./bearing_verdict";
 import { sweepDrawings } from "./canvas";
 import { fieldsOnly, type BearingText, type FigureText, type SolutionText } from "./data";
-import { figure, h, segmented } from "./dom";
+import { figure, h, segmented, tableButton } from "./dom";
 import { FieldMap } from "./field_map";
 import { FilmFields, type FieldKind } from "./film_fields";
 import { assumptions, date, themeButton } from "./header";
@@ -276,7 +276,7 @@ class SolutionView {
     const choices = kinds.map(({ key, label }) => ({ value: key, label: capital(label.replace("Film ", "")) }));
     const controls = h("div", { class: "controls" }, segmented("Field shown", choices, kinds[0]!.key, (key) => map.choose(kinds.find((k: FieldKind) => k.key === key)!)));
     const drawn = this.solution.features.length > 0 ? " White outlines: where oil is fed." : "";
-    figures.append(figure("map", `The film on the unwrapped bearing.${drawn} Thin white line: edge of the full film; cross: peak pressure; ring: smallest film thickness.`, null, controls, map.element));
+    figures.append(figure("map", `The film on the unwrapped bearing.${drawn} Thin white line: edge of the full film; cross: peak pressure; ring: smallest film thickness.`, tableButton(`${this.bearing.name}-film`, () => map.numbers()), controls, map.element));
     figures.append(this.midplane(fields));
   }
 
@@ -304,7 +304,7 @@ class SolutionView {
         "table",
         { class: "matrix" },
         h("caption", {}, title),
-        h("thead", {}, h("tr", {}, h("th", {}), ...axes.map((axis) => h("th", { scope: "col", class: "number" }, axis)))),
+        h("thead", {}, h("tr", {}, h("td", {}), ...axes.map((axis) => h("th", { scope: "col", class: "number" }, axis)))),
         h("tbody", {}, ...axes.map((row) => h("tr", {}, h("th", { scope: "row" }, row), ...axes.map((column) => cell(`${key}_${row}${column}`))))),
       );
     return h(

@@ -3,7 +3,7 @@
 import { AngleTimeMap } from "./angle_time_map";
 import { cycleMaps } from "./cycle_maps";
 import type { Run } from "./data";
-import { figure, h, segmented } from "./dom";
+import { figure, h, segmented, tableButton } from "./dom";
 import { FieldMap, type Mark } from "./field_map";
 import { extent, FilmFields, nearest, type FieldKind } from "./film_fields";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
@@ -57,7 +57,7 @@ export class BearingView {
     const orbit = new Orbit({ time, x, y, clearance, force: fx && fy ? { x: fx, y: fy } : null });
     this.followers.push((t) => orbit.show(t));
     this.element.append(
-      figure("orbit", "Journal orbit in the bearing’s axes: path of the journal centre, its position now, and the direction of the load (arrow).", null, orbit.element),
+      figure("orbit", "Journal orbit in the bearing’s axes: path of the journal centre, its position now, and the direction of the load (arrow).", tableButton(`${this.bearing}-orbit`, () => orbit.numbers()), orbit.element),
     );
   }
 
@@ -75,7 +75,7 @@ export class BearingView {
       segmented("Colour scale", [{ value: "run", label: "Scale of the run" }, { value: "instant", label: "of the instant" }], "run", (s) => map.rescale(s as "run" | "instant")),
     );
     this.element.append(
-      figure("map", "The film on the unwrapped bearing at the instant shown. White line: edge of the full film; cross: peak pressure; ring: smallest film thickness.", null, controls, map.element),
+      figure("map", "The film on the unwrapped bearing at the instant shown. White line: edge of the full film; cross: peak pressure; ring: smallest film thickness.", tableButton(`${this.bearing}-film`, () => map.numbers()), controls, map.element),
     );
   }
 
@@ -119,7 +119,7 @@ export class BearingView {
     const choices = map.kinds.map(({ key, label }) => ({ value: key, label }));
     const controls = h("div", { class: "controls" }, segmented("Map over time", choices, choices[0]!.value, (key) => map.choose(map.kinds.find((kind) => kind.key === key)!)));
     this.element.append(
-      figure("around", "Extremes over the bearing’s width, around the bore and over the run. White line: the instant shown; a click shows another.", null, controls, map.element),
+      figure("around", "Extremes over the bearing’s width, around the bore and over the run. White line: the instant shown; a click shows another.", tableButton(`${this.bearing}-around`, () => map.numbers()), controls, map.element),
     );
   }
 

@@ -1,7 +1,7 @@
 // What the surfaces of one bearing go through in a cycle: maps of extremes and of loads averaged over it.
 
 import type { Dataset, Run } from "./data";
-import { figure, h, segmented } from "./dom";
+import { figure, h, segmented, tableButton } from "./dom";
 import { FieldMap, type Mark } from "./field_map";
 import { FilmFields, type FieldKind } from "./film_fields";
 import { degree, format, megapascal, micrometre, type Display } from "./units";
@@ -40,7 +40,7 @@ export function cycleMaps(run: Run, bearing: string): HTMLElement | null {
   map.show(0, marks);
   const choices = kinds.map(({ key, label }) => ({ value: key, label }));
   const controls = h("div", { class: "controls" }, segmented("Map shown", choices, kinds[0]!.key, (key) => map.choose(kinds.find((k) => k.key === key)!)));
-  return figure("cycle", caption(last("complete") === 1, run.column(path("begin"))!.length, begin, end, kinds), null, controls, map.element);
+  return figure("cycle", caption(last("complete") === 1, run.column(path("begin"))!.length, begin, end, kinds), tableButton(`${bearing}-cycle`, () => map.numbers()), controls, map.element);
 }
 
 function caption(isCycle: boolean, count: number, begin: number, end: number, kinds: FieldKind[]): string {

@@ -12,8 +12,11 @@ export interface DatasetText {
   unit: string;
   description: string;
   shape: number[];
-  type: "f4" | "f8";
+  type: "f4" | "f8" | "u2";
   data: string;
+  /** Of "u2": value = low + step code, a low and a step for each row; 65535 is no number. */
+  low?: string;
+  step?: string;
   columns?: string[];
 }
 
@@ -98,11 +101,22 @@ export interface Dataset {
   columns: string[];
 }
 
-function decode(text: string, type: "f4" | "f8"): Numbers {
+function bytesOf(text: string): ArrayBuffer {
   const raw = atob(text);
   const bytes = new Uint8Array(raw.length);
   for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
-  return type === "f8" ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
+  return bytes.buffer;
+}
+
+function decode(text: DatasetText, width: number): Numbers {
+  if (text.type === "f8") return new Float64Array(bytesOf(text.data));
+  if (text.type === "f4") return new Float32Array(bytesOf(text.data));
+  const codes = new Uint16Array(bytesOf(text.data));
+  const [low, step] = [new Float32Array(bytesOf(text.low!)), new Float32Array(bytesOf(text.step!))];
+  const values = new Float32Array(codes.length);
+  for (let row = 0, i = 0; i < codes.length; row++)
+    for (const end = i + width; i < end; i++) values[i] = codes[i] === 65535 ? NaN : low[row]! + step[row]! * codes[i]!;
+  return values;
 }
 
 /** One results file. Datasets are decoded when first asked for. */
@@ -149,6 +163,15 @@ export class Run {
     return value === undefined ? "" : Array.isArray(value) ? value.join(", ") : String(value);
   }
 
+  /** The datasets in a group that have one number for each row of the time series, with what the file says of them. */
+  seriesIn(group: string): { name: string; unit: string; description: string }[] {
+    const rows = this.text.datasets["/time"]?.shape[0];
+    return this.datasetNames(group).flatMap((name) => {
+      const { shape, unit, description } = this.text.datasets[`${group}/${name}`]!;
+      return shape[0] === rows && shape.slice(1).every((n) => n === 1) ? [{ name, unit, description }] : [];
+    });
+  }
+
   number(object: string, name: string): number | undefined {
     const value = this.text.attributes[object]?.[name];
     return typeof value === "number" ? value : undefined;
@@ -184,17 +207,11 @@ export class Run {
     const known = this.decoded.get(path);
     if (known !== undefined) return known;
     const text = this.text.datasets[path];
+    const width = text?.shape.slice(1).reduce((a, b) => a * b, 1) ?? 1;
     const found =
       text === undefined || (text.shape[0] ?? 0) === 0
         ? null
-        : {
-            unit: text.unit,
-            description: text.description,
-            shape: text.shape,
-            width: text.shape.slice(1).reduce((a, b) => a * b, 1),
-            values: decode(text.data, text.type),
-            columns: text.columns ?? [],
-          };
+        : { unit: text.unit, description: text.description, shape: text.shape, width, values: decode(text, width), columns: text.columns ?? [] };
     this.decoded.set(path, found);
     return found;
   }

@@ -17,13 +17,53 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** A figure with its caption; the number comes from the style sheet. */
+/** A button that saves the picture of the figure it stands in, on paper of the page's colour. */
+function pictureButton(kind: string): HTMLElement {
+  const button = h("button", { type: "button", class: "quiet", "aria-label": "Save the picture of this figure as PNG" }, "PNG");
+  button.addEventListener("click", () => {
+    const canvas = [...(button.closest("figure")?.querySelectorAll("canvas") ?? [])].find((c) => c.width > 0 && c.clientWidth > 0);
+    if (!canvas) return;
+    const copy = h("canvas", { width: canvas.width, height: canvas.height });
+    const context = copy.getContext("2d")!;
+    context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
+    context.fillRect(0, 0, copy.width, copy.height);
+    context.drawImage(canvas, 0, 0);
+    copy.toBlob((blob) => blob && save(`${kind}.png`, blob));
+  });
+  return button;
+}
+
+/** A button that saves a drawing with the colours and letters that the style sheet gives it. */
+function drawingButton(kind: string, drawing: SVGElement): HTMLElement {
+  const styles = ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family", "paint-order"];
+  const click = () => {
+    const copy = drawing.cloneNode(true) as SVGElement;
+    copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+    const originals = drawing.querySelectorAll("*");
+    copy.querySelectorAll<SVGElement>("*").forEach((part, i) => {
+      const look = getComputedStyle(originals[i]!);
+      for (const name of styles) part.style.setProperty(name, look.getPropertyValue(name));
+    });
+    saveText(`${kind}.svg`, copy.outerHTML, "image/svg+xml");
+  };
+  return h("button", { type: "button", class: "quiet", "aria-label": "Save the drawing of this figure as SVG", click }, "SVG");
+}
+
+/** A button that saves numbers as a table. */
+export function tableButton(name: string, rows: () => (string | number)[][]): HTMLElement {
+  const quote = (cell: string | number) => (typeof cell === "number" ? String(cell) : `"${cell.replace(/"/g, '""')}"`);
+  const text = () => rows().map((row) => row.map(quote).join(",")).join("\n");
+  return h("button", { type: "button", class: "quiet", "aria-label": "Save the numbers of this figure as CSV", click: () => saveText(`${name}.csv`, text()) }, "CSV");
+}
+
+/** A figure with its caption; the number comes from the style sheet. It can be saved as a picture. */
 export function figure(kind: string, caption: string, tools: Child, ...content: Child[]): HTMLElement {
+  const drawing = content.find((part): part is SVGElement => part instanceof SVGElement);
   return h(
     "figure",
     { class: `figure ${kind}`, "data-figure": kind },
     h("div", { class: "figure-body" }, ...content),
-    h("figcaption", {}, h("span", { class: "caption" }, caption), tools),
+    h("figcaption", {}, h("span", { class: "caption" }, caption), h("span", { class: "tools" }, drawing ? drawingButton(kind, drawing) : pictureButton(kind), tools)),
   );
 }
 
@@ -64,8 +104,12 @@ export function segmented(
 let choiceCount = 0;
 
 /** Offers text as a file to save. */
-export function saveText(name: string, text: string): void {
-  const url = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+export function saveText(name: string, text: string, type = "text/csv"): void {
+  save(name, new Blob([text], { type }));
+}
+
+function save(name: string, content: Blob): void {
+  const url = URL.createObjectURL(content);
   const link = h("a", { href: url, download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(url), 1000);

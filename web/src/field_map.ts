@@ -6,7 +6,7 @@ import { line, paintColourBar, verticalText, type Box } from "./colour_bar";
 import type { FieldKind, FilmFields } from "./film_fields";
 import { extent } from "./film_fields";
 import { palette } from "./theme";
-import { format, withUnit } from "./units";
+import { axisLabel, format, withUnit } from "./units";
 
 /** A place on the film worth marking. */
 export interface Mark {
@@ -56,6 +56,15 @@ export class FieldMap extends Drawing {
   rescale(scale: "run" | "instant"): void {
     this.scale = scale;
     this.draw();
+  }
+
+  /** The field shown as a table, a row for each node. */
+  numbers(): (string | number)[][] {
+    const { phi, z } = this.fields;
+    const { label, display } = this.kind;
+    const field = this.fields.at(this.kind.key, this.instant) ?? [];
+    const rows = Array.from(phi, (angle, i) => Array.from(z, (height, j) => [(180 / Math.PI) * angle, 1e3 * height, field[i * z.length + j]! * display.factor]));
+    return [["bearing angle [°]", "z [mm]", axisLabel(label, display.unit)], ...rows.flat()];
   }
 
   protected heightFor(width: number): number {

@@ -2,6 +2,7 @@
 
 import uPlot from "uplot";
 import { h, placeTooltip, saveText } from "./dom";
+import { lineSvg } from "./line_svg";
 import { onThemeChange, palette } from "./theme";
 import { axisLabel, format, superscript, withUnit } from "./units";
 
@@ -94,7 +95,8 @@ export class LinePlot {
     this.tools = h(
       "span",
       { class: "tools" },
-      h("button", { type: "button", class: "quiet", title: "Save the numbers of this figure", click: () => this.save() }, "CSV"),
+      h("button", { type: "button", class: "quiet", "aria-label": "Save the drawing of this figure as SVG", click: () => this.saveDrawing() }, "SVG"),
+      h("button", { type: "button", class: "quiet", "aria-label": "Save the numbers of this figure as CSV", click: () => this.save() }, "CSV"),
     );
     this.observer = new ResizeObserver(() => this.fit());
     this.observer.observe(this.canvasHolder);
@@ -221,7 +223,8 @@ export class LinePlot {
       height,
       padding: [8, right ? 0 : 20, 0, 0],
       legend: { show: false },
-      cursor: { drag: { x: true, y: false }, points: { size: 7 }, y: false },
+      // Figures over one abscissa share their cursor; the tooltip stays with the pointer.
+      cursor: { drag: { x: true, y: false }, points: { size: 7 }, y: false, sync: { key: axisLabel(x.label, x.unit), setSeries: false } },
       scales: {
         x: x.log ? { time: false, distr: 3 } : { time: false, range: (_p, low, high) => (low === high || x.categories ? [low - 0.5, high + 0.5] : [low, high]) },
         y: left.log ? { distr: 3 } : { range: padded(left.fromZero === true, left.highest) },
@@ -269,7 +272,7 @@ export class LinePlot {
   private showTooltip(plot: uPlot): void {
     const index = plot.cursor.idx;
     const { left, top } = plot.cursor;
-    if (index === null || index === undefined || left === undefined || left < 0) {
+    if (index === null || index === undefined || left === undefined || left < 0 || !plot.over.matches(":hover")) {
       this.tooltip.hidden = true;
       return;
     }
@@ -288,6 +291,17 @@ export class LinePlot {
     this.tooltip.replaceChildren(h("div", { class: "tooltip-head" }, `${x.label} ${at}`), ...rows);
     this.tooltip.hidden = rows.length === 0;
     placeTooltip(this.tooltip, this.canvasHolder, left + plot.over.offsetLeft, (top ?? 0) + plot.over.offsetTop);
+  }
+
+  private saveDrawing(): void {
+    const { plot, spec } = this;
+    if (!plot) return;
+    const curves = spec.curves.flatMap((curve, i) =>
+      this.hiddenCurves.has(i)
+        ? []
+        : [{ label: curve.label, colour: this.colour(i), scale: curve.axis ?? ("y" as const), dash: curve.dash ?? [], dots: curve.dots === true, points: curve.points === true, stepped: curve.stepped === true, values: plot.data[i + 1]! }],
+    );
+    saveText(`${spec.name}.svg`, lineSvg(plot, { x: spec.x, left: spec.left, right: spec.right ?? null }, curves, palette()), "image/svg+xml");
   }
 
   private save(): void {

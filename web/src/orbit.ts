@@ -27,6 +27,12 @@ export class Orbit extends Drawing {
     this.draw();
   }
 
+  /** The path as a table. */
+  numbers(): (string | number)[][] {
+    const { time, x, y } = this.data;
+    return [["time [s]", "x [m]", "y [m]"], ...Array.from(time, (t, i) => [t, x[i]!, y[i]!])];
+  }
+
   protected heightFor(width: number): number {
     return Math.min(width, 380);
   }

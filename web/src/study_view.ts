@@ -1,10 +1,12 @@
 // Several runs beside each other: figures over the study's parameters, and a table from which a run is picked.
 
 import { sequence } from "./colormap";
+import { ComparisonView, mostOverlaid } from "./comparison_view";
 import type { Report, Run } from "./data";
 import { figure, h, segmented } from "./dom";
 import { FilmFields } from "./film_fields";
 import { statusName } from "./header";
+import { filmLoss, isOfCycle, keyRow, keyValue, moft, pofp } from "./key_figures";
 import { LinePlot, type Curve } from "./line_plot";
 import { capital } from "./summary_table";
 import { Study } from "./study";
@@ -15,21 +17,26 @@ interface EndValue {
   name: string;
   label: string;
   series: string;
+  /** The row of the closing table that tells it of the whole cycle, and how that is called. */
+  row: string;
+  ofCycle: string;
   display: Display;
   fromZero: boolean;
 }
 
 const endValues: EndValue[] = [
-  { name: "film-thickness", label: "minimum film thickness", series: "h_min", display: micrometre, fromZero: true },
-  { name: "peak-pressure", label: "peak film pressure", series: "p_max", display: megapascal, fromZero: true },
-  { name: "eccentricity-ratio", label: "eccentricity ratio", series: "eccentricity_ratio", display: plain, fromZero: true },
-  { name: "power-loss", label: "power loss in the film", series: "power_film", display: { factor: 1, unit: "W" }, fromZero: true },
+  { name: "film-thickness", label: "minimum film thickness", series: "h_min", row: moft, ofCycle: "minimum film thickness (MOFT)", display: micrometre, fromZero: true },
+  { name: "peak-pressure", label: "peak film pressure", series: "p_max", row: pofp, ofCycle: "peak film pressure (POFP)", display: megapascal, fromZero: true },
+  { name: "eccentricity-ratio", label: "eccentricity ratio", series: "eccentricity_ratio", row: "largest eccentricity ratio", ofCycle: "largest eccentricity ratio", display: plain, fromZero: true },
+  { name: "power-loss", label: "power loss in the film", series: "power_film", row: filmLoss, ofCycle: "mean power loss in the film", display: { factor: 1, unit: "W" }, fromZero: true },
 ];
 
 export class StudyView {
   readonly element = h("section", { class: "study", "aria-label": "Study" });
   private readonly study: Study;
   private bearing: string;
+  /** Whether figures show values at the end of the runs or of their cycles. */
+  private basis: "end" | "cycle";
 
   constructor(
     report: Report,
@@ -37,6 +44,7 @@ export class StudyView {
   ) {
     this.study = new Study(report);
     this.bearing = this.study.runs[0]!.children("/bearings")[0] ?? "";
+    this.basis = this.hasCycles() ? "cycle" : "end";
     this.render();
     onThemeChange(() => this.render());
   }
@@ -58,18 +66,30 @@ export class StudyView {
     });
   }
 
+  private hasCycles(): boolean {
+    return this.study.runs.some((run) => isOfCycle(keyRow(run, this.bearing, moft)));
+  }
+
   private render(): void {
     const chosen = this.element.querySelector<HTMLElement>("tr.chosen")?.dataset["run"];
     const bearings = this.study.runs[0]!.children("/bearings");
+    const ofCycle = this.hasCycles() ? "Of the last cycle" : "Of the whole run";
+    const basis = segmented("Values of the figures", [{ value: "end", label: "At the end" }, { value: "cycle", label: ofCycle }], this.basis, (b) => {
+      this.basis = b as "end" | "cycle";
+      this.render();
+    });
     const controls =
       bearings.length > 1
         ? h("div", { class: "controls view-controls" }, segmented("Bearing of the study", bearings.map((b) => ({ value: b, label: b.replaceAll("_", " ") })), this.bearing, (b) => {
             this.bearing = b;
             this.render();
-          }))
-        : h("div", {});
+          }), basis)
+        : h("div", { class: "controls view-controls" }, bearings.length > 0 ? basis : null);
     const figures = h("div", { class: "figures" }, ...this.midplaneFigures(), ...this.endFigures());
-    this.element.replaceChildren(h("h2", {}, this.heading()), controls, figures, this.table());
+    const overlay = this.study.runs.length <= mostOverlaid ? new ComparisonView(this.study.runs, (run) => this.label(run), this.bearing).element : h("div", {});
+    // Runs that no study has made are compared first; a study is about its parameters.
+    const parts = this.study.isComparison ? [this.table(), overlay, figures] : [figures, this.table(), overlay];
+    this.element.replaceChildren(h("h2", {}, this.heading()), controls, ...parts);
     const run = this.study.runs.find((r) => r.name === chosen);
     if (run) this.highlight(run);
   }
@@ -124,7 +144,7 @@ export class StudyView {
     const x = [...new Set(study.runs.map(place))].sort((a, b) => a - b);
     return endValues.flatMap((end) => {
       const curves: Curve[] = study.combinations.map(({ label, runs }) => ({
-        label: label || end.label,
+        label: label || (this.basis === "cycle" ? end.ofCycle : end.label),
         unit: end.display.unit,
         ...(numbers ? { points: true } : { dots: true }),
         y: x.map((value) => {
@@ -136,15 +156,17 @@ export class StudyView {
       const plot = new LinePlot({
         name: `study-${end.name}`,
         x: { label: study.abscissa.replaceAll("_", " "), unit: numbers?.unit ?? "", values: x, ...(numbers ? {} : { categories: texts }) },
-        left: { label: end.label, unit: end.display.unit, fromZero: end.fromZero },
+        left: { label: this.basis === "cycle" ? end.ofCycle : end.label, unit: end.display.unit, fromZero: end.fromZero },
         curves,
       });
+      const told = this.basis === "cycle" ? `${capital(end.ofCycle)} ${this.hasCycles() ? "of the last cycle" : "of the whole run"}` : `${capital(end.label)} at the end of the run`;
       const over = numbers ? ` over ${study.abscissa.replaceAll("_", " ")}` : "";
-      return [figure(`study-${end.name}`, `${capital(end.label)} at the end of the run${over}.`, plot.tools, plot.element)];
+      return [figure(`study-${end.name}`, `${told}${over}.`, plot.tools, plot.element)];
     });
   }
 
   private atEnd(run: Run, end: EndValue): number | null {
+    if (this.basis === "cycle") return keyValue(run, this.bearing, end.row);
     const values = run.column(`/bearings/${this.bearing}/${end.series}`);
     return values ? values[values.length - 1]! * end.display.factor : null;
   }

@@ -52,7 +52,7 @@ export class SystemView {
     }
     if (run.children("/bodies").length > 0) this.element.append(section("Bodies", false, (body) => this.bodies(body)));
     if (alone) solution();
-    if (run.model) this.element.append(h("details", {}, h("summary", {}, "Model as it was run"), h("pre", { class: "model" }, run.model)));
+    if (run.model) this.element.append(h("details", {}, h("summary", {}, "Model as it was run"), h("pre", { class: "model", tabindex: 0, role: "region", "aria-label": "Model file" }, run.model)));
   }
 
   show(time: number): void {

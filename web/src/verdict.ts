@@ -86,7 +86,7 @@ export function verdict(run: Run): HTMLElement {
   const list = judgements(run);
   return h(
     "section",
-    { class: `verdict ${worstLevel(list)}`, "aria-label": "Verdict" },
+    { class: `verdict ${worstLevel(list)}`, "aria-label": `Verdict on ${run.name}` },
     sentence(run),
     judgementList(list),
     h("div", { class: "tiles key-tiles" }, ...tiles(run)),

@@ -32,4 +32,8 @@ std::string base64_float64(std::span<const double> values) {
   return encode({reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(double)});
 }
 
+std::string base64_uint16(std::span<const std::uint16_t> values) {
+  return encode({reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(std::uint16_t)});
+}
+
 }  // namespace hersey::report

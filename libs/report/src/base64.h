@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,5 +10,6 @@ namespace hersey::report {
 /// Little-endian IEEE numbers in base64 (RFC 4648), which a browser turns into a typed array without parsing.
 [[nodiscard]] std::string base64_float32(std::span<const double> values);
 [[nodiscard]] std::string base64_float64(std::span<const double> values);
+[[nodiscard]] std::string base64_uint16(std::span<const std::uint16_t> values);
 
 }  // namespace hersey::report

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base64.h"
+#include "quantised.h"
 
 namespace hersey::report {
 namespace {
@@ -39,7 +40,7 @@ std::size_t field_stride(const Reader& reader, std::size_t budget) {
   for (const std::string& path : reader.datasets()) {
     const DatasetInfo info = reader.info(path);
     if (!is_field(info)) continue;
-    bytes += info.shape[0] * info.shape[1] * info.shape[2] * sizeof(float);
+    bytes += info.shape[0] * info.shape[1] * info.shape[2] * sizeof(std::uint16_t);
     longest = std::max(longest, info.shape[0]);
   }
   return std::min(longest, stride_for(bytes, std::max<std::size_t>(budget, 1)));
@@ -70,8 +71,16 @@ json dataset(const Reader& reader, const std::string& path, const DatasetInfo& i
   entry["unit"] = info.unit;
   entry["description"] = info.description;
   entry["shape"] = array.info.shape;
-  entry["type"] = wide ? "f8" : "f4";
-  entry["data"] = wide ? base64_float64(array.values) : base64_float32(array.values);
+  if (is_field(info) && in_fields(path)) {
+    const Quantised quantised = quantise(array.values, info.shape[1] * info.shape[2]);
+    entry["type"] = "u2";
+    entry["data"] = base64_uint16(quantised.codes);
+    entry["low"] = base64_float32(quantised.low);
+    entry["step"] = base64_float32(quantised.step);
+  } else {
+    entry["type"] = wide ? "f8" : "f4";
+    entry["data"] = wide ? base64_float64(array.values) : base64_float32(array.values);
+  }
   if (const auto names = reader.list_attribute(path, "coordinate_names"); !names.empty()) entry["columns"] = names;
   return entry;
 }

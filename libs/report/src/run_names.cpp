@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+
+#include "hersey/core/contract.h"
 
 namespace hersey::report {
 namespace {
@@ -44,7 +47,13 @@ std::map<std::string, int> counted(const std::vector<RunName>& names) {
 
 }  // namespace
 
-std::vector<std::string> run_names(const std::vector<std::filesystem::path>& results) {
+std::vector<std::string> run_names(const std::vector<std::filesystem::path>& results,
+                                   const std::vector<std::string>& given) {
+  if (!given.empty()) {
+    HERSEY_REQUIRE(given.size() == results.size(), "a name for each run");
+    HERSEY_REQUIRE(std::set<std::string>(given.begin(), given.end()).size() == given.size(), "names that differ");
+    return given;
+  }
   std::vector<RunName> names(results.begin(), results.end());
   for (bool grows = true; grows;) {
     grows = false;

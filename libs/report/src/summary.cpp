@@ -492,9 +492,10 @@ std::vector<SummaryRow> summarise(const Reader& reader, const std::string& name)
   return Summary(reader, name).rows();
 }
 
-std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& results) {
+std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& results,
+                                      const std::vector<std::string>& given) {
   std::vector<SummaryRow> rows;
-  const std::vector<std::string> names = run_names(results);
+  const std::vector<std::string> names = run_names(results, given);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::vector<SummaryRow> more = summarise(Reader(results[i]), names[i]);
     rows.insert(rows.end(), more.begin(), more.end());
@@ -502,9 +503,9 @@ std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& 
   return rows;
 }
 
-std::string summary_json(const std::vector<std::filesystem::path>& results) {
+std::string summary_json(const std::vector<std::filesystem::path>& results, const std::vector<std::string>& names) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const SummaryRow& row : summary_table(results)) {
+  for (const SummaryRow& row : summary_table(results, names)) {
     const SiUnit si = si_of(row.unit);
     list.push_back({{"run", row.run},
                     {"group", row.group},

@@ -20,7 +20,7 @@ json page_data(const std::vector<std::filesystem::path>& results, const ReportOp
                       options.field_bytes / results.size(), options.series_bytes / results.size()};
   json data;
   data["runs"] = json::array();
-  const std::vector<std::string> names = run_names(results);
+  const std::vector<std::string> names = run_names(results, options.names);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const results::Reader reader(results[i]);
     json run = run_data(reader, budget);

@@ -110,7 +110,7 @@ TEST_CASE("TextThatLooksLikeMarkup_StaysText") {
 
 TEST_CASE("LongRuns_AreThinnedButKeepTheirEnd") {
   const SmallRun run{.rows = 1000};
-  const Page page({run}, {.series_rows = 301, .field_bytes = 100 * 12 * sizeof(float)});
+  const Page page({run}, {.series_rows = 301, .field_bytes = 100 * 12 * sizeof(std::uint16_t)});
   const json& shown = page.data["runs"][0];
   CHECK(shown["series_stride"] == 4);
   CHECK(shown["field_stride"] == 10);
@@ -122,6 +122,32 @@ TEST_CASE("LongRuns_AreThinnedButKeepTheirEnd") {
   CHECK(instants.back() == 999 * run.dt);
   CHECK(shown["datasets"]["/bearings/big_end/fields/pressure"]["shape"] == json({100, 4, 3}));
   CHECK(shown["datasets"]["/bearings/big_end/fields/phi"]["shape"] == json({4}));  // a grid is not an instant
+}
+
+TEST_CASE("Fields_TakeTwoBytesANumber") {
+  const SmallRun run;
+  const Page page({run});
+  const json& pressure = page.data["runs"][0]["datasets"]["/bearings/big_end/fields/pressure"];
+  CHECK(pressure["type"] == "u2");
+  const auto codes = decode<std::uint16_t>(pressure["data"]);
+  const auto low = decode<float>(pressure["low"]), step = decode<float>(pressure["step"]);
+  REQUIRE(codes.size() == 11 * 12);
+  REQUIRE(low.size() == 11);
+  // Every instant's pressure is uniform: told exactly, in the page's single precision.
+  for (std::size_t k = 0; k < 11; ++k)
+    CHECK(low[k] + step[k] * codes[12 * k] == static_cast<float>(run.p_max(static_cast<int>(k))));
+}
+
+TEST_CASE("Runs_TakeTheNamesGiven") {
+  const Page page({{.load = "100 N"}, {.load = "2500 N"}}, {.names = {"light", "heavy"}});
+  CHECK(page.data["runs"][0]["name"] == "light");
+  CHECK(page.data["runs"][1]["name"] == "heavy");
+  const TemporaryDirectory directory;
+  SmallRun().write(directory / "run.h5");
+  const std::vector<std::filesystem::path> twice{directory / "run.h5", directory / "run.h5"};
+  CHECK(summary_table(twice, {"a", "b"}).back().run == "b");
+  CHECK_THROWS_AS(summary_table(twice, {"a"}), ContractError);
+  CHECK_THROWS_AS(summary_table(twice, {"a", "a"}), ContractError);
 }
 
 TEST_CASE("Study_ShowsEveryRunWithItsParameters") {

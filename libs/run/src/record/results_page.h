@@ -44,7 +44,8 @@ In C++, `hersey::results::Reader` (`hersey/results/reader.h`) gives datasets wit
 `hersey report results.h5 ...` turns one file, or several, into an HTML page. Several that one study has made are shown over its
 parameters. Others are compared under their names, in every table and figure: the file's, or its folder's where the file is called
 `results.h5` as those of `hersey run` are, with as many folders before it as tell the runs apart. Parameters in which they differ stand
-beside. A page is never written over what it is made from.
+beside. `--names before,after` gives them names of your own. The page lays up to eight runs over each other over the last cycle (over the whole
+run where there is none), with what they differ by and a table of changes. A page is never written over what it is made from.
 
 ## Layout
 
@@ -63,7 +64,8 @@ Extremes run over all stored instants: the *minimum film thickness (MOFT)* is th
 pressure (POFP)* the largest `p_max`, the *largest load* the longest `force`. Means are over time by the trapezoidal
 rule. Values *at the end* are the last row. The *worst* balance error is the one largest in size; the *residual power of the
 equations of motion* is also given as a share of the largest of all powers in the run. *Unexplained energy* is that at the end of the run;
-of a film, the integral of `power_error` over that of `power_film` and `power_asperity`. A page thins long series and many fields (it says so); the
+of a film, the integral of `power_error` over that of `power_film` and `power_asperity`. A page thins long series and many fields (it says so), and tells a
+field to 1/131068 of its range at each instant; the
 summary never does.
 
 ## Status, crashes, full disks

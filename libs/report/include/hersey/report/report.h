@@ -18,16 +18,20 @@ struct SummaryRow {
 };
 
 /// The numbers an engineer asks for first, from every row of the results files (definitions: docs/results-file.md).
+/// @param names of the runs, one each and all different; empty: by their files and folders.
 /// @throws results::ReadError if a file cannot be read.
 /// @verified_by summary_test.cpp
-[[nodiscard]] std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& results);
+[[nodiscard]] std::vector<SummaryRow> summary_table(const std::vector<std::filesystem::path>& results,
+                                                    const std::vector<std::string>& names = {});
 
 /// The same as JSON, in SI: [{"run", "group", "name", "value", "unit", "where"}, ...].
-[[nodiscard]] std::string summary_json(const std::vector<std::filesystem::path>& results);
+[[nodiscard]] std::string summary_json(const std::vector<std::filesystem::path>& results,
+                                       const std::vector<std::string>& names = {});
 
 struct ReportOptions {
   std::string title;               ///< empty: the first file's title
   std::size_t series_rows = 4000;  ///< most rows of a time series shown per run; more are thinned evenly
+  std::vector<std::string> names;  ///< of the runs, as for summary_table
   std::size_t field_bytes = std::size_t{24} << 20;   ///< most bytes for all stored fields together; else fewer instants
   std::size_t series_bytes = std::size_t{32} << 20;  ///< most bytes for all time series together; else fewer rows
 };
@@ -35,6 +39,7 @@ struct ReportOptions {
 /// Writes one HTML file that shows a run, or several as a study: no network, no other file, any browser.
 ///
 /// Time series and fields are thinned to the options' limits (the page says so); the summary is not: it sees every row.
+/// Fields have two bytes a number, each right to 1/131068 of its instant's range.
 /// @throws results::ReadError if a results file cannot be read; results::WriteError if `out` cannot be written.
 /// @pre results is not empty.
 /// @verified_by report_test.cpp, tests/report_browser
