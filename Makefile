@@ -12,7 +12,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help program demo test bench validate mutations fuzz random-models web web-check web-test python docs docs-test package package-test format lint install clean
+.PHONY: help program demo test bench validate mutations fuzz random-models web web-check web-test python docs docs-test pictures package package-test format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -69,9 +69,13 @@ docs:  ## builds the documentation site: build/docs/index.html
 	@$(PHASE) docs build/log/docs.log scripts/docs
 	@echo "documentation: build/docs/index.html"
 
-docs-test: docs  ## opens the site in headless Chromium: both themes, two sizes, every page
+docs-test: docs  ## opens every page of the site in headless Chromium, in both themes and two sizes
 	@scripts/setup web browser
 	@scripts/docs test
+
+pictures: program  ## draws the pictures of the documentation anew that are no longer as they were drawn: docs/pictures
+	@scripts/setup docs
+	@/usr/bin/python3 scripts/site/pictures.py $(BUILD)/hersey
 
 package: program  ## makes the Debian packages: build/release/packages/*.deb (with the site, where `make docs` was run)
 	@scripts/setup package

@@ -1,0 +1,62 @@
+// node browser_test.mjs MODULES SITE   opens every page of the site in headless Chromium, light and dark, at 1366 x 768 and 390 x 844:
+// no error on the console, nothing wider than the window, no finding of axe-core that is serious or critical (contrast among them).
+// Needs a Chromium (CHROMIUM=/path/to/it, default /usr/bin/chromium) and `make docs`.
+import { createRequire } from 'node:module';
+import { readFileSync, readdirSync } from 'node:fs';
+import { join, relative, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const [modules, site] = process.argv.slice(2).map((path) => resolve(path));
+const require = createRequire(join(modules, 'package.json'));
+const { chromium } = require('playwright-core');
+const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+const sizes = [{ width: 1366, height: 768 }, { width: 390, height: 844 }];
+
+const pagesBelow = (folder) =>
+  readdirSync(folder, { withFileTypes: true }).flatMap((entry) =>
+    entry.isDirectory() ? pagesBelow(join(folder, entry.name)) : entry.name.endsWith('.html') && entry.name !== '404.html' ? [join(folder, entry.name)] : []);
+
+// What one page does wrong in one theme and size.
+async function faultsOf(context, path, audit) {
+  const page = await context.newPage();
+  const faults = [];
+  page.on('console', (message) => message.type() === 'error' && faults.push(`console: ${message.text()}`));
+  page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
+  // Pages from a folder cannot fetch their index for the search: browsers forbid it; everything else must come from the folder.
+  page.on('request', (request) => /^https?:/.test(request.url()) && faults.push(`asks the network for ${request.url()}`));
+  await page.goto(pathToFileURL(path).href);
+  await page.evaluate(() => document.fonts.ready);
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  if (wide > 1) faults.push(`is ${wide} px wider than the window`);
+  if (audit) {
+    await page.evaluate(axe);
+    const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+    for (const violation of found.violations.filter((v) => ['serious', 'critical'].includes(v.impact))) {
+      const [first] = violation.nodes;
+      faults.push(`${violation.id} (${violation.nodes.length}): ${first.html.slice(0, 120)} ${first.failureSummary.split('\n')[1] ?? ''}`);
+    }
+  }
+  await page.close();
+  return faults;
+}
+
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-quic', '--disable-background-networking'] });
+let failed = 0;
+const pages = pagesBelow(site);
+for (const viewport of sizes) {
+  for (const colorScheme of ['light', 'dark']) {
+    const context = await browser.newContext({ viewport, colorScheme });
+    // Long tables make axe-core slow: it looks at each page in one size per theme, at the start page in all.
+    for (const path of pages) {
+      const audit = viewport.width > 1000 || relative(site, path) === 'index.html';
+      for (const fault of await faultsOf(context, path, audit)) {
+        failed++;
+        console.log(`${relative(site, path)} ${viewport.width} ${colorScheme}: ${fault}`);
+      }
+    }
+    await context.close();
+  }
+}
+await browser.close();
+console.log(`${pages.length} pages in two sizes and two themes, ${failed} faults`);
+process.exit(failed ? 1 : 0);
