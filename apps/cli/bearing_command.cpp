@@ -17,6 +17,7 @@
 #include "hersey/fem/vtu_file.h"
 #include "hersey/model/read.h"
 #include "hersey/results/error.h"
+#include "hersey/study/sensitivity.h"
 #include "output_file.h"
 #include "standard_streams.h"
 
@@ -157,15 +158,39 @@ void write_body(const BearingArguments& arguments, const model::Model& model, co
   fem::write_vtu(arguments.vtu, *body->flexible->mesh, frame);
 }
 
-void print(const BearingArguments& arguments, const std::vector<study::BearingSolution>& solutions) {
+// One list per solution.
+std::vector<std::vector<study::Sensitivity>> sensitivities_of(const BearingArguments& arguments,
+                                                              const study::BearingStudyOptions& options,
+                                                              const std::vector<study::BearingSolution>& solutions) {
+  std::vector<std::vector<study::Sensitivity>> all(solutions.size());
+  if (!arguments.sensitivity && arguments.sensitivity_to.empty()) return all;
+  for (std::size_t k = 0; k < solutions.size(); ++k) {
+    std::vector<std::string> keys = arguments.sensitivity_to;
+    if (arguments.sensitivity)
+      for (std::string& key : study::usual_parameters(arguments.model, solutions[k].run.overrides, arguments.bearing))
+        if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(std::move(key));
+    all[k] = study::sensitivities(arguments.model, solutions[k], options, keys);
+  }
+  return all;
+}
+
+void print(const BearingArguments& arguments, const std::vector<study::BearingSolution>& solutions,
+           const std::vector<std::vector<study::Sensitivity>>& sensitivities) {
   if (arguments.json) {
     nlohmann::json document{{"model", arguments.model}, {"solutions", nlohmann::json::array()}};
-    for (const study::BearingSolution& solution : solutions) document["solutions"].push_back(bearing_json(solution));
+    for (std::size_t k = 0; k < solutions.size(); ++k)
+      document["solutions"].push_back(bearing_json(solutions[k], sensitivities[k]));
     fmt::print("{}\n", document.dump(2));
   } else if (solutions.size() > 1) {
     fmt::print("{}", bearing_comparison_text(solutions));
   } else if (solutions.front().solved()) {
     fmt::print("{}", bearing_text(solutions.front()));
+  }
+  if (arguments.json) return;
+  for (std::size_t k = 0; k < solutions.size(); ++k) {
+    if (sensitivities[k].empty()) continue;
+    if (solutions.size() > 1) fmt::print("\n{}:", solutions[k].run.label);
+    fmt::print("{}", sensitivity_text(solutions[k], sensitivities[k]));
   }
 }
 
@@ -183,13 +208,13 @@ int bearing_command(const BearingArguments& arguments) {
   require_one(arguments, model, runs.size());
   const auto coefficients = arguments.thermal_coefficients == "total" ? study::ThermalCoefficients::total
                                                                       : study::ThermalCoefficients::frozen;
-  const std::vector<study::BearingSolution> solutions = study::solve_bearings(arguments.model, runs,
-                                                                              {.bearing = arguments.bearing,
-                                                                               .grid_error = !arguments.no_grid_error,
-                                                                               .thermal_coefficients = coefficients,
-                                                                               .threads = arguments.jobs,
-                                                                               .first = &model});
-  print(arguments, solutions);
+  const study::BearingStudyOptions options{.bearing = arguments.bearing,
+                                           .grid_error = !arguments.no_grid_error,
+                                           .thermal_coefficients = coefficients,
+                                           .threads = arguments.jobs,
+                                           .first = &model};
+  const std::vector<study::BearingSolution> solutions = study::solve_bearings(arguments.model, runs, options);
+  print(arguments, solutions, sensitivities_of(arguments, options, solutions));
   bool all_solved = true;
   for (const study::BearingSolution& solution : solutions) {
     for (const std::string& doubt : solution.doubts)

@@ -230,7 +230,65 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
   return text;
 }
 
-nlohmann::json bearing_json(const BearingSolution& solution) {
+namespace {
+
+// Slopes that are no number are left out.
+nlohmann::json sensitivity_json(const BearingSolution& solution, const study::Sensitivity& sensitivity) {
+  nlohmann::json document{{"parameter", sensitivity.parameter},
+                          {"value", sensitivity.value},
+                          {"unit", sensitivity.unit},
+                          {"exact", sensitivity.exact}};
+  if (!sensitivity.error.empty()) document["error"] = sensitivity.error;
+  const std::vector<BearingFigure> figures = study::figures_of(solution);
+  for (std::size_t k = 0; k < sensitivity.slopes.size(); ++k)
+    if (std::isfinite(sensitivity.slopes[k])) document["derivatives"][figures[k].key] = sensitivity.slopes[k];
+  return document;
+}
+
+// The last two parts of a key path tell parameters apart: "main.width", "operating_point.load" is "load".
+std::string short_name(const std::string& path) {
+  const std::size_t dot = path.find_last_of('.');
+  const std::string last = path.substr(dot + 1);
+  if (last != "pressure" && last != "temperature") return last;
+  const std::size_t before = path.find_last_of('.', dot - 1);
+  return path.substr(before + 1);
+}
+
+// A percentage of what is zero, of an angle or of an error tells nothing.
+bool has_percentage(const BearingFigure& figure) {
+  const bool is_error = figure.key.find("error") != std::string::npos;
+  const bool is_place = figure.unit == "deg" || figure.key.ends_with("_z");
+  return figure.value != 0 && figure.words.empty() && !is_error && !is_place && figure.unit != "degC";
+}
+
+}  // namespace
+
+std::string sensitivity_text(const BearingSolution& solution, const std::vector<study::Sensitivity>& sensitivities) {
+  std::string remarks;
+  std::vector<std::vector<std::string>> lines{{"change in % where grows by 1 %:"}};
+  std::vector<const study::Sensitivity*> columns;
+  for (const study::Sensitivity& s : sensitivities) {
+    if (!s.error.empty()) {
+      remarks += fmt::format("  no sensitivity to {}: {}\n", s.parameter, s.error);
+      continue;
+    }
+    if (!s.exact) remarks += fmt::format("  {}: from two solutions beside this one\n", s.parameter);
+    columns.push_back(&s);
+    lines.front().push_back(short_name(s.parameter));
+  }
+  const std::vector<BearingFigure> figures = study::figures_of(solution);
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    if (!has_percentage(figures[k])) continue;
+    std::vector<std::string>& line = lines.emplace_back(std::vector<std::string>{figures[k].name});
+    for (const study::Sensitivity* s : columns) {
+      const double share = s->slopes[k] * s->value / (figures[k].si * figures[k].value);
+      line.push_back(!std::isfinite(share) ? "-" : fmt::format("{:.3f}", std::abs(share) < 5e-4 ? 0 : share));
+    }
+  }
+  return "\n" + aligned(lines, 99) + remarks;
+}
+
+nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<study::Sensitivity>& sensitivities) {
   nlohmann::json document{{"label", solution.run.label}, {"error", solution.error}};
   for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;  // as given
   if (!solution.solved()) return document;
@@ -256,6 +314,8 @@ nlohmann::json bearing_json(const BearingSolution& solution) {
   }
   document["stiffness_with_tilt"] = rows(solution.state.coefficients.stiffness);
   document["damping_with_tilt"] = rows(solution.state.coefficients.damping);
+  for (const study::Sensitivity& sensitivity : sensitivities)
+    document["sensitivities"].push_back(sensitivity_json(solution, sensitivity));
   return document;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hersey/study/bearing_study.h"
+#include "hersey/study/sensitivity.h"
 
 namespace hersey::cli {
 
@@ -31,6 +32,12 @@ namespace hersey::cli {
 /// The fields of one solution at the nodes, comma-separated.
 [[nodiscard]] std::string bearing_fields_csv(const study::BearingSolution& solution);
 
-[[nodiscard]] nlohmann::json bearing_json(const study::BearingSolution& solution);
+/// @param sensitivities  of this solution; empty: none asked for
+[[nodiscard]] nlohmann::json bearing_json(const study::BearingSolution& solution,
+                                          const std::vector<study::Sensitivity>& sensitivities = {});
+
+/// By how many percent each figure changes where a parameter grows by one percent, a column a parameter.
+[[nodiscard]] std::string sensitivity_text(const study::BearingSolution& solution,
+                                           const std::vector<study::Sensitivity>& sensitivities);
 
 }  // namespace hersey::cli

@@ -52,6 +52,8 @@ struct BearingArguments {
   std::filesystem::path csv, fields, vtu, report;  ///< files to write; empty: none
   bool json = false;
   bool no_grid_error = false;
+  bool sensitivity = false;                     ///< of every figure to the usual parameters
+  std::vector<std::string> sensitivity_to;      ///< to these key paths
   std::string thermal_coefficients = "frozen";  ///< or total
   int jobs = 0;                                 ///< 0: one per thread
   int threads = 0;                              ///< 0: one per processor

@@ -89,6 +89,14 @@ CLI::App* add_bearing_command(CLI::App& app, BearingArguments& bearing) {
       ->type_name("FILE");
   command->add_flag("--json", bearing.json, "Print every figure as JSON");
   command->add_flag("--no-grid-error", bearing.no_grid_error, "Leave out the estimate of the grid's error");
+  command->add_flag("--sensitivity", bearing.sensitivity,
+                    "Tell how every figure follows load, speed, size, clearance, viscosity and supplies");
+  command
+      ->add_option("--sensitivity-to", bearing.sensitivity_to,
+                   "Tell how every figure follows a key of the file: bearings.main.asperities.roughness")
+      ->type_name("KEY")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       ->add_option("--thermal-coefficients", bearing.thermal_coefficients,
                    "Stiffness and damping with temperatures as they are (frozen, the default) or as they follow the "

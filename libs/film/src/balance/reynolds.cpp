@@ -41,7 +41,7 @@ struct Reynolds::Impl {
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void set_up_multigrid();
   void solve_for_settling();
-  void subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  void subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const;
   const FilmWrench& summed_wrench();
 
   FlowBalance balance;
@@ -289,6 +289,36 @@ Vector6 Reynolds::wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) c
   return impl_->summed_wrench().along_u(du);
 }
 
+const Eigen::Matrix<double, 6, Eigen::Dynamic>& Reynolds::wrench_by_u() const {
+  return impl_->summed_wrench().gradient_u();
+}
+
+void Reynolds::partial(const MotionDirection& direction, Eigen::VectorXd& residual, Vector6& wrench) {
+  HERSEY_REQUIRE(impl_->linearised, "linearise() comes first");
+  impl_->balance.derivative(direction, residual);
+  wrench = impl_->summed_wrench().along(direction);
+}
+
+Eigen::VectorXd Reynolds::jacobian_product(const Eigen::Ref<const Eigen::VectorXd>& v) const {
+  HERSEY_REQUIRE(impl_->linearised && v.size() == size(), "linearise() comes first; shape (n)");
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(size());
+  impl_->subtract_product(v, product);
+  return -product;
+}
+
+void Reynolds::solve(Eigen::MatrixXd& columns) {
+  HERSEY_REQUIRE(impl_->linear == LinearSolver::direct && columns.rows() == size(), "a direct solver; shape (n, any)");
+  impl_->factorise();
+  impl_->lu.solve({columns.data(), static_cast<std::size_t>(columns.size())}, static_cast<int>(columns.cols()));
+}
+
+void Reynolds::solve_transposed(Eigen::MatrixXd& columns) {
+  HERSEY_REQUIRE(impl_->linear == LinearSolver::direct && columns.rows() == size(), "a direct solver; shape (n, any)");
+  impl_->factorise();
+  impl_->lu.solve_transposed({columns.data(), static_cast<std::size_t>(columns.size())},
+                             static_cast<int>(columns.cols()));
+}
+
 void Reynolds::persist(Archive& archive) {
   impl_->lu.persist(archive);
   if (archive.restores()) impl_->linearised = impl_->factorised = impl_->set_up = impl_->condensed = false;
@@ -325,7 +355,7 @@ void Reynolds::Impl::solve_for_settling() {
   }
 }
 
-void Reynolds::Impl::subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+void Reynolds::Impl::subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const {
   for (Eigen::Index column = 0; column < x.size(); ++column)
     for (auto k = balance.column_start()[column]; k < balance.column_start()[column + 1]; ++k)
       y[balance.row_index()[k]] -= balance.values()[k] * x[column];

@@ -107,6 +107,17 @@ class Reynolds {
 
   /// (d wrench_on_shell / du) du.
   [[nodiscard]] Vector6 wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) const;
+  /// d wrench_on_shell / du, shape (6, n).
+  [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_by_u() const;
+
+  /// The residual's derivative with a change of the surfaces at fixed u [m^3/s], shape (n), and the wrench's.
+  void partial(const MotionDirection& direction, Eigen::VectorXd& residual, Vector6& wrench);
+  /// J v at the state last linearised, shape (n).
+  [[nodiscard]] Eigen::VectorXd jacobian_product(const Eigen::Ref<const Eigen::VectorXd>& v) const;
+  /// J^{-1} of each column, in its place. `direct` only.
+  void solve(Eigen::MatrixXd& columns);
+  /// J^{-T} of each column, in its place. `direct` only.
+  void solve_transposed(Eigen::MatrixXd& columns);
 
   /// The oil of a film at `u` with which a run starts: no step has led there, and no flow is told.
   void take_stock(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, OilOfStep& oil);

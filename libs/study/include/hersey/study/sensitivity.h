@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/study/bearing_study.h"
+
+namespace hersey::study {
+
+/// How every figure of a bearing's solution follows one key of the model file.
+struct Sensitivity {
+  std::string parameter;  ///< key path
+  double value = 0;       ///< [unit]
+  std::string unit;       ///< SI
+  bool exact = true;      ///< by the Jacobian of the solution; else by the difference of two solutions
+  std::string error;      ///< why there is none; then `slopes` is empty
+  /// Derivative of each of figures_of(solution), SI over SI; not a number where a figure has none.
+  std::vector<double> slopes;
+};
+
+/// The keys that decide about a bearing and stand in the file as numbers: speeds, load or position, size, clearance,
+/// viscosity, pressures and temperatures of supplies.
+/// @throws InputError for a file that cannot be read.
+[[nodiscard]] std::vector<std::string> usual_parameters(const std::string& path,
+                                                        const std::vector<std::string>& overrides,
+                                                        const std::string& bearing);
+
+/// Sensitivities of `solution`, found for the model file at `path` with solution.run.overrides. Between rigid surfaces
+/// with one temperature by bearing::SteadyDerivative, a linear solution for each parameter; where film and heat or
+/// surfaces answer each other, by solving the bearing anew on both sides.
+/// @param parameters  key paths, or parameters of the model. @throws InputError where one is no number of the file.
+/// @verified_by sensitivity_test.cpp
+[[nodiscard]] std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSolution& solution,
+                                                     const BearingStudyOptions& options,
+                                                     const std::vector<std::string>& parameters);
+
+}  // namespace hersey::study

@@ -1,0 +1,219 @@
+#include "hersey/study/sensitivity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "hersey/bearing/steady_derivative.h"
+#include "hersey/core/error_text.h"
+#include "hersey/core/input_error.h"
+#include "hersey/core/quantity_formula.h"
+#include "hersey/core/units.h"
+#include "hersey/model/read.h"
+#include "hersey/model/written.h"
+
+namespace hersey::study {
+namespace {
+
+// Steps of a parameter over its value. On a tangent the square of the step counts against the digits of the figures;
+// solutions
+// with heat are good to 1e-8 only, and want a longer one, but none on which fronts of the film pass nodes of the grid.
+constexpr double kTangentStep = 1e-5, kSolutionStep = 2e-4;
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// What stands at a key path, if it is a number with or without unit.
+std::optional<Quantity> number_at(const std::string& text, const std::string& path,
+                                  const std::vector<std::string>& overrides, const std::string& key) {
+  try {
+    const auto written = nlohmann::json::parse(model::written_json(text, path, overrides, key));
+    if (!written.is_string()) return std::nullopt;
+    return evaluate_formula(written.get<std::string>());
+  } catch (const InputError&) {
+    return std::nullopt;  // no such key
+  } catch (const QuantityError&) {
+    return std::nullopt;  // a word
+  }
+}
+
+/// A unit in SI and its size there: a difference of 1 unit is `size` of `name`.
+struct SiUnit {
+  std::string name;
+  double size = 1;
+};
+
+SiUnit si_of(const std::string& unit) {
+  if (unit.empty()) return {"", 1};
+  for (const Dimension& dimension : dimensions()) {
+    try {
+      const double zero = convert_to_si({0, unit}, dimension.si_unit);
+      return {dimension.si_unit, convert_to_si({1, unit}, dimension.si_unit) - zero};
+    } catch (const QuantityError&) {  // measures something else
+    }
+  }
+  return {unit, 1};
+}
+
+/// A parameter of the file and its value on both sides.
+struct Varied {
+  std::string key;
+  Quantity middle;
+  double step = 0;  ///< in its unit
+
+  [[nodiscard]] std::vector<std::string> overrides(const std::vector<std::string>& others, double sign) const {
+    std::vector<std::string> all = others;
+    const std::string unit = middle.unit.empty() ? "" : " " + middle.unit;
+    all.push_back(fmt::format("{}={:.17g}{}", key, middle.number + sign * step, unit));
+    return all;
+  }
+};
+
+Varied varied(const std::string& key, const Quantity& middle, double share) {
+  return {key, middle, share * (middle.number != 0 ? std::abs(middle.number) : 1.0)};
+}
+
+using Sides = std::array<BearingSolution, 2>;
+
+/// Figures by their keys: a figure that one side has and the other has not is none.
+std::vector<double> slopes_between(const BearingSolution& here, const Sides& sides, double distance) {
+  const std::array figures{figures_of(sides[0]), figures_of(sides[1])};
+  const auto value = [&](std::size_t side, const BearingFigure& wanted) {
+    const auto found = std::find_if(figures[side].begin(), figures[side].end(),
+                                    [&](const BearingFigure& f) { return f.key == wanted.key; });
+    const bool is_number = found != figures[side].end() && found->words.empty();
+    return is_number ? found->si * found->value : std::numeric_limits<double>::quiet_NaN();
+  };
+  std::vector<double> slopes;
+  for (const BearingFigure& figure : figures_of(here))
+    slopes.push_back((value(1, figure) - value(0, figure)) / distance);
+  return slopes;
+}
+
+/// All that follows from a state.
+void complete(BearingSolution& solution) {
+  const double omega = std::abs(solution.state.point.entraining_speed());
+  solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
+  solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
+  solution.whirl = bearing::whirl_stability(
+      solution.coefficients, bearing::clearance(solution.model, solution.state.point), solution.numbers.load, omega);
+}
+
+std::optional<Sides> on_tangent(const std::string& path, const BearingSolution& solution, const std::string& bearing,
+                                const Varied& parameter, bearing::SteadyDerivative& derivative) {
+  std::array<bearing::BearingBeside, 2> beside;
+  for (const int side : {0, 1}) {
+    const model::Model model = model::read(path, parameter.overrides(solution.run.overrides, 2 * side - 1));
+    const model::Bearing& here = bearing_called(model, bearing);
+    const bearing::OperatingPoint point = operating_point_of(here);
+    beside[static_cast<std::size_t>(side)] = {here.film, point};
+    // The scale of its unknowns is the state's: only their meaning counts.
+    beside[static_cast<std::size_t>(side)].model.fill_speed = solution.model.fill_speed;
+    if (here.film.grid.size() != solution.model.grid.size()) return std::nullopt;
+  }
+  const auto states = derivative.beside(beside);
+  if (!states) return std::nullopt;
+  Sides sides{solution, solution};
+  for (const std::size_t side : {0, 1}) {
+    sides[side].state = (*states)[side];
+    sides[side].model = beside[side].model;
+    complete(sides[side]);
+  }
+  return sides;
+}
+
+Sides solved_anew(const std::string& path, const BearingSolution& solution, const BearingStudyOptions& options,
+                  const Varied& parameter) {
+  BearingStudyOptions alone = options;
+  alone.grid_error = false;
+  alone.first = nullptr;
+  std::vector<model::StudyRun> runs(2);
+  for (const std::size_t side : {0, 1})
+    runs[side].overrides = parameter.overrides(solution.run.overrides, side == 0 ? -1 : 1);
+  std::vector<BearingSolution> found = solve_bearings(path, runs, alone);
+  for (const BearingSolution& side : found)
+    if (!side.solved()) throw std::runtime_error(side.error);
+  return {std::move(found[0]), std::move(found[1])};
+}
+
+}  // namespace
+
+std::vector<std::string> usual_parameters(const std::string& path, const std::vector<std::string>& overrides,
+                                          const std::string& bearing) {
+  const model::Model model = model::read(path, overrides);
+  const model::Bearing& here = bearing_called(model, bearing);
+  const std::string own = "bearings." + here.name + ".", point = own + "operating_point.",
+                    oil = "lubricants." + here.lubricant + ".";
+  std::vector<std::string> keys{point + "load",
+                                point + "eccentricity_ratio",
+                                point + "journal_speed",
+                                own + "diameter",
+                                own + "width",
+                                own + "radial_clearance",
+                                own + "diametral_clearance",
+                                oil + "viscosity",
+                                oil + "temperature",
+                                own + "thermal.supply_temperature",
+                                own + "supply.pressure",
+                                own + "asperities.roughness"};
+  for (const film::SurfaceFeature& feature : here.film.features)
+    keys.push_back(own + "features." + feature.name + ".pressure");
+  const std::string text = text_of(path);
+  std::erase_if(keys, [&](const std::string& key) { return !number_at(text, path, overrides, key); });
+  return keys;
+}
+
+std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSolution& solution,
+                                       const BearingStudyOptions& options, const std::vector<std::string>& parameters) {
+  std::vector<Sensitivity> all;
+  if (!solution.solved()) return all;
+  const std::string text = text_of(path);
+  std::optional<bearing::SteadyDerivative> derivative;
+  const bool may_be_exact = bearing::SteadyDerivative::is_of_film_alone(solution.state) && !solution.elasticity;
+  for (const std::string& key : parameters) {
+    const std::optional<Quantity> middle = number_at(text, path, solution.run.overrides, key);
+    if (!middle)
+      throw InputError(Fault{{"--sensitivity-to", 0, 0},
+                             "",
+                             "'" + key + "'",
+                             "a key path of the model at which a number stands, or a parameter as parameters.NAME",
+                             ""});
+    const SiUnit si = si_of(middle->unit);
+    Sensitivity& found = all.emplace_back();
+    found.parameter = key, found.unit = si.name;
+    found.value = middle->unit.empty() ? middle->number : convert_to_si(*middle, si.name);
+    try {
+      std::optional<Sides> sides;
+      Varied parameter = varied(key, *middle, kTangentStep);
+      if (may_be_exact) {
+        if (!derivative) derivative.emplace(solution.model, solution.state);
+        sides = on_tangent(path, solution, options.bearing, parameter, *derivative);
+      }
+      found.exact = sides.has_value();
+      if (!sides) {
+        parameter = varied(key, *middle, kSolutionStep);
+        sides = solved_anew(path, solution, options, parameter);
+      }
+      found.slopes = slopes_between(solution, *sides, 2 * parameter.step * si.size);
+    } catch (const InputError& error) {
+      found.error = fmt::format("it has no values on both sides: {}", error_text(error));
+    } catch (const std::exception& error) {
+      found.error = error_text(error);
+    }
+  }
+  return all;
+}
+
+}  // namespace hersey::study
