@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -44,6 +45,10 @@ struct Growing {
   std::vector<hsize_t> shape;  // shape[0] rows are in it
   std::size_t width;           // numbers per row
 };
+
+std::size_t numbers_of(const std::vector<std::size_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
 
 std::string now_iso8601() {
   const std::time_t now = std::time(nullptr);
@@ -82,6 +87,9 @@ std::string_view to_string(Status status) {
 }
 
 struct Writer::Impl {
+  bool in_memory = false;
+  std::vector<LatestRow> latest;                          // in memory
+  std::map<std::string, std::vector<std::string>> words;  // labels, by path; in memory
   std::filesystem::path path;
   Options options;
   DriverStatus status;
@@ -99,6 +107,26 @@ struct Writer::Impl {
   std::map<std::size_t, Handle> accesses;            // and by the room in memory for chunks
   Clock::time_point last_flush = Clock::now();
   double flush_cost = 0;  // of the last one [s]; before there are rows, what making the series took
+
+  std::size_t keep(std::string_view name, std::string_view unit, std::string_view description,
+                   std::vector<std::size_t> row_shape, std::string_view dimension) {
+    LatestRow row{absolute(name), std::string(unit), std::string(description), std::move(row_shape), {}, {}};
+    if (row.shape.size() == 1) row.components = names_of(row.shape.front(), dimension);
+    latest.push_back(std::move(row));
+    return latest.size() - 1;
+  }
+
+  [[nodiscard]] std::vector<std::string> names_of(std::size_t count, std::string_view dimension) const {
+    if (dimension == xyz || (dimension.empty() && count == 3)) return {"x", "y", "z"};
+    if (dimension.empty() && count == 2) return {"x", "y"};
+    if (dimension.empty() && count == 4) return {"w", "x", "y", "z"};
+    if (!dimension.empty())
+      if (const auto found = words.find(absolute(dimension)); found != words.end() && found->second.size() == count)
+        return found->second;
+    std::vector<std::string> numbers;
+    for (std::size_t i = 0; i < count; ++i) numbers.push_back(std::to_string(i));
+    return numbers;
+  }
 
   void open() {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
@@ -391,6 +419,8 @@ Writer::Writer(std::filesystem::path path, Options options) {
   impl_->flush();
 }
 
+Writer::Writer(InMemory) : impl_(std::make_unique<Impl>()) { impl_->in_memory = true; }
+
 Writer::~Writer() {
   try {
     finish(Status::failed, "ended by an error");
@@ -400,12 +430,14 @@ Writer::~Writer() {
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, std::string_view text) {
+  if (impl_->in_memory) return;
   const Hdf5Session session;
   impl_->require_open();
   impl_->set_text(impl_->open_or_make(absolute(object)).get(), name, text);
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, double value) {
+  if (impl_->in_memory) return;
   const Hdf5Session session;
   impl_->require_open();
   const Handle target = impl_->open_or_make(absolute(object));
@@ -413,6 +445,7 @@ void Writer::attribute(std::string_view object, std::string_view name, double va
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, int value) {
+  if (impl_->in_memory) return;
   const Hdf5Session session;
   impl_->require_open();
   const Handle target = impl_->open_or_make(absolute(object));
@@ -420,6 +453,7 @@ void Writer::attribute(std::string_view object, std::string_view name, int value
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, const std::vector<std::string>& texts) {
+  if (impl_->in_memory) return;
   const Hdf5Session session;
   impl_->require_open();
   std::vector<const char*> pointers;
@@ -432,6 +466,7 @@ void Writer::attribute(std::string_view object, std::string_view name, const std
 }
 
 void Writer::text(std::string_view path, std::string_view content, std::string_view description) {
+  if (impl_->in_memory) return;
   const Hdf5Session session;
   impl_->require_open();
   const Handle dataset =
@@ -444,6 +479,7 @@ void Writer::text(std::string_view path, std::string_view content, std::string_v
 
 void Writer::text_table(std::string_view path, const std::vector<std::pair<std::string, std::string>>& rows,
                         std::string_view description) {
+  if (impl_->in_memory) return;
   const Hdf5Session session;
   impl_->require_open();
   std::vector<const char*> pointers;
@@ -463,6 +499,7 @@ void Writer::text_table(std::string_view path, const std::vector<std::pair<std::
 
 void Writer::constant(std::string_view path, std::span<const double> values, std::string_view unit,
                       std::string_view description, std::string_view dimension) {
+  if (impl_->in_memory) return;
   const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(!values.empty(), "a constant has numbers");
@@ -470,6 +507,10 @@ void Writer::constant(std::string_view path, std::span<const double> values, std
 }
 
 void Writer::labels(std::string_view path, const std::vector<std::string>& names, std::string_view description) {
+  if (impl_->in_memory) {
+    impl_->words[absolute(path)] = names;
+    return;
+  }
   const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(!names.empty(), "labels are of something");
@@ -478,6 +519,11 @@ void Writer::labels(std::string_view path, const std::vector<std::string>& names
 
 Series Writer::series(std::string_view path, int columns, std::string_view unit, std::string_view description,
                       Precision precision, std::string_view dimension) {
+  if (impl_->in_memory) {
+    std::vector<std::size_t> shape;
+    if (columns > 1) shape.push_back(static_cast<std::size_t>(columns));
+    return {this, impl_->keep(path, unit, description, std::move(shape), dimension)};
+  }
   const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(columns >= 1, "a row has numbers");
@@ -492,6 +538,9 @@ Series Writer::series(std::string_view path, int columns, std::string_view unit,
 
 Series Writer::field(std::string_view path, std::array<int, 2> shape, std::string_view unit,
                      std::string_view description, const std::array<std::string, 2>& dimensions) {
+  if (impl_->in_memory)
+    return {this, impl_->keep(path, unit, description,
+                              {static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(shape[1])}, {})};
   const Hdf5Session session;
   impl_->require_open();
   HERSEY_REQUIRE(shape[0] >= 1 && shape[1] >= 1, "a row has numbers");
@@ -508,6 +557,10 @@ Series Writer::field(std::string_view path, std::array<int, 2> shape, std::strin
 void Series::append(std::span<const double> row) const {
   HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
   Writer::Impl& impl = *writer_->impl_;
+  if (impl.in_memory) {
+    impl.latest[index_].values.assign(row.begin(), row.end());
+    return;
+  }
   impl.require_open();
   const std::size_t width = impl.growing[index_].width;
   HERSEY_REQUIRE(row.size() == width, fmt::format("a row of {} numbers was given, {} are due", row.size(), width));
@@ -516,10 +569,15 @@ void Series::append(std::span<const double> row) const {
 
 std::size_t Series::width() const {
   HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
-  return writer_->impl_->growing.at(index_).width;
+  const Writer::Impl& impl = *writer_->impl_;
+  if (impl.in_memory) return numbers_of(impl.latest.at(index_).shape);
+  return impl.growing.at(index_).width;
 }
 
+const std::vector<LatestRow>& Writer::latest() const { return impl_->latest; }
+
 std::vector<std::pair<std::string, std::size_t>> Writer::rows() {
+  if (impl_->in_memory) return {};
   flush();
   impl_->sync();
   std::vector<std::pair<std::string, std::size_t>> rows;
@@ -529,6 +587,7 @@ std::vector<std::pair<std::string, std::size_t>> Writer::rows() {
 }
 
 void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::string, std::size_t>>& rows) {
+  if (impl_->in_memory) return;
   impl_->require_open();
   if (rows.size() != impl_->growing.size()) throw ReadError(from.path(), "it holds other series");
   const Hdf5Session session;
@@ -549,6 +608,7 @@ void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::stri
 }
 
 void Writer::rename(const std::filesystem::path& path, bool replace) {
+  if (impl_->in_memory) return;
   impl_->require_open();
   impl_->sync();
   bool renamed = false;
@@ -567,16 +627,19 @@ void Writer::rename(const std::filesystem::path& path, bool replace) {
 }
 
 void Writer::flush() {
+  if (impl_->in_memory) return;
   const Hdf5Session session;
   impl_->require_open();
   impl_->flush();
 }
 
 void Writer::flush_if_due() {
+  if (impl_->in_memory) return;
   if (impl_->is_flush_due()) flush();
 }
 
 void Writer::finish(Status status, std::string_view message) {
+  if (impl_->in_memory) return;
   if (!impl_->file.valid()) return;
   const Hdf5Session session;
   const bool failed_before = impl_->status.failed;

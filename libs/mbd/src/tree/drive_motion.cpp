@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/quadrature.h"
+#include "hersey/core/settable_function.h"
 
 namespace hersey::mbd {
 namespace {
@@ -55,7 +56,9 @@ DriveMotion::DriveMotion(const DriveSpec& spec, double initial, double initial_r
     : kind_(spec.kind),
       function_(ramped(spec, initial)),
       constant_(spec.kind == DriveSpec::Kind::speed &&
-                dynamic_cast<const ConstantFunction*>(function_.get()) != nullptr),
+                dynamic_cast<const ConstantFunction*>(now(function_.get())) != nullptr),
+      settable_(dynamic_cast<const SettableFunction*>(function_.get())),
+      initial_(initial),
       anchor_position_(initial),
       anchor_rate_(initial_rate) {}
 
@@ -65,7 +68,7 @@ double DriveMotion::position(double t) const {
     case DriveSpec::Kind::position:
       return value(t);
     case DriveSpec::Kind::speed:
-      if (constant_) return anchor_position_ + value(t) * t;
+      if (counts_from_start()) return initial_ + value(t) * t;
       return anchor_position_ + integrate([&](double s) { return value(s); }, anchor_time_, t);
     case DriveSpec::Kind::acceleration:
       return anchor_position_ + anchor_rate_ * span +
@@ -85,6 +88,8 @@ double DriveMotion::acceleration(double t) const {
   return kind_ == DriveSpec::Kind::speed ? slope(t) : value(t);
 }
 
+bool DriveMotion::counts_from_start() const { return constant_ && !(settable_ != nullptr && settable_->is_set()); }
+
 double DriveMotion::value(double t) const { return function_->value({&t, 1}); }
 
 double DriveMotion::slope(double t) const {
@@ -94,14 +99,18 @@ double DriveMotion::slope(double t) const {
 }
 
 void DriveMotion::anchor(double t) {
-  if (kind_ == DriveSpec::Kind::position || constant_ || t == anchor_time_) return;
+  if (kind_ == DriveSpec::Kind::position || t == anchor_time_) return;
+  if (constant_ && settable_ == nullptr) return;
   const double rate = kind_ == DriveSpec::Kind::acceleration ? velocity(t) : anchor_rate_;
   anchor_position_ = position(t);
   anchor_rate_ = rate;
   anchor_time_ = t;
+  // What has been set once does not go back to counting from the start.
+  if (!counts_from_start()) constant_ = false;
 }
 
 void DriveMotion::persist(Archive& archive) {
+  archive.io("constant", constant_);
   archive.io("time", anchor_time_);
   archive.io("position", anchor_position_);
   archive.io("rate", anchor_rate_);

@@ -4,6 +4,7 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/core/scalar_function.h"
+#include "hersey/core/settable_function.h"
 #include "hersey/mbd/mechanism_spec.h"
 
 namespace hersey::mbd {
@@ -30,10 +31,13 @@ class DriveMotion {
  private:
   [[nodiscard]] double value(double t) const;
   [[nodiscard]] double slope(double t) const;
+  [[nodiscard]] bool counts_from_start() const;
 
   DriveSpec::Kind kind_;
   std::shared_ptr<const ScalarFunction> function_;
   bool constant_ = false;
+  const SettableFunction* settable_;  ///< `function_`, where it is an input; else null
+  double initial_;
   double anchor_time_ = 0;
   double anchor_position_ = 0;
   double anchor_rate_ = 0;

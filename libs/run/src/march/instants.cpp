@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "hersey/core/input_error.h"
+#include "hersey/core/settable_function.h"
 #include "hersey/core/table_function.h"
 
 namespace hersey::run {
@@ -24,7 +25,7 @@ std::optional<UniformMotion> driven_motion(const mbd::MechanismSpec& spec, const
                                            const mbd::CoordinateRef& coordinate) {
   for (const mbd::DriveSpec& drive : spec.drives) {
     const bool is_it = drive.coordinate.joint == coordinate.joint && drive.coordinate.value == coordinate.value;
-    const auto* speed = dynamic_cast<const ConstantFunction*>(drive.function.get());
+    const auto* speed = dynamic_cast<const ConstantFunction*>(now(drive.function.get()));
     if (!is_it || drive.kind != mbd::DriveSpec::Kind::speed || speed == nullptr) continue;
     const auto joint = static_cast<std::size_t>(coordinate.joint.index);
     return UniformMotion{start.joints[joint].position[static_cast<std::size_t>(coordinate.value)], speed->value({})};
@@ -37,7 +38,7 @@ class KinkCollector {
   explicit KinkCollector(const model::Model& model) : model_(model), run_(model.simulation) {}
 
   void add(const ScalarFunction* function, const UniformMotion& argument) {
-    const auto* table = dynamic_cast<const TableFunction*>(function);
+    const auto* table = dynamic_cast<const TableFunction*>(now(function));
     if (table == nullptr || argument.rate == 0) return;
     const double end = argument.value + argument.rate * run_.duration;
     if (bends_again_and_again(*table)) require_few(std::abs(end - argument.value) / (table->upper() - table->lower()));

@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <cmath>
 #include <exception>
 #include <optional>
 
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
-#include "hersey/core/stopwatch.h"
 #include "hersey/model/build.h"
 #include "hersey/results/checkpoint.h"
 #include "hersey/results/reader.h"
@@ -19,21 +16,16 @@
 #include "march/checkpoint.h"
 #include "march/coarser_run.h"
 #include "march/instants.h"
+#include "march/machine_run.h"
 #include "march/redundancies.h"
 #include "march/start.h"
 #include "march/start_changes.h"
-#include "march/step_march.h"
-#include "march/warm_bodies.h"
 #include "record/bearing_axes.h"
 #include "record/facing_surfaces.h"
 #include "record/observe_step.h"
-#include "record/run_record.h"
-#include "record/work_record.h"
 
 namespace hersey::run {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Read back: after a write error the file holds less than was handed to it.
 double last_time(const std::filesystem::path& file) {
@@ -42,48 +34,30 @@ double last_time(const std::filesystem::path& file) {
   return rows > 0 ? reader.read_rows("/time", rows - 1, 1).values.front() : 0;
 }
 
-// One simulation: owns the machine, its state and its record.
-class Simulation {
+// One run: the machine's march, or another analysis of it, to its end.
+class Run {
  public:
-  /// @param checkpoint  where an interrupted run goes on; empty: from the start
-  /// @param coarse  summary of the run with steps twice as long; none where no step error is asked for
-  Simulation(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint,
-             const Summary* coarse = nullptr)
-      : model_(model),
-        options_(options),
-        coarse_(coarse),
-        began_(Clock::now()),
-        machine_(model::build(model)),
-        state_(starting_state(model, machine_)),
-        kinds_(force_kinds(machine_)),
-        march_(model, machine_),
-        work_(model, machine_, march_.integrator()),
-        record_(model, machine_, state_, options, checkpoint.has_value()),
-        checkpoints_(model.simulation) {
-    summary_.results = options.results;
-    record_.declare_cost(work_.work());
-    if (checkpoint) restore(std::move(*checkpoint));
-  }
+  Run(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint,
+      const Summary* coarse)
+      : model_(model), options_(options), machine_(model, options, std::move(checkpoint)), coarse_(coarse) {}
 
   Summary run() {
     try {
       analyse();
-      finish(summary_.status == Status::completed ? results::Status::completed
-             : summary_.status == Status::stopped ? results::Status::stopped
-                                                  : results::Status::failed);
-      if (summary_.status == Status::completed) discard_checkpoint(options_.results);
+      if (const std::string trouble = machine_.finish(status_, message_, coarse_); !trouble.empty()) fail(trouble);
+      if (status_ == Status::completed) discard_checkpoint(options_.results);
     } catch (const results::WriteError& error) {
       fail(error.what());
     } catch (const std::exception& error) {
-      fail(fmt::format("t = {:.6g} s: {}", state_.t, error_text(error)));
-      finish(results::Status::failed);
+      fail(fmt::format("t = {:.6g} s: {}", machine_.state().t, error_text(error)));
+      if (const std::string trouble = machine_.finish(status_, message_, nullptr); !trouble.empty()) fail(trouble);
     }
-    summary_.t_end = state_.t;
-    summary_.t_results = last_time(options_.results);
-    summary_.rejected_steps = march_.rejected_steps();
-    record_.summarise(summary_);
-    summary_.wall_time = elapsed();
-    return summary_;
+    Summary summary = machine_.summary();
+    summary.status = status_;
+    summary.message = message_;
+    summary.newton_iterations += newton_iterations_;
+    summary.t_results = last_time(options_.results);
+    return summary;
   }
 
  private:
@@ -95,53 +69,37 @@ class Simulation {
       case Analysis::kinematics:
         return march();
       case Analysis::equilibrium:
-        if (come_to_rest()) record(MarchedStep{});
+        if (come_to_rest()) machine_.record_here();
         return;
       case Analysis::modes:
         if (plan.modes_about == model::ModesAbout::end) {
           march();
-          if (summary_.status != Status::completed) return;
+          if (status_ != Status::completed) return;
         } else {
           if (plan.modes_about != model::ModesAbout::start && !come_to_rest()) return;
-          record(MarchedStep{});
+          machine_.record_here();
         }
         return linearise_here();
     }
   }
 
   void march() {
-    if (!resumes_) {
-      const StepRecord start = observe({});
-      march_.plan(state_, start.mechanism);
-      record(start);
-    }
-    work_.begin();
-    while (!march_.is_at_end() && !record_.ends_run()) {
-      const MarchedStep step = march_.take(state_);
-      if (!step.is_taken()) {
-        // A journal that touches has been told so already.
-        const bool is_advised = step.trouble.find("asperities") != std::string::npos;
-        if (const std::string why = thermal_trouble(machine_, true); !why.empty())
-          return fail(fmt::format("t = {:.6g} s: {}; no step goes on from there: {}", state_.t, why, step.trouble));
-        return fail(step.trouble + (is_advised ? "" : record_.thin_films()));
-      }
-      if (model_.thermal_walls == model::ThermalWalls::transient) warm_bodies(machine_, step.dt);
-      record(step);
-      if (const std::string trouble = thermal_trouble(machine_); !trouble.empty())
-        return fail(fmt::format("t = {:.6g} s: {}", state_.t, trouble));
+    machine_.begin();
+    while (!machine_.is_at_end()) {
+      if (const std::string trouble = machine_.step(); !trouble.empty()) return fail(trouble);
       if (is_stopped()) return;
     }
-    summary_.message = record_.ending(state_.t);
+    message_ = machine_.ending();
   }
 
   // Whether the user ends the run here, where it can go on later: nothing of a step is pending.
   bool is_stopped() {
     const bool stops = options_.stop && options_.stop->load();
     if (stops && options_.on_stopping) options_.on_stopping();
-    if (stops || checkpoints_.is_due(state_.t)) write_checkpoint();
+    machine_.write_checkpoint(stops);
     if (!stops) return false;
-    summary_.status = Status::stopped;
-    summary_.message = fmt::format("stopped on request at t = {:.6g} s", state_.t);
+    status_ = Status::stopped;
+    message_ = fmt::format("stopped on request at t = {:.6g} s", machine_.state().t);
     return true;
   }
 
@@ -149,156 +107,42 @@ class Simulation {
     solver::EquilibriumOptions options;
     options.turning = model_.simulation.analysis == model::Analysis::modes &&
                       model_.simulation.modes_about == model::ModesAbout::turning;
-    const solver::EquilibriumSummary rest = solver::find_equilibrium(*machine_.mechanism, state_, options);
-    summary_.newton_iterations += rest.iterations;
-    summary_.message = rest.message;
+    const solver::EquilibriumSummary rest = solver::find_equilibrium(machine_.mechanism(), machine_.state(), options);
+    newton_iterations_ += rest.iterations;
+    message_ = rest.message;
     if (!rest.converged) fail(options.turning ? rest.message : "static: " + rest.message);
     return rest.converged;
   }
 
   void linearise_here() {
-    const solver::Linearisation linear = solver::linearise(*machine_.mechanism, state_, march_.last_dt());
+    const solver::Linearisation linear = solver::linearise(machine_.mechanism(), machine_.state(), machine_.last_dt());
     solver::Modes found;
     if (linear.trouble.empty()) found = solver::find_modes(linear);
     const std::string& trouble = linear.trouble.empty() ? found.message : linear.trouble;
     if (!trouble.empty()) return fail("modes: " + trouble);
-    record_.write_modes(state_, found);
-    if (!found.stable) summary_.message = "unstable: a small motion grows (negative damping ratio)";
-  }
-
-  [[nodiscard]] StepRecord observe(const MarchedStep& step) {
-    StepRecord seen = observe_step(machine_, state_, kinds_);
-    seen.dt = step.dt;
-    seen.error = step.error;
-    seen.step_error = step.local_error;
-    seen.newton_iterations = step.solution.iterations;
-    seen.newton_residual = step.solution.residual;
-    seen.rejected_steps = march_.rejected_steps();
-    return seen;
-  }
-
-  void record(const MarchedStep& step) {
-    if (model_.thermal_walls == model::ThermalWalls::cycle_mean && record_.ends_cycle(state_.t)) settle_walls(machine_);
-    const Stopwatch watch(work_.recording());
-    record(observe(step));
-  }
-
-  void record(const StepRecord& step) {
-    work_.take(step);
-    record_.take(step);
-    report_progress(step);
-  }
-
-  // Everything that the rest of the run depends on.
-  void persist(Archive& archive) {
-    {
-      const Archive::Group group(archive, "state");
-      archive.io("t", state_.t), archive.io("q", state_.q), archive.io("v", state_.v);
-      archive.io("vdot", state_.vdot), archive.io("lambda", state_.lambda);
-    }
-    {
-      const Archive::Group group(archive, "mechanism");
-      machine_.mechanism->persist(archive);
-    }
-    {
-      const Archive::Group group(archive, "march");
-      march_.persist(archive);
-    }
-    if (machine_.network) {
-      const Archive::Group group(archive, "thermal_network");
-      machine_.network->persist(archive);
-    }
-    {
-      const Archive::Group group(archive, "work");
-      double wall_time = elapsed();
-      archive.io("wall_time", wall_time);
-      if (archive.restores()) before_ = wall_time;
-      work_.persist(archive);
-    }
-    const Archive::Group group(archive, "record");
-    record_.persist(archive);
-  }
-
-  void write_checkpoint() {
-    const Stopwatch watch(work_.recording());
-    const Clock::time_point began = Clock::now();
-    Archive archive;
-    save_identity(archive, model_);
-    persist(archive);
-    results::write_checkpoint(checkpoint_file(options_.results), archive.content());
-    checkpoints_.written(state_.t, std::chrono::duration<double>(Clock::now() - began).count());
-  }
-
-  void restore(Archive::Content checkpoint) {
-    march_.plan(state_, observe({}).mechanism);
-    Archive archive(std::move(checkpoint));
-    const std::filesystem::path file = checkpoint_file(options_.results);
-    try {
-      persist(archive);
-    } catch (const ArchiveError& error) {
-      throw results::ReadError(file, std::string("it does not fit this program: ") + error.what());
-    }
-    const bool is_finite = std::isfinite(state_.t) && state_.q.allFinite() && state_.v.allFinite() &&
-                           state_.vdot.allFinite() && state_.lambda.allFinite();
-    if (!is_finite) throw results::ReadError(file, "its state has a number that is not finite");
-    for (const std::string& name : archive.unread())
-      if (!is_identity(name)) throw results::ReadError(file, "it does not fit this program: it holds '" + name + "'");
-    checkpoints_.written(state_.t, 0);
-    resumes_ = true;
-  }
-
-  void report_progress(const StepRecord& step) const {
-    if (!options_.on_progress) return;
-    const model::Simulation& plan = model_.simulation;
-    options_.on_progress({.t = state_.t,
-                          .t_start = plan.start,
-                          .t_end = plan.start + plan.duration,
-                          .dt = step.dt,
-                          .newton_iterations = step.newton_iterations,
-                          .moft = record_.moft(),
-                          .elapsed = elapsed()});
+    machine_.write_modes(found);
+    if (!found.stable) message_ = "unstable: a small motion grows (negative damping ratio)";
   }
 
   void fail(std::string message) {
-    summary_.status = Status::failed;
-    summary_.message = std::move(message);
-  }
-
-  void finish(results::Status status) {
-    summary_.work = work_.work();
-    try {
-      if (coarse_ != nullptr && status == results::Status::completed) record_.write_step_errors(*coarse_);
-      record_.finish(status, summary_.message, elapsed(), summary_.work);
-    } catch (const results::WriteError& error) {
-      fail(error.what());
-    }
-  }
-
-  [[nodiscard]] double elapsed() const {
-    return before_ + std::chrono::duration<double>(Clock::now() - began_).count();
+    status_ = Status::failed;
+    message_ = std::move(message);
   }
 
   const model::Model& model_;
   const Options& options_;
+  MachineRun machine_;
   const Summary* coarse_;
-  Clock::time_point began_;
-  model::Machine machine_;
-  solver::State state_;
-  std::vector<ForceKind> kinds_;
-  StepMarch march_;
-  WorkRecord work_;
-  RunRecord record_;
-  CheckpointSchedule checkpoints_;
-  bool resumes_ = false;
-  double before_ = 0;  // computing time before the run was resumed [s]
-  Summary summary_;
+  Status status_ = Status::completed;
+  std::string message_;
+  int newton_iterations_ = 0;  // of finding rest
 };
 
 // What could not begin leaves nothing behind.
 Summary simulate_from(std::optional<Archive::Content> checkpoint, const model::Model& model, const Options& options,
                       const Summary* coarse = nullptr) {
   try {
-    return Simulation(model, options, std::move(checkpoint), coarse).run();
+    return Run(model, options, std::move(checkpoint), coarse).run();
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(unfinished_file(options.results), ignored);

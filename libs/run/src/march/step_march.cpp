@@ -13,6 +13,7 @@ namespace hersey::run {
 namespace {
 
 constexpr double kMeaningless = 0.02;   // rad, or sizes of the machine, that one step may be off
+constexpr double kOneInstant = 1e-6;    // of the fixed step: instants that others reckon up
 constexpr double kShortest = 1.0 / 64;  // of the fixed step: shorter ones are taken whatever their error
 
 solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
@@ -61,9 +62,35 @@ double StepMarch::unit_of_steps() const {
   return targets_.front() - model_.simulation.start;
 }
 
-MarchedStep StepMarch::take(solver::State& state) {
-  const model::Simulation& plan = model_.simulation;
+double StepMarch::slack() const { return kOneInstant * model_.simulation.step; }
+
+// The next target; or, where the limit comes first, that. Fixed steps on the way to or from an instant between the
+// targets are equal: a machine that others step by intervals of their own has steps of one length.
+double StepMarch::next_stop(const solver::State& state, double limit) {
   const double target = targets_[reached_];
+  const bool passes_limit = limit < target - slack();
+  if (control_ || (!passes_limit && !off_plan_) || std::isinf(limit)) return passes_limit ? limit : target;
+  const double end = std::min(limit, targets_[targets_.size() - 1]);
+  const double count = std::max(1.0, std::ceil((end - state.t) / model_.simulation.step - kOneInstant));
+  return count > 1 ? state.t + (end - state.t) / count : end;
+}
+
+void StepMarch::pass_targets(double t) {
+  off_plan_ = true;
+  for (; !is_at_end() && targets_[reached_] <= t + slack(); ++reached_) off_plan_ = targets_[reached_] < t - slack();
+}
+
+void StepMarch::take_jump(solver::State& state, bool moves) {
+  if (moves)
+    restart(state);
+  else
+    start_afresh(state);
+  trial_ = std::numeric_limits<double>::infinity();
+}
+
+MarchedStep StepMarch::take(solver::State& state, double limit) {
+  const model::Simulation& plan = model_.simulation;
+  const double planned = targets_[reached_], target = next_stop(state, limit);
   if (at_bend_) start_afresh(state);
   at_bend_ = false;
   MarchedStep step = plan.analysis == model::Analysis::kinematics ? follow_drives(state, target)
@@ -73,7 +100,12 @@ MarchedStep StepMarch::take(solver::State& state) {
   last_dt_ = step.dt;
   const double scale = control_ ? std::max(std::abs(target), plan.error_control->largest) : plan.step;
   if (target - state.t > 1e-12 * scale) return step;
-  ++reached_;
+  if (target == planned) {
+    ++reached_;
+    off_plan_ = false;
+  } else {
+    pass_targets(state.t);
+  }
   trial_ = std::numeric_limits<double>::infinity();
   at_bend_ = std::binary_search(bends_.begin(), bends_.end(), target);
   return step;
@@ -189,7 +221,8 @@ void StepMarch::persist(Archive& archive) {
     integrator_.persist(archive);
   }
   const Archive::Group group(archive, "steps");
-  archive.io("reached", reached_), archive.io("at_bend", at_bend_), archive.io("trial", trial_);
+  archive.io("reached", reached_), archive.io("off_plan", off_plan_), archive.io("at_bend", at_bend_),
+      archive.io("trial", trial_);
   archive.io("length", last_dt_), archive.io("rejected", rejected_);
   if (control_) control_->persist(archive);
 }

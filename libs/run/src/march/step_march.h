@@ -39,8 +39,19 @@ class StepMarch {
   [[nodiscard]] bool is_at_end() const { return reached_ == targets_.size(); }
 
   /// Advances `state` by one accepted step; leaves it where it was when there is none.
-  /// @pre planned, not at the end
-  [[nodiscard]] MarchedStep take(solver::State& state);
+  /// @param limit  an instant beside the planned ones that steps do not pass [s]. Between two that are not planned
+  /// fixed
+  ///               steps are equal, at most as long as planned.
+  /// @pre planned, not at the end; state.t < limit
+  [[nodiscard]] MarchedStep take(solver::State& state, double limit = std::numeric_limits<double>::infinity());
+
+  /// How close two instants are that count as one [s].
+  [[nodiscard]] double slack() const;
+
+  /// What acts on the machine has jumped. Its history ends here, and the next step begins with the accelerations that
+  /// follow from what acts now.
+  /// @param moves  prescribed velocities have jumped too: those of the machine follow, as by an impulse
+  void take_jump(solver::State& state, bool moves);
 
   [[nodiscard]] const solver::GeneralizedAlpha& integrator() const { return integrator_; }
   /// The step last taken; 0 before the first [s].
@@ -56,6 +67,8 @@ class StepMarch {
   [[nodiscard]] std::string advice(const solver::StepSummary& solution) const;
   [[nodiscard]] MarchedStep take_controlled(solver::State& state, double target);
   [[nodiscard]] double unit_of_steps() const;
+  [[nodiscard]] double next_stop(const solver::State& state, double limit);
+  void pass_targets(double t);
   void start_afresh(solver::State& state);
   void restart(solver::State& state);
 
@@ -70,6 +83,7 @@ class StepMarch {
   TargetInstants targets_;
   std::optional<solver::StepControl> control_;              ///< under error control
   std::size_t reached_ = 0;                                 ///< how many of the targets
+  bool off_plan_ = false;                                   ///< the last step ended between the targets
   bool at_bend_ = false;                                    ///< the next step starts where a table bends
   double trial_ = std::numeric_limits<double>::infinity();  ///< longest fixed step to try after a failure [s]
   double last_dt_ = 0;

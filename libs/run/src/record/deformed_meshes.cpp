@@ -28,6 +28,7 @@ void add_film_pressure(const FilmPressures::AtNodes& pressures, fem::VtuFrame& f
 DeformedMeshes::DeformedMeshes(const model::Model& model, const model::Machine& machine,
                                const std::filesystem::path& results)
     : machine_(machine), chosen_(model.output.meshes_at) {
+  if (results.empty()) return;
   for (std::size_t i = 0; i < machine.flexibles.size(); ++i) {
     const std::string& name = machine.flexibles[i].name;
     const auto body = std::find_if(model.bodies.begin(), model.bodies.end(),

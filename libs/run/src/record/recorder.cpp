@@ -34,6 +34,11 @@ std::filesystem::path new_file(const Options& options, bool resumes) {
   return unfinished_file(options.results);
 }
 
+results::Writer writer_of(const model::Model& model, const Options& options, bool resumes) {
+  if (options.results.empty()) return results::Writer(results::InMemory{});
+  return results::Writer(new_file(options, resumes), {.overwrite = true, .rows = expected_rows(model)});
+}
+
 /// Inner nodes of beams, bodies and joints of the mechanism, are not written one by one.
 struct Hidden {
   std::vector<bool> bodies, joints;
@@ -64,7 +69,7 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
                    const Options& options, bool resumes)
     : model_(model),
       machine_(machine),
-      writer_(new_file(options, resumes), {.overwrite = true, .rows = expected_rows(model)}) {
+      writer_(writer_of(model, options, resumes)) {
   write_header(model, machine, start, options, writer_);
   declare();
   writer_.flush();
@@ -128,7 +133,7 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
     const Archive::Group group(archive, "cycles");
     cycle_maps_->persist(archive);
   }
-  if (!archive.restores()) return;
+  if (!archive.restores() || results.empty()) return;
   std::vector<std::pair<std::string, std::size_t>> rows;
   std::istringstream lines(names);
   std::string name;

@@ -36,6 +36,7 @@ class Recorder {
  public:
   /// @param start    what the run starts from, to tell where that is not what the model gives
   /// @param resumes  the file is written under another name, to take the place of `options.results` in `persist`
+  /// @param options  without options.results no file is written: `latest` tells what would be
   /// @throws results::FileExists, results::WriteError.
   Recorder(const model::Model& model, const model::Machine& machine, const solver::State& start, const Options& options,
            bool resumes = false);
@@ -50,6 +51,8 @@ class Recorder {
   /// Small motions about `state`.
   void write_modes(const solver::State& state, const solver::Modes& found) { modes_->append(state, found); }
   void flush_if_due() { writer_.flush_if_due(); }
+  /// Without a results file: what was written last.
+  [[nodiscard]] const std::vector<results::LatestRow>& latest() const { return writer_.latest(); }
   /// How many rows there are; restoring takes so many from the results of the run that was interrupted.
   /// @throws results::ReadError where these have fewer
   void persist(Archive& archive, const std::filesystem::path& results);

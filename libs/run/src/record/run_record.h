@@ -45,6 +45,8 @@ class RunRecord {
   /// What to say of films of smooth surfaces that all but touch, where a run finds no further step; empty where none
   /// do.
   [[nodiscard]] std::string thin_films() const;
+  /// Since the start of the run.
+  [[nodiscard]] const EnergySummary& energy() const { return energy_.sums(); }
   /// The figures of all steps taken.
   void summarise(Summary& summary) const;
 

@@ -33,6 +33,17 @@ struct WriterOptions {
   std::size_t rows = 0;         ///< expected of the series, as far as known
 };
 
+/// Kept instead of a file.
+struct InMemory {};
+
+/// A series of a writer in memory, with its last row.
+struct LatestRow {
+  std::string path, unit, text;         ///< "/bearings/big_end/force", "N", what it is
+  std::vector<std::size_t> shape;       ///< of a row; empty: one number
+  std::vector<std::string> components;  ///< names of a row's numbers where it has one dimension: "x", "y", "z" or "0" on
+  std::vector<double> values;           ///< empty before the first row
+};
+
 /// How numbers of a series are stored.
 enum class Precision { float64, float32 };
 
@@ -85,6 +96,8 @@ class Writer {
   /// Creates the file, with status "running" and the format's name and version.
   /// @throws FileExists if there is one and it is not to be overwritten; WriteError if it cannot be created.
   explicit Writer(std::filesystem::path path, Options options = {});
+  /// Writes no file: declarations are kept, and the last row of each series.
+  explicit Writer(InMemory);
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
   /// Without a finish() before it, the status becomes failed ("ended by an error").
@@ -148,7 +161,10 @@ class Writer {
   /// Flushes, sets `status` and `message`, and closes the file; later calls do nothing.
   void finish(Status status, std::string_view message = {});
 
-  /// Of the file, as last renamed.
+  /// All series of a writer in memory, in the order of their declaration; of a file none.
+  [[nodiscard]] const std::vector<LatestRow>& latest() const;
+
+  /// Of the file, as last renamed; empty in memory.
   [[nodiscard]] const std::filesystem::path& path() const;
 
  private:

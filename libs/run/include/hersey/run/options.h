@@ -30,7 +30,7 @@ struct StudyParameterValue {
 };
 
 struct Options {
-  std::filesystem::path results;                       ///< the HDF5 file to write
+  std::filesystem::path results;                       ///< the HDF5 file to write; empty: none, of a Simulation
   bool overwrite = false;                              ///< replace an existing one
   bool step_error = false;                             ///< run with steps twice as long first, and compare
   bool resume = false;                                 ///< go on where `results` and its checkpoint end

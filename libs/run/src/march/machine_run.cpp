@@ -1,0 +1,191 @@
+#include "march/machine_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "hersey/core/stopwatch.h"
+#include "hersey/results/checkpoint.h"
+#include "hersey/results/reader.h"
+#include "hersey/results/writer.h"
+#include "hersey/run/checkpoint.h"
+#include "march/start.h"
+#include "march/warm_bodies.h"
+#include "record/observe_step.h"
+
+namespace hersey::run {
+namespace {
+
+results::Status as_written(Status status) {
+  if (status == Status::completed) return results::Status::completed;
+  return status == Status::stopped ? results::Status::stopped : results::Status::failed;
+}
+
+}  // namespace
+
+MachineRun::MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint)
+    : model_(model),
+      options_(options),
+      began_(Clock::now()),
+      machine_(model::build(model)),
+      state_(starting_state(model, machine_)),
+      kinds_(force_kinds(machine_)),
+      march_(model, machine_),
+      work_(model, machine_, march_.integrator()),
+      record_(model, machine_, state_, options, checkpoint.has_value()),
+      checkpoints_(model.simulation) {
+  record_.declare_cost(work_.work());
+  if (checkpoint) restore_file(std::move(*checkpoint));
+}
+
+void MachineRun::begin() {
+  if (!resumes_) {
+    StepRecord start = observe({});
+    march_.plan(state_, start.mechanism);
+    record(std::move(start));
+  }
+  work_.begin();
+}
+
+std::string MachineRun::step(double limit) {
+  const MarchedStep step = march_.take(state_, limit);
+  if (!step.is_taken()) {
+    // A journal that touches has been told so already.
+    const bool is_advised = step.trouble.find("asperities") != std::string::npos;
+    if (const std::string why = thermal_trouble(machine_, true); !why.empty())
+      return fmt::format("t = {:.6g} s: {}; no step goes on from there: {}", state_.t, why, step.trouble);
+    return step.trouble + (is_advised ? "" : record_.thin_films());
+  }
+  if (model_.thermal_walls == model::ThermalWalls::transient) warm_bodies(machine_, step.dt);
+  record(step);
+  if (const std::string trouble = thermal_trouble(machine_); !trouble.empty())
+    return fmt::format("t = {:.6g} s: {}", state_.t, trouble);
+  return {};
+}
+
+StepRecord MachineRun::observe(const MarchedStep& step) {
+  StepRecord seen = observe_step(machine_, state_, kinds_);
+  seen.dt = step.dt;
+  seen.error = step.error;
+  seen.step_error = step.local_error;
+  seen.newton_iterations = step.solution.iterations;
+  seen.newton_residual = step.solution.residual;
+  seen.rejected_steps = march_.rejected_steps();
+  return seen;
+}
+
+void MachineRun::record(const MarchedStep& step) {
+  if (model_.thermal_walls == model::ThermalWalls::cycle_mean && record_.ends_cycle(state_.t)) settle_walls(machine_);
+  const Stopwatch watch(work_.recording());
+  record(observe(step));
+}
+
+void MachineRun::record(StepRecord step) {
+  seen_ = std::move(step);
+  work_.take(seen_);
+  record_.take(seen_);
+  report_progress(seen_);
+}
+
+void MachineRun::persist(Archive& archive) {
+  {
+    const Archive::Group group(archive, "state");
+    archive.io("t", state_.t), archive.io("q", state_.q), archive.io("v", state_.v);
+    archive.io("vdot", state_.vdot), archive.io("lambda", state_.lambda);
+  }
+  {
+    const Archive::Group group(archive, "mechanism");
+    machine_.mechanism->persist(archive);
+  }
+  {
+    const Archive::Group group(archive, "march");
+    march_.persist(archive);
+  }
+  if (machine_.network) {
+    const Archive::Group group(archive, "thermal_network");
+    machine_.network->persist(archive);
+  }
+  {
+    const Archive::Group group(archive, "work");
+    double wall_time = elapsed();
+    archive.io("wall_time", wall_time);
+    if (archive.restores()) before_ = wall_time;
+    work_.persist(archive);
+  }
+  const Archive::Group group(archive, "record");
+  record_.persist(archive);
+}
+
+void MachineRun::write_checkpoint(bool in_any_case) {
+  if (options_.results.empty() || !(in_any_case || checkpoints_.is_due(state_.t))) return;
+  const Stopwatch watch(work_.recording());
+  const Clock::time_point began = Clock::now();
+  Archive archive;
+  save_identity(archive, model_);
+  persist(archive);
+  results::write_checkpoint(checkpoint_file(options_.results), archive.content());
+  checkpoints_.written(state_.t, std::chrono::duration<double>(Clock::now() - began).count());
+}
+
+void MachineRun::restore(Archive& archive) {
+  persist(archive);
+  const bool is_finite = std::isfinite(state_.t) && state_.q.allFinite() && state_.v.allFinite() &&
+                         state_.vdot.allFinite() && state_.lambda.allFinite();
+  if (!is_finite) throw ArchiveError("its state has a number that is not finite");
+  for (const std::string& name : archive.unread())
+    if (!is_identity(name)) throw ArchiveError("it holds '" + name + "', of which this program knows nothing");
+  MarchedStep last;
+  last.dt = march_.last_dt();
+  seen_ = observe(last);
+}
+
+void MachineRun::restore_file(Archive::Content checkpoint) {
+  march_.plan(state_, observe({}).mechanism);
+  Archive archive(std::move(checkpoint));
+  try {
+    restore(archive);
+  } catch (const ArchiveError& error) {
+    throw results::ReadError(checkpoint_file(options_.results),
+                             std::string("it does not fit this program: ") + error.what());
+  }
+  checkpoints_.written(state_.t, 0);
+  resumes_ = true;
+}
+
+void MachineRun::report_progress(const StepRecord& step) const {
+  if (!options_.on_progress) return;
+  const model::Simulation& plan = model_.simulation;
+  options_.on_progress({.t = state_.t,
+                        .t_start = plan.start,
+                        .t_end = plan.start + plan.duration,
+                        .dt = step.dt,
+                        .newton_iterations = step.newton_iterations,
+                        .moft = record_.moft(),
+                        .elapsed = elapsed()});
+}
+
+std::string MachineRun::finish(Status status, const std::string& message, const Summary* coarse) {
+  try {
+    if (coarse != nullptr && status == Status::completed) record_.write_step_errors(*coarse);
+    record_.finish(as_written(status), message, elapsed(), work_.work());
+  } catch (const results::WriteError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+Summary MachineRun::summary() const {
+  Summary summary;
+  summary.results = options_.results;
+  summary.t_end = state_.t;
+  summary.rejected_steps = march_.rejected_steps();
+  record_.summarise(summary);
+  summary.wall_time = elapsed();
+  summary.work = work_.work();
+  return summary;
+}
+
+double MachineRun::elapsed() const { return before_ + std::chrono::duration<double>(Clock::now() - began_).count(); }
+
+}  // namespace hersey::run
