@@ -61,6 +61,7 @@ struct Simulation::Impl {
     if (!failure.empty()) return {Advance::Status::failed, failure};
     if (run.is_at_end()) return ended();
     is_shown = false;
+    restored.clear();
     try {
       settle_jump();
       failure = run.step(limit);
@@ -93,6 +94,23 @@ struct Simulation::Impl {
     is_shown = false;
   }
 
+  [[nodiscard]] const std::vector<double>& values_of(std::size_t place) {
+    if (!restored.empty()) return restored.at(place);
+    show();
+    return snapshot.latest()[rows.at(place)].values;
+  }
+
+  // What a step shows is not all kept from step to step: a restored state shows what was seen when it was saved.
+  void persist_outputs(Archive& archive) {
+    std::vector<std::vector<double>> seen;
+    if (!archive.restores())
+      for (std::size_t i = 0; i < rows.size(); ++i) seen.push_back(values_of(i));
+    archive.each("outputs", seen, [](Archive& a, std::vector<double>& values) { a.io("values", values); });
+    if (!archive.restores()) return;
+    if (seen.size() != rows.size()) throw ArchiveError("it has other outputs");
+    restored = std::move(seen);
+  }
+
   void show() {
     if (!is_shown) snapshot.write_row(run.seen(), run.energy());
     is_shown = true;
@@ -104,6 +122,7 @@ struct Simulation::Impl {
       inputs.persist(archive);
       archive.io("jump", jump);
     }
+    persist_outputs(archive);
     if (archive.restores())
       run.restore(archive);
     else
@@ -119,6 +138,7 @@ struct Simulation::Impl {
   std::vector<std::size_t> rows;  // of outputs, places in the snapshot
   std::map<std::string, std::size_t> places;
   Jump jump = Jump::none;
+  std::vector<std::vector<double>> restored;  // outputs at a state that was restored; empty behind a step
   bool is_shown = false, is_finished = false;
   std::string failure;
 };
@@ -186,10 +206,7 @@ const std::vector<double>& Simulation::output(const std::string& name) const {
   throw std::invalid_argument(fmt::format("no output '{}'{}", name, nearest.empty() ? "" : "; " + nearest));
 }
 
-const std::vector<double>& Simulation::output(std::size_t place) const {
-  impl_->show();
-  return impl_->snapshot.latest()[impl_->rows.at(place)].values;
-}
+const std::vector<double>& Simulation::output(std::size_t place) const { return impl_->values_of(place); }
 
 Archive::Content Simulation::save() {
   Archive archive;
