@@ -23,6 +23,7 @@ struct Advance {
   Status status = Status::advanced;
   std::string message;  ///< why it ended, or failed
 
+  /// Whether it ended without an answer.
   [[nodiscard]] bool has_failed() const { return status == Status::failed; }
 };
 
@@ -51,6 +52,7 @@ class Simulation {
   /// Closes the results as stopped where finish() has not been called.
   ~Simulation();
 
+  /// As it was given; its functions are those that inputs set.
   [[nodiscard]] const model::Model& model() const;
   [[nodiscard]] double time() const;   ///< of the last accepted step [s]
   [[nodiscard]] double start() const;  ///< [s]
