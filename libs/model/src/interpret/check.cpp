@@ -50,6 +50,8 @@ class Checker {
     value.text_offset = node.text_offset;
     if (node.reported) {
       value.broken = true;
+    } else if (type.kind == Kind::part) {
+      value.broken = true;  // templates have been put in: what is left of them says nothing
     } else if (is_scalar_kind(type.kind)) {
       check_scalar(node, value);
     } else if (type.kind == Kind::any_of) {

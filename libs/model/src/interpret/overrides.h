@@ -24,12 +24,18 @@ inline constexpr const char* kVariant = "variant";
 [[nodiscard]] bool is_parameter(const Node& root, const std::string& name);
 
 /// Puts the overrides' values in their places: in `parameters` where the name is one, else along the key path, whose
-/// missing mappings are made. `top_keys` are the keys a path may begin with. Where the study has variants, `variant`
-/// stands for the overrides of the one it names.
+/// missing mappings are made. `top_keys` are the keys a path may begin with.
 void apply_overrides(Node& root, const std::vector<Override>& overrides, const std::vector<std::string>& top_keys,
                      std::vector<Fault>& faults);
 
-/// Replaces every ${name} outside `parameters` and `study` by the parameter's text; a parameter may use those above it.
-void substitute_parameters(Node& root, std::vector<Fault>& faults);
+/// The overrides in two parts: those of parameters, templates and their uses, which have to be known before templates
+/// are put in, and all others, with variants spelt out.
+struct OrderedOverrides {
+  std::vector<Override> before_templates, after_templates;
+};
+
+/// Sorts the overrides, each part in the order they came.
+[[nodiscard]] OrderedOverrides in_order(const Node& root, const std::vector<Override>& overrides,
+                                        std::vector<Fault>& faults);
 
 }  // namespace hersey::model

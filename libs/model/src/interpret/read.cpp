@@ -9,6 +9,8 @@
 #include "interpret/interpret.h"
 #include "interpret/interpret_size.h"
 #include "interpret/reader.h"
+#include "interpret/substitution.h"
+#include "interpret/templates.h"
 #include "schema/format.h"
 
 namespace hersey::model {
@@ -65,8 +67,18 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
     faults.push_back({{file, 1, 1}, "", "an empty file", "a model, beginning with 'hersey: 1'", ""});
     return model;
   }
-  apply_overrides(root, overrides, top_level_keys(), faults);
-  substitute_parameters(root, faults);
+  const OrderedOverrides ordered = in_order(root, overrides, faults);
+  apply_overrides(root, ordered.before_templates, top_level_keys(), faults);
+  Substitution substitution(faults);
+  Scope parameters;
+  define_parameters(root, substitution, parameters);
+  Templates templates(root, parameters, substitution, faults);
+  templates.expand(root);
+  apply_overrides(root, ordered.after_templates, top_level_keys(), faults);
+  templates.expand(root);  // of what overrides use
+  std::erase_if(root.entries, [](const Entry& entry) { return entry.key == "templates"; });
+  substitute_parameters(root, substitution, parameters);
+  model.warnings = templates.unused();
   model.parameters = parameters_of(root);
   const Value value = check(root, model_format(), faults, model.positions);
   Context context{value, model, faults};
@@ -91,6 +103,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_study(context);
   check_table_ranges(context);
   check_size(context);
+  templates.tell_uses(faults);
   return model;
 }
 

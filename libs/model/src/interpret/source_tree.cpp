@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace hersey::model {
 namespace {
@@ -145,6 +146,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void close() {
     Open closed = std::move(open_.back());
     open_.pop_back();
+    merge_others_into(closed.node);
     add(std::move(closed.node), closed.anchor);
   }
 
@@ -191,6 +193,34 @@ class TreeBuilder final : public YAML::EventHandler {
       throw TooLarge{parent.key_position, "a mapping of more than 100000 keys", "at most 100000 keys"};
     if (value.kind == Node::Kind::null) value.position = parent.key_position;  // the parser names the next line
     parent.node.entries.push_back({std::move(parent.key), parent.key_position, std::move(value)});
+  }
+
+  /// YAML's merge key: `<<: *anchor`, or a list of them, adds what the mapping itself does not have; of several the
+  /// first that has it.
+  void merge_others_into(Node& mapping) {
+    const auto is_merge = [](const Entry& entry) { return entry.key == "<<"; };
+    const auto at = std::find_if(mapping.entries.begin(), mapping.entries.end(), is_merge);
+    if (at == mapping.entries.end()) return;
+    Node merged = std::move(at->value);
+    mapping.entries.erase(at);
+    if (merged.kind != Node::Kind::sequence) return add_missing(mapping, std::move(merged));
+    for (Node& item : merged.items) add_missing(mapping, std::move(item));
+  }
+
+  void add_missing(Node& mapping, Node other) {
+    if (other.kind != Node::Kind::mapping) {
+      if (!other.reported)
+        report(other.position, description_of(other) + " behind the merge key '<<'",
+               "an alias of a mapping, such as <<: *main, or a list of them");
+      return;
+    }
+    std::unordered_set<std::string> own;
+    for (const Entry& entry : mapping.entries) own.insert(entry.key);
+    for (Entry& entry : other.entries) {
+      if (!own.contains(entry.key)) mapping.entries.push_back(std::move(entry));
+    }
+    if (mapping.entries.size() > most_keys)
+      throw TooLarge{mapping.position, "a mapping of more than 100000 keys", "at most 100000 keys"};
   }
 
   std::string file_;

@@ -15,6 +15,10 @@ TypePtr root() {
               "parameters", parameters,
               "Values usable below as `${name}`; `--set name=value` replaces them. Quote a `${name}` inside braces "
               "or brackets, since YAML gives braces a meaning of its own."),
+          optional("templates", named("a mapping from names to templates", template_format()),
+                   "Parts of a model with `parameters` of their own, put in by `use`; see [templates](#templates)."),
+          optional("use", use_format(),
+                   "Puts templates into the mapping it stands in, this one or any below; see [templates](#templates)."),
           defaulted("gravity", vector("m/s^2", "0 -9.81 0 m/s^2"), "0 0 0 m/s^2",
                     "Acceleration of free fall, ground axes."),
           optional("bodies", bodies_format(),
@@ -37,6 +41,16 @@ TypePtr root() {
 }
 
 }  // namespace
+
+TypePtr template_format() {
+  return part("a template {parameters: {...}, key: value, ...}", "{parameters: {angle: 90 deg}, width: 20 mm}",
+              "template");
+}
+
+TypePtr use_format() {
+  return part("a template's name, {template: name, parameter: value, ...} or a list of these",
+              "{template: main_bearing, angle: 90 deg}", "use");
+}
 
 TypePtr axis_format() {
   return or_word(vector("1", "0 0 1"), {{"x", "the frame's x-axis"}, {"y", "its y-axis"}, {"z", "its z-axis"}});

@@ -29,6 +29,11 @@ TypePtr thermal_network_format();
 [[nodiscard]] TypePtr output_format();
 [[nodiscard]] TypePtr study_format();
 
+/// What a template is, and how it is put in.
+[[nodiscard]] TypePtr template_format();
+/// See template_format().
+[[nodiscard]] TypePtr use_format();
+
 /// A rotation of axes: about an axis by an angle.
 [[nodiscard]] TypePtr rotation_format();
 

@@ -71,6 +71,40 @@ Quantities are added where they measure the same. A bare number stands in an exp
 divided by its unit. The radian counts: an angular velocity times a radius becomes a velocity by `/1 rad`. Degrees Celsius
 are no factors and no summands; kelvins are. In a row, `0 -${load} 2*${load}`, a formula has no spaces. Text (titles, names of
 files, words) takes a parameter as it is written.
+
+## Templates
+
+What repeats is written once, under `templates`, and put in by `use`:
+
+```yaml
+templates:
+  main_bearing:
+    parameters: {frame, angle: 90 deg}      # `frame` has no default: each use gives it
+    shell: ground.${frame}
+    journal: crank.${frame}
+    diameter: 50 mm
+    width: 20 mm
+    radial_clearance: 30 um
+    lubricant: oil
+    supply: {line: "${angle}", pressure: 3 bar}
+bearings:
+  left: {use: {template: main_bearing, frame: main_left}}
+  right: {use: {template: main_bearing, frame: main_right, angle: 75 deg}, width: 24 mm}
+```
+
+`use` stands in any mapping below, and at the top of the file, where a template may bring keys of several sections (a cylinder: its
+rod, piston, joints and bearings). It is a name, `{template: name, parameter: value, ...}` or a list of these. A template's
+parameters are numbers, quantities or words; a default may be derived from those above it and from the model's. They are used as
+`${name}` in its values and in its keys, `rod_${n}`, and go before the model's of that name. Templates may use others.
+
+Keys beside `use` go before the template's. A mapping that both have is merged so, key by key; anything else is replaced; a key
+with nothing behind it removes the template's. Two templates of one list may not give the same key. A fault in a template is told
+with its own line and that of the use. `--set` and studies change parameters, templates
+(`--set templates.main_bearing.width=18mm`), arguments (`--set bearings.left.use.angle=60deg`) and what came of them
+(`--set bearings.left.width=18mm`). `hersey check --expanded` prints the model with everything put in.
+
+YAML's own anchors and merge keys work too: `<<: *anchor` adds the keys of an earlier mapping that the own one does not have.
+What templates, aliases and merge keys repeat is limited to 100000 values and 16 MB.
 )md";
 
 /// What stands before the tables of functions.

@@ -76,6 +76,8 @@ class SchemaWriter {
         return object_schema(type, type.keys, Json::object());
       case Kind::variant:
         return variant_schema(type);
+      case Kind::part:
+        return {{"type", {"object", "string", "array"}}, {"description", type.title}};
       case Kind::any_of:
         break;
     }
@@ -150,7 +152,8 @@ class SchemaWriter {
 
   Json named_schema(const Type& type) {
     Json schema = {{"type", {"object", "null"}}};
-    if (!type.keys.empty()) schema["properties"] = properties_of(type.keys);
+    if (!type.free_names)
+      schema["properties"] = properties_of(type.keys), schema["properties"]["use"] = schema_of(*use_);
     if (!type.free_names) schema["propertyNames"] = {{"pattern", name_pattern}};
     schema["additionalProperties"] = schema_of(*type.item);
     return schema;
@@ -176,10 +179,16 @@ class SchemaWriter {
     }
     Json schema = {{"type", required.empty() ? Json{"object", "null"} : Json("object")}};
     first.update(properties_of(keys));
+    first["use"] = schema_of(*use_);
     schema["properties"] = std::move(first);
-    if (!required.empty()) schema["required"] = std::move(required);
     schema["additionalProperties"] = false;
-    add_groups(schema, type, keys);
+    // What is required may come from a template.
+    Json whole = Json::object();
+    if (!required.empty()) whole["required"] = std::move(required);
+    add_groups(whole, type, keys);
+    if (whole.empty()) return schema;
+    schema["if"] = {{"not", {{"required", {"use"}}}}};
+    schema["then"] = std::move(whole);
     return schema;
   }
 
@@ -218,6 +227,7 @@ class SchemaWriter {
   }
 
   Json definitions_ = Json::object();
+  TypePtr use_ = use_format();
 };
 
 }  // namespace

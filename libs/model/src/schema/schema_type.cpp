@@ -199,6 +199,10 @@ TypePtr any_of(std::string title, std::vector<TypePtr> alternatives) {
   return type;
 }
 
+TypePtr part(std::string title, std::string example, std::string id) {
+  return with_id(make(Type::Kind::part, std::move(title), std::move(example)), std::move(id));
+}
+
 TypePtr with_id(const TypePtr& type, std::string id) {
   auto copy = copy_of(type);
   copy->id = std::move(id);

@@ -67,6 +67,7 @@ struct Type {
     named,      ///< mapping from free names to `item`
     list,       ///< `count` items (0: any number, at least one)
     variant,    ///< mapping whose `tag` key decides which other keys it has
+    part,       ///< a part of a model, checked where a template puts it in; or the use of one
     any_of,     ///< one of `alternatives`: at most one scalar, one list, and mappings told apart by their first key
   };
   Kind kind = Kind::text;
@@ -110,6 +111,7 @@ struct Type {
 [[nodiscard]] TypePtr variant(std::string title, std::string tag, std::vector<Key> common,
                               std::vector<Variant> variants);
 [[nodiscard]] TypePtr any_of(std::string title, std::vector<TypePtr> alternatives);
+[[nodiscard]] TypePtr part(std::string title, std::string example, std::string id);
 [[nodiscard]] TypePtr with_id(const TypePtr& type, std::string id);
 [[nodiscard]] TypePtr with_exactly_one(const TypePtr& type, std::vector<std::string> keys);
 [[nodiscard]] TypePtr with_together(const TypePtr& type, std::vector<std::string> keys);
