@@ -59,14 +59,7 @@ std::vector<std::string> top_level_keys() {
   return keys;
 }
 
-Model read_tree(Node root, const std::string& file, const std::vector<Override>& overrides,
-                std::vector<Fault>& faults) {
-  Model model;
-  model.file = file;
-  if (root.kind == Node::Kind::null) {
-    faults.push_back({{file, 1, 1}, "", "an empty file", "a model, beginning with 'hersey: 1'", ""});
-    return model;
-  }
+CompleteTree complete_tree(Node& root, const std::vector<Override>& overrides, std::vector<Fault>& faults) {
   const OrderedOverrides ordered = in_order(root, overrides, faults);
   apply_overrides(root, ordered.before_templates, top_level_keys(), faults);
   Substitution substitution(faults);
@@ -78,7 +71,19 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   templates.expand(root);  // of what overrides use
   std::erase_if(root.entries, [](const Entry& entry) { return entry.key == "templates"; });
   substitute_parameters(root, substitution, parameters);
-  model.warnings = templates.unused();
+  return {templates.unused(), templates.uses()};
+}
+
+Model read_tree(Node root, const std::string& file, const std::vector<Override>& overrides,
+                std::vector<Fault>& faults) {
+  Model model;
+  model.file = file;
+  if (root.kind == Node::Kind::null) {
+    faults.push_back({{file, 1, 1}, "", "an empty file", "a model, beginning with 'hersey: 1'", ""});
+    return model;
+  }
+  const CompleteTree complete = complete_tree(root, overrides, faults);
+  model.warnings = complete.warnings;
   model.parameters = parameters_of(root);
   const Value value = check(root, model_format(), faults, model.positions);
   Context context{value, model, faults};
@@ -103,7 +108,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_study(context);
   check_table_ranges(context);
   check_size(context);
-  templates.tell_uses(faults);
+  tell_uses(complete.uses, faults);
   return model;
 }
 

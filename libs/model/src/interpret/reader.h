@@ -5,6 +5,7 @@
 
 #include "hersey/model/model.h"
 #include "interpret/overrides.h"
+#include "interpret/templates.h"
 
 namespace hersey::model {
 
@@ -13,6 +14,16 @@ namespace hersey::model {
 
 /// The keys of the model's top level.
 [[nodiscard]] std::vector<std::string> top_level_keys();
+
+/// What putting everything into a tree has left to say.
+struct CompleteTree {
+  std::vector<Fault> warnings;  ///< templates that nothing uses
+  std::vector<TemplateUse> uses;
+};
+
+/// Puts overrides, templates and parameters into the tree, which then holds nothing but values.
+[[nodiscard]] CompleteTree complete_tree(Node& root, const std::vector<Override>& overrides,
+                                         std::vector<Fault>& faults);
 
 /// Reads a model from its YAML tree; faults are added to `faults`, and the model is usable only where there are none.
 [[nodiscard]] Model read_tree(Node root, const std::string& file, const std::vector<Override>& overrides,

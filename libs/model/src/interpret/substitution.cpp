@@ -76,7 +76,7 @@ void note_origin(Node& node, const std::string& name, const SourcePosition& posi
   node.origin += position.line > 0 ? " in line " + std::to_string(position.line) : " set by " + position.file;
 }
 
-std::string joined(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+std::string path_of(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
 
 }  // namespace
 
@@ -102,7 +102,7 @@ std::vector<std::string> Scope::names() const {
 void Substitution::visit(Node& node, const std::string& path, const Scope& scope) {
   if (node.kind == Node::Kind::scalar) substitute(node, path, scope);
   for (std::size_t i = 0; i < node.items.size(); ++i) visit(node.items[i], path + "." + std::to_string(i), scope);
-  for (Entry& entry : node.entries) visit(entry.value, joined(path, entry.key), scope);
+  for (Entry& entry : node.entries) visit(entry.value, path_of(path, entry.key), scope);
 }
 
 std::string Substitution::in_key(const std::string& key, const SourcePosition& position, const std::string& path,

@@ -13,7 +13,7 @@ constexpr std::size_t kMostNodes = 100'000;
 constexpr std::size_t kMostBytes = 16'000'000;
 constexpr std::size_t kDeepest = 64;
 
-std::string joined(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+std::string sub_path(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
 
 bool is_apart(const std::string& key) { return key == "parameters" || key == "templates" || key == "study"; }
 
@@ -54,19 +54,19 @@ void merge(Node& node, Node part) {
   }
 }
 
-struct Extent {
+struct PartExtent {
   std::size_t nodes = 1, bytes = 0, depth = 1;
 };
 
-Extent extent_of(const Node& node) {
-  Extent extent{.bytes = node.text.size()};
-  const auto add = [&extent](const Extent& part) {
+PartExtent part_extent(const Node& node) {
+  PartExtent extent{.bytes = node.text.size()};
+  const auto add = [&extent](const PartExtent& part) {
     extent.nodes += part.nodes;
     extent.bytes += part.bytes;
     extent.depth = std::max(extent.depth, 1 + part.depth);
   };
-  for (const Node& item : node.items) add(extent_of(item));
-  for (const Entry& entry : node.entries) add(extent_of(entry.value)), extent.bytes += entry.key.size();
+  for (const Node& item : node.items) add(part_extent(item));
+  for (const Entry& entry : node.entries) add(part_extent(entry.value)), extent.bytes += entry.key.size();
   return extent;
 }
 
@@ -79,7 +79,7 @@ struct Templates::Place {
   std::vector<std::string> within;
   std::string used;  // the use that put this in; empty outside of templates
 
-  [[nodiscard]] Place at(const std::string& key) const { return {joined(path, key), depth + 1, within, used}; }
+  [[nodiscard]] Place at(const std::string& key) const { return {sub_path(path, key), depth + 1, within, used}; }
 };
 
 Templates::Templates(Node root, const Scope& parameters, Substitution& substitution, std::vector<Fault>& faults)
@@ -91,7 +91,7 @@ Templates::Templates(Node root, const Scope& parameters, Substitution& substitut
     return;
   }
   for (const Entry& entry : section->entries) {
-    const std::string path = joined("templates", entry.key);
+    const std::string path = sub_path("templates", entry.key);
     if (!is_name(entry.key)) {
       report(entry.position, path, "name '" + entry.key + "'", "letters, digits and _, beginning with a letter");
     } else if (entry.value.kind != Node::Kind::mapping) {
@@ -110,7 +110,7 @@ std::vector<Fault> Templates::unused() const {
   std::vector<Fault> faults;
   for (const Template& one : templates_) {
     if (!one.is_used)
-      faults.push_back({one.entry->position, joined("templates", one.name),
+      faults.push_back({one.entry->position, sub_path("templates", one.name),
                         "a template that nothing uses, so that nothing in it is checked", "a use of it, or none of it",
                         ""});
   }
@@ -150,9 +150,9 @@ void Templates::expand_each(Node& node, const Node& use, const Place& place) {
       if (there == nullptr) {
         to.entries.push_back(std::move(entry));
       } else if (there->kind == Node::Kind::mapping && entry.value.kind == Node::Kind::mapping) {
-        self(self, *there, std::move(entry.value), joined(path, entry.key));
+        self(self, *there, std::move(entry.value), sub_path(path, entry.key));
       } else {
-        report(entry.position, joined(path, entry.key),
+        report(entry.position, sub_path(path, entry.key),
                "a key that another use beside it has too (line " + std::to_string(there->position.line) + ")",
                "each key from one template", "in keys, a parameter tells them apart: rod_${n}");
       }
@@ -168,7 +168,7 @@ Templates::Template* Templates::find(const Node& name, const Place& place) {
     if (name.kind == Node::Kind::scalar && one.name == name.text) return &one;
     names.push_back(one.name);
   }
-  const std::string path = joined(place.path, kUse);
+  const std::string path = sub_path(place.path, kUse);
   if (name.kind != Node::Kind::scalar) {
     report(name.position, path, description_of(name), "the name of a template");
   } else if (names.empty()) {
@@ -184,11 +184,11 @@ Node Templates::instance(const Node& given_use, const Place& place) {
   if (given_use.reported || is_over_limit_) return nothing;
   Node use = given_use;
   // Inside a template the arguments have been put in with everything of it.
-  substitution_.visit(use, joined(place.path, kUse), parameters_);
+  substitution_.visit(use, sub_path(place.path, kUse), parameters_);
   const bool is_name_alone = use.kind == Node::Kind::scalar;
   const Node* name = is_name_alone ? &use : use.find("template");
   if (name == nullptr) {
-    report(use.position, joined(place.path, kUse), description_of(use) + " without the key 'template'",
+    report(use.position, sub_path(place.path, kUse), description_of(use) + " without the key 'template'",
            "a template's name, {template: name, parameter: value, ...}, or a list of these");
     return nothing;
   }
@@ -200,7 +200,7 @@ Node Templates::instance(const Node& given_use, const Place& place) {
   if (std::find(place.within.begin(), place.within.end(), chosen->name) != place.within.end()) {
     std::string chain;
     for (const std::string& outer : place.within) chain += outer + " -> ";
-    report(use.position, joined(place.path, kUse), "a template that uses itself: " + chain + chosen->name,
+    report(use.position, sub_path(place.path, kUse), "a template that uses itself: " + chain + chosen->name,
            "templates of other templates");
     return nothing;
   }
@@ -228,21 +228,8 @@ void Templates::note_use(const Template& chosen, const Node& use, const Place& p
                    "template " + chosen.name + ", used" + where + (place.used.empty() ? "" : " of " + place.used)});
 }
 
-void Templates::tell_uses(std::vector<Fault>& faults) const {
-  for (Fault& fault : faults) {
-    const SourcePosition& at = fault.position;
-    const TemplateUse* best = nullptr;
-    for (const TemplateUse& use : uses_) {
-      const bool is_inside = at.file == use.file && use.first_line <= at.line && at.line <= use.last_line;
-      const bool is_of_it = use.path.empty() || fault.path == use.path || fault.path.starts_with(use.path + ".");
-      if (is_inside && is_of_it && (best == nullptr || use.path.size() >= best->path.size())) best = &use;
-    }
-    if (best != nullptr) fault.expected += " (" + best->text + ")";
-  }
-}
-
 bool Templates::is_within_limits(const Node& node, const Node& use, const Place& place) {
-  const Extent extent = extent_of(node);
+  const PartExtent extent = part_extent(node);
   nodes_ += extent.nodes;
   bytes_ += extent.bytes;
   const auto refuse = [&](const char* found, const char* expected) {
@@ -264,7 +251,7 @@ bool Templates::take_arguments(const Node& use, const Template& chosen, const Pl
   const Node* declared = chosen.entry->value.find("parameters");
   if (declared == nullptr || declared->kind == Node::Kind::null) declared = &none;
   if (declared->kind != Node::Kind::mapping) {
-    report(declared->position, joined(joined("templates", chosen.name), "parameters"), description_of(*declared),
+    report(declared->position, sub_path(sub_path("templates", chosen.name), "parameters"), description_of(*declared),
            "a mapping from names to values, {angle: 90 deg, n}; what has none is given by each use");
     return false;
   }
@@ -272,7 +259,7 @@ bool Templates::take_arguments(const Node& use, const Template& chosen, const Pl
   for (const Entry& parameter : declared->entries) names.push_back(parameter.key);
   for (const Entry& given : use.entries) {
     if (given.key == "template" || declared->find(given.key) != nullptr) continue;
-    report(given.position, joined(joined(place.path, kUse), given.key),
+    report(given.position, sub_path(sub_path(place.path, kUse), given.key),
            "unknown parameter '" + given.key + "' of template '" + chosen.name + "'",
            names.empty() ? "no parameters, as the template has none" : one_of(names), did_you_mean(given.key, names));
   }
@@ -283,7 +270,7 @@ bool Templates::take_arguments(const Node& use, const Template& chosen, const Pl
 bool Templates::take_argument(const Entry& parameter, const Node* given, const Node& use, const Place& place,
                               Scope& scope) {
   Node value = given != nullptr ? *given : parameter.value;
-  const std::string path = joined(joined(place.path, kUse), parameter.key);
+  const std::string path = sub_path(sub_path(place.path, kUse), parameter.key);
   scope.define(parameter.key, Node{.kind = Node::Kind::scalar, .reported = true});  // until it is known to be good
   if (value.kind == Node::Kind::null) {
     report(use.position, path, "missing parameter '" + parameter.key + "'", "a value: it has no default");
@@ -311,9 +298,22 @@ void Templates::replace_keys(Node& node, const Place& place, const Scope& scope)
     if (has_parameter) entry.key = substitution_.in_key(entry.key, entry.position, place.path, scope);
     const bool is_repeated = std::find(keys.begin(), keys.end(), entry.key) != keys.end();
     if (has_parameter && is_repeated)
-      report(entry.position, joined(place.path, entry.key), "duplicate key '" + entry.key + "'", "each key once");
+      report(entry.position, sub_path(place.path, entry.key), "duplicate key '" + entry.key + "'", "each key once");
     keys.push_back(entry.key);
     replace_keys(entry.value, place, scope);
+  }
+}
+
+void tell_uses(const std::vector<TemplateUse>& uses, std::vector<Fault>& faults) {
+  for (Fault& fault : faults) {
+    const SourcePosition& at = fault.position;
+    const TemplateUse* best = nullptr;
+    for (const TemplateUse& use : uses) {
+      const bool is_inside = at.file == use.file && use.first_line <= at.line && at.line <= use.last_line;
+      const bool is_of_it = use.path.empty() || fault.path == use.path || fault.path.starts_with(use.path + ".");
+      if (is_inside && is_of_it && (best == nullptr || use.path.size() >= best->path.size())) best = &use;
+    }
+    if (best != nullptr) fault.expected += " (" + best->text + ")";
   }
 }
 

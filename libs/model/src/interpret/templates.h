@@ -8,6 +8,16 @@
 
 namespace hersey::model {
 
+/// Where a template was put in, for what is told of faults in it.
+struct TemplateUse {
+  std::string path, file;  ///< of the mapping that uses it; of the template
+  int first_line = 0, last_line = 0;
+  std::string text;  ///< "template main_bearing, used in line 57"
+};
+
+/// Adds to faults that stand in templates by which use they came about.
+void tell_uses(const std::vector<TemplateUse>& uses, std::vector<Fault>& faults);
+
 /// Puts templates where they are used.
 ///
 /// `templates` of a model are mappings with parameters of their own; `use: {template: main_bearing, angle: 90 deg}` in
@@ -23,8 +33,8 @@ class Templates {
   /// has been put in already, it changes nothing.
   void expand(Node& root);
 
-  /// Adds to faults that stand in templates by which use they came about.
-  void tell_uses(std::vector<Fault>& faults) const;
+  /// All that has been put in.
+  [[nodiscard]] const std::vector<TemplateUse>& uses() const { return uses_; }
 
   /// Templates that were put in nowhere: nothing in them has been checked.
   [[nodiscard]] std::vector<Fault> unused() const;
@@ -34,11 +44,6 @@ class Templates {
     std::string name;
     const Entry* entry = nullptr;
     bool is_used = false;
-  };
-  struct TemplateUse {
-    std::string path, file;  // of the mapping that uses it; of the template
-    int first_line = 0, last_line = 0;
-    std::string text;
   };
   struct Place;
 
