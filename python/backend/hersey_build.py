@@ -30,14 +30,18 @@ def metadata():
     return "\n".join([
         "Metadata-Version: 2.1", f"Name: {NAME}", f"Version: {version()}",
         "Summary: Oil-film journal bearings inside moving machines", "License: BSD-3-Clause", "Requires-Python: >=3.9",
-        "Requires-Dist: numpy", "Requires-Dist: h5py", "Requires-Dist: h5netcdf", "Requires-Dist: xarray",
-        "Requires-Dist: pandas", "Provides-Extra: plot", 'Requires-Dist: matplotlib; extra == "plot"',
+        # h5py is needed too, but Debian's has another name for pip, which would look for it on the network.
+        "Requires-Dist: numpy", "Requires-Dist: xarray", "Requires-Dist: pandas", "Provides-Extra: plot", 'Requires-Dist: matplotlib; extra == "plot"',
         "Provides-Extra: progress", 'Requires-Dist: tqdm; extra == "progress"', ""])
 
 
 def tag():
     version_tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
     return f"{version_tag}-{version_tag}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+
+
+def wheel_text():
+    return f"Wheel-Version: 1.0\nGenerator: hersey\nRoot-Is-Purelib: false\nTag: {tag()}\n"
 
 
 def call(*command):
@@ -74,12 +78,20 @@ class Wheel:
 
     def close(self, info):
         self.add(f"{info}/METADATA", metadata())
-        self.add(f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: hersey\nRoot-Is-Purelib: false\nTag: {tag()}\n")
+        self.add(f"{info}/WHEEL", wheel_text())
         for name in ("LICENSE", "THIRD_PARTY.md"):
             self.add(f"{info}/{name}", (ROOT / name).read_bytes())
         record = f"{info}/RECORD"
         self.file.writestr(zipfile.ZipInfo(record, MOMENT), "\n".join([*self.record, f"{record},,", ""]))
         self.file.close()
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    info = Path(metadata_directory) / f"{NAME}-{version()}.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(metadata(), encoding="utf-8")
+    (info / "WHEEL").write_text(wheel_text(), encoding="utf-8")
+    return info.name
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):

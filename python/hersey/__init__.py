@@ -10,6 +10,7 @@
 Numbers that come out are SI; quantities that go in are texts with their unit.
 """
 
+from . import fem, plot
 from ._core import Progress, __version__
 from .bearing import BearingSolution, bearing, bearing_model
 from .errors import Fault, HerseyError, InputError, RunError, SolutionError, Stopped, UserFunctionError
@@ -20,6 +21,6 @@ from .results import Results, Summary, open_results, report
 
 __all__ = [
     "BearingSolution", "Fault", "Figure", "Function", "HerseyError", "InputError", "Model", "Progress", "Results", "RunError",
-    "SolutionError", "Stopped", "Summary", "UserFunctionError", "__version__", "bearing", "bearing_model",
-    "open_results", "report", "surface_profile", "viscosity_law",
+    "SolutionError", "Stopped", "Summary", "UserFunctionError", "__version__", "bearing", "bearing_model", "fem",
+    "open_results", "plot", "report", "surface_profile", "viscosity_law",
 ]

@@ -10,6 +10,7 @@ void bind_errors(pybind11::module_& core);
 void bind_model(pybind11::module_& core);
 void bind_bearing(pybind11::module_& core);
 void bind_functions(pybind11::module_& core);
+void bind_fem(pybind11::module_& core);
 void bind_run(pybind11::module_& core);
 void bind_report(pybind11::module_& core);
 

@@ -11,6 +11,7 @@ PYBIND11_MODULE(_core, core) {
   hersey::python::bind_model(core);
   hersey::python::bind_bearing(core);
   hersey::python::bind_functions(core);
+  hersey::python::bind_fem(core);
   hersey::python::bind_run(core);
   hersey::python::bind_report(core);
 }
