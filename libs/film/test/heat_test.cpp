@@ -258,6 +258,27 @@ TEST_CASE("FilmInARing_IsThatOfAnIndependentProgram") {
   CHECK(hot.iterations <= 20);
 }
 
+// The fast case of the design (R 50, L 80 mm, c 145 um, 4000 rpm, epsilon 0.8 in a ring of steel), on which few layers
+// err most, with the usual grid against layers and nodes that leave little. Bounds: those asked of it.
+TEST_CASE("FiveLayers_AreNearSixteenOnTwiceTheNodes") {
+  const auto solved = [](int layers, int n_phi, int n_z) {
+    FilmModel model = bearing(0.05, 0.08, 145e-6, n_phi, n_z);
+    model.features.push_back(
+        {.name = "groove", .phi = 0, .z = 0, .arc = 18 * pi / 180, .length = 0.07, .pressure = 70e3});
+    ThermalModel thermal = supplied_at_40(layers);
+    thermal.shell = RingWall{.outer_radius = 0.1, .conductivity = 50, .transfer = 80, .T_ambient = 40 + zero_celsius};
+    const double phi = 230 * pi / 180;
+    const Journal journal{.e = 0.8 * model.c * Eigen::Vector2d(std::cos(phi), std::sin(phi)),
+                          .omega_journal = 418.87902047863906};
+    return solve_hot(model, thermal, surfaces(model, journal), journal.e, 1e-5);
+  };
+  const HotFilm few = solved(5, 60, 13), many = solved(16, 120, 25);
+  CHECK(few.film.force_pressure.norm() == relative(many.film.force_pressure.norm()).epsilon(0.015));
+  CHECK(std::abs(few.heat.T_shell_max - many.heat.T_shell_max) < 0.3);
+  CHECK(few.heat.balance.power == relative(many.heat.balance.power).epsilon(0.01));
+  CHECK(few.heat.balance.error() < 1e-8);  // the film's residual
+}
+
 // Each supply has a temperature of its own, which a hole in the journal takes along as the journal turns.
 TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsTurnsWithIt") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 72, 11);

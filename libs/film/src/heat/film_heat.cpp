@@ -12,6 +12,7 @@
 #include "heat/layer_flows.h"
 #include "heat/layer_profile.h"
 #include "heat/layer_shear.h"
+#include "heat/layering.h"
 #include "hersey/core/contract.h"
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
@@ -40,6 +41,12 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
     HERSEY_REQUIRE(shell->around.size() == 0 || shell->around.size() == model.grid.n_phi,
                    "temperatures of shape (n_phi) or none");
   }
+}
+
+double mean_across(const Eigen::Ref<const Eigen::VectorXd>& layers, const Layering& across) {
+  double mean = 0;
+  for (std::size_t l = 0; l < across.size(); ++l) mean += across.width(l) * layers[static_cast<Eigen::Index>(l)];
+  return mean;
 }
 
 }  // namespace
@@ -154,7 +161,7 @@ void FilmHeat::Impl::thin() {
     const Eigen::Index first = node * thermal.layers;
     const std::span<double> at{mu.data() + first, layers}, left{state.thinning.data() + first, layers};
     const Node& film = flow.nodes()[node];
-    const double at_rest = 1 / profile_of(at).shear_fluidity;
+    const double at_rest = 1 / profile_of(at, WithinLayers::constant).shear_fluidity;
     const double by_pressure = std::exp(log_viscosity_ratio(oil, film.p, at_rest).value);
     for (double& one : at) one *= by_pressure;
     shear.thin(at, {flow.slip() / film.h, film.h * one_sided_gradient(flow, node)}, left);
@@ -223,8 +230,9 @@ Eigen::VectorXd FilmHeat::body_temperatures() const {
 LayeredViscosity FilmHeat::viscosity() const {
   const FilmModel& model = impl_->flow.model();
   const int layers = impl_->thermal.layers;
-  const auto profile_in = [layers](const Eigen::VectorXd& mu, int node) {
-    return profile_of({mu.data() + static_cast<Eigen::Index>(node) * layers, static_cast<std::size_t>(layers)});
+  const WithinLayers within = within_layers(model.lubricant);
+  const auto profile_in = [layers, within](const Eigen::VectorXd& mu, int node) {
+    return profile_of({mu.data() + static_cast<Eigen::Index>(node) * layers, static_cast<std::size_t>(layers)}, within);
   };
   LayeredViscosity viscosity;
   for (auto* field : {&viscosity.fluidity, &viscosity.shear_fluidity, &viscosity.skew})
@@ -386,13 +394,17 @@ void FilmHeat::Impl::observe(const CarryingFilm& film) {
 void FilmHeat::Impl::show_surfaces(const CarryingFilm& film) {
   const Grid& grid = flow.model().grid;
   const int n = thermal.layers;
+  const Layering& across = layering_of(static_cast<std::size_t>(n));
   for (auto* field : {&shown.middle, &shown.shell, &shown.journal, &shown.hottest}) field->resize(grid.size());
   for (int node = 0; node < grid.size(); ++node) {
     const auto column = state.film.segment(node * n, n);
     const auto without_slope = [&](int beside, int next) {
-      return column[beside] + (column[beside] - column[next]) / 8;
+      const double a = 0.5 * across.width(static_cast<std::size_t>(beside)),
+                   b = a + std::abs(across.middle(static_cast<std::size_t>(next)) -
+                                    across.middle(static_cast<std::size_t>(beside)));
+      return column[beside] + (column[beside] - column[next]) * a * a / (b * b - a * a);
     };
-    shown.middle[node] = column.mean();
+    shown.middle[node] = mean_across(column, across);
     shown.hottest[node] = column.maxCoeff();
     shown.shell[node] = n > 1 ? without_slope(0, 1) : column[0];
     shown.journal[node] = n > 1 ? without_slope(n - 1, n - 2) : column[0];

@@ -22,6 +22,10 @@ constexpr double body_share = 1e-7;
 // Likewise the answers to temperatures of walls, which multiply what these move in a step.
 constexpr double response_share = 1e-7;
 
+// Oil that flows across has the mean of two layers' temperatures up to so many times the flow at which conduction alone
+// would still keep each between its neighbours'; flow along the film does that as well.
+constexpr double trusted = 4;
+
 double oil_share(const Node& node) { return std::clamp(node.theta, least_fill, 1.0); }
 
 }  // namespace
@@ -29,6 +33,7 @@ double oil_share(const Node& node) { return std::clamp(node.theta, least_fill, 1
 HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal)
     : model_(model),
       thermal_(thermal),
+      across_(layering_of(static_cast<std::size_t>(thermal.layers))),
       rc_(model.lubricant.density * model.lubricant.specific_heat),
       system_(model.grid, thermal.layers, has_own_temperatures(thermal.shell)),
       mean_(model.grid, thermal.layers,
@@ -55,28 +60,43 @@ double HeatEquations::asperity_power(const CarryingFilm& film, int node) const {
   return area * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact();
 }
 
-// Half a layer of oil lies between, and what else resists. Oil that stands in a supply is no film: it heats no wall.
-double HeatEquations::to_wall(const CarryingFilm& film, int node, double resistance) const {
+// By the slope of the temperature at the wall, behind which more may resist. Oil that stands in a supply is no film: it
+// heats no wall.
+WallFlux HeatEquations::to_wall(const CarryingFilm& film, int node, int layer, double resistance) const {
   const Node& at = film.balance.nodes()[node];
-  const double k = model_.lubricant.conductivity * oil_share(at), area = film.balance.area(node);
-  return k == 0 ? 0 : film.balance.balance_share(node) * area / (at.h / (2 * layers() * k) + resistance);
+  const double k = model_.lubricant.conductivity * oil_share(at) / at.h;
+  const auto [beside, next] = across_.slope_at_wall(static_cast<std::size_t>(layer));
+  const double area = film.balance.balance_share(node) * film.balance.area(node);
+  const double share = area / (1 + resistance * k * (beside - next));
+  return {share * k * beside, share * k * next};
 }
 
-double HeatEquations::to_shell(const CarryingFilm& film, int node) const {
-  return conducts(thermal_.shell) ? to_wall(film, node, ring_.inside) : 0;
+double HeatEquations::between(const CarryingFilm& film, int node, int layer) const {
+  const Node& at = film.balance.nodes()[node];
+  const double k = model_.lubricant.conductivity * oil_share(at);
+  return k * film.balance.area(node) / (at.h * across_.to_next(static_cast<std::size_t>(layer)));
 }
 
-double HeatEquations::to_journal(const CarryingFilm& film, int node) const {
-  return conducts(thermal_.journal) ? to_wall(film, node, 0) : 0;
+WallFlux HeatEquations::to_shell(const CarryingFilm& film, int node) const {
+  return conducts(thermal_.shell) ? to_wall(film, node, 0, ring_.inside) : WallFlux{};
+}
+
+WallFlux HeatEquations::to_journal(const CarryingFilm& film, int node) const {
+  return conducts(thermal_.journal) ? to_wall(film, node, top(), 0) : WallFlux{};
 }
 
 double HeatEquations::into_shell(const CarryingFilm& film, const HeatState& state, int node) const {
   if (!conducts(thermal_.shell)) return 0;
-  return to_shell(film, node) * (state.film[node * layers()] - state.shell[node / model_.grid.n_z]);
+  const WallFlux flux = to_shell(film, node);
+  const double T = state.shell[node / model_.grid.n_z];
+  const double* layer = state.film.data() + static_cast<Eigen::Index>(node) * layers();
+  return flux.beside * (layer[0] - T) - flux.next * (layer[next_to_bottom()] - T);
 }
 
 double HeatEquations::into_journal(const CarryingFilm& film, const HeatState& state, int node) const {
-  return to_journal(film, node) * (state.film[node * layers() + top()] - state.journal);
+  const WallFlux flux = to_journal(film, node);
+  const double* layer = state.film.data() + static_cast<Eigen::Index>(node) * layers();
+  return flux.beside * (layer[top()] - state.journal) - flux.next * (layer[next_to_top()] - state.journal);
 }
 
 // With the oil of the end and the rate at which it has changed; pockets of air keep a little.
@@ -165,7 +185,7 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
     add(system_.ring_row(i), system_.ring_entries(i));
   entries.emplace_back(rows, rows, journal_self_);
   for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
-    entries.emplace_back(rows, system_.row(node, top()), -into_journal_[node]);
+    for (const auto& [row, entry] : journal_entries(node)) entries.emplace_back(rows, row, entry);
   for (int s = 0; s < supplies(); ++s) entries.emplace_back(rows + 1 + s, rows + 1 + s, supply_self_[s]);
   for (const Held& held : held_) {
     for (const Held::Row& row : held.rows) {
@@ -217,11 +237,17 @@ void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
   multiply_remainder(x, y);
 }
 
+// Of the row of a free journal, by the layers beside it.
+std::array<std::pair<int, double>, 2> HeatEquations::journal_entries(int node) const {
+  const WallFlux& flux = into_journal_[node];
+  return {{{system_.row(node, top()), -flux.beside}, {system_.row(node, next_to_top()), flux.next}}};
+}
+
 void HeatEquations::multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   const int rows = system_.size();
   y[rows] = journal_self_ * x[rows];
   for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
-    y[rows] -= into_journal_[node] * x[system_.row(node, top())];
+    for (const auto& [row, entry] : journal_entries(node)) y[rows] += entry * x[row];
   for (int s = 0; s < supplies(); ++s) y[rows + 1 + s] = supply_self_[s] * x[rows + 1 + s];
   for (const Held& held : held_) {
     double& sum = y[rows + 1 + held.supply];
@@ -276,9 +302,9 @@ void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double rate = film.dt > 0 ? start_volume(film, node) / film.dt : thread * 1e-6;
-      storage_[row] = rc_ * rate / layers();
-      system_.diagonal(row) += rc_ * rate / layers();
-      known_[row] += rc_ * rate / layers() * start.film[row] + film.flows.dissipation(node, l);
+      storage_[row] = rc_ * rate * width(l);
+      system_.diagonal(row) += storage_[row];
+      known_[row] += storage_[row] * start.film[row] + film.flows.dissipation(node, l);
     }
   }
 }
@@ -342,17 +368,18 @@ void HeatEquations::add_second_order(const CarryingFilm& film, std::size_t f, in
   system_.beyond(to, layer, side) += heat;
 }
 
+// With the mean temperature of both layers, second order, where conduction between them is not next to nothing beside
+// what flows; beyond, towards that upstream (thermal.51).
 void HeatEquations::add_flow_upwards(const CarryingFilm& film) {
   for (int node = 0; node < model_.grid.size(); ++node) {
     for (int l = 0; l + 1 < layers(); ++l) {
-      const double q = rc_ * film.flows.upwards(node, l);
-      if (q > 0) {
-        system_.diagonal(system_.row(node, l + 1)) += q;
-        system_.below(node, l + 1) -= q;
-      } else {
-        system_.diagonal(system_.row(node, l)) -= q;
-        system_.above(node, l) += q;
-      }
+      const double q = rc_ * film.flows.upwards(node, l), conduction = between(film, node, l);
+      const double upstream = std::max(0.5 * std::abs(q) - trusted * conduction, 0.0);
+      const double up = 0.5 * q + upstream, down = 0.5 * q - upstream;
+      system_.diagonal(system_.row(node, l + 1)) += up;
+      system_.below(node, l + 1) -= up;
+      system_.diagonal(system_.row(node, l)) -= down;
+      system_.above(node, l) += down;
     }
   }
 }
@@ -364,17 +391,16 @@ void HeatEquations::add_edges(const CarryingFilm& film) {
     inflow_[static_cast<std::size_t>(node)] += in;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
-      system_.diagonal(row) += rc_ * in / layers();
-      known_[row] += rc_ * in / layers() * thermal_.T_edges;
+      system_.diagonal(row) += rc_ * in * width(l);
+      known_[row] += rc_ * in * width(l) * thermal_.T_edges;
     }
   }
 }
 
 void HeatEquations::add_conduction(const CarryingFilm& film) {
   for (int node = 0; node < model_.grid.size(); ++node) {
-    const Node& at = film.balance.nodes()[node];
-    const double k = model_.lubricant.conductivity * oil_share(at) * film.balance.area(node) * layers() / at.h;
     for (int l = 0; l + 1 < layers(); ++l) {
+      const double k = between(film, node, l);
       system_.diagonal(system_.row(node, l)) += k;
       system_.above(node, l) -= k;
       system_.diagonal(system_.row(node, l + 1)) += k;
@@ -394,16 +420,18 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
       known_[row] += friction;
       continue;
     }
-    const double G = to_shell(film, node);
-    system_.diagonal(row) += G;
+    const WallFlux flux = to_shell(film, node);
+    system_.diagonal(row) += flux.beside;
+    if (layers() > 1) system_.above(node, 0) -= flux.next;
     if (!has_rows) {
-      known_[row] += G * start.shell[i];
-      by_shell_[row] += G;
+      known_[row] += flux.wall() * start.shell[i];
+      by_shell_[row] += flux.wall();
       continue;
     }
-    system_.to_ring(node) -= G;
-    system_.diagonal(system_.ring_row(i)) += G;
-    system_.from_film(node) -= G;
+    system_.to_ring(node) -= flux.wall();
+    system_.diagonal(system_.ring_row(i)) += flux.wall();
+    system_.from_film(node, 0) -= flux.beside;
+    system_.from_film(node, 1) += flux.next;
     known_[system_.ring_row(i)] += friction;
   }
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell)) add_ring(*ring, film, start);
@@ -415,7 +443,7 @@ void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& fil
   const int n = model_.grid.n_phi, first = system_.ring_row(0);
   if (film.dt > 0) {
     system_.set_answer(nullptr, 1);
-    for (int node = 0; node < model_.grid.size(); ++node) system_.from_film(node) = 0;
+    for (int node = 0; node < model_.grid.size(); ++node) system_.from_film(node, 0) = system_.from_film(node, 1) = 0;
     for (int i = 0; i < n; ++i) {
       system_.diagonal(first + i) = 1;
       known_[first + i] = start.shell[i];
@@ -461,9 +489,10 @@ void HeatEquations::add_journal(const CarryingFilm& film) {
       known_[row] += 0.5 * asperity_power(film, node);
       continue;
     }
-    const double G = to_journal(film, node);
-    system_.diagonal(row) += G;
-    by_journal_[row] += G;
+    const WallFlux flux = to_journal(film, node);
+    system_.diagonal(row) += flux.beside;
+    if (layers() > 1) system_.below(node, top()) -= flux.next;
+    by_journal_[row] += flux.wall();
   }
 }
 
@@ -483,10 +512,10 @@ void HeatEquations::add_supplies(const CarryingFilm& film) {
                                     least_fill * film.balance.largest_throughput());
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
-      const double share = held.flow > 0 ? 1.0 / layers() : film.flows.leaving_share(node, l);
+      const double share = held.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
       held.rows.push_back({system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row]});
       held.rows.back().entries.front().second += rc_ * held.flow * share;
-      const double in = rc_ * std::max(held.flow, 0.0) * share, taken_on = held.chi * rc_ * passing / layers();
+      const double in = rc_ * std::max(held.flow, 0.0) * share, taken_on = held.chi * rc_ * passing * width(l);
       system_.diagonal(row) += in;
       system_.scale(row, 1 - held.chi);
       known_[row] *= 1 - held.chi, by_shell_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
@@ -529,10 +558,11 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
   const auto* free = std::get_if<FreeJournal>(&thermal_.journal);
   journal_is_free_ = free != nullptr;
   journal_self_ = 0;
-  into_journal_.assign(static_cast<std::size_t>(model_.grid.size()), 0.0);
+  into_journal_.assign(static_cast<std::size_t>(model_.grid.size()), {});
   if (journal_is_free_) {
     for (int node = 0; node < model_.grid.size(); ++node) {
-      journal_self_ += into_journal_[node] = to_journal(film, node);
+      into_journal_[node] = to_journal(film, node);
+      journal_self_ += into_journal_[node].wall();
       known_[journal] += 0.5 * asperity_power(film, node);
     }
     if (film.dt > 0 && !holds_walls(film)) {
@@ -574,14 +604,14 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
       const double T = end.film[row] - T0;
       sum.power += film.flows.dissipation(node, l);
       sum.to_oil +=
-          rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out / layers() * (thermal_.T_edges - T0));
-      sum.to_oil += rc_ * film.flows.lost(node) / layers() * T;
+          rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out * width(l) * (thermal_.T_edges - T0));
+      sum.to_oil += rc_ * film.flows.lost(node) * width(l) * T;
       if (film.dt == 0) {
-        sum.stored += rc_ * film.balance.storage(node) / layers() * T;
+        sum.stored += rc_ * film.balance.storage(node) * width(l) * T;
         continue;
       }
       const double to = from + film.dt * film.balance.storage(node);
-      sum.stored += rc_ * (to * T - from * (start.film[row] - T0)) / (layers() * film.dt);
+      sum.stored += rc_ * (to * T - from * (start.film[row] - T0)) * width(l) / film.dt;
     }
   }
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());

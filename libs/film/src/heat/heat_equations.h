@@ -2,13 +2,18 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
+#include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "balance/flow_balance.h"
 #include "heat/heat_system.h"
 #include "heat/heat_walls.h"
 #include "heat/layer_flows.h"
+#include "heat/layering.h"
 #include "heat/mean_heat.h"
+#include "heat/wall_flux.h"
 #include "hersey/film/heat_state.h"
 #include "hersey/film/thermal_model.h"
 #include "hersey/solver/gmres.h"
@@ -68,12 +73,19 @@ class HeatEquations {
   };
   [[nodiscard]] bool has_line() const { return model_.supply.kind != SupplyKind::none; }
   [[nodiscard]] int layers() const { return thermal_.layers; }
+  /// Of the film's thickness [-].
+  [[nodiscard]] double width(int layer) const { return across_.width(static_cast<std::size_t>(layer)); }
+  /// The layer after that beside a wall, from it.
+  [[nodiscard]] int next_to_top() const { return std::max(top() - 1, 0); }
+  [[nodiscard]] int next_to_bottom() const { return std::min(1, top()); }
   [[nodiscard]] int top() const { return thermal_.layers - 1; }
   [[nodiscard]] double asperity_power(const CarryingFilm& film, int node) const;
-  /// Conductance between the film's middle of the layer beside a wall and the wall [W/K].
-  [[nodiscard]] double to_wall(const CarryingFilm& film, int node, double resistance) const;
-  [[nodiscard]] double to_shell(const CarryingFilm& film, int node) const;
-  [[nodiscard]] double to_journal(const CarryingFilm& film, int node) const;
+  /// Of the layer beside a wall, 0 or the last. @param resistance  of the wall itself, per area [m^2 K/W]
+  [[nodiscard]] WallFlux to_wall(const CarryingFilm& film, int node, int layer, double resistance) const;
+  /// And between a layer and the next [W/K].
+  [[nodiscard]] double between(const CarryingFilm& film, int node, int layer) const;
+  [[nodiscard]] WallFlux to_shell(const CarryingFilm& film, int node) const;
+  [[nodiscard]] WallFlux to_journal(const CarryingFilm& film, int node) const;
   [[nodiscard]] double start_volume(const CarryingFilm& film, int node) const;
 
   void add_storage(const CarryingFilm& film, const HeatState& start);
@@ -102,6 +114,7 @@ class HeatEquations {
   /// y = A x, x = [layers; ring; journal; supplies].
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   /// The rows of journal and supplies of that.
+  [[nodiscard]] std::array<std::pair<int, double>, 2> journal_entries(int node) const;
   void multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   /// Nearly x = A^-1 b: layers and ring by sweeps, journal and supplies eliminated.
   void precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
@@ -115,16 +128,17 @@ class HeatEquations {
 
   const FilmModel model_;
   const ThermalModel thermal_;
+  const Layering& across_;
   double rc_ = 0;  ///< heat capacity of the oil per volume [J/(m^3 K)]
   RingConductances ring_;
   HeatSystem system_;
-  Eigen::VectorXd known_;             ///< right-hand sides of all rows [W]
-  Eigen::VectorXd by_shell_;          ///< of all rows, by the temperature of a shell that is held [W/K]
-  Eigen::VectorXd by_journal_;        ///< of the rows of layers and ring, by the journal's temperature [W/K]
-  std::vector<double> by_supply_;     ///< of the rows of layers, by that of the supply that holds the node [W/K]
-  std::vector<int> supply_of_;        ///< of each node, -1 for none
-  double journal_self_ = 0;           ///< entry of the journal's row by itself [W/K]
-  std::vector<double> into_journal_;  ///< of a journal that is free, by the layers beside it [W/K]
+  Eigen::VectorXd known_;               ///< right-hand sides of all rows [W]
+  Eigen::VectorXd by_shell_;            ///< of all rows, by the temperature of a shell that is held [W/K]
+  Eigen::VectorXd by_journal_;          ///< of the rows of layers and ring, by the journal's temperature [W/K]
+  std::vector<double> by_supply_;       ///< of the rows of layers, by that of the supply that holds the node [W/K]
+  std::vector<int> supply_of_;          ///< of each node, -1 for none
+  double journal_self_ = 0;             ///< entry of the journal's row by itself [W/K]
+  std::vector<WallFlux> into_journal_;  ///< of a journal that is free, by the layers beside it
   bool journal_is_free_ = false;
   std::vector<double> supply_self_;  ///< of the supplies' rows
   Eigen::MatrixXd by_remainder_;  ///< what a sweep makes of layers and ring by journal and supplies, column by column

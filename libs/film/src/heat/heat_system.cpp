@@ -9,7 +9,7 @@ HeatSystem::HeatSystem(const Grid& grid, int layers, bool has_ring) : grid_(grid
   layer_.resize(static_cast<std::size_t>(grid.size() * layers));
   pivots_.resize(layer_.size());
   if (has_ring) ring_.resize(static_cast<std::size_t>(n_phi));
-  from_film_.resize(static_cast<std::size_t>(grid.size()));
+  from_film_.resize(static_cast<std::size_t>(2 * grid.size()));
   for (int node = 0; node < grid.size(); ++node) {
     const int i = node / n_z, j = node % n_z;
     neighbours_.push_back({grid.index((i + n_phi - 1) % n_phi, j), grid.index((i + 1) % n_phi, j),
@@ -37,13 +37,22 @@ HeatSystem::Row HeatSystem::entries(int node, int layer) const {
   return entries;
 }
 
+/// What the film at a node adds to the row of the ring there.
+double HeatSystem::from_film(int node, const Eigen::VectorXd& x) const {
+  double sum = 0;
+  for (int l = 0; l < lowest(); ++l) sum += from_film_[2 * node + l] * x[row(node, l)];
+  return sum;
+}
+
 HeatSystem::Row HeatSystem::ring_entries(int i) const {
   const int n = ring_rows();
   if (answer_.is_set()) return answer_entries(i);
   Row entries{{ring_row(i), ring_[i].self},
               {ring_row((i + n - 1) % n), ring_[i].before},
               {ring_row((i + 1) % n), ring_[i].after}};
-  for (int j = 0; j < grid_.n_z; ++j) entries.emplace_back(row(grid_.index(i, j), 0), from_film_[grid_.index(i, j)]);
+  for (int j = 0; j < grid_.n_z; ++j)
+    for (int l = 0; l < lowest(); ++l)
+      entries.emplace_back(row(grid_.index(i, j), l), from_film_[2 * grid_.index(i, j) + l]);
   return entries;
 }
 
@@ -54,7 +63,8 @@ HeatSystem::Row HeatSystem::answer_entries(int i) const {
     const double heat = answer_.by_balance(i, j);
     entries.emplace_back(ring_row(j), heat * ring_[j].self + (i == j ? answer_.scale() : 0));
     for (int k = 0; k < grid_.n_z; ++k)
-      entries.emplace_back(row(grid_.index(j, k), 0), heat * from_film_[grid_.index(j, k)]);
+      for (int l = 0; l < lowest(); ++l)
+        entries.emplace_back(row(grid_.index(j, k), l), heat * from_film_[2 * grid_.index(j, k) + l]);
   }
   return entries;
 }
@@ -70,7 +80,7 @@ void HeatSystem::add(double weight, const HeatSystem& other) {
   };
   for (std::size_t row = 0; row < layer_.size(); ++row) add_entries(layer_[row], other.layer_[row]);
   for (std::size_t i = 0; i < ring_.size(); ++i) add_entries(ring_[i], other.ring_[i]);
-  for (std::size_t node = 0; node < from_film_.size(); ++node) from_film_[node] += weight * other.from_film_[node];
+  for (std::size_t k = 0; k < from_film_.size(); ++k) from_film_[k] += weight * other.from_film_[k];
 }
 
 void HeatSystem::hold_ring() {
@@ -115,7 +125,7 @@ void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
     const Ring& of = ring_[i];
     double sum =
         of.self * x[ring_row(i)] + of.before * x[ring_row((i + n - 1) % n)] + of.after * x[ring_row((i + 1) % n)];
-    for (int j = 0; j < grid_.n_z; ++j) sum += from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
+    for (int j = 0; j < grid_.n_z; ++j) sum += from_film(grid_.index(i, j), x);
     y[ring_row(i)] = sum;
   }
   if (answer_.is_set()) y.segment(film_rows(), n) = answer_.rows(x.segment(film_rows(), n), y.segment(film_rows(), n));
@@ -173,7 +183,7 @@ void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   if (ring_.empty()) return;
   Eigen::VectorXd by_film = Eigen::VectorXd::Zero(ring_rows());
   for (int i = 0; i < ring_rows(); ++i)
-    for (int j = 0; j < grid_.n_z; ++j) by_film[i] += from_film_[grid_.index(i, j)] * x[row(grid_.index(i, j), 0)];
+    for (int j = 0; j < grid_.n_z; ++j) by_film[i] += from_film(grid_.index(i, j), x);
   if (answer_.is_set()) {
     x.segment(film_rows(), ring_rows()) = answer_.solve(b.segment(film_rows(), ring_rows()), by_film);
     return;

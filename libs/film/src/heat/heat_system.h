@@ -41,7 +41,8 @@ class HeatSystem {
   /// Of the node two steps away on that side.
   [[nodiscard]] double& beyond(int node, int layer, Side side) { return layer_[row(node, layer)].beyond[side]; }
   [[nodiscard]] double& to_ring(int node) { return layer_[row(node, 0)].ring; }
-  [[nodiscard]] double& from_film(int node) { return from_film_[node]; }
+  /// Entry of the ring's row by one of the two layers beside it.
+  [[nodiscard]] double& from_film(int node, int layer) { return from_film_[2 * node + layer]; }
   [[nodiscard]] double& ring_before(int i) { return ring_[i].before; }
   [[nodiscard]] double& ring_after(int i) { return ring_[i].after; }
 
@@ -85,6 +86,8 @@ class HeatSystem {
   };
   [[nodiscard]] int film_rows() const { return static_cast<int>(layer_.size()); }
   [[nodiscard]] int ring_rows() const { return static_cast<int>(ring_.size()); }
+  [[nodiscard]] int lowest() const { return layers_ > 1 ? 2 : 1; }
+  [[nodiscard]] double from_film(int node, const Eigen::VectorXd& x) const;
   [[nodiscard]] int neighbour(int node, int side) const { return neighbours_[node][side]; }
   [[nodiscard]] int next_but_one(int node, int side) const { return neighbour(neighbour(node, side), side); }
   void solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
@@ -96,7 +99,7 @@ class HeatSystem {
   int layers_;
   std::vector<Layer> layer_;
   std::vector<Ring> ring_;
-  std::vector<double> from_film_;                  ///< entries of the ring's rows by node
+  std::vector<double> from_film_;                  ///< entries of the ring's rows by the two lowest layers of each node
   std::vector<std::array<int, 4>> neighbours_;     ///< itself where there is none
   std::vector<int> order_;                         ///< of nodes in a sweep
   std::vector<std::pair<double, double>> pivots_;  ///< of every layer: 1/pivot, entry above over the pivot

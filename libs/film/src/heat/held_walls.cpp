@@ -44,10 +44,10 @@ std::vector<double> HeatEquations::fresh_shares(const CarryingFilm& film) const 
 void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatState& start) {
   const std::vector<double> fresh = fresh_shares(film);
   Eigen::VectorXd added = -(1 - least_storage) * storage_;
-  Eigen::VectorXd conductance_shell(model_.grid.size()), conductance_journal(model_.grid.size());
+  std::vector<WallFlux> into_shell(static_cast<std::size_t>(model_.grid.size())), into_journal = into_shell;
   for (int node = 0; node < model_.grid.size(); ++node) {
-    conductance_shell[node] = to_shell(film, node);
-    conductance_journal[node] = to_journal(film, node);
+    into_shell[static_cast<std::size_t>(node)] = to_shell(film, node);
+    into_journal[static_cast<std::size_t>(node)] = to_journal(film, node);
     double renewed = 0;
     if (film.balance.is_held(node)) {
       const auto supply = static_cast<std::size_t>(film.balance.feature_at(node) + (has_line() ? 1 : 0));
@@ -60,15 +60,15 @@ void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatSt
       const double T = start.film[row];
       const double thinning =
           -std::visit([T](const auto& law) { return law.log_viscosity(T).slope; }, model_.lubricant.temperature_law);
-      added[row] += film.flows.dissipation(node, l) * thinning + renewed / layers();
+      added[row] += film.flows.dissipation(node, l) * thinning + renewed * width(l);
     }
   }
   mean_.add_equations(film.dt, {.system = system_,
                                 .added = added,
                                 .by_journal = by_journal_,
                                 .by_shell = by_shell_.head(system_.size()),
-                                .to_shell = conductance_shell,
-                                .to_journal = conductance_journal,
+                                .to_shell = into_shell,
+                                .to_journal = into_journal,
                                 .capacity = film.dt * storage_});
 }
 

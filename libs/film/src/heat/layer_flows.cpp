@@ -39,8 +39,16 @@ Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
   return {weighted(before, after), weighted(below, above)};
 }
 
+WithinLayers within_layers(const Lubricant& oil) {
+  return oil.shear_thinning.is_newtonian() ? WithinLayers::linear : WithinLayers::constant;
+}
+
 LayerFlows::LayerFlows(const FilmModel& model, int layers)
-    : model_(model), layers_(static_cast<std::size_t>(layers)), shares_(static_cast<std::size_t>(model.grid.size())) {
+    : model_(model),
+      layers_(static_cast<std::size_t>(layers)),
+      across_(layering_of(layers_)),
+      within_(within_layers(model.lubricant)),
+      shares_(static_cast<std::size_t>(model.grid.size())) {
   upwards_.resize(shares_.size() * layers_);
   heat_.resize(shares_.size() * layers_);
   lost_.resize(shares_.size());
@@ -48,7 +56,7 @@ LayerFlows::LayerFlows(const FilmModel& model, int layers)
 
 void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
                           const Eigen::VectorXd& mu) {
-  for (std::size_t k = 0; k < shares_.size(); ++k) find_shares({mu.data() + k * layers_, layers_}, shares_[k]);
+  for (std::size_t k = 0; k < shares_.size(); ++k) find_shares({mu.data() + k * layers_, layers_}, within_, shares_[k]);
   flow_over_faces(balance, motion);
   flow_upwards(balance);
   dissipate(balance, wrench, motion);
@@ -57,7 +65,6 @@ void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, 
 // Flow along pressure and what each surface carries have profiles of their own. What roughness, pockets and bends of
 // the gap add to the flow carried is shared by all layers.
 void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion& motion) {
-  const auto n = static_cast<double>(layers_);
   faces_.resize(balance.faces().size() * layers_);
   const auto first_axial = static_cast<std::size_t>(model_.grid.size());
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
@@ -72,25 +79,26 @@ void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion
     const double full = theta * flow.density * face.width * 0.5 * (a.h + b.h);
     double rest = carried;
     for (std::size_t l = 0; l < layers_; ++l) {
-      const double own = full * (u_shell / n + 0.5 * slip * (at_a.sliding_flow[l] + at_b.sliding_flow[l]));
+      const double own =
+          full * (u_shell * across_.width(l) + 0.5 * slip * (at_a.sliding_flow[l] + at_b.sliding_flow[l]));
       faces_[f * layers_ + l] = 0.5 * along_pressure * (at_a.pressure_flow[l] + at_b.pressure_flow[l]) + own;
       rest -= own;
     }
-    for (std::size_t l = 0; l < layers_; ++l) faces_[f * layers_ + l] += rest / n;
+    for (std::size_t l = 0; l < layers_; ++l) faces_[f * layers_ + l] += rest * across_.width(l);
   }
 }
 
 // Each layer keeps its share of the node's oil: what else comes in leaves it upwards. Where a model of cavitation loses
 // oil, all layers do.
 void LayerFlows::flow_upwards(const FlowBalance& balance) {
-  const auto n = static_cast<double>(layers_);
   std::vector<double> out(shares_.size() * layers_);
   for (std::size_t k = 0; k < shares_.size(); ++k) {
     const auto node = static_cast<int>(k);
     const double leaving = std::max(balance.outflow(node), 0.0) + std::max(-balance.supply(node), 0.0);
     const double coming = std::max(-balance.outflow(node), 0.0) + std::max(balance.supply(node), 0.0);
     for (std::size_t l = 0; l < layers_; ++l)
-      out[k * layers_ + l] = (balance.storage(node) - coming) / n + leaving * shares_[k].pressure_flow[l];
+      out[k * layers_ + l] =
+          (balance.storage(node) - coming) * across_.width(l) + leaving * shares_[k].pressure_flow[l];
   }
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
     const auto a = static_cast<std::size_t>(balance.faces()[f].a), b = static_cast<std::size_t>(balance.faces()[f].b);
@@ -104,7 +112,7 @@ void LayerFlows::flow_upwards(const FlowBalance& balance) {
     for (std::size_t l = 0; l < layers_; ++l) sum += out[k * layers_ + l];
     lost_[k] = -sum;
     for (std::size_t l = 0; l < layers_; ++l) {
-      up -= out[k * layers_ + l] - sum / n;
+      up -= out[k * layers_ + l] - sum * across_.width(l);
       upwards_[k * layers_ + l] = l + 1 < layers_ ? up : 0;
     }
   }

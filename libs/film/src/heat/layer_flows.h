@@ -5,6 +5,7 @@
 
 #include "balance/flow_balance.h"
 #include "heat/layer_profile.h"
+#include "heat/layering.h"
 #include "observe/film_wrench.h"
 
 namespace hersey::film {
@@ -15,6 +16,9 @@ namespace hersey::film {
 /// The same; on supply line and features, where the pressure has a kink, the slopes of both sides, each weighted by its
 /// own size: that of the film beside a groove, and nothing on a peak.
 [[nodiscard]] Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node);
+
+/// Of oils that thin by shear the layers' own shear says how fluidity differs within them.
+[[nodiscard]] WithinLayers within_layers(const Lubricant& oil);
 
 /// How the oil of a solved film flows in its layers, and what they dissipate (theory manual, thermal.7 to thermal.9).
 /// Flows of all layers of a face add up to the film's own, dissipation to the film's power.
@@ -52,6 +56,8 @@ class LayerFlows {
 
   const FilmModel& model_;
   std::size_t layers_;
+  const Layering& across_;
+  WithinLayers within_;
   std::vector<LayerShares> shares_;  ///< of each node
   std::vector<double> faces_, upwards_, heat_, lost_;
 };

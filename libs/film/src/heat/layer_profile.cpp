@@ -1,58 +1,100 @@
 #include "heat/layer_profile.h"
 
+#include <algorithm>
+
+#include "heat/layering.h"
+
 namespace hersey::film {
 namespace {
+
+// Of a layer's fluidity, what its slope takes from it at one end at most.
+constexpr double steepest = 0.9;
+
+/// Fluidities 1/mu across the film, in each layer f + s (eta - middle).
+class Fluidities {
+ public:
+  Fluidities(std::span<const double> mu, WithinLayers within)
+      : mu_(mu), across_(layering_of(mu.size())), within_(within) {}
+
+  /// That of a layer and its slope.
+  struct Line {
+    double f = 0, s = 0;
+  };
+  [[nodiscard]] Line operator()(std::size_t l) const {
+    const double f = 1 / mu_[l];
+    if (mu_.size() == 1 || within_ == WithinLayers::constant) return {f, 0};
+    const double bound = steepest * f / (0.5 * across_.width(l));
+    return {f, std::clamp(slope(l), -bound, bound)};
+  }
+
+ private:
+  [[nodiscard]] double step(std::size_t l) const { return (1 / mu_[l + 1] - 1 / mu_[l]) / across_.to_next(l); }
+
+  /// Of the parabola through a layer and both beside it; beside a wall through it and the next two.
+  [[nodiscard]] double slope(std::size_t l) const {
+    const std::size_t n = mu_.size();
+    if (n == 2) return step(0);
+    const std::size_t k = std::clamp<std::size_t>(l, 1, n - 2);
+    const double a = across_.to_next(k - 1), b = across_.to_next(k), before = step(k - 1), after = step(k);
+    const double bend = (after - before) / (a + b), middle = before + a * bend;
+    return middle + 2 * bend * (across_.middle(l) - across_.middle(k));
+  }
+
+  std::span<const double> mu_;
+  const Layering& across_;
+  WithinLayers within_;
+};
 
 /// Integrals over the whole film of 1, y/h and (y/h)^2, over mu.
 struct Moments {
   double I0 = 0, I1 = 0, I2 = 0;
 };
 
-Moments moments_of(std::span<const double> mu) {
-  const double width = 1.0 / static_cast<double>(mu.size());
+Moments moments_of(std::size_t n, const Fluidities& fluidity) {
+  const Layering& layers = layering_of(n);
   Moments m;
-  double below = 0;
-  for (const double mu_l : mu) {
-    const double middle = below + 0.5 * width, share = width / mu_l;
-    m.I0 += share;
-    m.I1 += share * middle;
-    m.I2 += share * (middle * middle + width * width / 12);
-    below += width;
+  for (std::size_t l = 0; l < n; ++l) {
+    const auto [f, s] = fluidity(l);
+    const double width = layers.width(l), middle = layers.middle(l), bent = width * width * width / 12;
+    m.I0 += width * f;
+    m.I1 += width * f * middle + bent * s;
+    m.I2 += f * (width * middle * middle + bent) + 2 * bent * s * middle;
   }
   return m;
 }
 
 }  // namespace
 
-LayerProfile profile_of(std::span<const double> mu) {
-  const auto [I0, I1, I2] = moments_of(mu);
+LayerProfile profile_of(std::span<const double> mu, WithinLayers within) {
+  const auto [I0, I1, I2] = moments_of(mu.size(), {mu, within});
   return {12 * (I2 - I1 * I1 / I0), I0, 2 * I1 / I0 - 1};
 }
 
 // With eta = y/h, G0 and G1 the integrals of 1/mu and eta/mu from the shell up to eta, the velocity is
-// u_shell + U G0/I0 + h^2 p' (G1 - (I1/I0) G0). In a layer mu is constant, G0 linear and G1 a parabola.
-void find_shares(std::span<const double> mu, LayerShares& shares) {
+// u_shell + U G0/I0 + h^2 p' (G1 - (I1/I0) G0). In a layer 1/mu is linear, G0 a parabola and G1 a cubic.
+void find_shares(std::span<const double> mu, WithinLayers within, LayerShares& shares) {
   const std::size_t n = mu.size();
   for (auto* share :
        {&shares.pressure_flow, &shares.sliding_flow, &shares.sliding_heat, &shares.pressure_heat, &shares.mixed_heat})
     share->resize(n);
-  const auto [I0, I1, I2] = moments_of(mu);
-  const double width = 1.0 / static_cast<double>(n), centre = I1 / I0, F2 = I2 - I1 * I1 / I0;
-  double below = 0, G0 = 0, G1 = 0;
+  const Layering& layers = layering_of(n);
+  const Fluidities fluidity(mu, within);
+  const auto [I0, I1, I2] = moments_of(n, fluidity);
+  const double centre = I1 / I0, F2 = I2 - I1 * I1 / I0;
+  double G0 = 0, G1 = 0;
   for (std::size_t l = 0; l < n; ++l) {
-    const double above = below + width, middle = below + 0.5 * width, fluidity = 1 / mu[l];
-    const double int_G0 = width * (G0 + 0.5 * width * fluidity);
-    const double int_G1 =
-        width * G1 + 0.5 * fluidity * ((above * above * above - below * below * below) / 3 - below * below * width);
+    const auto [f, s] = fluidity(l);
+    const double width = layers.width(l), middle = layers.middle(l), bent = width * width * width / 12;
+    const double int_G0 = width * (G0 + 0.5 * width * f) - bent * s;
+    const double int_G1 = width * (G1 + 0.5 * width * middle * f) - bent * (f + middle * s) + 0.5 * width * bent * s;
     const double off = middle - centre;
     shares.sliding_flow[l] = int_G0 / I0;
     shares.pressure_flow[l] = (centre * int_G0 - int_G1) / F2;
-    shares.sliding_heat[l] = width * fluidity / I0;
-    shares.pressure_heat[l] = width * fluidity * (off * off + width * width / 12) / F2;
-    shares.mixed_heat[l] = 2 * width * fluidity * off / I0;
-    G0 += width * fluidity;
-    G1 += width * fluidity * middle;
-    below = above;
+    shares.sliding_heat[l] = width * f / I0;
+    shares.pressure_heat[l] = (f * (width * off * off + bent) + 2 * bent * s * off) / F2;
+    shares.mixed_heat[l] = 2 * (width * f * off + bent * s) / I0;
+    G0 += width * f;
+    G1 += width * f * middle + bent * s;
   }
 }
 

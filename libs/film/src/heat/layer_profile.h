@@ -5,8 +5,12 @@
 
 namespace hersey::film {
 
+/// What is made of the fluidity 1/mu within a layer (theory manual, thermal.50): a straight line through its mean, with
+/// the slope that those beside it give it; or one value, as of layers whose shear is known (thermal.26).
+enum class WithinLayers { linear, constant };
+
 /// What viscosities that differ across the film make of its flow and shear at one place, at the cavitation pressure
-/// (theory manual, thermal.4, thermal.5). Layers of the same thickness, from the shell to the journal.
+/// (theory manual, thermal.4, thermal.5). Layers from the shell to the journal (Layering).
 struct LayerProfile {
   double fluidity = 0;        ///< 12 F2/h^3: of the flow along pressure [1/(Pa s)]
   double shear_fluidity = 0;  ///< F0/h: of sliding [1/(Pa s)]
@@ -14,7 +18,7 @@ struct LayerProfile {
 };
 
 /// Integrals of the layers' viscosities [Pa s].
-[[nodiscard]] LayerProfile profile_of(std::span<const double> mu);
+[[nodiscard]] LayerProfile profile_of(std::span<const double> mu, WithinLayers within = WithinLayers::linear);
 
 /// What of flow and heat belongs to each layer, all without dimension but `mixed`.
 struct LayerShares {
@@ -26,6 +30,6 @@ struct LayerShares {
 };
 
 /// Shares of the layers; the vectors are made as long as `mu`.
-void find_shares(std::span<const double> mu, LayerShares& shares);
+void find_shares(std::span<const double> mu, WithinLayers within, LayerShares& shares);
 
 }  // namespace hersey::film

@@ -22,23 +22,22 @@ constexpr double first_order = 1e-3;
 
 }  // namespace
 
-LayerShear::LayerShear(const ShearThinning& thinning, int layers) : thinning_(thinning), width_(1.0 / layers) {
+LayerShear::LayerShear(const ShearThinning& thinning, int layers)
+    : thinning_(thinning), across_(layering_of(static_cast<std::size_t>(layers))) {
   const auto n = static_cast<std::size_t>(layers);
   rates_.resize(n), missing_.resize(n), by_stress_.resize(n), ratios_.resize(n), sizes_.resize(n), left_.resize(n);
   mu_.resize(n);
 }
 
 /// Stress in the middle of a layer over that in the middle of the film.
-Vector2d LayerShear::beyond_mean(std::size_t l) const {
-  return ((static_cast<double>(l) + 0.5) * width_ - 0.5) * shear_.fall;
-}
+Vector2d LayerShear::beyond_mean(std::size_t l) const { return (across_.middle(l) - 0.5) * shear_.fall; }
 
 /// Rates between viscosities that are given: the stress is linear across the film.
 void LayerShear::follow(std::span<const double> left) {
   double sum = 0;
   Vector2d by_pressure = Vector2d::Zero();
   for (std::size_t l = 0; l < rates_.size(); ++l) {
-    const double fluidity = width_ / (mu_n_[l] * left[l]);
+    const double fluidity = across_.width(l) / (mu_n_[l] * left[l]);
     sum += fluidity;
     by_pressure += fluidity * beyond_mean(l);
   }
@@ -66,8 +65,8 @@ double LayerShear::newton_step() {
     if (sizes_[l] > 0)
       by_stress_[l] += (1 / tangent - 1 / secant) / (sizes_[l] * sizes_[l]) * rates_[l] * rates_[l].transpose();
     missing_[l] = beyond_mean(l) - secant * rates_[l];
-    all += width_ * by_stress_[l];
-    rest -= width_ * (rates_[l] + by_stress_[l] * missing_[l]);
+    all += across_.width(l) * by_stress_[l];
+    rest -= across_.width(l) * (rates_[l] + by_stress_[l] * missing_[l]);
   }
   const Vector2d mean = all.inverse() * rest;
   double largest = 0, change = 0;
@@ -119,9 +118,11 @@ Vector2d LayerShear::flow_factors() {
   for (std::size_t l = 0; l < rates_.size(); ++l) {
     const double square = rates_[l].squaredNorm();
     if (square == 0) continue;
-    beyond += (1 / ratios_[l].tangent().value - 1 / ratios_[l].value) / (mu_n_[l] * square) * rates_[l].cwiseAbs2();
+    const double cube = across_.width(l) * across_.width(l) * across_.width(l);
+    beyond +=
+        cube * (1 / ratios_[l].tangent().value - 1 / ratios_[l].value) / (mu_n_[l] * square) * rates_[l].cwiseAbs2();
   }
-  return Vector2d::Ones() + width_ * width_ * width_ / profile_of(mu_).fluidity * beyond;
+  return Vector2d::Ones() + beyond / profile_of(mu_, WithinLayers::constant).fluidity;
 }
 
 }  // namespace hersey::film

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "heat/layering.h"
 #include "hersey/film/shear_law.h"
 
 namespace hersey::film {
@@ -40,7 +41,7 @@ class LayerShear {
   [[nodiscard]] Eigen::Vector2d beyond_mean(std::size_t l) const;
 
   const ShearThinning& thinning_;
-  double width_;
+  const Layering& across_;
   std::span<const double> mu_n_;
   ShearOfGap shear_;
   std::vector<Eigen::Vector2d> rates_, missing_;  ///< around and along the axis [1/s]; [Pa]

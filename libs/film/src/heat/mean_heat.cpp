@@ -1,11 +1,20 @@
 #include "heat/mean_heat.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
 
 namespace hersey::film {
+namespace {
+
+void add(double dt, const std::vector<WallFlux>& flux, Eigen::MatrixX2d& sum) {
+  for (std::size_t node = 0; node < flux.size(); ++node)
+    sum.row(static_cast<Eigen::Index>(node)) += dt * Eigen::RowVector2d(flux[node].beside, -flux[node].next);
+}
+
+}  // namespace
 
 MeanHeat::MeanHeat(const Grid& grid, int layers, const Walls& walls)
     : grid_(grid), layers_(layers), walls_(walls), system_(grid, layers, walls.ring) {
@@ -17,7 +26,7 @@ void MeanHeat::clear() {
   system_.set_zero();
   by_journal_.setZero(system_.size());
   by_shell_.setZero(system_.size());
-  to_shell_.setZero(grid_.size()), to_journal_.setZero(grid_.size());
+  to_shell_.setZero(grid_.size(), 2), to_journal_.setZero(grid_.size(), 2);
   into_nodes_.setZero();
   into_.setZero(system_.size() + 1);
   capacity_.setZero(grid_.size() * layers_);
@@ -30,11 +39,11 @@ void MeanHeat::add_equations(double dt, const Equations& equations) {
   capacity_ += dt * equations.capacity;
   if (walls_.free_journal || walls_.journal_node) {
     by_journal_ += dt * equations.by_journal;
-    to_journal_ += dt * equations.to_journal;
+    add(dt, equations.to_journal, to_journal_);
   }
   if (!walls_.shell_node) return;
   by_shell_ += dt * equations.by_shell;
-  to_shell_ += dt * equations.to_shell;
+  add(dt, equations.to_shell, to_shell_);
 }
 
 void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vector2d& into_nodes,
@@ -62,8 +71,10 @@ MeanHeat::Change MeanHeat::change_of(const Eigen::VectorXd& x) const {
 Eigen::Vector2d MeanHeat::heat_of(const Eigen::VectorXd& x) const {
   Eigen::Vector2d heat = Eigen::Vector2d::Zero();
   for (int node = 0; node < grid_.size(); ++node) {
-    if (walls_.shell_node) heat[0] += to_shell_[node] * x[system_.row(node, 0)];
-    if (walls_.journal_node) heat[1] += to_journal_[node] * x[system_.row(node, layers_ - 1)];
+    for (int beside = 0; beside < std::min(layers_, 2); ++beside) {
+      if (walls_.shell_node) heat[0] += to_shell_(node, beside) * x[system_.row(node, beside)];
+      if (walls_.journal_node) heat[1] += to_journal_(node, beside) * x[system_.row(node, layers_ - 1 - beside)];
+    }
   }
   return heat;
 }
@@ -114,7 +125,8 @@ Eigen::SparseMatrix<double> MeanHeat::matrix() const {
   const double journal_self = walls_.free_journal ? to_journal_.sum() : 0;
   add(rows, rows, journal_self != 0 ? journal_self : 1);
   for (int node = 0; walls_.free_journal && node < grid_.size(); ++node)
-    add(rows, system_.row(node, layers_ - 1), -to_journal_[node]);
+    for (int beside = 0; beside < std::min(layers_, 2); ++beside)
+      add(rows, system_.row(node, layers_ - 1 - beside), -to_journal_(node, beside));
   Eigen::SparseMatrix<double> A(rows + 1, rows + 1);
   A.setFromTriplets(entries.begin(), entries.end());
   return A;

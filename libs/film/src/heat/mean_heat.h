@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "heat/heat_system.h"
+#include "heat/wall_flux.h"
 #include "hersey/core/archive.h"
 #include "hersey/film/grid.h"
 #include "hersey/film/heat_state.h"
@@ -23,12 +24,12 @@ class MeanHeat {
   /// The equations of a step, walls' rows included.
   struct Equations {
     const HeatSystem& system;
-    const Eigen::VectorXd& added;       ///< to the diagonals of the film's rows: they store nothing [W/K]
-    const Eigen::VectorXd& by_journal;  ///< of the rows, by the journal's temperature [W/K]
-    const Eigen::VectorXd& by_shell;    ///< of the rows, by the temperature of a shell that is a node [W/K]
-    const Eigen::VectorXd& to_shell;    ///< conductances between layers and such a shell, by node [W/K]
-    const Eigen::VectorXd& to_journal;  ///< and between layers and journal [W/K]
-    const Eigen::VectorXd& capacity;    ///< heat capacity of the film's rows [J/K]
+    const Eigen::VectorXd& added;             ///< to the diagonals of the film's rows: they store nothing [W/K]
+    const Eigen::VectorXd& by_journal;        ///< of the rows, by the journal's temperature [W/K]
+    const Eigen::VectorXd& by_shell;          ///< of the rows, by the temperature of a shell that is a node [W/K]
+    const std::vector<WallFlux>& to_shell;    ///< into such a shell, by node
+    const std::vector<WallFlux>& to_journal;  ///< and into the journal
+    const Eigen::VectorXd& capacity;          ///< heat capacity of the film's rows [J/K]
   };
 
   /// Of a ring and a free journal [K].
@@ -71,7 +72,8 @@ class MeanHeat {
   Walls walls_;
   double time_ = 0;
   HeatSystem system_;
-  Eigen::VectorXd by_shell_, by_journal_, to_shell_, to_journal_, into_, capacity_;
+  Eigen::VectorXd by_shell_, by_journal_, into_, capacity_;
+  Eigen::MatrixX2d to_shell_, to_journal_;  ///< heat by the two layers beside these walls, node by node [J/K]
   Eigen::Vector2d into_nodes_;
   Eigen::VectorXd begin_, end_;  // temperatures of the film
 };
