@@ -166,9 +166,10 @@ void MachineRun::report_progress(const StepRecord& step) const {
 }
 
 std::string MachineRun::finish(Status status, const std::string& message, const Summary* coarse) {
+  cost_ = cost();
   try {
     if (coarse != nullptr && status == Status::completed) record_.write_step_errors(*coarse);
-    record_.finish(as_written(status), message, elapsed(), work_.work());
+    record_.finish(as_written(status), message, cost_->wall_time, cost_->work);
   } catch (const results::WriteError& error) {
     return error.what();
   }
@@ -181,8 +182,9 @@ Summary MachineRun::summary() const {
   summary.t_end = state_.t;
   summary.rejected_steps = march_.rejected_steps();
   record_.summarise(summary);
-  summary.wall_time = elapsed();
-  summary.work = work_.work();
+  const Cost spent = cost_ ? *cost_ : cost();
+  summary.wall_time = spent.wall_time;
+  summary.work = spent.work;
   return summary;
 }
 

@@ -76,6 +76,10 @@ class MachineRun {
 
  private:
   using Clock = std::chrono::steady_clock;
+  struct Cost {
+    double wall_time = 0;  // [s]
+    Work work;
+  };
 
   void restore_file(Archive::Content checkpoint);
   [[nodiscard]] StepRecord observe(const MarchedStep& step);
@@ -83,6 +87,7 @@ class MachineRun {
   void record(StepRecord step);
   void report_progress(const StepRecord& step) const;
   [[nodiscard]] double elapsed() const;
+  [[nodiscard]] Cost cost() const { return {elapsed(), work_.work()}; }
 
   const model::Model& model_;
   const Options& options_;
@@ -96,7 +101,8 @@ class MachineRun {
   CheckpointSchedule checkpoints_;
   StepRecord seen_;
   bool resumes_ = false;
-  double before_ = 0;  // computing time before the run was resumed [s]
+  std::optional<Cost> cost_;  // as the results were closed with it: the summary tells the same
+  double before_ = 0;         // computing time before the run was resumed [s]
 };
 
 }  // namespace hersey::run

@@ -237,11 +237,11 @@ Summary Simulation::summary() const {
 }
 
 Summary Simulation::finish() {
-  Summary found = summary();
+  const Summary found = summary();
   if (std::exchange(impl_->is_finished, true) || impl_->options.results.empty()) return found;
   const std::string trouble = impl_->run.finish(found.status, found.message, nullptr);
   if (!trouble.empty()) throw std::runtime_error(trouble);
-  return found;
+  return summary();
 }
 
 }  // namespace hersey::run
