@@ -12,7 +12,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help program demo test bench validate mutations fuzz random-models web web-check web-test python docs docs-test pictures package package-test format lint install clean
+.PHONY: help program demo test bench validate mutations fuzz random-models studies test-slurm web web-check web-test python docs docs-test pictures package package-test format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -24,7 +24,7 @@ demo: program  ## simulates the paper's big-end bearing and says where the repor
 	@scripts/demo $(BUILD) $(QUICK)
 
 test: $(BUILD)/build.ninja  ## builds everything and runs every test (FILTER=regex: some of them)
-	@scripts/setup build test
+	@scripts/setup build test study
 	@$(PHASE) compile build/log/compile.log cmake --build $(BUILD) -j $(JOBS)
 	@scripts/run-tests $(BUILD) $(JOBS) '$(FILTER)'
 
@@ -48,6 +48,14 @@ fuzz: program  ## feeds the readers with mutated input for TIME=60, address and 
 	@$(PHASE) compile build/log/fuzz.log cmake --build build/fuzz --target fuzzers -j $(JOBS)
 	@status=0; scripts/fuzz build/fuzz $(TIME) '$(FILTER)' $(SEED) || status=1; \
 	  $(MAKE) --no-print-directory random-models || status=1; exit $$status
+
+studies: program  ## tries studies: plans, kills, statistics, optimum
+	@scripts/setup test study
+	@$(PHASE) studies build/log/studies.log /usr/bin/python3 tests/study/study_test.py $(BUILD)/hersey
+
+test-slurm: program  ## tries studies on a cluster of this machine's own: slurmctld and slurmd on loopback, as root
+	@scripts/setup test study slurm
+	@$(PHASE) test-slurm build/log/test-slurm.log /usr/bin/python3 tests/study/slurm_test.py $(BUILD)/hersey
 
 web:  ## rebuilds the report's front end (needs Node; the C++ build does not)
 	@scripts/web build

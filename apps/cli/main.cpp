@@ -15,6 +15,7 @@
 #include "hersey/core/version.h"
 #include "hersey/results/error.h"
 #include "standard_streams.h"
+#include "study_command.h"
 
 namespace hersey::cli {
 namespace {
@@ -252,6 +253,57 @@ CLI::App* add_stress_command(CLI::App& app, SolidArguments& solid) {
   return command;
 }
 
+CLI::App* add_study_command(CLI::App& app, StudyArguments& study) {
+  CLI::App* command = app.add_subcommand(
+      "study", "Plan the runs of a model's study, do those that are missing, sum up: uncertainty, optimum, figures");
+  command->add_option("MODEL", study.model, "Model file with a section `study`")->required();
+  add_overrides(*command, study.overrides);
+  command->add_option("--out,--output", study.output, "The study's folder (default: studies/<model>)")
+      ->type_name("DIR");
+  command->add_option("--on", study.on, "Where runs are done (default: local)")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->type_name("local|slurm");
+  command
+      ->add_option("--jobs", study.jobs, "Runs, or tasks of the cluster, at the same time (default: one per processor)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--partition", study.partition, "Partition of the cluster (default: its own)")->type_name("NAME");
+  command->add_option("--chunk", study.chunk, "Runs of one task of the cluster (default: as many as take a while)")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--again", study.again, "Do failed runs again too");
+  command->add_option("--runner", study.runner, "Another program that answers runs, one line of JSON each")
+      ->type_name("COMMAND");
+  command->add_flag("--json", study.json, "Print the results as JSON");
+  return command;
+}
+
+// The commands that the module of studies calls are in no list.
+CLI::App* add_study_plan_command(CLI::App& app, StudyPlanArguments& plan) {
+  CLI::App* command = app.add_subcommand("study-plan", "Print a model's study, checked, as JSON")->group("");
+  command->add_option("MODEL", plan.model, "Model file")->required();
+  add_overrides(*command, plan.overrides);
+  command->add_flag("--any-figure", plan.any_figure, "Do not check names of figures");
+  return command;
+}
+
+CLI::App* add_study_task_command(CLI::App& app, StudyTaskArguments& task) {
+  CLI::App* command = app.add_subcommand("study-task", "Answer runs given as JSON, one a line")->group("");
+  command->add_option("MODEL", task.model, "Model file")->required();
+  add_overrides(*command, task.overrides);
+  command->add_option("--analysis", task.analysis, "What a run is")->check(CLI::IsMember({"steady", "simulation"}));
+  command->add_option("--figure", task.outputs, "A figure that is wanted")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_flag("--end-with-parent", task.end_with_parent, "End when the program ends that started this one");
+  return command;
+}
+
+CLI::App* add_study_page_command(CLI::App& app, std::filesystem::path& data, std::filesystem::path& page) {
+  CLI::App* command = app.add_subcommand("study-page", "Write the page of a study from its data")->group("");
+  command->add_option("DATA", data, "JSON")->required();
+  command->add_option("PAGE", page, "HTML file to write")->required();
+  return command;
+}
+
 // What is wrong with the first word, if it is no command: "unknown command 'rnu': did you mean 'run'?".
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string given = argc > 1 ? argv[1] : "";
@@ -324,6 +376,16 @@ int dispatch(int argc, char** argv) {
   OilArguments oil;
   const CLI::App* oil_app = add_oil_command(app, oil);
 
+  StudyArguments study;
+  StudyPlanArguments study_plan;
+  StudyTaskArguments study_task;
+  std::filesystem::path study_data, study_page;
+  study.program = argv[0];
+  const CLI::App* study_app = add_study_command(app, study);
+  const CLI::App* study_plan_app = add_study_plan_command(app, study_plan);
+  const CLI::App* study_task_app = add_study_task_command(app, study_task);
+  const CLI::App* study_page_app = add_study_page_command(app, study_data, study_page);
+
   bool markdown = false, of_results = false;
   CLI::App* schema_app = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
   schema_app->add_flag("--results", of_results, "Print what results files hold, as JSON for programs, instead");
@@ -348,6 +410,10 @@ int dispatch(int argc, char** argv) {
   if (*modes_app) return modes_command(modes);
   if (*stress_app) return stress_command(stress);
   if (*oil_app) return oil_command(oil);
+  if (*study_app) return study_command(study);
+  if (*study_plan_app) return study_plan_command(study_plan);
+  if (*study_task_app) return study_task_command(study_task);
+  if (*study_page_app) return study_page_command(study_data, study_page);
   return schema_command(of_results, markdown);
 }
 

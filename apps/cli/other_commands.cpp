@@ -70,6 +70,13 @@ void require_names(const ReportArguments& arguments) {
                              ""});
 }
 
+/// Those of a study that writes them out; of any other its parameters are checked.
+std::vector<model::StudyRun> runs_of(const model::Model& model, const CheckArguments& arguments) {
+  if (!model.study || model.study->is_written_out()) return model::expand_study(arguments.model, arguments.overrides);
+  (void)model::check_study(arguments.model, arguments.overrides);
+  return {};
+}
+
 }  // namespace
 
 void warn(const std::vector<Fault>& warnings) {
@@ -81,7 +88,7 @@ int check_command(const CheckArguments& arguments) {
       {"model", arguments.model}, {"faults", nlohmann::json::array()}, {"warnings", nlohmann::json::array()}};
   try {
     const model::Model model = model::read(arguments.model, arguments.overrides);
-    const std::vector<model::StudyRun> runs = model::expand_study(arguments.model, arguments.overrides);
+    const std::vector<model::StudyRun> runs = runs_of(model, arguments);
     std::vector<Fault> warnings = warnings_of(model);
     for (const model::StudyRun& run : runs) add_new(warnings_of(model::read(arguments.model, run.overrides)), warnings);
     for (const Fault& warning : warnings) document["warnings"].push_back(json_of(warning));

@@ -20,6 +20,8 @@ export interface DatasetText {
   columns?: string[];
 }
 
+import type { StudyText } from "./sampling_data";
+
 type Attribute = string | number | string[];
 
 export interface RunText {
@@ -42,6 +44,7 @@ interface ReportText {
   title: string;
   runs: RunText[];
   bearing?: BearingText;
+  study?: StudyText;
 }
 
 /** A bearing by itself, as libs/report/src/bearing_page.cpp writes it. */
@@ -233,6 +236,8 @@ export interface Report {
   runs: Run[];
   /** In a report of a bearing by itself, which has no runs. */
   bearing?: BearingText;
+  /** Likewise of a study of many runs. */
+  study?: StudyText;
 }
 
 /** A run that has fields only, of one instant. */
@@ -246,5 +251,5 @@ export function readReport(): Report {
   const text = element?.textContent ?? "";
   if (!text) throw new Error("this page is a template without data: write a report with `hersey report RESULTS`");
   const report = JSON.parse(text) as ReportText;
-  return { title: report.title, runs: report.runs.map((run) => new Run(run)), ...(report.bearing ? { bearing: report.bearing } : {}) };
+  return { title: report.title, runs: report.runs.map((run) => new Run(run)), ...(report.bearing ? { bearing: report.bearing } : {}), ...(report.study ? { study: report.study } : {}) };
 }

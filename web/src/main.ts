@@ -7,6 +7,7 @@ import { assumptions, header, status } from "./header";
 import { licences } from "./licences";
 import { showBearing } from "./bearing_page";
 import { RunView } from "./run_view";
+import { showSampling } from "./sampling_page";
 import { StudyView } from "./study_view";
 import { studyVerdict } from "./study_verdict";
 import { followSystem } from "./theme";
@@ -70,7 +71,8 @@ function start(): void {
   followSystem();
   try {
     const report = readReport();
-    if (report.bearing) showBearing(page, report.title, report.bearing);
+    if (report.study) showSampling(page, report.study);
+    else if (report.bearing) showBearing(page, report.title, report.bearing);
     else if (report.runs.length > 1) showStudy(page, report);
     else showRun(page, report);
     page.append(licences());

@@ -129,10 +129,95 @@ TEST_CASE("FaultyStudies_ArePlaced") {
   CHECK(faults_of(good_model + "study:\n  parameters:\n    load: []\n") ==
         "m.yaml:36:11: study.parameters.load: a list of 0; expected a list of values, such as [100 N]");
   CHECK(faults_of(good_model + "study:\n  parameters:\n    load: 3 N\n") ==
-        "m.yaml:36:11: study.parameters.load: '3 N'; expected a list of values, such as [100 N]");
+        "m.yaml:36:11: study.parameters.load: '3 N'; expected a list of values, or {distribution, ...}");
   CHECK(faults_of(good_model + "study:\n  figures: [map]\n") ==
-        "m.yaml:34:1: study: missing key 'parameters'; expected a mapping from parameters to lists of values\n"
+        "m.yaml:34:1: study: missing key 'parameters'; expected a mapping from parameters to lists of values or "
+        "distributions\n"
         "m.yaml:35:13: study.figures.0: 'map'; expected midplane_pressure or film_thickness");
+}
+
+Distribution distribution_of(const std::string& text) {
+  const Model model =
+      read_text(good_model + "study:\n  plan: sobol\n  parameters:\n    load: " + text + "\n", "m.yaml");
+  REQUIRE(model.study->parameters.at(0).distribution.has_value());
+  return *model.study->parameters[0].distribution;
+}
+
+TEST_CASE("Distributions_AreReadInOneUnit") {
+  const Distribution cut = distribution_of(
+      "{distribution: truncated_normal, mean: 1 kN, standard_deviation: 50 N, low: 900 N, high: 1.2 kN}");
+  const double round_off = 4 * std::numeric_limits<double>::epsilon();  // one factor of units, twice
+  CHECK(cut.kind == Distribution::Kind::truncated_normal);
+  CHECK(cut.unit == "kN");
+  CHECK(cut.mean == 1);
+  CHECK(cut.standard_deviation == doctest::Approx(0.05).epsilon(round_off));
+  CHECK(cut.low == doctest::Approx(0.9).epsilon(round_off));
+  CHECK(cut.highest() == doctest::Approx(1.2).epsilon(round_off));
+  const Distribution free = distribution_of("{distribution: normal, mean: 100 N, standard_deviation: 2 N}");
+  CHECK(free.lowest() == 90);
+  CHECK(free.highest() == 110);
+  CHECK(distribution_of("{distribution: triangular, low: 1 N, mode: 1 N, high: 2 N}").mode == 1);
+}
+
+TEST_CASE("FaultyDistributions_ArePlaced") {
+  const auto fault = [](const std::string& text) {
+    return faults_of(good_model + "study:\n  plan: sobol\n  parameters:\n    load: " + text + "\n");
+  };
+  CHECK(fault("{distribution: uniform, low: 2 N, high: 1 N}") ==
+        "m.yaml:37:51: study.parameters.load.high: '1 N'; expected a value above `low`");
+  CHECK(fault("{distribution: normal, mean: 2 N, standard_deviation: -1 N}") ==
+        "m.yaml:37:65: study.parameters.load.standard_deviation: '-1 N'; expected a standard deviation > 0");
+  CHECK(fault("{distribution: triangular, low: 1 N, mode: 3 N, high: 2 N}") ==
+        "m.yaml:37:54: study.parameters.load.mode: '3 N'; expected a value from `low` to `high`");
+  CHECK(
+      fault("{distribution: truncated_normal, mean: 1 N, standard_deviation: 1 N, low: 20 N, high: 21 N}") ==
+      "m.yaml:37:85: study.parameters.load.low: '20 N'; expected a value at most 8 standard deviations above the mean");
+  CHECK(fault("{distribution: truncated_normal, mean: 1 N, standard_deviation: 1 N, low: -21 N, high: -20 N}") ==
+        "m.yaml:37:98: study.parameters.load.high: '-20 N'; expected a value at most 8 standard deviations below the "
+        "mean");
+  CHECK(fault("{distribution: uniform, low: 1 N, high: 3 mm}").find("study.parameters.load.high: a length (mm)") !=
+        std::string::npos);
+  CHECK(fault("{distribution: normall, mean: 1 N}").find("did you mean 'normal'?") != std::string::npos);
+}
+
+TEST_CASE("PlansAndTheirParameters_AreToFit") {
+  const std::string range = "{distribution: uniform, low: 1 N, high: 2 N}";
+  const auto fault = [](const std::string& text) { return faults_of(good_model + "study:\n" + text); };
+  CHECK(fault("  parameters:\n    load: " + range + "\n").find("a distribution in the plan 'full_factorial'") !=
+        std::string::npos);
+  CHECK(fault("  plan: list\n  parameters:\n    load: [1 N, 2 N]\n    speed: [3 rpm]\n")
+            .find("study.parameters.speed: 1 values; expected as many as 'load' has: 2") != std::string::npos);
+  CHECK(fault("  plan: optimise\n  parameters:\n    load: [1 N]\n  minimise: bearings.big_end.moft\n")
+            .find("study.parameters.load: a list of values; expected {distribution: uniform") != std::string::npos);
+  CHECK(fault("  plan: optimise\n  parameters:\n    load: " + range + "\n").find("0 figures to minimise or maximise") !=
+        std::string::npos);
+  CHECK(fault("  diagram: run_up\n  parameters:\n    load: [1 N]\n").find("'run_up' without `spectrum_of`") !=
+        std::string::npos);
+}
+
+TEST_CASE("PlansThatDraw_AreNotWrittenOut") {
+  const StudyFile file(good_model +
+                       "study:\n  plan: halton\n  parameters:\n    load: {distribution: uniform, low: 1 N, "
+                       "high: 2 N}\n");
+  CHECK_THROWS_WITH_AS((void)expand_study(file.path()), doctest::Contains("`hersey study` runs this one"), InputError);
+  CHECK(check_study(file.path()).size() == 1);
+  CHECK(check_study(file.path(), {"load=1 N"}).empty());
+}
+
+TEST_CASE("EndsOfADistribution_AreCheckedAsValues") {
+  const std::string normal =
+      "study:\n  plan: sobol\n  parameters:\n    bearings.big_end.radial_clearance:\n      "
+      "{distribution: normal, mean: 34 um, standard_deviation: 10 um}\n";
+  const StudyFile file(good_model + normal);
+  CHECK_THROWS_WITH_AS((void)check_study(file.path()), doctest::Contains("5 standard deviations off the mean"),
+                       InputError);
+  CHECK_THROWS_WITH_AS((void)check_study(file.path()), doctest::Contains("truncated_normal"), InputError);
+}
+
+TEST_CASE("Fingerprint_IsOfWhatDecidesTheResult") {
+  const auto of = [](const std::string& text) { return model_fingerprint(StudyFile(text).path()); };
+  CHECK(of(good_model) == of("# a comment\n" + good_model + study));
+  CHECK(of(good_model) != of(edited(good_model, "34 um", "35 um")));
 }
 
 TEST_CASE("FaultyValueOfAStudy_IsFoundBeforeTheFirstRun") {

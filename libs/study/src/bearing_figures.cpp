@@ -466,6 +466,13 @@ std::string filled_in(const std::string& text, const std::string& name) {
 
 }  // namespace
 
+std::vector<std::string> figure_keys() {
+  std::vector<std::string> keys;
+  for (const Group& group : table())
+    for (const Line& line : group.lines) keys.push_back(line.key);
+  return keys;
+}
+
 std::vector<BearingFigure> figures_of(const BearingSolution& solution) {
   std::vector<BearingFigure> figures;
   for (const Group& group : table()) {

@@ -401,6 +401,66 @@ BearingSolution BearingSolver::solve(const model::Model& model, const BearingStu
   return solution;
 }
 
+struct RunSolver::Impl {
+  std::string path;
+  std::vector<std::string> given;
+  KnownBodies bodies;
+  std::map<std::string, std::optional<BearingSolution>> as_it_stands;  ///< by bearing; empty: has no solution
+
+  BearingSolution attempt(const model::Model& model, const model::StudyRun& run, const std::string& bearing,
+                          const bearing::SteadyState* start) {
+    BearingSolution solution{.run = run, .error = {}};
+    const BearingStudyOptions options{.bearing = bearing, .grid_error = false};
+    solve_one(model, options, start, bodies, solution);
+    return solution;
+  }
+
+  const BearingSolution* start_of(const std::string& bearing) {
+    const auto known = as_it_stands.find(bearing);
+    if (known != as_it_stands.end()) return known->second ? &*known->second : nullptr;
+    std::optional<BearingSolution>& kept = as_it_stands[bearing];
+    try {
+      kept = attempt(model::read(path, given), {given, "", "", {}}, bearing, nullptr);
+      if (!kept->solved()) kept.reset();
+    } catch (const std::exception&) {
+      kept.reset();  // the model as it stands has no answer: the run's own reason is told
+    }
+    return kept ? &*kept : nullptr;
+  }
+};
+
+RunSolver::RunSolver(std::string path, std::vector<std::string> given) : impl_(std::make_unique<Impl>()) {
+  impl_->path = std::move(path);
+  impl_->given = std::move(given);
+}
+
+RunSolver::~RunSolver() = default;
+
+std::vector<std::pair<std::string, BearingSolution>> RunSolver::solve(const model::StudyRun& run,
+                                                                      const std::vector<std::string>& bearings) {
+  const model::Model model = model::read(impl_->path, run.overrides);
+  std::vector<std::string> wanted = bearings;
+  if (wanted.empty())
+    for (const model::Bearing& bearing : model.bearings)
+      if (bearing.operating_point) wanted.push_back(bearing.name);
+  if (wanted.empty()) (void)operating_point_of(bearing_called(model, ""));
+  std::vector<std::pair<std::string, BearingSolution>> solutions;
+  for (const std::string& name : wanted) {
+    BearingSolution solution = impl_->attempt(model, run, name, nullptr);
+    if (!solution.solved()) {
+      if (const BearingSolution* start = impl_->start_of(name); start != nullptr) {
+        BearingSolution again = impl_->attempt(model, run, name, &start->state);
+        if (again.solved()) {
+          again.from_neighbour = true;
+          solution = std::move(again);
+        }
+      }
+    }
+    solutions.emplace_back(name, std::move(solution));
+  }
+  return solutions;
+}
+
 model::StudyParameter parse_sweep(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) fault("'" + text + "'");

@@ -302,35 +302,6 @@ void interpret_simulation(Context& context) {
   interpret_output(context);
 }
 
-void interpret_study(Context& context) {
-  const Value* value = context.root.find("study");
-  if (value == nullptr) return;
-  Study study;
-  study.position = value->key_position;
-  const std::vector<std::string> names = names_in(context.root, "parameters");
-  for (const auto& [name, values] : section(*value, "parameters")) {
-    StudyParameter parameter{name, {}, values.key_position};
-    for (const auto& [index, item] : values.members) parameter.values.push_back(item.text);
-    const bool is_path = name.find('.') != std::string::npos;
-    if (!is_path && std::find(names.begin(), names.end(), name) == names.end()) {
-      context.fault_at_key(values, "unknown parameter '" + name + "'",
-                           names.empty() ? "a parameter, but the model has none" : one_of(names),
-                           did_you_mean(name, names));
-    }
-    study.parameters.push_back(std::move(parameter));
-  }
-  if (const Value* variants = value->find("variants"); variants != nullptr && !variants->broken) {
-    if (std::find(names.begin(), names.end(), kVariant) != names.end()) {
-      context.fault_at_key(*variants, "variants beside a parameter called 'variant'", "another name for the parameter");
-    }
-    study.parameters.push_back({kVariant, names_in(*value, "variants"), variants->key_position});
-  }
-  for (const auto& [index, figure] : section(*value, "figures")) {
-    study.figures.push_back(meaning_of(figure, study_figure_words));
-  }
-  context.model.study = std::move(study);
-}
-
 namespace {
 
 void require_function_of_crank(Context& context, const Function& function, const std::string& what) {

@@ -1,5 +1,7 @@
 #include "hersey/model/study.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <set>
@@ -72,6 +74,23 @@ void tell_slugs_apart(std::vector<StudyRun>& runs) {
   }
 }
 
+/// All values, or the ends of the distribution.
+std::vector<std::string> values_to_check(const StudyParameter& parameter) {
+  if (!parameter.distribution) return parameter.values;
+  const Distribution& d = *parameter.distribution;
+  std::vector<std::string> ends;
+  for (const double end : {d.lowest(), d.highest()})
+    ends.push_back(fmt::format("{:.10g}{}{}", end, d.unit.empty() ? "" : " ", d.unit));
+  return ends;
+}
+
+void tell_reach(std::vector<Fault>& faults, std::size_t from) {
+  for (std::size_t i = from; i < faults.size(); ++i) {
+    faults[i].found += fmt::format(", {:g} standard deviations off the mean,", Distribution::reach);
+    if (faults[i].suggestion.empty()) faults[i].suggestion = "`truncated_normal` ends at `low` and `high`";
+  }
+}
+
 /// Reads the model once with each single value of the study; its faults point at the study's lines.
 void check_values(const std::string& path, const std::vector<std::string>& overrides,
                   const std::vector<StudyParameter>& parameters) {
@@ -79,12 +98,14 @@ void check_values(const std::string& path, const std::vector<std::string>& overr
   const std::vector<Override> given = parse_overrides(overrides, faults);
   const Node root = parse_yaml(file_text(path), path, faults).value_or(Node{});
   for (const StudyParameter& parameter : parameters) {
-    for (const std::string& text : parameter.values) {
+    const std::size_t before = faults.size();
+    for (const std::string& text : values_to_check(parameter)) {
       std::vector<Override> changes = given;
       changes.push_back({parameter.name, parse_yaml(text, path, faults).value_or(Node{}), parameter.position});
       move_to(changes.back().value, parameter.position);
       (void)read_tree(root, path, changes, faults);
     }
+    if (parameter.distribution && !parameter.distribution->is_bounded()) tell_reach(faults, before);
   }
   if (faults.empty()) return;
   tidy(faults);
@@ -109,14 +130,55 @@ std::vector<StudyRun> expand_parameters(const std::string& path, const std::vect
   return runs;
 }
 
+namespace {
+
+/// Those that are not fixed.
+std::vector<StudyParameter> varied_by(const Study& study, const std::vector<std::string>& overrides) {
+  std::vector<StudyParameter> varied;
+  for (const StudyParameter& parameter : study.parameters) {
+    if (!is_fixed_by(overrides, parameter.name)) varied.push_back(parameter);
+  }
+  return varied;
+}
+
+/// Values side by side.
+std::vector<StudyRun> expand_list(const std::vector<StudyParameter>& parameters,
+                                  const std::vector<std::string>& overrides) {
+  std::vector<StudyRun> runs;
+  const std::size_t count = parameters.empty() ? 0 : parameters.front().values.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<StudyParameter> one = parameters;
+    for (StudyParameter& parameter : one) parameter.values = {parameter.values[i]};
+    runs.push_back(run_of(one, 0, overrides));
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      runs.back().values[k] = value_of(parameters[k], parameters[k].values[i]);
+  }
+  tell_slugs_apart(runs);
+  return runs;
+}
+
+}  // namespace
+
+std::vector<StudyParameter> check_study(const std::string& path, const std::vector<std::string>& overrides) {
+  const Model model = read(path, overrides);
+  if (!model.study) return {};
+  const std::vector<StudyParameter> varied = varied_by(*model.study, overrides);
+  check_values(path, overrides, varied);
+  return varied;
+}
+
 std::vector<StudyRun> expand_study(const std::string& path, const std::vector<std::string>& overrides) {
   const Model model = read(path, overrides);
   if (!model.study) return {};
-  std::vector<StudyParameter> varied;
-  for (const StudyParameter& parameter : model.study->parameters) {
-    if (!is_fixed_by(overrides, parameter.name)) varied.push_back(parameter);
-  }
-  return expand_parameters(path, overrides, varied);
+  const std::vector<StudyParameter> varied = varied_by(*model.study, overrides);
+  if (varied.empty()) return {};
+  if (!model.study->is_written_out())
+    throw InputError(Fault{model.position_of("study.plan"), "study.plan", "a plan that draws or looks for its runs",
+                           "`full_factorial` or `list`, whose runs are written out",
+                           "`hersey study` runs this one; --set PARAMETER=VALUE for each gives a single run"});
+  if (model.study->plan == StudyPlan::full_factorial) return expand_parameters(path, overrides, varied);
+  check_values(path, overrides, varied);
+  return expand_list(varied, overrides);
 }
 
 }  // namespace hersey::model

@@ -117,28 +117,4 @@ TypePtr output_format() {
       });
 }
 
-TypePtr study_format() {
-  auto parameters =
-      std::make_shared<Type>(*named("a mapping from parameters to lists of values",
-                                    list("a list of values", scalar("a number, quantity or word", "100 N"))));
-  parameters->free_names = true;
-  const TypePtr variant = any_of(
-      "overrides of a variant",
-      {choice({{"unchanged", "the model as it stands"}}),
-       list("a list of overrides", text("a parameter or key path and its value", "bearings.big_end.width=20mm"))});
-  const TypePtr figures = list("a list of figures", choice(study_figure_words));
-  return object("a study", {
-                               required("parameters", parameters,
-                                        "Values of each parameter or key path (`bearings.big_end.width`); every "
-                                        "combination is one run."),
-                               optional("variants", named("a mapping from names to lists of overrides", variant),
-                                        "Models beside each other: each combination of parameters is run with the "
-                                        "overrides of every variant, written as after `--set`. `--set variant=NAME` "
-                                        "picks one.",
-                                        "one, the model as it stands"),
-                               defaulted("figures", figures, "[midplane_pressure, film_thickness]",
-                                         "Figures of the report; curves are drawn over the first parameter."),
-                           });
-}
-
 }  // namespace hersey::model

@@ -61,9 +61,4 @@ inline constexpr Vocabulary<InitialDeformation, 3> initial_deformation_words{{
      "as the forces of the start hold it; frames, and journals with them, are shifted by what the body gives way"},
 }};
 
-inline constexpr Vocabulary<StudyFigure, 2> study_figure_words{{
-    {StudyFigure::midplane_pressure, "midplane_pressure", "pressure around the middle of the bearing"},
-    {StudyFigure::film_thickness, "film_thickness", "least film thickness against the first parameter"},
-}};
-
 }  // namespace hersey::model

@@ -25,6 +25,7 @@
 #include "hersey/mbd/nodal_body.h"
 #include "hersey/mbd/shape.h"
 #include "hersey/model/oil_validity.h"
+#include "hersey/model/study_settings.h"
 #include "hersey/solver/fixed_point_iteration.h"
 
 /// The model file as checked, plain data: SI units, names resolved, nothing built yet.
@@ -428,20 +429,6 @@ struct Output {
   double interval = 0;            ///< time between rows of the time series, hit exactly; 0: rows by steps [s]
   double fields_every = 0;        ///< time between stored fields [s]; the reader fills in duration/100
   std::vector<double> meshes_at;  ///< times since the start at which deformed meshes are written, ascending [s]
-  SourcePosition position;
-};
-
-struct StudyParameter {
-  std::string name;                 ///< a parameter, or a key path
-  std::vector<std::string> values;  ///< as written, e.g. "100 N"
-  SourcePosition position;
-};
-
-enum class StudyFigure { midplane_pressure, film_thickness };
-
-struct Study {
-  std::vector<StudyParameter> parameters;  ///< with variants, the last is called `variant`, its values their names
-  std::vector<StudyFigure> figures;
   SourcePosition position;
 };
 

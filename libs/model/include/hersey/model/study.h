@@ -23,9 +23,21 @@ struct StudyRun {
   std::vector<StudyValue> values;      ///< in the order of study.parameters
 };
 
-/// Every combination of study.parameters, the last parameter varying fastest; empty if the model has no study. A study
-/// parameter named in `overrides` is fixed at that value and no longer varied.
-/// @throws InputError with the faults of the file and of every combination.
+/// The parameters of the study that vary: a parameter named in `overrides` is fixed at that value. Each is checked at
+/// every value, or at the ends of its distribution. None if the model has no study.
+/// @throws InputError with the faults of the file and of every such value.
+[[nodiscard]] std::vector<StudyParameter> check_study(const std::string& path,
+                                                      const std::vector<std::string>& overrides = {});
+
+/// What decides the result of a run of the model file at `path` beside the values given to it: the content of the file
+/// and of all that it names, without comments, texts and the study. 16 hexadecimal digits.
+/// @throws InputError
+[[nodiscard]] std::string model_fingerprint(const std::string& path);
+
+/// Every run of a study that writes them out (Study::is_written_out): combinations of study.parameters, the last
+/// parameter varying fastest; empty if the model has no study. A study parameter named in `overrides` is fixed at that
+/// value and no longer varied.
+/// @throws InputError with the faults of the file and of every combination; for a plan that draws its runs.
 [[nodiscard]] std::vector<StudyRun> expand_study(const std::string& path,
                                                  const std::vector<std::string>& overrides = {});
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hersey/bearing/bearing_numbers.h"
@@ -87,6 +88,25 @@ class BearingSolver {
   std::shared_ptr<KnownBodies> bodies_;
 };
 
+/// Solves a model's bearings at one run after the other, and remembers what takes long: the bodies of meshes. A run
+/// that has no solution from the start is tried again from that of the model as it stands.
+class RunSolver {
+ public:
+  /// @param given  overrides of the model as it stands
+  RunSolver(std::string path, std::vector<std::string> given);
+  RunSolver(const RunSolver&) = delete;
+  RunSolver& operator=(const RunSolver&) = delete;
+  ~RunSolver();
+
+  /// Each bearing of `bearings`, or where that is empty each with an operating point. @throws InputError
+  [[nodiscard]] std::vector<std::pair<std::string, BearingSolution>> solve(const model::StudyRun& run,
+                                                                           const std::vector<std::string>& bearings);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// "load=100N:2500N:10", "journal_speed=1rpm:1000rpm:7:log" or "load=100N,200N,500N" as a study's parameter with its
 /// values written out. @throws InputError for any other text.
 [[nodiscard]] model::StudyParameter parse_sweep(const std::string& text);
@@ -106,5 +126,8 @@ struct BearingFigure {
 
 /// Every figure of a solution, always the same ones in the same order.
 [[nodiscard]] std::vector<BearingFigure> figures_of(const BearingSolution& solution);
+
+/// Keys that figures may have; <...> stands for a name.
+[[nodiscard]] std::vector<std::string> figure_keys();
 
 }  // namespace hersey::study

@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "exit_code.h"
+#include "hersey/core/error_text.h"
+#include "hersey/core/task_pool.h"
+#include "hersey/model/read.h"
+#include "hersey/report/report.h"
+#include "hersey/run/checkpoint.h"
+#include "hersey/run/simulate.h"
+#include "hersey/study/bearing_study.h"
+#include "hersey/study/run_figures.h"
+#include "standard_streams.h"
+#include "study_command.h"
+
+namespace hersey::cli {
+namespace {
+
+using nlohmann::json;
+
+// One line at once: what is appended to a file by several tasks keeps its lines whole.
+void answer(const json& line) {
+  const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t written = ::write(STDOUT_FILENO, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) throw std::runtime_error(fmt::format("an answer is lost: {}", std::strerror(errno)));
+    done += static_cast<std::size_t>(written);
+  }
+}
+
+/// Does runs and answers them; what figures are is told once, before the first that has them.
+class Task {
+ public:
+  explicit Task(const StudyTaskArguments& arguments)
+      : arguments_(arguments), solver_(arguments.model, arguments.overrides) {
+    for (const std::string& name : arguments.outputs) note_bearing(name);
+  }
+
+  void run(const json& request) {
+    const auto began = std::chrono::steady_clock::now();
+    json reply{{"run", request.at("run")}, {"status", "completed"}};
+    try {
+      model::StudyRun run{arguments_.overrides, "", "", {}};
+      for (const json& change : request.at("set")) run.overrides.push_back(change.get<std::string>());
+      figures_ = json::object();
+      if (arguments_.analysis == "simulation")
+        simulate(run, request, reply);
+      else
+        solve(run, reply);
+      reply["figures"] = figures_;
+    } catch (const std::exception& error) {
+      reply["status"] = "failed";
+      reply["error"] = error_text(error);
+    }
+    if (!news_.empty()) answer({{"describe", news_}});
+    news_ = json::object();
+    reply["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    answer(reply);
+  }
+
+ private:
+  void note_bearing(const std::string& name) {
+    const std::string prefix = "bearings.";
+    if (!name.starts_with(prefix)) return;
+    const std::string bearing = name.substr(prefix.size(), name.find('.', prefix.size()) - prefix.size());
+    if (std::find(bearings_.begin(), bearings_.end(), bearing) == bearings_.end()) bearings_.push_back(bearing);
+  }
+
+  // @param size  what one `unit` is in SI
+  void add(const std::string& key, double in_si, const std::string& name, const std::string& unit,
+           const std::string& si_unit, double size) {
+    figures_[key] = std::isfinite(in_si) ? json(in_si) : json();
+    if (told_.insert(key).second) news_[key] = {{"name", name}, {"unit", unit}, {"si_unit", si_unit}, {"si", size}};
+  }
+
+  void solve(const model::StudyRun& run, json& reply) {
+    for (const auto& [name, solution] : solver_.solve(run, bearings_)) {
+      if (!solution.solved()) throw std::runtime_error(solution.error);
+      for (const study::BearingFigure& figure : study::figures_of(solution))
+        add("bearings." + name + "." + figure.key, figure.words.empty() ? figure.value * figure.si : NAN, figure.name,
+            figure.unit, figure.si_unit, figure.si);
+      if (!solution.doubts.empty()) reply["doubts"] = solution.doubts;
+    }
+  }
+
+  void simulate(const model::StudyRun& run, const json& request, json& reply) {
+    run::Options options;
+    options.results = request.at("results").get<std::string>();
+    // A run that was killed goes on from its checkpoint.
+    options.resume = std::filesystem::exists(run::checkpoint_file(options.results));
+    options.overwrite = !options.resume;
+    if (request.contains("values"))
+      for (const json& value : request.at("values"))
+        options.study_parameters.push_back({value.at(0).get<std::string>(), value.at(1).get<std::string>()});
+    const model::Model model = model::read(arguments_.model, run.overrides);
+    const run::Summary summary = run::simulate(model, options);
+    if (summary.status != run::Status::completed) throw std::runtime_error(summary.message);
+    const results::Reader reader(options.results);
+    for (const study::RunFigure& figure : study::figures_of(reader, arguments_.outputs))
+      add(figure.key, figure.value, figure.text, display_unit(figure.si_unit), figure.si_unit,
+          display_size(figure.si_unit));
+    if (request.contains("report")) {
+      report::write_html({options.results}, request.at("report").get<std::string>());
+      reply["report"] = request.at("report");
+    }
+    const std::string keep = request.value("keep", "results");
+    if (keep == "figures") std::filesystem::remove(options.results);
+  }
+
+  static std::string display_unit(const std::string& si) {
+    if (si == "m") return "um";
+    if (si == "Pa") return "MPa";
+    if (si == "1") return "";
+    if (si == "m^3/s") return "mm^3/s";
+    return si;
+  }
+
+  static double display_size(const std::string& si) {
+    if (si == "m") return 1e-6;
+    if (si == "Pa") return 1e6;
+    if (si == "m^3/s") return 1e-9;
+    return 1;
+  }
+
+  const StudyTaskArguments& arguments_;
+  study::RunSolver solver_;
+  std::vector<std::string> bearings_;
+  std::set<std::string> told_;
+  json figures_ = json::object(), news_ = json::object();
+};
+
+}  // namespace
+
+int study_task_command(const StudyTaskArguments& arguments) {
+  if (arguments.end_with_parent) ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  TaskPool::shared().set_threads(1);  // runs beside each other, not parts of one
+  Task task(arguments);
+  std::string line;
+  while (std::getline(std::cin, line)) {
+    if (line.empty()) continue;
+    const json request = json::parse(line, nullptr, false);
+    if (request.is_discarded() || !request.contains("run") || !request.contains("set")) {
+      say("hersey: study-task: not a run: {}\n", line);
+      return kWrongInput;
+    }
+    task.run(request);
+  }
+  return kOk;
+}
+
+}  // namespace hersey::cli

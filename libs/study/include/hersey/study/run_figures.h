@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/model/model.h"
+#include "hersey/results/reader.h"
+
+namespace hersey::study {
+
+/// A number of a run by its name.
+struct RunFigure {
+  std::string key;      ///< "bearings.big_end.cycle.film_loss"
+  std::string text;     ///< "mean power loss in the film"
+  std::string si_unit;  ///< "W", "1" for a pure number
+  double value = 0;     ///< in `si_unit`
+};
+
+/// What the closing table tells of a run, and those of `wanted` that are a series of the results file and one of
+/// `.min`, `.max`, `.mean`, `.rms`, `.end`, such as `bearings.main.eccentricity.x.max`; of a machine's modes
+/// `modes.<number>.frequency`, `.damped_frequency` and `.damping_ratio`. Values of cycles (`bearings.<b>.cycle.`) are
+/// those of the last one.
+/// @throws results::ReadError
+/// @verified_by run_figures_test.cpp
+[[nodiscard]] std::vector<RunFigure> figures_of(const results::Reader& reader, const std::vector<std::string>& wanted);
+
+/// Names that figures_of a simulation may give, <...> standing for any; series not among them.
+[[nodiscard]] std::vector<std::string> run_figure_keys();
+
+/// Names that figures of `model` solved as steady bearings have, <...> standing for any.
+[[nodiscard]] std::vector<std::string> steady_figure_keys(const model::Model& model);
+
+/// Whether `name` is one of `patterns`, whose <...> stand for anything without a dot.
+[[nodiscard]] bool is_among(const std::string& name, const std::vector<std::string>& patterns);
+
+/// Whether `name` is that of a series of results files, and how to sum it up.
+[[nodiscard]] bool is_of_a_series(const std::string& name);
+
+}  // namespace hersey::study

@@ -1,0 +1,109 @@
+"""`hersey study`, called by the program with its own path."""
+
+import argparse
+import json
+import os
+import signal
+import subprocess
+import sys
+
+OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="hersey study")
+    parser.add_argument("model")
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--out", default="")
+    parser.add_argument("--on", choices=("local", "slurm"), default="local")
+    parser.add_argument("--jobs", type=int, default=0)
+    parser.add_argument("--chunk", type=int, default=0)
+    parser.add_argument("--partition", default="")
+    parser.add_argument("--runner", default="")
+    parser.add_argument("--again", action="store_true")
+    parser.add_argument("--json", action="store_true")
+    return parser.parse_args()
+
+
+def say(text):
+    if text:
+        sys.stderr.write(f"hersey: {text}\n")
+
+
+def has_packages(settings):
+    """Told before anything is computed, not when it is all done."""
+    from . import statistics
+
+    needs = {"numpy": "python3-numpy", "scipy": "python3-scipy"}
+    if statistics.is_drawn(settings):
+        needs["openturns"] = "python3-openturns"
+    if settings["plan"] == "optimise":
+        needs["nlopt"] = "python3-nlopt"
+    import importlib.util
+
+    lacking = [package for module, package in needs.items() if importlib.util.find_spec(module) is None]
+    if lacking:
+        say(f"Python ({sys.executable}) lacks {', '.join(lacking)}: `scripts/setup study` installs what studies use")
+    return not lacking
+
+
+def work(args):
+    from . import page, slurm
+    from .study import Study, StudyError, default_folder, load
+    from .table import Table
+
+    settings = load(args.program, args.model, args.set, args.runner)
+    if not has_packages(settings):
+        return FAILED
+    folder = args.out or default_folder(args.model)
+    with Study(settings, folder) as study:
+        study.folder.write_json("study.json", {k: v for k, v in settings.items() if k not in ("program", "checked")})
+        jobs = args.jobs or len(os.sched_getaffinity(0))
+        if settings["plan"] == "optimise":
+            if args.on != "local":
+                raise StudyError("--on slurm with the plan 'optimise', whose runs follow from each other; expected "
+                                 "--on local")
+            from . import optimise
+
+            study.table = Table(0, 0, settings["wanted"], study.folder.units)
+            texts = optimise.search(study, jobs)
+        else:
+            texts = study.planned()
+            done = study.folder.done(failed_too=not args.again)
+            from .folder import identity
+
+            reused = len({identity(settings, t) for t in texts} & done)
+            study.table = Table(len(texts), reused, settings["wanted"], study.folder.units)
+            if args.on == "slurm":
+                slurm.run(study, texts, args)
+            else:
+                study.run(texts, jobs, args.again)
+        study.table.close()
+        results = study.collect(texts)
+        return page.finish(study, results, args)
+
+
+def main():
+    args = arguments()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    from .folder import FolderError
+    from .study import StudyError
+    from .workers import RunnerError
+
+    try:
+        return work(args)
+    except KeyboardInterrupt:
+        say("stopped; every finished run is kept, and the same command goes on")
+        return INTERRUPTED
+    except OSError as error:
+        say(f"{error.filename or args.out or 'the study'}: {error.strerror}; what is finished is kept, and the same "
+            "command goes on")
+        return FAILED
+    except (StudyError, FolderError, RunnerError) as error:
+        say(str(error))
+        return WRONG_INPUT
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,139 @@
+"""What the runs of a study say: scatter, Sobol indices, surrogate, sensitivities, the best of them."""
+
+import math
+
+import numpy as np
+
+from . import distributions
+
+PERCENTILES = (1, 5, 25, 50, 75, 95, 99)
+# With fewer runs than this for each parameter a surrogate has nothing to go by.
+RUNS_PER_PARAMETER = 4
+MOST_TERMS = 400
+MOST_DEGREES = 14
+
+
+def scatter(values):
+    """Mean, deviation, extremes and percentiles of one figure."""
+    values = values[np.isfinite(values)]
+    if not len(values):
+        return None
+    return {"count": len(values), "mean": float(values.mean()),
+            "standard_deviation": float(values.std(ddof=1)) if len(values) > 1 else 0.0,
+            "smallest": float(values.min()), "largest": float(values.max()),
+            "percentiles": {str(p): float(v) for p, v in zip(PERCENTILES, np.percentile(values, PERCENTILES))}}
+
+
+def is_drawn(settings):
+    """Whether runs stand for distributions, so that surrogate and indices mean something."""
+    kinds = ("latin_hypercube", "sobol", "halton")
+    return settings["plan"] in kinds and all(p.get("distribution") for p in settings["parameters"])
+
+
+def degree(dimensions, runs):
+    """Of the polynomials: the largest whose terms are no more than half the runs, and few enough to be quick."""
+    most = min(runs // 2, MOST_TERMS)
+    best = 1
+    while best < MOST_DEGREES and math.comb(dimensions + best + 1, dimensions) <= most:
+        best += 1
+    return best
+
+
+def surrogate(settings, inputs, values):
+    """Polynomial chaos by OpenTURNS: least squares on a sparse basis, chosen by cross-validation.
+
+    Returns Sobol indices (they follow from its coefficients), first-order sensitivities at the centre, its curves over
+    each parameter, and its error on runs that it has not seen: None without enough runs.
+    """
+    good = np.isfinite(values)
+    inputs, values = inputs[good], values[good]
+    count = len(settings["parameters"])
+    if not count or len(values) < max(RUNS_PER_PARAMETER * count, 8):
+        return None
+    spread = values.std()
+    if spread <= 1e-12 * max(abs(values).max(), 1e-300):
+        return None
+    import openturns as ot
+
+    ot.Log.Show(ot.Log.NONE)
+    marginals = [distributions.to_openturns(p) for p in settings["parameters"]]
+    joint = ot.ComposedDistribution(marginals)
+
+    def fit(x, y):
+        basis = ot.OrthogonalProductPolynomialFactory(marginals, ot.LinearEnumerateFunction(count))
+        strategy = ot.FixedStrategy(basis, math.comb(count + degree(count, len(y)), count))
+        chosen = ot.LeastSquaresStrategy(
+            ot.LeastSquaresMetaModelSelectionFactory(ot.LARS(), ot.CorrectedLeaveOneOut()))
+        algorithm = ot.FunctionalChaosAlgorithm(ot.Sample(x), ot.Sample(y.reshape(-1, 1)), joint, strategy, chosen)
+        algorithm.run()
+        return algorithm.getResult()
+
+    scaled = values / spread
+    result = fit(inputs, scaled)
+    indices = ot.FunctionalChaosSobolIndices(result)
+    model = result.getMetaModel()
+    middle = np.array([distributions.centre(p) for p in settings["parameters"]])
+    lines, slopes = [], []
+    for k, parameter in enumerate(settings["parameters"]):
+        low, high = np.quantile(inputs[:, k], [0.0, 1.0])
+        x = np.linspace(low, high, 41)
+        points = np.tile(middle, (len(x), 1))
+        points[:, k] = x
+        y = np.array(model(ot.Sample(points))).ravel() * spread
+        lines.append({"x": x.tolist(), "y": y.tolist()})
+        step = 1e-3 * (high - low)
+        ends = np.tile(middle, (2, 1))
+        ends[:, k] += [-step, step]
+        below, above = np.array(model(ot.Sample(ends))).ravel() * spread
+        slopes.append(float((above - below) / (2 * step)))
+    # Error on runs that were left out: five parts, each foretold from the other four.
+    parts = np.arange(len(scaled)) % 5
+    foretold = np.empty_like(scaled)
+    for part in range(5):
+        out = parts == part
+        foretold[out] = np.array(fit(inputs[~out], scaled[~out]).getMetaModel()(ot.Sample(inputs[out]))).ravel()
+    error = float(((foretold - scaled) ** 2).mean() / scaled.var())
+    return {"terms": len(result.getIndices()), "cross_validated_error": error,
+            "first": [indices.getSobolIndex(k) for k in range(count)],
+            "total": [indices.getSobolTotalIndex(k) for k in range(count)],
+            "sensitivities": slopes, "lines": lines}
+
+
+def corners(results):
+    """Runs with the smallest and the largest value of each figure."""
+    values = results.outputs()
+    found = []
+    for k, name in enumerate(results.names):
+        column = values[:, k]
+        if not np.isfinite(column).any():
+            continue
+        for word, place in (("smallest", np.nanargmin(column)), ("largest", np.nanargmax(column))):
+            found.append({"figure": name, "which": word, "value": float(column[place]), "run": results.runs[place]})
+    return found
+
+
+def pareto(results):
+    """Runs that keep to every bound and that none other beats in all objectives; with one objective: the best."""
+    objectives = results.settings["objectives"]
+    if not objectives or not results.runs:
+        return []
+    values = results.outputs()[:, [results.names.index(o["name"]) for o in objectives]]
+    values = values * np.array([-1.0 if o["maximise"] else 1.0 for o in objectives])
+    good = np.flatnonzero(results.is_feasible() & np.isfinite(values).all(axis=1))
+    front = [i for i in good
+             if not any((values[j] <= values[i]).all() and (values[j] < values[i]).any() for j in good)]
+    return [results.runs[i] for i in sorted(front, key=lambda i: values[i, 0])]
+
+
+def summary(results):
+    """All of it, as plain data."""
+    settings = results.settings
+    inputs, values = results.inputs(), results.outputs()
+    figures = []
+    for k, name in enumerate(results.names):
+        figure = {"key": name, "name": results.units[name]["name"], "unit": results.units[name]["unit"],
+                  "scatter": scatter(values[:, k]) if len(values) else None, "surrogate": None}
+        if is_drawn(settings) and len(values):
+            figure["surrogate"] = surrogate(settings, inputs, values[:, k])
+        figures.append(figure)
+    return {"figures": figures, "corners": corners(results), "best": pareto(results)}

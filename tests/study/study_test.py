@@ -1,0 +1,308 @@
+#!/usr/bin/python3
+"""Studies: plans, folder, kills, statistics, optimum; with the program itself and with a function that stands in for it."""
+
+import csv
+import importlib.util
+import json
+import math
+import os
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+HERSEY = os.path.abspath(sys.argv.pop(1))
+HERE = os.path.dirname(os.path.abspath(__file__))
+SOURCE = os.path.join(HERE, "../..")
+EXAMPLE = os.path.join(SOURCE, "examples/bearing_tolerances/model.yaml")
+sys.path.insert(0, os.path.join(SOURCE, "python"))
+
+OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+LACKING = [name for name in ("scipy", "openturns", "nlopt") if importlib.util.find_spec(name) is None]
+
+MODEL = """hersey: 1
+parameters: {x1: 0, x2: 0, x3: 0, clearance: 34 um}
+lubricants: {oil: {viscosity: 15 mPa.s}}
+bearings:
+  main:
+    {diameter: 45 mm, width: 15.6 mm, radial_clearance: "${clearance}", lubricant: oil, grid: {circumferential: 24, axial: 5},
+     supply: {line: widest_gap, pressure: 0 bar}, operating_point: {journal_speed: 3570 rpm, load: 2500 N}}
+study:
+"""
+PI = "{distribution: uniform, low: -3.14159265358979, high: 3.14159265358979}"
+ISHIGAMI = f"""  plan: sobol
+  samples: 1024
+  parameters: {{x1: {PI}, x2: {PI}, x3: {PI}}}
+  outputs: [y]
+"""
+LIST = "  parameters: {x1: [%s]}\n  outputs: [y]\n"
+
+
+@unittest.skipIf(LACKING, f"Python lacks {', '.join(LACKING)}: `scripts/setup study` installs what studies use")
+class Studies(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="hersey-study-")
+        self.addCleanup(folder.cleanup)
+        self.root = folder.name
+        self.out = self.path("out")
+        self.log = self.path("log")
+
+    def path(self, *parts):
+        return os.path.join(self.root, *parts)
+
+    def model(self, study):
+        path = self.path("model.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(MODEL + study)
+        return path
+
+    def command(self, model, *arguments):
+        return [HERSEY, "study", model, "--out", self.out, *arguments]
+
+    def study(self, model, *arguments, **options):
+        return subprocess.run(self.command(model, *arguments), capture_output=True, text=True, timeout=280,
+                              stdin=subprocess.DEVNULL, **options)
+
+    def stand_in(self, seconds=0.0):
+        return ["--runner", f"{sys.executable} {HERE}/ishigami.py {self.log} {seconds}"]
+
+    def done(self):
+        if not os.path.exists(self.log):
+            return []
+        with open(self.log, encoding="utf-8") as file:
+            return file.read().split()
+
+    def records(self):
+        records = []
+        with open(os.path.join(self.out, "records.jsonl"), encoding="utf-8") as file:
+            for line in file:
+                record = json.loads(line)
+                if "run" in record:
+                    records.append(record)
+        return records
+
+    def results(self):
+        with open(os.path.join(self.out, "results.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def test_indices_of_ishigami_are_those_of_the_closed_form(self):
+        run = self.study(self.model(ISHIGAMI), *self.stand_in())
+        self.assertEqual(run.returncode, OK, run.stderr)
+        a, b = 7, 0.1
+        v1, v2, v13 = 0.5 * (1 + b * math.pi**4 / 5) ** 2, a**2 / 8, b**2 * math.pi**8 * (1 / 18 - 1 / 50)
+        variance = v1 + v2 + v13
+        model = self.results()["figures"][0]["surrogate"]
+        # Two per cent of the variance's largest share: what the closed form says is 0 has no per cent of its own.
+        for found, exact in zip(model["first"], (v1, v2, 0.0)):
+            self.assertLess(abs(found - exact / variance), 0.02 * max(exact / variance, 0.1))
+        for found, exact in zip(model["total"], (v1 + v13, v2, v13)):
+            self.assertLess(abs(found - exact / variance), 0.02 * exact / variance)
+        self.assertLess(model["cross_validated_error"], 0.01)
+        scatter = self.results()["figures"][0]["scatter"]
+        # The integration error of 1024 points of a Sobol sequence lies below that of as many random ones.
+        self.assertLess(abs(scatter["mean"] - a / 2), math.sqrt(variance / 1024))
+
+    def test_the_same_command_repeats_nothing_and_more_samples_go_on(self):
+        self.study(self.model(ISHIGAMI.replace("1024", "64")), *self.stand_in())
+        self.assertEqual(len(self.done()), 64)
+        run = self.study(self.model(ISHIGAMI.replace("1024", "64")), *self.stand_in())
+        self.assertIn("64 runs are done already", run.stderr)
+        self.assertEqual(len(self.done()), 64)
+        self.study(self.model(ISHIGAMI.replace("1024", "128")), *self.stand_in())
+        self.assertEqual(len(self.done()), 128)
+
+    def test_killed_twenty_times_it_loses_runs_in_flight_only(self):
+        samples, jobs, kills = 256, 2, 20
+        model = self.model(ISHIGAMI.replace("1024", str(samples)))
+        command = self.command(model, "--jobs", str(jobs), *self.stand_in(0.01))
+        chance = random.Random(4)
+        for _ in range(kills):
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(chance.uniform(0.5, 1.2))
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        run = subprocess.run(command, capture_output=True, text=True, timeout=280)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        records = self.records()
+        self.assertEqual(len(records), samples)
+        self.assertEqual(len({record["run"] for record in records}), samples)
+        from hersey_study.workers import AHEAD
+        # In flight: what a process has been given.
+        self.assertLessEqual(len(self.done()), samples + kills * jobs * AHEAD)
+
+    def test_failed_runs_are_told_with_reasons_and_stop_nothing(self):
+        run = self.study(self.model(LIST % "1, 2, 150, 3, 160, 4"), *self.stand_in())
+        self.assertEqual(run.returncode, FAILED)
+        self.assertIn("failed, 2 runs: x1 is too large", run.stderr)
+        self.assertEqual(self.results()["completed"], 4)
+        self.study(self.model(LIST % "1, 2, 150, 3, 160, 4"), *self.stand_in())
+        self.assertEqual(len(self.done()), 6)  # failed ones have their answer
+        self.study(self.model(LIST % "1, 2, 150, 3, 160, 4"), "--again", *self.stand_in())
+        self.assertEqual(len(self.done()), 8)
+
+    def test_a_process_that_dies_costs_its_own_run(self):
+        run = self.study(self.model(LIST % "1, 2, 250, 3, 260, 4"), "--jobs", "1", *self.stand_in())
+        self.assertEqual(run.returncode, FAILED)
+        self.assertIn("ended with signal 6", run.stderr)
+        self.assertEqual(self.results()["completed"], 4)
+
+    def test_a_full_disk_keeps_what_is_done(self):
+        def little_room():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+
+        model = self.model(ISHIGAMI.replace("1024", "256"))
+        run = self.study(model, *self.stand_in(), preexec_fn=little_room)
+        self.assertEqual(run.returncode, FAILED, run.stderr)
+        self.assertIn("the same command goes on", run.stderr)
+        before = len(self.done())
+        self.assertGreater(before, 10)
+        run = self.study(model, *self.stand_in())
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertEqual(self.results()["completed"], 256)
+        self.assertLess(len(self.done()), 256 + 10)
+
+    def test_folder_takes_one_study_at_a_time(self):
+        model = self.model(ISHIGAMI.replace("1024", "64"))
+        first = subprocess.Popen(self.command(model, *self.stand_in(0.2)), stderr=subprocess.DEVNULL)
+        time.sleep(1.5)
+        second = self.study(model, *self.stand_in())
+        first.send_signal(signal.SIGINT)
+        self.assertEqual(first.wait(), INTERRUPTED)
+        self.assertEqual(second.returncode, WRONG_INPUT)
+        self.assertIn("another study is at work", second.stderr)
+
+    def test_best_run_keeps_to_its_bounds(self):
+        box = "{distribution: uniform, low: -3, high: 3}"
+        study = (f"  plan: optimise\n  samples: 200\n  parameters: {{x1: {box}, x2: {box}}}\n"
+                 "  minimise: valley\n  subject_to: [sum < 2]\n")
+        run = self.study(self.model(study), *self.stand_in())
+        self.assertEqual(run.returncode, OK, run.stderr)
+        data = self.results()
+        best = next(r for r in data["runs"] if r["run"] == data["best"][0])
+        # The nearest point of x1 + x2 <= 2 to (2, 1) is (1.5, 0.5), at a distance of sqrt(1/2); the search ends at steps
+        # of 1e-4 of a range of 6.
+        for found, exact in zip(best["inputs"], (1.5, 0.5)):
+            self.assertLess(abs(found - exact), 0.01)
+        count = len(self.done())
+        self.study(self.model(study), *self.stand_in())
+        self.assertEqual(len(self.done()), count)
+
+    def test_global_search_finds_the_best_of_many_valleys(self):
+        box = "{distribution: uniform, low: -3.1, high: 3.1}"
+        study = (f"  plan: optimise\n  search: global\n  samples: 600\n  parameters: {{x1: {box}, x2: {box}, x3: {box}}}\n"
+                 "  maximise: y\n")
+        run = self.study(self.model(study), *self.stand_in())
+        self.assertEqual(run.returncode, OK, run.stderr)
+        data = self.results()
+        best = next(r for r in data["runs"] if r["run"] == data["best"][0])["outputs"][0]
+        exact = 8 + 0.1 * 3.1**4  # sin x1 = 1, sin^2 x2 = 1, x3 at its bound
+        self.assertLess(exact - best, 0.02 * exact)  # what stands between a valley and the next is a tenth
+
+    def test_runs_that_none_other_beats_are_the_front(self):
+        study = ("  plan: full_factorial\n  parameters: {x1: [-1, 0, 1, 2, 3], x2: [1]}\n"
+                 "  minimise: [valley, sum]\n")
+        run = self.study(self.model(study), *self.stand_in())
+        self.assertEqual(run.returncode, OK, run.stderr)
+        data = self.results()
+        front = [next(r for r in data["runs"] if r["run"] == name)["texts"][0] for name in data["best"]]
+        self.assertEqual(front, ["2", "1", "0", "-1"])
+
+    def test_plans_have_the_moments_of_their_distributions(self):
+        from hersey_study import distributions, plan
+        cases = [{"kind": "normal", "mean": 40.0, "standard_deviation": 2.0, "low": 0, "mode": 0, "high": 0},
+                 {"kind": "uniform", "mean": 0, "standard_deviation": 0, "low": -1.0, "mode": 0, "high": 3.0},
+                 {"kind": "triangular", "mean": 0, "standard_deviation": 0, "low": 1.0, "mode": 2.0, "high": 5.0},
+                 {"kind": "truncated_normal", "mean": 0.0, "standard_deviation": 1.0, "low": -1.0, "mode": 0, "high": 2.0}]
+        for kind in ("sobol", "halton", "latin_hypercube"):
+            points = plan.unit_points(kind, 4096, len(cases), 1)
+            for k, case in enumerate(cases):
+                parameter = {"name": "x", "unit": "um", "distribution": case}
+                values = distributions.quantile(parameter, points[:, k])
+                exact = distributions.to_openturns(parameter)
+                mean, deviation = exact.getMean()[0], exact.getStandardDeviation()[0]
+                # 4096 random points would have 1/64 of the deviation.
+                self.assertLess(abs(values.mean() - mean), deviation / 64, (kind, case))
+                self.assertLess(abs(values.std() / deviation - 1), 1 / 32, (kind, case))
+
+    def test_steady_runs_are_those_of_the_bearing(self):
+        model = self.model("  parameters: {clearance: [30 um, 38 um]}\n  outputs: [bearings.main.h_min]\n")
+        run = self.study(model)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        alone = subprocess.run([HERSEY, "bearing", model, "--set", "clearance=38 um", "--json", "--no-grid-error"],
+                               capture_output=True, text=True, check=True)
+        figures = json.loads(alone.stdout)["solutions"][0]["figures"]
+        h_min = figures["h_min"] if isinstance(figures, dict) else next(f for f in figures if f["key"] == "h_min")
+        value = h_min["value"] if isinstance(h_min, dict) else h_min
+        unit = h_min.get("unit", "m") if isinstance(h_min, dict) else "m"
+        found = self.records()[1]["figures"]["bearings.main.h_min"] / (1e-6 if unit == "um" else 1)
+        # The same solver from the same start: the same bits but for the unit's factor.
+        self.assertLess(abs(found - value), 1e-12 * abs(value))
+        with open(os.path.join(self.out, "runs.csv"), encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual(rows[0], ["clearance", "bearings.main.h_min [um]", "run"])
+        self.assertEqual(len(rows), 3)
+
+    def test_corners_are_all_ends(self):
+        scatter = "{distribution: truncated_normal, mean: 34 um, standard_deviation: 3 um, low: 28 um, high: 40 um}"
+        model = self.model(f"  plan: corners\n  parameters: {{clearance: {scatter}, x1: [1, 2, 3]}}\n"
+                           "  outputs: [bearings.main.p_max]\n")
+        run = self.study(model)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertEqual({tuple(r["texts"]) for r in self.results()["runs"]},
+                         {("28 um", "1"), ("28 um", "3"), ("40 um", "1"), ("40 um", "3")})
+
+    def refusal(self, study, *arguments):
+        run = self.study(self.model(study), *arguments)
+        self.assertEqual(run.returncode, WRONG_INPUT, run.stderr)
+        self.assertFalse(os.path.exists(self.out))
+        return run.stderr
+
+    def test_wrong_studies_are_told_before_anything_runs(self):
+        one = "{distribution: normal, mean: 34 um, standard_deviation: 10 um}"
+        text = self.refusal(f"  plan: sobol\n  parameters: {{clearance: {one}}}\n")
+        self.assertIn("-16 um", text)
+        self.assertIn("truncated_normal", text)
+        text = self.refusal("  parameters: {clearence: [34 um]}\n")
+        self.assertIn("did you mean 'clearance'?", text)
+        text = self.refusal("  parameters: {clearance: [34 um]}\n  outputs: [bearings.main.h_mni]\n")
+        self.assertIn("did you mean 'bearings.main.h_min'?", text)
+        self.assertIn("model.yaml:", text)
+        text = self.refusal("  parameters: {clearance: [34 um]}\n  minimise: bearings.mian.h_min\n  plan: list\n")
+        self.assertIn("did you mean 'main'?", text)
+        text = self.refusal("  parameters: {clearance: [34 um]}\n  subject_to: [bearings.main.h_min is large]\n")
+        self.assertIn("bearings.main.h_min > 1.5 um", text)
+
+    def test_bound_in_another_dimension_is_told(self):
+        run = self.study(self.model("  parameters: {clearance: [34 um]}\n  subject_to: [bearings.main.h_min > 1 N]\n"))
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("expected a bound in m", run.stderr)
+
+    def test_figure_that_a_runner_does_not_tell_is_refused(self):
+        run = self.study(self.model("  parameters: {x1: [1]}\n  outputs: [valey]\n"), *self.stand_in())
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("did you mean 'valley'?", run.stderr)
+
+    def test_memory_of_many_runs_is_flat(self):
+        import numpy as np
+        from hersey_study.folder import Folder
+        folder = Folder(self.out)
+        figures = {f"bearings.main.figure_{k}": 1.0 / (k + 1) for k in range(100)}
+        for i in range(10000):
+            folder.add({"run": f"{i:020d}", "status": "completed", "figures": figures, "values": [["x1", str(i)]]})
+        import tracemalloc
+        tracemalloc.start()
+        values = np.array([record["figures"]["bearings.main.figure_3"] for record in folder.read()])
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        self.assertEqual(len(values), 10000)
+        # One record is 6 kB; ten thousand at once would be 60 MB.
+        self.assertLess(peak, 2e6)
+        folder.close()
+
+
+if __name__ == "__main__":
+    unittest.main()
