@@ -21,6 +21,8 @@ MOST_IDLE_ROUNDS = 3
 RUNS_PER_TASK = 50
 # Seconds for which a controller that does not answer is waited for.
 PATIENCE = 600.0
+# Seconds without a task at work after which it is told why; the environment's are the tests'.
+QUIET = float(os.environ.get("HERSEY_STUDY_PATIENCE", "30"))
 
 
 def _call(command, *, patience=0.0, tell=None):
@@ -83,10 +85,19 @@ class Array:
                    *(["--partition", args.partition] if args.partition else []), script]
         self.job = _call(command, patience=PATIENCE, tell=study.tell).strip().split(";")[0]
         self.place = place
+        self._at_work, self._told = time.monotonic(), ""
 
     def is_under_way(self, study):
-        out = _call(["squeue", "-h", "-n", self.name, "-o", "%i %T"], patience=PATIENCE, tell=study.tell)
-        return bool(out.strip())
+        """Whether it has tasks left. Tells why where none of them has been at work for a while."""
+        out = _call(["squeue", "-h", "-n", self.name, "-o", "%T %r"], patience=PATIENCE, tell=study.tell)
+        states = [line.split(" ", 1) for line in out.splitlines() if line.strip()]
+        now = time.monotonic()
+        if any(state[0] != "PENDING" for state in states) or not states:
+            self._at_work, self._told = now, ""
+        elif now - self._at_work > QUIET and states[0][-1] != self._told:
+            self._told = states[0][-1]
+            study.tell(f"no task is at work; the cluster says: {self._told}")
+        return bool(states)
 
     def cancel(self):
         if shutil.which("scancel"):

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import signal
 import socket
 import subprocess
 import time
@@ -75,7 +76,7 @@ class Cluster:
         self.controller = self.node = None
         self.start_controller()
         self.start_node()
-        self._until(lambda: "idle" in self.call("sinfo", "-h", "-o", "%t"), "a node that is idle")
+        self._until(self.is_idle, "a node that is idle")
 
     def _start(self, *command):
         with open(os.path.join(self.root, "log", command[0] + ".out"), "ab") as out:
@@ -101,12 +102,49 @@ class Cluster:
         self.controller.kill()
         self.controller.wait()
 
+    def _of_tasks(self):
+        """Process ids of what the node does: its steps and their programs, told by the environment they were given."""
+        mine = f"SLURM_CONF={self.conf}".encode()
+        pids = []
+        for pid in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                with open(f"/proc/{pid}/environ", "rb") as file:
+                    words = file.read().split(b"\0")
+                with open(f"/proc/{pid}/comm", encoding="utf-8") as file:
+                    is_step = file.read().startswith("slurmstepd")
+            except OSError:
+                continue  # it has ended
+            if mine in words and (is_step or any(word.startswith(b"SLURM_JOB_ID=") for word in words)):
+                pids.append(int(pid))
+        return pids
+
     def kill_node(self):
-        """The node dies with all that it does."""
-        for pid in self.call("squeue", "-h", "-t", "running", "-o", "%i").split():
-            self.call("scancel", "--signal=KILL", pid)
+        """The node dies with all that it does, and tells no one."""
         self.node.kill()
         self.node.wait()
+        for pid in self._of_tasks():
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+
+    def is_idle(self):
+        return self.call("sinfo", "-h", "-o", "%t").split() == ["idle"]
+
+    def resume_node(self):
+        """As its administrator does: a controller that was killed before it had saved that a task is started starts it
+        once more, finds it running, and drains the node."""
+        self.call("scontrol", "update", f"nodename={self.host}", "state=resume")
+
+    def clear(self):
+        """No tasks, and a node that takes some."""
+        self.call("scancel", "-u", "root")
+        for _ in range(60):
+            if self.is_idle():
+                return
+            self.resume_node()
+            time.sleep(1)
+        raise TimeoutError(f"the node does not become idle: {self.root}/log")
 
     def close(self):
         self.call("scancel", "-u", "root")

@@ -15,6 +15,7 @@ HERSEY = os.path.abspath(sys.argv.pop(1))
 HERE = os.path.dirname(os.path.abspath(__file__))
 OK, FAILED, WRONG_INPUT = 0, 1, 2
 WHY_NOT = cluster.is_possible()
+LONGEST = 150  # [s] of a study; one takes 10 to 40
 
 MODEL = """hersey: 1
 parameters: {x1: 0, x2: 0, clearance: 34 um}
@@ -48,6 +49,7 @@ class Slurm(unittest.TestCase):
         self.root = tempfile.mkdtemp(dir=self.folder.name)
         self.out = os.path.join(self.root, "out")
         self.log = os.path.join(self.root, "log")
+        self.cluster.clear()
 
     def start(self, samples, *arguments, study=INPUTS, stand_in=0.05, environment=None):
         model = os.path.join(self.root, "model.yaml")
@@ -56,11 +58,20 @@ class Slurm(unittest.TestCase):
         command = [HERSEY, "study", model, "--out", self.out, "--on", "slurm", *arguments]
         if stand_in is not None:
             command += ["--runner", f"{sys.executable} {HERE}/ishigami.py {self.log} {stand_in}"]
-        return subprocess.Popen(command, env=environment or self.cluster.environment, stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
+        process = subprocess.Popen(command, env=environment or self.cluster.environment, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
+        self.addCleanup(self.stop, process)
+        return process
+
+    @staticmethod
+    def stop(process):
+        """Ends a study that a test has left behind."""
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
 
     def end(self, process, code=OK):
-        out, err = process.communicate(timeout=280)
+        out, err = process.communicate(timeout=LONGEST)
         self.assertEqual(process.returncode, code, err)
         return out, err
 
@@ -75,6 +86,14 @@ class Slurm(unittest.TestCase):
         while len(self.done()) < count:
             self.assertLess(time.monotonic(), end, "no runs from the cluster")
             time.sleep(0.1)
+
+    def resume_until_the_end_of(self, process):
+        """The administrator's part: looks after nodes that Slurm has drained."""
+        end = time.monotonic() + LONGEST
+        while process.poll() is None and time.monotonic() < end:
+            if "drain" in self.cluster.call("sinfo", "-h", "-o", "%t"):
+                self.cluster.resume_node()
+            time.sleep(1)
 
     def completed(self):
         with open(os.path.join(self.out, "results.json"), encoding="utf-8") as file:
@@ -120,6 +139,7 @@ class Slurm(unittest.TestCase):
         self.cluster.kill_controller()
         time.sleep(4)
         self.cluster.start_controller()
+        self.resume_until_the_end_of(process)
         self.end(process)
         self.assertEqual(self.completed(), 60)
         self.assertLessEqual(len(self.done()), 60 + 2 * os.cpu_count())
@@ -135,7 +155,25 @@ class Slurm(unittest.TestCase):
         self.assertEqual(self.completed(), 60)
         self.assertLessEqual(len(self.done()), 60 + 2 * os.cpu_count())
 
-    def test_a_torn_record_of_a_full_disk_is_done_again(self):
+    def test_a_full_disk_keeps_what_is_written(self):
+        # 200 runs in chunks of 10: a page of the file system for each list of runs and for each file of answers, 40 in
+        # all; there is room for 32.
+        os.mkdir(self.out)
+        subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={32 * 4096}", "none", self.out], check=True)
+        self.addCleanup(subprocess.run, ["umount", "-l", self.out], check=True)
+        process = self.start(200, "--chunk", "10", stand_in=0)
+        _, err = process.communicate(timeout=LONGEST)
+        self.assertEqual(process.returncode, FAILED, err)
+        self.assertIn("the same command goes on", err)
+        before = len(self.done())
+        self.assertGreater(before, 10)
+        subprocess.run(["mount", "-o", "remount,size=100m", self.out], check=True)
+        self.end(self.start(200, "--chunk", "10", stand_in=0))
+        self.assertEqual(self.completed(), 200)
+        # Each of the 20 tasks has lost one answer at most: the one for which there was no room.
+        self.assertLessEqual(len(self.done()), 200 + 20)
+
+    def test_a_torn_record_is_done_again(self):
         self.end(self.start(20, "--chunk", "5"))
         shards = os.path.join(self.out, "shards")
         name = os.path.join(shards, sorted(os.listdir(shards))[0])
@@ -143,6 +181,15 @@ class Slurm(unittest.TestCase):
         self.end(self.start(20, "--chunk", "5"))
         self.assertEqual(self.completed(), 20)
         self.assertEqual(len(self.done()), 21)
+
+    def test_tasks_that_nobody_starts_are_told_with_the_reason(self):
+        self.cluster.call("scontrol", "update", f"nodename={self.cluster.host}", "state=drain", "reason=swept")
+        process = self.start(4, environment=dict(self.cluster.environment, HERSEY_STUDY_PATIENCE="2"))
+        time.sleep(8)
+        self.cluster.resume_node()
+        _, err = self.end(process)
+        self.assertIn("no task is at work", err)
+        self.assertIn("DRAINED", err)
 
     def test_a_partition_that_does_not_exist_is_told_with_those_that_do(self):
         _, err = self.end(self.start(4, "--partition", "nigth"), WRONG_INPUT)
