@@ -77,7 +77,7 @@ docs:  ## builds the documentation site: build/docs/index.html
 	@$(PHASE) docs build/log/docs.log scripts/docs
 	@echo "documentation: build/docs/index.html"
 
-docs-test: docs  ## opens every page of the site in headless Chromium, in both themes and two sizes
+docs-test: docs  ## opens every page of the site in headless Chromium, in two sizes; audits one of each kind in both themes
 	@scripts/setup web browser
 	@scripts/docs test
 

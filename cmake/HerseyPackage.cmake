@@ -1,4 +1,5 @@
-# Debian packages by `cpack` (scripts/package): hersey (program, manual, examples, site) and libhersey-dev (libraries, headers).
+# Debian packages by `cpack` (scripts/package): hersey (program, manual, examples, site), libhersey-dev (libraries, headers) and
+# python3-hersey.
 # What is generated lies in packaging/ of the build folder; `scripts/package` puts it there before it calls cpack.
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/packaging)
 install(DIRECTORY ${generated}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
@@ -9,6 +10,8 @@ install(FILES ${generated}/completion/hersey.fish DESTINATION ${CMAKE_INSTALL_DA
         COMPONENT program OPTIONAL)
 install(DIRECTORY ${generated}/doc/hersey/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program OPTIONAL)
 install(DIRECTORY ${generated}/doc/libhersey-dev DESTINATION ${CMAKE_INSTALL_DATADIR}/doc COMPONENT dev OPTIONAL)
+install(DIRECTORY ${generated}/doc/python3-hersey DESTINATION ${CMAKE_INSTALL_DATADIR}/doc COMPONENT python OPTIONAL)
+install(DIRECTORY ${generated}/python/hersey DESTINATION lib/python3/dist-packages COMPONENT python OPTIONAL)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         PATTERN "*.h5" EXCLUDE PATTERN "results" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 
@@ -46,4 +49,13 @@ for programs of one's own;
 oil films, mechanisms, elastic bodies, models and runs as C++20 libraries.
 .
 CMake finds them by find_package(hersey).")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-hersey)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-h5py")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-xarray, python3-h5netcdf, python3-pandas, python3-matplotlib, python3-tqdm")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python package: models are loaded, changed by key and solved,
+runs started and
+their results read as arrays with names and units.")
 include(CPack)

@@ -72,6 +72,13 @@ def on_page_markdown(markdown, page, **_):
     return REFERENCE.sub(lambda m: f"[({m[1]})]({link(m[1], source)})" if link(m[1], source) else m[0], text) if prefix == "" else text
 
 
+def on_post_page(output, page, **_):
+    """Scripts of our own: the search of a site that is opened from a folder (before the theme's), and reading by keyboard."""
+    base = os.path.relpath(".", os.path.dirname(page.file.dest_path) or ".")
+    return output.replace("</head>", f'<script src="{base}/local_search.js" data-base="{base}"></script>'
+                          f'<script src="{base}/reading.js"></script></head>', 1)
+
+
 CHAPTER_PAGES = {"elastic": "elastic-bodies"}
 
 

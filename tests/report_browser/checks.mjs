@@ -34,6 +34,7 @@ async function onFirstScreen(page, locator, what) {
 
 const firstScreen = async (page) => {
   await page.setViewportSize({ width: 1366, height: 768 });
+  await page.waitForTimeout(800); // a smooth scroll that a check before has begun comes to its end
   await page.evaluate(() => scrollTo(0, 0));
   await frame(page);
   assert.ok((await page.locator(".verdict .judgements li").count()) > 0, "there is no verdict");

@@ -3,6 +3,7 @@
 import { Matrix4, Quaternion, Vector3 } from "three";
 import type { Numbers, Run } from "./data";
 import { Deformation } from "./deformed_mesh";
+import { FilmFields } from "./film_fields";
 import type { ShapeData } from "./shape_data";
 
 export interface BodyMotion {
@@ -20,6 +21,8 @@ export interface Link {
   inboardPlace: Vector3;
   outboardPlace: Vector3;
   axis: Vector3;
+  /** Where bearing angles begin, in the inboard body; zero where the file does not tell. */
+  start: Vector3;
 }
 
 export class MachineGeometry {
@@ -60,6 +63,12 @@ export class MachineGeometry {
 
   bearingSize(name: string): { radius: number; width: number } {
     return { radius: this.run.number(`/bearings/${name}`, "radius") ?? 0, width: this.run.number(`/bearings/${name}`, "width") ?? 0 };
+  }
+
+  /** The pressures in a bearing's film, where they are stored. */
+  film(name: string): FilmFields | null {
+    const fields = FilmFields.of(this.run, name);
+    return fields?.at("pressure", 0) ? fields : null;
   }
 
   shapes(body: string): ShapeData[] {
@@ -122,7 +131,7 @@ export class MachineGeometry {
       const [inboard, outboard] = [this.run.attribute(path, "inboard"), this.run.attribute(path, "outboard")];
       if (!inboard || !outboard) return [];
       const place = (part: string) => vector(this.run.dataset(`${path}/${part}`)?.values);
-      return [{ name, kind: kind(name), inboard, outboard, inboardPlace: place("inboard_origin"), outboardPlace: place("outboard_origin"), axis: place("axis") }];
+      return [{ name, kind: kind(name), inboard, outboard, inboardPlace: place("inboard_origin"), outboardPlace: place("outboard_origin"), axis: place("axis"), start: place("x_axis") }];
     });
   }
 }

@@ -21,9 +21,11 @@ import type { Run } from "./data";
 import { DeformedMesh, roundEnlargement } from "./deformed_mesh";
 import { figure, h } from "./dom";
 import { MachineGeometry, type BodyMotion, type Link } from "./machine_geometry";
+import type { FilmFields } from "./film_fields";
 import { ball, bar, material, rod, shapeMesh } from "./shape_mesh";
 import { onThemeChange, palette } from "./theme";
 import { format } from "./units";
+import { WrappedFilm } from "./wrapped_film";
 
 /** A small motion of a body, in ground's axes. */
 export interface Increment {
@@ -46,7 +48,7 @@ export function sweepMachineViews(): void {
 
 export class MachineView {
   readonly element: HTMLElement;
-  private readonly holder = h("div", { class: "machine-space", role: "img", "aria-label": "The machine in space" });
+  private readonly holder = h("div", { class: "machine-space", role: "img", tabindex: 0, "aria-label": "The machine in space; arrow keys turn it, plus and minus come nearer" });
   private readonly legend = h("div", { class: "machine-legend" });
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(30, 1, 0.01, 100);
@@ -55,6 +57,8 @@ export class MachineView {
   private readonly skins = new Map<string, DeformedMesh>();
   private enlargement = 1;
   private readonly deformationNote = h("span", { class: "chip" });
+  private readonly films: WrappedFilm[] = [];
+  private areFilmsShown = true;
   private readonly forceLines: { link: Link; line: Line }[] = [];
   private renderer: WebGLRenderer | null = null;
   private controls: OrbitControls | null = null;
@@ -76,10 +80,19 @@ export class MachineView {
       toggle.setAttribute("aria-pressed", String(this.paths.visible));
       this.render();
     });
+    const films = h("button", { type: "button", class: "quiet", "aria-pressed": "true" }, "Films");
+    films.addEventListener("click", () => {
+      this.areFilmsShown = !this.areFilmsShown;
+      films.setAttribute("aria-pressed", String(this.areFilmsShown));
+      this.repaint();
+    });
     const home = h("button", { type: "button", class: "quiet" }, "Reset view");
     home.addEventListener("click", () => this.lookFromStart());
-    const caption = "The machine at the instant shown. Drag to turn it, wheel to come nearer, right button to shift it.";
-    this.element = figure("machine", caption, h("span", { class: "tools" }, toggle, home), this.holder, this.legend);
+    const hasFilms = geometry.bearings.some(({ name, start }) => start.lengthSq() > 0 && geometry.film(name));
+    const wrapped = hasFilms ? " Films are wrapped on their bearings, pressure as colour; bodies are see-through while they are shown." : "";
+    const caption = `The machine at the instant shown. Drag or arrow keys turn it, wheel or + and − come nearer, right button shifts it.${wrapped}`;
+    this.element = figure("machine", caption, h("span", { class: "tools" }, hasFilms ? films : null, toggle, home), this.holder, this.legend);
+    this.holder.addEventListener("keydown", (event) => this.turnByKey(event));
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.holder);
     views.add(this);
@@ -115,6 +128,26 @@ export class MachineView {
   reach(body: string): number {
     const places = [...this.geometry.attachments(body), this.geometry.centreOfMass(body), ...this.corners(body)];
     return Math.max(0, ...places.map((place) => place.length()));
+  }
+
+  private turnByKey(event: KeyboardEvent): void {
+    const turns: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    const nearer: Record<string, number> = { "+": 0.9, "=": 0.9, "-": 1 / 0.9 };
+    if (!this.controls || !(event.key in turns || event.key in nearer)) return;
+    event.preventDefault();
+    const { target } = this.controls;
+    const from = this.camera.position.clone().sub(target);
+    const up = this.camera.up;
+    const [across, down] = turns[event.key] ?? [0, 0];
+    const step = Math.PI / 24;
+    // Not over the poles, where left and right would change sides.
+    const polar = from.angleTo(up);
+    const tilt = Math.min(Math.PI - 0.05, Math.max(0.05, polar + down * step)) - polar;
+    const side = new Vector3().crossVectors(up, from).normalize();
+    from.applyAxisAngle(side, tilt).applyAxisAngle(up.clone().normalize(), across * step).multiplyScalar(nearer[event.key] ?? 1);
+    this.camera.position.copy(target).add(from);
+    this.controls.update();
+    this.render();
   }
 
   /** After a change of theme. */
@@ -225,6 +258,7 @@ export class MachineView {
     this.paths.clear();
     this.groups.clear();
     this.forceLines.length = 0;
+    this.films.length = 0;
     this.skins.clear();
     this.scene.add(new AmbientLight(0xffffff, 1.1));
     // Lights hang on the camera: what is seen is lit.
@@ -280,13 +314,19 @@ export class MachineView {
         group.add(skin.mesh);
         continue;
       }
-      const paint = material(colour, shape.kind === "half_space" ? 0.25 : 1);
+      const paint = material(colour, shape.kind === "half_space" ? 0.25 : this.seeThrough());
       const mesh = shapeMesh(shape, paint, this.bounds.radius);
       if (mesh) group.add(mesh);
     }
     if (shapes.length === 0 && name !== "ground") this.addBars(name, group, colour);
     this.groups.set(name, group);
     this.scene.add(group);
+  }
+
+  /** Bodies hide no film that is shown. */
+  private seeThrough(): number {
+    const { geometry } = this;
+    return this.areFilmsShown && geometry.bearings.some(({ name, start }) => start.lengthSq() > 0 && geometry.film(name)) ? 0.35 : 1;
   }
 
   /** Bars from the middle of a body's joints to each of them; a ball where its mass lies. */
@@ -319,8 +359,18 @@ export class MachineView {
     const { radius, width } = this.geometry.bearingSize(bearing.name);
     const group = this.groups.get(bearing.inboard);
     if (!group || radius === 0 || bearing.axis.lengthSq() === 0) return;
+    const film = this.areFilmsShown && bearing.start.lengthSq() > 0 ? this.geometry.film(bearing.name) : null;
+    if (film) return this.addFilm(film, bearing, radius, group);
     const half = bearing.axis.clone().normalize().multiplyScalar(0.5 * width);
     group.add(rod(bearing.inboardPlace.clone().sub(half), bearing.inboardPlace.clone().add(half), 1.12 * radius, material(colour, 0.45), true));
+  }
+
+  private addFilm(fields: FilmFields, { name, axis, start, inboardPlace }: Link, radius: number, group: Group): void {
+    const film = new WrappedFilm(fields, { centre: inboardPlace, axis: axis.clone().normalize(), start: start.clone().normalize(), radius });
+    this.films.push(film);
+    group.add(film.mesh);
+    const scale = h("i", { class: "film-scale" });
+    this.legend.append(h("span", { class: "chip" }, scale, `film of ${name.replaceAll("_", " ")}, 0 to ${format(1e-6 * film.largest)} MPa`));
   }
 
   private addPath(body: BodyMotion, colour: string): void {
@@ -339,6 +389,7 @@ export class MachineView {
       if (increment) displaceMatrix(group.matrix, increment);
       this.deform(body.name, increment);
     }
+    for (const film of this.films) film.show(this.time);
     const end = (body: string, place: Vector3) => {
       const group = this.groups.get(body);
       return group ? place.clone().applyMatrix4(group.matrix) : place.clone();

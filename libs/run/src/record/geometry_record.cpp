@@ -122,7 +122,8 @@ const mbd::FrameSpec& frame(const mbd::MechanismSpec& spec, mbd::FrameId id) {
 struct Link {
   const mbd::MechanismSpec& spec;
   mbd::FrameId inboard, outboard;
-  Vector3 axis;  ///< in the axes of the inboard body
+  Vector3 axis;                      ///< in the axes of the inboard body
+  Vector3 x_axis = Vector3::Zero();  ///< of the inboard frame, likewise
 };
 
 auto body_name(mbd::FrameId Link::*end) {
@@ -156,7 +157,12 @@ const std::vector<Constant<Link>>& joint_constants() {
 }
 
 const std::vector<Constant<Link>>& force_constants() {
-  static const std::vector<Constant<Link>> table = link_constants("z-axis of the inboard frame, in its body's axes");
+  static const std::vector<Constant<Link>> table = [] {
+    std::vector<Constant<Link>> constants = link_constants("z-axis of the inboard frame, in its body's axes");
+    constants.push_back({"x_axis", "1", "x-axis of the inboard frame, in its body's axes: bearing angles begin there",
+                         "[3]", &Link::x_axis, Writer::xyz});
+    return constants;
+  }();
   return table;
 }
 
@@ -230,7 +236,8 @@ void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, c
     std::string group = "/forces/" + force.name + "/";
     for (const std::string kind : {"bearing", "contact"})
       if (force.name.starts_with(kind + " ")) group = "/" + kind + "s/" + force.name.substr(kind.size() + 1) + "/";
-    const Link link{spec, force.a, force.b, frame(spec, force.a).X_BF.R.col(2)};
+    const Matrix3& R = frame(spec, force.a).X_BF.R;
+    const Link link{spec, force.a, force.b, R.col(2), R.col(0)};
     write_once(link_attributes(), group, link, writer);
     write_once(force_constants(), group, link, writer);
   }

@@ -1,0 +1,11 @@
+// What scrolls by itself, a wide table or a long command, is reached and moved by the keyboard.
+addEventListener("load", () => {
+  const mark = () => {
+    for (const box of document.querySelectorAll(".md-typeset__scrollwrap, .md-typeset pre > code, .equation")) {
+      if (box.scrollWidth > box.clientWidth) box.tabIndex = 0;
+      else box.removeAttribute("tabindex");
+    }
+  };
+  mark();
+  addEventListener("resize", mark);
+});
