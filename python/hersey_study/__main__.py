@@ -48,6 +48,16 @@ def has_packages(settings):
     return not lacking
 
 
+def fetch_statistics(settings):
+    """Loads what sums up while runs are done: half a second that nobody then waits for."""
+    from . import statistics
+
+    if statistics.is_drawn(settings):
+        import threading
+
+        threading.Thread(target=__import__, args=("openturns",), daemon=True).start()
+
+
 def work(args):
     from . import page, slurm
     from .study import Study, StudyError, default_folder, load
@@ -75,6 +85,7 @@ def work(args):
 
             reused = len({identity(settings, t) for t in texts} & done)
             study.table = Table(len(texts), reused, settings["wanted"], study.folder.units)
+            fetch_statistics(settings)
             if args.on == "slurm":
                 slurm.run(study, texts, args)
             else:

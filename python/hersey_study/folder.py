@@ -54,8 +54,7 @@ class Folder:
         """Replaces a file as a whole: it is the old one or the new one, whatever happens."""
         path = self.file(name)
         with open(path + ".new", "w", encoding="utf-8") as file:
-            json.dump(data, file)
-            file.write("\n")
+            file.write(json.dumps(data) + "\n")  # not json.dump, which is ten times slower
             file.flush()
             os.fsync(file.fileno())
         os.replace(path + ".new", path)

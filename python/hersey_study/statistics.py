@@ -11,6 +11,9 @@ PERCENTILES = (1, 5, 25, 50, 75, 95, 99)
 RUNS_PER_PARAMETER = 4
 MOST_TERMS = 400
 MOST_DEGREES = 14
+# Errors as shares of the variance: below the first a higher degree is not worth its time, and above the second lower
+# ones have not yet seen what there is to see.
+SMALL_ERROR, LARGE_ERROR = 1e-6, 0.1
 
 
 def scatter(values):
@@ -30,13 +33,12 @@ def is_drawn(settings):
     return settings["plan"] in kinds and all(p.get("distribution") for p in settings["parameters"])
 
 
-def degree(dimensions, runs):
-    """Of the polynomials: the largest whose terms are no more than half the runs, and few enough to be quick."""
+def degrees(dimensions, runs):
+    """Of the polynomials, those to try: their terms are no more than half the runs, and few enough to be quick."""
     most = min(runs // 2, MOST_TERMS)
-    best = 1
-    while best < MOST_DEGREES and math.comb(dimensions + best + 1, dimensions) <= most:
-        best += 1
-    return best
+    tried = [n for n in range(1, MOST_DEGREES + 1) if n == 1 or math.comb(dimensions + n, dimensions) <= most]
+    # Every one up to 4, then every second one.
+    return [n for n in tried if n <= 4 or (n - tried[-1]) % 2 == 0]
 
 
 def surrogate(settings, inputs, values):
@@ -59,17 +61,30 @@ def surrogate(settings, inputs, values):
     marginals = [distributions.to_openturns(p) for p in settings["parameters"]]
     joint = ot.ComposedDistribution(marginals)
 
-    def fit(x, y):
+    def fit(x, y, most):
         basis = ot.OrthogonalProductPolynomialFactory(marginals, ot.LinearEnumerateFunction(count))
-        strategy = ot.FixedStrategy(basis, math.comb(count + degree(count, len(y)), count))
+        strategy = ot.FixedStrategy(basis, math.comb(count + most, count))
         chosen = ot.LeastSquaresStrategy(
             ot.LeastSquaresMetaModelSelectionFactory(ot.LARS(), ot.CorrectedLeaveOneOut()))
         algorithm = ot.FunctionalChaosAlgorithm(ot.Sample(x), ot.Sample(y.reshape(-1, 1)), joint, strategy, chosen)
         algorithm.run()
         return algorithm.getResult()
 
+    def best_fit(x, y):
+        """The degree whose error by leaving out one run is least; higher ones are not tried once two have been worse."""
+        best, least, grown = None, math.inf, 0
+        for most in degrees(count, len(y)):
+            result = fit(x, y, most)
+            error = result.getRelativeErrors()[0]
+            grown = grown + 1 if error >= least else 0
+            if best is None or error < least:
+                best, least = (most, result), error
+            if least < SMALL_ERROR or (grown >= 2 and least < LARGE_ERROR):
+                break
+        return best
+
     scaled = values / spread
-    result = fit(inputs, scaled)
+    chosen_degree, result = best_fit(inputs, scaled)
     indices = ot.FunctionalChaosSobolIndices(result)
     model = result.getMetaModel()
     middle = np.array([distributions.centre(p) for p in settings["parameters"]])
@@ -91,9 +106,9 @@ def surrogate(settings, inputs, values):
     foretold = np.empty_like(scaled)
     for part in range(5):
         out = parts == part
-        foretold[out] = np.array(fit(inputs[~out], scaled[~out]).getMetaModel()(ot.Sample(inputs[out]))).ravel()
+        foretold[out] = np.array(fit(inputs[~out], scaled[~out], chosen_degree).getMetaModel()(ot.Sample(inputs[out]))).ravel()
     error = float(((foretold - scaled) ** 2).mean() / scaled.var())
-    return {"terms": len(result.getIndices()), "cross_validated_error": error,
+    return {"terms": len(result.getIndices()), "degree": chosen_degree, "cross_validated_error": error,
             "first": [indices.getSobolIndex(k) for k in range(count)],
             "total": [indices.getSobolTotalIndex(k) for k in range(count)],
             "sensitivities": slopes, "lines": lines}
