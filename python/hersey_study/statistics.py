@@ -111,7 +111,7 @@ def surrogate(settings, inputs, values):
     return {"terms": len(result.getIndices()), "degree": chosen_degree, "cross_validated_error": error,
             "first": [indices.getSobolIndex(k) for k in range(count)],
             "total": [indices.getSobolTotalIndex(k) for k in range(count)],
-            "sensitivities": slopes, "lines": lines}
+            "centre": float(model(middle)[0] * spread), "sensitivities": slopes, "lines": lines}
 
 
 def corners(results):

@@ -18,6 +18,8 @@ export interface Surrogate {
   total: number[];
   /** Slopes at the middle of the parameters. */
   sensitivities: number[];
+  /** With all parameters in the middle. */
+  centre: number;
   /** Over each parameter, the others in the middle. */
   lines: { x: number[]; y: number[] }[];
 }
@@ -101,9 +103,10 @@ export function figureColumn(study: StudyText, k: number): Column {
   return { label: shortName(figure.key), unit: figure.unit, values: study.runs.map((run) => run.outputs[k] ?? null) };
 }
 
-/** "bearings.main.h_min" as "h min (main)". */
+/** "bearings.main.h_min" as "h min (main)", "modes.1.frequency" as "mode 1 frequency". */
 export function shortName(name: string): string {
   const parts = name.split(".");
+  if (parts[0] === "modes") return ["mode", ...parts.slice(1)].join(" ").replaceAll("_", " ");
   const last = parts.slice(parts[0] === "bearings" ? 2 : Math.max(0, parts.length - 2)).join(" ").replaceAll("_", " ");
   return parts[0] === "bearings" && parts.length > 2 ? `${last} (${parts[1]!.replaceAll("_", " ")})` : last;
 }

@@ -44,7 +44,7 @@ function columns(study: StudyText): Column[] {
 /** A line per run through all parameters and figures. */
 export function parallelCoordinates(study: StudyText, pick: Pick): SVGElement {
   const all = columns(study);
-  const frame: Frame = { width: Math.max(420, 150 * all.length), height: 320, left: 60, right: 60, top: 40, bottom: 26 };
+  const frame: Frame = { width: Math.max(1000, 150 * all.length), height: 340, left: 75, right: 75, top: 40, bottom: 26 };
   const plot = canvasOf(frame, "Parallel coordinates of all runs");
   const at = (k: number) => frame.left + (k / Math.max(1, all.length - 1)) * (frame.width - frame.left - frame.right);
   const scales = all.map((column) => scaleOf(column.values, frame.height - frame.bottom, frame.top));
@@ -79,7 +79,7 @@ export function scatterMatrix(study: StudyText, pick: Pick): SVGElement {
   const gap = 8;
   const edge = 70;
   const size = edge + all.length * (side + gap);
-  const plot = canvasOf({ ...usual, width: size, height: size }, "Scatter matrix");
+  const plot = canvasOf({ ...usual, width: Math.max(size, 900), height: size - edge + 24 }, "Scatter matrix");
   const shown = some(study.runs.length, mostPoints);
   all.forEach((row, r) => {
     const top = r * (side + gap);
@@ -154,7 +154,7 @@ export function histogram(study: StudyText, k: number): SVGElement {
 }
 
 /** Sobol indices of a figure: which parameter its scatter comes from. */
-export function tornado(study: StudyText, figure: SampledFigure): SVGElement {
+export function indices(study: StudyText, figure: SampledFigure): SVGElement {
   const model = figure.surrogate!;
   const order = study.parameters.map((_, k) => k).sort((a, b) => model.total[b]! - model.total[a]!);
   const frame: Frame = { ...usual, left: 130, height: 56 + 34 * order.length };
@@ -171,6 +171,31 @@ export function tornado(study: StudyText, figure: SampledFigure): SVGElement {
     );
   });
   plot.append(svg("text", { x: 0.5 * (frame.left + frame.width), y: frame.height - 10, "text-anchor": "middle", class: "axis" }, "share of the variance"));
+  return plot;
+}
+
+/** What a figure does as one parameter after the other goes from its smallest value to its largest. */
+export function tornado(study: StudyText, figure: SampledFigure): SVGElement {
+  const model = figure.surrogate!;
+  const ends = model.lines.map((line) => [line.y[0]!, line.y[line.y.length - 1]!] as const);
+  const swing = (k: number) => Math.abs(ends[k]![1] - ends[k]![0]);
+  const order = study.parameters.map((_, k) => k).sort((a, b) => swing(b) - swing(a));
+  const frame: Frame = { ...usual, left: 110, right: 24, bottom: 44, height: 70 + 34 * order.length };
+  const plot = canvasOf(frame, `Swing of ${shortName(figure.key)} with each parameter`);
+  const x = scaleOf([model.centre, ...ends.flat()], frame.left, frame.width - frame.right);
+  const rows = scaleOf([0, 1], frame.height - frame.bottom, frame.top, 0);
+  axes(plot, frame, x, { ...rows, low: 2, high: 2 }, axisLabel(shortName(figure.key), shownUnit(figure.unit)), "");
+  order.forEach((k, place) => {
+    const top = frame.top + 34 * place;
+    const line = model.lines[k]!;
+    const unit = shownUnit(study.parameters[k]!.unit);
+    plot.append(svg("text", { x: frame.left - 8, y: top + 22, "text-anchor": "end" }, shortName(study.parameters[k]!.name)));
+    [0, line.y.length - 1].forEach((end) => {
+      const [a, b] = [x.at(model.centre), x.at(line.y[end]!)];
+      const bar = svg("rect", { x: Math.min(a, b), y: top + 6, width: Math.abs(b - a), height: 22, class: end ? "swing high" : "swing" });
+      plot.append(withTitle(bar, `${shortName(study.parameters[k]!.name)} ${withUnit(line.x[end]!, unit)}: ${withUnit(line.y[end]!, shownUnit(figure.unit))}`));
+    });
+  });
   return plot;
 }
 

@@ -2,7 +2,7 @@
 
 import { figure, h, segmented } from "./dom";
 import { themeButton } from "./header";
-import { histogram, parallelCoordinates, paretoFront, progress, response, scatterMatrix, tornado } from "./sampling_figures";
+import { histogram, indices, parallelCoordinates, paretoFront, progress, response, scatterMatrix, tornado } from "./sampling_figures";
 import { shortName, type StudyText } from "./sampling_data";
 import { campbell, waterfall } from "./speed_diagrams";
 import { format, shownUnit, typeset, withUnit } from "./units";
@@ -128,11 +128,15 @@ function figures(study: StudyText, pick: (i: number) => void): HTMLElement[] {
   if (isDrawn && scattered.length)
     list.push(choosable("histogram", "Figure", scattered.map((k) => names[k]!), (i) => ({ caption: `${study.figures[scattered[i]!]!.name}: how often, with its 5th, 50th and 95th percentile.`, plot: histogram(study, scattered[i]!) })));
   const modelled = study.figures.flatMap((f, k) => (f.surrogate ? [k] : []));
-  if (modelled.length)
-    list.push(choosable("tornado", "Figure", modelled.map((k) => names[k]!), (i) => ({ caption: `Sobol indices of ${study.figures[modelled[i]!]!.name}: dark, the parameter by itself; light, with others.`, plot: tornado(study, study.figures[modelled[i]!]!) })));
+  if (modelled.length) {
+    const ofModelled = (kind: string, caption: (name: string) => string, draw: typeof indices) =>
+      list.push(choosable(kind, "Figure", modelled.map((k) => names[k]!), (i) => ({ caption: caption(study.figures[modelled[i]!]!.name), plot: draw(study, study.figures[modelled[i]!]!) })));
+    ofModelled("indices", (name) => `Sobol indices of ${name}: dark, the parameter by itself; light, with others.`, indices);
+    ofModelled("tornado", (name) => `${name}, by the surrogate, as each parameter goes to its smallest (blue) and largest value (red), the others in the middle.`, tornado);
+  }
   if (study.parameters.length && study.figures.length) {
     const pairs = study.figures.flatMap((_, f) => study.parameters.map((__, p) => [f, p] as const)).slice(0, 12);
-    list.push(choosable("response", "Figure over parameter", pairs.map(([f, p]) => `${names[f]} / ${shortName(study.parameters[p]!.name)}`), (i) => ({ caption: "A figure over a parameter, a dot per run; the curve is the surrogate's with all other parameters in the middle.", plot: response(study, pairs[i]![0], pairs[i]![1], pick) })));
+    list.push(choosable("response", "Figure over parameter", pairs.map(([f, p]) => `${names[f]} / ${shortName(study.parameters[p]!.name)}`), (i) => ({ caption: `A figure over a parameter, a dot per run${study.figures[pairs[i]![0]]!.surrogate ? "; the curve is the surrogate's with all other parameters in the middle" : ""}.`, plot: response(study, pairs[i]![0], pairs[i]![1], pick) })));
   }
   return list;
 }
@@ -143,8 +147,15 @@ export function showSampling(page: HTMLElement, study: StudyText): void {
   page.append(...[head(study), verdict(study), scatterTable(study)].filter((e) => e !== null));
   page.append(h("div", { class: "figures" }, ...figures(study, pick)));
   if (study.runs.length > 1) {
-    page.append(figure("parallel", "A line per run; a click shows it. Red: the best, grey: runs that break a bound.", null, parallelCoordinates(study, pick)));
-    page.append(figure("scatter-matrix", "Parameters and figures in pairs, a dot per run; a click shows it.", null, scatterMatrix(study, pick)));
+    const marks = study.objectives.length ? " Red: the best; grey: runs that break a bound." : "";
+    page.append(
+      h(
+        "div",
+        { class: "figures one-column" },
+        figure("parallel", `A line per run; a click shows it.${marks}`, null, parallelCoordinates(study, pick)),
+        figure("scatter-matrix", `Parameters and figures in pairs, a dot per run; a click shows it.${marks}`, null, scatterMatrix(study, pick)),
+      ),
+    );
   }
   page.append(detail.element, runsTable(study, pick));
   if (study.failed.length) page.append(h("section", {}, h("h2", {}, "Failed runs"), h("ul", {}, ...study.failed.map((f) => h("li", {}, `${f.count}: ${f.reason}`)))));
