@@ -49,13 +49,14 @@ def has_packages(settings):
 
 
 def fetch_statistics(settings):
-    """Loads what sums up while runs are done: half a second that nobody then waits for."""
+    """Loads what sums up while runs are done: half a second that nobody then waits for. An interpreter that ends in the
+    middle of it would abort, so that its end waits for the thread: it is no daemon."""
     from . import statistics
 
     if statistics.is_drawn(settings):
         import threading
 
-        threading.Thread(target=__import__, args=("openturns",), daemon=True).start()
+        threading.Thread(target=__import__, args=("openturns",)).start()
 
 
 def work(args):
