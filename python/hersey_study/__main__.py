@@ -1,10 +1,8 @@
 """`hersey study`, called by the program with its own path."""
 
 import argparse
-import json
 import os
 import signal
-import subprocess
 import sys
 
 OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -48,17 +46,6 @@ def has_packages(settings):
     return not lacking
 
 
-def fetch_statistics(settings):
-    """Loads what sums up while runs are done: half a second that nobody then waits for. An interpreter that ends in the
-    middle of it would abort, so that its end waits for the thread: it is no daemon."""
-    from . import statistics
-
-    if statistics.is_drawn(settings):
-        import threading
-
-        threading.Thread(target=__import__, args=("openturns",)).start()
-
-
 def work(args):
     from . import page, slurm
     from .study import Study, StudyError, default_folder, load
@@ -86,7 +73,6 @@ def work(args):
 
             reused = len({identity(settings, t) for t in texts} & done)
             study.table = Table(len(texts), reused, settings["wanted"], study.folder.units)
-            fetch_statistics(settings)
             if args.on == "slurm":
                 slurm.run(study, texts, args)
             else:

@@ -1,6 +1,8 @@
 """Points of the unit interval as values of a parameter."""
 
 import math
+import signal
+import threading
 
 # Standard deviations off the mean that stand for the smallest and largest value of a distribution without end.
 CORNER = 3.0
@@ -63,10 +65,20 @@ def text(parameter, value):
     return f"{number} {parameter['unit']}".strip()
 
 
+def load_openturns():
+    """The module. It takes SIGINT for itself and aborts at one; what Python did before is put back."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    import openturns
+
+    if threading.current_thread() is threading.main_thread():
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    return openturns
+
+
 def to_openturns(parameter):
     """The distribution for OpenTURNS; None of a list of values."""
-    import openturns as ot
-
+    ot = load_openturns()
     d = parameter.get("distribution")
     if d is None:
         return None

@@ -55,8 +55,7 @@ def surrogate(settings, inputs, values):
     spread = values.std()
     if spread <= 1e-12 * max(abs(values).max(), 1e-300):
         return None
-    import openturns as ot
-
+    ot = distributions.load_openturns()
     ot.Log.Show(ot.Log.NONE)
     marginals = [distributions.to_openturns(p) for p in settings["parameters"]]
     joint = ot.ComposedDistribution(marginals)
