@@ -33,6 +33,27 @@ bearings:
      supply: {line: widest_gap, pressure: 0 bar}, operating_point: {journal_speed: 3570 rpm, load: 2500 N}}
 study:
 """
+OSCILLATOR = """hersey: 1
+title: A mass of 2 kg on a guide
+parameters: {rate: 20, stiffness: 8000 N/m}
+bodies:
+  ground: {frames: {wall: {origin: -100 0 0 mm}}}
+  mass: {mass: 2 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+joints:
+  guide: {type: prismatic, between: [ground, mass], axis: x}
+forces:
+%s
+simulation: %s
+study:
+"""
+SHAKEN = OSCILLATOR % (
+    '  shaker: {type: force, body: mass, axes: ground, '
+    'components: [{expression: "100*cos(2*pi*${rate}*t)", unit: N}, 0 N, 0 N]}',
+    "{duration: 1 s, step: 1 ms}")
+SPRUNG = OSCILLATOR % (
+    '  spring: {type: spring_damper, between: [ground.wall, mass], stiffness: "${stiffness}", damping: 40 N.s/m, '
+    'free_length: 100 mm}',
+    "{analysis: modes}")
 PI = "{distribution: uniform, low: -3.14159265358979, high: 3.14159265358979}"
 ISHIGAMI = f"""  plan: sobol
   samples: 1024
@@ -201,6 +222,49 @@ class Studies(unittest.TestCase):
         best = next(r for r in data["runs"] if r["run"] == data["best"][0])["outputs"][0]
         exact = 8 + 0.1 * 3.1**4  # sin x1 = 1, sin^2 x2 = 1, x3 at its bound
         self.assertLess(exact - best, 0.02 * exact)  # what stands between a valley and the next is a tenth
+
+    def run_up(self):
+        model = self.path("shaken.yaml")
+        with open(model, "w", encoding="utf-8") as file:
+            file.write(SHAKEN + "  parameters: {rate: [20, 40, 80]}\n  outputs: [joints.guide.coordinates.max]\n"
+                       "  diagram: run_up\n  spectrum_of: joints.guide.coordinates\n  keep: report\n")
+        return self.study(model)
+
+    def test_run_up_shows_what_shakes(self):
+        run = self.run_up()
+        self.assertEqual(run.returncode, OK, run.stderr)
+        data = self.results()
+        rows = data["run_up"]["rows"]
+        self.assertEqual([row["x"] for row in rows], [20, 40, 80])
+        for row in rows:
+            amplitude = max(row["amplitude"])
+            at = row["frequency"][row["amplitude"].index(amplitude)]
+            self.assertLess(abs(at - row["x"]), 2.0)  # a line of the spectrum: half a second
+            # F/(m omega^2). Hann's window tells less between two lines, up to 15 %, and the step of 1 ms of the highest
+            # frequency 2 %.
+            exact = 100 / (2 * (2 * math.pi * row["x"]) ** 2)
+            self.assertLess(abs(amplitude / exact - 1), 0.17)
+        for record in data["runs"]:
+            with open(os.path.join(self.out, record["report"]), encoding="utf-8") as file:
+                self.assertIn("A mass of 2 kg on a guide", file.read())
+
+    def test_campbell_has_the_natural_frequencies(self):
+        model = self.path("sprung.yaml")
+        with open(model, "w", encoding="utf-8") as file:
+            file.write(SPRUNG + "  parameters: {stiffness: [32 kN/m, 8 kN/m]}\n  outputs: [modes.1.damping_ratio]\n"
+                       "  diagram: campbell\n  keep: figures\n")
+        run = self.study(model)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        rows = self.results()["campbell"]["rows"]
+        self.assertEqual([row["x"] for row in rows], [8, 32])
+        for row, stiffness in zip(rows, (8e3, 32e3)):
+            omega = math.sqrt(stiffness / 2)
+            ratio = 40 / (2 * 2 * omega)
+            # The tangent is exact for a straight guide; the eigenvalues' round-off is far below.
+            self.assertLess(abs(row["damping_ratio"][0] / ratio - 1), 1e-9)
+            exact = omega * math.sqrt(1 - ratio**2) / (2 * math.pi)
+            self.assertLess(abs(row["frequency"][0] / exact - 1), 1e-9)
+        self.assertEqual(os.listdir(os.path.join(self.out, "runs")), [])
 
     def test_runs_that_none_other_beats_are_the_front(self):
         study = ("  plan: full_factorial\n  parameters: {x1: [-1, 0, 1, 2, 3], x2: [1]}\n"
