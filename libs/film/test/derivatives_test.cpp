@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <random>
+#include <string>
 
 #include "balance/flow_balance.h"
 #include "film_cases.h"
@@ -175,9 +176,16 @@ std::vector<State> states_with_pockets() {
       s.history.phi_journal = -0.33;
       s.name = std::string("pockets") + (transient ? ", transient" : ", steady") + (backwards ? ", backwards" : "");
       states.push_back(s);
+      for (const double line : {1.5, 2.3, 4.85}) {  // through each of them, within cells; 1.5: through two
+        State crossed = s;
+        crossed.motion.phi_supply = line;
+        crossed.name += ", line at " + std::to_string(line);
+        states.push_back(crossed);
+      }
       if (!transient) continue;
       s.model.roughness = {FlowFactors::patir_cheng, {1e-6, 0.2}, {2e-6, 4}};
       s.name += ", rough";
+      s.motion.phi_supply = 1.5;
       states.push_back(s);
       s.model.lubricant.shear_thinning = {Cross{.limit = 0.3, .exponent = 0.8}, 0, 4e3};
       s.name += ", sheared";

@@ -253,6 +253,30 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
   }
 }
 
+// A line across a groove fills the groove's depth as well, wherever between two nodes it lies: to within the coarse
+// grid's own error, as above.
+TEST_CASE("SupplyLineOverAGroove_FillsItsDepth") {
+  const auto load = [](int n_phi, double line, Surface surface) {
+    FilmModel m{.R = 0.05, .L = 0.05, .c = 50e-6, .grid = {n_phi, 25}};
+    m.lubricant.mu0 = 0.01;
+    m.supply = {SupplyKind::fixed_angle, line, 0};
+    m.features = {
+        {.name = "groove", .surface = surface, .arc = 2 * pi, .length = 0.0125, .is_fed = false, .depth = 100e-6}};
+    Journal journal = turning(m, 0.6, 100);  // widest at phi = 0
+    const SolvedFilm film = solve_cold(m, surfaces(m, journal, line), journal.e);
+    REQUIRE(film.summary.converged);
+    CHECK(film.observed.mass_balance_error < kSolved);
+    return film.observed.wrench_on_shell.segment<2>(3).norm();
+  };
+  for (const Surface surface : {Surface::shell, Surface::journal}) {
+    for (const double place : {0.25, 0.5, 0.75}) {
+      CAPTURE(place);
+      const double line = 2 * pi / 120 * (3 + place);
+      CHECK(load(120, line, surface) == doctest::Approx(load(480, line, surface)).epsilon(0.003));
+    }
+  }
+}
+
 // Whirl: a full film turns the journal's displacement into force as it turns half its speed into damping. Exact on a
 // centred journal, on any grid; beside it what a grid says is off by the order of its other errors alone.
 TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {

@@ -100,8 +100,7 @@ std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
 }
 
 double FlowBalance::step_speed(std::size_t f, const PocketTube& tube) const {
-  if (axial(f) || !tube.in_journal) return 0;
-  return tube.in_shell ? speed_phi_ : speeds_.u_journal;
+  return axial(f) ? 0 : step_of(tube, speed_phi_, speeds_.u_journal);
 }
 
 void FlowBalance::add_face(std::size_t f) {
@@ -172,7 +171,7 @@ std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speed
   double little = full;
   if (tube_of_[f] >= 0) {
     const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
-    const double step = axial(f) || !tube.in_journal ? 0 : tube.in_shell ? speeds.mean : speeds.journal;
+    const double step = axial(f) ? 0 : step_of(tube, speeds.mean, speeds.journal);
     little += speeds.mean * cells_[flows_[f].couette >= 0 ? face.a : face.b].depth;
     full +=
         (speeds.mean - step) * (relief_.gap(tube, h).carry.value - h) + tube.swept_speed * speeds.journal / face.width;

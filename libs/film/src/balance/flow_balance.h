@@ -211,6 +211,9 @@ class FlowBalance {
   [[nodiscard]] std::size_t line_face(const HeldNode& held) const;
   [[nodiscard]] bool has_line_row(int node) const;
   [[nodiscard]] double line_balance(int node) const;
+  [[nodiscard]] double thickness_towards_line(const HeldNode& held) const;
+  [[nodiscard]] TubeGap gap_towards_line(const HeldNode& held, double h) const;
+  [[nodiscard]] ByGap carried_in_pockets(const HeldNode& held) const;
   [[nodiscard]] double strip_area(const HeldNode& held) const;  ///< beyond the middle of the way to the line [m^2]
   void add_line_by_u(const HeldNode& held);
   [[nodiscard]] double line_row_along(const HeldNode& held, const MotionDirection& direction) const;
@@ -220,6 +223,11 @@ class FlowBalance {
   [[nodiscard]] int slot_to_other(const HeldNode& held) const;
   void add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const;
   [[nodiscard]] double step_speed(std::size_t f, const PocketTube& tube) const;  ///< of a pocket's steps [m/s]
+  /// The same around the bearing, from the mean speed and the journal's; linear, so that it serves for changes as well.
+  [[nodiscard]] static double step_of(const PocketTube& tube, double mean, double journal) {
+    if (!tube.in_journal) return 0;
+    return tube.in_shell ? mean : journal;
+  }
   [[nodiscard]] const Node& upstream(std::size_t f) const {
     return nodes_[flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b];
   }

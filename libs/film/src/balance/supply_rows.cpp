@@ -55,11 +55,12 @@ FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
   const Node& node = nodes_[held.node];
   const bool line = held.other >= 0;
   const double bend = line ? bends_[static_cast<Eigen::Index>(line_face(held))] : 0;
-  const double h = line ? held.near * node.h + held.far * nodes_[held.other].h + held.bend * bend : node.h;
+  const double h = line ? thickness_towards_line(held) : node.h;
+  const ByGap cube = line ? gap_towards_line(held, h).cube : ByGap{h * h * h, 3 * h * h, 0};
   const double unit = line ? held.conductance : unit_conductance_ / 12;
   const RoughGap& rough = rough_[held.node];
   const Fluidity &around = node.flow[0], &along = node.flow[1];
-  const double smooth = unit * node.density * h * h * h * around.value;
+  const double smooth = unit * node.density * cube.value * around.value;
   // Along the axis oil that thins by sliding has another fluidity: of the mean of both directions, with derivatives.
   const auto both = [&](double by_around, double by_along) { return line ? by_around : 0.5 * (by_around + by_along); };
   const double ratio = along.value / around.value;
@@ -69,7 +70,7 @@ FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
   const double factor = both(rough.pressure[0], rough.pressure[1] * ratio);
   const double by_node =
       smooth * both(rough.pressure_h[0], rough.pressure_h[1] * ratio) + by_fluidity(around.h, along.h);
-  const double k = smooth * factor, by_h = 3 * k / h;
+  const double k = smooth * factor, by_h = k * cube.h / cube.value;
   const double by_laws = by_fluidity(around.u, along.u) + k * node.density_u / node.density;
   const double k_rate = by_fluidity(around.rate, along.rate), k_turn = by_fluidity(around.turn, along.turn);
   if (!line) {
@@ -90,6 +91,7 @@ FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
           .k_g_other = by_h * held.far * other.h_g,
           .k_bend = by_h * held.bend,
           .k_line = by_h * (held.near_line * (node.h - other.h) + held.bend_line * bend),
+          .k_journal = k * cube.journal / cube.value,
           .k_rate = k_rate,
           .k_turn = k_turn};
 }
@@ -174,6 +176,29 @@ bool FlowBalance::has_line_row(int node) const {
   return held != nullptr && held->other >= 0;
 }
 
+/// Half-way to the line [m].
+double FlowBalance::thickness_towards_line(const HeldNode& held) const {
+  return held.near * nodes_[held.node].h + held.far * nodes_[held.other].h +
+         held.bend * bends_[static_cast<Eigen::Index>(line_face(held))];
+}
+
+// A pocket that the line crosses is as deep beside it as in the tube that the line cuts.
+TubeGap FlowBalance::gap_towards_line(const HeldNode& held, double h) const {
+  const int tube = tube_of_[line_face(held)];
+  if (tube < 0) return {.cube = {h * h * h, 3 * h * h, 0}, .carry = {h, 1, 0}, .excess = {}};
+  return relief_.gap(relief_.tubes()[static_cast<std::size_t>(tube)], h);
+}
+
+/// What the surfaces carry in pockets there beside what they carry in the gap, per width [m^2/s].
+ByGap FlowBalance::carried_in_pockets(const HeldNode& held) const {
+  const std::size_t f = line_face(held);
+  if (tube_of_[f] < 0) return {};
+  const double past = entrainment(f) - step_speed(f, relief_.tubes()[static_cast<std::size_t>(tube_of_[f])]);
+  const double h = thickness_towards_line(held);
+  const ByGap carry = gap_towards_line(held, h).carry;
+  return {past * (carry.value - h), past * (carry.h - 1), past * carry.journal};
+}
+
 // A control volume ends in the middle of the way to the line. What the surfaces carry there leaves it, or comes from
 // the line, which fills the gap; what is squeezed between there and the face goes to the line.
 FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
@@ -187,7 +212,7 @@ FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
   t.counts = true;
   t.full = sign * density * face.width *
            (held.near * at(node) + held.far * at(held.other) +
-            held.bend * speed_phi_ * bends_[static_cast<Eigen::Index>(f)]);
+            held.bend * speed_phi_ * bends_[static_cast<Eigen::Index>(f)] + carried_in_pockets(held).value);
   if (tube_of_[f] >= 0) t.full += sign * density * relief_.tubes()[static_cast<std::size_t>(tube_of_[f])].swept;
   t.from_node = t.full >= 0;
   t.strip = density * strip_area(held) * g_rate_[node];
@@ -216,7 +241,10 @@ void FlowBalance::add_line_by_u(const HeldNode& held) {
   const Node &node = nodes_[held.node], &other = nodes_[held.other];
   const double sign = held.node == face.a ? 1 : -1, density = flows_[f].density;
   const double theta = t.from_node ? node.theta : 1, scale = sign * theta * density * face.width;
-  const auto by_h = [&](int k) { return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0]; };
+  const double deeper = carried_in_pockets(held).h;
+  const auto by_h = [&](int k) {
+    return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0] + deeper;
+  };
   const double by_density = 0.5 * (theta * t.full - t.strip) / density;
   values_[diagonal_slot_[held.node]] += scale * held.near * by_h(held.node) * node.h_u + by_density * node.density_u +
                                         (t.from_node ? t.full * node.theta_u : 0);
@@ -236,21 +264,27 @@ double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& 
   const auto carried = [&](int k, double mean, double half) {
     return mean * rough_[k].mean + half * rough_[k].drag[0];
   };
-  const auto by_h = [&](int k) { return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0]; };
+  const ByGap deeper = carried_in_pockets(held);
+  const auto by_h = [&](int k) {
+    return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0] + deeper.h;
+  };
   double q = held.near * carried(held.node, speed, half_slip) + held.far * carried(held.other, speed, half_slip) +
              held.bend * speed * bends_[bend];
   if (direction.g.size() != 0) {
     q += held.near * by_h(held.node) * nodes_[held.node].h_g * direction.g[held.node] +
          held.far * by_h(held.other) * nodes_[held.other].h_g * direction.g[held.other] +
-         held.bend * speed_phi_ * direction_bends_[bend];
+         held.bend * (speed_phi_ + deeper.h) * direction_bends_[bend];
   }
   const double turn = direction.phi_supply;
   q += turn * (held.near_line *
-                   (carried(held.node, speed_phi_, half_slip_phi_) - carried(held.other, speed_phi_, half_slip_phi_)) +
-               held.bend_line * speed_phi_ * bends_[bend]);
+                   (carried(held.node, speed_phi_, half_slip_phi_) - carried(held.other, speed_phi_, half_slip_phi_) +
+                    deeper.h * (nodes_[held.node].h - nodes_[held.other].h)) +
+               held.bend_line * (speed_phi_ + deeper.h) * bends_[bend]);
   if (tube_of_[f] >= 0) {
     const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
     q += (tube.swept_journal * direction.phi_journal + tube.swept_speed * direction.u_journal) / face.width;
+    const double h = thickness_towards_line(held), step = step_of(tube, speed, direction.u_journal);
+    q += (speed - step) * (gap_towards_line(held, h).carry.value - h) + deeper.journal * direction.phi_journal;
   }
   double row = scale * q;
   if (direction.g_rate.size() != 0) row -= density * strip_area(held) * direction.g_rate[held.node];
