@@ -11,6 +11,9 @@ PERCENTILES = (1, 5, 25, 50, 75, 95, 99)
 RUNS_PER_PARAMETER = 4
 MOST_TERMS = 400
 MOST_DEGREES = 14
+# Runs that a surrogate is fitted to, and more where each parameter would have fewer than the second number: what there
+# are beside them would cost minutes and change the third digit.
+MOST_FITTED, MOST_FITTED_PER_PARAMETER = 1024, 100
 # Errors as shares of the variance: below the first a higher degree is not worth its time, and above the second lower
 # ones have not yet seen what there is to see.
 SMALL_ERROR, LARGE_ERROR = 1e-6, 0.1
@@ -47,9 +50,9 @@ def surrogate(settings, inputs, values):
     Returns Sobol indices (they follow from its coefficients), first-order sensitivities at the centre, its curves over
     each parameter, and its error on runs that it has not seen: None without enough runs.
     """
-    good = np.isfinite(values)
-    inputs, values = inputs[good], values[good]
     count = len(settings["parameters"])
+    good = np.flatnonzero(np.isfinite(values))[: max(MOST_FITTED, MOST_FITTED_PER_PARAMETER * count)]
+    inputs, values = inputs[good], values[good]
     if not count or len(values) < max(RUNS_PER_PARAMETER * count, 8):
         return None
     spread = values.std()
