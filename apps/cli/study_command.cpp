@@ -120,6 +120,8 @@ void check_figures(const model::Model& model) {
                          ? thing + pattern.substr(13)
                          : pattern);
     }
+    if (simulated)
+      for (std::string& series : study::series_like(name)) near.push_back(std::move(series));
     faults.push_back(
         {position, key, "unknown figure '" + name + "'",
          "one of the names in docs/studies.md, such as " + (near.empty() ? std::string("-") : near.front()),

@@ -26,6 +26,8 @@ def search(study, jobs):
                          "(python3-nlopt)") from None
     settings = study.settings
     parameters, objective = settings["parameters"], settings["objectives"][0]
+    if not parameters:
+        raise StudyError("plan 'optimise' with every parameter fixed by --set; expected one that is free")
     low = np.array([p["distribution"]["low"] for p in parameters])
     high = np.array([p["distribution"]["high"] for p in parameters])
     known, seen = _known(study), []

@@ -55,7 +55,7 @@ def _call(command, *, patience=0.0, tell=None):
 
 def _is_away(text):
     return any(word in text.lower() for word in ("unable to contact", "connection refused", "timed out", "communication",
-                                                 "could not resolve", "configuration error", "unable to establish"))
+                                                 "could not resolve", "configuration error", "configuration source", "unable to establish"))
 
 
 class Array:

@@ -340,6 +340,12 @@ class Studies(unittest.TestCase):
         text = self.refusal("  parameters: {clearance: [34 um]}\n  subject_to: [bearings.main.h_min is large]\n")
         self.assertIn("bearings.main.h_min > 1.5 um", text)
 
+    def test_search_without_a_free_parameter_is_refused(self):
+        study = "  plan: optimise\n  parameters: {x1: {distribution: uniform, low: 0, high: 1}}\n  minimise: valley\n"
+        run = self.study(self.model(study), "--set", "x1=1", *self.stand_in())
+        self.assertEqual(run.returncode, WRONG_INPUT, run.stderr)
+        self.assertIn("every parameter fixed by --set", run.stderr)
+
     def test_bound_in_another_dimension_is_told(self):
         run = self.study(self.model("  parameters: {clearance: [34 um]}\n  subject_to: [bearings.main.h_min > 1 N]\n"))
         self.assertEqual(run.returncode, WRONG_INPUT)

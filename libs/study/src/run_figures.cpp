@@ -1,6 +1,7 @@
 #include "hersey/study/run_figures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -282,6 +283,16 @@ std::vector<std::string> steady_figure_keys(const model::Model& model) {
 
 namespace {
 
+// Of every series of results files, as a name with dots: "bodies.<b>.position".
+std::vector<std::string> series_patterns() {
+  std::vector<std::string> patterns;
+  for (const run::QuantityGroup& group : run::result_quantities())
+    for (const QuantityInfo& quantity : group.quantities)
+      if (quantity.kind == QuantityInfo::Kind::series) patterns.push_back((group.path + quantity.name).substr(1));
+  for (std::string& pattern : patterns) std::replace(pattern.begin(), pattern.end(), '/', '.');
+  return patterns;
+}
+
 bool fits(std::string_view text, std::string_view pattern) {
   const std::size_t open = pattern.find('<');
   if (open == std::string_view::npos) return text == pattern;
@@ -303,15 +314,26 @@ bool is_among(const std::string& name, const std::vector<std::string>& patterns)
 bool is_of_a_series(const std::string& name) {
   const std::optional<Wanted> wanted = wanted_of(name);
   if (!wanted) return false;
-  std::vector<std::string> paths;
-  for (const run::QuantityGroup& group : run::result_quantities())
-    for (const QuantityInfo& quantity : group.quantities)
-      if (quantity.kind == QuantityInfo::Kind::series) paths.push_back(group.path + quantity.name);
-  std::string path = wanted->path;
-  // As names with dots, which is what <...> ends at.
+  std::string path = wanted->path.substr(1);
   std::replace(path.begin(), path.end(), '/', '.');
-  for (std::string& pattern : paths) std::replace(pattern.begin(), pattern.end(), '/', '.');
-  return is_among(path, paths);
+  return is_among(path, series_patterns());
+}
+
+std::vector<std::string> series_like(const std::string& name) {
+  const std::vector<std::string> given = parts_of_name(name);
+  std::vector<std::string> like;
+  for (const std::string& pattern : series_patterns()) {
+    std::vector<std::string> parts = parts_of_name(pattern);
+    if (parts.size() >= given.size() || parts.front() != given.front()) continue;
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      if (k >= parts.size())
+        parts.push_back(given[k]);
+      else if (parts[k].starts_with('<'))
+        parts[k] = given[k];
+    }
+    like.push_back(fmt::format("{}", fmt::join(parts, ".")));
+  }
+  return like;
 }
 
 }  // namespace hersey::study

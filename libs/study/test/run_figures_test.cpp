@@ -125,6 +125,12 @@ TEST_CASE("NamesOfSeries_AreKnownWithoutARun") {
   CHECK_FALSE(is_of_a_series("bearings.main.h_min.median"));
 }
 
+TEST_CASE("MistypedSeries_HasOnesLikeIt") {
+  const std::vector<std::string> like = series_like("bodies.shaft.positoin.x.max");
+  CHECK(std::find(like.begin(), like.end(), "bodies.shaft.position.x.max") != like.end());
+  CHECK(series_like("nonsense").empty());
+}
+
 TEST_CASE("Patterns_StandForOnePartOfAName") {
   CHECK(is_among("bearings.main.moft", {"bearings.<b>.moft"}));
   CHECK(is_among("thermal.T_journal.max", {"thermal.T_<body>.max"}));

@@ -199,6 +199,7 @@ void require_lists_of_one_length(Context& context, const Value& value, const Stu
 
 void check_plan(Context& context, const Value& value, const Study& study) {
   const Value& plan = *value.find("plan");
+  if (plan.broken) return;
   for (const auto& [name, given] : section(value, "parameters")) {
     const auto same = [&, &called = name](const StudyParameter& other) { return other.name == called; };
     const auto parameter = std::find_if(study.parameters.begin(), study.parameters.end(), same);

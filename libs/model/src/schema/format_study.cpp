@@ -58,7 +58,7 @@ TypePtr study_format() {
                     "Figures of the report; curves are drawn over the first parameter."),
           defaulted("plan", choice(study_plan_words), "full_factorial",
                     "Which runs there are; all but the first two need `hersey study`."),
-          defaulted("samples", integer(128, {.low = 1, .high = 1e6}), "128", "Runs of a plan that draws them."),
+          defaulted("samples", integer(128, {.low = 1, .high = 100000}), "128", "Runs of a plan that draws them."),
           defaulted("seed", integer(1, Range::not_negative()), "1", "Of what is drawn: the same seed, the same runs."),
           optional("outputs", list("a list of figures", figure_name("bearings.main.h_min")),
                    "What is told of a study ([names](studies.md)).",

@@ -33,6 +33,10 @@ struct RunFigure {
 /// Whether `name` is one of `patterns`, whose <...> stand for anything without a dot.
 [[nodiscard]] bool is_among(const std::string& name, const std::vector<std::string>& patterns);
 
+/// Names of series that are like `name`: every one of the same kind of thing, with the names of things and the ending
+/// that `name` has. For who has mistyped one.
+[[nodiscard]] std::vector<std::string> series_like(const std::string& name);
+
 /// Whether `name` is that of a series of results files, and how to sum it up.
 [[nodiscard]] bool is_of_a_series(const std::string& name);
 
