@@ -356,6 +356,14 @@ class Studies(unittest.TestCase):
         self.assertEqual(run.returncode, WRONG_INPUT)
         self.assertIn("did you mean 'valley'?", run.stderr)
 
+    def test_examples_in_docstrings_hold(self):
+        import doctest
+
+        import hersey_study
+        found = doctest.testmod(hersey_study)
+        self.assertGreater(found.attempted, 0)
+        self.assertEqual(found.failed, 0)
+
     def test_memory_of_many_runs_is_flat(self):
         import numpy as np
         from hersey_study.folder import Folder
