@@ -5,6 +5,7 @@ import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { bearingReport, everyReport, comparisonReport, machineReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
+import { samplingReport } from "./sampling_checks.mjs";
 
 const flags = [
   "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -62,7 +63,7 @@ async function open(browser, file) {
     if (target !== url && !target.startsWith("data:") && !target.startsWith("blob:")) complaints.push(`request to ${target}`);
   });
   await page.goto(url);
-  await page.waitForSelector("figure canvas, .fault", { timeout: 15000 });
+  await page.waitForSelector("figure canvas, .svg-plot, .fault", { timeout: 15000 });
   return { page, complaints };
 }
 
@@ -128,13 +129,10 @@ async function testReport(browser, file) {
   const isBearing = (await page.locator(".solution").count()) > 0;
   const isModes = (await page.locator(".mode-player").count()) > 0;
   const isMachine = (await page.locator(".assumptions .owners").count()) > 0;
-  const tests = isModes
-    ? modesReport
-    : isBearing
-      ? { ...(isStudy ? sweepReport : {}), ...bearingReport }
-      : isMachine
-        ? machineReport
-        : { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : {}), ...everyReport };
+  const isSampling = (await page.locator('[data-figure="parallel"]').count()) > 0;
+  const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : {}), ...everyReport };
+  const ofBearing = { ...(isStudy ? sweepReport : {}), ...bearingReport };
+  const tests = isSampling ? samplingReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
   for (const [name, test] of Object.entries(tests)) await check(name, () => test(page));
   await testAccess(page);
   await check("nothing on the console and nothing over the network", async () => {
