@@ -16,8 +16,9 @@ struct RunArguments {
   bool resume = false;
   bool json = false;
   bool step_error = false;
-  int jobs = 0;     ///< 0: one per thread
-  int threads = 0;  ///< 0: one per processor
+  bool all = false;  ///< print every figure, however many
+  int jobs = 0;      ///< 0: one per thread
+  int threads = 0;   ///< 0: one per processor
 };
 
 /// `hersey run`: simulates a model, or every run of its study, writes results and report, prints the closing table.
@@ -28,6 +29,7 @@ struct CheckArguments {
   std::string model;
   std::vector<std::string> overrides;
   bool json = false;
+  bool expanded = false;  ///< print the model with templates and parameters put in, and check nothing else
 };
 
 /// `hersey check`: everything that can be found wrong without simulating. @returns an ExitCode.
@@ -38,6 +40,7 @@ struct ReportArguments {
   std::filesystem::path output;    ///< empty: report.html beside the first results file
   std::vector<std::string> names;  ///< of the runs; empty: by their files and folders
   bool json = false;
+  bool all = false;  ///< print every figure, however many
 };
 
 /// `hersey report`: the HTML report of one results file, or of several as a study. @returns an ExitCode.
@@ -136,6 +139,19 @@ struct OilArguments {
 
 /// Tells what the model computes but hardly means, one a line on stderr.
 void warn(const std::vector<Fault>& warnings);
+
+struct InitArguments {
+  std::string model;  ///< which; empty: tells which there are
+  std::string name;   ///< of the file to write; empty: as the model
+};
+
+/// `hersey init`: writes a commented model to begin with. @returns an ExitCode. @throws InputError for a model that
+/// there is not and for a file that exists; std::runtime_error where it cannot be written.
+[[nodiscard]] int init_command(const InitArguments& arguments);
+
+/// `hersey explain`: prints what a key of the model file is, from the format itself. @param path  empty: the sections
+/// @returns an ExitCode. @throws InputError.
+[[nodiscard]] int explain_command(const std::string& path);
 
 /// `hersey schema`: the model file's format, or that of results files. @returns an ExitCode.
 [[nodiscard]] int schema_command(bool results, bool markdown);

@@ -27,6 +27,8 @@ constexpr const char* kAbout =
 
 constexpr const char* kFooter =
     "Examples:\n"
+    "  hersey init big_end my_rod                                    a commented model to begin with\n"
+    "  hersey explain bearings.main.supply                           what a key means, its unit and default\n"
     "  hersey run examples/paper_big_end/model.yaml                  all runs of its study\n"
     "  hersey run model.yaml --set load=500N --output out            one parameter changed\n"
     "  hersey run model.yaml --resume                                goes on after Ctrl-C or a crash\n"
@@ -342,6 +344,7 @@ int dispatch(int argc, char** argv) {
                  "Estimate what the time step does to each bearing's figures, by a run with steps twice as long")
       ->excludes(resume);
   run_app->add_flag("--json", run.json, "Print the closing table as JSON");
+  run_app->add_flag("--all", run.all, "Print every figure of every bearing, however many");
   run_app->add_option("--jobs", run.jobs, "Runs of a study at the same time (default: one per processor)")
       ->check(CLI::PositiveNumber);
   add_threads(*run_app, run.threads);
@@ -350,6 +353,8 @@ int dispatch(int argc, char** argv) {
   check_app->add_option("MODEL", check.model, "Model file")->required();
   add_overrides(*check_app, check.overrides);
   check_app->add_flag("--json", check.json, "Print the faults as JSON");
+  check_app->add_flag("--expanded", check.expanded,
+                      "Print the model with templates, aliases, overrides and parameters put in, instead");
 
   ReportArguments report;
   CLI::App* report_app =
@@ -361,6 +366,7 @@ int dispatch(int argc, char** argv) {
       ->delimiter(',')
       ->type_name("A,B");
   report_app->add_flag("--json", report.json, "Print the summary as JSON");
+  report_app->add_flag("--all", report.all, "Print every figure of every bearing, however many");
 
   BearingArguments bearing;
   const CLI::App* bearing_app = add_bearing_command(app, bearing);
@@ -385,6 +391,15 @@ int dispatch(int argc, char** argv) {
   const CLI::App* study_plan_app = add_study_plan_command(app, study_plan);
   const CLI::App* study_task_app = add_study_task_command(app, study_task);
   const CLI::App* study_page_app = add_study_page_command(app, study_data, study_page);
+
+  InitArguments init;
+  CLI::App* init_app = app.add_subcommand("init", "Write a commented model to begin with; alone: tell which there are");
+  init_app->add_option("TEMPLATE", init.model, "bearing, rotor, big_end, engine, turbocharger or flexible_rod");
+  init_app->add_option("NAME", init.name, "Name of the file to write (default: as the template)");
+  std::string explained;
+  CLI::App* explain_app =
+      app.add_subcommand("explain", "Print what a key of the model file is; alone: the sections of a model");
+  explain_app->add_option("KEY", explained, "Key path, such as bearings.main.supply");
 
   bool markdown = false, of_results = false;
   CLI::App* schema_app = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
@@ -414,6 +429,8 @@ int dispatch(int argc, char** argv) {
   if (*study_plan_app) return study_plan_command(study_plan);
   if (*study_task_app) return study_task_command(study_task);
   if (*study_page_app) return study_page_command(study_data, study_page);
+  if (*init_app) return init_command(init);
+  if (*explain_app) return explain_command(explained);
   return schema_command(of_results, markdown);
 }
 

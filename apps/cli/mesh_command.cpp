@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "exit_code.h"
+#include "fault_json.h"
 #include "hersey/core/input_error.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
@@ -68,14 +69,6 @@ nlohmann::json document_of(const Mesh& mesh, const MeshQuality& quality) {
   document["units"] = {
       {"box", "m"}, {"volume", "m^3"}, {"mass", "kg"}, {"youngs_modulus", "Pa"}, {"density", "kg/m^3"}};
   return document;
-}
-
-nlohmann::json json_of(const Fault& fault) {
-  return {{"file", fault.position.file},
-          {"line", fault.position.line},
-          {"found", fault.found},
-          {"expected", fault.expected},
-          {"suggestion", fault.suggestion}};
 }
 
 std::string box_text(const MeshQuality& quality) {
@@ -158,8 +151,8 @@ int mesh_command(const MeshArguments& arguments) {
     document["file"] = arguments.file;
     document["faults"] = nlohmann::json::array();
     document["warnings"] = nlohmann::json::array();
-    for (const Fault& fault : faults) document["faults"].push_back(json_of(fault));
-    for (const Fault& warning : warnings) document["warnings"].push_back(json_of(warning));
+    for (const Fault& fault : faults) document["faults"].push_back(fault_json(fault));
+    for (const Fault& warning : warnings) document["warnings"].push_back(fault_json(warning));
     fmt::print("{}\n", document.dump(2));
     return faults.empty() ? kOk : kWrongInput;
   }

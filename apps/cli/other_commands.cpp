@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "exit_code.h"
+#include "fault_json.h"
 #include "hersey/core/input_error.h"
 #include "hersey/model/read.h"
 #include "hersey/model/schema.h"
@@ -18,16 +19,6 @@
 
 namespace hersey::cli {
 namespace {
-
-nlohmann::json json_of(const Fault& fault) {
-  return {{"file", fault.position.file},
-          {"line", fault.position.line},
-          {"column", fault.position.column},
-          {"path", fault.path},
-          {"found", fault.found},
-          {"expected", fault.expected},
-          {"suggestion", fault.suggestion}};
-}
 
 std::string contents(const model::Model& model, std::size_t runs) {
   return fmt::format("{} bodies, {} joints, {} drives, {} forces, {} bearings, {} {}", model.bodies.size(),
@@ -84,6 +75,10 @@ void warn(const std::vector<Fault>& warnings) {
 }
 
 int check_command(const CheckArguments& arguments) {
+  if (arguments.expanded) {
+    fmt::print("{}", model::expanded_text(arguments.model, arguments.overrides));
+    return kOk;
+  }
   nlohmann::json document{
       {"model", arguments.model}, {"faults", nlohmann::json::array()}, {"warnings", nlohmann::json::array()}};
   try {
@@ -91,14 +86,14 @@ int check_command(const CheckArguments& arguments) {
     const std::vector<model::StudyRun> runs = runs_of(model, arguments);
     std::vector<Fault> warnings = warnings_of(model);
     for (const model::StudyRun& run : runs) add_new(warnings_of(model::read(arguments.model, run.overrides)), warnings);
-    for (const Fault& warning : warnings) document["warnings"].push_back(json_of(warning));
+    for (const Fault& warning : warnings) document["warnings"].push_back(fault_json(warning));
     if (!arguments.json) {
       warn(warnings);
       fmt::print("{}: good ({})\n", arguments.model, contents(model, std::max<std::size_t>(runs.size(), 1)));
     }
   } catch (const InputError& error) {
     if (!arguments.json) throw;
-    for (const Fault& fault : error.faults()) document["faults"].push_back(json_of(fault));
+    for (const Fault& fault : error.faults()) document["faults"].push_back(fault_json(fault));
     fmt::print("{}\n", document.dump(2));
     return kWrongInput;
   }
@@ -117,8 +112,10 @@ int report_command(const ReportArguments& arguments) {
     return kOk;
   }
   const std::vector<report::SummaryRow> rows = report::summary_table(arguments.results, arguments.names);
-  fmt::print("{}\nreport: {}\n", arguments.results.size() > 1 ? comparison_text(rows) : summary_text(rows),
-             page.string());
+  const std::string table = arguments.results.size() > 1 ? comparison_text(rows)
+                            : arguments.all              ? summary_text(rows)
+                                                         : screen_text(rows, "--all");
+  fmt::print("{}\nreport: {}\n", table, page.string());
   return kOk;
 }
 

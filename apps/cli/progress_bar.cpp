@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "standard_streams.h"
 
@@ -27,11 +28,32 @@ std::string remaining(double share, double elapsed) {
   return fmt::format("{:02d}:{:02d}", seconds / 60, seconds % 60);
 }
 
-std::string figures(const run::Progress& progress, double share) {
-  std::string text = fmt::format("{:3.0f} %  t {:.5g} s  step {:.2g} s  Newton {:2d}", 100 * share, progress.t,
-                                 progress.dt, progress.newton_iterations);
-  if (std::isfinite(progress.moft)) text += fmt::format("  MOFT {:.2f} um", 1e6 * progress.moft);
-  return text + "  left " + remaining(share, progress.elapsed);
+// The most wanted first: a narrow terminal shows as many as leave room for the bar.
+std::vector<std::string> figures(const run::Progress& progress, double share) {
+  std::vector<std::string> texts{fmt::format("{:3.0f} %", 100 * share), "left " + remaining(share, progress.elapsed),
+                                 fmt::format("t {:.5g} s", progress.t)};
+  if (std::isfinite(progress.moft)) texts.push_back(fmt::format("MOFT {:.2f} um", 1e6 * progress.moft));
+  texts.push_back(fmt::format("step {:.2g} s", progress.dt));
+  texts.push_back(fmt::format("Newton {:2d}", progress.newton_iterations));
+  return texts;
+}
+
+std::string line_of(const std::string& label, const std::vector<std::string>& texts, std::size_t most) {
+  std::string line = label;
+  for (const std::string& text : texts) {
+    const std::string longer = line + (line.empty() ? "" : "  ") + text;
+    if (!line.empty() && longer.size() > most) break;
+    line = longer;
+  }
+  return line;
+}
+
+// "[=======>        ]"
+std::string bar_of(double share, std::size_t room) {
+  const auto full = std::min(room, static_cast<std::size_t>(std::lround(share * static_cast<double>(room))));
+  std::string bar(full, '=');
+  if (full > 0 && full < room) bar.back() = '>';
+  return "[" + bar + std::string(room - full, ' ') + "]";
 }
 
 }  // namespace
@@ -45,14 +67,15 @@ void ProgressBar::show(const std::string& label, const run::Progress& progress) 
   last_ = now;
   const double span = progress.t_end - progress.t_start;
   const double share = span > 0 ? std::clamp((progress.t - progress.t_start) / span, 0.0, 1.0) : 1.0;
-  const std::string text = (label.empty() ? "" : label + "  ") + figures(progress, share);
+  constexpr std::size_t kLeastBar = 20, kFrame = 4;  // brackets, and a blank on both sides of the text
   if (!terminal_) {
-    say("{}\n", text);
+    say("{}\n", line_of(label, figures(progress, share), std::string::npos));
     return;
   }
-  const std::size_t room = width_ > text.size() + 5 ? width_ - text.size() - 5 : 0;
-  const auto full = static_cast<std::size_t>(std::lround(share * static_cast<double>(room)));
-  say("\r\033[K[{}{}] {}", std::string(full, '#'), std::string(room - full, '.'), text);
+  const std::size_t most = width_ > kLeastBar + kFrame ? width_ - kLeastBar - kFrame : 0;
+  const std::string text = line_of(label, figures(progress, share), most);
+  const std::size_t room = width_ > text.size() + kFrame ? width_ - text.size() - kFrame : 0;
+  say("\r\033[K{} {}", bar_of(share, room), text);
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -98,7 +98,10 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
     fmt::print("{}\n", document.dump(2));
     return code;
   }
-  fmt::print("{}\n", summaries.size() > 1 ? comparison_text(rows) : summary_text(rows));
+  const std::string more = "hersey report --all " + (files.empty() ? std::string() : files.front().string());
+  fmt::print("{}\n", summaries.size() > 1 ? comparison_text(rows)
+                     : arguments.all      ? summary_text(rows)
+                                          : screen_text(rows, more));
   fmt::print("results: {}\nreport:  {}\n", summaries.size() > 1 ? folder.string() : files.front().string(),
              page.string());
   return code;
@@ -167,7 +170,17 @@ void tell_work(const run::Summary& summary) {
     if (percent >= 0.1) shares += fmt::format("{}{} {:.1f} %", shares.empty() ? "" : ", ", part.name, percent);
   }
   say("share of time: {}\n", shares);
-  for (const run::CouplingWork& coupling : work.couplings) {
+  // Of many films those that took the most.
+  constexpr std::size_t kMostTold = 3;
+  std::vector<run::CouplingWork> couplings = work.couplings;
+  std::stable_sort(couplings.begin(), couplings.end(), [](const run::CouplingWork& a, const run::CouplingWork& b) {
+    return a.film_iterations.mean > b.film_iterations.mean;
+  });
+  if (couplings.size() > kMostTold + 1)
+    couplings.resize(kMostTold);
+  else
+    couplings = work.couplings;
+  for (const run::CouplingWork& coupling : couplings) {
     const std::string exchanges =
         coupling.exchanges.most > 0 ? fmt::format("exchanges per step: {}; ", text_of(coupling.exchanges)) : "";
     const std::string as_one =

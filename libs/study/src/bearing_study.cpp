@@ -23,6 +23,7 @@
 #include "hersey/core/spelling.h"
 #include "hersey/core/task_pool.h"
 #include "hersey/core/units.h"
+#include "hersey/model/plausibility.h"
 #include "hersey/model/read.h"
 #include "hersey/model/steady_elasticity.h"
 #include "hersey/model/wall_conduction.h"
@@ -86,7 +87,10 @@ std::vector<std::string> doubts_of(const model::Bearing& bearing, const bearing:
   double T = std::numeric_limits<double>::quiet_NaN();
   if (state.heat) T = state.heat->seen.T_max;
   if (state.effective) T = state.effective->T;
-  return model::doubts_of_film(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
+  std::vector<std::string> doubts = model::doubts_of_film(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
+  for (std::string& doubt : model::doubts_of_surfaces(bearing, state.film.p_max, state.film.h_min))
+    doubts.push_back(std::move(doubt));
+  return doubts;
 }
 
 // Those of a solution nearby, if it has as many.

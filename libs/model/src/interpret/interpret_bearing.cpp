@@ -89,9 +89,23 @@ class FilmReader {
   void check_clearance() {
     const Value* clearance = value_.find("radial_clearance");
     if (clearance == nullptr) clearance = value_.find("diametral_clearance");
-    if (clearance == nullptr || clearance->broken || film_.R <= 0 || film_.c < 0.1 * film_.R) return;
+    if (clearance == nullptr || clearance->broken || film_.R <= 0) return;
+    if (film_.c < 0.1 * film_.R) return warn_of_clearance(*clearance);
     context_.fault(*clearance, "a clearance of more than a tenth of the radius",
                    "a thin gap: common are radial clearances of 0.0005 to 0.002 radii");
+  }
+
+  /// What is far from any bearing is most often a wrong unit, or a diametral clearance given as the radial one.
+  void warn_of_clearance(const Value& clearance) {
+    constexpr double kSmallest = 2e-4, kLargest = 1e-2;
+    const double psi = film_.c / film_.R;
+    if (psi >= kSmallest && psi <= kLargest) return;
+    context_.model.warnings.push_back(
+        {clearance.position, clearance.path,
+         fmt::format("a radial clearance of {:.3g} um, {:.2g} of the radius, far from what is usual", 1e6 * film_.c,
+                     psi),
+         fmt::format("0.0005 to 0.002 of the radius, {:.3g} to {:.3g} um", 5e2 * film_.R, 2e3 * film_.R),
+         "is it in the right unit?"});
   }
 
   void read_lubricant() {

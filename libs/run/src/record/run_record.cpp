@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hersey/model/plausibility.h"
 #include "march/coarser_run.h"
 
 namespace hersey::run {
@@ -116,6 +117,8 @@ void RunRecord::summarise(Summary& summary) const {
     BearingSummary bearing = extremes_[i].summary();
     const model::Bearing& plan = model_.bearings[i];
     bearing.doubts = model::doubts_of_film(plan.validity, bearing.T_max, bearing.pofp - plan.film.p_cav);
+    for (std::string& doubt : model::doubts_of_surfaces(plan, bearing.pofp, bearing.moft))
+      bearing.doubts.push_back(std::move(doubt));
     summary.bearings.push_back(std::move(bearing));
   }
   for (std::size_t i = 0; i < step_errors_.size(); ++i) summary.bearings[i].step_error = step_errors_[i];

@@ -19,4 +19,8 @@ namespace hersey::model {
 [[nodiscard]] Model read_text(const std::string& text, const std::string& file,
                               const std::vector<std::string>& overrides = {});
 
+/// The model file as YAML with templates, aliases, overrides and parameters put in; without `parameters` and `study`.
+/// @throws InputError where these are wrong; nothing else is checked
+[[nodiscard]] std::string expanded_text(const std::string& path, const std::vector<std::string>& overrides = {});
+
 }  // namespace hersey::model

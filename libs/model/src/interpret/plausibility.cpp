@@ -1,0 +1,60 @@
+#include "hersey/model/plausibility.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace hersey::model {
+namespace {
+
+// Peak film pressures that the layers of highly loaded engine bearings are designed for are of this order; soft ones
+// (white metal) yield far below it.
+constexpr double kMostPressure = 200e6;
+// Of finely ground journals and bored shells that have run in; for bearings whose roughness is not given.
+constexpr double kLeastRoughness = 0.1e-6;
+
+bool deforms(const Bearing& bearing) {
+  return bearing.shell_surface || bearing.journal_surface || bearing.film.compliance > 0;
+}
+
+/// Rms of both surfaces together, 0 where it is not given.
+double roughness_of(const Bearing& bearing) {
+  const bool has_summits = bearing.film.asperities.model != film::AsperityModel::none;
+  return has_summits ? bearing.film.asperities.sigma : bearing.film.roughness.composite_sigma();
+}
+
+std::string doubt_of_gap(const Bearing& bearing, double h_min) {
+  const double sigma = roughness_of(bearing);
+  if (sigma == 0)
+    return h_min < kLeastRoughness
+               ? fmt::format(
+                     "its smallest film: {:.2g} um is below the roughness of the finest surfaces (about 0.1 um); say "
+                     "how rough they are (`asperities`), or lower the load",
+                     1e6 * h_min)
+               : "";
+  if (h_min >= sigma) return "";
+  const bool has_contact = bearing.film.asperities.model != film::AsperityModel::none;
+  return fmt::format("its smallest film: {:.2g} um is below the roughness, {:.2g} um: the surfaces touch{}",
+                     1e6 * h_min, 1e6 * sigma,
+                     has_contact ? ", and wear; lower the load, or give more viscous oil, width or smoother surfaces"
+                                 : ", which `asperities` counts");
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_of_surfaces(const Bearing& bearing, double p_max, double h_min) {
+  std::vector<std::string> doubts;
+  if (p_max > kMostPressure)
+    doubts.push_back(fmt::format(
+        "its peak pressure: {:.3g} MPa is above what layers of bearings usually bear (of the order of 200 MPa in "
+        "engines, far less of white metal); {}",
+        1e-6 * p_max,
+        deforms(bearing) ? "lower the load or give more width"
+                         : "elastic surfaces spread it (`shell_surface`, or `compliance`)"));
+  if (std::isfinite(h_min)) {
+    if (std::string doubt = doubt_of_gap(bearing, h_min); !doubt.empty()) doubts.push_back(std::move(doubt));
+  }
+  return doubts;
+}
+
+}  // namespace hersey::model
