@@ -12,7 +12,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help program demo test bench validate mutations fuzz random-models studies test-slurm web web-check web-test python docs docs-test pictures package package-test format lint install clean
+.PHONY: help fmu program demo test bench validate mutations fuzz random-models studies test-slurm web web-check web-test python docs docs-test pictures package package-test format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -27,6 +27,11 @@ test: $(BUILD)/build.ninja  ## builds everything and runs every test (FILTER=reg
 	@scripts/setup build test study
 	@$(PHASE) compile build/log/compile.log cmake --build $(BUILD) -j $(JOBS)
 	@scripts/run-tests $(BUILD) $(JOBS) '$(FILTER)'
+
+fmu: $(BUILD)/build.ninja  ## builds what `hersey export` needs: build/release/hersey-fmu and hersey_fmu.so
+	@scripts/setup build fmu
+	@$(PHASE) configure build/log/fmu-configure.log cmake $(BUILD)
+	@$(PHASE) compile build/log/fmu.log cmake --build $(BUILD) --target fmu -j $(JOBS)
 
 bench:  ## builds and runs the benchmarks
 	@scripts/setup build

@@ -25,6 +25,17 @@ struct RunArguments {
 /// @returns an ExitCode. @throws InputError, results::FileError.
 [[nodiscard]] int run_command(const RunArguments& arguments);
 
+struct ExportArguments {
+  std::string model;
+  std::vector<std::string> overrides;
+  std::filesystem::path fmu;
+  int fmi = 2;  ///< version of the standard
+  bool force = false;
+};
+
+/// `hersey export`: becomes the program that packs a model into an FMU. @returns an ExitCode where that is not there.
+[[nodiscard]] int export_command(const ExportArguments& arguments);
+
 struct CheckArguments {
   std::string model;
   std::vector<std::string> overrides;

@@ -60,6 +60,18 @@ void add_threads(CLI::App& command, int& threads) {
       ->check(CLI::PositiveNumber);
 }
 
+CLI::App* add_export_command(CLI::App& app, ExportArguments& exported) {
+  CLI::App* command = app.add_subcommand("export", "Write a model as an FMU, for co-simulation in other programs");
+  command->add_option("MODEL", exported.model, "Model file")->required();
+  command->add_option("--fmu", exported.fmu, "The FMU to write")->type_name("FILE.fmu")->required();
+  command->add_option("--fmi", exported.fmi, "Version of the standard: 2 or 3 (default: 2)")
+      ->type_name("2|3")
+      ->check(CLI::IsMember({2, 3}).description(""));
+  add_overrides(*command, exported.overrides);
+  command->add_flag("--force", exported.force, "Replace the FMU if it exists");
+  return command;
+}
+
 CLI::App* add_bearing_command(CLI::App& app, BearingArguments& bearing) {
   CLI::App* command = app.add_subcommand(
       "bearing",
@@ -348,6 +360,8 @@ int dispatch(int argc, char** argv) {
   run_app->add_option("--jobs", run.jobs, "Runs of a study at the same time (default: one per processor)")
       ->check(CLI::PositiveNumber);
   add_threads(*run_app, run.threads);
+  ExportArguments exported;
+  const CLI::App* export_app = add_export_command(app, exported);
   CheckArguments check;
   CLI::App* check_app = app.add_subcommand("check", "Report everything that can be found wrong without simulating");
   check_app->add_option("MODEL", check.model, "Model file")->required();
@@ -417,6 +431,7 @@ int dispatch(int argc, char** argv) {
   }
   if (const int threads = std::max(run.threads, bearing.threads); threads > 0) TaskPool::shared().set_threads(threads);
   if (*run_app) return run_command(run);
+  if (*export_app) return export_command(exported);
   if (*check_app) return check_command(check);
   if (*report_app) return report_command(report);
   if (*bearing_app) return bearing_command(bearing);

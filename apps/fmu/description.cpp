@@ -1,0 +1,204 @@
+#include "description.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "hersey/core/version.h"
+
+namespace hersey::fmu {
+namespace {
+
+using Exponents = std::array<int, 8>;
+
+constexpr std::array<const char*, 8> kBases{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
+
+const std::map<std::string, Exponents>& known_units() {
+  static const std::map<std::string, Exponents> units{
+      {"1", {}},
+      {"kg", {1}},
+      {"m", {0, 1}},
+      {"s", {0, 0, 1}},
+      {"K", {0, 0, 0, 0, 1}},
+      {"rad", {0, 0, 0, 0, 0, 0, 0, 1}},
+      {"Hz", {0, 0, -1}},
+      {"N", {1, 1, -2}},
+      {"Pa", {1, -1, -2}},
+      {"J", {1, 2, -2}},
+      {"W", {1, 2, -3}},
+  };
+  return units;
+}
+
+std::string escaped(const std::string& text) {
+  std::string xml;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '&')
+      xml += "&amp;";
+    else if (c == '<')
+      xml += "&lt;";
+    else if (c == '>')
+      xml += "&gt;";
+    else if (c == '"')
+      xml += "&quot;";
+    else if (c == '\n' || c == '\t')
+      xml += ' ';
+    else if (code >= 0x20)
+      xml += c;
+  }
+  return xml;
+}
+
+std::string unit_definitions(const Variables& variables) {
+  std::set<std::string> units{"s"};
+  for (const Variable& variable : variables.list) units.insert(variable.unit);
+  units.erase("1");
+  units.erase("");
+  std::string xml = "  <UnitDefinitions>\n";
+  for (const std::string& unit : units) {
+    int exponents[8]{};
+    if (!exponents_of(unit, exponents)) {
+      xml += fmt::format("    <Unit name=\"{}\"/>\n", escaped(unit));
+      continue;
+    }
+    std::string base;
+    for (std::size_t i = 0; i < kBases.size(); ++i)
+      if (exponents[i] != 0) base += fmt::format(" {}=\"{}\"", kBases[i], exponents[i]);
+    xml += fmt::format("    <Unit name=\"{}\"><BaseUnit{}/></Unit>\n", escaped(unit), base);
+  }
+  return xml + "  </UnitDefinitions>\n";
+}
+
+std::string role_of(const Variable& variable) {
+  switch (variable.kind) {
+    case Variable::Kind::parameter:
+      return R"(causality="parameter" variability="fixed" initial="exact")";
+    case Variable::Kind::input:
+      return R"(causality="input" variability="continuous")";
+    case Variable::Kind::output:
+      break;
+  }
+  return R"(causality="output" variability="continuous" initial="calculated")";
+}
+
+std::string values_of(const Variable& variable) {
+  std::string text;
+  if (variable.unit != "1" && !variable.unit.empty()) text += fmt::format(" unit=\"{}\"", escaped(variable.unit));
+  if (variable.kind != Variable::Kind::output)
+    text += fmt::format(" start=\"{}\"", std::isfinite(variable.start) ? variable.start : 0.0);
+  return text;
+}
+
+std::string variables_2(const Variables& variables) {
+  std::string xml =
+      "    <ScalarVariable name=\"time\" valueReference=\"0\" description=\"time\" causality=\"independent\" "
+      "variability=\"continuous\"><Real unit=\"s\"/></ScalarVariable>\n";
+  for (std::size_t i = 0; i < variables.list.size(); ++i) {
+    const Variable& one = variables.list[i];
+    xml += fmt::format(
+        "    <ScalarVariable name=\"{}\" valueReference=\"{}\" description=\"{}\" {}><Real{}/>"
+        "</ScalarVariable>\n",
+        escaped(one.name), i + 1, escaped(one.text), role_of(one), values_of(one));
+  }
+  return xml;
+}
+
+std::string variables_3(const Variables& variables) {
+  std::string xml =
+      "    <Float64 name=\"time\" valueReference=\"0\" description=\"time\" causality=\"independent\" "
+      "variability=\"continuous\" unit=\"s\"/>\n";
+  for (std::size_t i = 0; i < variables.list.size(); ++i) {
+    const Variable& one = variables.list[i];
+    xml += fmt::format("    <Float64 name=\"{}\" valueReference=\"{}\" description=\"{}\" {}{}/>\n", escaped(one.name),
+                       i + 1, escaped(one.text), role_of(one), values_of(one));
+  }
+  return xml;
+}
+
+/// One line for each output. FMI 2 counts variables from 1, time is the first.
+std::string unknowns(const Variables& variables, const char* line) {
+  std::string xml;
+  for (std::size_t i = 0; i < variables.list.size(); ++i)
+    if (variables.list[i].kind == Variable::Kind::output) xml += fmt::format(fmt::runtime(line), i + 1, i + 2);
+  return xml;
+}
+
+constexpr const char* kLogCategories =
+    "  <LogCategories>\n"
+    "    <Category name=\"logStatusError\" description=\"Why a call failed\"/>\n"
+    "    <Category name=\"logStatusDiscard\" description=\"Why a step ended early\"/>\n"
+    "    <Category name=\"logAll\" description=\"Every communication step\"/>\n"
+    "  </LogCategories>\n";
+
+}  // namespace
+
+bool exponents_of(const std::string& unit, int (&exponents)[8]) {
+  int sign = 1;
+  for (std::size_t at = 0; at <= unit.size();) {
+    const std::size_t end = std::min(unit.find_first_of("./", at), unit.size());
+    std::string factor = unit.substr(at, end - at);
+    int power = 1;
+    if (const std::size_t hat = factor.find('^'); hat != std::string::npos) {
+      const std::string digits = factor.substr(hat + 1);
+      const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), power);
+      if (read.ec != std::errc() || read.ptr != digits.data() + digits.size()) return false;
+      factor.resize(hat);
+    }
+    const auto known = known_units().find(factor);
+    if (known == known_units().end()) return false;
+    for (std::size_t i = 0; i < kBases.size(); ++i) exponents[i] += sign * power * known->second[i];
+    if (end == unit.size()) return true;
+    sign = unit[end] == '/' ? -1 : 1;
+    at = end + 1;
+  }
+  return false;
+}
+
+std::string description_xml(const model::Model& model, const Variables& variables, int version) {
+  const model::Simulation& plan = model.simulation;
+  const std::string title = escaped(model.title.empty() ? "hersey model" : model.title);
+  const std::string experiment =
+      fmt::format("  <DefaultExperiment startTime=\"{}\" stopTime=\"{}\" stepSize=\"{}\"/>\n", plan.start,
+                  plan.start + plan.duration, plan.step);
+  const std::string head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  const std::string about = fmt::format(
+      "modelName=\"{}\" description=\"{}\" generationTool=\"hersey {}\" "
+      "variableNamingConvention=\"structured\"",
+      title, escaped(model.description), hersey::version());
+  if (version == 2)
+    return head + fmt::format("<fmiModelDescription fmiVersion=\"2.0\" guid=\"{}\" {}>\n", variables.token, about) +
+           fmt::format(
+               "  <CoSimulation modelIdentifier=\"{}\" needsExecutionTool=\"false\" "
+               "canHandleVariableCommunicationStepSize=\"true\" canInterpolateInputs=\"false\" "
+               "maxOutputDerivativeOrder=\"0\" canRunAsynchronuously=\"false\" "
+               "canBeInstantiatedOnlyOncePerProcess=\"false\" canNotUseMemoryManagementFunctions=\"true\" "
+               "canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" "
+               "providesDirectionalDerivative=\"false\"/>\n",
+               kModelIdentifier) +
+           unit_definitions(variables) + kLogCategories + experiment + "  <ModelVariables>\n" + variables_2(variables) +
+           "  </ModelVariables>\n  <ModelStructure>\n    <Outputs>\n" +
+           unknowns(variables, "      <Unknown index=\"{1}\"/>\n") + "    </Outputs>\n    <InitialUnknowns>\n" +
+           unknowns(variables, "      <Unknown index=\"{1}\"/>\n") +
+           "    </InitialUnknowns>\n  </ModelStructure>\n</fmiModelDescription>\n";
+  return head +
+         fmt::format("<fmiModelDescription fmiVersion=\"3.0\" instantiationToken=\"{}\" {}>\n", variables.token,
+                     about) +
+         fmt::format(
+             "  <CoSimulation modelIdentifier=\"{}\" needsExecutionTool=\"false\" "
+             "canBeInstantiatedOnlyOncePerProcess=\"false\" canGetAndSetFMUState=\"true\" "
+             "canSerializeFMUState=\"true\" canHandleVariableCommunicationStepSize=\"true\" "
+             "canReturnEarlyAfterIntermediateUpdate=\"false\" hasEventMode=\"false\"/>\n",
+             kModelIdentifier) +
+         unit_definitions(variables) + kLogCategories + experiment + "  <ModelVariables>\n" + variables_3(variables) +
+         "  </ModelVariables>\n  <ModelStructure>\n" + unknowns(variables, "    <Output valueReference=\"{0}\"/>\n") +
+         unknowns(variables, "    <InitialUnknown valueReference=\"{0}\"/>\n") +
+         "  </ModelStructure>\n</fmiModelDescription>\n";
+}
+
+}  // namespace hersey::fmu

@@ -1,0 +1,267 @@
+#include "instance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "hersey/core/blas_threads.h"
+#include "hersey/core/error_text.h"
+#include "hersey/core/input_file.h"
+#include "hersey/model/read.h"
+
+namespace hersey::fmu {
+namespace {
+
+constexpr std::uintmax_t kLargestList = std::uintmax_t{1} << 28;
+constexpr double kSameTime = 1e-9;  // relative, of communication points that importers add up
+
+std::string text_of(const std::filesystem::path& path) {
+  InputFile file = read_input_file(path.string(), kLargestList);
+  if (!file.fault.empty()) throw std::runtime_error(fmt::format("{}: {}", path.string(), file.fault));
+  return std::move(file.content);
+}
+
+// Before the first quantity is read. Who has set another database keeps it.
+void use_own_units(const std::filesystem::path& database) {
+  std::error_code ignored;
+  if (std::filesystem::exists(database, ignored)) ::setenv("UDUNITS2_XML_PATH", database.c_str(), 0);
+}
+
+}  // namespace
+
+Instance::Instance(std::string name, const std::string& token, std::filesystem::path resources, Log log)
+    : name_(std::move(name)), resources_(std::move(resources)), log_(std::move(log)) {
+  use_one_blas_thread();
+  use_own_units(resources_ / "udunits" / "udunits2.xml");
+  variables_ = from_json(text_of(resources_ / "variables.json"));
+  if (token != variables_.token)
+    throw std::runtime_error(
+        fmt::format("the model description is of another FMU: its token is '{}', that of the resources '{}'", token,
+                    variables_.token));
+  (void)reset();
+}
+
+Outcome Instance::guarded(const std::function<Outcome()>& action) {
+  try {
+    return action();
+  } catch (const std::exception& failure) {
+    return error(error_text(failure));
+  }
+}
+
+void Instance::say(Outcome outcome, const char* category, const std::string& message) const {
+  const bool is_always_told = outcome == Outcome::error || outcome == Outcome::discard;
+  if (log_ && (is_logging_ || is_always_told)) log_(outcome, category, message);
+}
+
+Outcome Instance::error(const std::string& message) {
+  say(Outcome::error, "logStatusError", message);
+  return Outcome::error;
+}
+
+Outcome Instance::set_up(double start_time, std::optional<double> stop_time) {
+  if (phase_ != Phase::instantiated) return error("the experiment is set up before the initialisation");
+  if (!std::isfinite(start_time) || (stop_time && !(*stop_time > start_time)))
+    return error(
+        fmt::format("an experiment from {} s to {} s: expected a later end", start_time, stop_time.value_or(0)));
+  start_time_ = start_time;
+  stop_time_ = stop_time;
+  is_set_up_ = true;
+  return Outcome::ok;
+}
+
+// The model with what the importer gave for its parameters; what it left is as in the file, to the last bit.
+void Instance::build() {
+  std::vector<std::string> overrides = variables_.overrides;
+  for (std::size_t i = 0; i < variables_.list.size(); ++i) {
+    const Variable& one = variables_.list[i];
+    if (one.kind != Variable::Kind::parameter || !is_set_[i] || values_[i] == one.start) continue;
+    overrides.push_back(fmt::format("{}={}{}", one.source, values_[i], one.unit == "1" ? "" : " " + one.unit));
+  }
+  model::Model model = model::read((resources_ / "model.yaml").string(), overrides);
+  model.file = "model.yaml";  // the same wherever it has been unpacked
+  model::Simulation& plan = model.simulation;
+  if (is_set_up_) plan.start = start_time_;
+  if (stop_time_ && !plan.cycle) plan.duration = std::max(plan.duration, *stop_time_ - plan.start);
+  time_ = plan.start;
+  simulation_.reset();
+  simulation_ = std::make_unique<run::Simulation>(std::move(model));
+  std::map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < simulation_->outputs().size(); ++i) places[simulation_->outputs()[i].name] = i;
+  outputs_.assign(variables_.list.size(), 0);
+  for (std::size_t i = 0; i < variables_.list.size(); ++i) {
+    const Variable& one = variables_.list[i];
+    if (one.kind == Variable::Kind::output) {
+      const auto found = places.find(one.source);
+      if (found == places.end()) throw std::runtime_error("with these parameters the model has no " + one.source);
+      outputs_[i] = found->second;
+    }
+    if (one.kind == Variable::Kind::input && is_set_[i]) simulation_->set(one.source, values_[i]);
+  }
+}
+
+Outcome Instance::enter_initialisation() {
+  if (phase_ != Phase::instantiated) return error("initialisation begins once, behind instantiation or reset");
+  return guarded([&] {
+    build();
+    phase_ = Phase::initialisation;
+    return Outcome::ok;
+  });
+}
+
+Outcome Instance::exit_initialisation() {
+  if (phase_ != Phase::initialisation) return error("initialisation is not under way");
+  return guarded([&] {
+    if (!simulation_) build();
+    phase_ = Phase::stepping;
+    return Outcome::ok;
+  });
+}
+
+const Variable& Instance::variable(unsigned reference) const {
+  if (reference == 0 || reference > variables_.list.size())
+    throw std::invalid_argument(fmt::format("no variable has the value reference {}", reference));
+  return variables_.list[reference - 1];
+}
+
+double Instance::get_one(unsigned reference) const {
+  if (reference == 0) return time_;
+  const Variable& one = variable(reference);
+  const std::size_t i = reference - 1;
+  if (one.kind == Variable::Kind::parameter || is_set_[i]) return values_[i];
+  if (one.kind == Variable::Kind::input) {
+    const double now = simulation_ ? simulation_->input(one.source) : one.start;
+    return std::isfinite(now) ? now : one.start;
+  }
+  if (!simulation_) throw std::invalid_argument(one.name + " is known from the initialisation on");
+  return simulation_->output(outputs_[i]).at(one.column);
+}
+
+Outcome Instance::get(const unsigned* references, std::size_t count, double* values) {
+  if (count > 0 && (references == nullptr || values == nullptr)) return error("no room for values");
+  return guarded([&] {
+    // Parameters set in the initialisation make another machine.
+    if (phase_ == Phase::initialisation && !simulation_) build();
+    for (std::size_t k = 0; k < count; ++k) values[k] = get_one(references[k]);
+    return Outcome::ok;
+  });
+}
+
+void Instance::set_one(unsigned reference, double value) {
+  const Variable& one = variable(reference);
+  const std::size_t i = reference - 1;
+  if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("{} cannot be {}", one.name, value));
+  if (one.kind == Variable::Kind::output) throw std::invalid_argument(one.name + " is an output");
+  if (one.kind == Variable::Kind::parameter) {
+    if (phase_ != Phase::instantiated && phase_ != Phase::initialisation)
+      throw std::invalid_argument(one.name + " is a parameter: it is set before the end of the initialisation");
+    if (values_[i] != value) simulation_.reset();
+  } else {
+    // An importer that hands out start values leaves functions of the model as they are.
+    if (!is_set_[i] && value == one.start) return;
+    if (simulation_) simulation_->set(one.source, value);
+  }
+  values_[i] = value;
+  is_set_[i] = true;
+}
+
+Outcome Instance::set(const unsigned* references, std::size_t count, const double* values) {
+  if (count > 0 && (references == nullptr || values == nullptr)) return error("no values are given");
+  if (phase_ == Phase::terminated || phase_ == Phase::failed)
+    return error("nothing can be set any more: reset, or restore a state");
+  return guarded([&] {
+    for (std::size_t k = 0; k < count; ++k) set_one(references[k], values[k]);
+    return Outcome::ok;
+  });
+}
+
+Outcome Instance::step(double time, double length, double& reached, bool& ends) {
+  reached = time_;
+  ends = false;
+  if (phase_ != Phase::stepping) return error("steps are taken behind the initialisation, and not behind a failure");
+  if (!std::isfinite(length) || length < 0) return error(fmt::format("a communication step of {} s", length));
+  if (!(std::abs(time - time_) <= kSameTime * std::max({std::abs(time), std::abs(time_), length})))
+    return error(fmt::format("a step from t = {:.12g} s, though the last one ended at t = {:.12g} s", time, time_));
+  return guarded([&] {
+    const run::Advance advance = simulation_->advance_to(time + length);
+    if (advance.status == run::Advance::Status::advanced) {
+      reached = time_ = time + length;
+      say(Outcome::ok, "logAll", fmt::format("t = {:.9g} s", time_));
+      return Outcome::ok;
+    }
+    reached = time_ = simulation_->time();
+    if (advance.status == run::Advance::Status::ended) {
+      ends = true;
+      say(Outcome::discard, "logStatusDiscard", advance.message);
+      return Outcome::discard;
+    }
+    phase_ = Phase::failed;
+    return error(advance.message);
+  });
+}
+
+Outcome Instance::terminate() {
+  if (phase_ != Phase::stepping && phase_ != Phase::failed) return error("there is nothing to terminate");
+  phase_ = Phase::terminated;
+  return Outcome::ok;
+}
+
+Outcome Instance::reset() {
+  simulation_.reset();
+  phase_ = Phase::instantiated;
+  values_.clear();
+  for (const Variable& one : variables_.list) values_.push_back(one.start);
+  is_set_.assign(values_.size(), false);
+  is_set_up_ = false;
+  stop_time_.reset();
+  start_time_ = time_ = 0;
+  return Outcome::ok;
+}
+
+Outcome Instance::save(std::unique_ptr<InstanceState>& state) {
+  return guarded([&] {
+    auto saved = std::make_unique<InstanceState>();
+    saved->phase = phase_;
+    saved->values = values_;
+    saved->is_set = is_set_;
+    saved->start_time = start_time_;
+    saved->is_set_up = is_set_up_;
+    saved->stop_time = stop_time_;
+    saved->time = time_;
+    if (simulation_) saved->simulation = simulation_->save();
+    state = std::move(saved);
+    return Outcome::ok;
+  });
+}
+
+Outcome Instance::restore(const InstanceState& state) {
+  return guarded([&] {
+    if (state.values.size() != values_.size()) throw std::runtime_error("the state is of another FMU");
+    bool is_same_machine = simulation_ != nullptr && state.is_set_up == is_set_up_ && state.start_time == start_time_ &&
+                           state.stop_time == stop_time_;
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (variables_.list[i].kind == Variable::Kind::parameter && values_[i] != state.values[i])
+        is_same_machine = false;
+    values_ = state.values;
+    is_set_ = state.is_set;
+    start_time_ = state.start_time;
+    is_set_up_ = state.is_set_up;
+    stop_time_ = state.stop_time;
+    if (!state.simulation) {
+      simulation_.reset();
+    } else {
+      if (!is_same_machine) build();
+      simulation_->restore(*state.simulation);
+    }
+    time_ = state.time;
+    phase_ = state.phase;
+    return Outcome::ok;
+  });
+}
+
+}  // namespace hersey::fmu

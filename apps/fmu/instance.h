@@ -1,0 +1,90 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hersey/run/simulation.h"
+#include "variables.h"
+
+namespace hersey::fmu {
+
+/// What an instance of an FMU is allowed to do.
+enum class Phase { instantiated, initialisation, stepping, terminated, failed };
+
+/// How a call of the interface ended. `discard`: a step that ended early, in order.
+enum class Outcome { ok, warning, discard, error };
+
+/// Everything an instance is in: parameters, inputs and, once there is one, the state of the simulation.
+struct InstanceState {
+  Phase phase = Phase::instantiated;
+  std::vector<double> values;  ///< of parameters and inputs, by value reference
+  std::vector<bool> is_set;    ///< which of them the importer gave
+  double start_time = 0;       ///< [s]
+  bool is_set_up = false;
+  std::optional<double> stop_time;  ///< [s]
+  std::optional<Archive::Content> simulation;
+  double time = 0;  ///< of the last communication point
+};
+
+/// The state as bytes, and back. @throws std::runtime_error where the bytes are no state.
+[[nodiscard]] std::vector<unsigned char> to_bytes(const InstanceState& state);
+[[nodiscard]] InstanceState from_bytes(const unsigned char* bytes, std::size_t size);
+
+/// One instance of an FMU, whichever version of the standard it is called by. Instances share nothing. No function
+/// throws: what is wrong is told through `log`.
+class Instance {
+ public:
+  using Log = std::function<void(Outcome, const char* category, const std::string& message)>;
+
+  /// Reads what the FMU holds. @throws std::exception where its resources are damaged, or the token is of another FMU
+  Instance(std::string name, const std::string& token, std::filesystem::path resources, Log log);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] Phase phase() const { return phase_; }
+
+  /// Times of the experiment [s].
+  [[nodiscard]] Outcome set_up(double start_time, std::optional<double> stop_time);
+  [[nodiscard]] Outcome enter_initialisation();
+  [[nodiscard]] Outcome exit_initialisation();
+  [[nodiscard]] Outcome get(const unsigned* references, std::size_t count, double* values);
+  [[nodiscard]] Outcome set(const unsigned* references, std::size_t count, const double* values);
+  /// From `time`, `length` on. @param reached  the time that has been come to
+  [[nodiscard]] Outcome step(double time, double length, double& reached, bool& ends);
+  [[nodiscard]] Outcome terminate();
+  [[nodiscard]] Outcome reset();
+
+  [[nodiscard]] Outcome save(std::unique_ptr<InstanceState>& state);
+  [[nodiscard]] Outcome restore(const InstanceState& state);
+
+  /// Tells an error and returns it.
+  Outcome error(const std::string& message);
+  void set_logging(bool is_on) { is_logging_ = is_on; }
+
+ private:
+  [[nodiscard]] Outcome guarded(const std::function<Outcome()>& action);
+  void build();
+  void set_one(unsigned reference, double value);
+  [[nodiscard]] double get_one(unsigned reference) const;
+  [[nodiscard]] const Variable& variable(unsigned reference) const;
+  void say(Outcome outcome, const char* category, const std::string& message) const;
+
+  std::string name_;
+  std::filesystem::path resources_;
+  Log log_;
+  bool is_logging_ = false;
+  Variables variables_;
+  Phase phase_ = Phase::instantiated;
+  std::vector<double> values_;
+  std::vector<bool> is_set_;
+  double start_time_ = 0, time_ = 0;
+  bool is_set_up_ = false;
+  std::optional<double> stop_time_;
+  std::unique_ptr<run::Simulation> simulation_;
+  std::vector<std::size_t> outputs_;  // places in the simulation's list, by value reference
+};
+
+}  // namespace hersey::fmu

@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "description.h"
+#include "hersey/core/blas_threads.h"
+#include "hersey/core/error_text.h"
+#include "hersey/core/input_error.h"
+#include "hersey/core/input_file.h"
+#include "hersey/model/read.h"
+#include "hersey/run/simulation.h"
+#include "package.h"
+#include "variables.h"
+
+namespace hersey::fmu {
+namespace {
+
+constexpr int kFailed = 1, kWrongInput = 2;
+constexpr std::uintmax_t kLargestModelFile = std::uintmax_t{1} << 26;
+
+struct Arguments {
+  std::string model;
+  std::vector<std::string> overrides;
+  std::filesystem::path fmu;
+  int version = 2;
+  bool force = false;
+};
+
+/// Beside the program where it was built, or where it was installed.
+std::filesystem::path find_library() {
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::string name = std::string(kModelIdentifier) + ".so";
+  for (const char* place : {".", "../lib/hersey"}) {
+    const std::filesystem::path candidate = folder / place / name;
+    if (std::filesystem::exists(candidate)) return std::filesystem::canonical(candidate);
+  }
+  throw std::runtime_error(
+      fmt::format("{} is neither beside the program nor in ../lib/hersey: 'make fmu' builds it", name));
+}
+
+std::uint64_t hash_of(const std::string& text, std::uint64_t hash) {
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+/// The same model, program and version of the standard have the same token.
+std::string token_of(const std::string& description, const PackedModel& packed, const model::Model& model) {
+  std::string all = description + packed.text;
+  for (const std::string& change : packed.overrides) all += change + "\n";
+  for (const auto& [name, hash] : model.files) all += fmt::format("{}{:x}", name, hash);
+  const std::uint64_t a = hash_of(all, 0xcbf29ce484222325U), b = hash_of(all, a);
+  return fmt::format("{{{:08x}-{:04x}-{:04x}-{:04x}-{:012x}}}", a >> 32, (a >> 16) & 0xffff, a & 0xffff, b >> 48,
+                     b & 0xffffffffffff);
+}
+
+std::vector<PackedFile> binaries(int version) {
+  const std::filesystem::path library = find_library();
+  const std::string folder = version == 2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
+  std::vector<PackedFile> files{{library, folder + kModelIdentifier + ".so"}};
+  for (const PackedFile& needed : libraries_of(library)) files.push_back({needed.from, folder + needed.name});
+  return files;
+}
+
+/// The database of units, without which no model is read.
+std::vector<PackedFile> unit_database() {
+  const char* chosen = std::getenv("UDUNITS2_XML_PATH");
+  const std::filesystem::path database = chosen != nullptr ? chosen : "/usr/share/xml/udunits/udunits2.xml";
+  std::vector<PackedFile> files;
+  for (const auto& entry : std::filesystem::directory_iterator(database.parent_path()))
+    if (entry.path().extension() == ".xml")
+      files.push_back({entry.path(), "resources/udunits/" + entry.path().filename().string()});
+  return files;
+}
+
+int export_fmu(const Arguments& arguments) {
+  const std::filesystem::path& target = arguments.fmu;
+  if (std::filesystem::exists(target) && !arguments.force) {
+    fmt::print(stderr, "hersey: {} exists already; use --force to replace it\n", target.string());
+    return kWrongInput;
+  }
+  const model::Model model = model::read(arguments.model, arguments.overrides);
+  for (const auto& [name, hash] : model.files) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(std::filesystem::path(model.file).parent_path() / name, target, ignored))
+      throw InputError(Fault{{"--fmu", 0, 0}, "", target.string() + ", which the model reads", "another file", ""});
+  }
+  const std::string text = read_input_file(arguments.model, kLargestModelFile).content;
+  run::Simulation simulation(model);
+  Variables variables;
+  variables.list = variables_of(text, simulation);
+  const PackedModel packed = pack(model, text, arguments.overrides);
+  variables.overrides = packed.overrides;
+  variables.token = token_of(description_xml(model, variables, arguments.version), packed, model);
+  std::vector<PackedFile> files = packed.files;
+  for (const std::vector<PackedFile>& more : {binaries(arguments.version), unit_database()})
+    files.insert(files.end(), more.begin(), more.end());
+  std::filesystem::path unfinished = target;
+  unfinished += ".unfinished";
+  write_zip(unfinished,
+            {{"modelDescription.xml", description_xml(model, variables, arguments.version)},
+             {"resources/variables.json", to_json(variables)},
+             {"resources/model.yaml", packed.text}},
+            files);
+  std::filesystem::rename(unfinished, target);
+  const auto count = [&](Variable::Kind kind) {
+    return std::count_if(variables.list.begin(), variables.list.end(),
+                         [&](const Variable& one) { return one.kind == kind; });
+  };
+  fmt::print("{}: FMI {}.0 for co-simulation, {} inputs, {} outputs, {} parameters\n", target.string(),
+             arguments.version, count(Variable::Kind::input), count(Variable::Kind::output),
+             count(Variable::Kind::parameter));
+  return 0;
+}
+
+}  // namespace
+}  // namespace hersey::fmu
+
+int main(int argc, char** argv) {
+  using namespace hersey;
+  fmu::Arguments arguments;
+  CLI::App app{"Write a co-simulation FMU of a model", "hersey export"};
+  app.add_option("MODEL", arguments.model, "Model file")->required();
+  app.add_option("--fmu", arguments.fmu, "The FMU to write")->type_name("FILE.fmu")->required();
+  app.add_option("--fmi", arguments.version, "Version of the standard: 2 or 3 (default: 2)")
+      ->check(CLI::IsMember({2, 3}));
+  app.add_option("--set", arguments.overrides, "Override a parameter or any key")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("--force", arguments.force, "Replace the FMU if it exists");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : fmu::kWrongInput;
+  }
+  try {
+    use_one_blas_thread();
+    return fmu::export_fmu(arguments);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return fmu::kWrongInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "hersey: {}\n", error_text(error));
+    return fmu::kFailed;
+  }
+}

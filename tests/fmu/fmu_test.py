@@ -1,0 +1,467 @@
+#!/usr/bin/python3
+"""FMUs, driven by an importer of the tests' own: every function of the C interface of both versions of the standard.
+
+fmu_test.py HERSEY WORK [Class.test]"""
+
+import ctypes as c
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+import zipfile
+
+import h5py
+import numpy as np
+
+HERSEY = os.path.abspath(sys.argv.pop(1))
+WORK = os.path.abspath(sys.argv.pop(1))
+
+# A journal turning in a bush that floats and is pushed.
+RIG = """hersey: 1
+title: Small rig
+parameters:
+  load: 500 N
+bodies:
+  pin: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+  rod: {mass: 0.5 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+joints:
+  main: {type: revolute, between: [ground, pin], initial: {rotation_rate: 3000 rpm}}
+  guide: {type: planar, between: [ground, rod], initial: {x: 0 um}}
+drives:
+  motor: {joint: main, coordinate: rotation, speed: 3000 rpm}
+  hold: {joint: guide, coordinate: rotation, position: 0 deg}
+forces:
+  push: {type: force, body: rod, components: [0 N, "-${load}", {expression: "sin(t)", unit: N}]}
+lubricants:
+  oil: {viscosity: 15 mPa.s}
+bearings:
+  big_end:
+    shell: rod
+    journal: pin
+    diameter: 45 mm
+    width: 15.6 mm
+    radial_clearance: 34 um
+    lubricant: oil
+    grid: {circumferential: 24, axial: 5}
+    supply: {line: widest_gap, pressure: 1 bar}
+simulation: {duration: 4 ms, step: 0.1 ms, spectral_radius: 0.6}
+"""
+STEP = 1e-4  # of the rig [s]
+LOAD_Y = "forces.push.components.y"
+H_MIN = "bearings.big_end.h_min"
+CLEARANCE = "bearings.big_end.radial_clearance"
+OK, WARNING, DISCARD, ERROR = range(4)
+
+
+def run(*words, expect=0):
+    done = subprocess.run([HERSEY, *map(str, words)], capture_output=True, text=True)
+    if done.returncode != expect:
+        raise AssertionError(f"{words}: {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout + done.stderr
+
+
+class Fmu:
+    """An unpacked FMU: description and library."""
+
+    def __init__(self, path, folder):
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+        self.folder = folder
+        self.description = ElementTree.parse(os.path.join(folder, "modelDescription.xml")).getroot()
+        self.version = int(self.description.get("fmiVersion")[0])
+        self.token = self.description.get("guid" if self.version == 2 else "instantiationToken")
+        binaries = "linux64" if self.version == 2 else "x86_64-linux"
+        self.library_path = os.path.join(folder, "binaries", binaries, "hersey_fmu.so")
+        self.library = c.CDLL(self.library_path)
+        self.references = {}
+        self.variables = {}
+        for variable in self.description.find("ModelVariables"):
+            self.references[variable.get("name")] = int(variable.get("valueReference"))
+            self.variables[variable.get("name")] = variable
+
+    def start_of(self, name):
+        variable = self.variables[name]
+        return float((variable[0] if self.version == 2 else variable).get("start"))
+
+
+LOGGER_2 = c.CFUNCTYPE(None, c.c_void_p, c.c_char_p, c.c_int, c.c_char_p, c.c_char_p)
+LOGGER_3 = c.CFUNCTYPE(None, c.c_void_p, c.c_int, c.c_char_p, c.c_char_p)
+
+
+class Callbacks2(c.Structure):
+    _fields_ = [("logger", LOGGER_2), ("allocate", c.c_void_p), ("free", c.c_void_p), ("finished", c.c_void_p),
+                ("environment", c.c_void_p)]
+
+
+class Instance:
+    """An instance of either version, under the names of neither."""
+
+    def __init__(self, fmu, name="one", token=None, logging=False, resources=None):
+        self.fmu, self.version, self.log = fmu, fmu.version, []
+        token = (token or fmu.token).encode()
+        folder = resources or os.path.join(fmu.folder, "resources")
+        if self.version == 2:
+            self.callback = LOGGER_2(lambda _, __, status, category, text: self.log.append((status, text.decode())))
+            self.callbacks = Callbacks2(self.callback, None, None, None, None)
+            create = fmu.library.fmi2Instantiate
+            create.restype = c.c_void_p
+            self.handle = create(name.encode(), 1, token, ("file://" + folder).encode(), c.byref(self.callbacks), 0,
+                                 int(logging))
+        else:
+            self.callback = LOGGER_3(lambda _, status, category, text: self.log.append((status, text.decode())))
+            create = fmu.library.fmi3InstantiateCoSimulation
+            create.restype = c.c_void_p
+            self.handle = create(name.encode(), token, (folder + "/").encode(), c.c_bool(False), c.c_bool(logging),
+                                 c.c_bool(False), c.c_bool(False), None, c.c_size_t(0), None, self.callback, None)
+
+    def call(self, name, *arguments):
+        function = getattr(self.fmu.library, f"fmi{self.version}{name}")
+        function.restype = c.c_int
+        return function(c.c_void_p(self.handle), *arguments)
+
+    def must(self, name, *arguments):
+        status = self.call(name, *arguments)
+        if status != OK:
+            raise AssertionError(f"{name}: {status} {self.log}")
+
+    def initialise(self, start=0.0, stop=4e-3, parameters=None):
+        for name, value in (parameters or {}).items():
+            assert self.set(name, value) == OK, self.log
+        if self.version == 2:
+            self.must("SetupExperiment", 0, c.c_double(0), c.c_double(start), 1, c.c_double(stop))
+            self.must("EnterInitializationMode")
+        else:
+            self.must("EnterInitializationMode", c.c_bool(False), c.c_double(0), c.c_double(start), c.c_bool(True),
+                      c.c_double(stop))
+        self.must("ExitInitializationMode")
+        return self
+
+    def access(self, verb, names, values):
+        references = (c.c_uint32 * len(names))(*[self.fmu.references[n] if isinstance(n, str) else n for n in names])
+        numbers = (c.c_double * len(names))(*values)
+        count = c.c_size_t(len(names))
+        if self.version == 2:
+            return self.call(verb + "Real", references, count, numbers), list(numbers)
+        return self.call(verb + "Float64", references, count, numbers, count), list(numbers)
+
+    def get(self, name):
+        status, values = self.access("Get", [name], [0])
+        assert status == OK, self.log
+        return values[0]
+
+    def set(self, name, value):
+        return self.access("Set", [name], [value])[0]
+
+    def step(self, time, length):
+        if self.version == 2:
+            return self.call("DoStep", c.c_double(time), c.c_double(length), 1)
+        self.events, self.ends, self.early = c.c_bool(True), c.c_bool(True), c.c_bool(True)
+        self.reached = c.c_double(-1)
+        return self.call("DoStep", c.c_double(time), c.c_double(length), c.c_bool(True), c.byref(self.events),
+                         c.byref(self.ends), c.byref(self.early), c.byref(self.reached))
+
+    def march(self, count, length=STEP, first=0, output=H_MIN):
+        rows = []
+        for k in range(first, first + count):
+            if self.step(k * length, length) != OK:
+                raise AssertionError(self.log)
+            rows.append(self.get(output))
+        return rows
+
+    def state(self):
+        kept = c.c_void_p()
+        self.must("GetFMUstate" if self.version == 2 else "GetFMUState", c.byref(kept))
+        return kept
+
+    def free(self):
+        free = getattr(self.fmu.library, f"fmi{self.version}FreeInstance")
+        free.restype = None
+        free(c.c_void_p(self.handle))
+
+
+class Cases:
+    """What holds for both versions."""
+
+    version = 0
+
+    @classmethod
+    def setUpClass(cls):
+        os.makedirs(WORK, exist_ok=True)
+        cls.folder = tempfile.mkdtemp(prefix=f"fmi {cls.version} ", dir=WORK)  # with a space, as users have them
+        cls.model = os.path.join(cls.folder, "rig.yaml")
+        with open(cls.model, "w", encoding="utf-8") as file:
+            file.write(RIG)
+        cls.path = os.path.join(cls.folder, "rig.fmu")
+        cls.told = run("export", cls.model, "--fmu", cls.path, "--fmi", cls.version)
+        cls.fmu = Fmu(cls.path, os.path.join(cls.folder, "unpacked"))
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def by_run(self, *changes):
+        out = tempfile.mkdtemp(dir=self.folder)
+        sets = [word for change in changes for word in ("--set", change)]
+        run("run", self.model, "--output", out, "--force", *sets)
+        with h5py.File(os.path.join(out, "results.h5")) as file:
+            return list(file["bearings/big_end/h_min"][:])
+
+    def test_solver_step_gives_the_bits_of_a_run(self):
+        one = Instance(self.fmu).initialise()
+        rows = [one.get(H_MIN)] + one.march(40)
+        self.assertEqual(rows, self.by_run())
+        one.must("Terminate")
+        self.assertEqual(one.get(H_MIN), rows[-1])
+        one.free()
+
+    def test_parameters_change_the_machine(self):
+        one = Instance(self.fmu).initialise(parameters={CLEARANCE: 40e-6, "parameters.load": 700})
+        self.assertEqual(one.get(CLEARANCE), 40e-6)
+        rows = [one.get(H_MIN)] + one.march(40)
+        np.testing.assert_allclose(rows, self.by_run("bearings.big_end.radial_clearance=40um", "load=700N"),
+                                   rtol=1e-9)  # 40e-6 m and 40 um differ in their last bit
+        self.assertEqual(one.set(CLEARANCE, 50e-6), ERROR)
+        self.assertIn("initialisation", one.log[-1][1])
+        one.free()
+
+    def test_any_communication_step(self):
+        one = Instance(self.fmu).initialise()
+        t = 0.0
+        for length in (0.3 * STEP, 1.7 * STEP, 0.01 * STEP, 12.34 * STEP):
+            self.assertEqual(one.step(t, length), OK, one.log)
+            t += length
+            self.assertEqual(one.get("time"), t)
+        # The journal settles: by the error of steps of other lengths, not of the instant.
+        reference = self.by_run("simulation.step=0.01ms")
+        self.assertAlmostEqual(one.get(H_MIN) / np.interp(t / 1e-5, range(len(reference)), reference), 1, delta=0.02)
+        one.free()
+
+    def test_inputs_act(self):
+        one, two = Instance(self.fmu, "one").initialise(), Instance(self.fmu, "two").initialise()
+        self.assertEqual(one.get(LOAD_Y), -500)
+        self.assertEqual(one.set(LOAD_Y, -500), OK)  # what it is already: not a bit changes
+        self.assertEqual(two.set(LOAD_Y, -1500), OK)
+        self.assertEqual(two.get(LOAD_Y), -1500)
+        first, second = one.march(10), two.march(10)
+        self.assertEqual(first, self.by_run()[1:11])
+        self.assertLess(second[-1], first[-1])
+        self.assertEqual(one.set(H_MIN, 1e-6), ERROR)
+        self.assertEqual(one.set(LOAD_Y, float("nan")), ERROR)
+        for instance in (one, two):
+            instance.free()
+
+    def test_two_instances_share_nothing(self):
+        whole = self.by_run()[1:]
+        one, two = Instance(self.fmu, "one").initialise(), Instance(self.fmu, "two").initialise()
+        rows = ([], [])
+        for k in range(12):
+            rows[0].extend(one.march(1, first=k))
+            if k % 2:
+                rows[1].extend(two.march(2, first=k - 1))
+        self.assertEqual(rows[0], whole[:12])
+        self.assertEqual(rows[1], whole[:12])
+        one.free()
+        self.assertEqual(two.march(2, first=12), whole[12:14])
+        two.free()
+
+    def test_states_are_kept_and_serialised(self):
+        one = Instance(self.fmu).initialise()
+        one.march(5)
+        one.set(LOAD_Y, -700)
+        state = one.state()
+        after = one.march(5, first=5)
+        capital = "FMUstate" if self.version == 2 else "FMUState"
+        one.must("Set" + capital, state)
+        self.assertEqual(one.get("time"), 5 * STEP)
+        self.assertEqual(one.get(LOAD_Y), -700)
+        self.assertEqual(one.march(5, first=5), after)
+        size = c.c_size_t()
+        one.must(f"Serialized{capital}Size", state, c.byref(size))
+        room = (c.c_char * size.value)()
+        one.must("Serialize" + capital, state, room, size)
+        self.assertEqual(one.call("Serialize" + capital, state, room, c.c_size_t(size.value - 1)), ERROR)
+        other, again = Instance(self.fmu, "other").initialise(), c.c_void_p()
+        verb = "DeSerialize" if self.version == 2 else "Deserialize"
+        other.must(verb + capital, room, size, c.byref(again))
+        other.must("Set" + capital, again)
+        self.assertEqual(other.march(5, first=5), after)
+        for wrong in (size.value - 1, 8, 0):
+            self.assertEqual(other.call(verb + capital, room, c.c_size_t(wrong), c.byref(again)), ERROR)
+        for instance, kept in ((one, state), (other, again)):
+            instance.must("Free" + capital, c.byref(kept))
+            self.assertIsNone(kept.value)
+            instance.free()
+
+    def test_reset_begins_anew(self):
+        one = Instance(self.fmu).initialise(parameters={CLEARANCE: 40e-6})
+        one.march(3)
+        one.must("Reset")
+        self.assertEqual(one.get(CLEARANCE), self.fmu.start_of(CLEARANCE))
+        one.initialise()
+        self.assertEqual(one.march(5), self.by_run()[1:6])
+        one.free()
+
+    def test_failing_step_is_told_with_its_reason(self):
+        one = Instance(self.fmu).initialise()
+        one.march(2)
+        one.set(LOAD_Y, -1e12)
+        self.assertEqual(one.step(2 * STEP, STEP), ERROR)
+        self.assertRegex(one.log[-1][1], "t = 0.0002 s")
+        self.assertEqual(one.step(2 * STEP, STEP), ERROR)
+        one.must("Reset")
+        one.initialise()
+        one.march(1)
+        one.free()
+
+    def test_calls_in_a_wrong_order_are_refused(self):
+        one = Instance(self.fmu)
+        self.assertEqual(one.step(0, STEP), ERROR)
+        self.assertEqual(one.call("ExitInitializationMode"), ERROR)
+        self.assertEqual(one.call("Terminate"), ERROR)
+        self.assertEqual(one.access("Get", [H_MIN], [0])[0], ERROR)
+        self.assertEqual(one.access("Get", [4000000], [0])[0], ERROR)
+        one.initialise()
+        self.assertEqual(one.step(STEP, STEP), ERROR)
+        self.assertIn("the last one ended", one.log[-1][1])
+        self.assertEqual(one.step(0, -STEP), ERROR)
+        self.assertEqual(one.step(0, float("nan")), ERROR)
+        self.assertEqual(one.march(1), self.by_run()[1:2])
+        one.free()
+
+    def test_another_token_is_refused(self):
+        one = Instance(self.fmu, token="{of another}")
+        self.assertIsNone(one.handle)
+        self.assertIn("token", one.log[-1][1])
+        nowhere = Instance(self.fmu, resources="/nowhere")
+        self.assertIsNone(nowhere.handle)
+
+    def test_bad_parameter_is_told(self):
+        one = Instance(self.fmu)
+        self.assertEqual(one.set(CLEARANCE, -1e-6), OK)
+        with self.assertRaisesRegex(AssertionError, "radial_clearance"):
+            one.initialise()
+        one.free()
+
+    def test_library_brings_what_it_needs(self):
+        listing = subprocess.run(["ldd", self.fmu.library_path], capture_output=True, text=True, check=True).stdout
+        here = os.path.dirname(self.fmu.library_path)
+        for line in listing.splitlines():
+            name, _, path = line.strip().partition(" => ")
+            if path and not re.match(r"(libc|libm|libdl|libpthread|libresolv|librt)\.so", name):
+                self.assertTrue(path.startswith(here), line)
+
+    def test_library_shows_the_standards_functions_only(self):
+        names = subprocess.run(["nm", "-D", "--defined-only", self.fmu.library_path], capture_output=True, text=True,
+                               check=True).stdout.split()[2::3]
+        self.assertTrue(names)
+        self.assertEqual([name for name in names if not re.match("fmi[23][A-Z]", name)], [])
+
+    def test_description_is_consistent(self):
+        root, seen = self.fmu.description, set()
+        units = {unit.get("name") for unit in root.find("UnitDefinitions")}
+        for variable in root.find("ModelVariables"):
+            self.assertNotIn(variable.get("name"), seen)
+            seen.add(variable.get("name"))
+            unit = (variable[0] if self.version == 2 else variable).get("unit")
+            self.assertTrue(unit is None or unit in units, unit)
+        for name, unit in ((LOAD_Y, "N"), (H_MIN, "m"), ("drives.motor.speed", "rad/s")):
+            variable = self.fmu.variables[name]
+            self.assertEqual((variable[0] if self.version == 2 else variable).get("unit"), unit)
+        newton = next(u for u in root.find("UnitDefinitions") if u.get("name") == "N").find("BaseUnit")
+        self.assertEqual(newton.attrib, {"kg": "1", "m": "1", "s": "-2"})
+        experiment = root.find("DefaultExperiment")
+        self.assertEqual(float(experiment.get("stopTime")), 4e-3)
+        self.assertEqual(float(experiment.get("stepSize")), STEP)
+        self.assertIn("inputs", self.told)
+
+    def test_existing_file_is_kept(self):
+        self.assertIn("--force", run("export", self.model, "--fmu", self.path, expect=2))
+        broken = os.path.join(self.folder, "broken.yaml")
+        with open(broken, "w", encoding="utf-8") as file:
+            file.write(RIG.replace("34 um", "34 kg"))
+        self.assertIn("radial_clearance", run("export", broken, "--fmu", self.path + "2", expect=2))
+        self.assertFalse(os.path.exists(self.path + "2"))
+
+    def test_every_function_answers(self):
+        one = Instance(self.fmu).initialise()
+        nothing = c.c_size_t(0)
+        for name in self.others:
+            self.assertIn(one.call(name, *[None] * 9), (OK, DISCARD, ERROR), name)
+        for kind in self.kinds:
+            extra = [] if self.version == 2 or kind == "Clock" else [nothing]
+            if kind == "Binary":
+                extra = [None, nothing]
+            self.assertEqual(one.call("Get" + kind, None, nothing, None, *extra), OK, kind)
+            self.assertEqual(one.call("Get" + kind, None, c.c_size_t(1), None, *extra), ERROR, kind)
+            self.assertEqual(one.call("Set" + kind, None, c.c_size_t(1), None, *extra), ERROR, kind)
+        one.march(1)
+        one.free()
+
+
+class Fmi2Test(Cases, unittest.TestCase):
+    version = 2
+    kinds = ["Integer", "Boolean", "String"]
+    others = ["GetDirectionalDerivative", "SetRealInputDerivatives", "GetRealOutputDerivatives", "CancelStep",
+              "GetIntegerStatus", "GetStringStatus", "GetStatus"]
+
+    def test_platform_and_version(self):
+        for name, value in (("fmi2GetTypesPlatform", b"default"), ("fmi2GetVersion", b"2.0")):
+            function = getattr(self.fmu.library, name)
+            function.restype = c.c_char_p
+            self.assertEqual(function(), value)
+
+    def test_end_of_the_model_is_a_discarded_step(self):
+        one = Instance(self.fmu).initialise()
+        one.march(40)
+        self.assertEqual(one.step(40 * STEP, STEP), DISCARD)
+        reached, ended = c.c_double(), c.c_int()
+        one.must("GetRealStatus", 2, c.byref(reached))
+        one.must("GetBooleanStatus", 3, c.byref(ended))
+        self.assertAlmostEqual(reached.value, 4e-3, delta=1e-12)
+        self.assertEqual(ended.value, 1)
+        one.free()
+
+    def test_longer_experiment_is_run(self):
+        one = Instance(self.fmu).initialise(stop=6e-3)
+        one.march(60)
+        one.free()
+
+
+class Fmi3Test(Cases, unittest.TestCase):
+    version = 3
+    kinds = ["Float32", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64", "Boolean", "String",
+             "Binary", "Clock"]
+    others = ["GetNumberOfVariableDependencies", "GetVariableDependencies", "GetDirectionalDerivative",
+              "GetAdjointDerivative", "GetOutputDerivatives", "GetIntervalDecimal", "GetIntervalFraction",
+              "GetShiftDecimal", "GetShiftFraction", "SetIntervalDecimal", "SetIntervalFraction", "SetShiftDecimal",
+              "SetShiftFraction", "EvaluateDiscreteStates", "UpdateDiscreteStates", "EnterContinuousTimeMode",
+              "CompletedIntegratorStep", "SetTime", "SetContinuousStates", "GetContinuousStateDerivatives",
+              "GetEventIndicators", "GetContinuousStates", "GetNominalsOfContinuousStates",
+              "GetNumberOfEventIndicators", "GetNumberOfContinuousStates", "ActivateModelPartition",
+              "EnterStepMode", "EnterEventMode", "EnterConfigurationMode", "ExitConfigurationMode"]
+
+    def test_version(self):
+        self.fmu.library.fmi3GetVersion.restype = c.c_char_p
+        self.assertEqual(self.fmu.library.fmi3GetVersion(), b"3.0")
+
+    def test_step_tells_what_it_came_to(self):
+        one = Instance(self.fmu).initialise()
+        self.assertEqual(one.step(0, STEP), OK)
+        self.assertEqual((one.events.value, one.ends.value, one.early.value, one.reached.value),
+                         (False, False, False, STEP))
+        self.assertEqual(one.access("Get", [H_MIN, H_MIN], [0, 0])[0], OK)
+        one.free()
+
+    def test_other_interfaces_are_refused(self):
+        for name in ("fmi3InstantiateModelExchange", "fmi3InstantiateScheduledExecution"):
+            function = getattr(self.fmu.library, name)
+            function.restype = c.c_void_p
+            self.assertIsNone(function(*[None] * 10))
+
+
+if __name__ == "__main__":
+    unittest.main()
