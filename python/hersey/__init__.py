@@ -18,9 +18,10 @@ from .figure import Figure
 from .functions import Function, surface_profile, viscosity_law
 from .model import Model
 from .results import Results, Summary, open_results, report
+from .simulation import Port, Simulation
 
 __all__ = [
-    "BearingSolution", "Fault", "Figure", "Function", "HerseyError", "InputError", "Model", "Progress", "Results", "RunError",
-    "SolutionError", "Stopped", "Summary", "UserFunctionError", "__version__", "bearing", "bearing_model", "fem",
+    "BearingSolution", "Fault", "Figure", "Function", "HerseyError", "InputError", "Model", "Port", "Progress", "Results", "RunError",
+    "Simulation", "SolutionError", "Stopped", "Summary", "UserFunctionError", "__version__", "bearing", "bearing_model", "fem",
     "open_results", "plot", "report", "surface_profile", "viscosity_law",
 ]

@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Iterator, Optional
+from typing import Any, Iterator, Optional, Sequence
 
 import numpy as np
 
@@ -136,7 +136,7 @@ class Results:
 
     def report(self, out: Any, title: str = "") -> Path:
         """Writes the report: one HTML file, no network, any browser."""
-        _core.write_report([os.fspath(self.path)], os.fspath(out), title)
+        _core.write_report([os.fspath(self.path)], os.fspath(out), title, [])
         return Path(os.fspath(out))
 
 
@@ -146,8 +146,8 @@ def open_results(path: Any) -> Results:
     return Results(path / "results.h5" if path.is_dir() else path)
 
 
-def report(results: Any, out: Any, title: str = "") -> Path:
-    """One report of several results, compared or as the study they are of."""
+def report(results: Any, out: Any, title: str = "", names: Sequence[str] = ()) -> Path:
+    """One report of several results, laid over each other, by `names` where they are given, or as the study they are of."""
     files = [os.fspath(item.path if isinstance(item, Results) else item) for item in results]
-    _core.write_report(files, os.fspath(out), title)
+    _core.write_report(files, os.fspath(out), title, list(names))
     return Path(os.fspath(out))

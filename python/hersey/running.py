@@ -24,6 +24,18 @@ def results_file(model: Any, output: Optional[Any]) -> Path:
     return path if path.suffix == ".h5" else path / "results.h5"
 
 
+def require_one_run(model: Any) -> None:
+    """@raises InputError for a study of several runs, and for bearings alone."""
+    varied = [name for name, texts in model.study.items()
+              if len(texts) > 1 and not any(change.startswith(name + "=") for change in model.changes)]
+    if varied:
+        raise InputError(f"{model.file}: the model's study varies {', '.join(varied)}: expected one run; "
+                         f"model.set({varied[0]}=...) fixes it, model.runs() gives a model for each combination")
+    if model._checked.is_of_bearings_alone:
+        raise InputError(f"{model.file}: bearings alone: expected bodies and a simulation to run; "
+                         "model.bearing() solves bearings by themselves")
+
+
 class _Bar:
     """A bar of tqdm's where there is tqdm, else a line now and then."""
 
@@ -54,14 +66,7 @@ class _Bar:
 def run(model: Any, output: Optional[Any], *, overwrite: bool, resume: bool, step_error: bool,
         progress: Union[bool, Callable[["_core.Progress"], Any]]) -> Results:
     """See `Model.run`."""
-    varied = [name for name, texts in model.study.items()
-              if len(texts) > 1 and not any(change.startswith(name + "=") for change in model.changes)]
-    if varied:
-        raise InputError(f"{model.file}: the model's study varies {', '.join(varied)}: expected one run; "
-                         f"model.set({varied[0]}=...) fixes it, model.runs() gives a model for each combination")
-    if model._checked.is_of_bearings_alone:
-        raise InputError(f"{model.file}: bearings alone: expected bodies and a simulation to run; "
-                         "model.bearing() solves bearings by themselves")
+    require_one_run(model)
     file = results_file(model, output)
     if file.exists() and not (overwrite or resume):
         raise FileExistsError(f"{file}: the results file exists already and was kept; overwrite=True replaces it, "

@@ -12,6 +12,7 @@ void bind_bearing(pybind11::module_& core);
 void bind_functions(pybind11::module_& core);
 void bind_fem(pybind11::module_& core);
 void bind_run(pybind11::module_& core);
+void bind_simulation(pybind11::module_& core);
 void bind_report(pybind11::module_& core);
 
 }  // namespace hersey::python

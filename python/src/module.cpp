@@ -13,5 +13,6 @@ PYBIND11_MODULE(_core, core) {
   hersey::python::bind_functions(core);
   hersey::python::bind_fem(core);
   hersey::python::bind_run(core);
+  hersey::python::bind_simulation(core);
   hersey::python::bind_report(core);
 }

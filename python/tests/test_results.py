@@ -79,3 +79,11 @@ def test_missing_things_are_told(results, tmp_path):
         results["bearing/main"]
     with pytest.raises(FileNotFoundError):
         hersey.open_results(tmp_path / "results.h5")
+
+
+def test_runs_are_laid_over_each_other_by_their_names(machine, tmp_path):
+    model = hersey.Model.from_dict(machine)
+    runs = [model.run(tmp_path / "light"), model.set(load="600 N").run(tmp_path / "heavy")]
+    page = hersey.report(runs, tmp_path / "both.html", names=["as it is", "heavier"])
+    assert '"heavier"' in page.read_text(encoding="utf-8")
+    assert len(runs[0].table()) > 5
