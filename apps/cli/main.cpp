@@ -37,6 +37,7 @@ constexpr const char* kFooter =
     "  hersey check model.yaml                                       every fault, nothing simulated\n"
     "  hersey mesh conrod.msh --length-unit mm                       a mesh: sets, mass, quality\n"
     "  hersey modes conrod.msh --length-unit mm --hold big_end       its natural frequencies\n"
+    "  hersey export rotor.yaml --fmu rotor.fmu                      for co-simulation in other programs\n"
     "  hersey oil iso_vg_46 --at 40degC 100degC                      viscosity and density of an oil\n"
     "  hersey schema > hersey.schema.json                            completion and checking in an editor\n"
     "\n"
@@ -325,7 +326,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_name() == given) return {};
-    names.push_back(command->get_name());
+    if (!command->get_group().empty()) names.push_back(command->get_name());  // the others are hersey's own
   }
   const std::string hint = did_you_mean(given, names);
   return fmt::format("unknown command '{}': {}", given, hint.empty() ? "expected " + one_of(names) : hint);
@@ -360,8 +361,6 @@ int dispatch(int argc, char** argv) {
   run_app->add_option("--jobs", run.jobs, "Runs of a study at the same time (default: one per processor)")
       ->check(CLI::PositiveNumber);
   add_threads(*run_app, run.threads);
-  ExportArguments exported;
-  const CLI::App* export_app = add_export_command(app, exported);
   CheckArguments check;
   CLI::App* check_app = app.add_subcommand("check", "Report everything that can be found wrong without simulating");
   check_app->add_option("MODEL", check.model, "Model file")->required();
@@ -402,6 +401,9 @@ int dispatch(int argc, char** argv) {
   std::filesystem::path study_data, study_page;
   study.program = argv[0];
   const CLI::App* study_app = add_study_command(app, study);
+
+  ExportArguments exported;
+  const CLI::App* export_app = add_export_command(app, exported);
   const CLI::App* study_plan_app = add_study_plan_command(app, study_plan);
   const CLI::App* study_task_app = add_study_task_command(app, study_task);
   const CLI::App* study_page_app = add_study_page_command(app, study_data, study_page);
