@@ -101,8 +101,9 @@ TEST_CASE("MeshedRing_IsThatOfAnIndependentProgram") {
   // And nearly that of a ring with one temperature per angle.
   const BearingSolution ring =
       solved({"bearings.main.thermal.shell={wall: ring, outer_diameter: 200 mm, ambient: 40 degC}"});
-  CHECK(figure(body, "load") == doctest::Approx(figure(ring, "load")).epsilon(5e-3));  // walls 0.5 K apart: oil 1.5 % thinner
-  CHECK(std::abs(figure(body, "T_shell_max") - figure(ring, "T_shell_max")) < 0.5);    // as well: it has the middle's
+  CHECK(figure(body, "load") ==
+        doctest::Approx(figure(ring, "load")).epsilon(5e-3));  // walls 0.5 K apart: oil 1.5 % thinner
+  CHECK(std::abs(figure(body, "T_shell_max") - figure(ring, "T_shell_max")) < 0.5);  // as well: it has the middle's
   CHECK(figure(body, "heat_to_shell") == doctest::Approx(figure(ring, "heat_to_shell")).epsilon(0.03));  // as well
   bool has_growth = false;
   for (const BearingFigure& f : figures_of(body)) has_growth = has_growth || f.key == "bore_growth";

@@ -67,9 +67,7 @@ std::vector<std::size_t> places_of_shown(const std::vector<bool>& hidden) {
 
 Recorder::Recorder(const model::Model& model, const model::Machine& machine, const solver::State& start,
                    const Options& options, bool resumes)
-    : model_(model),
-      machine_(machine),
-      writer_(writer_of(model, options, resumes)) {
+    : model_(model), machine_(machine), writer_(writer_of(model, options, resumes)) {
   write_header(model, machine, start, options, writer_);
   declare();
   writer_.flush();

@@ -38,10 +38,11 @@ struct InMemory {};
 
 /// A series of a writer in memory, with its last row.
 struct LatestRow {
-  std::string path, unit, text;         ///< "/bearings/big_end/force", "N", what it is
-  std::vector<std::size_t> shape;       ///< of a row; empty: one number
-  std::vector<std::string> components;  ///< names of a row's numbers where it has one dimension: "x", "y", "z" or "0" on
-  std::vector<double> values;           ///< empty before the first row
+  std::string path, unit, text;    ///< "/bearings/big_end/force", "N", what it is
+  std::vector<std::size_t> shape;  ///< of a row; empty: one number
+  std::vector<std::string>
+      components;              ///< names of a row's numbers where it has one dimension: "x", "y", "z" or "0" on
+  std::vector<double> values;  ///< empty before the first row
 };
 
 /// How numbers of a series are stored.
