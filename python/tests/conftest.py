@@ -1,10 +1,14 @@
 import copy
 import os
+import signal
 from pathlib import Path
 
 import pytest
 
 import hersey
+
+# Shells start what runs in the background with Ctrl-C ignored, and processes of its own would be, too.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
