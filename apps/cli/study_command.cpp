@@ -219,6 +219,7 @@ int study_command(const StudyArguments& arguments) {
   if (arguments.again) words.emplace_back("--again");
   if (arguments.json) words.emplace_back("--json");
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& text : words) argv.push_back(text.data());
   argv.push_back(nullptr);
   // Debian's own interpreter has Debian's packages; another one on the path may not.

@@ -119,12 +119,8 @@ int export_fmu(const Arguments& arguments) {
   return 0;
 }
 
-}  // namespace
-}  // namespace hersey::fmu
-
-int main(int argc, char** argv) {
-  using namespace hersey;
-  fmu::Arguments arguments;
+int exported(int argc, char** argv) {
+  Arguments arguments;
   CLI::App app{"Write a co-simulation FMU of a model", "hersey export"};
   app.add_option("MODEL", arguments.model, "Model file")->required();
   app.add_option("--fmu", arguments.fmu, "The FMU to write")->type_name("FILE.fmu")->required();
@@ -138,16 +134,34 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : fmu::kWrongInput;
+    return app.exit(error) == 0 ? 0 : kWrongInput;
   }
+  use_one_blas_thread();
+  return export_fmu(arguments);
+}
+
+// What is said on the way out may not throw any more.
+void complain(const char* prefix, const std::string& text) {
+  std::fputs(prefix, stderr);
+  std::fputs(text.c_str(), stderr);
+  std::fputs("\n", stderr);
+}
+
+}  // namespace
+}  // namespace hersey::fmu
+
+int main(int argc, char** argv) {
+  using namespace hersey;
   try {
-    use_one_blas_thread();
-    return fmu::export_fmu(arguments);
+    return fmu::exported(argc, argv);
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmu::complain("", error.what());
     return fmu::kWrongInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hersey: {}\n", error_text(error));
+    fmu::complain("hersey: ", error_text(error));
+    return fmu::kFailed;
+  } catch (...) {
+    fmu::complain("hersey: ", "internal error, please report it with the model");
     return fmu::kFailed;
   }
 }

@@ -61,6 +61,7 @@ bool SteadyDerivative::is_of_film_alone(const SteadyState& state) {
 std::vector<film::MotionDirection> SteadyDerivative::directions(const film::FilmModel& model,
                                                                 const Eigen::Vector2d& e) const {
   std::vector<film::MotionDirection> result;
+  result.reserve(kDirections);
   for (int k = 0; k < kDirections; ++k) result.push_back(surface_direction(model, k));
   if (model.supply.kind == film::SupplyKind::widest_gap && e.norm() > kCentred * model.c) {
     result[kEx].phi_supply = -e.y() / e.squaredNorm();

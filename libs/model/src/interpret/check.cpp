@@ -48,10 +48,9 @@ class Checker {
     value.key_position = place.key_position;
     value.path = place.path;
     value.text_offset = node.text_offset;
-    if (node.reported) {
+    // Templates have been put in: what is left of them says nothing.
+    if (node.reported || type.kind == Kind::part) {
       value.broken = true;
-    } else if (type.kind == Kind::part) {
-      value.broken = true;  // templates have been put in: what is left of them says nothing
     } else if (is_scalar_kind(type.kind)) {
       check_scalar(node, value);
     } else if (type.kind == Kind::any_of) {
