@@ -221,6 +221,50 @@ export const everyReport = {
     const cursors = await page.locator('[data-figure="force"] .u-cursor-x').evaluate((e) => e.style.transform);
     assert.doesNotMatch(cursors, /translate\(-/, "the cursor of another figure does not follow");
     assert.equal(await page.locator('[data-figure="force"] .tooltip:visible').count(), 0, "a tooltip stands where no pointer is");
+    await page.mouse.move(0, 0);
+  },
+
+  "orbit, map and machine follow the pointer in a figure, and go back when it leaves": async (page) => {
+    await pressOnSlider(page, "Home");
+    const look = async () => Object.fromEntries(await Promise.all(["orbit", "map", "machine"].map(async (kind) => [kind, await picture(page, kind)])));
+    const plot = page.locator('[data-figure="peak-pressure"] .u-over');
+    await plot.scrollIntoViewIfNeeded();
+    await frame(page);
+    const [before, told] = [await look(), await page.locator(".timeline-text").innerText()];
+    await plot.hover();
+    await frame(page);
+    const during = await look();
+    for (const kind of Object.keys(before)) if (before[kind]) assert.notEqual(during[kind], before[kind], `figure ${kind} does not follow`);
+    assert.notEqual(await page.locator(".timeline-text").innerText(), told, "the instant of the cursor is not told");
+    assert.equal(await page.locator(".timeline-slider").inputValue(), "0", "the slider has moved without being touched");
+    await page.mouse.move(0, 0);
+    await frame(page);
+    const after = await look();
+    for (const kind of Object.keys(before)) assert.equal(after[kind], before[kind], `figure ${kind} does not go back`);
+    assert.equal(await page.locator(".timeline-text").innerText(), told, "the instant shown is not told again");
+  },
+
+  "keys move a figure's cursor, and the others with it": async (page) => {
+    await pressOnSlider(page, "Home");
+    const place = () => page.locator('[data-figure="force"] .u-cursor-x').evaluate((e) => e.style.transform);
+    const plot = page.locator('[data-figure="peak-pressure"] .u-over');
+    await plot.focus();
+    await page.keyboard.press("End");
+    await frame(page);
+    const [end, last] = [await place(), await plot.getAttribute("aria-valuetext")];
+    assert.equal(await plot.getAttribute("aria-valuenow"), await plot.getAttribute("aria-valuemax"), "End does not lead to the last row");
+    assert.ok(await page.locator('[data-figure="peak-pressure"] .tooltip').isVisible(), "the numbers at the cursor are not shown");
+    await page.keyboard.press("Shift+ArrowLeft");
+    await frame(page);
+    assert.equal(Number(await plot.getAttribute("aria-valuemax")) - Number(await plot.getAttribute("aria-valuenow")), 10, "Shift and an arrow do not go ten rows");
+    assert.notEqual(await place(), end, "the cursor of another figure does not follow");
+    assert.notEqual(await plot.getAttribute("aria-valuetext"), last, "what is read out does not change");
+    await page.keyboard.press("Enter");
+    await frame(page);
+    assert.notEqual(await page.locator(".timeline-slider").inputValue(), "0", "Enter does not choose the instant");
+    await page.keyboard.press("Escape");
+    await frame(page);
+    assert.match(await place(), /translate\(-/, "Escape does not take the cursor away");
   },
 
   "a legend entry hides its curve": async (page) => {

@@ -26,6 +26,7 @@ export class BearingView {
     private readonly bearing: string,
     abscissa: Abscissa,
     private readonly pickTime: (time: number) => void,
+    private readonly hoverRow: (row: number | null) => void,
   ) {
     this.axis = new Axis(run, abscissa);
     this.fields = FilmFields.of(run, bearing);
@@ -133,6 +134,7 @@ export class BearingView {
       ...(right ? { right } : {}),
       curves,
       pick: (index) => this.pickTime(time?.[index] ?? 0),
+      hover: this.hoverRow,
     });
     this.followers.push((t) => plot.mark(this.axis.at(t)));
     this.element.append(figure(name, caption, plot.tools, plot.element));

@@ -30,6 +30,8 @@ export interface LineFigure {
   curves: Curve[];
   /** Called with the index of the point that was clicked. */
   pick?: (index: number) => void;
+  /** Called with the index of the point under this figure's cursor, and with null when the cursor leaves it. */
+  hover?: (index: number | null) => void;
   height?: number;
 }
 
@@ -74,6 +76,13 @@ function padded(fromZero: boolean, highest = -Infinity): uPlot.Range.Function {
   };
 }
 
+/** Puts a figure's cursor somewhere (px; below zero: nowhere), and that of the figures over the same abscissa. */
+function placeCursor(plot: uPlot, left: number, top: number): void {
+  // The third argument, which passes the place on to the others, is missing from uPlot's types.
+  const place = plot.setCursor as (to: { left: number; top: number }, fireHook: boolean, publish: boolean) => void;
+  place({ left, top }, true, true);
+}
+
 export class LinePlot {
   readonly element: HTMLElement;
   readonly tools: HTMLElement;
@@ -82,6 +91,7 @@ export class LinePlot {
   private readonly hiddenCurves = new Set<number>();
   private readonly observer: ResizeObserver;
   private plot: uPlot | null = null;
+  private hovered: number | null = null;
 
   /** False for a plot that has not been on the page yet. */
   get wasShown(): boolean {
@@ -116,16 +126,21 @@ export class LinePlot {
   }
 
   redraw(): void {
-    this.plot?.destroy();
-    this.plot = null;
+    this.forgetPlot();
     this.element.replaceChild(this.legend(), this.element.firstChild!);
     this.fit();
   }
 
   destroy(): void {
     this.observer.disconnect();
-    this.plot?.destroy();
+    this.forgetPlot();
     plots.delete(this);
+  }
+
+  private forgetPlot(): void {
+    const { plot } = this;
+    this.plot = null;
+    plot?.destroy();
   }
 
   private colour(index: number): string {
@@ -181,13 +196,69 @@ export class LinePlot {
     const canvas = plot.root.querySelector("canvas");
     canvas?.setAttribute("role", "img");
     canvas?.setAttribute("aria-label", `${this.spec.left.label} against ${this.spec.x.label}`);
-    if (this.spec.pick) {
-      plot.over.addEventListener("click", () => {
-        const index = plot.cursor.idx;
-        if (index !== null && index !== undefined) this.spec.pick?.(index);
-      });
-    }
+    this.followPointer(plot);
+    this.followKeys(plot);
     return plot;
+  }
+
+  private followPointer(plot: uPlot): void {
+    plot.over.addEventListener("click", () => this.pickAt(plot));
+    plot.over.addEventListener("mouseleave", () => this.hoverAt(null));
+  }
+
+  /** The cursor by keys: arrows step along the rows, Home and End go to the ends shown, Enter picks, Escape leaves. */
+  private followKeys(plot: uPlot): void {
+    const { over } = plot;
+    const { left, x } = this.spec;
+    const attributes = { tabindex: "0", role: "slider", "aria-label": `Cursor of ${left.label} against ${x.label}`, "aria-valuemin": "0", "aria-valuemax": String(x.values.length - 1), "aria-valuenow": "0" };
+    for (const [name, value] of Object.entries(attributes)) over.setAttribute(name, value);
+    over.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") return this.dropCursor(plot);
+      if (event.key === "Enter") return this.pickAt(plot);
+      const index = this.steppedTo(plot, event);
+      if (index === null) return;
+      event.preventDefault();
+      placeCursor(plot, plot.valToPos(plot.data[0][index]!, "x"), over.clientHeight / 2);
+    });
+    over.addEventListener("blur", () => this.dropCursor(plot));
+  }
+
+  /** The row a key leads to, within what is shown; null for keys that do not move the cursor. */
+  private steppedTo(plot: uPlot, event: KeyboardEvent): number | null {
+    const [first, last] = plot.series[0]!.idxs ?? [0, plot.data[0].length - 1];
+    const stride = event.shiftKey ? 10 : 1;
+    const from = plot.cursor.idx ?? null;
+    const goals: Record<string, number> = {
+      ArrowRight: from === null ? first : from + stride,
+      ArrowLeft: from === null ? last : from - stride,
+      Home: first,
+      End: last,
+    };
+    const goal = goals[event.key];
+    return goal === undefined ? null : Math.min(last, Math.max(first, goal));
+  }
+
+  private dropCursor(plot: uPlot): void {
+    // A figure that leaves the page loses the focus, too.
+    if (this.plot !== plot) return;
+    placeCursor(plot, -10, -10);
+    this.hoverAt(null);
+  }
+
+  private pickAt(plot: uPlot): void {
+    const index = plot.cursor.idx;
+    if (index !== null && index !== undefined) this.spec.pick?.(index);
+  }
+
+  private hoverAt(index: number | null): void {
+    if (index === this.hovered) return;
+    this.hovered = index;
+    this.spec.hover?.(index);
+  }
+
+  /** Whether the cursor is this figure's own, by pointer or keys, and not that of another figure over the same abscissa. */
+  private owns(plot: uPlot): boolean {
+    return plot.over.matches(":hover, :focus-visible");
   }
 
   private options(width: number, height: number): uPlot.Options {
@@ -272,10 +343,11 @@ export class LinePlot {
   private showTooltip(plot: uPlot): void {
     const index = plot.cursor.idx;
     const { left, top } = plot.cursor;
-    if (index === null || index === undefined || left === undefined || left < 0 || !plot.over.matches(":hover")) {
+    if (index === null || index === undefined || left === undefined || left < 0 || !this.owns(plot)) {
       this.tooltip.hidden = true;
       return;
     }
+    this.hoverAt(index);
     const { x, curves } = this.spec;
     const data = plot.data;
     const at = x.categories?.[index] ?? withUnit(x.values[index], x.unit, 6);
@@ -289,6 +361,8 @@ export class LinePlot {
       ];
     });
     this.tooltip.replaceChildren(h("div", { class: "tooltip-head" }, `${x.label} ${at}`), ...rows);
+    plot.over.setAttribute("aria-valuenow", String(index));
+    plot.over.setAttribute("aria-valuetext", [`${x.label} ${at}`, ...rows.filter((_, i) => i % 3 > 0).map((part) => part.textContent)].join(" "));
     this.tooltip.hidden = rows.length === 0;
     placeTooltip(this.tooltip, this.canvasHolder, left + plot.over.offsetLeft, (top ?? 0) + plot.over.offsetTop);
   }

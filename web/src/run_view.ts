@@ -32,6 +32,9 @@ export class RunView {
   private abscissa: Abscissa;
   private timeline: Timeline | null = null;
   private time: number | null = null;
+  private showTime: (time: number) => void = () => {};
+  /** The row under a figure's cursor, drawn with the next picture; undefined while none waits. */
+  private waiting: number | null | undefined;
   private readonly overview: Overview | null;
   private readonly changing = h("div", { class: "changing" });
 
@@ -49,18 +52,22 @@ export class RunView {
   private render(): void {
     this.timeline?.stop();
     const { run, bearing, abscissa } = this;
-    const view = bearing ? new BearingView(run, bearing, abscissa, (time) => this.timeline?.show(nearest(instants, time))) : null;
+    const pick = (time: number) => this.timeline?.show(nearest(instants, time));
+    const hover = (row: number | null) => this.hover(row);
+    const view = bearing ? new BearingView(run, bearing, abscissa, pick, hover) : null;
     const machine = MachineView.of(run);
     const modes = machine ? ModePlayer.of(run, machine) : null;
-    const system = new SystemView(run, abscissa);
+    const system = new SystemView(run, abscissa, pick, hover);
     const instants = view?.fields?.time ?? run.column("/time") ?? new Float64Array();
-    const timeline = new Timeline(instants, this.anglesAt(instants), (index) => {
-      const time = instants[index]!;
-      this.time = time;
-      view?.show(time, index);
+    this.showTime = (time) => {
+      view?.show(time, nearest(instants, time));
       machine?.show(time);
       system.show(time);
       this.overview?.show(time);
+    };
+    const timeline = new Timeline(instants, this.anglesAt(instants), (index) => {
+      this.time = instants[index]!;
+      this.showTime(this.time);
     });
     this.timeline = timeline;
     this.overview?.highlight(bearing);
@@ -72,6 +79,25 @@ export class RunView {
     sweepMachineViews();
     if (instants.length > 0) timeline.show(nearest(instants, this.time ?? this.firstShown(instants)));
     if (instants.length < 2) timeline.element.remove();
+  }
+
+  /** All figures follow the cursor of one of them, and go back to the instant shown when it leaves. */
+  private hover(row: number | null): void {
+    if (this.waiting === undefined) requestAnimationFrame(() => this.follow());
+    this.waiting = row;
+  }
+
+  private follow(): void {
+    const row = this.waiting ?? null;
+    this.waiting = undefined;
+    const { timeline } = this;
+    // A film that plays is not held up by a pointer that lies on a figure.
+    if (!timeline || timeline.isPlaying) return;
+    if (row === null) return timeline.show(timeline.index);
+    const time = this.run.column("/time")?.[row];
+    if (time === undefined) return;
+    timeline.tell(time, this.run.column("/crank_angle")?.[row] ?? null);
+    this.showTime(time);
   }
 
   /** The last time within the last cycle at which the pressure is at its peak: of a settled run, the end. */

@@ -31,6 +31,8 @@ export class SystemView {
   constructor(
     private readonly run: Run,
     abscissa: Abscissa,
+    private readonly pickTime: (time: number) => void,
+    private readonly hoverRow: (row: number | null) => void,
   ) {
     this.axis = new Axis(run, abscissa);
     // With bearings their figures come first and the solution matters next; a mechanism is looked at for its motion.
@@ -69,7 +71,9 @@ export class SystemView {
 
   private add(body: HTMLElement, name: string, caption: string, left: LineFigure["left"], curves: Curve[]): void {
     if (curves.length === 0) return;
-    const plot = new LinePlot({ name, x: this.axis.x, left, curves, height: 200 });
+    const time = this.run.column("/time");
+    const pick = (row: number) => this.pickTime(time?.[row] ?? 0);
+    const plot = new LinePlot({ name, x: this.axis.x, left, curves, height: 200, pick, hover: this.hoverRow });
     plot.mark(this.axis.at(this.time));
     this.plots.push(plot);
     body.append(figure(name, caption, plot.tools, plot.element));

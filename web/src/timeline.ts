@@ -28,11 +28,18 @@ export class Timeline {
 
   show(index: number): void {
     this.slider.value = String(index);
-    const time = `t = ${format(1e3 * this.time[index]!, 5)} ms`;
-    const angle = this.angle ? `   crank ${format((180 / Math.PI) * this.angle[index]!, 4)}°` : "";
-    this.text.textContent = time + angle;
+    this.text.textContent = instantText(this.time[index]!, this.angle?.[index] ?? null);
     this.slider.setAttribute("aria-valuetext", this.text.textContent);
     this.changed(index);
+  }
+
+  get isPlaying(): boolean {
+    return this.timer !== 0;
+  }
+
+  /** Tells an instant that a cursor is at; the slider stays where it was. */
+  tell(time: number, angle: number | null): void {
+    this.text.textContent = instantText(time, angle);
   }
 
   stop(): void {
@@ -58,4 +65,8 @@ export class Timeline {
     this.button.textContent = playing ? "❚❚" : "▶";
     this.button.setAttribute("aria-label", playing ? "Pause" : "Play");
   }
+}
+
+function instantText(time: number, angle: number | null): string {
+  return `t = ${format(1e3 * time, 5)} ms` + (angle === null ? "" : `   crank ${format((180 / Math.PI) * angle, 4)}°`);
 }
