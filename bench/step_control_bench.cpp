@@ -6,8 +6,8 @@
 // through its critical speed (flexible_rotor). The error is the root mean square of a path over the run, against steps
 // four times shorter than the shortest; the cost is that of Newton iterations, rejected steps included. Of each
 // tolerance the cost of equal steps of the same error is told, by their error's power law between two of them. The
-// geometric mean of the ratios over a case must not exceed 1.2: a cost that equal steps have only if their length is
-// known beforehand.
+// geometric mean of the ratios over a case is to be at most 1, though equal steps have their cost only if their length
+// is known beforehand.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ namespace {
 
 using namespace hersey;
 
-constexpr double kMostAllowed = 1.2;  // cost over that of equal steps
+constexpr double kMostAllowed = 1;  // cost over that of equal steps
 
 using Path = std::vector<double>;  // components of one instant after the other
 
