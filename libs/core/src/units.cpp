@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 
@@ -316,15 +317,26 @@ double convert(const Quantity& quantity, const std::string& unit) {
 
 namespace {
 
-/// `number` in `unit`, in base units with their text.
-Quantity in_base_units(const UnitSystem& system, double number, const Unit& unit) {
+/// The SI units of `dimensions()` by the text of their base units; of two that measure the same the later, 1/s for Hz.
+std::map<std::string, std::string> si_units_by_base(const UnitSystem& system) {
+  std::map<std::string, std::string> spelled;
+  for (const Dimension& dimension : dimensions()) {
+    if (dimension.si_unit != "1") spelled[base_units(system.parse(dimension.si_unit).get())] = dimension.si_unit;
+  }
+  return spelled;
+}
+
+/// `number` in `unit`, in the SI unit of its dimension, or in base units where the dimension has no name here.
+Quantity in_si_units(const UnitSystem& system, double number, const Unit& unit) {
   if (!unit) throw QuantityError("units that do not multiply", "units such as mm or N/mm^2");
   const std::string base = base_units(unit.get());
   const Unit target = system.parse(base.empty() ? "1" : base);
   if (!target || ut_are_convertible(unit.get(), target.get()) == 0) {
     throw QuantityError("a unit beyond measure", "units such as mm or N/mm^2");
   }
-  return {converted(unit.get(), target.get(), number), base};
+  static const std::map<std::string, std::string> spelled = si_units_by_base(system);
+  const auto known = spelled.find(base);
+  return {converted(unit.get(), target.get(), number), known == spelled.end() ? base : known->second};
 }
 
 }  // namespace
@@ -345,7 +357,7 @@ Quantity product(const Quantity& a, const Quantity& b) {
   const UnitSystem& system = UnitSystem::instance();
   const Unit unit_a = factor_unit(system, a.unit), unit_b = factor_unit(system, b.unit);
   if (a.unit.empty() || b.unit.empty()) return {a.number * b.number, a.unit + b.unit};
-  return in_base_units(system, a.number * b.number, Unit(ut_multiply(unit_a.get(), unit_b.get())));
+  return in_si_units(system, a.number * b.number, Unit(ut_multiply(unit_a.get(), unit_b.get())));
 }
 
 Quantity quotient(const Quantity& a, const Quantity& b) {
@@ -354,7 +366,7 @@ Quantity quotient(const Quantity& a, const Quantity& b) {
   const Unit unit_a = factor_unit(system, a.unit), unit_b = factor_unit(system, b.unit);
   if (b.unit.empty()) return {a.number / b.number, a.unit};
   if (a.unit == b.unit) return {a.number / b.number, ""};
-  return in_base_units(system, a.number / b.number, Unit(ut_divide(unit_a.get(), unit_b.get())));
+  return in_si_units(system, a.number / b.number, Unit(ut_divide(unit_a.get(), unit_b.get())));
 }
 
 Quantity power(const Quantity& base, double exponent) {
@@ -367,7 +379,7 @@ Quantity power(const Quantity& base, double exponent) {
   const std::lock_guard guard(UnitSystem::lock());
   const UnitSystem& system = UnitSystem::instance();
   const Unit unit = factor_unit(system, base.unit);
-  return in_base_units(system, std::pow(base.number, exponent), Unit(ut_raise(unit.get(), static_cast<int>(exponent))));
+  return in_si_units(system, std::pow(base.number, exponent), Unit(ut_raise(unit.get(), static_cast<int>(exponent))));
 }
 
 }  // namespace hersey

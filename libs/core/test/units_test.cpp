@@ -133,6 +133,23 @@ TEST_CASE("Conversion_BetweenUnitsOfOneDimension") {
   CHECK_THROWS_AS((void)convert({1, "nosuch"}, "mm"), QuantityError);
 }
 
+TEST_CASE("Products_AreSpelledInTheUnitOfTheirDimension") {
+  const auto unit_of = [](const char* a, const char* b) { return product(split_quantity(a), split_quantity(b)).unit; };
+  CHECK(unit_of("60 rad/s", "0.5 s") == "rad");
+  CHECK(unit_of("2 kN", "30 mm") == "N.m");
+  CHECK(unit_of("3 mm", "1 kg") == "kg.m");
+  CHECK(quotient(split_quantity("10 rev"), split_quantity("2 s")).unit == "rad/s");
+  CHECK(quotient(split_quantity("1 m/s"), split_quantity("1 mm")).unit == "1/s");
+  CHECK(power(split_quantity("2 mm"), 5).unit == "m5");  // no dimension of ours
+  for (const Dimension& dimension : dimensions()) {
+    if (dimension.si_unit == "1") continue;
+    CAPTURE(dimension.si_unit);
+    const Quantity once = power({3, dimension.si_unit}, 1);
+    CHECK(once.number == 3);
+    CHECK(convert_to_si(once, dimension.si_unit) == 3);
+  }
+}
+
 TEST_CASE("Units_AreReadFromSeveralThreads") {
   std::vector<std::thread> threads;
   std::vector<int> wrong(4, 0);
