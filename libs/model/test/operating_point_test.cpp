@@ -136,8 +136,8 @@ TEST_CASE("UnphysicalOil_IsWarnedOf") {
   CHECK(warnings_of(fed).empty());
   const auto with = [&](const char* oil) { return warnings_of(edited(fed, "viscosity: 15 mPa.s", oil)); };
   CHECK(with("viscosity: 15 MPa.s") ==
-        "m.yaml:3:20: lubricants.oil.viscosity: a value that no lubricant has; expected about 1 mPa.s to 10 Pa.s for "
-        "oils, 0.01 mPa.s for gases; is it in the right unit?\n");
+        "m.yaml:3:20: lubricants.oil.viscosity: a viscosity of 1.5e+10 mPa.s, far from what is usual; expected about 1 "
+        "mPa.s to 1 Pa.s for oils at work, 0.3 mPa.s for hot water; is it in the right unit?\n");
   CHECK(with("viscosity: 15 mPa.s, pressure_viscosity: 12 1/MPa").find("pressure_viscosity: a value") !=
         std::string::npos);
   CHECK(with("viscosity: 15 mPa.s, pressure_viscosity: {law: barus, alpha: 12 1/MPa}").find("alpha: a value") !=

@@ -10,7 +10,7 @@ TEST_CASE("UnknownKey_NamesTheNearest") {
         "width, radial_clearance, diametral_clearance, lubricant, grid, pressures, cavitation, edge_pressure, "
         "ambient_fill, thermal, supply, features, shape, roughness, asperities, compliance, shell_surface, "
         "journal_surface, "
-        "materials, cavitated_shear, shear_force, solver, operating_point or coupling");
+        "materials, permissible_pressure, cavitated_shear, shear_force, solver, operating_point or coupling");
 }
 
 TEST_CASE("UnphysicalPressures_AreReported") {

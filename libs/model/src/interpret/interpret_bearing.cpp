@@ -40,6 +40,8 @@ class FilmReader {
     read_ambient_fill();
     read_supply();
     read_surfaces(context_, value_, bearing_);
+    if (const Value* most = value_.find("permissible_pressure"); most != nullptr && !most->broken)
+      bearing_.permissible_pressure = most->number;
     read_roughness();
     read_asperities();
     read_compliance();

@@ -70,7 +70,6 @@ void warn_outside(Context& context, const Value& parent, const std::string& key,
 }
 
 void warn_of_unphysical(Context& context, const Value& lubricant) {
-  warn_outside(context, lubricant, "viscosity", 1e-5, 1e3, "about 1 mPa.s to 10 Pa.s for oils, 0.01 mPa.s for gases");
   warn_outside(context, lubricant, "density", 0.1, 5000, "about 800 to 1000 kg/m^3 for oils");
   warn_outside(context, lubricant, "pressure_viscosity", 0, 1e-7, "at most about 4e-8 1/Pa (40 1/GPa) for oils");
   const Value* law = lubricant.find("compressibility");
@@ -80,6 +79,16 @@ void warn_of_unphysical(Context& context, const Value& lubricant) {
   context.model.warnings.push_back({law->key_position, law->path,
                                     "an oil that more than doubles its density under pressure",
                                     "a rise below saturation, such as 0.6 and 1.7 1/GPa", ""});
+}
+
+/// mu [Pa.s] as it is given or follows from the law at the oil's temperature.
+void warn_of_viscosity(Context& context, const Value& lubricant, double mu) {
+  constexpr double kThinnest = 0.2e-3, kThickest = 10;  // below hot water; above heavy gear oil at a cold start
+  const Value* given = lubricant.find("viscosity");
+  if (given == nullptr || context.has_fault_in(lubricant.path) || (kThinnest <= mu && mu <= kThickest)) return;
+  context.model.warnings.push_back(
+      {given->position, given->path, fmt::format("a viscosity of {:.3g} mPa.s, far from what is usual", 1e3 * mu),
+       "about 1 mPa.s to 1 Pa.s for oils at work, 0.3 mPa.s for hot water", "is it in the right unit?"});
 }
 
 film::DensityLaw density_law_of(const Context& context, const Value& lubricant) {
@@ -259,6 +268,7 @@ void interpret_lubricants(Context& context) {
     const bool has_viscosity = lubricant.temperature || !film::depends_on_temperature(oil.temperature_law);
     oil.shear_thinning = shear_thinning_of(context, value, oil, has_viscosity);
     warn_of_unphysical(context, value);
+    if (has_viscosity) warn_of_viscosity(context, value, oil.mu0);
     lubricant.validity = validity_of(oil, grade_of(value));
     if (const Value* T = value.find("temperature"); T != nullptr && !T->broken)
       warn_of_temperature(context, *T, lubricant.validity, name);

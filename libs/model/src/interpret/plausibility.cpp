@@ -9,7 +9,7 @@ namespace {
 
 // Peak film pressures that the layers of highly loaded engine bearings are designed for are of this order; soft ones
 // (white metal) yield far below it.
-constexpr double kMostPressure = 200e6;
+constexpr double kUsualPressure = 200e6;
 // Of finely ground journals and bored shells that have run in; for bearings whose roughness is not given.
 constexpr double kLeastRoughness = 0.1e-6;
 
@@ -40,17 +40,23 @@ std::string doubt_of_gap(const Bearing& bearing, double h_min) {
                                  : ", which `asperities` counts");
 }
 
+std::string doubt_of_pressure(const Bearing& bearing, double p_max) {
+  if (p_max <= bearing.permissible_pressure.value_or(kUsualPressure)) return "";
+  const std::string limit =
+      bearing.permissible_pressure
+          ? fmt::format("its permissible_pressure, {:.3g} MPa", 1e-6 * *bearing.permissible_pressure)
+          : "what layers of bearings usually bear (of the order of 200 MPa in engines, far less of white metal; "
+            "`permissible_pressure` tells of this one)";
+  return fmt::format("its peak pressure: {:.3g} MPa is above {}; {}", 1e-6 * p_max, limit,
+                     deforms(bearing) ? "lower the load or give more width"
+                                      : "elastic surfaces spread it (`shell_surface`, or `compliance`)");
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_of_surfaces(const Bearing& bearing, double p_max, double h_min) {
   std::vector<std::string> doubts;
-  if (p_max > kMostPressure)
-    doubts.push_back(fmt::format(
-        "its peak pressure: {:.3g} MPa is above what layers of bearings usually bear (of the order of 200 MPa in "
-        "engines, far less of white metal); {}",
-        1e-6 * p_max,
-        deforms(bearing) ? "lower the load or give more width"
-                         : "elastic surfaces spread it (`shell_surface`, or `compliance`)"));
+  if (std::string doubt = doubt_of_pressure(bearing, p_max); !doubt.empty()) doubts.push_back(std::move(doubt));
   if (std::isfinite(h_min)) {
     if (std::string doubt = doubt_of_gap(bearing, h_min); !doubt.empty()) doubts.push_back(std::move(doubt));
   }

@@ -337,7 +337,8 @@ struct Bearing {
   std::optional<bearing::WallExpansion> expansion;  ///< of the walls, whatever heats the film; unset: they keep size
   double growth = 0;     ///< of the clearance of a film with one given temperature: expansion at that [m]
   OilValidity validity;  ///< of its oil
-  std::vector<Function> feature_pressures;  ///< of each of film.features [Pa], over time or the crank's rotation
+  std::optional<double> permissible_pressure;  ///< that its lining bears [Pa]; unset: what is usual in engines
+  std::vector<Function> feature_pressures;     ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;
   std::optional<fem::ElasticMaterial> shell_material, journal_material;
