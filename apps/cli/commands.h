@@ -160,6 +160,16 @@ struct InitArguments {
 /// there is not and for a file that exists; std::runtime_error where it cannot be written.
 [[nodiscard]] int init_command(const InitArguments& arguments);
 
+struct ConvertArguments {
+  std::filesystem::path model;
+  std::filesystem::path output;  ///< empty: standard output, unless in_place
+  bool in_place = false;
+};
+
+/// `hersey convert`: a model file of an earlier version as this one reads it. @returns an ExitCode. @throws InputError
+/// with what is wrong in what was written; std::runtime_error where it cannot be.
+[[nodiscard]] int convert_command(const ConvertArguments& arguments);
+
 /// `hersey explain`: prints what a key of the model file is, from the format itself. @param path  empty: the sections
 /// @returns an ExitCode. @throws InputError.
 [[nodiscard]] int explain_command(const std::string& path);

@@ -39,6 +39,7 @@ constexpr const char* kFooter =
     "  hersey modes conrod.msh --length-unit mm --hold big_end       its natural frequencies\n"
     "  hersey export rotor.yaml --fmu rotor.fmu                      for co-simulation in other programs\n"
     "  hersey oil iso_vg_46 --at 40degC 100degC                      viscosity and density of an oil\n"
+    "  hersey convert old.yaml --in-place                            a model file of an earlier version\n"
     "  hersey schema > hersey.schema.json                            completion and checking in an editor\n"
     "\n"
     "Exit codes:\n"
@@ -122,6 +123,16 @@ CLI::App* add_bearing_command(CLI::App& app, BearingArguments& bearing) {
   command->add_option("--jobs", bearing.jobs, "Solutions at the same time (default: one per processor)")
       ->check(CLI::PositiveNumber);
   add_threads(*command, bearing.threads);
+  return command;
+}
+
+CLI::App* add_convert_command(CLI::App& app, ConvertArguments& convert) {
+  CLI::App* command =
+      app.add_subcommand("convert", "Bring a model file of an earlier version up to date; comments and layout stay");
+  command->add_option("MODEL", convert.model, "Model file")->required();
+  CLI::Option* output = command->add_option("--output", convert.output, "File to write (default: standard output)");
+  output->type_name("FILE");
+  command->add_flag("--in-place", convert.in_place, "Write it over the model file")->excludes(output);
   return command;
 }
 
@@ -412,6 +423,8 @@ int dispatch(int argc, char** argv) {
   CLI::App* init_app = app.add_subcommand("init", "Write a commented model to begin with; alone: tell which there are");
   init_app->add_option("TEMPLATE", init.model, "bearing, rotor, big_end, engine, turbocharger or flexible_rod");
   init_app->add_option("NAME", init.name, "Name of the file to write (default: as the template)");
+  ConvertArguments convert;
+  const CLI::App* convert_app = add_convert_command(app, convert);
   std::string explained;
   CLI::App* explain_app =
       app.add_subcommand("explain", "Print what a key of the model file is; alone: the sections of a model");
@@ -447,6 +460,7 @@ int dispatch(int argc, char** argv) {
   if (*study_task_app) return study_task_command(study_task);
   if (*study_page_app) return study_page_command(study_data, study_page);
   if (*init_app) return init_command(init);
+  if (*convert_app) return convert_command(convert);
   if (*explain_app) return explain_command(explained);
   return schema_command(of_results, markdown);
 }

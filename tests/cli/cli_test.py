@@ -106,6 +106,23 @@ class CommandLine(unittest.TestCase):
         run = hersey("check", MODEL)
         self.assertEqual(run.returncode, OK, run.stderr)
 
+    def test_convert_brings_an_older_model_up_to_date(self):
+        with open(MODEL, encoding="utf-8") as file:
+            today = file.read()
+        path = self.model_with("bearings:\n", "bearings: # of today\n")
+        done = hersey("convert", path, "--in-place")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertIn("nothing to convert", done.stderr)
+        old = self.model_with("lubricants:\n", "lubricants:\n  engine: {grade: sae_5w_30}  # thin\n")
+        self.assertIn("`hersey convert`", hersey("check", old).stderr)
+        done = hersey("convert", old)
+        place = self.position(old, "sae_5w_30")
+        self.assertEqual(done.stderr, f"{old}:{place}: lubricants.engine.grade: sae_5w_30 is written sae_5w30\n")
+        self.assertEqual(done.stdout.replace("  engine: {grade: sae_5w30}  # thin\n", ""), today)
+        self.assertEqual(hersey("convert", old, "--output", old).returncode, WRONG_INPUT)
+        self.assertEqual(hersey("convert", old, "--in-place").returncode, OK)
+        self.assertEqual(hersey("check", old).returncode, OK)
+
     def test_mesh_tells_sets_mass_and_quality(self):
         block = os.path.join(HERE, "../../libs/fem/test/data/block_22.msh")
         run = hersey("mesh", block, "--length-unit", "mm", "--density", "7850 kg/m^3", "--json")

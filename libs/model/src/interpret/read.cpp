@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "hersey/core/input_file.h"
+#include "hersey/model/convert.h"
 #include "interpret/check.h"
 #include "interpret/interpret.h"
 #include "interpret/interpret_size.h"
@@ -118,14 +119,30 @@ void tidy(std::vector<Fault>& faults) {
   faults.erase(std::unique(faults.begin(), faults.end(), same), faults.end());
 }
 
+namespace {
+
+/// To the faults of what an earlier version wrote in another way.
+void tell_of_conversion(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
+  for (const Change& change : converted(text, file).changes) {
+    for (Fault& fault : faults) {
+      if (fault.position.line != change.position.line || fault.position.column != change.position.column) continue;
+      fault.expected += "; `hersey convert` brings this file up to date";
+    }
+  }
+}
+
+}  // namespace
+
 Model read_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
   std::vector<Fault> faults;
   const std::vector<Override> changes = parse_overrides(overrides, faults);
   std::optional<Node> root = parse_yaml(text, file, faults);
+  const bool is_yaml = root.has_value();
   Model model;
-  if (root) model = read_tree(std::move(*root), file, changes, faults);
+  if (is_yaml) model = read_tree(std::move(*root), file, changes, faults);
   if (!faults.empty()) {
     tidy(faults);
+    if (is_yaml) tell_of_conversion(text, file, faults);
     throw InputError(std::move(faults));
   }
   model.resolved_text = resolved(text, overrides);

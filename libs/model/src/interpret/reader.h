@@ -9,9 +9,6 @@
 
 namespace hersey::model {
 
-/// The text of a file. @throws InputError where it cannot be read.
-[[nodiscard]] std::string file_text(const std::string& path);
-
 /// The keys of the model's top level.
 [[nodiscard]] std::vector<std::string> top_level_keys();
 

@@ -19,6 +19,9 @@ namespace hersey::model {
 [[nodiscard]] Model read_text(const std::string& text, const std::string& file,
                               const std::vector<std::string>& overrides = {});
 
+/// The text of a model file. @throws InputError where it cannot be read or is larger than any model
+[[nodiscard]] std::string file_text(const std::string& path);
+
 /// The model file as YAML with templates, aliases, overrides and parameters put in; without `parameters` and `study`.
 /// @throws InputError where these are wrong; nothing else is checked
 [[nodiscard]] std::string expanded_text(const std::string& path, const std::vector<std::string>& overrides = {});

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/core/input_error.h"
+
+namespace hersey::model {
+
+/// One thing that an earlier version of the format wrote in another way.
+struct Change {
+  SourcePosition position;  ///< of the value that is renamed, or of the key that goes
+  std::string path;         ///< "lubricants.oil.grade"
+  std::string what;         ///< "sae_5w_30 is written sae_5w30"
+};
+
+struct Conversion {
+  std::string text;             ///< of the model file, as this version reads it
+  std::vector<Change> changes;  ///< in the order of the file; empty: `text` is as it was given
+};
+
+/// A model file of an earlier version, brought up to date. Only what has changed is touched: comments, order and layout
+/// stay. What is wrong for other reasons stays wrong.
+///
+/// @param text  of the model file
+/// @param file  names it in faults
+/// @throws InputError where the text is no YAML.
+/// @verified_by convert_test.cpp
+[[nodiscard]] Conversion converted(const std::string& text, const std::string& file);
+
+}  // namespace hersey::model
