@@ -64,8 +64,8 @@ struct Quantity {
 [[nodiscard]] double convert(const Quantity& quantity, const std::string& unit);
 
 /// Sum, product, quotient and power of quantities. A partner without unit leaves the other's unit as it is; otherwise
-/// sums are in the unit of the first, products, quotients and powers in the SI unit of their dimension (base units where
-/// `dimensions()` has none). A bare 0 adds to anything.
+/// sums are in the unit of the first, products, quotients and powers in the SI unit of their dimension (base units
+/// where `dimensions()` has none). A bare 0 adds to anything.
 /// @throws QuantityError where summands do not measure the same, units are unknown or begin elsewhere than at zero
 /// (degC), or a quantity with a unit is raised to no integer between -9 and 9.
 [[nodiscard]] Quantity sum(const Quantity& a, const Quantity& b);
