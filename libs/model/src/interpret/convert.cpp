@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <ranges>
 #include <set>
 
 #include "interpret/source_tree.h"
@@ -39,8 +40,8 @@ class Converter {
     visit(root, "", "");
     Conversion conversion{.text = text_, .changes = {}};
     for (const auto& [at, edit] : edits_) conversion.changes.push_back(edit.change);
-    for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit)
-      conversion.text.replace(edit->first, edit->second.length, edit->second.replacement);
+    for (const auto& [at, edit] : std::views::reverse(edits_))  // what is before an edit stays where it is
+      conversion.text.replace(at, edit.length, edit.replacement);
     return conversion;
   }
 
