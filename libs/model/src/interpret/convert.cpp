@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <map>
-#include <ranges>
 #include <set>
 
 #include "interpret/source_tree.h"
@@ -39,9 +39,11 @@ class Converter {
     collect_keys(root);
     visit(root, "", "");
     Conversion conversion{.text = text_, .changes = {}};
-    for (const auto& [at, edit] : edits_) conversion.changes.push_back(edit.change);
-    for (const auto& [at, edit] : std::views::reverse(edits_))  // what is before an edit stays where it is
+    for (const auto& [at, edit] : edits_) {
       conversion.text.replace(at, edit.length, edit.replacement);
+      conversion.changes.push_back(edit.change);
+    }
+    std::reverse(conversion.changes.begin(), conversion.changes.end());
     return conversion;
   }
 
@@ -114,7 +116,8 @@ class Converter {
   const std::string& text_;
   std::vector<std::size_t> lines_;  // where each begins
   std::set<std::string> keys_;
-  std::map<std::size_t, Edit> edits_;
+  std::map<std::size_t, Edit, std::greater<>>
+      edits_;  // by place, the last first: what is before an edit stays where it is
 };
 
 }  // namespace
