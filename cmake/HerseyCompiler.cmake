@@ -20,6 +20,9 @@ if(HERSEY_CCACHE)
 endif()
 
 add_library(hersey_options INTERFACE)
+# Files are named from the source directory on, whatever it is: messages tell no one's folders, and objects are the same
+# bytes in every clone.
+target_compile_options(hersey_options INTERFACE -fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 target_compile_options(hersey_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                                                 -Woverloaded-virtual -Wcast-qual
                                                 # Designated initialisers leave the rest to the members' own defaults.

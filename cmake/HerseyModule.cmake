@@ -13,7 +13,11 @@ target_precompile_headers(hersey_pch PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/p
 if(BUILD_TESTING)
   find_package(doctest REQUIRED)
   include(doctest)
-  add_library(hersey_test_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/main.cpp)
+  add_library(hersey_test_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/main.cpp
+                                      ${CMAKE_CURRENT_SOURCE_DIR}/tests/source_dir.cpp)
+  set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/tests/source_dir.cpp PROPERTIES
+                              COMPILE_DEFINITIONS HERSEY_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
+                              SKIP_UNITY_BUILD_INCLUSION ON)
   target_include_directories(hersey_test_main PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/support)
   target_link_libraries(hersey_test_main PUBLIC doctest::doctest $<BUILD_INTERFACE:hersey_options>)
 endif()
@@ -69,7 +73,6 @@ function(hersey_module name)
     file(GLOB verification CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/verification/*.h)
     target_include_directories(${name}_test PRIVATE ${dir}/src ${CMAKE_CURRENT_SOURCE_DIR}/verification)
     target_link_libraries(${name}_test PRIVATE hersey_${name} hersey_test_main ${M_PRIVATE})
-    target_compile_definitions(${name}_test PRIVATE HERSEY_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
     # As position-independent as the modules, so that their precompiled header serves.
     set_target_properties(${name}_test PROPERTIES POSITION_INDEPENDENT_CODE OFF)
     target_compile_options(${name}_test PRIVATE -fPIC)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hersey/bearing/bearing_numbers.h"
+#include "source_dir.h"
 
 namespace hersey::bearing {
 namespace steady_bearing_test {
@@ -62,7 +63,7 @@ Eigen::Vector4d generalised_force(const SteadyState& state) {
 }
 
 TEST_CASE("RaimondiBoyd_FromLoadToPosition") {
-  std::ifstream file(std::string(HERSEY_SOURCE_DIR) + "/verification/data/finite_360.csv");
+  std::ifstream file(std::string(hersey::source_dir()) + "/verification/data/finite_360.csv");
   int rows = 0;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line.front() == '#' || line.front() == 'L') continue;

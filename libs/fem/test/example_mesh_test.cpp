@@ -6,6 +6,7 @@
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduction.h"
+#include "source_dir.h"
 
 // The meshes kept in examples/meshes hold what their page says: they are what a reader tries first.
 
@@ -13,7 +14,7 @@ namespace hersey::fem {
 namespace example_mesh_test {
 
 std::filesystem::path example(const std::string& name) {
-  return std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/meshes" / name;
+  return std::filesystem::path(hersey::source_dir()) / "examples/meshes" / name;
 }
 
 /// Largest distance of a set's nodes from the cylinder of `radius` about the axis through `centre` along z [m].

@@ -10,6 +10,7 @@
 #include "hersey/fem/surface_loads.h"
 #include "ring.h"
 #include "small_bodies.h"
+#include "source_dir.h"
 
 namespace hersey::fem {
 namespace film_modes_test {
@@ -81,7 +82,7 @@ TEST_CASE("ThinLiner_GivesWayAsColumnsDo") {
 }
 
 TEST_CASE("FilmModes_MissNoMoreThanTheySay_AndLessTheMoreThereAre") {
-  const Mesh mesh = read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/meshes/conrod.msh", 1e-3);
+  const Mesh mesh = read_mesh(std::filesystem::path(hersey::source_dir()) / "examples/meshes/conrod.msh", 1e-3);
   const ElasticBody body = assemble(mesh, {steel});
   const HeldStiffness stiffness = held_by(body, {average_on(mesh, "small_end"), average_on(mesh, "big_end")});
   const FilmCylinder film{.X = {}, .R = 0.0225, .L = 0.0156, .is_bore = true};

@@ -13,6 +13,7 @@
 #include "hersey/fem/surface_loads.h"
 #include "ring.h"
 #include "small_bodies.h"
+#include "source_dir.h"
 
 namespace hersey::fem {
 namespace film_surface_test {
@@ -179,7 +180,7 @@ TEST_CASE("FunctionsFor_FollowTheMesh") {
 }
 
 TEST_CASE("FacesOnCylinder_OfAnUnstructuredBoreAreThoseOfItsNamedSurface") {
-  const Mesh mesh = read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/meshes/conrod.msh", 1e-3);
+  const Mesh mesh = read_mesh(std::filesystem::path(hersey::source_dir()) / "examples/meshes/conrod.msh", 1e-3);
   const FilmCylinder film{.X = {}, .R = 0.0225, .L = 0.0156, .is_bore = true};
   const std::vector<ElementFace> faces = faces_on_cylinder(mesh, film, 2e-4);
   CHECK(faces.size() == faces_called(mesh, "big_end").size());

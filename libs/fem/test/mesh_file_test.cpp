@@ -10,13 +10,14 @@
 #include <numeric>
 
 #include "hersey/fem/skin.h"
+#include "source_dir.h"
 #include "temporary_directory.h"
 
 namespace hersey::fem {
 namespace mesh_file_test {
 
 std::filesystem::path data(const std::string& name) {
-  return std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data" / name;
+  return std::filesystem::path(hersey::source_dir()) / "libs/fem/test/data" / name;
 }
 
 constexpr double kMillimetre = 1e-3;  // m

@@ -7,6 +7,7 @@
 
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/mesh_file.h"
+#include "source_dir.h"
 
 namespace hersey::fem {
 namespace mesh_quality_test {
@@ -14,7 +15,7 @@ namespace mesh_quality_test {
 constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
 
 Mesh file(const std::string& name) {
-  return read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data" / name, 1e-3);
+  return read_mesh(std::filesystem::path(hersey::source_dir()) / "libs/fem/test/data" / name, 1e-3);
 }
 
 TEST_CASE("CornerShape_IsOneForTheIdealCorner_OfAnySizeAndTurn") {
@@ -91,7 +92,7 @@ TEST_CASE("RepeatedElements_AndUnmergedNodes_AreNamed") {
 }
 
 TEST_CASE("MillimetresReadAsMetres_AreWarnedOf") {
-  const std::filesystem::path path = std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data/sets.inp";
+  const std::filesystem::path path = std::filesystem::path(hersey::source_dir()) / "libs/fem/test/data/sets.inp";
   const std::vector<Fault> warnings = warnings_of(quality_of(read_mesh(path, 1)), "x");
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].found == "a body of 10 x 10 x 20 m, 2000 m^3, 1.57e-05 kg");

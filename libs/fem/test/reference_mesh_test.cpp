@@ -14,12 +14,13 @@
 #include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/vibration.h"
 #include "small_bodies.h"
+#include "source_dir.h"
 
 // Values of CalculiX 2.20 on the same meshes with the same elements, to the digits it was read with.
 namespace hersey::fem {
 namespace reference_mesh_test {
 
-const std::string folder = std::string(HERSEY_SOURCE_DIR) + "/verification/data/meshes/";
+const std::string folder = std::string(hersey::source_dir()) + "/verification/data/meshes/";
 
 struct Cantilever {
   const char* file;

@@ -6,12 +6,15 @@
 #include <limits>
 
 #include "hersey/fem/mesh_file.h"
+#include "source_dir.h"
 
 namespace hersey::fem {
 namespace skin_test {
 
 // The block of the readers' tests: a brick of trapezoidal base, one of rectangular base, tetrahedra on the second.
-Mesh block() { return read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data/block_22.msh", 1e-3); }
+Mesh block() {
+  return read_mesh(std::filesystem::path(hersey::source_dir()) / "libs/fem/test/data/block_22.msh", 1e-3);
+}
 
 TEST_CASE("Skin_IsClosed_AndHoldsTheBodysVolume") {
   const Mesh mesh = block();

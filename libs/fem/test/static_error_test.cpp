@@ -9,11 +9,12 @@
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/surface_loads.h"
 #include "small_bodies.h"
+#include "source_dir.h"
 
 namespace hersey::fem {
 namespace static_error_test {
 
-Mesh conrod() { return read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/meshes/conrod.msh", 1e-3); }
+Mesh conrod() { return read_mesh(std::filesystem::path(hersey::source_dir()) / "examples/meshes/conrod.msh", 1e-3); }
 
 TEST_CASE("BoreOf_FindsAxisAndCentreAlsoOfHalfABore") {
   const Mesh mesh = conrod();

@@ -8,6 +8,7 @@
 
 #include "hersey/fem/mesh_file.h"
 #include "small_bodies.h"
+#include "source_dir.h"
 
 namespace hersey::fem {
 namespace surface_loads_test {
@@ -38,7 +39,7 @@ TEST_CASE("FacesCalled_FindsSurfacesAndFacesOfNodeSets") {
 }
 
 TEST_CASE("CosinePressure_OnABoreSumsUpToAQuarterOfPiTimesDiameterAndWidth") {
-  const Mesh mesh = read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/meshes/conrod.msh", 1e-3);
+  const Mesh mesh = read_mesh(std::filesystem::path(hersey::source_dir()) / "examples/meshes/conrod.msh", 1e-3);
   const std::vector<ElementFace> faces = faces_called(mesh, "big_end");
   const Vector3 towards = Vector3(0.6, 0.8, 0);
   const Eigen::VectorXd f = cosine_pressure_load(mesh, faces, towards);

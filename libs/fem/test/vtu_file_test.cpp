@@ -13,12 +13,15 @@
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/mesh_file.h"
 #include "seeded_random.h"
+#include "source_dir.h"
 #include "temporary_directory.h"
 
 namespace hersey::fem {
 namespace vtu_file_test {
 
-Mesh block() { return read_mesh(std::filesystem::path(HERSEY_SOURCE_DIR) / "libs/fem/test/data/block_22.msh", 1e-3); }
+Mesh block() {
+  return read_mesh(std::filesystem::path(hersey::source_dir()) / "libs/fem/test/data/block_22.msh", 1e-3);
+}
 
 std::string content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -99,7 +102,7 @@ TEST_CASE("PvdSeries_IsReadBackByAnotherProgram") {
     frame.node_fields.push_back({"displacement", Eigen::MatrixXd::Constant(3, 72, time)});
     series.add(time, mesh, frame);
   }
-  const std::string script = std::string(HERSEY_SOURCE_DIR) + "/libs/fem/test/read_vtu.py";
+  const std::string script = std::string(hersey::source_dir()) + "/libs/fem/test/read_vtu.py";
   CHECK(output_of("/usr/bin/python3 '" + script + "' '" + (folder / "run.pvd").string() + "'") ==
         "t=0.0 points=72 cells=12 types=24,25,26, displacement=3x72 sum=0.0;"
         "t=0.25 points=72 cells=12 types=24,25,26, displacement=3x72 sum=54.0;");

@@ -2,12 +2,13 @@
 
 #include "film_cases.h"
 #include "relative.h"
+#include "source_dir.h"
 
 // Bearings of finite width against tables of an independent code (verification/data).
 namespace hersey::film {
 namespace finite_bearing_test {
 
-const std::string data = std::string(HERSEY_SOURCE_DIR) + "/verification/data/";
+const std::string data = std::string(hersey::source_dir()) + "/verification/data/";
 
 TEST_CASE("FiniteBearing_MeetsTheTable") {
   for (const CsvRow& row : read_csv(data + "finite_360.csv")) {

@@ -13,6 +13,7 @@
 #include "hersey/solver/equilibrium.h"
 #include "hersey/solver/linearise.h"
 #include "simulate.h"
+#include "source_dir.h"
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
@@ -71,7 +72,7 @@ std::vector<Eigen::Vector2d> spin_up(int elements, double dt, double end) {
 
 /// Columns tip_axial_rel and tip_trans_rel of spin_up_beam.csv.
 std::vector<Eigen::Vector2d> spin_up_reference() {
-  std::ifstream file(HERSEY_SOURCE_DIR "/verification/data/spin_up_beam.csv");
+  std::ifstream file(std::string(hersey::source_dir()) + "/verification/data/spin_up_beam.csv");
   REQUIRE(file);
   std::vector<Eigen::Vector2d> rows;
   std::string line;

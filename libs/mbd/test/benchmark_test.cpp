@@ -10,6 +10,7 @@
 #include "benchmark_mechanisms.h"
 #include "hersey/solver/step_control.h"
 #include "simulate.h"
+#include "source_dir.h"
 #include "test_mechanisms.h"
 
 namespace hersey::mbd {
@@ -24,7 +25,7 @@ using test::Squeezer;
 
 /// Rows of numbers of a CSV file with `#` comments and one header line.
 std::vector<std::vector<double>> read_csv(const std::string& name) {
-  std::ifstream file(std::string(HERSEY_SOURCE_DIR) + "/verification/data/" + name);
+  std::ifstream file(std::string(hersey::source_dir()) + "/verification/data/" + name);
   REQUIRE(file.good());
   std::vector<std::vector<double>> rows;
   bool header = true;

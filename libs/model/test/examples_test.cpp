@@ -4,13 +4,15 @@
 
 #include "hersey/model/read.h"
 #include "hersey/model/study.h"
+#include "source_dir.h"
 
 namespace hersey::model {
 namespace examples_test {
 
 std::vector<std::string> example_files() {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(HERSEY_SOURCE_DIR "/examples")) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::string(hersey::source_dir()) + "/examples")) {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
   }
   return files;

@@ -1,4 +1,5 @@
 #include "model_text.h"
+#include "source_dir.h"
 
 // One test per kind of fault: where it is, what was found, what is expected, what to write instead.
 namespace hersey::model {
@@ -390,7 +391,8 @@ TEST_CASE("AllFaults_AreReportedTogether") {
 TEST_CASE("UnreadableFiles_AreReported") {
   CHECK_THROWS_WITH_AS((void)read("/nonexistent/m.yaml"),
                        "/nonexistent/m.yaml: no readable file; expected a model file", InputError);
-  CHECK_THROWS_WITH_AS((void)read(HERSEY_SOURCE_DIR), HERSEY_SOURCE_DIR ": a directory; expected a model file",
+  CHECK_THROWS_WITH_AS((void)read(hersey::source_dir()),
+                       (std::string(hersey::source_dir()) + ": a directory; expected a model file").c_str(),
                        InputError);
 }
 

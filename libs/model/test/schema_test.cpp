@@ -9,6 +9,7 @@
 
 #include "hersey/model/read.h"
 #include "schema/format.h"
+#include "source_dir.h"
 
 namespace hersey::model {
 namespace schema_test {
@@ -102,8 +103,8 @@ TEST_CASE("EveryKey_IsDescribed") {
 
 TEST_CASE("CommittedReference_IsFresh") {
   // Made again by `hersey schema --markdown > docs/model-file.md` and `hersey schema > docs/schema/model.schema.json`.
-  CHECK(text_of_file(HERSEY_SOURCE_DIR "/docs/model-file.md") == schema_markdown());
-  CHECK(text_of_file(HERSEY_SOURCE_DIR "/docs/schema/model.schema.json") == schema_json());
+  CHECK(text_of_file(std::string(hersey::source_dir()) + "/docs/model-file.md") == schema_markdown());
+  CHECK(text_of_file(std::string(hersey::source_dir()) + "/docs/schema/model.schema.json") == schema_json());
 }
 
 TEST_CASE("ExampleOfTheReference_IsAModel") {

@@ -11,6 +11,7 @@
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
+#include "source_dir.h"
 #include "temporary_directory.h"
 
 namespace hersey::run {
@@ -194,7 +195,7 @@ TEST_CASE("FallingBeam_IsRecordedAndBalanced") {
 TEST_CASE("JournalOnABeam_MovesWithItsNode") {
   const TemporaryDirectory folder;
   const std::filesystem::path file =
-      std::filesystem::path(HERSEY_SOURCE_DIR) / "examples" / "flexible_rotor" / "films.yaml";
+      std::filesystem::path(hersey::source_dir()) / "examples" / "flexible_rotor" / "films.yaml";
   const model::Model model =
       model::read(file.string(), {"simulation.duration=4 ms", "bearings.right.grid.circumferential=24"});
   const Summary summary = simulate(model, {.results = folder / "r.h5"});

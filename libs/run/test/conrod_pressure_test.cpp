@@ -12,6 +12,7 @@
 #include "hersey/run/simulate.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/initialise.h"
+#include "source_dir.h"
 #include "temporary_directory.h"
 
 // The example of a connecting rod under bore pressure against the whole mesh.
@@ -20,7 +21,7 @@ namespace conrod_pressure_test {
 
 TEST_CASE("ConrodUnderBorePressure_MovesAsItsWholeMesh") {
   const TemporaryDirectory folder;
-  const auto model = model::read(std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/conrod_pressure/static.yaml");
+  const auto model = model::read(std::filesystem::path(hersey::source_dir()) / "examples/conrod_pressure/static.yaml");
   const Summary summary = simulate(model, {.results = folder / "r.h5"});
   INFO(summary.message);
   REQUIRE(summary.status == Status::completed);
@@ -58,7 +59,7 @@ TEST_CASE("ConrodUnderBorePressure_MovesAsItsWholeMesh") {
 
 /// Displacements of the nodes after `steps` of 10 us under the rising pressure.
 Eigen::VectorXd after(const char* form, int steps) {
-  const auto model = model::read(std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/conrod_pressure/model.yaml",
+  const auto model = model::read(std::filesystem::path(hersey::source_dir()) / "examples/conrod_pressure/model.yaml",
                                  {std::string("bodies.rod.flexible.form=") + form});
   const model::Machine machine = model::build(model);
   mbd::Mechanism& m = *machine.mechanism;
@@ -77,7 +78,7 @@ Eigen::VectorXd after(const char* form, int steps) {
 }
 
 TEST_CASE("ConrodUnderBorePressure_MovesAlikeByModesAndByNodes") {
-  const auto model = model::read(std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/conrod_pressure/model.yaml");
+  const auto model = model::read(std::filesystem::path(hersey::source_dir()) / "examples/conrod_pressure/model.yaml");
   const fem::Mesh& mesh = *model.bodies[0].flexible->mesh;
   const Eigen::VectorXd modal = after("modal", 60), nodal = after("nodal", 60);
   double error = 0, size = 0;

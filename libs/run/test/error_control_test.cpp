@@ -15,6 +15,7 @@
 #include "march/start.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
+#include "source_dir.h"
 #include "temporary_directory.h"
 
 namespace hersey::run {
@@ -300,7 +301,7 @@ TEST_CASE("CoarseStep_SubdividesAtAHardInstantAndGoesOn") {
 BearingSummary coarse_slider_crank(const std::string& step, bool step_error) {
   const TemporaryDirectory scratch;
   const model::Model model =
-      model::read((std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/slider_crank/model.yaml").string(),
+      model::read((std::filesystem::path(hersey::source_dir()) / "examples/slider_crank/model.yaml").string(),
                   {"simulation.step=" + step, "bearings.big_end.grid={circumferential: 24, axial: 5}"});
   const Summary summary = simulate(model, {.results = scratch / "run.h5", .step_error = step_error});
   CAPTURE(summary.message);

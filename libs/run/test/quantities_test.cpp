@@ -10,6 +10,7 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/film_fields.h"
 #include "record/quantity.h"
+#include "source_dir.h"
 #include "temporary_directory.h"
 
 namespace hersey::run {
@@ -24,8 +25,8 @@ std::string text_of_file(const std::string& path) {
 TEST_CASE("CommittedReferenceOfResults_IsFresh") {
   // Made again by `hersey schema --results --markdown > docs/results-file.md` and
   // `hersey schema --results > docs/schema/results.json`.
-  CHECK(text_of_file(HERSEY_SOURCE_DIR "/docs/results-file.md") == results_schema_markdown());
-  CHECK(text_of_file(HERSEY_SOURCE_DIR "/docs/schema/results.json") == results_schema_json());
+  CHECK(text_of_file(std::string(hersey::source_dir()) + "/docs/results-file.md") == results_schema_markdown());
+  CHECK(text_of_file(std::string(hersey::source_dir()) + "/docs/schema/results.json") == results_schema_json());
 }
 
 TEST_CASE("EveryQuantity_IsDescribedWithItsUnit") {

@@ -10,13 +10,14 @@
 
 #include "hersey/core/input_error.h"
 #include "hersey/model/read.h"
+#include "source_dir.h"
 
 namespace hersey::study {
 namespace bearing_study_test {
 
 constexpr double kRoundOff = 1e-14;  // of a unit
 
-const std::string example = std::string(HERSEY_SOURCE_DIR) + "/examples/bearing_alone/model.yaml";
+const std::string example = std::string(hersey::source_dir()) + "/examples/bearing_alone/model.yaml";
 
 double value_of(const BearingSolution& solution, const std::string& key) {
   for (const BearingFigure& figure : figures_of(solution)) {
@@ -201,7 +202,7 @@ TEST_CASE("LemonBoreMadeRound_HasTheCoefficientsOfLundAndThomsen") {
       {"1341.9 N", 0.244, 65.85, {1.69, 5.06, -2.20, 1.95}, {9.93, 2.15, 2.15, 4.80}},
       {"5878.9 N", 0.570, 45.43, {3.33, 3.64, -0.43, 1.68}, {6.76, 1.87, 1.87, 1.89}},
   };
-  const std::string file = std::string(HERSEY_SOURCE_DIR) + "/examples/lemon_bore/model.yaml";
+  const std::string file = std::string(hersey::source_dir()) + "/examples/lemon_bore/model.yaml";
   for (const Case& c : cases) {
     CAPTURE(c.load);
     const std::vector<std::string> overrides{"offset=0 um",

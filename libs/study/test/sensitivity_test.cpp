@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hersey/core/input_error.h"
+#include "source_dir.h"
 
 namespace hersey::study {
 namespace sensitivity_test {
@@ -17,8 +18,8 @@ constexpr double kDifferences = 1e-6;
 // Solutions whose temperatures are found to 1e-8, over the same steps.
 constexpr double kHotDifferences = 1e-4;
 
-const std::string alone = std::string(HERSEY_SOURCE_DIR) + "/examples/bearing_alone/model.yaml";
-const std::string hot = std::string(HERSEY_SOURCE_DIR) + "/examples/hot_bearing/global.yaml";
+const std::string alone = std::string(hersey::source_dir()) + "/examples/bearing_alone/model.yaml";
+const std::string hot = std::string(hersey::source_dir()) + "/examples/hot_bearing/global.yaml";
 // At a load under which a rigid rotor whirls.
 const std::vector<std::string> coarse{"bearings.main.grid={circumferential: 48, axial: 9}", "load=300 N"};
 

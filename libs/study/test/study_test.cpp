@@ -9,6 +9,7 @@
 
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
+#include "source_dir.h"
 #include "temporary_directory.h"
 
 namespace hersey::study {
@@ -18,7 +19,7 @@ namespace study_test {
 class StudyFolder {
  public:
   StudyFolder() {
-    std::ifstream source(std::string(HERSEY_SOURCE_DIR) + "/tests/cli/bearing.yaml");
+    std::ifstream source(std::string(hersey::source_dir()) + "/tests/cli/bearing.yaml");
     std::stringstream text;
     text << source.rdbuf();
     REQUIRE(!text.str().empty());
