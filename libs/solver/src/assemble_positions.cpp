@@ -33,7 +33,7 @@ Residual residual_at(Equations& equations, const State& state, const VectorXd& m
   return r;
 }
 
-/// z = -G^T (G G^T + damping)^-1 phi, no longer than allowed (integrator.20).
+/// z = -G^T (G G^T + damping)^-1 phi, no longer than allowed (integrator.21).
 bool damped_increment(const Residual& r, double damping, VectorXd& z) {
   SparseMatrix normal = r.G * SparseMatrix(r.G.transpose());
   SparseMatrix identity(normal.rows(), normal.cols());

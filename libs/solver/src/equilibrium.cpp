@@ -102,7 +102,7 @@ class EquilibriumSearch {
 
   /// Lets the forces that are out of balance at the start act little by little, so that Newton's method stays near the
   /// path of equilibria: bodies soft in one way and stiff in another move far only along that path. Theory manual eq.
-  /// (integrator.25). False where it ends before the whole load.
+  /// (integrator.26). False where it ends before the whole load.
   bool follow_the_load(const State& start) {
     mu_ = 0;
     here_ = start;

@@ -33,6 +33,13 @@ constexpr double kOtherLength = 0.01;
 /// Of the residual before that an iteration with old factors may leave.
 constexpr double kFastEnough = 0.05;
 
+/// Of the prediction's residual that a step chosen by its error may leave: the prediction is off by three times the
+/// error that is estimated, so that a third of a percent of this error stays.
+constexpr double kOfPrediction = 1e-3;
+
+/// The largest residual left in this way, relative to the terms balanced.
+constexpr double kLargestLeft = 1e-4;
+
 }  // namespace
 
 /// Algorithmic history, and everything a step needs, allocated once.
@@ -54,8 +61,10 @@ struct GeneralizedAlpha::Workspace {
   Index analysed = -1;
   bool is_tangent_current = false;  ///< `tangent` is that of the trial state, its motions not yet divided by m
   double linear_solve_time = 0;
-  double worst = 0;       ///< largest residual relative to its tolerance at the last assembly
-  Index worst_index = 0;  ///< its row; -1: a condensed equation
+  double worst_row = 0;   ///< largest residual of a row relative to its tolerance at the last assembly
+  double condensed = 0;   ///< that of the condensed equations
+  double enough = 0;      ///< residuals of rows with which the step is solved, relative to their tolerances
+  Index worst_index = 0;  ///< the row of the larger of both; -1: a condensed equation
   VectorXd error;         ///< estimate of the step's local error of position
   VectorXd across;        ///< the part of it across the constraints
   VectorXd drift;         ///< smoothed `across`/dt^3 of the accepted steps; empty where it was not estimated
@@ -67,7 +76,13 @@ struct GeneralizedAlpha::Workspace {
   void predict(double dt);
   void place(Equations& equations, const State& state, const VectorXd& at);
   bool assemble(Equations& equations, const GeneralizedAlphaOptions& options, bool with_tangent = true);
-  void measure(Equations& equations, double rtol);
+  void measure(Equations& equations, const GeneralizedAlphaOptions& options);
+  [[nodiscard]] double worst() const { return std::max(worst_row, condensed); }
+  [[nodiscard]] double worst_of_allowed() const { return std::max(worst_row / std::max(1.0, enough), condensed); }
+  /// Theory manual eq. (integrator.18) and (integrator.19), their tolerances times `share`.
+  [[nodiscard]] bool is_solved(double share) const {
+    return worst_row <= std::max(share, enough) && condensed <= share;
+  }
   bool factorise(Index nv);
   bool solve_increment(Index nv);
   bool enter_domain(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
@@ -127,14 +142,15 @@ bool GeneralizedAlpha::Workspace::assemble(Equations& equations, const Generaliz
   trouble = equations.domain_error();
   if (trouble.empty() && !residual.allFinite()) trouble = "the residual is not a number";
   if (!trouble.empty()) return false;
-  measure(equations, options.rtol);
+  measure(equations, options);
   return true;
 }
 
 /// Residuals relative to their tolerances. Motions: rtol of the terms balanced (integrator.18). Constraints: a
 /// violation acts on the multipliers like an acceleration of violation/(beta dt^2), so it is measured against beta dt^2
 /// vdot.
-void GeneralizedAlpha::Workspace::measure(Equations& equations, double rtol) {
+void GeneralizedAlpha::Workspace::measure(Equations& equations, const GeneralizedAlphaOptions& options) {
+  const double rtol = options.rtol;
   const Index nv = equations.nv(), n = nv + equations.nlambda();
   tolerance = rtol * scale;
   const double reach = parameters.beta * stage.dt * stage.dt;
@@ -146,20 +162,18 @@ void GeneralizedAlpha::Workspace::measure(Equations& equations, double rtol) {
   for (Index i = nv; i < n; ++i)
     tolerance[i] = std::clamp(rtol * reach * along[i], kConstraintRoundOff * scale[i],
                               std::max(rtol, kConstraintRoundOff) * scale[i]);
-  worst = 0;
+  worst_row = 0;
   worst_index = 0;
   for (Index i = 0; i < n; ++i) {
     if (residual[i] == 0) continue;
     const double ratio =
         tolerance[i] > 0 ? std::abs(residual[i]) / tolerance[i] : std::numeric_limits<double>::infinity();
-    if (ratio <= worst) continue;
-    worst = ratio;
+    if (ratio <= worst_row) continue;
+    worst_row = ratio;
     worst_index = i;
   }
-  if (const double internal = equations.internal_residual() / rtol; internal > worst) {
-    worst = internal;
-    worst_index = -1;
-  }
+  condensed = equations.internal_residual() / std::max(rtol, options.condensed_rtol);
+  if (condensed > worst_row) worst_index = -1;
 }
 
 /// Factorises the tangent, with motions divided by m and multipliers by m: then no entry grows as dt shrinks (Bottasso,
@@ -322,19 +336,21 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
 
   const auto fail = [&](StepStatus status, const std::string& why) {
     summary.status = status;
-    summary.residual = w.worst;
+    summary.residual = w.worst_of_allowed();
     summary.worst_row = w.worst_name(equations);
     summary.message = fmt::format("t = {:.9g} s, step {:.3g} s: {}", state.t, dt, why);
     return summary;
   };
   if (!w.enter_domain(equations, state, options_)) return fail(StepStatus::domain_error, w.trouble);
-  // Factors serve as long as they bring the residual down fast (theory manual, integrator.19). Condensed unknowns move
+  // Factors serve as long as they bring the residual down fast (theory manual, integrator.20). Condensed unknowns move
   // with each tangent and need their own.
   const bool may_keep_factors = !equations.has_condensed_unknowns();
+  const bool is_chosen = judge && options_.corrects_changes;
+  w.enough = is_chosen ? std::min(kOfPrediction * w.worst_row, kLargestLeft / options_.rtol) : 0;
   bool keeps_factors = false;
   for (;;) {
     const bool may_go_on = summary.iterations < options_.max_iterations;
-    if (w.worst <= (keeps_factors && may_go_on ? kWithOldFactors : 1)) {
+    if (w.is_solved(keeps_factors && may_go_on ? kWithOldFactors : 1)) {
       if (equations.step_stands()) break;
       if (!w.assemble(equations, options_)) return fail(StepStatus::domain_error, w.trouble);
       keeps_factors = false;
@@ -343,15 +359,15 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     if (!may_go_on)
       return fail(StepStatus::no_convergence,
                   fmt::format("no convergence in {} iterations; worst equation: {}, {:.3g} times its tolerance",
-                              summary.iterations, w.worst_name(equations), w.worst));
+                              summary.iterations, w.worst_name(equations), w.worst()));
     ++summary.iterations;
     if (!keeps_factors && !w.is_tangent_current && !w.assemble(equations, options_))
       return fail(StepStatus::domain_error, w.trouble);
-    const double before = w.worst;
+    const double before = w.worst();
     if (!(keeps_factors || w.factorise(equations.nv())) || !w.solve_increment(equations.nv()))
       return fail(StepStatus::singular, "the equations are singular here; worst equation: " + w.worst_name(equations));
     if (!w.move(equations, state, options_, !may_keep_factors)) return fail(StepStatus::domain_error, w.trouble);
-    keeps_factors = may_keep_factors && w.worst < kFastEnough * before;
+    keeps_factors = may_keep_factors && w.worst() < kFastEnough * before;
   }
 
   if (judge) {
@@ -359,19 +375,19 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     if (!judge(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
   }
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
-  const bool factorised = summary.iterations > 0, corrects_changes = judge && options_.corrects_changes;
-  if (corrects_changes)
+  const bool factorised = summary.iterations > 0;
+  if (is_chosen)
     w.find_part_across(factorised);
   else if (options_.returns_to_constraints && factorised && equations.nlambda() > 0 &&
            std::abs(dt - w.last_dt) > kOtherLength * w.last_dt)
     w.return_to_constraints(equations);
   w.last_dt = dt;
   w.stage.fresh = false;
-  w.remember_drift(corrects_changes ? dt : 0);
+  w.remember_drift(is_chosen ? dt : 0);
   state = w.trial;
   equations.accept_step(state);
   summary.status = StepStatus::converged;
-  summary.residual = w.worst;
+  summary.residual = w.worst_of_allowed();
   return summary;
 }
 

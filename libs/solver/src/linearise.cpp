@@ -65,7 +65,7 @@ struct Root {
   double doubt = 0;  ///< of the real part [1/s]
 };
 
-/// Roots near `shift`, by the inverse of what the fastest motions dominate: theory manual eq. (integrator.27).
+/// Roots near `shift`, by the inverse of what the fastest motions dominate: theory manual eq. (integrator.28).
 std::vector<Root> roots_near(const Linearisation& linear, double shift) {
   const Index n = linear.M.rows();
   // Units in which no coordinate is large or small by inertia, times in units of 1/shift.

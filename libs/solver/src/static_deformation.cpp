@@ -157,7 +157,7 @@ class StaticDeformation {
     for (Index i = 0; i < n - nv; ++i) judge(nv + i, acceleration_[i], kTolerance * acceleration_size_[i]);
   }
 
-  /// The matrix of theory manual eq. (integrator.22), columns [positions; accelerations; multipliers].
+  /// The matrix of theory manual eq. (integrator.23), columns [positions; accelerations; multipliers].
   void linearise() {
     const State at = here_;
     const VectorXd residual = residual_, scale = scale_;

@@ -12,8 +12,10 @@
 namespace hersey::run {
 namespace {
 
-constexpr double kMeaningless = 0.02;   // rad, or sizes of the machine, that one step may be off
-constexpr double kOneInstant = 1e-6;    // of the fixed step: instants that others reckon up
+constexpr double kMeaningless = 0.02;  // rad, or sizes of the machine, that one step may be off
+constexpr double kOneInstant = 1e-6;   // of the fixed step: instants that others reckon up
+constexpr double kOfTolerance = 0.1;   // of a step's error that what films leave unsolved may be
+constexpr double kLargestCondensed = 1e-5;
 constexpr double kShortest = 1.0 / 64;  // of the fixed step: shorter ones are taken whatever their error
 
 solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
@@ -22,6 +24,8 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
   options.rtol = model.simulation.tolerance;
   options.max_iterations = model.simulation.max_iterations;
   options.corrects_changes = model.simulation.error_control.has_value();
+  if (const auto& control = model.simulation.error_control)
+    options.condensed_rtol = std::min(kOfTolerance * control->tolerance, kLargestCondensed);
   options.returns_to_constraints = !model.bearings.empty();
   for (const model::Bearing& bearing : model.bearings) {
     if (bearing.coupling.scheme == model::CouplingScheme::partitioned) {

@@ -33,8 +33,8 @@ struct EquilibriumSummary {
 /// Newton's method with a share of the mass matrix added to the stiffness, (K + mu M) dq + G^T lambda = -r: a large mu
 /// goes a small way the forces push, as overdamped motion would, mu = 0 is Newton's method. mu falls with the residual,
 /// and rises where a step overshoots; so the method slides down to a stable equilibrium, whatever loads are applied
-/// at once, and ends quadratically. Theory manual eq. (integrator.24). Where it does not arrive, as with very slender
-/// beams, the load is followed from none to all of it (integrator.25). With `turning` r(q, v, 0, lambda) = 0 by
+/// at once, and ends quadratically. Theory manual eq. (integrator.25). Where it does not arrive, as with very slender
+/// beams, the load is followed from none to all of it (integrator.26). With `turning` r(q, v, 0, lambda) = 0 by
 /// Newton's method, eq. (beams.8).
 [[nodiscard]] EquilibriumSummary find_equilibrium(Equations& equations, State& state,
                                                   const EquilibriumOptions& options = {});

@@ -15,8 +15,11 @@ struct GeneralizedAlphaOptions {
   double rtol = 1e-8;            ///< residual of every row, relative to the terms it balances
   int max_iterations = 20;       ///< Newton iterations per step
   int max_halvings = 12;         ///< halvings of one increment that leaves the domain of the equations
-  /// Whether judged steps correct the next for a change of length, (integrator.13). Where the length is halved because
-  /// a contact closes, the error is no smooth function of time, and the correction would put energy in.
+  /// Of condensed equations where it is larger than `rtol`: what steps chosen by their error may leave of a film.
+  double condensed_rtol = 0;
+  /// Whether judged steps are chosen by their error: these correct the next for a change of length, (integrator.13),
+  /// and are solved to a share of their error, (integrator.19). Where the length is halved because a contact closes,
+  /// the error is no smooth function of time, and the correction would put energy in.
   bool corrects_changes = true;
   /// Without that: a step of another length than the one before ends on the constraints, velocities and accelerations
   /// (theory manual, integrator.16). For steps that are cut hundreds of times, as with films.
@@ -30,7 +33,7 @@ enum class StepStatus { converged, no_convergence, domain_error, singular, inacc
 struct StepSummary {
   StepStatus status = StepStatus::no_convergence;
   int iterations = 0;     ///< Newton iterations spent
-  double residual = 0;    ///< largest row residual relative to its tolerance at the end, <= 1 when converged
+  double residual = 0;    ///< largest residual relative to what this step may leave, <= 1 when converged
   std::string worst_row;  ///< the row behind `residual`, by name; empty when converged
   std::string message;    ///< empty when converged, otherwise one sentence: what failed and where
 

@@ -37,7 +37,7 @@ struct InitialiseSummary {
 ///     [ M  G^T ] [ vdot   ]   [ -h     ]
 ///     [ G  0   ] [ lambda ] = [ -gamma ],
 ///
-/// theory manual eq. (integrator.21). Ends with begin_step / accept_step of zero length, so that condensed unknowns
+/// theory manual eq. (integrator.22). Ends with begin_step / accept_step of zero length, so that condensed unknowns
 /// hold their instantaneous solution.
 ///
 /// Held components stay as they are if the others can close the constraints; otherwise they change by the least, in

@@ -26,7 +26,7 @@ struct KinematicsSummary {
 
 /// The motion that constraints and drives prescribe at state.t, and the forces it takes: positions near state.q from
 /// Phi = 0, velocities from G v = -Phi_t, accelerations from G vdot = -gamma, multipliers from
-/// G^T lambda = -(M vdot + h); theory manual eq. (integrator.23). Nothing is integrated.
+/// G^T lambda = -(M vdot + h); theory manual eq. (integrator.24). Nothing is integrated.
 ///
 /// Ends with begin_step / accept_step of zero length.
 /// @pre free_coordinates() is empty where the run starts

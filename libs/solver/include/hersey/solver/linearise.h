@@ -14,7 +14,7 @@ namespace hersey::solver {
 ///     M y'' + C y' + K y = 0,
 ///
 /// M, C and K of shape (free, free), those of the equations projected by Z; K holds the geometric stiffness of the
-/// multipliers, condensed unknowns their answer within `dt`. Theory manual eq. (integrator.26).
+/// multipliers, condensed unknowns their answer within `dt`. Theory manual eq. (integrator.27).
 struct Linearisation {
   Eigen::MatrixXd Z;  ///< shape (nv, free)
   Eigen::MatrixXd M, C, K;

@@ -20,7 +20,7 @@ struct StaticDeformationSummary {
 ///     r(q, v, vdot, lambda) = 0,    Phi(q) = 0,    G v + Phi_t = 0,    G vdot + gamma = 0,
 ///     v_e = vdot_e = 0 of the deformations e,    q, v of the free rigid motions as they are,
 ///
-/// theory manual eq. (integrator.22). The rigid motions keep their accelerations: a body may fall or spin. Forces that
+/// theory manual eq. (integrator.23). The rigid motions keep their accelerations: a body may fall or spin. Forces that
 /// depend on the deformation, a film among them, take part in Newton's method with their tangent. Ends with begin_step
 /// / accept_step of zero length.
 /// @param state    consistent, as `initialise` leaves it
