@@ -14,8 +14,6 @@
 
 namespace hersey::bearing {
 
-class RigidSurfaces;
-
 /// What acts on a bearing by itself. Bearing axes rest; angles count from x towards y.
 struct OperatingPoint {
   double journal_speed = 0;  ///< angular velocity of the journal about z [rad/s]
