@@ -35,19 +35,33 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// What stands at a key path, if it is a number with or without unit.
-std::optional<Quantity> number_at(const std::string& text, const std::string& path,
-                                  const std::vector<std::string>& overrides, const std::string& key) {
-  try {
-    const auto written = nlohmann::json::parse(model::written_json(text, path, overrides, key));
-    if (!written.is_string()) return std::nullopt;
-    return evaluate_formula(written.get<std::string>());
-  } catch (const InputError&) {
-    return std::nullopt;  // no such key
-  } catch (const QuantityError&) {
-    return std::nullopt;  // a word
+/// What stands at key paths of a file with overrides in place, which is read once.
+class Written {
+ public:
+  Written(const std::string& path, const std::vector<std::string>& overrides)
+      : whole_(nlohmann::json::parse(model::written_json(text_of(path), path, overrides, ""))) {}
+
+  /// A number with or without unit; none where there is no such key, or a word.
+  [[nodiscard]] std::optional<Quantity> number_at(const std::string& key) const {
+    const nlohmann::json* here = &whole_;
+    for (std::size_t from = 0; from <= key.size();) {
+      const std::size_t dot = std::min(key.find('.', from), key.size());
+      const auto found = here->is_object() ? here->find(key.substr(from, dot - from)) : here->end();
+      if (!here->is_object() || found == here->end()) return std::nullopt;
+      here = &*found;
+      from = dot + 1;
+    }
+    if (!here->is_string()) return std::nullopt;
+    try {
+      return evaluate_formula(here->get<std::string>());
+    } catch (const QuantityError&) {
+      return std::nullopt;
+    }
   }
-}
+
+ private:
+  nlohmann::json whole_;
+};
 
 /// A unit in SI and its size there: a difference of 1 unit is `size` of `name`.
 struct SiUnit {
@@ -194,8 +208,8 @@ std::vector<std::string> usual_parameters(const std::string& path, const std::ve
                                 own + "asperities.roughness"};
   for (const film::SurfaceFeature& feature : here.film.features)
     keys.push_back(own + "features." + feature.name + ".pressure");
-  const std::string text = text_of(path);
-  std::erase_if(keys, [&](const std::string& key) { return !number_at(text, path, overrides, key); });
+  const Written written(path, overrides);
+  std::erase_if(keys, [&](const std::string& key) { return !written.number_at(key); });
   return keys;
 }
 
@@ -207,11 +221,11 @@ std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSol
                                        const BearingStudyOptions& options, const std::vector<std::string>& parameters) {
   std::vector<Sensitivity> all;
   if (!solution.solved()) return all;
-  const std::string text = text_of(path);
+  const Written written(path, solution.run.overrides);
   std::optional<Tangent> tangent;
   const bool may_be_exact = are_sensitivities_exact(solution);
   for (const std::string& key : parameters) {
-    const std::optional<Quantity> middle = number_at(text, path, solution.run.overrides, key);
+    const std::optional<Quantity> middle = written.number_at(key);
     if (!middle)
       throw InputError(Fault{{"--sensitivity-to", 0, 0},
                              "",
