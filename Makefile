@@ -72,7 +72,7 @@ web-test: program  ## opens a report in headless Chromium and tries it
 	@scripts/web test $(BUILD)
 
 python: $(BUILD)/build.ninja  ## builds the Python package below build/release/python and runs its tests (FILTER=word: some of them)
-	@scripts/setup build test python
+	@scripts/setup build test python study
 	@$(PHASE) configure build/log/python-configure.log cmake $(BUILD) -DHERSEY_PYTHON_PACKAGE=ON -DPython3_EXECUTABLE=/usr/bin/python3
 	@$(PHASE) compile build/log/python.log cmake --build $(BUILD) --target hersey_python hersey -j $(JOBS)
 	@scripts/python-tests $(BUILD) '$(FILTER)'

@@ -79,8 +79,12 @@ json json_of(const model::StudyParameter& parameter, const model::Model& model) 
   if (const auto& d = parameter.distribution)
     entry["distribution"] = {{"kind", word(d->kind)}, {"mean", d->mean}, {"standard_deviation", d->standard_deviation},
                              {"low", d->low},         {"mode", d->mode}, {"high", d->high}};
+  entry["key"] = parameter.name;
   for (const model::Parameter& own : model.parameters)
-    if (own.name == parameter.name) entry["nominal"] = number_in(own.text, unit);
+    if (own.name == parameter.name) {
+      entry["nominal"] = number_in(own.text, unit);
+      entry["key"] = "parameters." + parameter.name;
+    }
   return entry;
 }
 
@@ -132,6 +136,14 @@ void check_figures(const model::Model& model) {
     check(objective.name, objective.position, objective.is_maximised ? "study.maximise" : "study.minimise");
   for (const model::StudyConstraint& constraint : model.study->constraints)
     check(constraint.name, constraint.position, "study.subject_to");
+  const std::string& series = model.study->spectrum_of;
+  const std::string ending = ".max";  // any way to sum a series up
+  if (!series.empty() && !study::is_of_a_series(series + ending)) {
+    std::vector<std::string> near = study::series_like(series + ending);
+    for (std::string& name : near) name.resize(name.size() - ending.size());
+    faults.push_back({model.position_of("study.spectrum_of"), "study.spectrum_of", "unknown series '" + series + "'",
+                      "one of docs/results-file.md, such as bearings.main.eccentricity.x", did_you_mean(series, near)});
+  }
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 

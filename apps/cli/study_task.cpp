@@ -24,6 +24,7 @@
 #include "hersey/run/simulate.h"
 #include "hersey/study/bearing_study.h"
 #include "hersey/study/run_figures.h"
+#include "hersey/study/sensitivity.h"
 #include "standard_streams.h"
 #include "study_command.h"
 
@@ -61,7 +62,7 @@ class Task {
       if (arguments_.analysis == "simulation")
         simulate(run, request, reply);
       else
-        solve(run, reply);
+        solve(run, request, reply);
       reply["figures"] = figures_;
     } catch (const std::exception& error) {
       reply["status"] = "failed";
@@ -88,13 +89,41 @@ class Task {
     if (told_.insert(key).second) news_[key] = {{"name", name}, {"unit", unit}, {"si_unit", si_unit}, {"si", size}};
   }
 
-  void solve(const model::StudyRun& run, json& reply) {
+  void solve(const model::StudyRun& run, const json& request, json& reply) {
     for (const auto& [name, solution] : solver_.solve(run, bearings_)) {
       if (!solution.solved()) throw std::runtime_error(solution.error);
       for (const study::BearingFigure& figure : study::figures_of(solution))
         add("bearings." + name + "." + figure.key, figure.words.empty() ? figure.value * figure.si : NAN, figure.name,
             figure.unit, figure.si_unit, figure.si);
       if (!solution.doubts.empty()) reply["doubts"] = solution.doubts;
+      if (request.contains("slopes")) add_slopes(name, solution, request.at("slopes"), reply);
+    }
+  }
+
+  // How the figures that are asked for follow the parameters: figure in SI over the parameter's own unit.
+  void add_slopes(const std::string& bearing, const study::BearingSolution& solution, const json& parameters,
+                  json& reply) {
+    if (!study::are_sensitivities_exact(solution)) {
+      reply["no_slopes"] = "film and heat, or film and surfaces that deform, answer each other";
+      return;
+    }
+    std::vector<std::string> keys;
+    for (const json& key : parameters) keys.push_back(key.get<std::string>());
+    const study::BearingStudyOptions options{.bearing = bearing, .grid_error = false, .threads = 1};
+    const std::vector<study::BearingFigure> figures = study::figures_of(solution);
+    auto name = parameters.items().begin();
+    for (const study::Sensitivity& found : study::sensitivities(arguments_.model, solution, options, keys)) {
+      if (!found.exact || !found.error.empty()) {
+        reply["no_slopes"] = found.error.empty() ? "the film has no derivative with " + name.key() : found.error;
+        return;
+      }
+      for (std::size_t k = 0; k < figures.size(); ++k) {
+        const std::string figure = "bearings." + bearing + "." + figures[k].key;
+        const auto& wanted = arguments_.outputs;
+        if (std::isfinite(found.slopes[k]) && std::find(wanted.begin(), wanted.end(), figure) != wanted.end())
+          reply["slopes"][name.key()][figure] = found.slopes[k] * found.size;
+      }
+      ++name;
     }
   }
 

@@ -55,11 +55,13 @@ std::string escaped(const std::string& text) {
   return xml;
 }
 
+// Pure numbers have no unit, nor have columns that measure several things.
+bool is_named(const std::string& unit) { return !unit.empty() && unit != "1" && unit != "SI"; }
+
 std::string unit_definitions(const Variables& variables) {
   std::set<std::string> units{"s"};
   for (const Variable& variable : variables.list) units.insert(variable.unit);
-  units.erase("1");
-  units.erase("");
+  std::erase_if(units, [](const std::string& unit) { return !is_named(unit); });
   std::string xml = "  <UnitDefinitions>\n";
   for (const std::string& unit : units) {
     int exponents[8]{};
@@ -89,7 +91,7 @@ std::string role_of(const Variable& variable) {
 
 std::string values_of(const Variable& variable) {
   std::string text;
-  if (variable.unit != "1" && !variable.unit.empty()) text += fmt::format(" unit=\"{}\"", escaped(variable.unit));
+  if (is_named(variable.unit)) text += fmt::format(" unit=\"{}\"", escaped(variable.unit));
   if (variable.kind != Variable::Kind::output)
     text += fmt::format(" start=\"{}\"", std::isfinite(variable.start) ? variable.start : 0.0);
   return text;
@@ -199,6 +201,29 @@ std::string description_xml(const model::Model& model, const Variables& variable
          "  </ModelVariables>\n  <ModelStructure>\n" + unknowns(variables, "    <Output valueReference=\"{0}\"/>\n") +
          unknowns(variables, "    <InitialUnknown valueReference=\"{0}\"/>\n") +
          "  </ModelStructure>\n</fmiModelDescription>\n";
+}
+
+std::string documentation_html(const model::Model& model, const Variables& variables, int version) {
+  const std::string title = escaped(model.title.empty() ? "hersey model" : model.title);
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title></head><body>\n<h1>{0}</h1>\n"
+      "<p>{1}</p>\n<p>A machine with oil-film bearings, exported by hersey {2} for co-simulation by FMI {3}.0. Its "
+      "model is "
+      "<code>resources/model.yaml</code>. All numbers are SI. With steps of {4} s, or multiples, the numbers are those "
+      "of "
+      "<code>hersey run</code>; any other step is taken, too. Parameters are set before the end of the initialisation, "
+      "inputs at any time; an input that is not set is as the model has it.</p>\n"
+      "<p><a href=\"licenses/license.txt\">Licence</a>; those of libraries beside it are in the same folder.</p>\n"
+      "<table>\n<tr><th>name</th><th>kind</th><th>unit</th><th>start</th><th>meaning</th></tr>\n",
+      title, escaped(model.description), hersey::version(), version, model.simulation.step);
+  for (const Variable& one : variables.list) {
+    const bool is_output = one.kind == Variable::Kind::output;
+    const char* kind = is_output ? "output" : one.kind == Variable::Kind::input ? "input" : "parameter";
+    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(one.name), kind,
+                        is_named(one.unit) ? escaped(one.unit) : "",
+                        is_output || !std::isfinite(one.start) ? "" : fmt::format("{}", one.start), escaped(one.text));
+  }
+  return html + "</table>\n</body></html>\n";
 }
 
 }  // namespace hersey::fmu

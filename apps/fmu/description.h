@@ -18,4 +18,7 @@ inline constexpr const char* kModelIdentifier = "hersey_fmu";
 /// @returns false where the text is none
 bool exponents_of(const std::string& unit, int (&exponents)[8]);
 
+/// documentation/index.html: what the model is, its variables, and how time goes in it.
+[[nodiscard]] std::string documentation_html(const model::Model& model, const Variables& variables, int version);
+
 }  // namespace hersey::fmu

@@ -86,10 +86,11 @@ HERSEY_EXPORT const char* fmi2GetVersion() { return "2.0"; }
 HERSEY_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                                             const fmi2CallbackFunctions* callbacks, fmi2Boolean /*visible*/,
                                             fmi2Boolean logging) {
-  if (callbacks == nullptr || callbacks->logger == nullptr) return nullptr;
-  const fmi2CallbackFunctions told = *callbacks;
+  // Without a logger nobody is told anything.
+  const fmi2CallbackFunctions told = callbacks != nullptr ? *callbacks : fmi2CallbackFunctions{};
   const std::string own_name = name != nullptr ? name : "";
   const auto log = [told, own_name](Outcome outcome, const char* category, const std::string& message) {
+    if (told.logger == nullptr) return;
     told.logger(told.componentEnvironment, own_name.c_str(), status_of(outcome), category, escaped(message).c_str());
   };
   try {

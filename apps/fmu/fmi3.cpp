@@ -7,6 +7,7 @@
 
 #include "hersey/core/error_text.h"
 #include "instance.h"
+#include "resource_path.h"
 
 #define HERSEY_EXPORT __attribute__((visibility("default")))
 
@@ -93,7 +94,11 @@ HERSEY_EXPORT fmi3Instance fmi3InstantiateCoSimulation(
     const auto tell = [environment, log](Outcome outcome, const char* category, const std::string& message) {
       if (log != nullptr) log(environment, status_of(outcome), category, message.c_str());
     };
-    auto instance = std::make_unique<Instance>(name, token, resources != nullptr ? resources : "", tell);
+    // A path; FMI 2, and importers that have grown up with it, name a URI.
+    const std::string folder = resources != nullptr ? resources : "";
+    auto instance = std::make_unique<Instance>(
+        name, token, folder.starts_with("file:") ? hersey::fmu::path_of_uri(folder) : std::filesystem::path(folder),
+        tell);
     instance->set_logging(logging);
     return instance.release();
   } catch (const std::exception& failure) {
@@ -318,7 +323,8 @@ HERSEY_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi
     if (ends != nullptr) *ends = has_ended;
     if (is_early != nullptr) *is_early = false;
     if (last_successful_time != nullptr) *last_successful_time = reached;
-    return outcome;
+    // An end in order is no failure: the importer is asked to terminate.
+    return has_ended ? Outcome::ok : outcome;
   });
 }
 

@@ -16,6 +16,7 @@
 #include "hersey/core/input_file.h"
 #include "hersey/model/read.h"
 #include "hersey/run/simulation.h"
+#include "licence.h"
 #include "package.h"
 #include "variables.h"
 
@@ -99,14 +100,17 @@ int export_fmu(const Arguments& arguments) {
   variables.overrides = packed.overrides;
   variables.token = token_of(description_xml(model, variables, arguments.version), packed, model);
   std::vector<PackedFile> files = packed.files;
-  for (const std::vector<PackedFile>& more : {binaries(arguments.version), unit_database()})
+  const std::vector<PackedFile> libraries = binaries(arguments.version);
+  for (const std::vector<PackedFile>& more : {libraries, unit_database(), licences_of(libraries)})
     files.insert(files.end(), more.begin(), more.end());
   std::filesystem::path unfinished = target;
   unfinished += ".unfinished";
   write_zip(unfinished,
             {{"modelDescription.xml", description_xml(model, variables, arguments.version)},
              {"resources/variables.json", to_json(variables)},
-             {"resources/model.yaml", packed.text}},
+             {"resources/model.yaml", packed.text},
+             {"documentation/index.html", documentation_html(model, variables, arguments.version)},
+             {"documentation/licenses/license.txt", kLicence}},
             files);
   std::filesystem::rename(unfinished, target);
   const auto count = [&](Variable::Kind kind) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -82,6 +83,30 @@ std::vector<PackedFile> libraries_of(const std::filesystem::path& library) {
     found.push_back({path, name});
   }
   if (found.empty()) throw std::runtime_error("what " + library.string() + " needs cannot be told");
+  return found;
+}
+
+std::vector<PackedFile> licences_of(const std::vector<PackedFile>& files) {
+  std::string command = "dpkg-query --search";
+  for (const PackedFile& file : files) {
+    // Packages name files as they were before /lib became a link to /usr/lib.
+    const std::string path = std::filesystem::canonical(file.from).string();
+    for (const std::string& name : {path, path.starts_with("/usr/") ? path.substr(4) : path})
+      if (name.find('\'') == std::string::npos) command += " '" + name + "'";
+  }
+  const std::unique_ptr<FILE, int (*)(FILE*)> listing(::popen((command + " 2>/dev/null").c_str(), "r"), ::pclose);
+  std::set<std::string> packages;
+  std::array<char, 4096> line{};
+  while (listing != nullptr && std::fgets(line.data(), line.size(), listing.get()) != nullptr) {
+    const std::string text = line.data();
+    packages.insert(text.substr(0, text.find(':')));
+  }
+  std::vector<PackedFile> found;
+  for (const std::string& package : packages) {
+    const std::filesystem::path copyright = std::filesystem::path("/usr/share/doc") / package / "copyright";
+    if (std::filesystem::is_regular_file(copyright))
+      found.push_back({copyright, "documentation/licenses/" + package + ".txt"});
+  }
   return found;
 }
 

@@ -30,6 +30,10 @@ struct PackedModel {
 /// @throws std::runtime_error where one of them is missing
 [[nodiscard]] std::vector<PackedFile> libraries_of(const std::filesystem::path& library);
 
+/// What Debian's packages of these files say about their licences, for the folder documentation/licenses; nothing where
+/// files come from elsewhere.
+[[nodiscard]] std::vector<PackedFile> licences_of(const std::vector<PackedFile>& files);
+
 /// Writes a ZIP archive of texts and files; all of it or nothing.
 /// @throws std::runtime_error where it cannot be written
 void write_zip(const std::filesystem::path& path, const std::vector<std::pair<std::string, std::string>>& texts,

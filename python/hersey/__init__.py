@@ -19,9 +19,10 @@ from .functions import Function, surface_profile, viscosity_law
 from .model import Model
 from .results import Results, Summary, open_results, report
 from .simulation import Port, Simulation
+from .studies import Study, study
 
 __all__ = [
     "BearingSolution", "Fault", "Figure", "Function", "HerseyError", "InputError", "Model", "Port", "Progress", "Results", "RunError",
-    "Simulation", "SolutionError", "Stopped", "Summary", "UserFunctionError", "__version__", "bearing", "bearing_model", "fem",
-    "open_results", "plot", "report", "surface_profile", "viscosity_law",
+    "Simulation", "SolutionError", "Stopped", "Study", "Summary", "UserFunctionError", "__version__", "bearing", "bearing_model", "fem",
+    "open_results", "plot", "report", "study", "surface_profile", "viscosity_law",
 ]

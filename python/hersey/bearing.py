@@ -141,7 +141,7 @@ def bearing_model(*, viscosity: Any = None, lubricant: Any = None, **keys: Any):
     oil = dict(lubricant or {})
     if viscosity is not None:
         oil["viscosity"] = viscosity
-    content = {**keys, "lubricant": "oil"}
+    content: dict[str, Any] = {**keys, "lubricant": "oil"}
     if point:
         content["operating_point"] = point
     return Model.from_dict({"title": "Journal bearing", "lubricants": {"oil": oil}, "bearings": {_BEARING: content}})

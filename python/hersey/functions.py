@@ -82,7 +82,7 @@ def viscosity_law(function: Callable[..., float], temperatures: Sequence[float],
     >>> law["temperatures"][0], law["viscosities"][2]
     ('20 degC', '0.1 Pa.s')
     """
-    rows = []
+    rows: list[Any] = []
     for T in temperatures:
         if len(pressures):
             rows.append([f"{_ask('viscosity', function, T, p):.15g} Pa.s" for p in pressures])

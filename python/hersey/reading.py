@@ -76,7 +76,8 @@ def read_group(path: Path, group: str):
     import h5py
     import xarray
 
-    coordinates, data = {}, {}
+    coordinates: dict[str, Any] = {}
+    data: dict[str, Any] = {}
     with SolversLock(), h5py.File(path, "r") as file:
         if group not in file or not isinstance(file[group], h5py.Group):
             raise KeyError(group)

@@ -40,7 +40,8 @@ class _Bar:
     """A bar of tqdm's where there is tqdm, else a line now and then."""
 
     def __init__(self, label: str):
-        self._label, self._bar, self._told = label, None, 0.0
+        self._label, self._told = label, 0.0
+        self._bar: Any = None
 
     def __call__(self, progress: "_core.Progress") -> None:
         share = (progress.t - progress.t_start) / max(progress.t_end - progress.t_start, 1e-300)

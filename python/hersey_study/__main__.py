@@ -31,15 +31,15 @@ def say(text):
 
 def has_packages(settings):
     """Told before anything is computed, not when it is all done."""
-    from . import statistics
+    import importlib.util
+
+    from .study import is_drawn
 
     needs = {"numpy": "python3-numpy", "scipy": "python3-scipy"}
-    if statistics.is_drawn(settings):
+    if is_drawn(settings):
         needs["openturns"] = "python3-openturns"
     if settings["plan"] == "optimise":
         needs["nlopt"] = "python3-nlopt"
-    import importlib.util
-
     lacking = [package for module, package in needs.items() if importlib.util.find_spec(module) is None]
     if lacking:
         say(f"Python ({sys.executable}) lacks {', '.join(lacking)}: `scripts/setup study` installs what studies use")
@@ -47,7 +47,7 @@ def has_packages(settings):
 
 
 def work(args):
-    from . import page, slurm
+    from . import slurm
     from .study import Study, StudyError, default_folder, load
     from .table import Table
 
@@ -79,6 +79,8 @@ def work(args):
                 study.run(texts, jobs, args.again)
         study.table.close()
         results = study.collect(texts)
+        from . import page
+
         return page.finish(study, results, args)
 
 

@@ -1,7 +1,9 @@
 """Points of the unit interval as values of a parameter."""
 
+import importlib
 import math
 import signal
+import sys
 import threading
 
 # Standard deviations off the mean that stand for the smallest and largest value of a distribution without end.
@@ -26,16 +28,28 @@ def quantile(parameter, u):
         falling = high - np.sqrt((1 - u) * (high - low) * (high - mode))
         return np.where(u < split, rising, falling)
     from scipy.special import ndtri
-    from scipy.stats import truncnorm
 
     mean, deviation = d["mean"], d["standard_deviation"]
     if d["kind"] == "normal":
         # The ends of the interval are infinitely far away; no finite sample means them.
         u = np.clip(u, 1e-12, 1 - 1e-12)
         return mean + deviation * ndtri(u)
-    # Right in the tails too, where both ends lie on one side of the mean.
     low, high = (d["low"] - mean) / deviation, (d["high"] - mean) / deviation
-    return np.clip(mean + deviation * truncnorm.ppf(u, low, high), d["low"], d["high"])
+    return np.clip(mean + deviation * _truncated(u, low, high), d["low"], d["high"])
+
+
+def _truncated(u, low, high):
+    """Quantiles of the standard normal distribution between `low` and `high`."""
+    import numpy as np
+    from scipy.special import log_ndtr, ndtri_exp
+
+    # By logarithms, and from the side of the smaller numbers: right in the tails too, where both ends lie on one side of
+    # the mean.
+    if low > 0:
+        return -_truncated(1 - u, -high, -low)
+    with np.errstate(divide="ignore"):
+        rising = np.log(np.maximum(u, 0.0)) + log_ndtr(high)
+        return ndtri_exp(np.logaddexp(rising, np.log1p(-u) + log_ndtr(low)))
 
 
 def ends(parameter):
@@ -65,15 +79,36 @@ def text(parameter, value):
     return f"{number} {parameter['unit']}".strip()
 
 
-def load_openturns():
-    """The module. It takes SIGINT for itself and aborts at one; what Python did before is put back."""
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    import openturns
+_loading = None  # a thread, and what Python does at signals
 
-    if threading.current_thread() is threading.main_thread():
-        for number, handler in before.items():
-            signal.signal(number, handler)
-    return openturns
+
+def begin_to_load_openturns():
+    """Loads it, which takes half a second, while runs go on; mend_signals() is to be called now and then."""
+    global _loading
+    if _loading is None and "openturns" not in sys.modules:
+        before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+        thread = threading.Thread(target=lambda: importlib.import_module("openturns"), daemon=True)
+        _loading = (thread, before)
+        thread.start()
+
+
+def mend_signals():
+    """OpenTURNS takes SIGINT for itself and aborts at one: what Python did before is put back."""
+    global _loading
+    if _loading is None or _loading[0].is_alive() or threading.current_thread() is not threading.main_thread():
+        return
+    for number, handler in _loading[1].items():
+        signal.signal(number, handler)
+    _loading = None
+
+
+def load_openturns():
+    """The module."""
+    begin_to_load_openturns()
+    if _loading is not None:
+        _loading[0].join()
+        mend_signals()
+    return importlib.import_module("openturns")
 
 
 def to_openturns(parameter):

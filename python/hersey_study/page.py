@@ -23,6 +23,8 @@ def finish(study, results, args):
     summary = statistics.summary(results)
     write_table(study.folder.file("runs.csv"), results)
     data = page_data(settings, results, summary, study.folder)
+    if study.search:
+        data["search"] = study.search
     study.folder.write_json("results.json", data)
     page = study.folder.file("study.html")
     command = [settings["program"], "study-page", study.folder.file("results.json"), page]
@@ -31,6 +33,8 @@ def finish(study, results, args):
         print(json.dumps(data, indent=1))
     else:
         tell(results, summary)
+        if study.search:
+            print(search_text(study.search))
         print(f"study:   {study.folder.path}\nreport:  {page}")
     if results.failed:
         sys.stderr.write(f"hersey: {len(results.failed)} of {len(results.texts)} runs failed, for the reasons above or "
@@ -76,7 +80,7 @@ def page_data(settings, results, summary, folder):
             "version": settings["version"], "plan": settings["plan"], "analysis": settings["analysis"],
             "set": settings["set"], "planned": len(results.texts), "completed": len(results.runs),
             "failed": [{"reason": r, "count": c} for r, c in reasons.items()],
-            "parameters": [{"name": p["name"], "unit": p["unit"], "values": p["values"],
+            "parameters": [{"name": p["name"], "unit": p["unit"], "values": p["values"], "numbers": p["numbers"],
                             "is_words": any(n is None for n in p["numbers"]), "distribution": p.get("distribution")}
                            for p in settings["parameters"]],
             "objectives": settings["objectives"],
@@ -92,6 +96,12 @@ def page_data(settings, results, summary, folder):
 
 def relative(report, folder):
     return os.path.relpath(report, folder.path) if report else ""
+
+
+def search_text(search):
+    """How the best was looked for, in a line."""
+    how = "with exact derivatives" if search["derivatives"] == "exact" else f"without derivatives: {search['reason']}"
+    return f"search:  {' and '.join(search['methods'])} of NLopt, {search['runs']} runs, {how}"
 
 
 def tell(results, summary):

@@ -1,6 +1,10 @@
 """Which runs a study has: lists of texts, one value per parameter."""
 
+import importlib
 import itertools
+import os
+import sys
+import types
 
 from . import distributions
 
@@ -11,12 +15,31 @@ class PlanError(Exception):
     """A plan that cannot be made, in words for the user."""
 
 
+def _generators():
+    """SciPy's module of them. The package around it, scipy.stats, takes a third of a second to load and is not needed:
+    its folder stands in for it meanwhile, where this version of SciPy can do with that."""
+    if "scipy.stats" not in sys.modules:
+        import scipy
+
+        package = types.ModuleType("scipy.stats")
+        package.__path__ = [os.path.join(folder, "stats") for folder in scipy.__path__]
+        sys.modules["scipy.stats"] = package
+        try:
+            return importlib.import_module("scipy.stats._qmc")
+        except (ImportError, AttributeError):
+            pass
+        finally:
+            for name in [name for name in sys.modules if name == "scipy.stats" or name.startswith("scipy.stats.")]:
+                del sys.modules[name]
+            vars(scipy).pop("stats", None)
+    return importlib.import_module("scipy.stats.qmc")
+
+
 def unit_points(kind, samples, dimensions, seed):
     """Points of the unit cube, shape (samples, dimensions): SciPy's generators, the same for the same seed."""
     import warnings
 
-    from scipy.stats import qmc
-
+    qmc = _generators()
     if kind == "latin_hypercube":
         return qmc.LatinHypercube(dimensions, seed=seed).random(samples)
     if kind == "halton":

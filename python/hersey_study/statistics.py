@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from . import distributions
+from .study import is_drawn
 
 PERCENTILES = (1, 5, 25, 50, 75, 95, 99)
 # With fewer runs than this for each parameter a surrogate has nothing to go by.
@@ -28,12 +29,6 @@ def scatter(values):
             "standard_deviation": float(values.std(ddof=1)) if len(values) > 1 else 0.0,
             "smallest": float(values.min()), "largest": float(values.max()),
             "percentiles": {str(p): float(v) for p, v in zip(PERCENTILES, np.percentile(values, PERCENTILES))}}
-
-
-def is_drawn(settings):
-    """Whether runs stand for distributions, so that surrogate and indices mean something."""
-    kinds = ("latin_hypercube", "sobol", "halton")
-    return settings["plan"] in kinds and all(p.get("distribution") for p in settings["parameters"])
 
 
 def degrees(dimensions, runs):

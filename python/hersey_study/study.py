@@ -1,6 +1,7 @@
 """A study from its model file to its results."""
 
 import difflib
+import importlib.util
 import json
 import math
 import os
@@ -12,6 +13,10 @@ from .folder import Folder, identity
 from .workers import answer_all
 
 
+# What a record has of an answer.
+KEPT = ("run", "status", "error", "seconds", "figures", "report", "doubts", "slopes", "no_slopes")
+
+
 class StudyError(Exception):
     """What is wrong with a study, in words for the user."""
 
@@ -21,16 +26,25 @@ def load(program, model, overrides=(), runner=""):
     command = [program, "study-plan", model, *(f"--set={change}" for change in overrides)]
     if runner:
         command.append("--any-figure")
-    result = subprocess.run(command, capture_output=True, text=True, check=False)
-    sys.stderr.write(result.stderr)
-    if result.returncode:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        if importlib.util.find_spec("numpy"):
+            importlib.import_module("numpy")  # meanwhile
+        out, err = process.communicate()
+    sys.stderr.write(err)
+    if process.returncode:
         raise StudyError("")
-    study = json.loads(result.stdout)
+    study = json.loads(out)
     study.update(program=program, runner=runner)
     names = [*study["outputs"], *(o["name"] for o in study["objectives"]), *(c["name"] for c in study["constraints"])]
     study["wanted"] = list(dict.fromkeys(names))
     study["bearings_wanted"] = sorted({n.split(".")[1] for n in names if n.startswith("bearings.") and n.count(".") > 1})
     return study
+
+
+def is_drawn(settings):
+    """Whether runs stand for distributions, so that surrogate and indices mean something."""
+    kinds = ("latin_hypercube", "sobol", "halton")
+    return settings["plan"] in kinds and all(p.get("distribution") for p in settings["parameters"])
 
 
 def runs_of_model(study):
@@ -48,6 +62,7 @@ class Study:
         self.table = table
         self.failed = {}
         self.seconds = 0.0
+        self.search = None  # how an optimum was looked for
 
     def __enter__(self):
         return self
@@ -55,12 +70,14 @@ class Study:
     def __exit__(self, *_):
         self.folder.close()
 
-    def request(self, texts):
-        """A run as the program that answers it wants it."""
+    def request(self, texts, slopes=False):
+        """A run as the program that answers it wants it; `slopes`: with its derivatives, where it has exact ones."""
         settings = self.settings
         run = identity(settings, texts)
         values = [[p["name"], text] for p, text in zip(settings["parameters"], texts)]
         request = {"run": run, "set": [f"{name}={text}" for name, text in values], "values": values}
+        if slopes:
+            request["slopes"] = {p["name"]: p.get("key", p["name"]) for p in settings["parameters"]}
         if settings["analysis"] == "simulation":
             request["results"] = self.folder.file("runs", run + ".h5")
             # Spectra are read from the results file.
@@ -84,8 +101,7 @@ class Study:
         if request is None:
             self.folder.describe(answer)
             return
-        kept = {key: answer[key] for key in ("run", "status", "error", "seconds", "figures", "report", "doubts")
-                if key in answer}
+        kept = {key: answer[key] for key in KEPT if key in answer}
         if kept["status"] == "completed":
             self.check_names(kept)
         kept["values"] = request["values"]
@@ -113,8 +129,13 @@ class Study:
 
     def run(self, texts_of_runs, jobs, again=False):
         """Has all runs done that are not yet."""
+        is_first = is_drawn(self.settings)
         for request, answer in answer_all(self.settings, self.missing(texts_of_runs, again), jobs):
+            if is_first:
+                distributions.begin_to_load_openturns()
+                is_first = False
             self.record(request, answer)
+            distributions.mend_signals()
 
     def planned(self):
         try:

@@ -100,19 +100,19 @@ class Callbacks2(c.Structure):
 class Instance:
     """An instance of either version, under the names of neither."""
 
-    def __init__(self, fmu, name="one", token=None, logging=False, resources=None):
+    def __init__(self, fmu, name="one", token=None, logging=False, resources=None, logger=True):
         self.fmu, self.version, self.log = fmu, fmu.version, []
         token = (token or fmu.token).encode()
         folder = resources or os.path.join(fmu.folder, "resources")
         if self.version == 2:
-            self.callback = LOGGER_2(lambda _, __, status, category, text: self.log.append((status, text.decode())))
+            self.callback = LOGGER_2(lambda _, __, status, category, text: self.log.append((status, text.decode()))) if logger else LOGGER_2()
             self.callbacks = Callbacks2(self.callback, None, None, None, None)
             create = fmu.library.fmi2Instantiate
             create.restype = c.c_void_p
             self.handle = create(name.encode(), 1, token, ("file://" + folder).encode(), c.byref(self.callbacks), 0,
                                  int(logging))
         else:
-            self.callback = LOGGER_3(lambda _, status, category, text: self.log.append((status, text.decode())))
+            self.callback = LOGGER_3(lambda _, status, category, text: self.log.append((status, text.decode()))) if logger else LOGGER_3()
             create = fmu.library.fmi3InstantiateCoSimulation
             create.restype = c.c_void_p
             self.handle = create(name.encode(), token, (folder + "/").encode(), c.c_bool(False), c.c_bool(logging),
@@ -378,6 +378,63 @@ class Cases:
         self.assertEqual(float(experiment.get("stepSize")), STEP)
         self.assertIn("inputs", self.told)
 
+    def test_description_keeps_to_the_standards_schema(self):
+        """Elements in their order, attributes that there are, and the lists that a checker compares."""
+        root, version = self.fmu.description, self.version
+        self.assertEqual([child.tag for child in root], ["CoSimulation", "UnitDefinitions", "LogCategories",
+                                                         "DefaultExperiment", "ModelVariables", "ModelStructure"])
+        self.assertLessEqual(set(root.attrib), {"fmiVersion", "guid" if version == 2 else "instantiationToken", "modelName",
+                                                "description", "generationTool", "variableNamingConvention"})
+        capabilities = {"modelIdentifier", "needsExecutionTool", "canHandleVariableCommunicationStepSize",
+                        "canBeInstantiatedOnlyOncePerProcess"}
+        capabilities |= ({"canInterpolateInputs", "maxOutputDerivativeOrder", "canRunAsynchronuously", "canGetAndSetFMUstate",
+                          "canNotUseMemoryManagementFunctions", "canSerializeFMUstate", "providesDirectionalDerivative"}
+                         if version == 2 else {"canGetAndSetFMUState", "canSerializeFMUState", "hasEventMode",
+                                               "canReturnEarlyAfterIntermediateUpdate"})
+        self.assertEqual(set(root.find("CoSimulation").attrib), capabilities)
+        for unit in root.find("UnitDefinitions"):
+            self.assertEqual([child.tag for child in unit], ["BaseUnit"], unit.get("name"))
+        # A part is an identifier, with a place in a list, or any word between quotes.
+        part = r"([A-Za-z_][A-Za-z0-9_]*|'([A-Za-z0-9_!#$%&()*+,\-./:;<>=?@\[\]^{}|~ ]|\\['\"?\\abfnrtv])+')(\[\d+(,\d+)*\])?"
+        roles, outputs = set(), []
+        for place, variable in enumerate(root.find("ModelVariables")):
+            self.assertRegex(variable.get("name"), rf"^{part}(\.{part})*$")
+            self.assertEqual(variable.get("valueReference"), str(place))
+            role = variable.get("causality"), variable.get("variability"), variable.get("initial")
+            start = (variable[0] if version == 2 else variable).get("start")
+            self.assertEqual(start is not None, role[0] in ("parameter", "input"), variable.get("name"))
+            if start is not None:
+                float(start)
+            roles.add(role)
+            if role[0] == "output":
+                outputs.append(str(place + 1) if version == 2 else variable.get("valueReference"))
+        self.assertEqual(roles, {("independent", "continuous", None), ("parameter", "fixed", "exact"),
+                                 ("input", "continuous", None), ("output", "continuous", "calculated")})
+        structure, key = root.find("ModelStructure"), "index" if version == 2 else "valueReference"
+        if version == 2:
+            self.assertEqual([child.tag for child in structure], ["Outputs", "InitialUnknowns"])
+            lists = [list(structure.find("Outputs")), list(structure.find("InitialUnknowns"))]
+        else:
+            lists = [structure.findall("Output"), structure.findall("InitialUnknown")]
+            self.assertEqual([child.tag for child in structure], [child.tag for each in lists for child in each])
+        for each in lists:
+            self.assertEqual([unknown.get(key) for unknown in each], outputs)
+
+    def test_archive_has_documentation_and_licences(self):
+        with zipfile.ZipFile(self.path) as archive:
+            names = archive.namelist()
+            self.assertEqual([n for n in names if n.startswith("/") or ".." in n or n.endswith("/") or "\\" in n], [])
+            self.assertIn(H_MIN, archive.read("documentation/index.html").decode())
+            self.assertIn("BSD 3-Clause", archive.read("documentation/licenses/license.txt").decode())
+            if os.path.exists("/usr/share/doc/libopenblas0-pthread/copyright"):
+                self.assertIn("documentation/licenses/libopenblas0-pthread.txt", names)
+
+    def test_importer_without_a_logger_is_served(self):
+        one = Instance(self.fmu, logger=False).initialise()
+        one.march(1)
+        self.assertEqual(one.step(0, STEP), ERROR)  # nobody is told why
+        one.free()
+
     def test_existing_file_is_kept(self):
         self.assertIn("--force", run("export", self.model, "--fmu", self.path, expect=2))
         broken = os.path.join(self.folder, "broken.yaml")
@@ -454,6 +511,20 @@ class Fmi3Test(Cases, unittest.TestCase):
         self.assertEqual((one.events.value, one.ends.value, one.early.value, one.reached.value),
                          (False, False, False, STEP))
         self.assertEqual(one.access("Get", [H_MIN, H_MIN], [0, 0])[0], OK)
+        one.free()
+
+    def test_end_of_the_model_asks_for_termination(self):
+        one = Instance(self.fmu).initialise()
+        one.march(40)
+        self.assertEqual(one.step(40 * STEP, STEP), OK)
+        self.assertTrue(one.ends.value)
+        self.assertAlmostEqual(one.reached.value, 4e-3, delta=1e-12)
+        one.must("Terminate")
+        one.free()
+
+    def test_resources_may_be_named_by_a_uri(self):
+        one = Instance(self.fmu, resources="file://" + os.path.join(self.fmu.folder, "resources")).initialise()
+        one.march(1)
         one.free()
 
     def test_other_interfaces_are_refused(self):

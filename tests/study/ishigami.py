@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Stands in for the program: answers runs by Ishigami's function of x1, x2 and x3, and by a parabola's valley.
 
-ishigami.py [LOG [SECONDS]]   writes each run that it does into LOG, and takes so long for it.
+ishigami.py [LOG [SECONDS [slopes]]]   writes each run that it does into LOG, and takes so long for it; `slopes`: tells the
+derivatives of the valley where it is asked for them, `some_slopes`: only where x1 is below 1.7.
 Values of x1 above 100 are refused, and above 200 end the program.
 """
 
@@ -29,4 +30,10 @@ for line in sys.stdin:
         figures = {"y": math.sin(x1) + 7 * math.sin(x2) ** 2 + 0.1 * x3**4 * math.sin(x1),
                    "valley": (x1 - 2) ** 2 + (x2 - 1) ** 2, "sum": x1 + x2}
         answer = {"run": run["run"], "status": "completed", "figures": figures, "seconds": SECONDS}
+        if "slopes" in run and sys.argv[-1].endswith("slopes"):
+            if sys.argv[-1] == "some_slopes" and x1 >= 1.7:
+                answer["no_slopes"] = "x1 is beyond 1.7"
+            else:
+                answer["slopes"] = {"x1": {"valley": 2 * (x1 - 2), "sum": 1.0}, "x2": {"valley": 2 * (x2 - 1), "sum": 1.0},
+                                    "x3": {"valley": 0.0, "sum": 0.0}}
     print(json.dumps(answer), flush=True)

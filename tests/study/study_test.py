@@ -88,8 +88,8 @@ class Studies(unittest.TestCase):
         return subprocess.run(self.command(model, *arguments), capture_output=True, text=True, timeout=280,
                               stdin=subprocess.DEVNULL, **options)
 
-    def stand_in(self, seconds=0.0):
-        return ["--runner", f"{sys.executable} {HERE}/ishigami.py {self.log} {seconds}"]
+    def stand_in(self, seconds=0.0, more=""):
+        return ["--runner", f"{sys.executable} {HERE}/ishigami.py {self.log} {seconds} {more}"]
 
     def done(self):
         if not os.path.exists(self.log):
@@ -211,6 +211,75 @@ class Studies(unittest.TestCase):
         count = len(self.done())
         self.study(self.model(study), *self.stand_in())
         self.assertEqual(len(self.done()), count)
+
+    def best_inputs(self, data):
+        return next(r for r in data["runs"] if r["run"] == data["best"][0])["inputs"]
+
+    def test_derivatives_find_the_same_optimum_with_fewer_runs(self):
+        box = "{distribution: uniform, low: -3, high: 3}"
+        study = (f"  plan: optimise\n  samples: 200\n  parameters: {{x1: {box}, x2: {box}}}\n"
+                 "  minimise: valley\n  subject_to: [sum < 2]\n")
+        model, counts = self.model(study), {}
+        for more, method, words in (("", "COBYLA", "without derivatives: what answers the runs tells none"),
+                                    ("slopes", "SLSQP", "with exact derivatives")):
+            self.out, self.log = self.path("out" + more), self.path("log" + more)
+            run = self.study(model, *self.stand_in(more=more))
+            self.assertEqual(run.returncode, OK, run.stderr)
+            self.assertIn(f"search:  {method} of NLopt, {len(self.done())} runs, {words}", run.stdout)
+            data = self.results()
+            self.assertEqual(data["search"]["methods"], [method])
+            # As in test_best_run_keeps_to_its_bounds.
+            for found, exact in zip(self.best_inputs(data), (1.5, 0.5)):
+                self.assertLess(abs(found - exact), 0.01)
+            counts[more] = len(self.done())
+        # A parabola under a straight bound: a few steps where slopes are known.
+        self.assertLess(3 * counts["slopes"], counts[""], counts)
+        self.study(model, *self.stand_in(more="slopes"))
+        self.assertEqual(len(self.done()), counts["slopes"])  # the same way again, nothing done twice
+
+    def test_bearing_is_made_best_by_its_own_derivatives(self):
+        study = ("  plan: optimise\n  samples: 60\n  parameters: {clearance: {distribution: uniform, low: 20 um, high: 60 um},\n"
+                 "    bearings.main.width: {distribution: uniform, low: 13 mm, high: 18 mm}}\n"
+                 "  minimise: bearings.main.power_film\n  subject_to: [bearings.main.h_min > 5 um]\n")
+        model, runs, losses = self.model(study), [], []
+        # The same program, which does not hear that derivatives are asked for.
+        deaf = (f"sh -c \"sed -u s/slopes/ignored/ | {HERSEY} study-task {model} --analysis steady "
+                "--figure bearings.main.power_film --figure bearings.main.h_min\"")
+        for name, runner, method in (("with", [], "SLSQP"), ("without", ["--runner", deaf], "COBYLA")):
+            self.out = self.path(name)
+            run = self.study(model, *runner)
+            self.assertEqual(run.returncode, OK, run.stderr)
+            data = self.results()
+            self.assertEqual(data["search"]["methods"], [method])
+            best = next(r for r in data["runs"] if r["run"] == data["best"][0])
+            self.assertGreater(best["outputs"][1], 5 * (1 - 2e-6))  # um; the optimiser's own tolerance of bounds is 1e-6
+            runs.append(data["search"]["runs"])
+            losses.append(best["outputs"][0])
+        # Searches end at steps of 1e-4 of the ranges, over which the loss changes by less than its thousandth.
+        self.assertLess(abs(losses[0] / losses[1] - 1), 1e-3)
+        self.assertLess(2 * runs[0], runs[1])
+
+    def test_search_without_exact_derivatives_says_why(self):
+        study = ("  plan: optimise\n  samples: 12\n  parameters: {clearance: {distribution: uniform, low: 30 um, high: 40 um}}\n"
+                 "  minimise: bearings.main.power_film\n")
+        path = self.model(study)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(MODEL.replace("operating_point:", "thermal: {model: global, supply_temperature: 50 degC}, operating_point:")
+                       .replace("{viscosity: 15 mPa.s}", "{grade: iso_vg_46}") + study)
+        run = self.study(path)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertIn("search:  COBYLA of NLopt", run.stdout)
+        self.assertIn("without derivatives: film and heat", run.stdout)
+
+    def test_search_goes_on_without_derivatives_where_they_end(self):
+        box = "{distribution: uniform, low: -3, high: 3}"
+        study = f"  plan: optimise\n  samples: 200\n  parameters: {{x1: {box}, x2: {box}}}\n  minimise: valley\n"
+        run = self.study(self.model(study), *self.stand_in(more="some_slopes"))
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertIn("search:  SLSQP and COBYLA of NLopt", run.stdout)
+        self.assertIn("without derivatives: x1 is beyond 1.7", run.stdout)
+        for found, exact in zip(self.best_inputs(self.results()), (2, 1)):
+            self.assertLess(abs(found - exact), 0.01)
 
     def test_global_search_finds_the_best_of_many_valleys(self):
         box = "{distribution: uniform, low: -3.1, high: 3.1}"
@@ -339,6 +408,27 @@ class Studies(unittest.TestCase):
         self.assertIn("did you mean 'main'?", text)
         text = self.refusal("  parameters: {clearance: [34 um]}\n  subject_to: [bearings.main.h_min is large]\n")
         self.assertIn("bearings.main.h_min > 1.5 um", text)
+
+    def test_things_that_the_model_has_not_are_told_before_anything_runs(self):
+        for study, hint in (
+                ("  outputs: [joints.giude.coordinates.max]\n", "did you mean 'guide'?"),
+                ("  outputs: [bodies.masss.position.x.max]\n", "did you mean 'mass'?"),
+                ("  outputs: [bodies.mass.positoin.x.max]\n", "did you mean 'bodies.mass.position.x.max'?"),
+                ("  outputs: [joints.guide.coordinates.max]\n  minimise: bearings.main.cycle.film_loss\n", "the model has no bearing"),
+                ("  outputs: [joints.guide.coordinates.max]\n  diagram: run_up\n  spectrum_of: joints.guide.coordinats\n",
+                 "did you mean 'joints.guide.coordinates'?"),
+                ("  outputs: [joints.guide.coordinates.max]\n  diagram: run_up\n  spectrum_of: joints.gide.coordinates\n",
+                 "did you mean 'guide'?")):
+            model = self.path("shaken.yaml")
+            with open(model, "w", encoding="utf-8") as file:
+                file.write(SHAKEN + "  parameters: {rate: [20, 40]}\n" + study)
+            run = self.study(model)
+            self.assertEqual(run.returncode, WRONG_INPUT, run.stderr)
+            self.assertIn("shaken.yaml:", run.stderr)
+            self.assertIn(hint, run.stderr)
+            self.assertFalse(os.path.exists(self.out))
+        text = self.refusal("  parameters: {clearance: [34 um]}\n  outputs: [bearings.main.cycle.film_loss]\n")
+        self.assertIn("unknown figure 'bearings.main.cycle.film_loss'", text)
 
     def test_search_without_a_free_parameter_is_refused(self):
         study = "  plan: optimise\n  parameters: {x1: {distribution: uniform, low: 0, high: 1}}\n  minimise: valley\n"

@@ -21,8 +21,15 @@ OperatingPoint with_growth(OperatingPoint point, const film::FilmModel& model, d
 
 film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
                                     const Eigen::Vector2d& e) {
+  RigidSurfaces surfaces(model);
+  return steady_surfaces(surfaces, model, point, e);
+}
+
+film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmModel& model, const OperatingPoint& point,
+                                    const Eigen::Vector2d& e) {
   film::SurfaceMotion motion;
-  place_surfaces(model, parameters_of(model, point, e), motion, point.growth);
+  surfaces.open_by(point.growth, 0);
+  surfaces.place(parameters_of(model, point, e), motion);
   motion.u_shell = model.R * point.shell_speed;
   // The bearing's axes rest: a shell that turns takes its shape along.
   if (point.shell_speed != 0) motion.g_rate -= point.shell_speed * film::GapShape(model).shell_slope();

@@ -1,94 +1,108 @@
 #include "hersey/bearing/steady_derivative.h"
 
+#include <array>
+#include <cstdint>
+
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 
 namespace hersey::bearing {
 namespace {
 
-// Positions (e_x, e_y, t_x, t_y) and their rates: Parameter kEx to kTyRate.
-constexpr int kDirections = 8;
+// The positions and rates that coefficients of displacement belong to.
+constexpr std::array<int, 4> kDirections{kEx, kEy, kExRate, kEyRate};
 
 // A tangent leaves the square of a small step of the residual that it takes away; more than this share of it, and the
 // film has no answer to the parameter that is its own, as one without supply, whose fill level is open.
 constexpr double kLeft = 0.05;
 
+// Condition of a film whose level is fixed by nothing, from a diagonal shifted by 1e-9 of a conductance (Reynolds::
+// linearise); of films that are, some hundreds to ten thousands.
+constexpr double kDetermined = 1e6;
+
 // Below this eccentricity over the clearance no gap is the widest.
 constexpr double kCentred = 1e-6;
 
-/// Rows of a wrench that work on (e_x, e_y, t_x, t_y).
+/// Rows of a wrench that are its force across the axis.
 template <class Wrench>
-Eigen::Matrix<double, 4, Wrench::ColsAtCompileTime> generalised(const Wrench& wrench) {
-  Eigen::Matrix<double, 4, Wrench::ColsAtCompileTime> rows(4, wrench.cols());
-  rows << wrench.row(3), wrench.row(4), wrench.row(1), -wrench.row(0);
-  return rows;
-}
-
-/// The film of `at` with the journal at `e`, linearised about `u`.
-film::FilmDomain linearise(const BearingBeside& at, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
-                           film::Reynolds& film) {
-  return film.linearise(steady_surfaces(at.model, at.point, e), film::FilmHistory{}, u);
+auto force_of(const Wrench& wrench) {
+  return wrench.template middleRows<2>(3);
 }
 
 }  // namespace
 
 SteadyDerivative::SteadyDerivative(const film::FilmModel& model, const SteadyState& state)
-    : model_(model), state_(state), film_(model_) {
+    : model_(model), state_(state), film_(model_), surfaces_(model_) {
   HERSEY_REQUIRE(is_of_film_alone(state), "rigid surfaces and one temperature that is given");
-  const film::FilmDomain domain = linearise({model_, state_.point}, state_.e, state_.u, film_);
+  const film::FilmDomain domain =
+      film_.linearise(steady_surfaces(surfaces_, model_, state_.point, state_.e), film::FilmHistory{}, state_.u);
   HERSEY_REQUIRE(domain.is_inside(), "a state that has been solved for");
-  answers_.resize(film_.size(), kDirections);
-  Eigen::Matrix<double, 6, kDirections> wrench;
-  const std::vector<film::MotionDirection> wanted = directions(model_, state_.e);
-  for (int k = 0; k < kDirections; ++k) {
+  answers_.resize(film_.size(), kDirections.size());
+  Eigen::Matrix<double, 6, kDirections.size()> wrench;
+  const std::vector<film::MotionDirection> wanted = directions(surfaces_, model_, state_.e);
+  for (std::size_t k = 0; k < kDirections.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
     Eigen::VectorXd residual;
     Vector6 partial;
-    film_.partial(wanted[static_cast<std::size_t>(k)], residual, partial);
-    answers_.col(k) = -residual;
-    wrench.col(k) = partial;
+    film_.partial(wanted[k], residual, partial);
+    answers_.col(column) = -residual;
+    wrench.col(column) = partial;
   }
   residual_by_e_ = -answers_.leftCols<2>();
   film_.solve(answers_);
-  adjoints_ = -generalised(film_.wrench_by_u()).transpose();
+  adjoints_ = -force_of(film_.wrench_by_u()).transpose();
   film_.solve_transposed(adjoints_);
-  force_by_e_ = (wrench + film_.wrench_by_u() * answers_).block<2, 2>(3, 0);
+  force_ = force_of(film_.wrench_on_shell());
+  force_by_e_ = force_of(wrench + film_.wrench_by_u() * answers_).leftCols<2>();
+  is_determined_ = amplification() < kDetermined;
+}
+
+// The condition number of the film's equations, from below: a vector whose entries have nothing to do with each other
+// has a share in every direction, that of the smallest singular value among them.
+double SteadyDerivative::amplification() {
+  Eigen::MatrixXd x(film_.size(), 1);
+  std::uint32_t state = 1;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    state = 1664525U * state + 1013904223U;
+    x(i, 0) = (state >> 31) != 0 ? 1 : -1;
+  }
+  const double through = film_.jacobian_product(x.col(0)).norm(), size = x.squaredNorm();
+  film_.solve(x);
+  return x.norm() * through / size;
 }
 
 bool SteadyDerivative::is_of_film_alone(const SteadyState& state) {
   return !state.heat && !state.effective && state.s.size() == 0 && state.thermal_shape.size() == 0;
 }
 
-std::vector<film::MotionDirection> SteadyDerivative::directions(const film::FilmModel& model,
-                                                                const Eigen::Vector2d& e) const {
+std::vector<film::MotionDirection> SteadyDerivative::directions(const RigidSurfaces& surfaces,
+                                                                const film::FilmModel& model,
+                                                                const Eigen::Vector2d& e) {
   std::vector<film::MotionDirection> result;
-  result.reserve(kDirections);
-  for (int k = 0; k < kDirections; ++k) result.push_back(surface_direction(model, k));
+  result.reserve(kDirections.size());
+  for (const int parameter : kDirections) result.push_back(surfaces.direction(parameter));
   if (model.supply.kind == film::SupplyKind::widest_gap && e.norm() > kCentred * model.c) {
-    result[kEx].phi_supply = -e.y() / e.squaredNorm();
-    result[kEy].phi_supply = e.x() / e.squaredNorm();
+    result[0].phi_supply = -e.y() / e.squaredNorm();
+    result[1].phi_supply = e.x() / e.squaredNorm();
   }
   return result;
 }
 
 // (bearing.35): what the parameter does to residual and force at the film and position there are, and what these do
 // then so that both vanish again.
-std::optional<SteadyDerivative::Change> SteadyDerivative::change(const std::array<BearingBeside, 2>& sides) {
-  Eigen::MatrixXd residual = Eigen::MatrixXd::Zero(film_.size(), 1);
-  Vector6 wrench = Vector6::Zero();
-  for (const double sign : {-1.0, 1.0}) {
-    const BearingBeside& side = sides[sign > 0 ? 1 : 0];
-    film::Reynolds film(side.model);
-    if (!linearise(side, state_.e, state_.u, film).is_inside()) return std::nullopt;
-    residual -= 0.5 * sign * film.residual();
-    wrench += 0.5 * sign * film.wrench_on_shell();
-  }
-  Change change{0.5 * (sides[1].point.e - sides[0].point.e), residual, residual};
-  film_.solve(residual);
-  change.u = residual;
+std::optional<SteadyDerivative::Change> SteadyDerivative::change(const BearingBeside& side, RigidSurfaces& surfaces,
+                                                                 film::Reynolds& film) {
+  const film::SurfaceMotion motion = steady_surfaces(surfaces, side.model, side.point, state_.e);
+  if (!film.linearise(motion, film::FilmHistory{}, state_.u).is_inside()) return std::nullopt;
+  Eigen::MatrixXd answer = film_.residual() - film.residual();
+  Change change{side.point.e - state_.point.e, {}, answer};
+  film_.solve(answer);
+  change.u = answer;
   if (state_.point.load) {
-    const Eigen::Vector2d load = 0.5 * (*sides[1].point.load - *sides[0].point.load);
-    const Vector6 force = wrench + film_.wrench_gradient(residual.col(0));
-    change.e = force_by_e_.fullPivLu().solve(load - force.segment<2>(3));
+    const Eigen::Vector2d load = *side.point.load - *state_.point.load,
+                          force = force_of(film.wrench_on_shell()) - force_ +
+                                  force_of(film_.wrench_gradient(answer.col(0)));
+    change.e = force_by_e_.fullPivLu().solve(load - force);
   }
   change.u += answers_.leftCols<2>() * change.e;
   change.residual -= residual_by_e_ * change.e;
@@ -96,41 +110,47 @@ std::optional<SteadyDerivative::Change> SteadyDerivative::change(const std::arra
 }
 
 // (bearing.37), whose change with film and adjoints vanishes: both stay as they are.
-DynamicCoefficients SteadyDerivative::coefficients(film::Reynolds& film, const Eigen::Vector2d& e) const {
-  const std::vector<film::MotionDirection> wanted = directions(film.model(), e);
-  const auto by_u = generalised(film.wrench_by_u());
-  DynamicCoefficients result;
-  for (int k = 0; k < kDirections; ++k) {
+void SteadyDerivative::coefficients(const RigidSurfaces& surfaces, film::Reynolds& film, const Eigen::Vector2d& e,
+                                    DynamicCoefficients& result) const {
+  const std::vector<film::MotionDirection> wanted = directions(surfaces, film.model(), e);
+  const auto by_u = force_of(film.wrench_by_u());
+  for (std::size_t k = 0; k < kDirections.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
     Eigen::VectorXd residual;
     Vector6 partial;
-    film.partial(wanted[static_cast<std::size_t>(k)], residual, partial);
-    residual += film.jacobian_product(answers_.col(k));
-    const Eigen::Vector4d column = generalised(partial) + by_u * answers_.col(k) + adjoints_.transpose() * residual;
-    (k < 4 ? result.stiffness : result.damping).col(k % 4) = column;
+    film.partial(wanted[k], residual, partial);
+    residual += film.jacobian_product(answers_.col(column));
+    (k < 2 ? result.stiffness : result.damping).col(column % 2).head<2>() =
+        force_of(partial) + by_u * answers_.col(column) + adjoints_.transpose() * residual;
   }
-  return result;
 }
 
-std::optional<std::array<SteadyState, 2>> SteadyDerivative::beside(const std::array<BearingBeside, 2>& sides) {
-  const std::optional<Change> moved = change(sides);
+SteadyState SteadyDerivative::here() {
+  SteadyState state = state_;
+  state.film = film_.observe(steady_surfaces(surfaces_, model_, state.point, state.e), state.e, state.u, state.tilt);
+  state.load = force_;
+  coefficients(surfaces_, film_, state.e, state.coefficients);
+  return state;
+}
+
+std::optional<SteadyState> SteadyDerivative::beside(const BearingBeside& side) {
+  if (!is_determined_) return std::nullopt;
+  film::Reynolds film(side.model);
+  RigidSurfaces surfaces(side.model);
+  const std::optional<Change> moved = change(side, surfaces, film);
   if (!moved) return std::nullopt;
-  std::array<SteadyState, 2> states{state_, state_};
-  for (const double sign : {-1.0, 1.0}) {
-    const BearingBeside& side = sides[sign > 0 ? 1 : 0];
-    SteadyState& state = states[sign > 0 ? 1 : 0];
-    state.point = side.point;
-    state.tilt = side.point.tilt;
-    state.e += sign * moved->e;
-    state.u += sign * moved->u;
-    film::Reynolds film(side.model);
-    if (!linearise(side, state.e, state.u, film).is_inside()) return std::nullopt;
-    if ((film.residual() - film_.residual()).norm() > kLeft * moved->residual.norm()) return std::nullopt;
-    state.film = film::observe_film(side.model, steady_surfaces(side.model, side.point, state.e), film::FilmHistory{},
-                                    state.e, state.u, state.tilt);
-    state.load = state.film.wrench_on_shell.segment<2>(3);
-    state.coefficients = coefficients(film, state.e);
-  }
-  return states;
+  SteadyState state = state_;
+  state.point = side.point;
+  state.tilt = side.point.tilt;
+  state.e += moved->e;
+  state.u += moved->u;
+  const film::SurfaceMotion motion = steady_surfaces(surfaces, side.model, side.point, state.e);
+  if (!film.linearise(motion, film::FilmHistory{}, state.u).is_inside()) return std::nullopt;
+  if ((film.residual() - film_.residual()).norm() > kLeft * moved->residual.norm()) return std::nullopt;
+  state.film = film.observe(motion, state.e, state.u, state.tilt);
+  state.load = state.film.wrench_on_shell.segment<2>(3);
+  coefficients(surfaces, film, state.e, state.coefficients);
+  return state;
 }
 
 }  // namespace hersey::bearing

@@ -23,10 +23,10 @@
 namespace hersey::study {
 namespace {
 
-// Steps of a parameter over its value. On a tangent the square of the step counts against the digits of the figures;
-// solutions
-// with heat are good to 1e-8 only, and want a longer one, but none on which fronts of the film pass nodes of the grid.
-constexpr double kTangentStep = 1e-5, kSolutionStep = 2e-4;
+// Steps of a parameter over its value. To one side on a tangent the step itself counts against the round-off of the
+// figures, to both sides, about a value of 0, its square; solutions with heat are good to 1e-8 only, and want a longer
+// one, but none on which fronts of the film pass nodes of the grid.
+constexpr double kTangentStep = 1e-8, kStepAboutZero = 1e-5, kSolutionStep = 2e-4;
 
 std::string text_of(const std::string& path) {
   std::ifstream file(path);
@@ -35,19 +35,33 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// What stands at a key path, if it is a number with or without unit.
-std::optional<Quantity> number_at(const std::string& text, const std::string& path,
-                                  const std::vector<std::string>& overrides, const std::string& key) {
-  try {
-    const auto written = nlohmann::json::parse(model::written_json(text, path, overrides, key));
-    if (!written.is_string()) return std::nullopt;
-    return evaluate_formula(written.get<std::string>());
-  } catch (const InputError&) {
-    return std::nullopt;  // no such key
-  } catch (const QuantityError&) {
-    return std::nullopt;  // a word
+/// What stands at key paths of a file with overrides in place, which is read once.
+class Written {
+ public:
+  Written(const std::string& path, const std::vector<std::string>& overrides)
+      : whole_(nlohmann::json::parse(model::written_json(text_of(path), path, overrides, ""))) {}
+
+  /// A number with or without unit; none where there is no such key, or a word.
+  [[nodiscard]] std::optional<Quantity> number_at(const std::string& key) const {
+    const nlohmann::json* here = &whole_;
+    for (std::size_t from = 0; from <= key.size();) {
+      const std::size_t dot = std::min(key.find('.', from), key.size());
+      const auto found = here->is_object() ? here->find(key.substr(from, dot - from)) : here->end();
+      if (!here->is_object() || found == here->end()) return std::nullopt;
+      here = &*found;
+      from = dot + 1;
+    }
+    if (!here->is_string()) return std::nullopt;
+    try {
+      return evaluate_formula(here->get<std::string>());
+    } catch (const QuantityError&) {
+      return std::nullopt;
+    }
   }
-}
+
+ private:
+  nlohmann::json whole_;
+};
 
 /// A unit in SI and its size there: a difference of 1 unit is `size` of `name`.
 struct SiUnit {
@@ -85,11 +99,15 @@ Varied varied(const std::string& key, const Quantity& middle, double share) {
   return {key, middle, share * (middle.number != 0 ? std::abs(middle.number) : 1.0)};
 }
 
-using Sides = std::array<BearingSolution, 2>;
+/// Two solutions that differ in one parameter.
+struct Sides {
+  BearingSolution below, above;
+  double distance = 0;  ///< in the parameter's unit
+};
 
 /// Figures by their keys: a figure that one side has and the other has not is none.
-std::vector<double> slopes_between(const BearingSolution& here, const Sides& sides, double distance) {
-  const std::array figures{figures_of(sides[0]), figures_of(sides[1])};
+std::vector<double> slopes_between(const BearingSolution& here, const Sides& sides, double unit) {
+  const std::array figures{figures_of(sides.below), figures_of(sides.above)};
   const auto value = [&](std::size_t side, const BearingFigure& wanted) {
     const auto found = std::find_if(figures[side].begin(), figures[side].end(),
                                     [&](const BearingFigure& f) { return f.key == wanted.key; });
@@ -98,7 +116,7 @@ std::vector<double> slopes_between(const BearingSolution& here, const Sides& sid
   };
   std::vector<double> slopes;
   for (const BearingFigure& figure : figures_of(here))
-    slopes.push_back((value(1, figure) - value(0, figure)) / distance);
+    slopes.push_back((value(1, figure) - value(0, figure)) / (sides.distance * unit));
   return slopes;
 }
 
@@ -111,28 +129,48 @@ void complete(BearingSolution& solution) {
       solution.coefficients, bearing::clearance(solution.model, solution.state.point), solution.numbers.load, omega);
 }
 
-std::optional<Sides> on_tangent(const std::string& path, const BearingSolution& solution, const std::string& bearing,
-                                const Varied& parameter, bearing::SteadyDerivative& derivative) {
-  std::array<bearing::BearingBeside, 2> beside;
-  for (const int side : {0, 1}) {
-    const model::Model model = model::read(path, parameter.overrides(solution.run.overrides, 2 * side - 1));
-    const model::Bearing& here = bearing_called(model, bearing);
-    const bearing::OperatingPoint point = operating_point_of(here);
-    beside[static_cast<std::size_t>(side)] = {here.film, point};
+/// Solutions beside one that is there, on its tangent.
+class Tangent {
+ public:
+  Tangent(const std::string& path, const BearingSolution& solution, const std::string& bearing)
+      : path_(path), here_(solution), bearing_(bearing), derivative_(solution.model, solution.state) {
+    here_.state = derivative_.here();
+    complete(here_);
+  }
+
+  /// None where the film has no tangent, or the parameter changes the grid.
+  [[nodiscard]] std::optional<Sides> sides(const std::string& key, const Quantity& middle) {
+    const bool about_zero = middle.number == 0;
+    const Varied parameter = varied(key, middle, about_zero ? kStepAboutZero : kTangentStep);
+    std::optional<BearingSolution> below = about_zero ? beside(parameter, -1) : here_;
+    if (!below) return std::nullopt;
+    std::optional<BearingSolution> above = beside(parameter, 1);
+    if (!above) return std::nullopt;
+    return Sides{std::move(*below), std::move(*above), (about_zero ? 2 : 1) * parameter.step};
+  }
+
+ private:
+  [[nodiscard]] std::optional<BearingSolution> beside(const Varied& parameter, double sign) {
+    const model::Model model = model::read(path_, parameter.overrides(here_.run.overrides, sign));
+    const model::Bearing& bearing = bearing_called(model, bearing_);
+    bearing::BearingBeside side{bearing.film, operating_point_of(bearing)};
     // The scale of its unknowns is the state's: only their meaning counts.
-    beside[static_cast<std::size_t>(side)].model.fill_speed = solution.model.fill_speed;
-    if (here.film.grid.size() != solution.model.grid.size()) return std::nullopt;
+    side.model.fill_speed = here_.model.fill_speed;
+    if (bearing.film.grid.size() != here_.model.grid.size()) return std::nullopt;
+    std::optional<bearing::SteadyState> state = derivative_.beside(side);
+    if (!state) return std::nullopt;
+    BearingSolution solution = here_;
+    solution.state = std::move(*state);
+    solution.model = std::move(side.model);
+    complete(solution);
+    return solution;
   }
-  const auto states = derivative.beside(beside);
-  if (!states) return std::nullopt;
-  Sides sides{solution, solution};
-  for (const std::size_t side : {0, 1}) {
-    sides[side].state = (*states)[side];
-    sides[side].model = beside[side].model;
-    complete(sides[side]);
-  }
-  return sides;
-}
+
+  const std::string& path_;
+  BearingSolution here_;
+  const std::string& bearing_;
+  bearing::SteadyDerivative derivative_;
+};
 
 Sides solved_anew(const std::string& path, const BearingSolution& solution, const BearingStudyOptions& options,
                   const Varied& parameter) {
@@ -145,7 +183,7 @@ Sides solved_anew(const std::string& path, const BearingSolution& solution, cons
   std::vector<BearingSolution> found = solve_bearings(path, runs, alone);
   for (const BearingSolution& side : found)
     if (!side.solved()) throw std::runtime_error(side.error);
-  return {std::move(found[0]), std::move(found[1])};
+  return {std::move(found[0]), std::move(found[1]), 2 * parameter.step};
 }
 
 }  // namespace
@@ -170,20 +208,24 @@ std::vector<std::string> usual_parameters(const std::string& path, const std::ve
                                 own + "asperities.roughness"};
   for (const film::SurfaceFeature& feature : here.film.features)
     keys.push_back(own + "features." + feature.name + ".pressure");
-  const std::string text = text_of(path);
-  std::erase_if(keys, [&](const std::string& key) { return !number_at(text, path, overrides, key); });
+  const Written written(path, overrides);
+  std::erase_if(keys, [&](const std::string& key) { return !written.number_at(key); });
   return keys;
+}
+
+bool are_sensitivities_exact(const BearingSolution& solution) {
+  return bearing::SteadyDerivative::is_of_film_alone(solution.state) && !solution.elasticity;
 }
 
 std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSolution& solution,
                                        const BearingStudyOptions& options, const std::vector<std::string>& parameters) {
   std::vector<Sensitivity> all;
   if (!solution.solved()) return all;
-  const std::string text = text_of(path);
-  std::optional<bearing::SteadyDerivative> derivative;
-  const bool may_be_exact = bearing::SteadyDerivative::is_of_film_alone(solution.state) && !solution.elasticity;
+  const Written written(path, solution.run.overrides);
+  std::optional<Tangent> tangent;
+  const bool may_be_exact = are_sensitivities_exact(solution);
   for (const std::string& key : parameters) {
-    const std::optional<Quantity> middle = number_at(text, path, solution.run.overrides, key);
+    const std::optional<Quantity> middle = written.number_at(key);
     if (!middle)
       throw InputError(Fault{{"--sensitivity-to", 0, 0},
                              "",
@@ -192,21 +234,17 @@ std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSol
                              ""});
     const SiUnit si = si_of(middle->unit);
     Sensitivity& found = all.emplace_back();
-    found.parameter = key, found.unit = si.name;
+    found.parameter = key, found.unit = si.name, found.size = si.size;
     found.value = middle->unit.empty() ? middle->number : convert_to_si(*middle, si.name);
     try {
       std::optional<Sides> sides;
-      Varied parameter = varied(key, *middle, kTangentStep);
       if (may_be_exact) {
-        if (!derivative) derivative.emplace(solution.model, solution.state);
-        sides = on_tangent(path, solution, options.bearing, parameter, *derivative);
+        if (!tangent) tangent.emplace(path, solution, options.bearing);
+        sides = tangent->sides(key, *middle);
       }
       found.exact = sides.has_value();
-      if (!sides) {
-        parameter = varied(key, *middle, kSolutionStep);
-        sides = solved_anew(path, solution, options, parameter);
-      }
-      found.slopes = slopes_between(solution, *sides, 2 * parameter.step * si.size);
+      if (!sides) sides = solved_anew(path, solution, options, varied(key, *middle, kSolutionStep));
+      found.slopes = slopes_between(solution, *sides, si.size);
     } catch (const InputError& error) {
       found.error = fmt::format("it has no values on both sides: {}", error_text(error));
     } catch (const std::exception& error) {

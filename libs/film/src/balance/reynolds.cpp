@@ -11,6 +11,7 @@
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
 #include "observe/film_wrench.h"
+#include "observe/observe_evaluated.h"
 #include "solve/multigrid_solver.h"
 
 namespace hersey::film {
@@ -195,6 +196,11 @@ const Eigen::VectorXd& Reynolds::residual() const { return impl_->balance.residu
 double Reynolds::relative_residual() const { return impl_->balance.relative_residual(); }
 int Reynolds::worst_node() const { return impl_->balance.worst_node(); }
 const Vector6& Reynolds::wrench_on_shell() const { return impl_->summed_wrench().total(); }
+
+FilmObservables Reynolds::observe(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
+                                  const Eigen::Vector2d& tilt) const {
+  return observe_evaluated(impl_->balance, impl_->summed_wrench(), motion, e, u, tilt);
+}
 
 void Reynolds::newton_increment(Eigen::VectorXd& du, double rtol) {
   impl_->rhs = -impl_->balance.residual();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <optional>
 
@@ -144,21 +145,39 @@ std::vector<const Value*> texts_of(const Value& parent, const std::string& key) 
   return texts;
 }
 
-// A figure of a bearing names one that there is; what it is called is checked where figures are made.
-void require_bearing(Context& context, const Value& at, const std::string& name) {
-  const std::string prefix = "bearings.";
-  if (!name.starts_with(prefix)) return;
-  const std::string bearing = name.substr(prefix.size(), name.find('.', prefix.size()) - prefix.size());
-  const std::vector<std::string> names = names_in(context.root, "bearings");
-  if (std::find(names.begin(), names.end(), bearing) != names.end()) return;
-  context.fault(at, "a figure of an unknown bearing, '" + name + "'",
-                names.empty() ? "another figure: the model has no bearing" : "bearings." + one_of(names),
-                did_you_mean(bearing, names));
+// Figures go by the kind of thing, "bearings", and its name in a section of the model.
+struct Kind {
+  const char* prefix;
+  const char* section;
+  const char* singular;
+};
+constexpr std::array<Kind, 8> kKinds{{{"bearings.", "bearings", "bearing"},
+                                      {"bodies.", "bodies", "body"},
+                                      {"joints.", "joints", "joint"},
+                                      {"drives.", "drives", "drive"},
+                                      {"couplings.", "couplings", "coupling"},
+                                      {"contacts.", "contacts", "contact"},
+                                      {"forces.", "forces", "force"},
+                                      {"surface_loads.", "forces", "force"}}};
+
+// A figure names a thing that there is; what it is called is checked where figures are made.
+void require_thing(Context& context, const Value& at, const std::string& name) {
+  const auto kind =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& known) { return name.starts_with(known.prefix); });
+  if (kind == kKinds.end()) return;
+  const std::string prefix = kind->prefix;
+  const std::string thing = name.substr(prefix.size(), name.find('.', prefix.size()) - prefix.size());
+  const std::vector<std::string> names = names_in(context.root, kind->section);
+  if (std::find(names.begin(), names.end(), thing) != names.end()) return;
+  context.fault(
+      at, std::string("a figure of an unknown ") + kind->singular + ", '" + name + "'",
+      names.empty() ? std::string("another figure: the model has no ") + kind->singular : prefix + one_of(names),
+      did_you_mean(thing, names));
 }
 
 void read_objectives(Context& context, const Value& value, const std::string& key, Study& study) {
   for (const Value* name : texts_of(value, key)) {
-    require_bearing(context, *name, trimmed(name->text));
+    require_thing(context, *name, trimmed(name->text));
     study.objectives.push_back({trimmed(name->text), key == "maximise", name->position});
   }
 }
@@ -181,7 +200,7 @@ void read_constraints(Context& context, const Value& value, Study& study) {
                     "a figure, > or <, and a value, such as bearings.main.h_min > 1.5 um");
       continue;
     }
-    require_bearing(context, *text, constraint.name);
+    require_thing(context, *text, constraint.name);
     study.constraints.push_back(std::move(constraint));
   }
 }
@@ -235,7 +254,7 @@ void interpret_study(Context& context) {
   study.samples = integer_of(*value, "samples");
   study.seed = integer_of(*value, "seed");
   for (const auto& [index, output] : section(*value, "outputs")) {
-    require_bearing(context, output, trimmed(output.text));
+    require_thing(context, output, trimmed(output.text));
     study.outputs.push_back({trimmed(output.text), output.position});
   }
   read_objectives(context, *value, "minimise", study);
@@ -246,6 +265,8 @@ void interpret_study(Context& context) {
   study.keep = meaning_of(*value, "keep", study_keep_words, StudyKeep::results);
   study.diagram = meaning_of(*value, "diagram", study_diagram_words, StudyDiagram::none);
   study.spectrum_of = text_of(*value, "spectrum_of");
+  if (const Value* spectrum = value->find("spectrum_of"); spectrum != nullptr && !spectrum->broken)
+    require_thing(context, *spectrum, trimmed(spectrum->text));
   check_plan(context, *value, study);
   context.model.study = std::move(study);
 }

@@ -22,7 +22,7 @@ inline constexpr Vocabulary<StudyPlan, 7> study_plan_words{{
 }};
 
 inline constexpr Vocabulary<StudySearch, 2> study_search_words{{
-    {StudySearch::local, "local", "downhill without derivatives (COBYLA)"},
+    {StudySearch::local, "local", "downhill, by derivatives where they are exact (SLSQP), else without (COBYLA)"},
     {StudySearch::global, "global", "everywhere, by an evolution strategy (ISRES), then downhill"},
 }};
 

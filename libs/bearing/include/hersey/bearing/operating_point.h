@@ -67,6 +67,9 @@ struct SteadyOptions {
 /// Surfaces of the film with the journal at `e`.
 [[nodiscard]] film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
                                                   const Eigen::Vector2d& e);
+/// The same of `surfaces`, made for `model`, where they are placed more than once.
+[[nodiscard]] film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmModel& model,
+                                                  const OperatingPoint& point, const Eigen::Vector2d& e);
 
 /// The shell lies further out at the nodes by `shape` [m]; an empty one changes nothing.
 void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
 #include <optional>
 #include <vector>
 
+#include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/core/spatial.h"
 #include "hersey/film/film_exchange.h"
@@ -31,11 +31,15 @@ class SteadyDerivative {
   /// Whether derivatives of a state are those of its film alone: rigid surfaces and one temperature that is given.
   [[nodiscard]] static bool is_of_film_alone(const SteadyState& state);
 
-  /// The states below and above `state` on its tangent, with observables and coefficients: the difference of any figure
-  /// of the two is its derivative times the difference of the parameter, to the square of the latter. None where a side
-  /// lies outside the film's domain, or the film's own answer is open (one without any supply).
-  /// @param sides  the parameter below and above by the same amount, on the grid of the state's model
-  [[nodiscard]] std::optional<std::array<SteadyState, 2>> beside(const std::array<BearingBeside, 2>& sides);
+  /// The state that was solved, its coefficients as beside() works them out: what differences are taken from.
+  [[nodiscard]] SteadyState here();
+
+  /// The state of `side` on the tangent, with observables and coefficients of displacement; those of tilt stay as they
+  /// are. Over the difference of the parameter, that of any figure to here() is its derivative to the first order of
+  /// the difference, and half of that between two sides to the second. None where the side lies outside the film's
+  /// domain, or the film's own answer is open (one without any supply).
+  /// @param side  the parameter a little off, on the grid of the state's model
+  [[nodiscard]] std::optional<SteadyState> beside(const BearingBeside& side);
 
  private:
   struct Change {
@@ -43,18 +47,24 @@ class SteadyDerivative {
     Eigen::VectorXd u;
     Eigen::VectorXd residual;  ///< that u takes away again [m^3/s]
   };
-  [[nodiscard]] std::vector<film::MotionDirection> directions(const film::FilmModel& model,
-                                                              const Eigen::Vector2d& e) const;
-  [[nodiscard]] std::optional<Change> change(const std::array<BearingBeside, 2>& sides);
-  [[nodiscard]] DynamicCoefficients coefficients(film::Reynolds& film, const Eigen::Vector2d& e) const;
+  [[nodiscard]] static std::vector<film::MotionDirection> directions(const RigidSurfaces& surfaces,
+                                                                     const film::FilmModel& model,
+                                                                     const Eigen::Vector2d& e);
+  [[nodiscard]] std::optional<Change> change(const BearingBeside& side, RigidSurfaces& surfaces, film::Reynolds& film);
+  [[nodiscard]] double amplification();
+  void coefficients(const RigidSurfaces& surfaces, film::Reynolds& film, const Eigen::Vector2d& e,
+                    DynamicCoefficients& result) const;
 
   film::FilmModel model_;
   SteadyState state_;
   film::Reynolds film_;
+  RigidSurfaces surfaces_;
   Eigen::MatrixXd residual_by_e_;  ///< at fixed u, shape (n, 2)
-  Eigen::MatrixXd answers_;        ///< of the film to the directions, shape (n, 8)
-  Eigen::MatrixXd adjoints_;       ///< of the force's four entries to the residual, shape (n, 4)
+  Eigen::MatrixXd answers_;        ///< of the film to the directions, shape (n, 4)
+  Eigen::MatrixXd adjoints_;       ///< of the force to the residual, shape (n, 2)
+  Eigen::Vector2d force_;          ///< of the film on the shell [N]
   Eigen::Matrix2d force_by_e_;     ///< [N/m]
+  bool is_determined_ = false;     ///< the film's equations have one answer
 };
 
 }  // namespace hersey::bearing

@@ -10,6 +10,7 @@
 #include "hersey/film/film_domain.h"
 #include "hersey/film/film_exchange.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_observables.h"
 
 namespace hersey::film {
 
@@ -67,6 +68,10 @@ class Reynolds {
   /// Wrench of the film (pressure, shear, asperities) on the shell at the grid frame's origin; on the journal acts its
   /// negative at the same point: action equals reaction, moment included.
   [[nodiscard]] const Vector6& wrench_on_shell() const;
+
+  /// observe_film() of the state last linearised, nothing evaluated again: `motion` and `u` are those of linearise().
+  [[nodiscard]] FilmObservables observe(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
+                                        const Eigen::Vector2d& tilt) const;
 
   /// du = -J^{-1} residual, the Newton increment of the film at fixed surfaces. `multigrid` leaves `rtol` of the
   /// residual.

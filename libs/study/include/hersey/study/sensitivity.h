@@ -12,6 +12,7 @@ struct Sensitivity {
   std::string parameter;  ///< key path
   double value = 0;       ///< [unit]
   std::string unit;       ///< SI
+  double size = 1;        ///< of the unit in the file, in `unit`
   bool exact = true;      ///< by the Jacobian of the solution; else by the difference of two solutions
   std::string error;      ///< why there is none; then `slopes` is empty
   /// Derivative of each of figures_of(solution), SI over SI; not a number where a figure has none.
@@ -24,6 +25,9 @@ struct Sensitivity {
 [[nodiscard]] std::vector<std::string> usual_parameters(const std::string& path,
                                                         const std::vector<std::string>& overrides,
                                                         const std::string& bearing);
+
+/// Whether the sensitivities of a solution are exact: between rigid surfaces with one temperature that is given.
+[[nodiscard]] bool are_sensitivities_exact(const BearingSolution& solution);
 
 /// Sensitivities of `solution`, found for the model file at `path` with solution.run.overrides. Between rigid surfaces
 /// with one temperature by bearing::SteadyDerivative, a linear solution for each parameter; where film and heat or
