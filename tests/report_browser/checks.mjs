@@ -1,6 +1,8 @@
 // What a report must do in a real browser. Each check gets an open page and throws where the report falls short.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
+import { readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
 
 const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
@@ -54,6 +56,29 @@ async function pressOnSlider(page, key) {
   await page.keyboard.press(key);
   await frame(page);
 }
+
+/** Of one run of a machine with a bearing. */
+export const runReport = {
+  "a quantity that the report knows nothing of has a curve all the same": async (page) => {
+    const slot = /(<script id="hersey-data" type="application\/json">)([\s\S]*?)(<\/script>)/;
+    const html = readFileSync(fileURLToPath(page.url()), "utf8");
+    const data = JSON.parse(slot.exec(html)[2]);
+    const { datasets } = data.runs[0];
+    const film = Object.keys(datasets).find((path) => path.endsWith("/p_max")).replace("p_max", "");
+    datasets[`${film}wear_depth`] = { ...datasets[`${film}p_max`], unit: "m", description: "depth worn off the shell" };
+    datasets["/bodies/anything/load"] = { ...datasets[`${film}force`], description: "what it bears" };
+    data.runs[0].attributes["/bodies/anything"] = {};
+    const other = await page.context().browser().newPage();
+    await other.setContent(html.replace(slot, (_, begin, __, end) => begin + JSON.stringify(data).replaceAll("</", "<\\/") + end));
+    for (const [section, caption] of [["Further quantities of the film", "Wear depth: depth worn off the shell."], ["Bodies", "anything: Load: what it bears."]]) {
+      await other.locator("details > summary", { hasText: section }).click();
+      const figure = other.locator("figure", { hasText: caption });
+      assert.equal(await figure.count(), 1, `no figure "${caption}"`);
+      assert.ok(Math.max(...(await colouredPixels(figure))) > 0, `nothing is drawn of "${caption}"`);
+    }
+    await other.close();
+  },
+};
 
 export const everyReport = {
   "verdict and key numbers are on the first screen": firstScreen,

@@ -4,7 +4,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { bearingReport, everyReport, comparisonReport, machineReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
+import { bearingReport, everyReport, comparisonReport, machineReport, runReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
 import { samplingReport } from "./sampling_checks.mjs";
 
 const flags = [
@@ -130,7 +130,7 @@ async function testReport(browser, file) {
   const isModes = (await page.locator(".mode-player").count()) > 0;
   const isMachine = (await page.locator(".assumptions .owners").count()) > 0;
   const isSampling = (await page.locator('[data-figure="parallel"]').count()) > 0;
-  const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : {}), ...everyReport };
+  const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : runReport), ...everyReport };
   const ofBearing = { ...(isStudy ? sweepReport : {}), ...bearingReport };
   const tests = isSampling ? samplingReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
   for (const [name, test] of Object.entries(tests)) await check(name, () => test(page));

@@ -3,9 +3,10 @@
 import { AngleTimeMap } from "./angle_time_map";
 import { cycleMaps } from "./cycle_maps";
 import type { Run } from "./data";
-import { figure, h, segmented, tableButton } from "./dom";
+import { figure, h, section, segmented, tableButton } from "./dom";
 import { FieldMap, type Mark } from "./field_map";
 import { extent, FilmFields, nearest, type FieldKind } from "./film_fields";
+import { furtherFigures } from "./further_series";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Orbit } from "./orbit";
 import { Axis, curve, magnitude, scaled, type Abscissa } from "./series";
@@ -17,9 +18,12 @@ const watt = { factor: 1, unit: "W" };
 /** Figures of a bearing that follow the instant shown. */
 export class BearingView {
   readonly element = h("div", { class: "figures" });
+  /** Folded. */
+  readonly further = h("div", { class: "sections" });
   readonly fields: FilmFields | null;
   private readonly axis: Axis;
   private readonly followers: ((time: number, instant: number) => void)[] = [];
+  private time: number | null = null;
 
   constructor(
     private readonly run: Run,
@@ -40,6 +44,7 @@ export class BearingView {
   }
 
   show(time: number, instant: number): void {
+    this.time = time;
     for (const follow of this.followers) follow(time, instant);
   }
 
@@ -124,7 +129,7 @@ export class BearingView {
     );
   }
 
-  private add(name: string, caption: string, left: LineFigure["left"], curves: Curve[], right?: LineFigure["right"]): void {
+  private add(name: string, caption: string, left: LineFigure["left"], curves: Curve[], right?: LineFigure["right"], into: HTMLElement = this.element): void {
     if (curves.length === 0) return;
     const time = this.run.column("/time");
     const plot = new LinePlot({
@@ -137,13 +142,29 @@ export class BearingView {
       hover: this.hoverRow,
     });
     this.followers.push((t) => plot.mark(this.axis.at(t)));
-    this.element.append(figure(name, caption, plot.tools, plot.element));
+    if (this.time !== null) plot.mark(this.axis.at(this.time));
+    into.append(figure(name, caption, plot.tools, plot.element));
+  }
+
+  /** Whatever else the file holds of the film, drawn when it is asked for. */
+  private addFurther(shown: ReadonlySet<string>): void {
+    const figures = furtherFigures(this.run, `/bearings/${this.bearing}`, shown, micrometre);
+    if (figures.length === 0) return;
+    this.further.replaceChildren(
+      section("Further quantities of the film", false, (body) => {
+        for (const { name, caption, left, curves } of figures) this.add(name, caption, left, curves, undefined, body);
+      }),
+    );
   }
 
   private addSeries(): void {
     const { run } = this;
-    const of = (name: string, label: string, display: typeof newton, extra: Parameters<typeof curve>[4] = {}) =>
-      curve(run, this.path(name), label, display, extra);
+    // The orbit shows the first, figures of the solution the others.
+    const shown = new Set(["eccentricity", "film_iterations", "mass_balance_error"]);
+    const of = (name: string, label: string, display: typeof newton, extra: Parameters<typeof curve>[4] = {}) => {
+      shown.add(name);
+      return curve(run, this.path(name), label, display, extra);
+    };
     this.add("thickness", "Smallest film thickness, edges included, and along the middle of the bearing.", { label: "film thickness", unit: "µm", fromZero: true }, [
       ...of("h_min", "smallest", micrometre),
       ...of("h_min_centre", "smallest at z = 0", micrometre, { dash: [6, 4] }),
@@ -186,6 +207,7 @@ export class BearingView {
         ...of("tilt", "about x", { factor: 1e3, unit: "mrad" }, { column: 0 }),
         ...of("tilt", "about y", { factor: 1e3, unit: "mrad" }, { column: 1 }),
       ]);
+    this.addFurther(shown);
   }
 }
 

@@ -22,6 +22,14 @@ export interface DatasetText {
 
 import type { StudyText } from "./sampling_data";
 
+/** What the file says of a time series; `width` numbers a row. */
+export interface SeriesText {
+  name: string;
+  unit: string;
+  description: string;
+  width: number;
+}
+
 type Attribute = string | number | string[];
 
 export interface RunText {
@@ -166,13 +174,18 @@ export class Run {
     return value === undefined ? "" : Array.isArray(value) ? value.join(", ") : String(value);
   }
 
-  /** The datasets in a group that have one number for each row of the time series, with what the file says of them. */
-  seriesIn(group: string): { name: string; unit: string; description: string }[] {
+  /** The datasets in a group with a row for each of the time series', with what the file says of them. */
+  growingIn(group: string): SeriesText[] {
     const rows = this.text.datasets["/time"]?.shape[0];
     return this.datasetNames(group).flatMap((name) => {
       const { shape, unit, description } = this.text.datasets[`${group}/${name}`]!;
-      return shape[0] === rows && shape.slice(1).every((n) => n === 1) ? [{ name, unit, description }] : [];
+      return shape[0] === rows ? [{ name, unit, description, width: shape.slice(1).reduce((a, b) => a * b, 1) }] : [];
     });
+  }
+
+  /** Those of one number a row. */
+  seriesIn(group: string): SeriesText[] {
+    return this.growingIn(group).filter(({ width }) => width === 1);
   }
 
   number(object: string, name: string): number | undefined {

@@ -122,3 +122,15 @@ export function placeTooltip(tooltip: HTMLElement, holder: HTMLElement, x: numbe
   tooltip.style.left = `${fits ? x + gap : Math.max(0, x - gap - tooltip.offsetWidth)}px`;
   tooltip.style.top = `${Math.max(0, Math.min(y - 12, holder.clientHeight - tooltip.offsetHeight))}px`;
 }
+
+/** A section that draws its figures when it is first opened. */
+export function section(title: string, open: boolean, fill: (body: HTMLElement) => void): HTMLElement {
+  const body = h("div", { class: "figures" });
+  const details = h("details", { open }, h("summary", {}, title), body);
+  const draw = () => {
+    if (details.open && body.childElementCount === 0) fill(body);
+  };
+  details.addEventListener("toggle", draw);
+  draw();
+  return details;
+}

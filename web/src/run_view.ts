@@ -72,7 +72,7 @@ export class RunView {
     this.timeline = timeline;
     this.overview?.highlight(bearing);
     this.changing.replaceChildren(
-      ...[this.controls(), this.headline(), view?.element ?? null, modes?.element ?? null, machine ? h("div", { class: "figures" }, machine.element) : null, this.table(), this.notes(), system.element, timeline.element].filter((e) => e !== null),
+      ...[this.controls(), this.headline(), view?.element ?? null, modes?.element ?? null, machine ? h("div", { class: "figures" }, machine.element) : null, this.table(), this.notes(), view?.further ?? null, system.element, timeline.element].filter((e) => e !== null),
     );
     sweepPlots();
     sweepDrawings();

@@ -2,24 +2,13 @@
 
 import { BeamFigures, beamsOf } from "./beam_figures";
 import type { Run } from "./data";
-import { figure, h } from "./dom";
+import { figure, h, section } from "./dom";
+import { furtherFigures } from "./further_series";
 import { mechanismGraph } from "./mechanism_graph";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Axis, columns, curve, scaled, timeDisplay, type Abscissa } from "./series";
 import { summaryTables } from "./summary_table";
 import { degree, millimetre, plain, type Display } from "./units";
-
-/** A section that draws its figures when it is first opened. */
-function section(title: string, open: boolean, fill: (body: HTMLElement) => void): HTMLElement {
-  const body = h("div", { class: "figures" });
-  const details = h("details", { open }, h("summary", {}, title), body);
-  const draw = () => {
-    if (details.open && body.childElementCount === 0) fill(body);
-  };
-  details.addEventListener("toggle", draw);
-  draw();
-  return details;
-}
 
 export class SystemView {
   readonly element = h("div", { class: "sections" });
@@ -53,6 +42,11 @@ export class SystemView {
       if (run.children(group).length > 0) this.element.append(section(title, false, (body) => this.efforts(body, group)));
     }
     if (run.children("/bodies").length > 0) this.element.append(section("Bodies", false, (body) => this.bodies(body)));
+    for (const [group, title] of [["/forces", "Forces between bodies"], ["/surface_loads", "Loads on surfaces"]] as const) {
+      const things = run.children(group).filter((thing) => run.growingIn(`${group}/${thing}`).length > 0);
+      if (things.length > 0) this.element.append(section(title, false, (body) => things.forEach((thing) => this.further(body, `${group}/${thing}`))));
+    }
+    if (run.growingIn("/thermal").length > 0) this.element.append(section("Thermal network", false, (body) => this.further(body, "/thermal")));
     if (alone) solution();
     if (run.model) this.element.append(h("details", {}, h("summary", {}, "Model as it was run"), h("pre", { class: "model", tabindex: 0, role: "region", "aria-label": "Model file" }, run.model)));
   }
@@ -95,6 +89,7 @@ export class SystemView {
     ]);
     this.add(body, "mass", "Mass balance of the film: what supply, side flow and storage leave unexplained, relative.", { label: "mass-balance error", unit: "", log: true },
       run.children("/bearings").flatMap((bearing) => sizes(curve(run, `/bearings/${bearing}/mass_balance_error`, bearing.replaceAll("_", " "), plain))));
+    this.further(body, "/solver", ["dt", "newton_iterations", "residual", "film_residual"]);
     const unit = run.dataset("/power/balance_error")?.unit ?? "1";
     const display = { factor: 1, unit: unit === "1" ? "" : unit };
     this.add(body, "balance", "Residual power of the equations of motion; and what drives, loads, losses and storage leave unexplained when films count by their own integrals instead of their forces.", { label: "power", unit: display.unit, log: true },
@@ -138,6 +133,7 @@ export class SystemView {
         curve(run, path("gap"), "distance", millimetre));
       this.add(body, `${contact}-power`, `${name}: power lost`, { label: "power", unit: "W", fromZero: true },
         [...curve(run, path("damping_power"), "damping", watt), ...curve(run, path("friction_power"), "friction", watt)]);
+      this.further(body, `/contacts/${contact}`, ["normal_force", "friction_force", "gap", "damping_power", "friction_power"]);
     }
   }
 
@@ -153,12 +149,14 @@ export class SystemView {
   }
 
   private bodies(body: HTMLElement): void {
-    for (const name of this.run.children("/bodies")) {
-      for (const kind of ["position", "velocity", "acceleration", "angular_velocity"]) {
-        const label = kind.replace("_", " ");
-        this.vector(body, `/bodies/${name}/${kind}`, `${name}-${kind}`, `${name}: ${label} of its origin`.replace("angular velocity of its origin", "angular velocity"), label);
-      }
-    }
+    for (const name of this.run.children("/bodies")) this.further(body, `/bodies/${name}`);
+  }
+
+  /** Whatever the file holds of a thing and no figure of its own shows. */
+  private further(body: HTMLElement, group: string, shown: string[] = []): void {
+    const thing = group.split("/").slice(2).join("/");
+    for (const { name, caption, left, curves } of furtherFigures(this.run, group, new Set(shown)))
+      this.add(body, thing ? `${thing}-${name}` : name, thing ? `${thing}: ${caption}` : caption, left, curves);
   }
 
   /** Columns of which some turn and some shift: a figure for each kind where the dataset has no unit of its own. */

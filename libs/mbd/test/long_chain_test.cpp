@@ -1,6 +1,7 @@
 // Chains of many bodies, which are cut so that the work of a step grows in proportion to their length.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "benchmark_mechanisms.h"
@@ -73,6 +74,34 @@ TEST_CASE("LongChain_TheMatrixGrowsInProportionToItsLength") {
   const double few = entries(240), many = entries(960);
   CHECK(many / few == doctest::Approx(4).epsilon(0.05));
   CHECK(many < 100 * 960);
+}
+
+/// Every number of a motion, bit for bit.
+bool are_same(const Observation& a, const Observation& b) {
+  const auto is_same = [](const FrameMotion& one, const FrameMotion& other) {
+    return one.X_WF.R == other.X_WF.R && one.X_WF.r == other.X_WF.r && one.omega == other.omega && one.v == other.v &&
+           one.alpha == other.alpha && one.a == other.a;
+  };
+  return std::equal(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), is_same);
+}
+
+TEST_CASE("Observation_IsOfItsOwnState_WhateverWasLookedAtBefore") {
+  const auto used = test::chain(30, 12);
+  solver::State start = used->initial_state();
+  start.vdot.setLinSpaced(-1, 1);
+  solver::State place = start, rate = start, acceleration = start;
+  place.q[3] += 0.1, rate.v[3] += 0.1, acceleration.vdot[3] += 0.1;
+  for (const solver::State* other : {&place, &rate, &acceleration}) {
+    CHECK_FALSE(are_same(used->observe(*other), used->observe(start)));
+    CHECK(are_same(used->observe(*other), test::chain(30, 12)->observe(*other)));
+    CHECK(are_same(used->observe(start), test::chain(30, 12)->observe(start)));
+    Eigen::VectorXd velocity, bias;
+    used->constraint_rates(start, velocity, bias);  // leaves accelerations without vdot
+    CHECK(are_same(used->observe(start), test::chain(30, 12)->observe(start)));
+    Eigen::VectorXd phi, scale;
+    used->constraints(*other, phi, scale, nullptr);  // leaves other positions
+    CHECK(are_same(used->observe(start), test::chain(30, 12)->observe(start)));
+  }
 }
 
 }  // namespace long_chain_test

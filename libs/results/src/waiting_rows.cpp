@@ -10,7 +10,20 @@
 namespace hersey::results {
 namespace {
 
-constexpr std::size_t prepared_bytes = std::size_t{4} << 20;  // at a time
+constexpr std::size_t prepared_bytes = std::size_t{4} << 20;    // at a time
+constexpr std::size_t gathered_numbers = std::size_t{1} << 16;  // 512 KiB: what a processor holds close to itself
+
+/// Asks for large pages, of which a machine's rows fill less than one a step instead of dozens of small ones. A wish.
+void wish_large_pages(void* data, std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  void* begin = data;
+  if (std::align(page, page, begin, bytes) != nullptr) ::madvise(begin, bytes / page * page, MADV_HUGEPAGE);
+#else
+  static_cast<void>(data);
+  static_cast<void>(bytes);
+#endif
+}
 
 /// Has the system put memory behind [data, data + bytes), which costs a quarter of what it does page by page as they
 /// are written to. A wish: where it is not heard, nothing is lost.
@@ -25,55 +38,79 @@ void put_memory_behind(void* data, std::size_t bytes) {
 #endif
 }
 
-/// Prepares what follows where less than `needed` elements more are ready. @returns up to which they are now
-template <typename T>
-std::size_t prepare_ahead(std::vector<T>& values, std::size_t prepared, std::size_t needed) {
-  const std::size_t last = std::min(values.capacity(), values.size() + needed + prepared_bytes / sizeof(T));
-  put_memory_behind(values.data() + prepared, (last - prepared) * sizeof(T));
-  return last;
-}
-
 }  // namespace
 
-void WaitingRows::expect(std::size_t series, std::size_t numbers, std::size_t steps) {
-  const std::size_t room = numbers > 0 ? std::min(most_numbers / numbers, steps) : 0;
+void WaitingRows::expect(std::size_t numbers, std::size_t steps) {
   // Memory that is never used costs nothing, to move it does.
-  numbers_.reserve(room * numbers);
-  series_.reserve(room * series);
+  if (numbers > 0) numbers_.reserve(std::min(most_numbers / numbers, steps) * numbers);
+  wish_large_pages(numbers_.data(), numbers_.capacity() * sizeof(double));
 }
 
-void WaitingRows::add(std::size_t series, std::span<const double> row) {
-  if (numbers_.size() + row.size() > prepared_numbers_)
-    prepared_numbers_ = prepare_ahead(numbers_, prepared_numbers_, row.size());
-  if (series_.size() + 1 > prepared_series_) prepared_series_ = prepare_ahead(series_, prepared_series_, 1);
-  if (series >= widths_.size()) widths_.resize(series + 1, 0);
-  widths_[series] = row.size();
-  numbers_.insert(numbers_.end(), row.begin(), row.end());
-  series_.push_back(static_cast<std::uint32_t>(series));
-}
-
-void WaitingRows::take_out(const std::function<void(std::size_t series, const std::vector<double>& rows)>& take) {
-  std::vector<std::size_t> last(widths_.size() + 1, 0);  // of each series' places in `order`, once they are filled
-  for (const std::uint32_t series : series_) ++last[series + 1];
-  std::partial_sum(last.begin(), last.end(), last.begin());
-  std::vector<std::uint32_t> order(series_.size());  // where rows begin, sorted by series
-  std::size_t at = 0;
-  for (const std::uint32_t series : series_) {
-    order[last[series]++] = static_cast<std::uint32_t>(at);
-    at += widths_[series];
+std::span<double> WaitingRows::open(std::size_t width) {
+  const std::size_t end = used_ + width;
+  if (end > prepared_ && end <= numbers_.capacity()) {
+    const std::size_t last = std::min(numbers_.capacity(), end + prepared_bytes / sizeof(double));
+    put_memory_behind(numbers_.data() + prepared_, (last - prepared_) * sizeof(double));
+    prepared_ = last;
   }
-  std::vector<double> rows;
-  std::size_t first = 0;
-  for (std::size_t series = 0; series < widths_.size(); ++series) {
-    rows.clear();
-    for (; first < last[series]; ++first) {
-      const auto row = numbers_.begin() + static_cast<std::ptrdiff_t>(order[first]);
-      rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(widths_[series]));
+  numbers_.resize(used_);
+  numbers_.resize(end);
+  return {numbers_.data() + used_, width};
+}
+
+void WaitingRows::add(std::size_t first, std::size_t count) {
+  used_ = numbers_.size();
+  if (!runs_.empty() && runs_.back().first + runs_.back().count == first)
+    runs_.back().count += static_cast<std::uint32_t>(count);
+  else
+    runs_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)});
+}
+
+WaitingRows::Places WaitingRows::places(const std::vector<std::size_t>& widths) const {
+  Places places;
+  std::vector<std::size_t>& last = places.last;  // of what is filled in so far
+  last.assign(widths.size() + 1, 0);
+  for (const Run& run : runs_)
+    for (std::size_t series = run.first; series < run.first + run.count; ++series) ++last[series + 1];
+  std::partial_sum(last.begin(), last.end(), last.begin());
+  places.rows.resize(last.back());
+  std::size_t at = 0;
+  for (const Run& run : runs_)
+    for (std::size_t series = run.first; series < run.first + run.count; ++series) {
+      places.rows[last[series]++] = static_cast<std::uint32_t>(at);
+      at += widths[series];
     }
-    if (!rows.empty()) take(series, rows);
+  return places;
+}
+
+void WaitingRows::take_out(const std::vector<std::size_t>& widths,
+                           const std::function<void(std::size_t series, const std::vector<double>& rows)>& take) {
+  const Places at = places(widths);
+  const auto first_of = [&](std::size_t series) { return series > 0 ? at.last[series - 1] : 0; };
+  const auto count_of = [&](std::size_t series) { return at.last[series] - first_of(series); };
+  // Rows of neighbouring series mostly lie beside each other: those of a few series are gathered at a time.
+  std::vector<std::vector<double>> gathered;
+  for (std::size_t begin = 0, end = 0; begin < widths.size(); begin = end) {
+    std::size_t most = 0, numbers = 0;
+    for (; end < widths.size() && (end == begin || numbers + count_of(end) * widths[end] <= gathered_numbers); ++end) {
+      numbers += count_of(end) * widths[end];
+      most = std::max(most, count_of(end));
+    }
+    gathered.resize(std::max(gathered.size(), end - begin));
+    for (std::size_t series = begin; series < end; ++series) gathered[series - begin].clear();
+    for (std::size_t k = 0; k < most; ++k)
+      for (std::size_t series = begin; series < end; ++series) {
+        if (k >= count_of(series)) continue;
+        const auto row = numbers_.begin() + static_cast<std::ptrdiff_t>(at.rows[first_of(series) + k]);
+        std::vector<double>& rows = gathered[series - begin];
+        rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(widths[series]));
+      }
+    for (std::size_t series = begin; series < end; ++series)
+      if (!gathered[series - begin].empty()) take(series, gathered[series - begin]);
   }
   numbers_.clear();
-  series_.clear();
+  used_ = 0;
+  runs_.clear();
 }
 
 }  // namespace hersey::results

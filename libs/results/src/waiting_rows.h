@@ -11,28 +11,43 @@ namespace hersey::results {
 /// Rows of many series in the order they came, until they are taken out series by series.
 ///
 /// A machine of a thousand bodies hands over thousands of short rows a step: kept in one piece of memory they cost
-/// little more than their copying.
+/// little more than their copying, and of rows of neighbouring series it is kept only where they begin.
 class WaitingRows {
  public:
   static constexpr std::size_t most_numbers = std::size_t{1} << 25;  // 256 MiB
 
-  /// Makes room for as many steps of `series` rows and `numbers` numbers as fit, so that rows need not be moved.
-  void expect(std::size_t series, std::size_t numbers, std::size_t steps);
+  /// Makes room for as many steps of `numbers` numbers as fit, so that rows need not be moved.
+  void expect(std::size_t numbers, std::size_t steps);
 
-  /// @param row  not empty, always as wide for one series
-  void add(std::size_t series, std::span<const double> row);
+  /// Room for `width` numbers, zeros, which count once they are added; a second call forgets the first.
+  [[nodiscard]] std::span<double> open(std::size_t width);
+  /// Adds what was opened last: a row of each of `count` series from `first` on, one after the other.
+  void add(std::size_t first, std::size_t count);
 
-  [[nodiscard]] std::size_t numbers() const { return numbers_.size(); }
-  [[nodiscard]] bool has_room_for(std::size_t count) const { return numbers_.size() + count <= most_numbers; }
+  [[nodiscard]] std::size_t numbers() const { return used_; }
+  [[nodiscard]] bool has_room_for(std::size_t count) const { return used_ + count <= most_numbers; }
 
   /// Gives all rows of one series at a time, in the series' order, and forgets them.
-  void take_out(const std::function<void(std::size_t series, const std::vector<double>& rows)>& take);
+  /// @param widths  numbers per row of each series
+  void take_out(const std::vector<std::size_t>& widths,
+                const std::function<void(std::size_t series, const std::vector<double>& rows)>& take);
 
  private:
-  std::vector<std::size_t> widths_;  // numbers per row of each series
+  /// Rows of series that follow each other.
+  struct Run {
+    std::uint32_t first = 0, count = 0;
+  };
+  /// Where each row begins, sorted by series.
+  struct Places {
+    std::vector<std::uint32_t> rows;  // in numbers_
+    std::vector<std::size_t> last;    // of each series in `rows`
+  };
+  [[nodiscard]] Places places(const std::vector<std::size_t>& widths) const;
+
   std::vector<double> numbers_;
-  std::vector<std::uint32_t> series_;                       // of each row
-  std::size_t prepared_numbers_ = 0, prepared_series_ = 0;  // up to which memory is there, not just promised
+  std::size_t used_ = 0;  // of numbers_; what lies behind is open
+  std::vector<Run> runs_;
+  std::size_t prepared_ = 0;  // numbers up to which memory is there, not just promised
 };
 
 }  // namespace hersey::results

@@ -43,7 +43,6 @@ struct Growing {
   std::string name;
   Handle dataset;
   std::vector<hsize_t> shape;  // shape[0] rows are in it
-  std::size_t width;           // numbers per row
 };
 
 std::size_t numbers_of(const std::vector<std::size_t>& shape) {
@@ -98,7 +97,9 @@ struct Writer::Impl {
   Handle file;
   std::optional<DimensionScales> scales;
   std::vector<Growing> growing;
+  std::vector<std::size_t> widths;        // numbers per row of each; in memory too
   WaitingRows waiting;                    // not in the file yet
+  std::vector<double> open_rows;          // of a block that is being filled in; in memory
   bool expects_rows = false;              // room for them is made
   std::unordered_set<std::string> names;  // of groups and datasets made so far
   std::string parent_name = "/";          // of the group opened last
@@ -112,6 +113,7 @@ struct Writer::Impl {
                    std::vector<std::size_t> row_shape, std::string_view dimension) {
     LatestRow row{absolute(name), std::string(unit), std::string(description), std::move(row_shape), {}, {}};
     if (row.shape.size() == 1) row.components = names_of(row.shape.front(), dimension);
+    widths.push_back(numbers_of(row.shape));
     latest.push_back(std::move(row));
     return latest.size() - 1;
   }
@@ -312,20 +314,20 @@ struct Writer::Impl {
   std::size_t make_growing(std::string_view name, const std::vector<hsize_t>& row_shape, std::string_view unit,
                            std::string_view description, Precision precision, std::vector<std::string> dimensions) {
     const Clock::time_point began = Clock::now();
-    Growing entry{absolute(name), {}, {0}, 1};
+    Growing entry{absolute(name), {}, {0}};
+    std::size_t width = 1;
     for (const hsize_t n : row_shape) {
       HERSEY_REQUIRE(n > 0, "a row has numbers");
       entry.shape.push_back(n);
-      entry.width *= n;
+      width *= n;
     }
     std::vector<hsize_t> largest = entry.shape, chunk = entry.shape;
     largest[0] = H5S_UNLIMITED;
-    chunk[0] = chunk_rows(entry.width);
+    chunk[0] = chunk_rows(width);
     const int rank = static_cast<int>(entry.shape.size());
     const Handle space(H5Screate_simple(rank, entry.shape.data(), largest.data()));
     const hid_t type = precision == Precision::float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-    entry.dataset =
-        make_dataset(name, type, space.get(), creation_of(chunk), access_of(8 * entry.width), unit, description);
+    entry.dataset = make_dataset(name, type, space.get(), creation_of(chunk), access_of(8 * width), unit, description);
     const std::string rows = scales->of_rows(entry.name);
     if (rows == entry.name && row_shape.empty()) make_scale(entry.dataset, rows);
     if (scales->has(rows) && rows != entry.name) {
@@ -333,35 +335,52 @@ struct Writer::Impl {
       name_dimensions(entry.dataset, entry.name, dimensions);
     }
     growing.push_back(std::move(entry));
+    widths.push_back(width);
     flush_cost += std::chrono::duration<double>(Clock::now() - began).count();
     return growing.size() - 1;
   }
 
-  void take(std::size_t series, std::span<const double> row) {
+  /// Room for a row, or for rows that are handed over together.
+  std::span<double> open_row(std::size_t width) {
+    if (in_memory) {
+      open_rows.assign(width, 0);
+      return open_rows;
+    }
+    require_open();
     if (!expects_rows) expect_rows();
-    if (!waiting.has_room_for(row.size())) {
+    if (!waiting.has_room_for(width)) {
       const Hdf5Session session;
       drain();
     }
-    waiting.add(series, row);
+    return waiting.open(width);
+  }
+
+  /// What was opened last is a row of each of these series.
+  void add_open_row(std::size_t first, std::size_t count) {
+    if (!in_memory) return waiting.add(first, count);
+    auto at = open_rows.begin();
+    for (std::size_t series = first; series < first + count; ++series) {
+      const auto end = at + static_cast<std::ptrdiff_t>(widths[series]);
+      latest[series].values.assign(at, end);
+      at = end;
+    }
   }
 
   void expect_rows() {
-    std::size_t numbers = 0;
-    for (const Growing& entry : growing) numbers += entry.width;
-    waiting.expect(growing.size(), numbers, options.rows + 2);
+    waiting.expect(std::accumulate(widths.begin(), widths.end(), std::size_t{0}), options.rows + 2);
     expects_rows = true;
   }
 
   /// Hands the rows to HDF5, one series after the other; they are safe only after H5Fflush.
   void drain() {
-    waiting.take_out([this](std::size_t series, const std::vector<double>& rows) { add_rows(growing[series], rows); });
+    waiting.take_out(widths, [this](std::size_t series, const std::vector<double>& rows) { add_rows(series, rows); });
   }
 
-  void add_rows(Growing& entry, const std::vector<double>& rows) {
+  void add_rows(std::size_t series, const std::vector<double>& rows) {
+    Growing& entry = growing[series];
     std::vector<hsize_t> start(entry.shape.size(), 0), count = entry.shape;
     start[0] = entry.shape[0];
-    count[0] = rows.size() / entry.width;
+    count[0] = rows.size() / widths[series];
     entry.shape[0] += count[0];
     bool good = H5Dset_extent(entry.dataset.get(), entry.shape.data()) >= 0;
     const Handle space(H5Dget_space(entry.dataset.get()));
@@ -557,22 +576,32 @@ Series Writer::field(std::string_view path, std::array<int, 2> shape, std::strin
 void Series::append(std::span<const double> row) const {
   HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
   Writer::Impl& impl = *writer_->impl_;
-  if (impl.in_memory) {
-    impl.latest[index_].values.assign(row.begin(), row.end());
-    return;
-  }
-  impl.require_open();
-  const std::size_t width = impl.growing[index_].width;
+  const std::size_t width = impl.widths[index_];
   HERSEY_REQUIRE(row.size() == width, fmt::format("a row of {} numbers was given, {} are due", row.size(), width));
-  impl.take(index_, row);
+  std::copy(row.begin(), row.end(), impl.open_row(width).begin());
+  impl.add_open_row(index_, 1);
 }
 
 std::size_t Series::width() const {
   HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
-  const Writer::Impl& impl = *writer_->impl_;
-  if (impl.in_memory) return numbers_of(impl.latest.at(index_).shape);
-  return impl.growing.at(index_).width;
+  return writer_->impl_->widths.at(index_);
 }
+
+void SeriesBlock::add(const Series& series) {
+  HERSEY_REQUIRE(series.writer_ != nullptr, "a series comes from Writer::series");
+  if (count_ == 0) writer_ = series.writer_, first_ = series.index_;
+  HERSEY_REQUIRE(series.writer_ == writer_ && series.index_ == first_ + count_,
+                 "series of a block are declared one right after the other");
+  ++count_;
+  width_ += series.width();
+}
+
+std::span<double> SeriesBlock::open() const {
+  HERSEY_REQUIRE(count_ > 0, "a block has series");
+  return writer_->impl_->open_row(width_);
+}
+
+void SeriesBlock::close() const { writer_->impl_->add_open_row(first_, count_); }
 
 const std::vector<LatestRow>& Writer::latest() const { return impl_->latest; }
 
@@ -593,15 +622,15 @@ void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::stri
   const Hdf5Session session;
   impl_->drain();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    Growing& entry = impl_->growing[i];
+    const Growing& entry = impl_->growing[i];
     const auto& [name, count] = rows[i];
     if (name != entry.name || !from.has(name)) throw ReadError(from.path(), "it lacks " + entry.name);
-    const std::size_t block = std::max<std::size_t>(1, block_numbers / entry.width);
+    const std::size_t width = impl_->widths[i], block = std::max<std::size_t>(1, block_numbers / width);
     for (std::size_t first = 0; first < count; first += block) {
       const std::size_t size = std::min(block, count - first);
       const Array part = from.read_rows(name, first, size);
-      if (part.values.size() != size * entry.width) throw ReadError(from.path(), "it lacks rows of " + name);
-      impl_->add_rows(entry, part.values);
+      if (part.values.size() != size * width) throw ReadError(from.path(), "it lacks rows of " + name);
+      impl_->add_rows(i, part.values);
     }
   }
   flush();

@@ -176,6 +176,35 @@ TEST_CASE("GrowingFile_IsReadableBetweenFlushes") {
   CHECK(reader.read("/time").values.back() == 599);
 }
 
+TEST_CASE("SeriesBlock_GivesEachSeriesItsRow") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5";
+  Writer file(path), memory(InMemory{});
+  for (Writer* writer : {&file, &memory}) {
+    SeriesBlock block;
+    const Series time = writer->series("/time", 1, "s", "time");
+    block.add(writer->series("/force", 3, "N", "force"));
+    block.add(writer->series("/power", 1, "W", "power"));
+    CHECK(block.width() == 4);
+    for (const double t : {1.0, 2.0}) {
+      time.append(t);
+      block.append([&](std::span<double> row) {
+        for (std::size_t i = 0; i < row.size(); ++i) row[i] = t + 10.0 * static_cast<double>(i);
+      });
+    }
+    const auto give_up = [](std::span<double>) { throw std::runtime_error("no numbers"); };
+    CHECK_THROWS_AS(block.append(give_up), std::runtime_error);
+    CHECK_THROWS_WITH_AS(block.add(time), doctest::Contains("one right after the other"), ContractError);
+  }
+  file.finish(Status::completed);
+  const Reader reader(path);
+  CHECK(reader.read("/force").values == std::vector{1.0, 11.0, 21.0, 2.0, 12.0, 22.0});
+  CHECK(reader.read("/power").values == std::vector{31.0, 32.0});
+  CHECK(reader.read("/time").values == std::vector{1.0, 2.0});
+  CHECK(memory.latest()[1].values == std::vector{2.0, 12.0, 22.0});
+  CHECK(memory.latest()[2].values == std::vector{32.0});
+}
+
 TEST_CASE("FlushIfDue_WaitsForItsInterval") {
   const TemporaryDirectory directory;
   const auto eager = directory / "eager.h5", lazy = directory / "lazy.h5";

@@ -39,7 +39,7 @@ ElasticAssembly::Freedom ElasticAssembly::freedom_of(JointId joint, const Pose& 
   const JointPlace& place = tree.joints[static_cast<std::size_t>(joint.index)];
   if (place.closure >= 0) return {};
   const auto q_of = [&](std::size_t value) {
-    return tree.links[static_cast<std::size_t>(place.value_link[value])].first_q;
+    return tree.links[static_cast<std::size_t>(place.values[value].link)].first_q;
   };
   // Reversed, the chain runs ball, z, y, x.
   return {std::min(q_of(0), q_of(2)), q_of(3), place.reversed, rest.R};

@@ -24,7 +24,7 @@ struct Assembly {
   const Tree& tree;
   const TreeMotion& motion;
   const solver::Stage& stage;
-  const std::vector<Direction>& directions;
+  const std::vector<Direction>& directions;  ///< of this motion where there is a tangent
   Eigen::VectorXd& residual;
   Eigen::VectorXd& scale;
   solver::Equations::SparseMatrix* tangent;

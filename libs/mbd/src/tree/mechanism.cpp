@@ -103,7 +103,7 @@ void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd
     std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
   }
   m.motion.update(state);
-  compute_directions(m.tree, m.motion, stage, m.directions);
+  if (tangent) compute_directions(m.tree, m.motion, stage, m.directions);
   Assembly assembly{m.tree, m.motion, stage, m.directions, residual, scale, tangent};
   m.inertia.add(assembly);
   m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.prepare(assembly, state); });

@@ -102,17 +102,16 @@ void MechanismParts::observe_joint_coordinates(const solver::State& state, Obser
     const JointSpec& joint = spec.joints[j];
     const JointPlace& place = tree.joints[j];
     JointObservation& o = seen.joints[j];
-    if (place.value_link.empty()) {
+    if (place.value_count == 0) {
       const Pair pair{tree.frames[joint.inboard.index], tree.frames[joint.outboard.index], {}};
       measure_joint(joint.type, joint.axis, motion.relative(pair), o);
       continue;
     }
-    const auto n = static_cast<Eigen::Index>(place.value_link.size());
-    o.position.resize(n);
-    o.rate.resize(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Link& link = tree.links[place.value_link[i]];
-      const int c = place.value_component[i];
+    o.position.resize(place.value_count);
+    o.rate.resize(place.value_count);
+    for (int i = 0; i < place.value_count; ++i) {
+      const auto [l, c] = place.values[i];
+      const Link& link = tree.links[l];
       if (link.motion != Motion::ball) {
         o.position[i] = state.q[link.first_q];
         o.rate[i] = state.v[link.first_v];
@@ -167,7 +166,7 @@ void MechanismParts::observe_reactions(const solver::State& state, Observation& 
   const auto body_of = [&](FrameId frame) { return spec.frames[frame.index].body.index; };
   for (int b : tree.body_order) {
     const Attachment& at = tree.bodies[b];
-    need[b] = inertia_forces(spec.bodies[b], motion.pose(at), motion.V(at.link), motion.A(at.link));
+    need[b] = inertia_forces(spec.bodies[b], seen.bodies[b].X_WF, motion.V(at.link), motion.A(at.link));
   }
   for (std::size_t i = 0; i < loads.size(); ++i) need[body_of(spec.loads[i].frame)] -= loads[i].wrench(motion, state);
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {

@@ -27,12 +27,12 @@ Matrix6 shift_by(const Vector3& arm) {
 
 /// Onto what does no work on any motion the joint allows.
 Matrix6 across_motions(const Tree& tree, const TreeMotion& motion, const JointPlace& place, const Vector3& p) {
-  const auto n = static_cast<Index>(place.value_link.size());
+  const Index n = std::clamp(place.value_count, 0, 6);  // a compiler that does not know so warns of copies of any size
   if (n == 0) return Matrix6::Identity();
   Basis motions(6, n);
   for (Index i = 0; i < n; ++i) {
-    const Link& link = tree.links[place.value_link[i]];
-    Vector6 J = motion.J(link.first_v + place.value_component[i]);
+    const ValuePlace& at = place.values[i];
+    Vector6 J = motion.J(tree.links[at.link].first_v + at.component);
     J.tail<3>() += J.head<3>().cross(p);
     J.head<3>() *= tree.length;
     motions.col(i) = J;
@@ -149,7 +149,7 @@ void SharedReactions::place(const MechanismSpec& spec, const Tree& tree, const T
   for (Joint& joint : joints_) {
     const Vector3 p = motion.pose(tree.frames[spec.joints[joint.index].inboard.index]).r;
     const JointPlace& where = tree.joints[joint.index];
-    const bool plain = where.value_link.empty() && where.closure >= 0;
+    const bool plain = where.value_count == 0 && where.closure >= 0;
     joint.P =
         plain ? of_closure(tree, tree.closures[where.closure], motion, p) : across_motions(tree, motion, where, p);
     joint.to_inboard = shift_to(joint.inboard, p);

@@ -172,11 +172,7 @@ class TreeBuilder {
   Attachment add_chain(int joint, int body, std::vector<Element> elements, bool reversed, Attachment base) {
     if (reversed) std::reverse(elements.begin(), elements.end());
     JointPlace* const where = joint >= 0 ? &tree_.joints[joint] : nullptr;
-    if (where) {
-      const int n = degrees_of_freedom(spec_.joints[joint].type);
-      where->value_link.assign(n, 0);
-      where->value_component.assign(n, 0);
-    }
+    if (where) where->value_count = degrees_of_freedom(spec_.joints[joint].type);
     for (const Element& e : elements) {
       Link link;
       link.parent = base.link;
@@ -190,10 +186,7 @@ class TreeBuilder {
       link.value = e.value;
       link.reversed = reversed;
       const int index = static_cast<int>(tree_.links.size());
-      for (int c = 0; where && c < link.columns; ++c) {
-        where->value_link[e.value + c] = index;
-        where->value_component[e.value + c] = c;
-      }
+      for (int c = 0; where && c < link.columns; ++c) where->values[e.value + c] = {index, c};
       tree_.links.push_back(link);
       depth_.push_back(depth_[link.parent] + link.columns);
       base = {index, Pose{}};
@@ -330,9 +323,9 @@ Tree build_tree(const MechanismSpec& spec) { return TreeBuilder(spec).build(); }
 
 int column_of(const Tree& tree, const CoordinateRef& coordinate) {
   const JointPlace& place = tree.joints[coordinate.joint.index];
-  HERSEY_REQUIRE(0 <= coordinate.value && coordinate.value < static_cast<int>(place.value_link.size()),
+  HERSEY_REQUIRE(0 <= coordinate.value && coordinate.value < place.value_count,
                  "the joint has a coordinate of that number");
-  const Link& link = tree.links[place.value_link[coordinate.value]];
+  const Link& link = tree.links[place.values[coordinate.value].link];
   HERSEY_REQUIRE(link.motion != Motion::ball, "orientations are not scalar coordinates");
   return link.first_v;
 }

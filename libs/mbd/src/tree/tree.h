@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "hersey/mbd/mechanism_spec.h"
@@ -75,11 +76,16 @@ struct Cut {
   bool reversed = false;  ///< it is the inboard one
 };
 
-/// Where a user's joint went.
+/// Where a value of a joint went: a component of a link's motion.
+struct ValuePlace {
+  int link = 0, component = 0;
+};
+
+/// Where a user's joint went. In one piece, for whoever looks at thousands of joints in a row.
 struct JointPlace {
-  std::vector<int> value_link;       ///< link of each value; empty for a plain closing joint
-  std::vector<int> value_component;  ///< component within the link's motion
-  int closure = -1;                  ///< index of its constraints if it closes a loop
+  std::array<ValuePlace, 6> values;
+  int value_count = 0;  ///< none of a plain closing joint
+  int closure = -1;     ///< index of its constraints if it closes a loop
   bool reversed = false;
   int outboard_body = -1;  ///< for tree joints: the body beyond the joint, seen from ground; ids' index
 };

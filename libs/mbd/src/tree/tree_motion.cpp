@@ -1,6 +1,17 @@
 #include "tree/tree_motion.h"
 
+#include <cstring>
+
 namespace hersey::mbd {
+namespace {
+
+/// Bit for bit: 0 and -0 give different motions.
+bool are_same(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+}  // namespace
 
 TreeMotion::TreeMotion(const Tree& tree, const Vector3& gravity)
     : tree_(tree),
@@ -51,7 +62,29 @@ void TreeMotion::place(int l, const solver::State& state) {
   }
 }
 
+bool TreeMotion::is_at(const solver::State& state) const {
+  return is_whole_ && are_same(q_, state.q) && are_same(v_, state.v) && are_same(vdot_, state.vdot);
+}
+
+void TreeMotion::update(const solver::State& state) {
+  if (is_at(state)) return;
+  update_positions(state);
+  update_velocities(state);
+  update_accelerations(state);
+  q_ = state.q, v_ = state.v, vdot_ = state.vdot;
+  is_whole_ = true;
+}
+
+void TreeMotion::update(const solver::State& state, const std::vector<int>& links) {
+  is_whole_ = false;
+  for (const int l : links) {
+    place(l, state);
+    move(l, state);
+  }
+}
+
 void TreeMotion::update_positions(const solver::State& state) {
+  is_whole_ = false;
   for (int l = 1; l < static_cast<int>(tree_.links.size()); ++l) place(l, state);
 }
 
@@ -62,10 +95,12 @@ void TreeMotion::move(int l, const solver::State& state) {
 }
 
 void TreeMotion::update_velocities(const solver::State& state) {
+  is_whole_ = false;
   for (int l = 1; l < static_cast<int>(tree_.links.size()); ++l) move(l, state);
 }
 
 void TreeMotion::update_accelerations(const solver::State& state, bool zero_vdot) {
+  is_whole_ = false;
   for (std::size_t l = 1; l < tree_.links.size(); ++l) {
     const Link& link = tree_.links[l];
     // Each column turns with its link: Jdot = V x J, and V x (V - V_parent) = -V x V_parent.

@@ -23,19 +23,11 @@ class TreeMotion {
   void update_velocities(const solver::State& state);
   /// @param zero_vdot  take vdot = 0: accelerations due to velocities (and gravity) alone.
   void update_accelerations(const solver::State& state, bool zero_vdot = false);
-  void update(const solver::State& state) {
-    update_positions(state);
-    update_velocities(state);
-    update_accelerations(state);
-  }
+  /// All three; nothing where it is at that state already, as an accepted step leaves it for those who look at it.
+  void update(const solver::State& state);
 
   /// Poses and velocities of these links alone, given from ground outwards.
-  void update(const solver::State& state, const std::vector<int>& links) {
-    for (const int l : links) {
-      place(l, state);
-      move(l, state);
-    }
-  }
+  void update(const solver::State& state, const std::vector<int>& links);
 
   [[nodiscard]] const Pose& X(int link) const { return X_[link]; }
   [[nodiscard]] const Vector6& V(int link) const { return V_[link]; }
@@ -50,10 +42,13 @@ class TreeMotion {
  private:
   void place(int l, const solver::State& state);
   void move(int l, const solver::State& state);
+  [[nodiscard]] bool is_at(const solver::State& state) const;
 
   const Tree& tree_;
   std::vector<Pose> X_;
   std::vector<Vector6> V_, A_, J_;
+  Eigen::VectorXd q_, v_, vdot_;  // of the state that all links are at, where they are at one
+  bool is_whole_ = false;
 };
 
 }  // namespace hersey::mbd

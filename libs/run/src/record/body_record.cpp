@@ -22,8 +22,8 @@ const QuantityTable<mbd::FrameMotion, BodyRecord::Plan>& BodyRecord::table() {
   return table;
 }
 
-BodyRecord::BodyRecord(const std::string& name, results::Writer& writer)
-    : rows_(table(), "/bodies/" + name + "/", {}, writer) {}
+BodyRecord::BodyRecord(const std::string& name, const BodyRecord* other, results::Writer& writer)
+    : rows_(table(), "/bodies/" + name + "/", {}, writer, other != nullptr ? &other->rows_ : nullptr) {}
 
 void BodyRecord::describe(QuantityGroup& group) { run::describe(table(), "n", group); }
 

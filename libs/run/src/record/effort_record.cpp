@@ -35,15 +35,20 @@ const EffortRecord::Table& EffortRecord::of_forces() {
 }
 
 EffortRecord::EffortRecord(const mbd::MechanismSpec& spec, results::Writer& writer) {
-  const auto plan = [&](const mbd::CoordinateRef& on) {
-    return Coordinate{is_rotational(spec.joints[static_cast<std::size_t>(on.joint.index)], on.value)};
+  const auto add = [&](std::vector<Rows>& rows, const Table& table, const std::string& group,
+                       const mbd::CoordinateRef& on) {
+    const Coordinate plan{is_rotational(spec.joints[static_cast<std::size_t>(on.joint.index)], on.value)};
+    rows.emplace_back(table, group, plan, writer, rows.empty() ? nullptr : &rows.front());
   };
+  drives_.reserve(spec.drives.size());
+  couplings_.reserve(spec.couplings.size());
+  forces_.reserve(spec.coordinate_forces.size());
   for (const mbd::DriveSpec& drive : spec.drives)
-    drives_.emplace_back(of_drives(), "/drives/" + drive.name + "/", plan(drive.coordinate), writer);
+    add(drives_, of_drives(), "/drives/" + drive.name + "/", drive.coordinate);
   for (const mbd::CouplingSpec& coupling : spec.couplings)
-    couplings_.emplace_back(of_couplings(), "/couplings/" + coupling.name + "/", plan(coupling.output), writer);
+    add(couplings_, of_couplings(), "/couplings/" + coupling.name + "/", coupling.output);
   for (const mbd::MechanismSpec::CoordinateForce& force : spec.coordinate_forces)
-    forces_.emplace_back(of_forces(), "/joint_forces/" + force.name + "/", plan(force.coordinate), writer);
+    add(forces_, of_forces(), "/joint_forces/" + force.name + "/", force.coordinate);
 }
 
 void EffortRecord::append(const mbd::Observation& seen) const {

@@ -25,11 +25,12 @@ class EffortRecord {
     bool is_rotational = false;
   };
   using Table = QuantityTable<Effort, Coordinate>;
+  using Rows = QuantityRows<Effort, Coordinate>;
   [[nodiscard]] static const Table& of_drives();
   [[nodiscard]] static const Table& of_couplings();
   [[nodiscard]] static const Table& of_forces();
 
-  std::vector<QuantityRows<Effort, Coordinate>> drives_, couplings_, forces_;
+  std::vector<Rows> drives_, couplings_, forces_;
 };
 
 }  // namespace hersey::run

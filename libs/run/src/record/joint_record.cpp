@@ -69,12 +69,13 @@ const std::vector<Attribute<mbd::JointSpec>>& joint_name_attributes() {
 
 std::string group_of(const mbd::JointSpec& joint) { return "/joints/" + joint.name + "/"; }
 
-QuantityRows<mbd::JointObservation, mbd::JointSpec> declare_joint(const mbd::JointSpec& joint,
-                                                                  results::Writer& writer) {
+using JointRows = QuantityRows<mbd::JointObservation, mbd::JointSpec>;
+
+JointRows declare_joint(const mbd::JointSpec& joint, const JointRows* other, results::Writer& writer) {
   if (degrees_of(joint) > 1)
     writer.labels(group_of(joint) + "coordinate", coordinate_names(joint), "joint coordinates");
   write_once(joint_name_attributes(), group_of(joint), joint, writer);
-  return {joint_quantities(), group_of(joint), joint, writer};
+  return {joint_quantities(), group_of(joint), joint, writer, other};
 }
 
 }  // namespace
@@ -86,7 +87,8 @@ bool is_rotational(const mbd::JointSpec& joint, int value) {
   return false;
 }
 
-JointRecord::JointRecord(const mbd::JointSpec& joint, results::Writer& writer) : rows_(declare_joint(joint, writer)) {}
+JointRecord::JointRecord(const mbd::JointSpec& joint, const JointRecord* other, results::Writer& writer)
+    : rows_(declare_joint(joint, other != nullptr ? &other->rows_ : nullptr, writer)) {}
 
 void JointRecord::describe(QuantityGroup& group) {
   run::describe(joint_name_attributes(), "n", group);

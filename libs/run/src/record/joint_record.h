@@ -11,7 +11,8 @@ namespace hersey::run {
 /// Coordinates and reactions of one joint in the results file.
 class JointRecord {
  public:
-  JointRecord(const mbd::JointSpec& joint, results::Writer& writer);
+  /// @param other  of another joint, to share what is the same; null: there is none
+  JointRecord(const mbd::JointSpec& joint, const JointRecord* other, results::Writer& writer);
   void append(const mbd::JointObservation& seen) const { rows_.append(seen); }
   /// Adds its series.
   static void describe(QuantityGroup& group);

@@ -1,7 +1,5 @@
 #include "record/observe_step.h"
 
-#include <algorithm>
-
 #include "hersey/core/task_pool.h"
 #include "hersey/mbd/mechanism.h"
 
@@ -14,14 +12,6 @@ mbd::ContactObservation in_ground(mbd::ContactObservation seen, const Pose& X_WA
   seen.friction = X_WA.R * seen.friction;
   seen.position = X_WA * seen.position;
   return seen;
-}
-
-// The largest violation of a constraint, relative to the lengths or angles it compares.
-double constraint_drift(mbd::Mechanism& mechanism, const solver::State& state) {
-  if (mechanism.nlambda() == 0) return 0;
-  Eigen::VectorXd phi, scale;
-  mechanism.constraints(state, phi, scale, nullptr);
-  return phi.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace
@@ -41,8 +31,7 @@ StepRecord observe_step(const model::Machine& machine, const solver::State& stat
   mbd::Mechanism& mechanism = *machine.mechanism;
   StepRecord record;
   record.mechanism = mechanism.observe(state);
-  // The mechanism's own figure also looks at rows left out as redundant.
-  record.constraint_drift = std::max(constraint_drift(mechanism, state), record.mechanism.constraint_drift);
+  record.constraint_drift = record.mechanism.constraint_drift;
   for (const model::BuiltBearing& bearing : machine.bearings)
     record.journal_motions.push_back(mechanism.relative_motion(state, bearing.force));
   record.bearings.resize(machine.bearings.size());

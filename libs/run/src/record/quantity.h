@@ -1,8 +1,13 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -74,11 +79,15 @@ class Quantity {
     columns_ = columns_of<Row>();
     HERSEY_REQUIRE((columns_ == 0) == static_cast<bool>(more_.extent.shape), "a row has one shape: " + name);
     HERSEY_REQUIRE(!is_family || more_.each, "a family has names: " + name);
-    append_ = [value](const Thing& thing, std::size_t k, const results::Series& series) {
-      if constexpr (std::is_arithmetic_v<Row>)
-        series.append(static_cast<double>(value(thing, k)));
-      else
-        series.append(value(thing, k));
+    fill_in_ = [value](const Thing& thing, std::size_t k, std::span<double> row) {
+      if constexpr (std::is_arithmetic_v<Row>) {
+        row.front() = static_cast<double>(value(thing, k));
+      } else {
+        const auto& numbers = value(thing, k);
+        const auto width = static_cast<std::size_t>(numbers.size());
+        HERSEY_REQUIRE(width == row.size(), fmt::format("{} numbers were given, {} are due", width, row.size()));
+        std::copy_n(numbers.data(), width, row.begin());
+      }
     };
     const bool is_numbered = columns_ == 0 && more_.extent.dimensions.empty();
     info_ = {.name = name,
@@ -110,12 +119,12 @@ class Quantity {
     if (shape.size() == 2) return writer.field(path, {shape[0], shape[1]}, unit, text, {dimensions[0], dimensions[1]});
     return writer.series(path, shape[0], unit, text, more_.precision, dimensions[0]);
   }
-  void append(const Thing& thing, std::size_t k, const results::Series& series) const { append_(thing, k, series); }
+  void fill_in(const Thing& thing, std::size_t k, std::span<double> row) const { fill_in_(thing, k, row); }
 
  private:
   More<Plan> more_;
   int columns_ = 0;
-  std::function<void(const Thing&, std::size_t, const results::Series&)> append_;
+  std::function<void(const Thing&, std::size_t, std::span<double>)> fill_in_;
   QuantityInfo info_;
 };
 
@@ -206,32 +215,48 @@ void write_once(const std::vector<Line>& table, const std::string& group, const 
 }
 
 /// The series of one thing in the results file.
+///
+/// Of thousands of things of one kind, all that a step walks through fits into what a processor holds close to itself:
+/// things with the same series share what tells them.
 template <class Thing, class Plan>
 class QuantityRows {
  public:
   /// Declares those that the thing has.
   /// @param table  outlives this
   /// @param group  of the thing, ends with "/"
+  /// @param other  of the same table, of a thing that may have the same series
   QuantityRows(const QuantityTable<Thing, Plan>& table, const std::string& group, const Plan& plan,
-               results::Writer& writer) {
+               results::Writer& writer, const QuantityRows* other = nullptr) {
+    std::vector<Entry> entries;
     for (const Quantity<Thing, Plan>& quantity : table) {
       const std::vector<std::string> names = quantity.names(plan);
-      for (std::size_t k = 0; k < names.size(); ++k)
-        entries_.push_back({&quantity, k, quantity.declare(group, names[k], k, plan, writer)});
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        const results::Series series = quantity.declare(group, names[k], k, plan, writer);
+        entries.push_back({&quantity, k, block_.width(), series.width()});
+        block_.add(series);
+      }
     }
+    const bool is_like_other = other != nullptr && *other->entries_ == entries;
+    entries_ = is_like_other ? other->entries_ : std::make_shared<const std::vector<Entry>>(std::move(entries));
   }
   /// Adds a row to each.
   void append(const Thing& thing) const {
-    for (const Entry& entry : entries_) entry.quantity->append(thing, entry.place, entry.series);
+    if (entries_->empty()) return;
+    block_.append([&](std::span<double> rows) {
+      for (const Entry& entry : *entries_)
+        entry.quantity->fill_in(thing, entry.place, rows.subspan(entry.begin, entry.width));
+    });
   }
 
  private:
   struct Entry {
     const Quantity<Thing, Plan>* quantity;
     std::size_t place;  ///< in a family
-    results::Series series;
+    std::size_t begin, width;
+    bool operator==(const Entry&) const = default;
   };
-  std::vector<Entry> entries_;
+  std::shared_ptr<const std::vector<Entry>> entries_;
+  results::SeriesBlock block_;
 };
 
 /// Adds what is said of all lines of a table to `group`.

@@ -80,8 +80,11 @@ void Recorder::declare() {
   shown_bodies_ = places_of_shown(hidden.bodies);
   shown_joints_ = places_of_shown(hidden.joints);
   system_.emplace(model_, writer_);
-  for (const std::size_t i : shown_bodies_) bodies_.emplace_back(spec.bodies[i].name, writer_);
-  for (const std::size_t i : shown_joints_) joints_.emplace_back(spec.joints[i], writer_);
+  bodies_.reserve(shown_bodies_.size());
+  joints_.reserve(shown_joints_.size());
+  const auto last_of = [](const auto& records) { return records.empty() ? nullptr : &records.back(); };
+  for (const std::size_t i : shown_bodies_) bodies_.emplace_back(spec.bodies[i].name, last_of(bodies_), writer_);
+  for (const std::size_t i : shown_joints_) joints_.emplace_back(spec.joints[i], last_of(joints_), writer_);
   efforts_.emplace(spec, writer_);
   for (const model::BuiltFlexible& body : machine_.flexibles) flexibles_.emplace_back(body, writer_);
   surface_loads_.emplace(machine_, writer_);

@@ -70,9 +70,35 @@ class Series {
 
  private:
   friend class Writer;
+  friend class SeriesBlock;
   Series(Writer* writer, std::size_t index) : writer_(writer), index_(index) {}
   Writer* writer_ = nullptr;
   std::size_t index_ = 0;
+};
+
+/// Series that get their rows together: what a thing of a machine of thousands shows is handed over in one piece.
+class SeriesBlock {
+ public:
+  /// Adds a series, declared right after the one added before. @throws ContractError where it is not
+  void add(const Series& series);
+
+  [[nodiscard]] std::size_t width() const { return width_; }  ///< numbers per row of all of them
+
+  /// Adds one row to each, in memory until the next flush.
+  /// @param fill  called with width() numbers, zeros, to be filled in series after series; throws: nothing is added
+  /// @throws WriteError once the file has failed.
+  template <class Fill>
+  void append(Fill fill) const {
+    fill(open());
+    close();
+  }
+
+ private:
+  [[nodiscard]] std::span<double> open() const;
+  void close() const;
+
+  Writer* writer_ = nullptr;
+  std::size_t first_ = 0, count_ = 0, width_ = 0;
 };
 
 /// Writes one results file (HDF5; layout in docs/results-file.md) while the run goes on.
@@ -170,6 +196,7 @@ class Writer {
 
  private:
   friend class Series;
+  friend class SeriesBlock;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
