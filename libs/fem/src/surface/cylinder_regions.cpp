@@ -47,13 +47,19 @@ std::vector<Vector3> points_of(const Mesh& mesh, const SurfaceFacets& surface, c
 class CylinderFinder {
  public:
   CylinderFinder(const Mesh& mesh, const SurfaceFacets& surface, double size, std::vector<char>& taken)
-      : mesh_(mesh), surface_(surface), size_(size), taken_(taken), seen_(surface.facets.size(), 0) {}
+      : mesh_(mesh),
+        surface_(surface),
+        size_(size),
+        taken_(taken),
+        seen_(surface.facets.size(), 0),
+        too_short_(surface.facets.size(), 0) {}
 
   std::vector<CylinderRegion> regions() {
     std::vector<CylinderRegion> found;
     for (int f = 0; f < static_cast<int>(surface_.facets.size()); ++f) {
       if (taken_[static_cast<std::size_t>(f)] != 0 || is_flat_around(f)) continue;
       for (const int rings : kRings) {
+        if (too_short_[static_cast<std::size_t>(f)] != 0) break;
         std::optional<CylinderRegion> region = region_from(f, rings);
         if (!region) continue;
         for (const int member : region->facets) taken_[static_cast<std::size_t>(member)] = 1;
@@ -116,8 +122,11 @@ class CylinderFinder {
       if (std::abs(fit->deviation(x)) > kRoundness * fit->radius) return std::nullopt;
     region.is_internal = fit->from_axis(facet(seed).centre).dot(facet(seed).normal) < 0;
     if (extent_of(mesh_, surface_, region).arc < kLeastTurn || !lies_on(region, seed)) return std::nullopt;
-    if (!grow(region, seed) || extent_of(mesh_, surface_, region).arc < kLeastArc) return std::nullopt;
-    return region;
+    if (!grow(region, seed)) return std::nullopt;
+    if (extent_of(mesh_, surface_, region).arc >= kLeastArc) return region;
+    // Each of its facets would grow to the same again.
+    for (const int member : region.facets) too_short_[static_cast<std::size_t>(member)] = 1;
+    return std::nullopt;
   }
 
   /// Takes all that lies on the fit, fits all of it, and again until it does not change.
@@ -164,7 +173,8 @@ class CylinderFinder {
   const SurfaceFacets& surface_;
   double size_;
   std::vector<char>& taken_;
-  std::vector<int> seen_;  // in which pass
+  std::vector<int> seen_;        // in which pass
+  std::vector<char> too_short_;  // part of a region that was
   int pass_ = 0;
 };
 
@@ -227,6 +237,7 @@ bool are_of_one_cylinder(const CylinderRegion& a, const CylinderExtent& of_a, co
 std::vector<CylinderRegion> merged_regions(const Mesh& mesh, const SurfaceFacets& surface,
                                            std::vector<CylinderRegion> regions) {
   std::vector<CylinderExtent> extents;
+  extents.reserve(regions.size());
   for (const CylinderRegion& region : regions) extents.push_back(extent_of(mesh, surface, region));
   for (std::size_t a = 0; a < regions.size(); ++a)
     for (std::size_t b = a + 1; b < regions.size(); ++b) {
