@@ -1,9 +1,8 @@
-#include "hersey/fem/found_surface.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "hersey/fem/found_surface.h"
 #include "hersey/fem/surface_loads.h"
 #include "surface/surface_names.h"
 #include "surface/surface_regions.h"
