@@ -32,7 +32,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME hersey)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-scipy, python3-openturns, python3-nlopt, python3-h5py")  # hersey study
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-scipy, python3-openturns, python3-nlopt, python3-h5py, gmsh")  # hersey study; hersey mesh of CAD files
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "hersey solves oil films and the mechanisms they carry together: film thickness,
 pressure, friction, oil flow, heat and contact of bearings whose shell and
 journal belong to rigid or elastic bodies that move.

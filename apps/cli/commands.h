@@ -77,15 +77,22 @@ struct BearingArguments {
 [[nodiscard]] int bearing_command(const BearingArguments& arguments);
 
 struct MeshArguments {
-  std::string file;
-  std::string length_unit = "m";
-  std::string density;        ///< for the mass; empty: the file's
-  std::filesystem::path vtu;  ///< file to write for ParaView; empty: none
+  std::string file;                  ///< a mesh or a CAD file
+  std::string length_unit;           ///< empty: of a mesh m, of a BREP file mm
+  std::string density;               ///< for the mass; empty: the file's
+  std::filesystem::path vtu;         ///< file to write for ParaView; empty: none
+  std::filesystem::path output;      ///< mesh to write; empty: of a CAD file beside it, else none
+  std::string size;                  ///< of elements made of a CAD file
+  int order = 2;                     ///< of these
+  int around = 16;                   ///< how many of them around a turn, at least
+  std::string time_limit = "30min";  ///< of gmsh
+  bool force = false;
   bool json = false;
 };
 
-/// `hersey mesh`: what a mesh file holds and how good its elements are. @returns an ExitCode; kWrongInput for a mesh
-/// that is unfit for computing. @throws InputError.
+/// `hersey mesh`: what a mesh file holds, how good its elements are, its planes and cylinders; of a CAD file makes the
+/// mesh first. @returns an ExitCode; kWrongInput for a mesh that is unfit for computing. @throws InputError;
+/// std::runtime_error where gmsh makes no mesh or it cannot be written.
 [[nodiscard]] int mesh_command(const MeshArguments& arguments);
 
 struct ReduceArguments {

@@ -35,7 +35,8 @@ constexpr const char* kFooter =
     "  hersey run model.yaml --set bearings.big_end.grid.circumferential=120\n"
     "  hersey bearing model.yaml --sweep load=100N:2500N:10          one bearing by itself\n"
     "  hersey check model.yaml                                       every fault, nothing simulated\n"
-    "  hersey mesh conrod.msh --length-unit mm                       a mesh: sets, mass, quality\n"
+    "  hersey mesh conrod.msh --length-unit mm                       a mesh: sets, mass, quality, bores\n"
+    "  hersey mesh conrod.step --size 4mm                            a mesh of a CAD file, by gmsh\n"
     "  hersey modes conrod.msh --length-unit mm --hold big_end       its natural frequencies\n"
     "  hersey export rotor.yaml --fmu rotor.fmu                      for co-simulation in other programs\n"
     "  hersey oil iso_vg_46 --at 40degC 100degC                      viscosity and density of an oil\n"
@@ -137,9 +138,29 @@ CLI::App* add_convert_command(CLI::App& app, ConvertArguments& convert) {
 }
 
 CLI::App* add_mesh_command(CLI::App& app, MeshArguments& mesh) {
-  CLI::App* command = app.add_subcommand("mesh", "Tell what a mesh file holds and how good its elements are");
-  command->add_option("FILE", mesh.file, "Gmsh .msh, Abaqus or CalculiX .inp, Nastran .bdf")->required();
-  command->add_option("--length-unit", mesh.length_unit, "What one unit of the file is (default: m)")->type_name("mm");
+  CLI::App* command = app.add_subcommand(
+      "mesh", "Tell what a mesh holds, how good it is, its planes and possible bores; of a CAD file make it first");
+  command
+      ->add_option(
+          "FILE", mesh.file,
+          "Gmsh .msh, Abaqus or CalculiX .inp, Nastran .bdf; STEP, IGES or BREP, which the program gmsh meshes")
+      ->required();
+  command
+      ->add_option("--length-unit", mesh.length_unit,
+                   "What one unit of the file is (default: m, of BREP mm; STEP and IGES say it)")
+      ->type_name("mm");
+  command->add_option("--size", mesh.size, "How large the elements made of a CAD file are")->type_name("4mm");
+  command->add_option("--order", mesh.order, "Of these elements, 1 or 2 (default: 2)")
+      ->type_name("1|2")
+      ->check(CLI::IsMember({1, 2}).description(""));
+  command->add_option("--around", mesh.around, "How many of them a full turn has at least (default: 16)")
+      ->check(CLI::Range(4, 1000));
+  command->add_option("--time-limit", mesh.time_limit, "How long gmsh may take (default: 30min)")->type_name("10min");
+  command
+      ->add_option("--output", mesh.output,
+                   "Write the mesh with what was found as named surfaces, in metres (default: of a CAD file beside it)")
+      ->type_name("FILE.msh");
+  command->add_flag("--force", mesh.force, "Replace that file if it exists");
   command->add_option("--density", mesh.density, "For the mass, where the file has none")->type_name("7850kg/m^3");
   command->add_option("--vtu", mesh.vtu, "Write the mesh with its elements' shapes for ParaView")->type_name("FILE");
   command->add_flag("--json", mesh.json, "Print it as JSON");

@@ -3,6 +3,7 @@
 
 import glob
 import json
+import math
 import os
 import random
 import re
@@ -140,6 +141,145 @@ class CommandLine(unittest.TestCase):
         with open(vtu, "rb") as file:
             self.assertIn(b'Name="shape"', file.read())
         self.assertRegex(text, r"roof +9 +- +2")
+
+    def test_mesh_tells_bores_by_their_places_and_writes_them_as_surfaces(self):
+        rod = os.path.join(HERE, "../../examples/flexible_slider_crank/rod.inp")
+        run = hersey("mesh", rod, "--length-unit", "mm")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        self.assertIn("--output FILE.msh", run.stdout)
+        named = os.path.join(self._folder.name, "named.msh")
+        run = hersey("mesh", rod, "--length-unit", "mm", "--output", named, "--json")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        before = json.loads(run.stdout)
+        again = hersey("mesh", named, "--json")
+        self.assertEqual(again.returncode, OK, again.stderr)
+        after = json.loads(again.stdout)
+        self.assertEqual(after["found"], before["found"])
+        for surface in before["found"]:
+            self.assertEqual(after["sets"]["surfaces"][surface["name"]], surface["faces"])
+        self.assertEqual(after["volume"], before["volume"])
+        run = hersey("mesh", rod, "--length-unit", "mm", "--output", named)
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("--force", run.stderr)
+        for arguments, words in ((("--size", "4mm"), ("--size", "a CAD file")),
+                                 (("--output", named + ".inp"), ("--output", ".msh"))):
+            run = hersey("mesh", rod, "--length-unit", "mm", *arguments)
+            self.assertEqual(run.returncode, WRONG_INPUT)
+            for word in words:
+                self.assertIn(word, run.stderr)
+
+    def program_called_gmsh(self, script):
+        """A folder that has nothing but a stand-in for gmsh, a shell script, and what that needs, for PATH."""
+        folder = os.path.join(self._folder.name, "programs")
+        os.makedirs(folder, exist_ok=True)
+        path = os.path.join(folder, "gmsh")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("#!/bin/sh\n" + script)
+        os.chmod(path, 0o755)
+        self.scratch = os.path.join(self._folder.name, "scratch")
+        os.makedirs(self.scratch, exist_ok=True)
+        return {**os.environ, "PATH": folder, "TMPDIR": self.scratch}
+
+    def cad_file(self, name="part.step"):
+        path = os.path.join(self._folder.name, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("ISO-10303-21;\n#1=( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );\nEND-ISO-10303-21;\n")
+        return path
+
+    def test_mesh_of_a_cad_file_is_made_by_the_program_gmsh(self):
+        part = self.cad_file()
+        housing = os.path.join(HERE, "../../examples/meshes/bearing_housing.msh")
+        asked = os.path.join(self._folder.name, "asked")
+        environment = self.program_called_gmsh(f"/bin/cat part.geo >{asked}\n/bin/cp {housing} part.msh\n")
+        run = hersey("mesh", part, "--size", "8mm", "--order", "1", env=environment)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        with open(asked, encoding="utf-8") as file:
+            script = file.read()
+        self.assertIn("CharacteristicLengthMax = 8;", script)
+        self.assertIn("ElementOrder = 1;", script)
+        self.assertIn("in millimetres", run.stdout)
+        made = os.path.join(self._folder.name, "part.msh")
+        self.assertIn(f"written   {made}: in metres", run.stdout)
+        self.assertRegex(run.stdout, r"bore: \{shell: part.bore, shell_surface: \{faces: bore\}, diameter: 52 mm, width: 30 mm\}")
+        self.assertIn("screw_1: {nodes: screw_1, origin: -62 -51 0 mm, rotation: {axis: -1 0 0, angle: 90 deg}", run.stdout)
+        # What is written is in metres: the housing's mass is that of its page.
+        mesh = json.loads(hersey("mesh", made, "--density", "7850kg/m^3", "--json").stdout)
+        self.assertAlmostEqual(mesh["mass"], 1.63, delta=0.005)  # its digits
+        self.assertEqual(hersey("mesh", part, "--size", "8mm", env=environment).returncode, WRONG_INPUT)  # it exists
+        self.assertEqual(hersey("mesh", part, "--size", "8mm", "--force", env=environment).returncode, OK)
+        self.assertEqual(os.listdir(self.scratch), [])
+
+    def test_mesh_of_a_cad_file_that_cannot_be_made_says_why(self):
+        part = self.cad_file()
+        made = os.path.join(self._folder.name, "part.msh")
+        for script, code, words in (
+                ("exit 127\n", FAILED, ("gmsh is not installed", "apt-get install gmsh")),
+                ("echo 'Error   : Unknown entity'; exit 1\n", FAILED, ("exit code 1", "gmsh: Error   : Unknown entity")),
+                ("kill -SEGV $$\n", FAILED, ("signal 11",)),
+                ("exit 0\n", FAILED, ("no mesh of solids",)),
+                ("while :; do :; done\n", FAILED, ("longer than 0.3 s", "--time-limit"))):
+            run = hersey("mesh", part, "--size", "8mm", "--time-limit", "0.3s", env=self.program_called_gmsh(script))
+            self.assertEqual(run.returncode, code, script)
+            for word in words:
+                self.assertIn(word, run.stderr)
+            self.assertFalse(os.path.exists(made))
+            self.assertEqual(os.listdir(self.scratch), [])
+        without = {**os.environ, "PATH": self._folder.name}
+        run = hersey("mesh", part, "--size", "8mm", env=without)
+        self.assertEqual(run.returncode, FAILED)
+        self.assertIn("gmsh is not installed", run.stderr)
+        for arguments, words in (((part,), ("--size 4mm",)),
+                                 ((part, "--size", "4"), ("--size", "length")),
+                                 ((part, "--size", "8mm", "--length-unit", "mm"), ("--length-unit", "say their unit")),
+                                 ((part + ".stp", "--size", "8mm"), ("check its path",))):
+            run = hersey("mesh", *arguments, env=without)
+            self.assertEqual(run.returncode, WRONG_INPUT, arguments)
+            for word in words:
+                self.assertIn(word, run.stderr)
+
+    def test_mesh_of_a_cad_file_ends_with_gmsh_on_ctrl_c(self):
+        started = os.path.join(self._folder.name, "started")
+        environment = self.program_called_gmsh(f"echo $$ >{started}.new\n/bin/mv {started}.new {started}\n"
+                                               "while :; do :; done\n")
+        with subprocess.Popen([HERSEY, "mesh", self.cad_file(), "--size", "8mm"], env=environment,
+                              stderr=subprocess.PIPE, text=True) as process:
+            while not os.path.exists(started):
+                time.sleep(0.02)
+            process.send_signal(signal.SIGINT)
+            self.assertIn("stopped on request", process.communicate(timeout=60)[1])
+        self.assertEqual(process.returncode, INTERRUPTED)
+        with open(started, encoding="utf-8") as file:
+            stand_in = int(file.read())
+        with self.assertRaises(ProcessLookupError):
+            os.kill(stand_in, 0)
+        self.assertEqual(os.listdir(self.scratch), [])
+
+    @unittest.skipUnless(shutil.which("gmsh"), "gmsh is not installed: the meshes of CAD files are tried by a stand-in alone")
+    def test_mesh_of_a_step_file_by_gmsh_itself(self):
+        # A block with a bore in two halves, of two solids that touch, a screw's hole, and a fillet.
+        script = os.path.join(self._folder.name, "part.geo")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write('SetFactory("OpenCASCADE");\n'
+                       "Box(1) = {-40, -30, -10, 80, 30, 20};\nBox(2) = {-40, 0, -10, 80, 30, 20};\n"
+                       "Cylinder(3) = {0, 0, -20, 0, 0, 40, 22.5};\nCylinder(4) = {32, -40, 0, 0, 80, 0, 3};\n"
+                       "a() = BooleanDifference{ Volume{1}; Delete; }{ Volume{3, 4}; };\n"
+                       "b() = BooleanDifference{ Volume{2}; Delete; }{ Volume{3, 4}; Delete; };\n")
+        step = os.path.join(self._folder.name, "part.step")
+        subprocess.run(["gmsh", script, "-0", "-o", step], check=True, capture_output=True, timeout=120)
+        for order, digits in ((2, 1e-6), (1, 1e-6)):  # corners lie on the cylinder: facets do not disturb the fit
+            run = hersey("mesh", step, "--size", "12mm", "--around", "12", "--order", str(order), "--force",
+                         "--json")
+            self.assertEqual(run.returncode, OK, run.stderr)
+            mesh = json.loads(run.stdout)
+            bores = [surface for surface in mesh["found"] if surface.get("could_be") == "bore"]
+            self.assertEqual([bore["name"] for bore in bores], ["bore_d45_at_0_0_0"])
+            self.assertAlmostEqual(bores[0]["diameter"] / 0.045, 1, delta=digits)
+            self.assertAlmostEqual(bores[0]["width"] / 0.020, 1, delta=digits)
+            self.assertAlmostEqual(bores[0]["arc"], 2 * math.pi, delta=1e-6)
+            self.assertIn(bores[0]["name"], mesh["sets"]["surfaces"])
+            for name in ("plane_x_min", "plane_x_max", "plane_y_min", "plane_y_max", "plane_z_min", "plane_z_max",
+                         "hole_d6_at_32_0_0"):
+                self.assertIn(name, mesh["sets"]["surfaces"])
 
     def test_mesh_in_millimetres_read_as_metres_is_warned_of(self):
         run = hersey("mesh", os.path.join(HERE, "../../libs/fem/test/data/block_22.msh"))

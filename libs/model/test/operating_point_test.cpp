@@ -109,6 +109,21 @@ TEST_CASE("ReservoirsThatMeetAsTheJournalTurns_AreWarnedOf") {
           std::string::npos);
 }
 
+TEST_CASE("GroovesOnEachOther_WhoseDepthsAdd_AreWarnedOf") {
+  const auto warnings = [](const std::string& two) {
+    return warnings_of(
+        with_feeds("    features:\n" + groove("one", "pressure: 1 bar, depth: 1 mm") + groove("two", two)));
+  };
+  CHECK(warnings("angle: 20 deg, pressure: 1 bar, depth: 0.5 mm") ==
+        "m.yaml:12:7: bearings.main.features.two: overlaps 'one' (m.yaml:11), and where both lie they are 1.5 mm deep, "
+        "the sum of both; expected grooves and holes with room between them, or a depth of one of the two alone\n");
+  for (const char* good : {"angle: 20 deg, pressure: 1 bar", "angle: 31 deg, pressure: 1 bar, depth: 1 mm",
+                           "angle: 20 deg, z: 5 mm, pressure: 1 bar, depth: 1 mm", "on: journal, depth: 1 mm"}) {
+    CAPTURE(good);
+    CHECK(warnings(good).find("overlaps") == std::string::npos);
+  }
+}
+
 TEST_CASE("GrooveOpenToAnEdgeOfAnotherPressure_IsWarnedOf") {
   const auto warnings = [](const std::string& edges, const std::string& more) {
     return warnings_of(

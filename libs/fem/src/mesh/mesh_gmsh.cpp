@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <unordered_map>
 
+#include "mesh/gmsh_types.h"
 #include "mesh/mesh_readers.h"
 #include "mesh/mesh_text.h"
 
@@ -18,28 +19,21 @@ constexpr long kMostTags = 1000;  // on one entity or element; more is no mesh
 struct GmshType {
   int dimension = 0;
   int nodes = 0;
-  int corners = 0;
+  int corners = 0;                   ///< of a surface
   std::optional<ElementType> solid;  ///< none: serves to mark a surface, curve or point
   std::vector<int> order;            ///< place in Gmsh's numbering of each node in Abaqus' order; empty: the same
 };
 
 const std::map<long, GmshType>& gmsh_types() {
-  static const std::map<long, GmshType> types = {
-      {1, {1, 2, 2, {}, {}}},
-      {2, {2, 3, 3, {}, {}}},
-      {3, {2, 4, 4, {}, {}}},
-      {4, {3, 4, 4, ElementType::tet4, {}}},
-      {5, {3, 8, 8, ElementType::hex8, {}}},
-      {6, {3, 6, 6, ElementType::wedge6, {}}},
-      {8, {1, 3, 2, {}, {}}},
-      {9, {2, 6, 3, {}, {}}},
-      {10, {2, 9, 4, {}, {}}},
-      {11, {3, 10, 4, ElementType::tet10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}}},
-      {15, {0, 1, 1, {}, {}}},
-      {16, {2, 8, 4, {}, {}}},
-      {17, {3, 20, 8, ElementType::hex20, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}}},
-      {18, {3, 15, 6, ElementType::wedge15, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11}}},
-  };
+  static const std::map<long, GmshType> types = [] {
+    std::map<long, GmshType> all = {
+        {1, {1, 2, 2, {}, {}}}, {2, {2, 3, 3, {}, {}}},  {3, {2, 4, 4, {}, {}}},  {8, {1, 3, 2, {}, {}}},
+        {9, {2, 6, 3, {}, {}}}, {10, {2, 9, 4, {}, {}}}, {15, {0, 1, 1, {}, {}}}, {16, {2, 8, 4, {}, {}}},
+    };
+    for (const GmshSolid& solid : gmsh_solids())
+      all[solid.number] = {3, node_count(solid.type), 0, solid.type, solid.order};
+    return all;
+  }();
   return types;
 }
 

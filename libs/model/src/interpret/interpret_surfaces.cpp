@@ -75,6 +75,7 @@ class SurfaceReader {
       read_feed(value, film_.features.back());
       check_place(value, film_.features.back());
       check_overlap(value);
+      warn_of_added_depths(value);
       check_line(value);
       warn_of_open_edge(value);
     }
@@ -167,6 +168,22 @@ class SurfaceReader {
       } else if (std::abs(feature.z - other.z) < 0.5 * (feature.length + other.length)) {
         warn_at_key(value, "passes over " + name + ", which has another pressure, as the journal turns");
       }
+    }
+  }
+
+  /// Each feature widens the gap by its own depth: where two lie on each other, by both.
+  void warn_of_added_depths(const Value& value) {
+    const std::size_t last = film_.features.size() - 1;
+    const film::SurfaceFeature& feature = film_.features[last];
+    for (std::size_t k = 0; k < last; ++k) {
+      const film::SurfaceFeature& other = film_.features[k];
+      if (other.surface != feature.surface || feature.depth == 0 || other.depth == 0 || !film::overlap(feature, other))
+        continue;
+      context_.model.warnings.push_back(
+          {value.key_position, value.path,
+           fmt::format("overlaps '{}' ({}), and where both lie they are {:.4g} mm deep, the sum of both", other.name,
+                       place_of(*section_value("features", other.name)), 1e3 * (feature.depth + other.depth)),
+           "grooves and holes with room between them, or a depth of one of the two alone", ""});
     }
   }
 
