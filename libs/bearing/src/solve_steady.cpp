@@ -1,6 +1,5 @@
-#include "hersey/bearing/steady_bearing.h"
-
 #include "hersey/bearing/rigid_surfaces.h"
+#include "hersey/bearing/steady_bearing.h"
 #include "hersey/core/contract.h"
 #include "steady_heat.h"
 #include "steady_search.h"
