@@ -14,6 +14,9 @@ namespace {
 constexpr int most_iterations = 40;
 constexpr double tolerance = 1e-8;
 
+// Steps half-way back to the last temperature at which the film carried, until it is said to have run away.
+constexpr int most_steps_back = 8;
+
 /// The balance of heat of a bearing solved (thermal.20).
 EffectiveTemperature balance(const film::Lubricant& oil, const GlobalHeat& heat, const film::FilmObservables& film) {
   const double power = film.power_film + film.power_asperity;
@@ -33,6 +36,24 @@ SteadySummary seizure(const film::FilmModel& model, const OperatingPoint& at, do
   return summary;
 }
 
+/// Of a film that cold oil has kept and oil of temperature T does not.
+SteadySummary lost(SteadySummary summary, double T) {
+  summary.message = fmt::format("thermal runaway: oil that warms to {:.0f} degC is too thin for the film to stay; {}",
+                                T - film::zero_celsius, summary.message);
+  return summary;
+}
+
+/// An answer, unless oil of temperature T is none.
+SteadySummary judged(SteadySummary summary, double T) {
+  if (T <= hottest_oil) return summary;
+  summary.converged = false;
+  summary.message = fmt::format(
+      "thermal runaway: the balance of heat does not close with oil below {:.0f} degC, and no oil is one above {:.0f} "
+      "degC",
+      T - film::zero_celsius, hottest_oil - film::zero_celsius);
+  return summary;
+}
+
 }  // namespace
 
 SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, const GlobalHeat& heat,
@@ -41,8 +62,8 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
   solver::FixedPointIteration mixing(solver::Acceleration::quasi_newton, 0.5);
   SteadyOptions next = options;
   SteadySummary summary;
-  double rise = 0;
-  int linearisations = 0;
+  double rise = 0, carried = 0;
+  int linearisations = 0, steps_back = 0;
   for (int k = 1; k <= most_iterations; ++k) {
     model.lubricant = film::at_temperature(model.lubricant, from + rise);
     const OperatingPoint at =
@@ -53,7 +74,14 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     summary = solve_steady(model, at, next, state);
     linearisations += summary.iterations;
     summary.iterations = linearisations, summary.heat_iterations = k;
-    if (!summary.converged) return summary;
+    if (!summary.converged) {
+      if (k == 1) return summary;
+      if (++steps_back > most_steps_back) return lost(summary, from + rise);
+      rise = 0.5 * (rise + carried);
+      mixing.begin_step();
+      continue;
+    }
+    carried = rise;
     if (!heat.cools_by_surroundings && !(state.film.flow_left + state.film.flow_right > 0)) {
       summary.converged = false;
       summary.message = "no oil leaves over the edges to take the heat along: give `cooling` by the surroundings";
@@ -61,7 +89,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     }
     state.effective = balance(model.lubricant, heat, state.film);
     const double found = state.effective->T - from;
-    if (std::abs(found - rise) <= tolerance * (1 + std::abs(found))) return summary;
+    if (std::abs(found - rise) <= tolerance * (1 + std::abs(found))) return judged(summary, state.effective->T_out);
     next.start = state.e, next.start_film = state.u, next.start_deformation = state.s;
     const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, rise), image = Eigen::VectorXd::Constant(1, found);
     rise = std::clamp(mixing.next(x, image)[0], coldest_trial - from, hottest_trial - from);
@@ -69,7 +97,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
   summary.converged = false;
   summary.message = fmt::format("the balance of heat finds no temperature in {} turns; last {:.0f} degC",
                                 most_iterations, from + rise - film::zero_celsius);
-  return summary;
+  return from + rise > hottest_oil ? judged(summary, from + rise) : summary;
 }
 
 }  // namespace hersey::bearing

@@ -51,6 +51,24 @@ TEST_CASE("OneEffectiveTemperature_IsThatOfTheBalance") {
   CHECK(state.effective->T_out - heat.T_supply == relative(rise).epsilon(1e-6));  // 1e-8 of temperature over its slope
 }
 
+// The same independent program's bearing (D 100, B 100, psi 0.0015, 4 kN, 480 rpm, VG 68) whose housing of 0.3 m^2
+// gives off all heat at 20 W/(m^2 K) to 40 degC.
+TEST_CASE("HousingThatCools_IsThatOfAnIndependentProgram") {
+  film::FilmModel model = model_of({.mu0 = 1, .density = 874}, 120, 25);
+  model.L = 0.1, model.c = 75e-6;
+  model.lubricant.temperature_law = film::WaltherViscosity::through(68e-6, 8.7e-6, 874);
+  const OperatingPoint at{.journal_speed = 16 * std::numbers::pi, .load = Eigen::Vector2d(0, -4e3)};
+  model.lubricant = film::at_temperature(model.lubricant, 313.15);
+  model = scaled_for(model, at);
+  SteadyState state;
+  const GlobalHeat heat{.cools_by_surroundings = true, .transfer = 20, .area = 0.3, .T_ambient = 313.15};
+  REQUIRE(solve_global(model, at, heat, {}, state).converged);
+  CHECK(std::abs(state.effective->T - zero_celsius - 53.5913) < 0.05);                         // its grid and this one
+  CHECK(state.e.norm() / model.c == relative(0.381827).epsilon(2e-3));                         // as well
+  CHECK(state.film.power_film == relative(81.54779).epsilon(3e-3));                            // as well
+  CHECK(state.film.flow_left + state.film.flow_right == relative(5.695108e-6).epsilon(5e-3));  // as well
+}
+
 TEST_CASE("HousingThatCools_SetsTheTemperature") {
   film::FilmModel model = scaled_for(model_of(vg46(313.15), 60, 13), point());
   SteadyState state;
@@ -58,6 +76,58 @@ TEST_CASE("HousingThatCools_SetsTheTemperature") {
   REQUIRE(solve_global(model, point(), heat, {}, state).converged);
   CHECK((state.effective->T - heat.T_ambient) * 20 * 2 == relative(state.film.power_film).epsilon(1e-6));  // as above
   CHECK(state.effective->T_out == state.effective->T);
+}
+
+// An oil that thins by shear as well: its balance is that of the film it makes at the temperature found, which is the
+// isothermal one there, and it warms less than an oil that does not.
+TEST_CASE("OneEffectiveTemperature_IsThatOfAnOilThatThinsByShear") {
+  film::Lubricant thinning = vg46(323.15);
+  thinning.shear_thinning = {film::Cross{.limit = 0.4, .exponent = 0.8}, 3e5, 0};
+  const film::FilmModel cold = scaled_for(model_of(thinning, 60, 13), point());
+  film::FilmModel model = cold, newtonian = scaled_for(model_of(vg46(323.15), 60, 13), point());
+  const GlobalHeat heat{.T_supply = 50 + zero_celsius};
+  SteadyState state, plain, isothermal;
+  const SteadySummary summary = solve_global(model, point(), heat, {}, state);
+  REQUIRE(summary.converged);
+  CHECK(summary.heat_iterations <= 20);
+  REQUIRE(solve_global(newtonian, point(), heat, {}, plain).converged);
+  CHECK(state.film.power_film < 0.9 * plain.film.power_film);
+  CHECK(state.effective->T < plain.effective->T - 2);
+  CHECK(state.film.h_min < plain.film.h_min);
+  film::FilmModel at = cold;
+  at.lubricant = film::at_temperature(cold.lubricant, state.effective->T);
+  REQUIRE(solve_steady(at, point(), {}, isothermal).converged);
+  CHECK(isothermal.film.h_min == relative(state.film.h_min).epsilon(1e-6));  // temperatures to 1e-8, by its slope
+  CHECK(isothermal.film.power_film == relative(state.film.power_film).epsilon(1e-6));  // as well
+  const double rise = state.film.power_film / (at.lubricant.density * at.lubricant.specific_heat *
+                                               (state.film.flow_left + state.film.flow_right));
+  CHECK(state.effective->T_out - heat.T_supply == relative(rise).epsilon(1e-6));  // as above
+}
+
+// A load that the film carries with cold oil and not with the oil it warms, and a film whose heat leaves it with oil
+// only that there cannot be: told as what they are, with the place where layers are solved.
+TEST_CASE("ThermalRunaway_IsToldAsSuch") {
+  const film::Lubricant oil = vg46(323.15);
+  const film::ThermalModel thermal{.layers = 3, .T_supply = 323.15, .T_edges = 323.15};
+  struct Trial {
+    double load, speed;
+    const char* reason;
+  };
+  for (const Trial& trial : {Trial{5e5, 100 * std::numbers::pi, "too thin for the film to stay"},
+                             Trial{3e5, 2000 * std::numbers::pi, "no oil is one above 400 degC"}}) {
+    CAPTURE(trial.reason);
+    OperatingPoint at = point();
+    at.load = Eigen::Vector2d(0, -trial.load);
+    at.journal_speed = trial.speed;
+    const film::FilmModel model = scaled_for(model_of(oil, 40, 9), at);
+    SteadyState state;
+    CHECK(solve_steady(model, at, {}, state).converged);  // with cold oil there is a film
+    const SteadySummary summary = solve_steady(model, at, {.thermal = thermal}, state);
+    CHECK_FALSE(summary.converged);
+    CHECK(summary.message.starts_with("thermal runaway: "));
+    for (const char* word : {trial.reason, " degC at ", " deg, z = ", " mm"})
+      CHECK(summary.message.find(word) != std::string::npos);
+  }
 }
 
 /// Heat into an angle warms all of the shell by the same, and widens it.

@@ -319,6 +319,30 @@ TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsTurnsWithIt") {
   }
 }
 
+// Where a groove of the shell lies over a hole of the journal either feeds what is nearer to its middle, whichever the
+// file names first.
+TEST_CASE("SuppliesThatOverlap_AreThoseOfTheFileInAnyOrder") {
+  FilmModel model = bearing(0.025, 0.02, 30e-6, 48, 9);
+  model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
+  const SurfaceFeature hole{
+      .name = "hole", .surface = Surface::journal, .phi = 1, .z = 0, .arc = 0.8, .length = 10e-3, .pressure = 3e5};
+  const SurfaceFeature groove{.name = "groove", .phi = 1.5, .z = 0, .arc = 0.8, .length = 8e-3, .pressure = 3e5};
+  ThermalModel thermal = supplied_at_40(2);
+  const Journal journal = turning(model, 0.5, 200);
+  const SurfaceMotion motion = surfaces(model, journal);
+  model.features = {hole, groove};
+  thermal.T_features = {60 + zero_celsius, 30 + zero_celsius};
+  const HotFilm one = solve_hot(model, thermal, motion, journal.e);
+  model.features = {groove, hole};
+  thermal.T_features = {30 + zero_celsius, 60 + zero_celsius};
+  const HotFilm other = solve_hot(model, thermal, motion, journal.e);
+  constexpr double both = 1e-5;  // K: films and temperatures found in turn to 1e-7 K each
+  CHECK((one.temperatures.middle - other.temperatures.middle).cwiseAbs().maxCoeff() < both);
+  CHECK(std::abs(one.heat.T_supplies[0] - other.heat.T_supplies[1]) < both);
+  CHECK(std::abs(one.heat.T_supplies[0] - one.heat.T_supplies[1]) > 0.5);  // so that it matters who feeds what
+  CHECK(one.film.flow_features[0] == relative(other.film.flow_features[1]).epsilon(1e-6));  // the film's residual
+}
+
 // A shell hot on one side: what leaves it there comes back on the other, and one temperature is the table of one.
 TEST_CASE("ShellsTemperatureOverTheAngle_IsThatOfEachPlace") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);

@@ -161,6 +161,7 @@ class FlowBalance {
     double chi_journal = 0;  ///< with phi_journal [1/rad]
     int feature = -1;        ///< -1: the line
     double u = 0;            ///< given [Pa]
+    double inwards = 0;      ///< feature: how near to its middle (CoveredNode)
     int other = -1;          ///< line: the node on its other side
     double near = 1, far = 0,
            bend = 0;  ///< line: weights by which h on the way to it follows from here, there and bend
@@ -207,6 +208,7 @@ class FlowBalance {
   void lay_pattern();
   void find_supply(const SurfaceMotion& motion);
   void hold_line(double phi);
+  [[nodiscard]] static bool gives_way(const HeldNode& held, const HeldNode& to);
   void hold(const HeldNode& held);
   [[nodiscard]] std::size_t line_face(const HeldNode& held) const;
   [[nodiscard]] bool has_line_row(int node) const;

@@ -96,12 +96,19 @@ FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
           .k_turn = k_turn};
 }
 
+// Of two that hold a node wholly, that with more pressure, and of equal pressure that whose middle is nearer: never
+// that which the file happens to name first. A line stays.
+bool FlowBalance::gives_way(const HeldNode& held, const HeldNode& to) {
+  if (held.chi != to.chi || held.feature < 0) return held.chi < to.chi;
+  return held.u != to.u ? held.u < to.u : held.inwards < to.inwards;
+}
+
 // Edges win where they meet a line or a feature. One in air is filled there, but its pressure cannot rise.
 void FlowBalance::hold(const HeldNode& held) {
   const int j = held.node % model_.grid.n_z;
   if (edge_row(j)) return;
   int& index = held_index_[held.node];
-  if (index >= 0 && held_[index].chi >= held.chi) return;
+  if (index >= 0 && !gives_way(held_[index], held)) return;
   if (index < 0) {
     index = static_cast<int>(held_.size());
     held_.emplace_back();
@@ -158,7 +165,8 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
             .chi = node.share,
             .chi_journal = node.share_phi,
             .feature = static_cast<int>(f),
-            .u = std::max(0.0, pressure - model_.p_cav)});
+            .u = std::max(0.0, pressure - model_.p_cav),
+            .inwards = node.inwards});
     }
   }
 }

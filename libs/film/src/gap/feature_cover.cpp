@@ -141,7 +141,9 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
       if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
       const Share held =
           feature.shape == FeatureShape::ellipse ? held_ellipse(feature, s) : held_rectangle(feature, s, model.R, unit);
-      if (held.value > 0) nodes.push_back({grid.index(i, j), held.value, travels ? held.phi : 0});
+      const double inwards =
+          1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
+      if (held.value > 0) nodes.push_back({grid.index(i, j), held.value, travels ? held.phi : 0, inwards});
     }
   }
 }

@@ -12,6 +12,7 @@ struct CoveredNode {
   int node = 0;
   double share = 0;
   double share_phi = 0;
+  double inwards = 0;  ///< how near to the feature's middle, 1, from its border, 0 [-]; below 0 outside
 };
 
 /// Conductance of a mean cell to its four neighbours, per h^3/(12 mu): what shares refer to [-].

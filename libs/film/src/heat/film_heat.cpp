@@ -82,7 +82,9 @@ struct FilmHeat::Impl {
   [[nodiscard]] Eigen::VectorXd held_walls() const;
   void set_held_walls(const Eigen::VectorXd& T);
   void show_rest();
-  void observe(const CarryingFilm& film);
+  /// What is to be seen of the last answer, worked out when it is asked for: turns of film and heat do not look.
+  void observe();
+  [[nodiscard]] const HeatObservables& look();
   void show_surfaces(const CarryingFilm& film);
   void find_hottest();
   void average(const CarryingFilm& film);
@@ -97,7 +99,8 @@ struct FilmHeat::Impl {
   HeatEquations equations;
   HeatState state;
   MeanHeat::Answer mean;
-  HeatState start_of_step;
+  HeatState start_of_step, end_of_step;
+  bool is_observed = true;
   double dt = 0;                   // of the last step [s]
   HeatState by_shell, by_journal;  // changes of the state with temperatures of nodes, per kelvin
   WallExchange exchange;
@@ -266,7 +269,8 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   m.start_of_step = m.state;
   m.state = m.equations.solve(m.carrying(), m.start_of_step);
   if (m.shears_layers()) m.thin();
-  m.observe(m.carrying());
+  m.end_of_step = m.state;
+  m.is_observed = false;
   if (has_nodes(m.thermal) && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
 }
 
@@ -286,12 +290,12 @@ void FilmHeat::Impl::find_exchange() {
   if (is_shell) {
     by_shell = equations.response_to_shell();
     exchange.by_T.col(0) = into_walls(by_shell);
-    exchange.heat[0] = seen.balance.to_shell;
+    exchange.heat[0] = look().balance.to_shell;
   }
   if (is_journal) {
     by_journal = equations.response_to_journal();
     exchange.by_T.col(1) = into_walls(by_journal);
-    exchange.heat[1] = seen.balance.to_journal;
+    exchange.heat[1] = look().balance.to_journal;
   }
   if (!is_shell) exchange.by_T.row(0).setZero();
   if (!is_journal) exchange.by_T.row(1).setZero();
@@ -312,12 +316,14 @@ void FilmHeat::move_walls(const Eigen::Vector2d& T) {
   if (std::holds_alternative<NodeWall>(m.thermal.journal)) move(m.by_journal, by[1]);
   m.exchange.heat += m.exchange.by_T * by;
   m.exchange.T = T;
-  m.observe(m.carrying());
+  m.end_of_step = m.state;
+  m.is_observed = false;
 }
 
 double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
   Impl& m = *impl_;
   if (!m.shears_layers()) return 0;
+  (void)m.look();  // of the film before
   const FilmDomain domain = m.flow.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(m.flow.model(), domain));
   const Eigen::VectorXd before = m.state.thinning;
@@ -377,12 +383,19 @@ WallCorrection FilmHeat::settle_walls(const Eigen::Vector2d& T_nodes) {
   return correction;
 }
 
-void FilmHeat::Impl::observe(const CarryingFilm& film) {
+const HeatObservables& FilmHeat::Impl::look() {
+  if (!is_observed) observe();
+  return seen;
+}
+
+void FilmHeat::Impl::observe() {
+  const CarryingFilm film = carrying();
+  is_observed = true;
   seen = {};
-  seen.balance = equations.balance(film, start_of_step, state);
-  seen.T_supplies = state.supplies;
+  seen.balance = equations.balance(film, start_of_step, end_of_step);
+  seen.T_supplies = end_of_step.supplies;
   if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
-    seen.T_body_max = wall->body(state.wall_heat).maxCoeff();
+    seen.T_body_max = wall->body(end_of_step.wall_heat).maxCoeff();
   show_surfaces(film);
   find_hottest();
   average(film);
@@ -397,7 +410,7 @@ void FilmHeat::Impl::show_surfaces(const CarryingFilm& film) {
   const Layering& across = layering_of(static_cast<std::size_t>(n));
   for (auto* field : {&shown.middle, &shown.shell, &shown.journal, &shown.hottest}) field->resize(grid.size());
   for (int node = 0; node < grid.size(); ++node) {
-    const auto column = state.film.segment(node * n, n);
+    const auto column = end_of_step.film.segment(node * n, n);
     const auto without_slope = [&](int beside, int next) {
       const double a = 0.5 * across.width(static_cast<std::size_t>(beside)),
                    b = a + std::abs(across.middle(static_cast<std::size_t>(next)) -
@@ -408,10 +421,10 @@ void FilmHeat::Impl::show_surfaces(const CarryingFilm& film) {
     shown.hottest[node] = column.maxCoeff();
     shown.shell[node] = n > 1 ? without_slope(0, 1) : column[0];
     shown.journal[node] = n > 1 ? without_slope(n - 1, n - 2) : column[0];
-    if (conducts(thermal.journal)) shown.journal[node] = state.journal;
+    if (conducts(thermal.journal)) shown.journal[node] = end_of_step.journal;
     if (!conducts(thermal.shell)) continue;
-    const double per_area = equations.into_shell(film, state, node) / flow.area(node);
-    shown.shell[node] = state.shell[node / grid.n_z] + per_area * equations.ring().inside;
+    const double per_area = equations.into_shell(film, end_of_step, node) / flow.area(node);
+    shown.shell[node] = end_of_step.shell[node / grid.n_z] + per_area * equations.ring().inside;
   }
 }
 
@@ -436,15 +449,18 @@ void FilmHeat::Impl::average(const CarryingFilm& film) {
     const double leaves = std::max(flow.outflow(node), 0.0);
     out += leaves;
     for (int l = 0; l < thermal.layers; ++l)
-      seen.T_side += leaves * film.flows.leaving_share(node, l) * state.film[node * thermal.layers + l];
+      seen.T_side += leaves * film.flows.leaving_share(node, l) * end_of_step.film[node * thermal.layers + l];
   }
   seen.T_shell_mean /= area, seen.T_journal /= area;
   seen.T_film_mean = oil > 0 ? seen.T_film_mean / oil : std::numeric_limits<double>::quiet_NaN();
   seen.T_side = out > 0 ? seen.T_side / out : std::numeric_limits<double>::quiet_NaN();
 }
 
-TemperatureFields FilmHeat::fields() const { return impl_->shown; }
-const HeatObservables& FilmHeat::observables() const { return impl_->seen; }
+TemperatureFields FilmHeat::fields() const {
+  (void)impl_->look();
+  return impl_->shown;
+}
+const HeatObservables& FilmHeat::observables() const { return impl_->look(); }
 
 FilmObservables FilmHeat::film(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
                                const Eigen::Vector2d& tilt) const {

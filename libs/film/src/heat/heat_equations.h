@@ -71,6 +71,10 @@ class HeatEquations {
     };
     std::vector<Row> rows;
   };
+  /// Nodes without oil keep heat as if they held so small a share of what the clearance does.
+  static constexpr double least_fill_ = 1e-6;
+  /// Of a node's width that carries and conducts heat.
+  [[nodiscard]] static double oil_share(const Node& node);
   [[nodiscard]] bool has_line() const { return model_.supply.kind != SupplyKind::none; }
   [[nodiscard]] int layers() const { return thermal_.layers; }
   /// Of the film's thickness [-].
@@ -88,6 +92,7 @@ class HeatEquations {
   [[nodiscard]] WallFlux to_journal(const CarryingFilm& film, int node) const;
   [[nodiscard]] double start_volume(const CarryingFilm& film, int node) const;
 
+  void assemble(const CarryingFilm& film, const HeatState& start);
   void add_storage(const CarryingFilm& film, const HeatState& start);
   void add_flows(const CarryingFilm& film);
   void add_flow(int from, int to, int layer, double q);
@@ -143,10 +148,11 @@ class HeatEquations {
   std::vector<double> supply_self_;  ///< of the supplies' rows
   Eigen::MatrixXd by_remainder_;  ///< what a sweep makes of layers and ring by journal and supplies, column by column
   Eigen::PartialPivLU<Eigen::MatrixXd> remainder_;  ///< journal and supplies, layers and ring following them
-  /// Oil of a layer that a supply replaces by its own.
+  /// Oil of a layer that a supply replaces by its own; of a node in which it has a part itself, but for that part.
   struct Renewal {
     int supply = 0, row = 0;
-    double heat = 0;  ///< by its temperature [W/K]
+    double heat = 0;     ///< by its temperature [W/K]
+    double stirred = 0;  ///< share that is the supply's own oil already [-]
   };
   std::vector<Renewal> renewals_;
   MeanHeat mean_;

@@ -29,8 +29,9 @@ WaltherViscosity WaltherViscosity::through(double nu_a, double T_a, double nu_b,
 }
 
 ValueAndSlope WaltherViscosity::kinematic(double T) const {
-  const double inner = std::pow(10, A - B * std::log10(T)), sum = std::pow(10, inner);
-  const double by_inner = std::numbers::ln10 * sum;  // d sum/d inner
+  const double ln10 = std::numbers::ln10;
+  const double inner = std::exp(ln10 * A - B * std::log(T)), sum = std::exp(ln10 * inner);
+  const double by_inner = ln10 * sum;  // d sum/d inner
   return {mm2_s * (sum - shift), mm2_s * by_inner * (-B / T) * inner};
 }
 

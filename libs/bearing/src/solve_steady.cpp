@@ -1,0 +1,39 @@
+#include "hersey/bearing/rigid_surfaces.h"
+#include "hersey/bearing/steady_bearing.h"
+#include "hersey/core/contract.h"
+#include "steady_heat.h"
+#include "steady_search.h"
+
+namespace hersey::bearing {
+
+SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
+                           SteadyState& state) {
+  HERSEY_REQUIRE(!point.load || point.load->norm() > 0, "a load that is not zero");
+  HERSEY_REQUIRE(point.film_speed(model.c) > 0 || model.asperities.model != film::AsperityModel::none,
+                 "speeds that move oil in the gap, or asperities");
+  const ParameterVector first = parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e);
+  const double gap = smallest_gap(model, first, point.growth);
+  HERSEY_REQUIRE(gap > 0, "a journal inside its bore");
+  if (options.thermal) return solve_with_heat(model, point, options, state);
+  SteadySearch search(model, point, options);
+  const SteadySummary summary = search.solve();
+  if (summary.converged) state = search.state();
+  return summary;
+}
+
+film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& state) {
+  OperatingPoint loaded = state.point;
+  loaded.tilt = state.tilt;
+  film::SurfaceMotion motion = steady_surfaces(model, loaded, state.e);
+  add_to_shell(state.thermal_shape, motion);
+  if (state.d_shell.size() > 0) motion.g += state.d_shell;
+  if (state.d_journal.size() > 0) motion.g -= state.d_journal;
+  film::FilmFields fields = film::film_fields(model, motion, state.u);
+  fields.depth = film::mean_depth(model, motion.phi_journal);
+  if (state.heat) state.heat->fields.show_in(fields);
+  fields.d_shell = state.d_shell;
+  fields.d_journal = state.d_journal;
+  return fields;
+}
+
+}  // namespace hersey::bearing

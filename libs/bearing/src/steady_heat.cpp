@@ -1,0 +1,153 @@
+#include "steady_heat.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+#include <variant>
+
+#include "clearance_growth.h"
+#include "hersey/film/grid_transfer.h"
+#include "hersey/film/thermal_network.h"
+#include "steady_search.h"
+#include "temperature_path.h"
+
+// Film and temperature in turn (thermal.16).
+namespace hersey::bearing {
+namespace {
+
+// Turns of film and temperature, and the change of temperatures over the largest rise (plus 1 K) at which they end.
+constexpr int kMostHeatIterations = 150;
+constexpr double kHeatTolerance = 1e-8;
+
+// On half the grid they come as near as its films are to those on the whole one.
+constexpr double kHalfGridTolerance = 0.1;
+
+// The film is solved to this share of how far its temperatures still move.
+constexpr double kShareOfNearness = 0.1;
+
+// No film is solved less well than this: none at all would do.
+constexpr double kCoarsest = 1e-3;
+
+// Bodies of a network in balance with the film's heat, and the film with their temperatures (thermal.47).
+void balance(film::ThermalNetwork& network, film::FilmHeat& heat) {
+  const film::FilmTerminals at = film::terminals_of(heat.thermal());
+  network.advance(0, {{at, heat.exchange()}});
+  heat.move_walls(network.walls(at, heat.exchange().T));
+}
+
+double celsius(double T) { return T - film::zero_celsius; }
+
+// Where the hottest oil is.
+std::string hottest_of(const film::HeatObservables& seen) {
+  return fmt::format("{:.0f} degC at {:.0f} deg, z = {:.3g} mm", celsius(seen.T_max),
+                     seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
+}
+
+// A film that was there and is lost as its oil warms and thins, or heat that leaves only at temperatures of no oil:
+// told as what it is.
+void tell_runaway(const film::HeatObservables& seen, bool has_lost_film, SteadySummary& summary) {
+  if (has_lost_film) {
+    summary.message = fmt::format("thermal runaway: oil that warms to {} is too thin for the film to stay; {}",
+                                  hottest_of(seen), summary.message);
+  } else if (seen.T_max > hottest_oil) {
+    summary.converged = false;
+    summary.message = fmt::format(
+        "thermal runaway: the film's heat leaves it with oil of {} only, and no oil is one above {:.0f} degC",
+        hottest_of(seen), celsius(hottest_oil));
+  }
+}
+
+// Walls have grown into each other.
+std::string seizure(const film::FilmModel& model, double growth, const film::HeatObservables& seen) {
+  return fmt::format(
+      "a seizure: the clearance of {:.4g} um closes to {:.4g} um with the shell at {:.0f} degC and the journal at "
+      "{:.0f} degC",
+      1e6 * model.c, 1e6 * (model.c + growth), celsius(seen.T_shell_wall), celsius(seen.T_journal_wall));
+}
+
+// Film and temperature in turn until the film's temperatures, and the clearance with those of its walls, stay.
+// @param network  of walls that are nodes; null: none is
+SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& options, double nearness,
+                            SteadySearch& search, TemperaturePath& path, film::ThermalNetwork* network) {
+  SteadySummary summary;
+  for (int k = 0; k < kMostHeatIterations; ++k) {
+    const bool is_open = model.c + path.growth() > seized * model.c;
+    summary.converged = false;
+    if (is_open) {
+      search.set_growth(path.growth());
+      search.set_tolerance(std::max(options.rtol, std::min(kCoarsest, kShareOfNearness * path.nearness())));
+      search.set_viscosity(path.heat().viscosity());
+      search.set_thermal_shape(path.heat().shell_opening());
+      summary = search.has_film() ? search.once_more() : search.solve();
+    }
+    summary.heat_iterations = k + 1;
+    if (!summary.converged) {
+      if (path.step_back()) continue;
+      if (!is_open)
+        summary.message = seizure(model, path.growth(), path.heat().observables());
+      else if (path.has_film())
+        tell_runaway(path.heat().observables(), true, summary);
+      return summary;
+    }
+    search.heat(path.heat());
+    if (network != nullptr) balance(*network, path.heat());
+    path.take();
+    if (path.nearness() <= nearness && (nearness > kHeatTolerance || search.is_settled())) {
+      tell_runaway(path.heat().observables(), false, summary);
+      return summary;
+    }
+    path.step_on(k);
+  }
+  summary.converged = false;
+  summary.message = fmt::format("film and temperature do not come together in {} turns; hottest oil {}",
+                                kMostHeatIterations, hottest_of(path.heat().observables()));
+  tell_runaway(path.heat().observables(), false, summary);
+  return summary;
+}
+
+// From the same film on half the nodes each way, where a turn costs a quarter. Without an answer there, all stays.
+void begin_on_half_grid(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
+                        SteadySearch& search, TemperaturePath& path) {
+  if (options.start_heat || options.elasticity || !film::can_be_coarsened(model.grid)) return;
+  // Walls that move with their heat find their way with the film of the grid itself.
+  if (has_nodes(*options.thermal) || options.thermal->expansion ||
+      std::holds_alternative<film::BodyWall>(options.thermal->shell))
+    return;
+  film::FilmModel half = model;
+  half.grid = film::half_of(model.grid);
+  SteadyOptions on_half = options;
+  film::ThermalModel& thermal = *on_half.thermal;
+  if (auto* wall = std::get_if<film::WallAtTemperature>(&thermal.shell); wall != nullptr && wall->around.size() > 0)
+    wall->around = film::GridTransfer(model.grid, half.grid).around(wall->around);
+  SteadySearch search_there(half, point, on_half);
+  TemperaturePath path_there(half, thermal, point, std::nullopt);
+  if (!come_together(half, on_half, kHalfGridTolerance, search_there, path_there, nullptr).converged) return;
+  const film::GridTransfer transfer(half.grid, model.grid);
+  const double fill = film::fill_scale(model) / film::fill_scale(half);
+  search.begin_at(search_there.position(),
+                  transfer(search_there.film().unaryExpr([fill](double u) { return u < 0 ? fill * u : u; })));
+  path.begin_at(transfer(path_there.heat().state().film, thermal.layers));
+}
+
+}  // namespace
+
+SteadySummary solve_with_heat(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
+                              SteadyState& state) {
+  SteadySearch search(model, point, options);
+  TemperaturePath path(model, *options.thermal, point, options.start_heat);
+  std::optional<film::ThermalNetwork> network;
+  if (options.network && has_nodes(*options.thermal)) network.emplace(*options.network);
+  begin_on_half_grid(model, point, options, search, path);
+  const SteadySummary summary =
+      come_together(model, options, kHeatTolerance, search, path, network ? &*network : nullptr);
+  if (!summary.converged) return summary;
+  state = search.state();
+  state.heat = SteadyHeat{
+      path.heat().state(), path.heat().observables(), path.heat().fields(), path.heat().body_temperatures(), {}};
+  if (network) state.heat->network = network->observables();
+  return summary;
+}
+
+}  // namespace hersey::bearing

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "steady_search.h"
+
+// Newton's method on film and position (bearing.18).
+namespace hersey::bearing {
+namespace {
+
+// One Newton step may turn the journal by this angle [rad].
+constexpr double kLargestTurn = 0.3;
+
+// Iterations on film and position together without getting nearer by half, after which they are taken in turn.
+constexpr int kPatience = 6;
+
+// Share of the load below which a force has no size to compare with.
+constexpr double kForceFloor = 1e-6;
+
+// What Newton's method leaves of a small residual is this many times its square.
+constexpr double kCurvature = 3;
+
+// A step of the journal over the smallest gap that needs no care.
+constexpr double kSmallStep = 0.05;
+
+}  // namespace
+
+Eigen::Vector2d SteadySearch::missing(const Eigen::Vector2d& target) const {
+  const double F = force_.norm(), W = target.norm();
+  const double turn = std::atan2(force_.x() * target.y() - force_.y() * target.x(), force_.dot(target));
+  if (F < kForceFloor * W || std::abs(turn) > 0.5 * std::numbers::pi) return target - force_;
+  return std::log(W / F) * force_ + turn * Eigen::Vector2d(-force_.y(), force_.x());
+}
+
+double SteadySearch::distance_to(const Eigen::Vector2d& target) const {
+  const double F = std::max(force_.norm(), 1e-300), W = target.norm();
+  const double turn = std::atan2(force_.x() * target.y() - force_.y() * target.x(), force_.dot(target));
+  return std::hypot(std::log(W / F), turn);
+}
+
+SteadySearch::Step SteadySearch::newton_step(const Eigen::Vector2d& target) {
+  Columns dW;
+  respond(2, dx_de_, dW);
+  const Eigen::Matrix2d K = film_.change_of_force(dx_de_, dW);
+  Step step{K.fullPivLu().solve(missing(target)), film_.increment()};
+  if (!step.de.allFinite()) step.de.setZero();
+  step.de *= std::min(1.0, 0.5 * clearance() / std::max(step.de.norm(), 1e-300));
+  if (!film_.yields()) step.de *= share_of_gap(step.de);
+  step.dx += dx_de_ * step.de;
+  double share = 1;
+  while (share > 1e-6 && !film_.keeps_film(e_, x_, e_ + share * step.de, x_ + share * step.dx)) share *= 0.7;
+  step.de *= share;
+  step.dx *= share;
+  return step;
+}
+
+double SteadySearch::share_of_gap(const Eigen::Vector2d& de) const {
+  const double gap = gap_at(e_), tiny = 1e-3;
+  const double x = (gap - gap_at(e_ + tiny * de)) / (tiny * gap);
+  return std::abs(x) < 1e-6 ? 1 : std::min(2.0, -std::expm1(-x) / x);
+}
+
+bool SteadySearch::turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+  if (model_.supply.kind != film::SupplyKind::widest_gap) return false;
+  const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+  return std::abs(turn) > kLargestTurn;
+}
+
+bool SteadySearch::settled(const Eigen::Vector2d& target) {
+  summary_.force_error = (force_ - target).norm() / target.norm();
+  if (summary_.force_error > rtol_ || film_.relative_residual() > rtol_) return false;
+  x_ += film_.increment();
+  return true;
+}
+
+bool SteadySearch::one_step(const Eigen::Vector2d& target) {
+  if (is_swept()) return false;
+  const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());
+  if (kCurvature * off * off > rtol_) return false;
+  Columns dW;
+  respond(2, dx_de_, dW);
+  const Eigen::Vector2d de = film_.change_of_force(dx_de_, dW).fullPivLu().solve(target - force_);
+  if (!(de.norm() < kSmallStep * gap_at(e_))) return false;
+  e_ += de;
+  x_ += film_.increment() + dx_de_ * de;
+  return true;
+}
+
+bool SteadySearch::together(const Eigen::Vector2d& target) {
+  if (is_swept()) return false;
+  double best = std::numeric_limits<double>::infinity();
+  int idle = 0;
+  for (int k = 0; k < options_.max_iterations && idle < kPatience; ++k) {
+    if (settled(target)) return true;
+    const double now = distance_to(target) + film_.relative_residual();
+    idle = now < 0.5 * best ? 0 : idle + 1;
+    best = std::min(best, now);
+    const Step step = newton_step(target);
+    const Eigen::Vector2d from = e_;
+    e_ += step.de;
+    const Eigen::VectorXd film = x_;
+    x_ += step.dx;
+    if (stands_inside() && !turns_far(from, e_) && linearise()) continue;
+    x_ = film;
+    if (!film_at(e_)) return false;
+  }
+  return false;
+}
+
+bool SteadySearch::in_turn(const Eigen::Vector2d& target) {
+  for (int k = 0; k < options_.max_iterations && !is_tired(); ++k) {
+    if (settled(target)) return true;
+    const Eigen::Vector2d e = e_;
+    const Eigen::VectorXd x = x_;
+    const double distance = distance_to(target);
+    const Step step = newton_step(target);
+    bool nearer = false;
+    for (double share = 1; !nearer && share > 1e-4 && !is_tired(); share /= 2) {
+      x_ = x + share * step.dx;
+      if (!film::judge_unknowns(model_, film_.film_of(x_)).is_inside()) x_ = x;
+      nearer = film_at(e + share * step.de) && distance_to(target) < distance;
+    }
+    if (!nearer) return false;
+  }
+  return false;
+}
+
+}  // namespace hersey::bearing

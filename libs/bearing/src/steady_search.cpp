@@ -1,0 +1,208 @@
+#include "steady_search.h"
+
+#include <cmath>
+#include <variant>
+
+#include "hersey/film/observables.h"
+#include "hersey/film/reynolds.h"
+#include "short_bearing.h"
+
+// What is asked of a film and its position, and what they are once found.
+namespace hersey::bearing {
+namespace {
+
+// ln of the viscosity over that at rest from which on no film between rigid surfaces is an oil's. Of Weibull's
+// transformation alpha p = -ln(1 - alpha p_iso): 1 - alpha p_iso = 6e-6.
+constexpr double kSolid = 12;
+
+// Positions tried on the way from the start to the bearing's centre, where the film at the start cannot be found.
+constexpr int kMostStarts = 5;
+
+// Linearisations that the search from the inside out may take beside those of the paths from the start, as a share.
+constexpr double kShareOfSearch = 0.6;
+
+}  // namespace
+
+SteadySearch::SteadySearch(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
+    : model_(model), point_(point), options_(options), film_(model, point_, options), x_(film_.start()) {
+  for (int k = 0; k <= kTyRate; ++k) directions_.push_back(surface_direction(model, k));
+}
+
+bool SteadySearch::film_at(const Eigen::Vector2d& e) {
+  e_ = e;
+  is_unsolved_ = false;
+  if (!stands_inside()) return false;
+  const film::FilmSolveSummary solved = film_.solve(e, x_);
+  (is_swept() ? summary_.film_iterations : summary_.iterations) += solved.iterations;
+  summary_.message = solved.message;
+  is_unsolved_ = is_unsolved(solved);
+  return solved.converged && flows() && linearise();
+}
+
+bool SteadySearch::is_unsolved(const film::FilmSolveSummary& solved) const {
+  using Trouble = film::FilmDomain::Trouble;
+  if (solved.domain.is_inside()) return solved.relative_residual > rtol_;
+  const bool stiffens = !std::holds_alternative<film::ConstantViscosity>(model_.lubricant.viscosity_law);
+  return solved.domain.trouble != Trouble::closed && !(solved.domain.trouble == Trouble::pressure && stiffens);
+}
+
+bool SteadySearch::flows() {
+  Eigen::Index node = 0;
+  const double p = film_.film_of(x_).maxCoeff(&node);
+  if (film_.yields() || film::log_viscosity_ratio(model_.lubricant, p).value < kSolid) return true;
+  summary_.message =
+      film::text(model_, {.trouble = film::FilmDomain::Trouble::pressure, .node = static_cast<int>(node)});
+  return false;
+}
+
+SteadySummary SteadySearch::solve() {
+  has_film_ = true;
+  if (!point_.load && options_.start_heat) take_start();
+  return point_.load ? under_load() : at_given_position();
+}
+
+void SteadySearch::begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u) {
+  e_ = e;
+  x_.head(u.size()) = u;
+  has_film_ = true;
+}
+
+SteadySummary SteadySearch::at_given_position() {
+  summary_.converged = film_at(point_.e);
+  if (summary_.converged) x_ += film_.increment();  // beyond the tolerance: derivatives and differences then agree
+  return summary_;
+}
+
+SteadySummary SteadySearch::under_load() {
+  if (!film_at_start()) return summary_;
+  if (bears_nothing()) {
+    summary_.message =
+        "the film bears no load: it has no pressure anywhere. Where edges at the cavitation pressure "
+        "and no supply let no oil in, there is no other film";
+    return summary_;
+  }
+  budget_ = options_.max_linearisations;
+  const bool found = together(*point_.load) || from_light_load() || from_here() || raise_load();
+  budget_ = summary_.iterations + static_cast<int>(kShareOfSearch * options_.max_linearisations);
+  if (!found && !from_inside_out()) {
+    summary_.message = why_not();
+    return summary_;
+  }
+  summary_.converged = true;
+  summary_.message.clear();
+  return summary_;
+}
+
+SteadySummary SteadySearch::once_more() {
+  if (!point_.load) return at_given_position();
+  budget_ = summary_.iterations + options_.max_linearisations;
+  const Eigen::Vector2d e = e_;
+  const Eigen::VectorXd x = x_;
+  summary_.converged = linearise() && (one_step(*point_.load) || together(*point_.load));
+  if (!summary_.converged) {
+    x_ = x;
+    summary_.converged = film_at(e) && together(*point_.load);
+  }
+  if (!summary_.converged) return under_load();
+  summary_.message.clear();
+  return summary_;
+}
+
+bool SteadySearch::is_settled() {
+  if (!linearise() || film_.relative_residual() > options_.rtol) return false;
+  if (point_.load) {
+    summary_.force_error = (force_ - *point_.load).norm() / point_.load->norm();
+    if (summary_.force_error > options_.rtol) return false;
+  }
+  x_ += film_.increment();
+  return true;
+}
+
+void SteadySearch::set_growth(double growth) {
+  e_ *= (model_.c + growth) / clearance();
+  point_ = with_growth(point_, model_, growth);
+}
+
+void SteadySearch::set_tolerance(double rtol) {
+  rtol_ = rtol;
+  film_.set_tolerance(rtol);
+}
+
+DynamicCoefficients SteadySearch::coefficients() {
+  Eigen::MatrixXd dx;
+  Columns by_position, by_rate;
+  respond(4, dx, by_position);
+  std::vector<film::MotionDirection> rates(directions_.begin() + 4, directions_.end());
+  for (Eigen::Index a = 0; film_.deforms() && a < 4; ++a) {
+    film::MotionDirection& rate = rates[static_cast<std::size_t>(a)];
+    rate.g_rate += film_.opening(film_.amplitudes_of(dx.col(a)));
+  }
+  film_.respond(rates, dx, by_rate);
+  DynamicCoefficients result;
+  const auto generalised = [](const Columns& wrench) {
+    Eigen::Matrix4d rows;
+    rows << wrench.row(3), wrench.row(4), wrench.row(1), -wrench.row(0);
+    return rows;
+  };
+  result.stiffness = generalised(by_position);
+  result.damping = generalised(by_rate);
+  return result;
+}
+
+SteadyState SteadySearch::state() {
+  SteadyState state;
+  state.point = point_;
+  state.e = e_;
+  state.u = film_.film_of(x_);
+  state.s = film_.amplitudes_of(x_);
+  state.tilt = film_.tilt(x_);
+  state.turn = film_.turn(x_);
+  state.d_shell = film_.shell_displacement(x_);
+  state.d_journal = film_.journal_displacement(x_);
+  state.thermal_shape = film_.thermal_shape();
+  state.film = film::observe_film(model_, film_.surfaces(e_, x_), film_.history(), e_, state.u, state.tilt);
+  state.load = state.film.wrench_on_shell.segment<2>(3);
+  state.coefficients = coefficients();
+  return state;
+}
+
+bool SteadySearch::bears_nothing() {
+  const film::FilmFields fields = film::film_fields(model_, film_.surfaces(e_, x_), film_.film_of(x_));
+  const double scale = model_.lubricant.mu0 * point_.film_speed(model_.c) * std::pow(model_.R / model_.c, 2);
+  return fields.p.maxCoeff() - fields.p.minCoeff() <= 1e-9 * scale &&
+         model_.asperities.model == film::AsperityModel::none;
+}
+
+bool SteadySearch::linearise() {
+  const int linearisations = film_.linearise_near(e_, x_);
+  force_ = film_.force();
+  summary_.iterations += linearisations;
+  return linearisations > 0;
+}
+
+void SteadySearch::respond(int count, Eigen::MatrixXd& dx, Columns& dW) {
+  std::vector<film::MotionDirection> wanted(directions_.begin(), directions_.begin() + count);
+  if (model_.supply.kind == film::SupplyKind::widest_gap && e_.norm() > 1e-6 * clearance()) {
+    wanted[kEx].phi_supply = -e_.y() / e_.squaredNorm();
+    wanted[kEy].phi_supply = e_.x() / e_.squaredNorm();
+  }
+  film_.respond(wanted, dx, dW);
+}
+
+bool SteadySearch::film_at_start() {
+  const Eigen::Vector2d start = options_.start.value_or(ocvirk_position(model_, point_));
+  for (int k = 0; k < kMostStarts; ++k) {
+    x_ = film_.start();
+    if (k == 0) take_start();
+    if (film_at(std::exp2(-k) * start)) return true;
+  }
+  return false;
+}
+
+void SteadySearch::take_start() {
+  const Eigen::Index n = model_.grid.size();
+  if (options_.start_film.size() == n) x_.head(n) = options_.start_film;
+  if (options_.start_deformation.size() == film_.amplitudes()) x_.tail(x_.size() - n) = options_.start_deformation;
+}
+
+}  // namespace hersey::bearing

@@ -1,0 +1,211 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hersey/bearing/rigid_surfaces.h"
+#include "hersey/bearing/steady_bearing.h"
+#include "hersey/film/film_heat.h"
+#include "steady_film.h"
+
+namespace hersey::bearing {
+
+/// Film and position of one bearing (bearing.17), and the Newton iterations that bring them together.
+/// Newton's method is in steady_newton.cpp, the paths to the load where it does not arrive from the start in
+/// steady_paths.cpp.
+class SteadySearch {
+  using Columns = SteadyFilm::Columns;
+
+ public:
+  SteadySearch(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options);
+
+  /// The film at `e`, from the film there is.
+  [[nodiscard]] bool film_at(const Eigen::Vector2d& e);
+
+  [[nodiscard]] bool is_swept() const { return options_.solver == film::FilmSolver::sor && !film_.deforms(); }
+
+  /// Whether a solver has not arrived. A film that closes, starves or has an oil that stiffens without bound is none.
+  [[nodiscard]] bool is_unsolved(const film::FilmSolveSummary& solved) const;
+
+  /// Between rigid surfaces an oil that stiffens has, beyond Weibull's limit, numerical answers in which it is a solid.
+  [[nodiscard]] bool flows();
+
+  [[nodiscard]] SteadySummary solve();
+
+  /// A film and a position to go on from.
+  void begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u);
+  [[nodiscard]] bool has_film() const { return has_film_; }
+
+  [[nodiscard]] SteadySummary at_given_position();
+
+  [[nodiscard]] SteadySummary under_load();
+
+  /// The same with other viscosities, from the film and the position there are.
+  [[nodiscard]] SteadySummary once_more();
+
+  /// Whether the film and position there are, linearised anew, are the answer.
+  [[nodiscard]] bool is_settled();
+
+  void set_viscosity(film::LayeredViscosity viscosity) { film_.set_viscosity(std::move(viscosity)); }
+
+  void set_thermal_shape(Eigen::VectorXd shape) { film_.set_thermal_shape(std::move(shape)); }
+  /// The clearance at other temperatures of its walls; the journal stays where it is in it.
+  void set_growth(double growth);
+
+  /// How near to an answer it comes, on the way to one of film and temperature.
+  void set_tolerance(double rtol);
+
+  /// Temperatures by the film found.
+  void heat(film::FilmHeat& heat) { heat.advance(film_.surfaces(e_, x_), film_.history(), film_.film_of(x_)); }
+
+  /// Derivatives at the film found (bearing.21): one solve with four right-hand sides each on the factor of the last
+  /// linearisation. What a motion of the journal does to surfaces that deform, they do at its rate (bearing.29).
+  [[nodiscard]] DynamicCoefficients coefficients();
+
+  [[nodiscard]] const Eigen::Vector2d& position() const { return e_; }
+  [[nodiscard]] Eigen::VectorXd film() const { return film_.film_of(x_); }
+
+  [[nodiscard]] SteadyState state();
+
+ private:
+  /// A position whose force points along the load.
+  struct Position {
+    double r = 0, angle = 0;  // from the bearing's centre [m, rad]
+    Eigen::VectorXd x;
+  };
+
+  /// Of the search from the inside out: the load is too much at `inner`, and at `outer` it is not, or there is no film.
+  struct Bounds {
+    double angle = 0, inner = 0, outer = 0;
+    std::optional<Position> strong = {};  // the last one with more force than the load
+  };
+
+  /// The largest force along the load that has been seen, where, and what is further out: no film, or none found.
+  struct Limit {
+    double force = 0, r = 0;
+    std::string why;
+    bool is_unsolved = false;
+  };
+
+  [[nodiscard]] std::string why_not() const;
+
+  /// That a solver does not arrive says nothing of what the film bears.
+  [[nodiscard]] std::string not_found_further_out() const;
+
+  [[nodiscard]] std::string what_to_try() const;
+
+  [[nodiscard]] bool is_tired() const { return summary_.iterations >= budget_; }
+
+  [[nodiscard]] bool bears_nothing();
+
+  [[nodiscard]] bool linearise();
+
+  /// Answers dx and dW (total derivatives) to the first `count` directions; a supply at the widest gap follows e.
+  void respond(int count, Eigen::MatrixXd& dx, Columns& dW);
+
+  /// Where the film at the given start cannot be found, it is sought nearer to the centre, where it is thicker.
+  [[nodiscard]] bool film_at_start();
+
+  void take_start();
+
+  /// What is missing from the force to the target, as if the force followed a power of the film thickness: the
+  /// logarithm of the ratio along the force and the angle across it, to first order their difference.
+  [[nodiscard]] Eigen::Vector2d missing(const Eigen::Vector2d& target) const;
+
+  /// The same as one number: 0 at the target.
+  [[nodiscard]] double distance_to(const Eigen::Vector2d& target) const;
+
+  /// A step of position, and of film and deformation.
+  struct Step {
+    Eigen::Vector2d de;
+    Eigen::VectorXd dx;
+  };
+
+  /// Newton's step (bearing.18) at the present linearisation towards `target`, cut to where the linear film may be
+  /// trusted.
+  [[nodiscard]] Step newton_step(const Eigen::Vector2d& target);
+
+  /// Rigid surfaces: the force follows a power of the gap, so its logarithm is what a step changes in proportion.
+  [[nodiscard]] double share_of_gap(const Eigen::Vector2d& de) const;
+
+  [[nodiscard]] double gap_at(const Eigen::Vector2d& e) const { return film_.undeformed_gap(e); }
+
+  [[nodiscard]] double clearance() const { return bearing::clearance(model_, point_); }
+
+  /// Whether the journal stands inside its bore, as far as a rigid one must.
+  [[nodiscard]] bool stands_inside() const { return film_.yields() || gap_at(e_) > 0; }
+
+  /// A supply at the widest gap turns with the position: after a large turn the film is another one.
+  [[nodiscard]] bool turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+
+  [[nodiscard]] bool settled(const Eigen::Vector2d& target);
+
+  /// Near the answer one step of Newton's method from the present linearisation is enough, and known to be.
+  [[nodiscard]] bool one_step(const Eigen::Vector2d& target);
+
+  /// Newton on film and position at once: one linearisation per iteration.
+  [[nodiscard]] bool together(const Eigen::Vector2d& target);
+
+  /// Newton on the position with the film solved at each; a step that does not bring the force nearer is halved.
+  [[nodiscard]] bool in_turn(const Eigen::Vector2d& target);
+
+  /// Where the joint iteration has left off, if its position is nearer to the load than the start, else from there.
+  [[nodiscard]] bool from_here();
+
+  /// A force on the way from `from` to the load: turning at an even rate and growing by an even factor.
+  [[nodiscard]] Eigen::Vector2d between(const Eigen::Vector2d& from, double share) const;
+
+  /// Between surfaces that deform: from a share of the load at which they hardly do.
+  [[nodiscard]] bool from_light_load();
+
+  [[nodiscard]] bool raise_load() { return film_at_start() && change_load(); }
+
+  /// From the force the film has here to the load, each equilibrium the start of the next (bearing.19).
+  [[nodiscard]] bool change_load();
+
+  /// To a force near the present one. Soft bodies give way under a load that is held, but not where the journal is
+  /// held: position and deformation then go together.
+  [[nodiscard]] bool follow(const Eigen::Vector2d& target);
+
+  enum class Look { no_film, across, too_weak, strong };
+
+  /// Turns the journal about the bearing's centre, at the distance at.r from it, until the force points along the load.
+  /// A round bearing without features needs one turn: its force turns with it.
+  [[nodiscard]] Look turn_to_load(Position& at);
+
+  /// Distances from the centre to look at: each halves what is left of the clearance; surfaces that give way overlap
+  /// beyond it by up to a few times what the load deforms them.
+  [[nodiscard]] std::vector<double> distances();
+
+  /// One look further out, or half-way between the last two: moves one of the bounds, and keeps what has been borne.
+  void look_at(double r, Bounds& bounds);
+
+  /// The force of a film grows the further out the journal stands, without bound or up to where the film ends: outwards
+  /// until it reaches the load, then halving the last step, then Newton (bearing.20). What has been seen on the way
+  /// says, where the load is not found, what the film bears.
+  [[nodiscard]] bool from_inside_out();
+
+  /// Newton from the last position whose force exceeds the load, if that is near enough; from further away the load is
+  /// lowered from its force.
+  [[nodiscard]] bool is_reached(const Bounds& bounds);
+
+  const film::FilmModel& model_;
+  OperatingPoint point_;
+  const SteadyOptions& options_;
+  SteadyFilm film_;
+  std::vector<film::MotionDirection> directions_;
+  Eigen::Vector2d e_ = Eigen::Vector2d::Zero(), force_ = Eigen::Vector2d::Zero();
+  Eigen::VectorXd x_;  // film and deformation
+  Eigen::MatrixXd dx_de_;
+  SteadySummary summary_;
+  Limit limit_;
+  double rtol_ = options_.rtol;
+  bool has_film_ = false;     // to go on from
+  bool is_unsolved_ = false;  // the solver has not found the film last sought
+  int budget_ = 0;            // of linearisations
+};
+
+}  // namespace hersey::bearing

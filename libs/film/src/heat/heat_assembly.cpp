@@ -1,0 +1,324 @@
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "heat/heat_equations.h"
+
+// The rows of layers, ring, journal and supplies (thermal.10 to thermal.15).
+namespace hersey::film {
+namespace {
+
+// Oil that flows across has the mean of two layers' temperatures up to so many times the flow at which conduction alone
+// would still keep each between its neighbours'; flow along the film does that as well.
+constexpr double trusted = 4;
+
+}  // namespace
+
+// Layers first, then what stands at their nodes in the place of a film, then the few rows of journal and supplies.
+void HeatEquations::assemble(const CarryingFilm& film, const HeatState& start) {
+  system_.set_zero();
+  known_.setZero(system_.size() + 1 + supplies());
+  by_shell_.setZero(known_.size());
+  by_journal_.setZero(system_.size());
+  by_supply_.assign(static_cast<std::size_t>(start.film.size()), 0.0);
+  add_storage(film, start);
+  add_flows(film);
+  add_flow_upwards(film);
+  add_edges(film);
+  add_conduction(film);
+  add_shell(film, start);
+  add_journal(film);
+  if (holds_walls(film)) add_equations_to_mean(film, start);
+  add_supplies(film);
+  renew(film);
+  add_remainder(film, start);
+  if (holds_walls(film)) hold_walls(start);
+}
+
+// (thermal.10): without flow a steady film would have no temperature, so that a thread of storage is left to it.
+void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start) {
+  storage_.resize(start.film.size());
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const double thread = least_fill_ * film.balance.largest_throughput();
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      const double rate = film.dt > 0 ? start_volume(film, node) / film.dt : thread * 1e-6;
+      storage_[row] = rc_ * rate * width(l);
+      system_.diagonal(row) += storage_[row];
+      known_[row] += storage_[row] * start.film[row] + film.flows.dissipation(node, l);
+    }
+  }
+}
+
+void HeatEquations::add_flows(const CarryingFilm& film) {
+  inflow_.assign(static_cast<std::size_t>(model_.grid.size()), 0.0);
+  const auto& faces = film.balance.faces();
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (int l = 0; l < layers(); ++l) {
+      const double q = film.flows.over_face(f, l);
+      if (q > 0) add_flow(faces[f].a, faces[f].b, l, q);
+      if (q < 0) add_flow(faces[f].b, faces[f].a, l, -q);
+      add_second_order(film, f, l, q);
+    }
+  }
+}
+
+// On which side of a node the other lies.
+HeatSystem::Side HeatEquations::side_of(int from, int to) const {
+  const int n_z = model_.grid.n_z, n_phi = model_.grid.n_phi;
+  if (to / n_z == from / n_z) return to > from ? HeatSystem::left : HeatSystem::right;
+  return to / n_z == (from / n_z + 1) % n_phi ? HeatSystem::before : HeatSystem::after;
+}
+
+// Oil comes with the temperature of where it has been (thermal.10).
+void HeatEquations::add_flow(int from, int to, int layer, double q) {
+  system_.diagonal(system_.row(to, layer)) += rc_ * q;
+  system_.beside(to, layer, side_of(from, to)) -= rc_ * q;
+  inflow_[static_cast<std::size_t>(to)] += q;
+}
+
+// On the face oil has the temperature that the last two nodes extrapolate to (thermal.11). Beside a supply, an edge or
+// an empty node it has that of the last node.
+void HeatEquations::add_second_order(const CarryingFilm& film, std::size_t f, int layer, double q) {
+  if (q == 0) return;
+  const Face& face = film.balance.faces()[f];
+  const Grid& grid = model_.grid;
+  const GridGeometry& geometry = film.balance.geometry();
+  const int from = q > 0 ? face.a : face.b, to = q > 0 ? face.b : face.a;
+  const int i = from / grid.n_z, j = from % grid.n_z;
+  int behind = -1;
+  double length = 0;
+  if (to / grid.n_z == i) {
+    const int beyond = 2 * j - to % grid.n_z;
+    if (beyond < 0 || beyond >= grid.n_z) return;
+    behind = grid.index(i, beyond);
+    length = geometry.dz[std::min(j, beyond)];
+  } else {
+    const int last = (i + grid.n_phi - 1) % grid.n_phi, next = (i + 1) % grid.n_phi;
+    const int beyond = to / grid.n_z == next ? last : next;
+    behind = grid.index(beyond, j);
+    length = geometry.dx[beyond == last ? last : i];
+  }
+  const FlowBalance& b = film.balance;
+  if (b.is_held(from) || b.is_held(behind) || b.nodes()[behind].content < 1e-3) return;
+  const double heat = rc_ * std::abs(q) * 0.5 * face.length / length;
+  const HeatSystem::Side side = side_of(from, to);
+  system_.diagonal(system_.row(from, layer)) += heat;
+  system_.beside(from, layer, side) -= heat;
+  system_.beside(to, layer, side) -= heat;
+  system_.beyond(to, layer, side) += heat;
+}
+
+// With the mean temperature of both layers, second order, where conduction between them is not next to nothing beside
+// what flows; beyond, towards that upstream (thermal.51).
+void HeatEquations::add_flow_upwards(const CarryingFilm& film) {
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    for (int l = 0; l + 1 < layers(); ++l) {
+      const double q = rc_ * film.flows.upwards(node, l), conduction = between(film, node, l);
+      const double upstream = std::max(0.5 * std::abs(q) - trusted * conduction, 0.0);
+      const double up = 0.5 * q + upstream, down = 0.5 * q - upstream;
+      system_.diagonal(system_.row(node, l + 1)) += up;
+      system_.below(node, l + 1) -= up;
+      system_.diagonal(system_.row(node, l)) -= down;
+      system_.above(node, l) += down;
+    }
+  }
+}
+
+void HeatEquations::add_edges(const CarryingFilm& film) {
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const double in = -film.balance.outflow(node);
+    if (in <= 0) continue;
+    inflow_[static_cast<std::size_t>(node)] += in;
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      system_.diagonal(row) += rc_ * in * width(l);
+      known_[row] += rc_ * in * width(l) * thermal_.T_edges;
+    }
+  }
+}
+
+void HeatEquations::add_conduction(const CarryingFilm& film) {
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    for (int l = 0; l + 1 < layers(); ++l) {
+      const double k = between(film, node, l);
+      system_.diagonal(system_.row(node, l)) += k;
+      system_.above(node, l) -= k;
+      system_.diagonal(system_.row(node, l + 1)) += k;
+      system_.below(node, l + 1) -= k;
+    }
+  }
+}
+
+// Half of what asperities dissipate goes into either wall; one without heat leaves it to the oil (thermal.13).
+void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) {
+  const bool is_insulated = !conducts(thermal_.shell);
+  const bool has_rows = has_own_temperatures(thermal_.shell);
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const int row = system_.row(node, 0), i = node / model_.grid.n_z;
+    const double friction = 0.5 * asperity_power(film, node);
+    if (is_insulated) {
+      known_[row] += friction;
+      continue;
+    }
+    const WallFlux flux = to_shell(film, node);
+    system_.diagonal(row) += flux.beside;
+    if (layers() > 1) system_.above(node, 0) -= flux.next;
+    if (!has_rows) {
+      known_[row] += flux.wall() * start.shell[i];
+      by_shell_[row] += flux.wall();
+      continue;
+    }
+    system_.to_ring(node) -= flux.wall();
+    system_.diagonal(system_.ring_row(i)) += flux.wall();
+    system_.from_film(node, 0) -= flux.beside;
+    system_.from_film(node, 1) += flux.next;
+    known_[system_.ring_row(i)] += friction;
+  }
+  if (const auto* ring = std::get_if<RingWall>(&thermal_.shell)) add_ring(*ring, film, start);
+  if (const WallConduction* body = conduction_of(thermal_.shell)) add_body(*body, film, start);
+}
+
+// A steady body answers all of the heat at once (thermal.36); over a step it keeps its temperatures.
+void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start) {
+  const int n = model_.grid.n_phi, first = system_.ring_row(0);
+  if (film.dt > 0) {
+    system_.set_answer(nullptr, 1);
+    for (int node = 0; node < model_.grid.size(); ++node) system_.from_film(node, 0) = system_.from_film(node, 1) = 0;
+    for (int i = 0; i < n; ++i) {
+      system_.diagonal(first + i) = 1;
+      known_[first + i] = start.shell[i];
+    }
+    return;
+  }
+  double scale = 0;
+  for (int i = 0; i < n; ++i) scale += system_.diagonal(first + i) / n;
+  if (scale == 0) scale = 1;
+  system_.set_answer(&body.rise, scale);
+  const Eigen::VectorXd friction = known_.segment(first, n);
+  known_.segment(first, n) = scale * body.temperatures(friction);
+}
+
+void HeatEquations::add_ring(const RingWall& ring, const CarryingFilm& film, const HeatState& start) {
+  const int n = model_.grid.n_phi;
+  for (int i = 0; i < n; ++i) {
+    const int row = system_.ring_row(i), next = (i + 1) % n;
+    system_.diagonal(row) += ring_.around[i];
+    system_.ring_after(i) -= ring_.around[i];
+    system_.diagonal(system_.ring_row(next)) += ring_.around[i];
+    system_.ring_before(next) -= ring_.around[i];
+    system_.diagonal(row) += ring_.outside[i];
+    known_[row] += ring_.outside[i] * ring.T_ambient;
+    if (film.dt == 0 || holds_walls(film)) continue;
+    system_.diagonal(row) += ring_.capacity[i] / film.dt;
+    known_[row] += ring_.capacity[i] / film.dt * start.shell[i];
+  }
+}
+
+void HeatEquations::add_journal(const CarryingFilm& film) {
+  const bool is_insulated = !conducts(thermal_.journal);
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const int row = system_.row(node, top());
+    if (is_insulated) {
+      known_[row] += 0.5 * asperity_power(film, node);
+      continue;
+    }
+    const WallFlux flux = to_journal(film, node);
+    system_.diagonal(row) += flux.beside;
+    if (layers() > 1) system_.below(node, top()) -= flux.next;
+    by_journal_[row] += flux.wall();
+  }
+}
+
+// Oil comes out of a supply with the temperature there; of what passes a node, the supply's share takes it on
+// (thermal.14).
+void HeatEquations::add_supplies(const CarryingFilm& film) {
+  held_.clear();
+  supply_of_.assign(static_cast<std::size_t>(model_.grid.size()), -1);
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    if (!film.balance.is_held(node)) continue;
+    Held held{.node = node,
+              .supply = film.balance.feature_at(node) + (has_line() ? 1 : 0),
+              .chi = 1 - film.balance.balance_share(node),
+              .flow = film.balance.supply(node)};
+    supply_of_[node] = held.supply;
+    const double passing = std::max(inflow_[static_cast<std::size_t>(node)] + std::max(held.flow, 0.0),
+                                    least_fill_ * film.balance.largest_throughput());
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      const double share = held.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
+      held.rows.push_back({system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row]});
+      held.rows.back().entries.front().second += rc_ * held.flow * share;
+      const double in = rc_ * std::max(held.flow, 0.0) * share, taken_on = held.chi * rc_ * passing * width(l);
+      system_.diagonal(row) += in;
+      system_.scale(row, 1 - held.chi);
+      known_[row] *= 1 - held.chi, by_shell_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
+      system_.diagonal(row) += taken_on;
+      by_supply_[row] = (1 - held.chi) * in + taken_on;
+    }
+    held_.push_back(std::move(held));
+  }
+}
+
+// Of the film's oil that comes to a supply, a share is not carried over but replaced. A node in which the supply has
+// the part chi is as warm as (1 - chi) T_film + chi T_g: the film's heat in what comes from there lies above chi T_g.
+void HeatEquations::renew(const CarryingFilm& film) {
+  renewals_.clear();
+  if (thermal_.carry_over == 1) return;
+  std::vector<const Held*> held_at(static_cast<std::size_t>(model_.grid.size()), nullptr);
+  for (const Held& held : held_) held_at[static_cast<std::size_t>(held.node)] = &held;
+  const auto& faces = film.balance.faces();
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (int l = 0; l < layers(); ++l) {
+      const double q = film.flows.over_face(f, l);
+      const int from = q > 0 ? faces[f].a : faces[f].b;
+      const Held* held = held_at[static_cast<std::size_t>(q > 0 ? faces[f].b : faces[f].a)];
+      if (held == nullptr || q == 0) continue;
+      const double heat = (1 - thermal_.carry_over) * held->chi * rc_ * std::abs(q);
+      const double stirred = 1 - film.balance.balance_share(from);
+      // What another supply has stirred is its own matter.
+      const bool is_same = supply_of_[from] == held->supply;
+      renewals_.push_back(
+          {held->supply, system_.row(from, l), is_same ? heat : (1 - stirred) * heat, is_same ? stirred : 0});
+    }
+  }
+}
+
+// The journal's balance (thermal.13) and those of the supplies (thermal.15).
+void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& start) {
+  const int journal = system_.size();
+  const auto* free = std::get_if<FreeJournal>(&thermal_.journal);
+  journal_is_free_ = free != nullptr;
+  journal_self_ = 0;
+  into_journal_.assign(static_cast<std::size_t>(model_.grid.size()), {});
+  if (journal_is_free_) {
+    for (int node = 0; node < model_.grid.size(); ++node) {
+      into_journal_[node] = to_journal(film, node);
+      journal_self_ += into_journal_[node].wall();
+      known_[journal] += 0.5 * asperity_power(film, node);
+    }
+    if (film.dt > 0 && !holds_walls(film)) {
+      journal_self_ += free->heat_capacity / film.dt;
+      known_[journal] += free->heat_capacity / film.dt * start.journal;
+    }
+  }
+  if (journal_self_ == 0) hold_journal(start);
+  const double thread = rc_ * 1e-9 * film.balance.largest_throughput();
+  std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
+  for (const Held& held : held_) {
+    flow[held.supply] += held.flow;
+    for (const Held::Row& row : held.rows) {
+      known_[journal + 1 + held.supply] += row.known;
+      by_shell_[journal + 1 + held.supply] += row.by_shell;
+    }
+  }
+  for (const Renewal& renewal : renewals_)
+    known_[journal + 1 + renewal.supply] += renewal.heat * (1 - renewal.stirred) * fresh(renewal.supply);
+  supply_self_.assign(flow.size(), 0.0);
+  for (int s = 0; s < supplies(); ++s) {
+    supply_self_[s] = rc_ * std::max(-flow[s], 0.0) + thread;
+    known_[journal + 1 + s] += (rc_ * std::max(flow[s], 0.0) + thread) * fresh(s);
+  }
+}
+
+}  // namespace hersey::film

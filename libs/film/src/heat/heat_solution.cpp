@@ -1,0 +1,201 @@
+#include <span>
+
+#include "heat/heat_equations.h"
+#include "hersey/core/contract.h"
+#include "hersey/solver/sparse_lu.h"
+
+// The linear system of all temperatures: products, sweeps as a preconditioner, GMRES, and a factorisation where that
+// does not arrive.
+namespace hersey::film {
+namespace {
+
+// How far the equations are solved, as a share of what is missing at the start: of a steady film, which is taken in
+// turn with its temperature, and of a step.
+constexpr double steady_share = 1e-4, step_share = 1e-9;
+// A body that answers heat as a whole by temperatures has small rows: little is missing in them.
+constexpr double body_share = 1e-7;
+// Likewise the answers to temperatures of walls, which multiply what these move in a step.
+constexpr double response_share = 1e-7;
+
+}  // namespace
+
+HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start) {
+  const int rows = system_.size();
+  assemble(film, start);
+  prepare_sweeps(film);
+
+  Eigen::VectorXd x(known_.size()), missing, change;
+  x.head(start.film.size()) = start.film;
+  if (rows > start.film.size()) x.segment(start.film.size(), model_.grid.n_phi) = start.shell;
+  x[rows] = start.journal;
+  x.tail(supplies()) = start.supplies;
+  multiply(x, missing);
+  missing = known_ - missing;
+  const double steady = conduction_of(thermal_.shell) != nullptr ? body_share : steady_share;
+  solve_for(missing, film.dt == 0 ? steady : step_share, change);
+  x += change;
+
+  HeatState end = start;
+  end.film = x.head(start.film.size());
+  if (rows > start.film.size()) end.shell = x.segment(start.film.size(), model_.grid.n_phi);
+  end.journal = x[rows];
+  end.supplies = x.tail(supplies());
+  if (conduction_of(thermal_.shell) != nullptr) end.wall_heat = heat_into_shell(film, end);
+  if (holds_walls(film)) add_heat_to_mean(film, start, end);
+  return end;
+}
+
+void HeatEquations::solve_for(const Eigen::VectorXd& known, double share, Eigen::VectorXd& x) {
+  const auto A = [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) { multiply(v, y); };
+  const auto M = [this](const Eigen::VectorXd& b, Eigen::VectorXd& v) { precondition(b, v); };
+  const solver::GmresOptions wanted{
+      .rtol = share, .max_iterations = most_iterations_, .restart = (most_iterations_ + 1) / 2};
+  if (!gmres_.solve(A, M, known, wanted, x).converged) factorise_for(known, x);
+}
+
+// Where oil turns round in cells that sweeps cannot follow.
+void HeatEquations::factorise_for(const Eigen::VectorXd& known, Eigen::VectorXd& x) const {
+  const Eigen::SparseMatrix<double> A = matrix();
+  const std::span<const double> values{A.valuePtr(), static_cast<std::size_t>(A.nonZeros())};
+  solver::SparseLu lu;
+  lu.analyse(A);
+  HERSEY_REQUIRE(lu.factorise(values), "every layer of a film has a balance of heat");
+  x = known;
+  lu.solve({x.data(), static_cast<std::size_t>(x.size())});
+}
+
+Eigen::SparseMatrix<double> HeatEquations::matrix() const {
+  const int rows = system_.size(), n_phi = model_.grid.n_phi;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&entries](int row, const HeatSystem::Row& of) {
+    for (const auto& [column, entry] : of) entries.emplace_back(row, column, entry);
+  };
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      add(row, system_.entries(node, l));
+      if (by_journal_[row] != 0) entries.emplace_back(row, rows, -by_journal_[row]);
+      if (supply_of_[node] >= 0) entries.emplace_back(row, rows + 1 + supply_of_[node], -by_supply_[row]);
+    }
+  }
+  for (int i = 0; rows > system_.row(model_.grid.size(), 0) && i < n_phi; ++i)
+    add(system_.ring_row(i), system_.ring_entries(i));
+  entries.emplace_back(rows, rows, journal_self_);
+  for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
+    for (const auto& [row, entry] : journal_entries(node)) entries.emplace_back(rows, row, entry);
+  for (int s = 0; s < supplies(); ++s) entries.emplace_back(rows + 1 + s, rows + 1 + s, supply_self_[s]);
+  for (const Held& held : held_) {
+    for (const Held::Row& row : held.rows) {
+      add(rows + 1 + held.supply, row.entries);
+      entries.emplace_back(rows + 1 + held.supply, rows, -row.by_journal);
+    }
+  }
+  for (const Renewal& renewal : renewals_) {
+    const int row = rows + 1 + renewal.supply;
+    entries.emplace_back(row, renewal.row, renewal.heat);
+    entries.emplace_back(row, row, -renewal.heat * renewal.stirred);
+  }
+  Eigen::SparseMatrix<double> A(known_.size(), known_.size());
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+// Linear in what is known: the system stays, and no heat is made (thermal.45).
+HeatState HeatEquations::response(const Eigen::VectorXd& known) {
+  const int rows = system_.size(), film = model_.grid.size() * layers();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(known.size());
+  if (!known.isZero(0)) solve_for(known, response_share, x);
+  HeatState change;
+  change.film = x.head(film);
+  if (conducts(thermal_.shell)) change.shell.setZero(model_.grid.n_phi);
+  if (rows > film) change.shell = x.segment(film, model_.grid.n_phi);
+  change.journal = x[rows];
+  change.supplies = x.tail(supplies());
+  return change;
+}
+
+HeatState HeatEquations::response_to_shell() {
+  HeatState change = response(by_shell_);
+  change.shell.setOnes(model_.grid.n_phi);
+  return change;
+}
+
+HeatState HeatEquations::response_to_journal() {
+  const int journal = system_.size();
+  return response(journal_self_ * Eigen::VectorXd::Unit(known_.size(), journal));
+}
+
+void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  const int rows = system_.size();
+  y.resize(known_.size());
+  system_.multiply(x, y);
+  y.head(rows) -= by_journal_ * x[rows];
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    if (supply_of_[node] < 0) continue;
+    for (int row = node * layers(); row < (node + 1) * layers(); ++row)
+      y[row] -= by_supply_[row] * x[rows + 1 + supply_of_[node]];
+  }
+  multiply_remainder(x, y);
+}
+
+// Of the row of a free journal, by the layers beside it.
+std::array<std::pair<int, double>, 2> HeatEquations::journal_entries(int node) const {
+  const WallFlux& flux = into_journal_[node];
+  return {{{system_.row(node, top()), -flux.beside}, {system_.row(node, next_to_top()), flux.next}}};
+}
+
+void HeatEquations::multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  const int rows = system_.size();
+  y[rows] = journal_self_ * x[rows];
+  for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
+    for (const auto& [row, entry] : journal_entries(node)) y[rows] += entry * x[row];
+  for (int s = 0; s < supplies(); ++s) y[rows + 1 + s] = supply_self_[s] * x[rows + 1 + s];
+  for (const Held& held : held_) {
+    double& sum = y[rows + 1 + held.supply];
+    for (const Held::Row& row : held.rows) {
+      for (const auto& [column, entry] : row.entries) sum += entry * x[column];
+      sum -= row.by_journal * x[rows];
+    }
+  }
+  for (const Renewal& renewal : renewals_) {
+    const int row = rows + 1 + renewal.supply;
+    y[row] += renewal.heat * (x[renewal.row] - renewal.stirred * x[row]);
+  }
+}
+
+void HeatEquations::precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  const int rows = system_.size(), ends = 1 + supplies();
+  x.resize(b.size());
+  system_.sweep(b, x);
+  x.tail(ends).setZero();
+  Eigen::VectorXd missing(b.size());
+  multiply_remainder(x, missing);
+  x.tail(ends) = remainder_.solve(b.tail(ends) - missing.tail(ends));
+  x.head(rows).noalias() += by_remainder_ * x.tail(ends);
+}
+
+// The sweep begins at a supply, where temperatures are known best.
+void HeatEquations::prepare_sweeps(const CarryingFilm& film) {
+  int first = 0;
+  for (const Held& held : held_)
+    if (held.chi > 0.5) first = held.node / model_.grid.n_z;
+  system_.prepare(first, film.balance.speed_phi() >= 0);
+  const int rows = system_.size(), ends = 1 + supplies();
+  by_remainder_.setZero(rows, ends);
+  Eigen::VectorXd known = Eigen::VectorXd::Zero(rows), answer(rows + ends), sums(rows + ends);
+  Eigen::MatrixXd remainder(ends, ends);
+  for (int k = 0; k < ends; ++k) {
+    if (k == 0) known = by_journal_;
+    for (int row = 0; k > 0 && row < model_.grid.size() * layers(); ++row)
+      known[row] = supply_of_[row / layers()] == k - 1 ? by_supply_[row] : 0;
+    answer.setZero();
+    if (!known.isZero(0)) system_.sweep(known, answer);
+    by_remainder_.col(k) = answer.head(rows);
+    answer[rows + k] = 1;
+    multiply_remainder(answer, sums);
+    remainder.col(k) = sums.tail(ends);
+  }
+  remainder_.compute(remainder);
+}
+
+}  // namespace hersey::film
