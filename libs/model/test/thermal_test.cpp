@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 #include <variant>
 
@@ -163,6 +164,22 @@ TEST_CASE("EverythingAboutHeat_IsRead") {
   CHECK(bearing.film.lubricant.conductivity == 0.14);
   // The film's own viscosity is that of the oil as supplied.
   CHECK(bearing.film.lubricant.mu0 == read_bearing("grade: iso_vg_46, temperature: 50 degC", "").film.lubricant.mu0);
+}
+
+TEST_CASE("MaterialsThatRub_AreRead") {
+  const auto with_materials = [](const std::string& shell) {
+    return "model: film, supply_temperature: 50 degC}\n    materials: {shell: {youngs_modulus: 60 GPa, poisson_ratio: "
+           "0.3" +
+           shell + "}, journal: {youngs_modulus: 210 GPa, poisson_ratio: 0.3}";
+  };
+  const Bearing bearing = read_bearing(
+      "grade: iso_vg_46", with_materials(", density: 7300 kg/m^3, conductivity: 55 W/m/K, specific_heat: 230 J/kg/K"));
+  const auto& heat = std::get<film::ThermalModel>(bearing.heat);
+  CHECK(heat.shell_surface.effusivity() == relative(std::sqrt(55 * 7300 * 230.0)).epsilon(digits));
+  CHECK(heat.journal_surface.effusivity() == relative(std::sqrt(50 * 3.6e6)).epsilon(digits));  // steel
+  CHECK(tells("grade: iso_vg_46", with_materials(", conductivity: 55 W/m/K, specific_heat: 230 J/kg/K"),
+              "a `specific_heat` and no `density`"));
+  CHECK(tells("grade: iso_vg_46", with_materials(", density: 7300 kg/m^3, conductivity: 55 W/m/K"), "specific_heat"));
 }
 
 TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {

@@ -26,6 +26,8 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
   HERSEY_REQUIRE(model.lubricant.specific_heat > 0 && model.lubricant.conductivity >= 0, "an oil that holds heat");
   HERSEY_REQUIRE(thermal.T_features.empty() || thermal.T_features.size() == model.features.size(),
                  "a temperature for each feature or none");
+  for (const SurfaceMaterial& surface : {thermal.shell_surface, thermal.journal_surface})
+    HERSEY_REQUIRE(surface.conductivity > 0 && surface.heat_capacity > 0, "surfaces that conduct and hold heat");
   if (const auto* ring = std::get_if<RingWall>(&thermal.shell)) {
     HERSEY_REQUIRE(ring->outer_radius > model.R && ring->conductivity > 0 && ring->heat_capacity > 0,
                    "a ring around the film that conducts and holds heat");

@@ -35,6 +35,7 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
       thermal_(thermal),
       across_(layering_of(static_cast<std::size_t>(thermal.layers))),
       rc_(model.lubricant.density * model.lubricant.specific_heat),
+      shell_share_(friction_share(thermal.shell_surface, thermal.journal_surface)),
       system_(model.grid, thermal.layers, has_own_temperatures(thermal.shell)),
       mean_(model.grid, thermal.layers,
             {.ring = has_own_temperatures(thermal.shell),
@@ -58,6 +59,15 @@ double HeatEquations::asperity_power(const CarryingFilm& film, int node) const {
   const GridGeometry& geometry = film.balance.geometry();
   const double area = geometry.weight_phi[node / model_.grid.n_z] * geometry.weight_z[node % model_.grid.n_z];
   return area * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact();
+}
+
+// Shared by the surfaces' effusivities (thermal.53).
+double HeatEquations::shell_friction(const CarryingFilm& film, int node) const {
+  return shell_share_ * asperity_power(film, node);
+}
+
+double HeatEquations::journal_friction(const CarryingFilm& film, int node) const {
+  return (1 - shell_share_) * asperity_power(film, node);
 }
 
 // By the slope of the temperature at the wall, behind which more may resist. Oil that stands in a supply is no film: it
@@ -409,13 +419,13 @@ void HeatEquations::add_conduction(const CarryingFilm& film) {
   }
 }
 
-// Half of what asperities dissipate goes into either wall; one without heat leaves it to the oil (thermal.13).
+// A wall without heat leaves its share of what asperities dissipate to the oil (thermal.53).
 void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) {
   const bool is_insulated = !conducts(thermal_.shell);
   const bool has_rows = has_own_temperatures(thermal_.shell);
   for (int node = 0; node < model_.grid.size(); ++node) {
     const int row = system_.row(node, 0), i = node / model_.grid.n_z;
-    const double friction = 0.5 * asperity_power(film, node);
+    const double friction = shell_friction(film, node);
     if (is_insulated) {
       known_[row] += friction;
       continue;
@@ -461,7 +471,7 @@ void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& fil
 Eigen::VectorXd HeatEquations::heat_into_shell(const CarryingFilm& film, const HeatState& state) const {
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(model_.grid.n_phi);
   for (int node = 0; node < model_.grid.size(); ++node)
-    heat[node / model_.grid.n_z] += into_shell(film, state, node) + 0.5 * asperity_power(film, node);
+    heat[node / model_.grid.n_z] += into_shell(film, state, node) + shell_friction(film, node);
   return heat;
 }
 
@@ -486,7 +496,7 @@ void HeatEquations::add_journal(const CarryingFilm& film) {
   for (int node = 0; node < model_.grid.size(); ++node) {
     const int row = system_.row(node, top());
     if (is_insulated) {
-      known_[row] += 0.5 * asperity_power(film, node);
+      known_[row] += journal_friction(film, node);
       continue;
     }
     const WallFlux flux = to_journal(film, node);
@@ -563,7 +573,7 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
     for (int node = 0; node < model_.grid.size(); ++node) {
       into_journal_[node] = to_journal(film, node);
       journal_self_ += into_journal_[node].wall();
-      known_[journal] += 0.5 * asperity_power(film, node);
+      known_[journal] += journal_friction(film, node);
     }
     if (film.dt > 0 && !holds_walls(film)) {
       journal_self_ += free->heat_capacity / film.dt;
@@ -594,10 +604,10 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
   const double T0 = thermal_.T_supply;
   HeatBalance sum;
   for (int node = 0; node < model_.grid.size(); ++node) {
-    const double friction = asperity_power(film, node), out = film.balance.outflow(node);
-    sum.power += friction;
-    sum.to_shell += into_shell(film, end, node) + (conducts(thermal_.shell) ? 0.5 * friction : 0);
-    sum.to_journal += into_journal(film, end, node) + (conducts(thermal_.journal) ? 0.5 * friction : 0);
+    const double out = film.balance.outflow(node);
+    sum.power += asperity_power(film, node);
+    sum.to_shell += into_shell(film, end, node) + (conducts(thermal_.shell) ? shell_friction(film, node) : 0);
+    sum.to_journal += into_journal(film, end, node) + (conducts(thermal_.journal) ? journal_friction(film, node) : 0);
     const double from = film.dt > 0 ? start_volume(film, node) : 0;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);

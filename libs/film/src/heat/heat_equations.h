@@ -80,6 +80,9 @@ class HeatEquations {
   [[nodiscard]] int next_to_bottom() const { return std::min(1, top()); }
   [[nodiscard]] int top() const { return thermal_.layers - 1; }
   [[nodiscard]] double asperity_power(const CarryingFilm& film, int node) const;
+  /// What of that goes into either wall.
+  [[nodiscard]] double shell_friction(const CarryingFilm& film, int node) const;
+  [[nodiscard]] double journal_friction(const CarryingFilm& film, int node) const;
   /// Of the layer beside a wall, 0 or the last. @param resistance  of the wall itself, per area [m^2 K/W]
   [[nodiscard]] WallFlux to_wall(const CarryingFilm& film, int node, int layer, double resistance) const;
   /// And between a layer and the next [W/K].
@@ -129,7 +132,8 @@ class HeatEquations {
   const FilmModel model_;
   const ThermalModel thermal_;
   const Layering& across_;
-  double rc_ = 0;  ///< heat capacity of the oil per volume [J/(m^3 K)]
+  double rc_ = 0;             ///< heat capacity of the oil per volume [J/(m^3 K)]
+  double shell_share_ = 0.5;  ///< of the heat that asperities make [-]
   RingConductances ring_;
   HeatSystem system_;
   Eigen::VectorXd known_;               ///< right-hand sides of all rows [W]

@@ -85,9 +85,9 @@ void HeatEquations::add_heat_to_mean(const CarryingFilm& film, const HeatState& 
   const auto ring_row = [this](int i) -> int { return system_.ring_row(i % model_.grid.n_phi); };
   const auto* ring = std::get_if<RingWall>(&thermal_.shell);
   for (int node = 0; node < model_.grid.size(); ++node) {
-    const double friction = 0.5 * asperity_power(film, node), to_shell = into_shell(film, end, node) + friction;
+    const double to_shell = into_shell(film, end, node) + shell_friction(film, node);
     if (ring != nullptr) into[ring_row(node / model_.grid.n_z)] += to_shell;
-    shell += to_shell, journal += into_journal(film, end, node) + friction;
+    shell += to_shell, journal += into_journal(film, end, node) + journal_friction(film, node);
   }
   for (int i = 0; ring != nullptr && i < n; ++i) {
     const double around = ring_.around[i] * (end.shell[(i + 1) % n] - end.shell[i]);

@@ -125,6 +125,22 @@ void complete_walls(Context& context, const Value& thermal, const film::Grid& gr
   if (std::holds_alternative<film::NodeWall>(heat.journal)) heat.journal = node_wall_of(context, journal);
 }
 
+/// Of the shell or the journal, by which the heat of asperities is shared; steel where nothing is said.
+film::SurfaceMaterial surface_of(Context& context, const Value& bearing, const char* wall) {
+  const Value* materials = bearing.find("materials");
+  const Value* material = materials != nullptr && !materials->broken ? materials->find(wall) : nullptr;
+  if (material == nullptr || material->broken || !material->has("conductivity") || !material->has("specific_heat"))
+    return {};
+  const double density = number_of(*material, "density");
+  if (!(density > 0)) {
+    context.fault_at_key(*material, "a material with a `specific_heat` and no `density`",
+                         "its `density` as well: heat is stored by their product", "steel has 7850 kg/m^3");
+    return {};
+  }
+  return {.conductivity = number_of(*material, "conductivity"),
+          .heat_capacity = density * number_of(*material, "specific_heat")};
+}
+
 film::ThermalModel film_heat(Context& context, const Value& value, const film::FilmModel& film) {
   const Value& thermal = *value.find("thermal");
   film::ThermalModel heat;
@@ -133,6 +149,8 @@ film::ThermalModel film_heat(Context& context, const Value& value, const film::F
   const Value* edges = thermal.find("edge_temperature");
   heat.T_edges = edges != nullptr ? edges->number : heat.T_supply;
   heat.carry_over = number_of(thermal, "carry_over");
+  heat.shell_surface = surface_of(context, value, "shell");
+  heat.journal_surface = surface_of(context, value, "journal");
   heat.shell = read_alternative(*thermal.find("shell"), shell_walls());
   heat.journal = read_alternative(*thermal.find("journal"), journal_walls());
   if (auto* free = std::get_if<film::FreeJournal>(&heat.journal); free != nullptr && free->heat_capacity == 0)

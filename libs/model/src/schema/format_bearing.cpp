@@ -69,7 +69,7 @@ TypePtr compliance_format() {
 }
 
 TypePtr materials_format() {
-  const TypePtr material =
+  const TypePtr material = with_together(
       object("a material",
              {
                  required("youngs_modulus", modulus(), "Young's modulus."),
@@ -77,7 +77,14 @@ TypePtr materials_format() {
                           "Poisson's ratio."),
                  defaulted("density", quantity("kg/m^3", "7850 kg/m^3", Range::not_negative()), "0",
                            "Density; not used by rigid bodies."),
-             });
+                 optional("conductivity", quantity("W/m/K", "50 W/m/K", Range::positive()),
+                          "Of heat, at the surface that rubs (of the lining): both surfaces share the heat that "
+                          "asperities make by sqrt(conductivity density specific_heat).",
+                          "steel: 50 W/m/K, 3.6 MJ/m^3/K"),
+                 optional("specific_heat", quantity("J/kg/K", "460 J/kg/K", Range::positive()), "Likewise.",
+                          "that of steel"),
+             }),
+      {"conductivity", "specific_heat"});
   return object("two materials", {
                                      required("shell", material, "Of the bearing shell."),
                                      required("journal", material, "Of the journal."),

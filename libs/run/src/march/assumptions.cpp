@@ -153,6 +153,14 @@ std::string other_supplies(const film::FilmModel& film, const film::ThermalModel
   return text.empty() ? text : text + ")";
 }
 
+/// Where the heat of asperities goes.
+std::string rubbing(const film::FilmModel& film, const film::ThermalModel& heat) {
+  if (film.asperities.model == film::AsperityModel::none) return {};
+  const double shell = 100 * film::friction_share(heat.shell_surface, heat.journal_surface);
+  return fmt::format("; of the asperities' heat {:.3g} % into the shell, {:.3g} % into the journal, by effusivities",
+                     shell, 100 - shell);
+}
+
 /// What the film's temperature is; empty where nothing depends on one.
 std::string heat(const model::Bearing& bearing) {
   const film::Lubricant& oil = bearing.film.lubricant;
@@ -160,10 +168,10 @@ std::string heat(const model::Bearing& bearing) {
   if (const auto* film = std::get_if<film::ThermalModel>(&bearing.heat)) {
     return fmt::format(
         "film in {} layers, viscosity {}, oil supplied at {:.4g} degC{}, {:.4g} J/kg/K, {:.4g} W/m/K; shell {}; "
-        "journal {}; grooves carry over {:.3g} of the film's oil",
+        "journal {}; grooves carry over {:.3g} of the film's oil{}",
         film->layers, law, celsius(film->T_supply), other_supplies(bearing.film, *film), oil.specific_heat,
         oil.conductivity, std::visit(WordsOfShell{}, film->shell), std::visit(WordsOfJournal{}, film->journal),
-        film->carry_over);
+        film->carry_over, rubbing(bearing.film, *film));
   }
   if (const auto* one = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
     const std::string by = one->cools_by_surroundings

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -64,6 +65,20 @@ struct ThermalExpansion {
   }
 };
 
+/// What a wall's surface is made of: how it takes up the heat that asperities make on it.
+struct SurfaceMaterial {
+  double conductivity = 50;      ///< k [W/(m K)], > 0
+  double heat_capacity = 3.6e6;  ///< per volume, rho c [J/(m^3 K)], > 0
+
+  /// sqrt(k rho c) [W s^(1/2)/(m^2 K)]: heat goes into half-spaces of one surface temperature in proportion to it.
+  [[nodiscard]] double effusivity() const { return std::sqrt(conductivity * heat_capacity); }
+};
+
+/// Share of the friction's heat that goes into the first of two surfaces that rub (theory manual, thermal.53).
+[[nodiscard]] inline double friction_share(const SurfaceMaterial& first, const SurfaceMaterial& second) {
+  return first.effusivity() / (first.effusivity() + second.effusivity());
+}
+
 /// What rings and free journals do in a simulation.
 enum class WallMotion {
   by_their_heat,  ///< warm as their heat capacity lets them
@@ -81,7 +96,8 @@ struct ThermalModel {
   JournalWall journal = FreeJournal{};
   WallMotion walls = WallMotion::by_their_heat;  ///< of no account to a steady film
   double carry_over = 1;  ///< share of the film's oil that passes a groove with it [-], 0 (all is renewed) to 1
-  std::optional<ThermalExpansion> expansion = {};  ///< of the walls; unset: they keep their size
+  std::optional<ThermalExpansion> expansion = {};            ///< of the walls; unset: they keep their size
+  SurfaceMaterial shell_surface = {}, journal_surface = {};  ///< share the asperities' heat; steel
 };
 
 /// Whether one of the walls is a node of a network.
