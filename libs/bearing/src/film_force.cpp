@@ -367,12 +367,12 @@ const film::WallExchange& FilmForce::mean_exchange() {
   return heat_->mean_exchange();
 }
 
-void FilmForce::settle_walls(const Eigen::Vector2d& T_nodes) {
+void FilmForce::settle_walls(const Eigen::VectorXd& T_nodes) {
   walls_ = heat_->settle_walls(T_nodes);
   growth_->settle(growth_by_temperature());
 }
 
-void FilmForce::move_walls(const Eigen::Vector2d& T) {
+void FilmForce::move_walls(const Eigen::VectorXd& T) {
   HERSEY_REQUIRE(heat_.has_value(), "a film with temperatures");
   heat_->move_walls(T);
   history_start_.viscosity = heat_->viscosity();

@@ -338,6 +338,26 @@ TEST_CASE("WallsAreNodesOfANetwork") {
   CHECK(model.warnings.empty());
 }
 
+TEST_CASE("OilAndSurroundings_AreNodesOfANetwork") {
+  const std::string ring = ", shell: {wall: ring, outer_diameter: 160 mm, ambient: {node: block}}, drains_to: shaft";
+  const Model model =
+      read_text(film_with(", temperature: {node: room}", network,
+                          "model: film, supply_temperature: {node: block}, edge_temperature: 40 degC" + ring),
+                "m.yaml");
+  const auto& heat = std::get<film::ThermalModel>(model.bearings.at(0).heat);
+  CHECK(heat.T_supply == relative(303.15).epsilon(digits));
+  CHECK(heat.oil.line->node == 2);
+  CHECK(!heat.oil.edges);
+  CHECK(heat.T_edges == relative(313.15).epsilon(digits));
+  CHECK(heat.oil.drain->node == 1);
+  CHECK(std::get<film::RingWall>(heat.shell).surroundings->node == 0);
+  CHECK(std::get<film::RingWall>(heat.shell).T_ambient == relative(303.15).epsilon(digits));
+  CHECK(model.warnings.empty());
+  CHECK(has_fault(film_with("", network, "model: film, supply_temperature: {node: sump}"),
+                  "unknown thermal node 'sump'"));
+  CHECK(has_fault(film_with("", network, hot_film + ", drains_to: rom"), "did you mean 'room'"));
+}
+
 TEST_CASE("Mistakes_InTheThermalNetwork_AreTold") {
   const std::string wall = ", shell: {wall: node, node: ";
   CHECK(has_fault(film_with("", network, hot_film + wall + "blok}"), "did you mean 'block'"));

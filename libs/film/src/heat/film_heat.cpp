@@ -26,6 +26,8 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
   HERSEY_REQUIRE(model.lubricant.specific_heat > 0 && model.lubricant.conductivity >= 0, "an oil that holds heat");
   HERSEY_REQUIRE(thermal.T_features.empty() || thermal.T_features.size() == model.features.size(),
                  "a temperature for each feature or none");
+  HERSEY_REQUIRE(thermal.oil.features.empty() || thermal.oil.features.size() == model.features.size(),
+                 "a node for each feature or none");
   for (const SurfaceMaterial& surface : {thermal.shell_surface, thermal.journal_surface})
     HERSEY_REQUIRE(surface.conductivity > 0 && surface.heat_capacity > 0, "surfaces that conduct and hold heat");
   if (const auto* ring = std::get_if<RingWall>(&thermal.shell)) {
@@ -91,6 +93,7 @@ struct FilmHeat::Impl {
   void average_walls();
   [[nodiscard]] CarryingFilm carrying() const { return {flow, wrench, flows, dt}; }
   void find_exchange();
+  [[nodiscard]] Eigen::VectorXd nodes_now() const;
 
   ThermalModel thermal;
   FlowBalance flow;
@@ -102,6 +105,7 @@ struct FilmHeat::Impl {
   HeatState start_of_step;
   double dt = 0;                   // of the last step [s]
   HeatState by_shell, by_journal;  // changes of the state with temperatures of nodes, per kelvin
+  std::vector<HeatState> by_outside;
   WallExchange exchange;
   HeatObservables seen;
   TemperatureFields shown;
@@ -128,10 +132,18 @@ HeatState FilmHeat::Impl::start() const {
   }
   if (const auto* journal = std::get_if<NodeWall>(&thermal.journal)) first.journal = journal->T;
   if (const auto* shell = std::get_if<NodeWall>(&thermal.shell)) first.shell.setConstant(grid.n_phi, shell->T);
+  first.outside = outside_at_start(thermal);
   first.supplies.resize(equations.supplies());
-  for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k);
+  for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k, first.outside);
   if (shears_layers()) first.thinning.setOnes(first.film.size() + 2 * grid.size());
   return first;
+}
+
+/// Temperatures at the film's terminals, in the order of WallExchange [K].
+Eigen::VectorXd FilmHeat::Impl::nodes_now() const {
+  Eigen::VectorXd T(2 + state.outside.size());
+  T << (state.shell.size() > 0 ? state.shell[0] : 0), state.journal, state.outside;
+  return T;
 }
 
 /// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them in turn: they are worked out once.
@@ -213,7 +225,7 @@ void FilmHeat::set_state(const HeatState& state) {
   const HeatState& now = impl_->state;
   HERSEY_REQUIRE(state.film.size() == now.film.size() && state.shell.size() == now.shell.size() &&
                      state.wall_heat.size() == now.wall_heat.size() && state.supplies.size() == now.supplies.size() &&
-                     state.thinning.size() == now.thinning.size(),
+                     state.outside.size() == now.outside.size() && state.thinning.size() == now.thinning.size(),
                  "temperatures of this film");
   impl_->state = state;
   impl_->average_walls();
@@ -269,20 +281,29 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   m.state = m.equations.solve(m.carrying(), m.start_of_step);
   if (m.shears_layers()) m.thin();
   m.observe(m.carrying());
-  if (has_nodes(m.thermal) && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
+  if (terminals_of(m.thermal).has_any() && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
 }
 
 // What walls that are nodes take up, and by how much more of a film that follows them (thermal.45).
 void FilmHeat::Impl::find_exchange() {
   const CarryingFilm film = carrying();
-  exchange = {};
-  exchange.T = {state.shell.size() > 0 ? state.shell[0] : 0, state.journal};
+  const Eigen::Index outside = state.outside.size(), n = 2 + outside;
+  exchange.T = nodes_now();
+  exchange.heat.setZero(n), exchange.by_T.setZero(n, n);
+  exchange.heat.tail(outside) = equations.into_outside(film, state);
   const auto into_walls = [&](const HeatState& change) {
-    Eigen::Vector2d heat = Eigen::Vector2d::Zero();
+    Eigen::Vector2d walls = Eigen::Vector2d::Zero();
     for (int node = 0; node < flow.size(); ++node)
-      heat += Eigen::Vector2d(equations.into_shell(film, change, node), equations.into_journal(film, change, node));
+      walls += Eigen::Vector2d(equations.into_shell(film, change, node), equations.into_journal(film, change, node));
+    Eigen::VectorXd heat(n);
+    heat << walls, equations.into_outside(film, change);
     return heat;
   };
+  by_outside.clear();
+  for (Eigen::Index place = 0; place < outside; ++place) {
+    by_outside.push_back(equations.response_to_outside(place));
+    exchange.by_T.col(2 + place) = into_walls(by_outside.back());
+  }
   const bool is_shell = std::holds_alternative<NodeWall>(thermal.shell);
   const bool is_journal = std::holds_alternative<NodeWall>(thermal.journal);
   if (is_shell) {
@@ -301,15 +322,18 @@ void FilmHeat::Impl::find_exchange() {
 
 const WallExchange& FilmHeat::exchange() const { return impl_->exchange; }
 
-void FilmHeat::move_walls(const Eigen::Vector2d& T) {
+void FilmHeat::move_walls(const Eigen::VectorXd& T) {
   Impl& m = *impl_;
-  const Eigen::Vector2d by = T - m.exchange.T;
+  const Eigen::VectorXd by = T - m.exchange.T;
   const auto move = [&m](const HeatState& change, double dT) {
     m.state.film += dT * change.film;
     if (change.shell.size() > 0) m.state.shell += dT * change.shell;
     m.state.journal += dT * change.journal;
     m.state.supplies += dT * change.supplies;
+    m.state.outside += dT * change.outside;
   };
+  for (std::size_t place = 0; place < m.by_outside.size(); ++place)
+    move(m.by_outside[place], by[2 + static_cast<Eigen::Index>(place)]);
   if (std::holds_alternative<NodeWall>(m.thermal.shell)) move(m.by_shell, by[0]);
   if (std::holds_alternative<NodeWall>(m.thermal.journal)) move(m.by_journal, by[1]);
   m.exchange.heat += m.exchange.by_T * by;
@@ -345,13 +369,13 @@ const WallExchange& FilmHeat::mean_exchange() {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.holds_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
   m.mean = m.equations.mean().answer();
-  m.mean.exchange.T = {m.state.shell.size() > 0 ? m.state.shell[0] : 0, m.state.journal};
+  m.mean.exchange.T = m.nodes_now();
   return m.mean.exchange;
 }
 
-WallCorrection FilmHeat::settle_walls(const Eigen::Vector2d& T_nodes) {
+WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
   Impl& m = *impl_;
-  const Eigen::Vector2d by = T_nodes - m.mean.exchange.T;
+  const Eigen::VectorXd by = T_nodes - m.mean.exchange.T;
   const bool is_shell = std::holds_alternative<NodeWall>(m.thermal.shell);
   const bool is_journal = std::holds_alternative<NodeWall>(m.thermal.journal);
   WallCorrection correction{.rise = -std::numeric_limits<double>::infinity()};
@@ -371,9 +395,12 @@ WallCorrection FilmHeat::settle_walls(const Eigen::Vector2d& T_nodes) {
     follow(m.mean.without, 1);
     if (is_shell) follow(m.mean.by_shell, by[0]);
     if (is_journal) follow(m.mean.by_journal, by[1]);
+    for (std::size_t place = 0; place < m.mean.by_outside.size(); ++place)
+      follow(m.mean.by_outside[place], by[2 + static_cast<Eigen::Index>(place)]);
     note((after - before).cwiseAbs().maxCoeff(), after.maxCoeff());
     m.set_held_walls(after);
   }
+  m.state.outside = T_nodes.tail(m.state.outside.size());
   if (!std::isfinite(correction.rise)) correction.rise = 0;
   m.average_walls();
   return correction;
@@ -459,6 +486,7 @@ void FilmHeat::persist(Archive& archive) {
   archive.io("T_journal", impl_->state.journal);
   archive.io("wall_heat", impl_->state.wall_heat);
   archive.io("T_supplies", impl_->state.supplies);
+  if (impl_->state.outside.size() > 0) archive.io("T_outside", impl_->state.outside);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
   if (!impl_->holds_walls()) return;
   impl_->equations.mean().persist(archive);

@@ -33,6 +33,7 @@ double oil_share(const Node& node) { return std::clamp(node.theta, least_fill, 1
 HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal)
     : model_(model),
       thermal_(thermal),
+      at_(terminals_of(thermal)),
       across_(layering_of(static_cast<std::size_t>(thermal.layers))),
       rc_(model.lubricant.density * model.lubricant.specific_heat),
       shell_share_(friction_share(thermal.shell_surface, thermal.journal_surface)),
@@ -41,13 +42,31 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
             {.ring = has_own_temperatures(thermal.shell),
              .shell_node = std::holds_alternative<NodeWall>(thermal.shell),
              .free_journal = std::holds_alternative<FreeJournal>(thermal.journal),
-             .journal_node = std::holds_alternative<NodeWall>(thermal.journal)}) {
+             .journal_node = std::holds_alternative<NodeWall>(thermal.journal),
+             .outside = at_.outside()}) {
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }
 
-// Oil of its own temperature, or the film's (thermal.39).
-double HeatEquations::fresh(int supply) const {
+Eigen::Index HeatEquations::oil_of(int supply) const {
+  const int feature = supply - (has_line() ? 1 : 0);
+  if (feature < 0) return at_.place_of_oil(thermal_.oil.line);
+  return thermal_.oil.features.empty() ? -1
+                                       : at_.place_of_oil(thermal_.oil.features[static_cast<std::size_t>(feature)]);
+}
+
+double HeatEquations::at_edges(const Eigen::VectorXd& outside) const {
+  const Eigen::Index place = at_.place_of_oil(thermal_.oil.edges);
+  return place < 0 ? thermal_.T_edges : outside[place];
+}
+
+double HeatEquations::at_ring(const Eigen::VectorXd& outside) const {
+  return at_.ambient ? outside[at_.place_of_ambient()] : std::get<RingWall>(thermal_.shell).T_ambient;
+}
+
+// Oil of a node's temperature, of its own, or the film's (thermal.39).
+double HeatEquations::fresh(int supply, const Eigen::VectorXd& outside) const {
+  if (const Eigen::Index place = oil_of(supply); place >= 0) return outside[place];
   const int feature = supply - (has_line() ? 1 : 0);
   if (feature < 0) return thermal_.T_line.value_or(thermal_.T_supply);
   if (thermal_.T_features.empty()) return thermal_.T_supply;
@@ -122,6 +141,8 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   known_.setZero(rows + 1 + supplies());
   by_shell_.setZero(known_.size());
   by_journal_.setZero(rows);
+  by_outside_.setZero(known_.size(), at_.outside());
+  outside_ = start.outside;
   by_supply_.assign(static_cast<std::size_t>(start.film.size()), 0.0);
   add_storage(film, start);
   add_flows(film);
@@ -220,7 +241,45 @@ HeatState HeatEquations::response(const Eigen::VectorXd& known) {
   if (rows > film) change.shell = x.segment(film, model_.grid.n_phi);
   change.journal = x[rows];
   change.supplies = x.tail(supplies());
+  change.outside.setZero(at_.outside());
   return change;
+}
+
+HeatState HeatEquations::response_to_outside(Eigen::Index place) {
+  HeatState change = response(by_outside_.col(place));
+  change.outside[place] = 1;
+  return change;
+}
+
+// Oil that leaves over the edges, into a supply that takes it away, or to be replaced by what a supply gives.
+std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& film) const {
+  std::vector<std::pair<int, double>> oil;
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const double out = film.balance.outflow(node);
+    for (int l = 0; l < layers() && out > 0; ++l)
+      oil.emplace_back(system_.row(node, l), rc_ * out * film.flows.leaving_share(node, l));
+  }
+  Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
+  for (const Held& held : held_) flow[held.supply] += held.flow;
+  for (int s = 0; s < supplies(); ++s)
+    if (flow[s] < 0) oil.emplace_back(system_.size() + 1 + s, -rc_ * flow[s]);
+  for (const Renewal& renewal : renewals_) oil.emplace_back(renewal.row, renewal.heat);
+  return oil;
+}
+
+// A node that oil comes from gives it at its own temperature and grows no colder; what comes back warms it
+// (thermal.54).
+Eigen::VectorXd HeatEquations::into_outside(const CarryingFilm& film, const HeatState& state) const {
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(at_.outside());
+  for (int i = 0; at_.ambient && i < model_.grid.n_phi; ++i)
+    heat[at_.place_of_ambient()] += ring_.outside[i] * (state.shell[i] - state.outside[at_.place_of_ambient()]);
+  if (!at_.drain) return heat;
+  const double T = state.outside[at_.place_of_drain()];
+  for (const auto& [row, rate] : drained(film)) {
+    const int supply = row - system_.size() - 1;
+    heat[at_.place_of_drain()] += rate * ((supply >= 0 ? state.supplies[supply] : state.film[row]) - T);
+  }
+  return heat;
 }
 
 HeatState HeatEquations::response_to_shell() {
@@ -402,7 +461,9 @@ void HeatEquations::add_edges(const CarryingFilm& film) {
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       system_.diagonal(row) += rc_ * in * width(l);
-      known_[row] += rc_ * in * width(l) * thermal_.T_edges;
+      known_[row] += rc_ * in * width(l) * at_edges(outside_);
+      if (const Eigen::Index place = at_.place_of_oil(thermal_.oil.edges); place >= 0)
+        by_outside_(row, place) += rc_ * in * width(l);
     }
   }
 }
@@ -444,7 +505,7 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
     system_.from_film(node, 1) += flux.next;
     known_[system_.ring_row(i)] += friction;
   }
-  if (const auto* ring = std::get_if<RingWall>(&thermal_.shell)) add_ring(*ring, film, start);
+  if (std::holds_alternative<RingWall>(thermal_.shell)) add_ring(film, start);
   if (const WallConduction* body = conduction_of(thermal_.shell)) add_body(*body, film, start);
 }
 
@@ -475,7 +536,7 @@ Eigen::VectorXd HeatEquations::heat_into_shell(const CarryingFilm& film, const H
   return heat;
 }
 
-void HeatEquations::add_ring(const RingWall& ring, const CarryingFilm& film, const HeatState& start) {
+void HeatEquations::add_ring(const CarryingFilm& film, const HeatState& start) {
   const int n = model_.grid.n_phi;
   for (int i = 0; i < n; ++i) {
     const int row = system_.ring_row(i), next = (i + 1) % n;
@@ -484,7 +545,8 @@ void HeatEquations::add_ring(const RingWall& ring, const CarryingFilm& film, con
     system_.diagonal(system_.ring_row(next)) += ring_.around[i];
     system_.ring_before(next) -= ring_.around[i];
     system_.diagonal(row) += ring_.outside[i];
-    known_[row] += ring_.outside[i] * ring.T_ambient;
+    known_[row] += ring_.outside[i] * at_ring(outside_);
+    if (at_.ambient) by_outside_(row, at_.place_of_ambient()) += ring_.outside[i];
     if (film.dt == 0 || holds_walls(film)) continue;
     system_.diagonal(row) += ring_.capacity[i] / film.dt;
     known_[row] += ring_.capacity[i] / film.dt * start.shell[i];
@@ -523,12 +585,14 @@ void HeatEquations::add_supplies(const CarryingFilm& film) {
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double share = held.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
-      held.rows.push_back({system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row]});
+      held.rows.push_back(
+          {system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row], by_outside_.row(row)});
       held.rows.back().entries.front().second += rc_ * held.flow * share;
       const double in = rc_ * std::max(held.flow, 0.0) * share, taken_on = held.chi * rc_ * passing * width(l);
       system_.diagonal(row) += in;
       system_.scale(row, 1 - held.chi);
       known_[row] *= 1 - held.chi, by_shell_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
+      by_outside_.row(row) *= 1 - held.chi;
       system_.diagonal(row) += taken_on;
       by_supply_[row] = (1 - held.chi) * in + taken_on;
     }
@@ -558,7 +622,7 @@ void HeatEquations::renew(const CarryingFilm& film) {
 double HeatEquations::renewed(const HeatState& state, int supply) const {
   double heat = 0;
   for (const Renewal& renewal : renewals_)
-    if (renewal.supply == supply) heat += renewal.heat * (state.film[renewal.row] - fresh(supply));
+    if (renewal.supply == supply) heat += renewal.heat * (state.film[renewal.row] - fresh(supply, state.outside));
   return heat;
 }
 
@@ -588,13 +652,18 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
     for (const Held::Row& row : held.rows) {
       known_[journal + 1 + held.supply] += row.known;
       by_shell_[journal + 1 + held.supply] += row.by_shell;
+      by_outside_.row(journal + 1 + held.supply) += row.by_outside;
     }
   }
-  for (const Renewal& renewal : renewals_) known_[journal + 1 + renewal.supply] += renewal.heat * fresh(renewal.supply);
+  const auto give = [&](int supply, double heat) {  // oil at the temperature of fresh oil
+    known_[journal + 1 + supply] += heat * fresh(supply, outside_);
+    if (const Eigen::Index place = oil_of(supply); place >= 0) by_outside_(journal + 1 + supply, place) += heat;
+  };
+  for (const Renewal& renewal : renewals_) give(renewal.supply, renewal.heat);
   supply_self_.assign(flow.size(), 0.0);
   for (int s = 0; s < supplies(); ++s) {
     supply_self_[s] = rc_ * std::max(-flow[s], 0.0) + thread;
-    known_[journal + 1 + s] += (rc_ * std::max(flow[s], 0.0) + thread) * fresh(s);
+    give(s, rc_ * std::max(flow[s], 0.0) + thread);
   }
 }
 
@@ -614,7 +683,7 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
       const double T = end.film[row] - T0;
       sum.power += film.flows.dissipation(node, l);
       sum.to_oil +=
-          rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out * width(l) * (thermal_.T_edges - T0));
+          rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out * width(l) * (at_edges(end.outside) - T0));
       sum.to_oil += rc_ * film.flows.lost(node) * width(l) * T;
       if (film.dt == 0) {
         sum.stored += rc_ * film.balance.storage(node) * width(l) * T;
@@ -627,7 +696,7 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
   for (const Held& held : held_) flow[held.supply] += held.flow;
   for (int k = 0; k < supplies(); ++k)
-    sum.to_oil += renewed(end, k) - rc_ * flow[k] * ((flow[k] > 0 ? fresh(k) : end.supplies[k]) - T0);
+    sum.to_oil += renewed(end, k) - rc_ * flow[k] * ((flow[k] > 0 ? fresh(k, end.outside) : end.supplies[k]) - T0);
   return sum;
 }
 

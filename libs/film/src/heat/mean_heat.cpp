@@ -27,7 +27,9 @@ void MeanHeat::clear() {
   by_journal_.setZero(system_.size());
   by_shell_.setZero(system_.size());
   to_shell_.setZero(grid_.size(), 2), to_journal_.setZero(grid_.size(), 2);
-  into_nodes_.setZero();
+  const Eigen::Index n = walls_.outside;
+  into_nodes_.setZero(2 + n);
+  outside_.by.setZero(system_.size(), n), outside_.from.setZero(n, system_.size()), outside_.self.setZero(n);
   into_.setZero(system_.size() + 1);
   capacity_.setZero(grid_.size() * layers_);
 }
@@ -37,6 +39,10 @@ void MeanHeat::add_equations(double dt, const Equations& equations) {
   for (Eigen::Index row = 0; row < equations.added.size(); ++row)
     system_.diagonal(static_cast<int>(row)) += dt * equations.added[row];
   capacity_ += dt * equations.capacity;
+  if (walls_.outside > 0) {
+    outside_.by += dt * equations.outside.by, outside_.from += dt * equations.outside.from;
+    outside_.self += dt * equations.outside.self;
+  }
   if (walls_.free_journal || walls_.journal_node) {
     by_journal_ += dt * equations.by_journal;
     add(dt, equations.to_journal, to_journal_);
@@ -46,7 +52,7 @@ void MeanHeat::add_equations(double dt, const Equations& equations) {
   add(dt, equations.to_shell, to_shell_);
 }
 
-void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vector2d& into_nodes,
+void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::VectorXd& into_nodes,
                         const Eigen::VectorXd& start, const Eigen::VectorXd& end) {
   if (time_ == 0) begin_ = start;
   end_ = end;
@@ -68,8 +74,9 @@ MeanHeat::Change MeanHeat::change_of(const Eigen::VectorXd& x) const {
 }
 
 // Into nodes, of a change of the film between them [W s].
-Eigen::Vector2d MeanHeat::heat_of(const Eigen::VectorXd& x) const {
-  Eigen::Vector2d heat = Eigen::Vector2d::Zero();
+Eigen::VectorXd MeanHeat::heat_of(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(into_nodes_.size());
+  heat.tail(walls_.outside) = outside_.from * x.head(system_.size());
   for (int node = 0; node < grid_.size(); ++node) {
     for (int beside = 0; beside < std::min(layers_, 2); ++beside) {
       if (walls_.shell_node) heat[0] += to_shell_(node, beside) * x[system_.row(node, beside)];
@@ -94,17 +101,28 @@ MeanHeat::Answer MeanHeat::answer() {
   const Eigen::VectorXd x = solve(missing());
   answer.without = change_of(x);
   answer.exchange.heat = (into_nodes_ + heat_of(x)) / time_;
+  answer.exchange.by_T.setZero(into_nodes_.size(), into_nodes_.size());
+  const auto column = [this](const Eigen::VectorXd& by, Eigen::Index node, double self) -> Eigen::VectorXd {
+    return (heat_of(by) + self * Eigen::VectorXd::Unit(into_nodes_.size(), node)) / time_;
+  };
+  for (Eigen::Index place = 0; place < walls_.outside; ++place) {
+    Eigen::VectorXd by(system_.size() + 1);
+    by << outside_.by.col(place), 0;
+    by = solve(by);
+    answer.by_outside.push_back(change_of(by));
+    answer.exchange.by_T.col(2 + place) = column(by, 2 + place, outside_.self[place]);
+  }
   if (walls_.shell_node) {
     Eigen::VectorXd by_shell(system_.size() + 1);
     by_shell << by_shell_, 0;
     by_shell = solve(by_shell);
     answer.by_shell = change_of(by_shell);
-    answer.exchange.by_T.col(0) = (heat_of(by_shell) - Eigen::Vector2d(to_shell_.sum(), 0)) / time_;
+    answer.exchange.by_T.col(0) = column(by_shell, 0, -to_shell_.sum());
   }
   if (walls_.journal_node) {
     const Eigen::VectorXd by_journal = solve(Eigen::VectorXd::Unit(A.rows(), system_.size()));
     answer.by_journal = change_of(by_journal);
-    answer.exchange.by_T.col(1) = (heat_of(by_journal) - Eigen::Vector2d(0, to_journal_.sum())) / time_;
+    answer.exchange.by_T.col(1) = column(by_journal, 1, -to_journal_.sum());
   }
   clear();
   return answer;
@@ -141,6 +159,9 @@ void MeanHeat::persist(Archive& archive) {
   archive.io("into_nodes", into_nodes_);
   archive.io("into", into_), archive.io("begin_T", begin_), archive.io("end_T", end_);
   archive.io("capacity", capacity_);
+  if (walls_.outside == 0) return;
+  archive.io("by_outside", outside_.by), archive.io("to_outside", outside_.from);
+  archive.io("outside_self", outside_.self);
 }
 
 }  // namespace hersey::film

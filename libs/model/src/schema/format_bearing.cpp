@@ -1,6 +1,7 @@
 #include "schema/film_vocabulary.h"
 #include "schema/format.h"
 #include "schema/oil_laws.h"
+#include "schema/thermal_walls.h"
 
 namespace hersey::model {
 namespace {
@@ -182,8 +183,8 @@ TypePtr bearings_format() {
               "line", or_word(quantity("rad", "180 deg"), {{"widest_gap", "always where the gap is widest"}}),
               "Where oil enters, over the whole width: an angle from the shell's x-axis towards y, or `widest_gap`."),
           defaulted("pressure", pressure(), "0 Pa", "Supply pressure."),
-          optional("temperature", temperature("50 degC"), "Of its oil, in a bearing with `thermal: {model: film}`.",
-                   "`thermal.supply_temperature`"),
+          optional("temperature", temperature_or_node("50 degC"),
+                   "Of its oil, in a bearing with `thermal: {model: film}`.", "`thermal.supply_temperature`"),
       });
   const TypePtr bearing = object(
       "a bearing",

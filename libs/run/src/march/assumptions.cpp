@@ -122,8 +122,10 @@ struct WordsOfShell {
   }
   std::string operator()(const film::NodeWall& wall) const { return words_of_node(wall); }
   std::string operator()(const film::RingWall& ring) const {
-    return fmt::format("a ring to {:.4g} mm, {:.4g} W/m/K, {:.4g} W/m^2/K to surroundings at {:.4g} degC",
-                       2e3 * ring.outer_radius, ring.conductivity, ring.transfer, celsius(ring.T_ambient));
+    const std::string to = ring.surroundings ? words_of_node(*ring.surroundings)
+                                             : fmt::format("surroundings at {:.4g} degC", celsius(ring.T_ambient));
+    return fmt::format("a ring to {:.4g} mm, {:.4g} W/m/K, {:.4g} W/m^2/K to {}", 2e3 * ring.outer_radius,
+                       ring.conductivity, ring.transfer, to);
   }
   std::string operator()(const film::BodyWall& wall) const {
     return "in a body whose mesh conducts heat steadily" +
@@ -153,6 +155,21 @@ std::string other_supplies(const film::FilmModel& film, const film::ThermalModel
   return text.empty() ? text : text + ")";
 }
 
+/// Nodes that oil comes from and goes to.
+std::string nodes_of_oil(const film::FilmModel& film, const film::ThermalModel& heat) {
+  std::string text;
+  const auto add = [&text](const std::string& how, const std::optional<film::NetworkNode>& node) {
+    if (node) text += "; " + how + " node '" + node->name + "'";
+  };
+  if (film.supply.kind != film::SupplyKind::none) add("through the line oil comes as warm as", heat.oil.line);
+  for (std::size_t k = 0; k < heat.oil.features.size(); ++k)
+    if (film.features[k].is_fed)
+      add("through " + film.features[k].name + " oil comes as warm as", heat.oil.features[k]);
+  add("edges draw in oil as warm as", heat.oil.edges);
+  add("what leaves warms", heat.oil.drain);
+  return text;
+}
+
 /// Where the heat of asperities goes.
 std::string rubbing(const film::FilmModel& film, const film::ThermalModel& heat) {
   if (film.asperities.model == film::AsperityModel::none) return {};
@@ -171,7 +188,7 @@ std::string heat(const model::Bearing& bearing) {
         "journal {}; grooves carry over {:.3g} of the film's oil{}",
         film->layers, law, celsius(film->T_supply), other_supplies(bearing.film, *film), oil.specific_heat,
         oil.conductivity, std::visit(WordsOfShell{}, film->shell), std::visit(WordsOfJournal{}, film->journal),
-        film->carry_over, rubbing(bearing.film, *film));
+        film->carry_over, nodes_of_oil(bearing.film, *film) + rubbing(bearing.film, *film));
   }
   if (const auto* one = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
     const std::string by = one->cools_by_surroundings

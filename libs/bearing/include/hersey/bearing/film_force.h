@@ -115,12 +115,11 @@ class FilmForce : public mbd::TwoBodyForce {
   /// A cycle of the machine has ended with the step last accepted: as film::FilmHeat::mean_exchange().
   const film::WallExchange& mean_exchange();
   /// Likewise film::FilmHeat::settle_walls().
-  void settle_walls(const Eigen::Vector2d& T_nodes);
+  void settle_walls(const Eigen::VectorXd& T_nodes);
   /// Of a film with temperatures; null: it has one.
   [[nodiscard]] const film::FilmHeat* heat() const { return heat_ ? &*heat_ : nullptr; }
-  /// After a step has been accepted: walls that are nodes of a network have these temperatures at its end, shell and
-  /// journal [K].
-  void move_walls(const Eigen::Vector2d& T);
+  /// After a step has been accepted: likewise film::FilmHeat::move_walls().
+  void move_walls(const Eigen::VectorXd& T);
   /// What temperatures have come to at the state last accepted, where no film goes on from there: a clearance that they
   /// close, or oil that warms without bound, and where. Empty: nothing of that.
   /// @param closed  share of the clearance as given below which it counts as closed [-]

@@ -24,6 +24,13 @@ struct WallAtTemperature {
   Eigen::VectorXd around = {};  ///< of the shell at the grid's angles [K], shape (n_phi); empty: T everywhere
 };
 
+/// A node of a ThermalNetwork.
+struct NetworkNode {
+  double T = 293.15;      ///< at the start [K]
+  std::size_t node = 0;   ///< place in the network
+  std::string name = {};  ///< of that node
+};
+
 /// A shell that is a ring around the film: heat is conducted around it and through it to its surroundings
 /// (theory manual, thermal.12).
 struct RingWall {
@@ -32,7 +39,8 @@ struct RingWall {
   double transfer = 80;          ///< coefficient from its outside and its ends to the surroundings [W/(m^2 K)], >= 0
   double T_ambient = 313.15;     ///< of these [K]
   double heat_capacity = 3.6e6;  ///< per volume [J/(m^3 K)], > 0; of no account to a steady film
-  std::optional<double> T_start = {};  ///< with which a simulation begins [K]; unset: the supply's
+  std::optional<double> T_start = {};            ///< with which a simulation begins [K]; unset: the supply's
+  std::optional<NetworkNode> surroundings = {};  ///< whose temperature T_ambient is, and which the heat warms
 };
 
 /// A journal of one temperature that gives off no heat but to the film: turning fast, every point of it sees the mean
@@ -44,10 +52,13 @@ struct FreeJournal {
 
 /// A wall that is a lumped body, node of a ThermalNetwork: it has one temperature, which moves with the network
 /// (theory manual, thermal.44).
-struct NodeWall {
-  double T = 293.15;      ///< at the start [K]
-  std::size_t node = 0;   ///< of the network
-  std::string name = {};  ///< of that node
+using NodeWall = NetworkNode;
+
+/// Nodes that oil comes from, in place of temperatures that are given, and goes to (theory manual, thermal.54).
+struct OilNodes {
+  std::optional<NetworkNode> line = {}, edges = {};
+  std::vector<std::optional<NetworkNode>> features = {};  ///< empty: none of them
+  std::optional<NetworkNode> drain = {};                  ///< that oil warms which leaves the film
 };
 
 using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall, BodyWall, NodeWall>;
@@ -92,6 +103,7 @@ struct ThermalModel {
   std::optional<double> T_line = {};    ///< through the line instead [K]
   std::vector<double> T_features = {};  ///< through each feature instead [K]; empty: T_supply
   double T_edges = 313.15;              ///< of the oil that edges draw in [K]
+  OilNodes oil = {};
   ShellWall shell = InsulatedWall{};
   JournalWall journal = FreeJournal{};
   WallMotion walls = WallMotion::by_their_heat;  ///< of no account to a steady film
@@ -101,7 +113,7 @@ struct ThermalModel {
 };
 
 /// Whether one of the walls is a node of a network.
-[[nodiscard]] inline bool has_nodes(const ThermalModel& thermal) {
+[[nodiscard]] inline bool has_node_walls(const ThermalModel& thermal) {
   return std::holds_alternative<NodeWall>(thermal.shell) || std::holds_alternative<NodeWall>(thermal.journal);
 }
 
