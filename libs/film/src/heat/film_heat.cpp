@@ -102,6 +102,7 @@ struct FilmHeat::Impl {
   HeatEquations equations;
   HeatState state;
   MeanHeat::Answer mean;
+  bool has_settled = false;  // walls that are held
   HeatState start_of_step;
   double dt = 0;                   // of the last step [s]
   HeatState by_shell, by_journal;  // changes of the state with temperatures of nodes, per kelvin
@@ -236,6 +237,13 @@ Eigen::VectorXd FilmHeat::shell_opening() const {
   return wall == nullptr || !wall->deforms() ? Eigen::VectorXd() : wall->shape(impl_->state.wall_heat);
 }
 
+// Before it has settled the body is as warm everywhere (thermal.38).
+Eigen::VectorXd FilmHeat::shell_opening_in_time() const {
+  const WallConduction* wall = conduction_of(impl_->thermal.shell);
+  if (wall == nullptr || !wall->deforms() || impl_->has_settled) return shell_opening();
+  return wall->shape_by_rise * (impl_->state.shell.mean() - wall->T_reference);
+}
+
 Eigen::VectorXd FilmHeat::body_temperatures() const {
   const WallConduction* wall = conduction_of(impl_->thermal.shell);
   return wall == nullptr || wall->T_body0.size() == 0 ? Eigen::VectorXd() : wall->body(impl_->state.wall_heat);
@@ -352,7 +360,7 @@ double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, c
 }
 
 Eigen::VectorXd FilmHeat::Impl::held_walls() const {
-  const bool has_ring = std::holds_alternative<RingWall>(thermal.shell);
+  const bool has_ring = has_own_temperatures(thermal.shell);
   const bool has_journal = std::holds_alternative<FreeJournal>(thermal.journal);
   Eigen::VectorXd T((has_ring ? state.shell.size() : 0) + (has_journal ? 1 : 0));
   if (has_ring) T.head(state.shell.size()) = state.shell;
@@ -361,14 +369,14 @@ Eigen::VectorXd FilmHeat::Impl::held_walls() const {
 }
 
 void FilmHeat::Impl::set_held_walls(const Eigen::VectorXd& T) {
-  if (std::holds_alternative<RingWall>(thermal.shell)) state.shell = T.head(state.shell.size());
+  if (has_own_temperatures(thermal.shell)) state.shell = T.head(state.shell.size());
   if (std::holds_alternative<FreeJournal>(thermal.journal)) state.journal = T.tail(1)[0];
 }
 
 const WallExchange& FilmHeat::mean_exchange() {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.holds_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
-  m.mean = m.equations.mean().answer();
+  m.mean = m.equations.mean().answer(m.state.shell);
   m.mean.exchange.T = m.nodes_now();
   return m.mean.exchange;
 }
@@ -388,8 +396,10 @@ WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
   const Eigen::VectorXd before = m.held_walls();
   if (before.size() > 0) {
     Eigen::VectorXd after = before;
+    if (m.mean.heat.size() > 0) m.state.wall_heat = m.mean.heat;
     const auto follow = [&](const MeanHeat::Change& change, double share) {
-      if (std::holds_alternative<RingWall>(m.thermal.shell)) after.head(change.ring.size()) += share * change.ring;
+      if (has_own_temperatures(m.thermal.shell)) after.head(change.ring.size()) += share * change.ring;
+      if (change.heat.size() > 0) m.state.wall_heat += share * change.heat;
       if (std::holds_alternative<FreeJournal>(m.thermal.journal)) after.tail(1)[0] += share * change.journal;
     };
     follow(m.mean.without, 1);
@@ -401,6 +411,7 @@ WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
     m.set_held_walls(after);
   }
   m.state.outside = T_nodes.tail(m.state.outside.size());
+  m.has_settled = true;
   if (!std::isfinite(correction.rise)) correction.rise = 0;
   m.average_walls();
   return correction;
@@ -411,7 +422,7 @@ void FilmHeat::Impl::observe(const CarryingFilm& film) {
   seen.balance = equations.balance(film, start_of_step, state);
   seen.T_supplies = state.supplies;
   if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
-    seen.T_body_max = wall->body(state.wall_heat).maxCoeff();
+    seen.T_body_max = dt > 0 && !has_settled ? state.shell.maxCoeff() : wall->body(state.wall_heat).maxCoeff();
   show_surfaces(film);
   find_hottest();
   average(film);
@@ -489,6 +500,7 @@ void FilmHeat::persist(Archive& archive) {
   if (impl_->state.outside.size() > 0) archive.io("T_outside", impl_->state.outside);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
   if (!impl_->holds_walls()) return;
+  archive.io("has_settled", impl_->has_settled);
   impl_->equations.mean().persist(archive);
 }
 

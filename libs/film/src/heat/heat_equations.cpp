@@ -43,7 +43,8 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
              .shell_node = std::holds_alternative<NodeWall>(thermal.shell),
              .free_journal = std::holds_alternative<FreeJournal>(thermal.journal),
              .journal_node = std::holds_alternative<NodeWall>(thermal.journal),
-             .outside = at_.outside()}) {
+             .outside = at_.outside(),
+             .body = conduction_of(thermal.shell)}) {
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }
@@ -174,7 +175,7 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   if (rows > start.film.size()) end.shell = x.segment(start.film.size(), model_.grid.n_phi);
   end.journal = x[rows];
   end.supplies = x.tail(supplies());
-  if (conduction_of(thermal_.shell) != nullptr) end.wall_heat = heat_into_shell(film, end);
+  if (conduction_of(thermal_.shell) != nullptr && !holds_walls(film)) end.wall_heat = heat_into_shell(film, end);
   if (holds_walls(film)) add_heat_to_mean(film, start, end);
   return end;
 }
@@ -509,11 +510,13 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
   if (const WallConduction* body = conduction_of(thermal_.shell)) add_body(*body, film, start);
 }
 
-// A steady body answers all of the heat at once (thermal.36); over a step it keeps its temperatures.
+// A steady body answers all of the heat at once (thermal.36); over a step it keeps its temperatures. Where these are
+// held for a cycle the rows are first balances of heat, of which the mean is taken.
 void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start) {
   const int n = model_.grid.n_phi, first = system_.ring_row(0);
   if (film.dt > 0) {
     system_.set_answer(nullptr, 1);
+    if (holds_walls(film)) return;
     for (int node = 0; node < model_.grid.size(); ++node) system_.from_film(node, 0) = system_.from_film(node, 1) = 0;
     for (int i = 0; i < n; ++i) {
       system_.diagonal(first + i) = 1;

@@ -19,7 +19,7 @@ bool HeatEquations::holds_walls(const CarryingFilm& film) const {
 
 // The walls' rows say that temperatures stay.
 void HeatEquations::hold_walls(const HeatState& start) {
-  if (std::holds_alternative<RingWall>(thermal_.shell)) {
+  if (has_own_temperatures(thermal_.shell)) {
     system_.hold_ring();
     known_.segment(system_.ring_row(0), model_.grid.n_phi) = start.shell;
     by_outside_.middleRows(system_.ring_row(0), model_.grid.n_phi).setZero();
@@ -123,7 +123,7 @@ void HeatEquations::add_heat_to_mean(const CarryingFilm& film, const HeatState& 
   const auto* ring = std::get_if<RingWall>(&thermal_.shell);
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double to_shell = into_shell(film, end, node) + shell_friction(film, node);
-    if (ring != nullptr) into[ring_row(node / model_.grid.n_z)] += to_shell;
+    if (has_own_temperatures(thermal_.shell)) into[ring_row(node / model_.grid.n_z)] += to_shell;
     shell += to_shell, journal += into_journal(film, end, node) + journal_friction(film, node);
   }
   for (int i = 0; ring != nullptr && i < n; ++i) {

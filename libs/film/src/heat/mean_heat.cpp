@@ -61,16 +61,34 @@ void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vec
   into_nodes_ += dt * into_nodes;
 }
 
-// What the film has stored since the beginning, it has taken from walls.
-Eigen::VectorXd MeanHeat::missing() const {
+// What the film has stored since the beginning, it has taken from walls. A body lacks what its temperatures differ from
+// those that the mean heat would give it (thermal.56).
+Eigen::VectorXd MeanHeat::missing(const Eigen::VectorXd& shell) const {
   Eigen::VectorXd missing = into_;
   missing.head(capacity_.size()) += capacity_.cwiseProduct(end_ - begin_) / time_;
+  if (walls_.body == nullptr) return missing;
+  const Eigen::Index first = capacity_.size(), n = grid_.n_phi;
+  missing.segment(first, n) = time_ * (walls_.body->T0 - shell) + walls_.body->rise * into_.segment(first, n);
   return missing;
+}
+
+// Of a body: its own temperature, and by the heat into all of its angles those of the film and of itself.
+HeatSystem::Row MeanHeat::answer_entries(int i) const {
+  HeatSystem::Row entries{{system_.ring_row(i), time_}};
+  for (int j = 0; j < grid_.n_phi; ++j)
+    for (const auto& [column, entry] : system_.ring_entries(j))
+      entries.emplace_back(column, walls_.body->rise(i, j) * entry);
+  return entries;
 }
 
 MeanHeat::Change MeanHeat::change_of(const Eigen::VectorXd& x) const {
   const int ring = walls_.ring ? grid_.n_phi : 0;
-  return {x.segment(system_.size() - ring, ring), walls_.free_journal ? x[system_.size()] : 0};
+  Change change{x.segment(system_.size() - ring, ring), walls_.free_journal ? x[system_.size()] : 0};
+  if (walls_.body == nullptr) return change;
+  change.heat.setZero(ring);
+  for (int i = 0; i < ring; ++i)
+    for (const auto& [column, entry] : system_.ring_entries(i)) change.heat[i] -= entry * x[column] / time_;
+  return change;
 }
 
 // Into nodes, of a change of the film between them [W s].
@@ -87,7 +105,7 @@ Eigen::VectorXd MeanHeat::heat_of(const Eigen::VectorXd& x) const {
 }
 
 // Temperatures at which nothing is stored and walls take up no heat (thermal.19); nodes leave that to their network.
-MeanHeat::Answer MeanHeat::answer() {
+MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell) {
   HERSEY_REQUIRE(has_steps(), "a mean over some time");
   const Eigen::SparseMatrix<double> A = matrix();
   solver::SparseLu lu;
@@ -98,7 +116,8 @@ MeanHeat::Answer MeanHeat::answer() {
     return x;
   };
   Answer answer;
-  const Eigen::VectorXd x = solve(missing());
+  const Eigen::VectorXd x = solve(missing(shell));
+  if (walls_.body != nullptr) answer.heat = into_.segment(capacity_.size(), grid_.n_phi) / time_;
   answer.without = change_of(x);
   answer.exchange.heat = (into_nodes_ + heat_of(x)) / time_;
   answer.exchange.by_T.setZero(into_nodes_.size(), into_nodes_.size());
@@ -135,8 +154,9 @@ Eigen::SparseMatrix<double> MeanHeat::matrix() const {
     if (entry != 0) entries.emplace_back(row, column, entry);
   };
   for (int row = 0; row < rows; ++row) {
-    const HeatSystem::Row of =
-        row < film ? system_.entries(row / layers_, row % layers_) : system_.ring_entries(row - film);
+    const HeatSystem::Row of = row < film               ? system_.entries(row / layers_, row % layers_)
+                               : walls_.body != nullptr ? answer_entries(row - film)
+                                                        : system_.ring_entries(row - film);
     for (const auto& [column, entry] : of) add(row, column, entry);
     add(row, rows, -by_journal_[row]);
   }

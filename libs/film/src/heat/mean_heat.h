@@ -7,6 +7,7 @@
 #include "heat/heat_system.h"
 #include "heat/wall_flux.h"
 #include "hersey/core/archive.h"
+#include "hersey/film/body_wall.h"
 #include "hersey/film/grid.h"
 #include "hersey/film/heat_state.h"
 
@@ -27,6 +28,8 @@ class MeanHeat {
   struct Walls {
     bool ring = false, shell_node = false, free_journal = false, journal_node = false;
     Eigen::Index outside = 0;  ///< nodes that are no walls
+    /// What the ring's rows stand for where it is a body that conducts; null: a ring. Outlives this.
+    const WallConduction* body = nullptr;
   };
 
   /// The equations of a step, walls' rows included.
@@ -41,10 +44,11 @@ class MeanHeat {
     const OutsideOfMean& outside;             ///< empty where there are no such nodes
   };
 
-  /// Of a ring and a free journal [K].
+  /// Of a ring, or a shell in a body, and a free journal [K].
   struct Change {
     Eigen::VectorXd ring;  ///< shape (n_phi), or empty
     double journal = 0;
+    Eigen::VectorXd heat = {};  ///< into each angle of a shell in a body [W], or empty
   };
 
   /// Changes after which ring and free journal would take up no heat, and what nodes would then.
@@ -52,7 +56,8 @@ class MeanHeat {
     Change without;               ///< with the nodes as they are
     Change by_shell, by_journal;  ///< per kelvin of a node
     std::vector<Change> by_outside;
-    WallExchange exchange;  ///< without temperatures
+    Eigen::VectorXd heat = {};  ///< into each angle of a shell in a body, before any change [W]; else empty
+    WallExchange exchange;      ///< without temperatures
   };
 
   MeanHeat(const Grid& grid, int layers, const Walls& walls);
@@ -65,15 +70,17 @@ class MeanHeat {
                 const Eigen::VectorXd& end);
   /// Since the last call of answer().
   [[nodiscard]] bool has_steps() const { return time_ > 0; }
-  /// By the means since the last call; there is a step since then.
-  [[nodiscard]] Answer answer();
+  /// By the means since the last call; there is a step since then. @param shell  temperatures of a shell in a body,
+  /// which it had all the time, shape (n_phi) [K]
+  [[nodiscard]] Answer answer(const Eigen::VectorXd& shell);
 
   void persist(Archive& archive);
 
  private:
   [[nodiscard]] Change change_of(const Eigen::VectorXd& x) const;
   [[nodiscard]] Eigen::VectorXd heat_of(const Eigen::VectorXd& x) const;
-  [[nodiscard]] Eigen::VectorXd missing() const;
+  [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& shell) const;
+  [[nodiscard]] HeatSystem::Row answer_entries(int i) const;
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
   void clear();
 

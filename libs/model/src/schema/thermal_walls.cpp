@@ -73,7 +73,9 @@ const std::vector<Alternative<film::ShellWall>>& shell_walls() {
                   "Surface or set of nodes of the mesh that the film lies on.",
                   "those of `shell_surface`, or all faces on the bearing's cylinder"),
          optional("temperature", temperature("60 degC"),
-                  "Of all of the body in a simulation, in which it stays as it is.", "that of the supply")}},
+                  "Of all of the body as a simulation begins. It stays so, but for cycles with `walls: cycle_mean`, at "
+                  "whose ends it takes the temperatures that their mean heat gives it.",
+                  "that of the supply")}},
        [](const Value& wall) {
          const Value* T = wall.find("temperature");
          return film::BodyWall{.conduction = {},

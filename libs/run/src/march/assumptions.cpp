@@ -129,8 +129,9 @@ struct WordsOfShell {
   }
   std::string operator()(const film::BodyWall& wall) const {
     return "in a body whose mesh conducts heat steadily" +
-           (wall.T_start ? fmt::format("; in a simulation it stays at {:.4g} degC", celsius(*wall.T_start))
-                         : std::string("; in a simulation it stays at the temperature of the supply"));
+           (wall.T_start ? fmt::format("; in a simulation it begins at {:.4g} degC", celsius(*wall.T_start))
+                         : std::string("; in a simulation it begins at the temperature of the supply")) +
+           " and moves at the end of cycles only";
   }
 };
 

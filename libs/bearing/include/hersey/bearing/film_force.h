@@ -67,6 +67,7 @@ struct BearingObservation {
 
 class ClearanceGrowth;
 class DeformingSurfaces;
+class ThermalShape;
 
 /// An oil film between the surfaces of a shell frame A and of a journal frame B (theory manual, chapter bearing), where
 /// GapKinematics says how those lie to each other. The surfaces are rigid, or belong to elastic bodies whose shapes
@@ -133,7 +134,6 @@ class FilmForce : public mbd::TwoBodyForce {
 
  private:
   void place(const mbd::RelativeMotion& motion);
-  void shape_by_temperature();
   void feed(double t);
   void report_contact();
   [[nodiscard]] double smallest_gap() const;
@@ -155,7 +155,7 @@ class FilmForce : public mbd::TwoBodyForce {
   film::Reynolds reynolds_;
   std::optional<film::FilmHeat> heat_;  // at the state last accepted
   film::WallCorrection walls_;
-  Eigen::VectorXd thermal_shape_;  // of a shell whose body keeps its temperature, at the nodes; empty: none
+  std::unique_ptr<ThermalShape> thermal_shape_;  // of a shell in a body
   std::unique_ptr<ClearanceGrowth> growth_;
   std::unique_ptr<GapKinematics> gap_;
   std::unique_ptr<DeformingSurfaces> deforming_;

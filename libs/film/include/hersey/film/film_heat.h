@@ -60,6 +60,8 @@ class FilmHeat {
   /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.35); empty:
   /// it does not.
   [[nodiscard]] Eigen::VectorXd shell_opening() const;
+  /// The same in a simulation, in which a body keeps its temperatures, settle_walls() apart.
+  [[nodiscard]] Eigen::VectorXd shell_opening_in_time() const;
   /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.
   [[nodiscard]] Eigen::VectorXd body_temperatures() const;
 
