@@ -12,6 +12,7 @@
 #include "hersey/bearing/operating_point.h"
 #include "hersey/core/contract.h"
 #include "temperature_path.h"
+#include "thermal_shape.h"
 
 namespace hersey::bearing {
 namespace {
@@ -43,6 +44,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
     : name_(std::move(name)),
       options_(options),
       reynolds_(model, film::linear_solver_of(options.film.solver)),
+      thermal_shape_(std::make_unique<ThermalShape>()),
       growth_(std::make_unique<ClearanceGrowth>()),
       gap_(std::move(gap)),
       deforming_(std::make_unique<DeformingSurfaces>(model, options.shell_surface, options.journal_surface)),
@@ -56,7 +58,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
   if (options_.thermal) {
     heat_.emplace(model, *options_.thermal);
     history_.viscosity = heat_->viscosity();
-    shape_by_temperature();
+    thermal_shape_->start_at(heat_->shell_opening_in_time());
   }
   growth_->start_at(growth_by_temperature());
   history_start_ = observed_history_ = history_;
@@ -83,7 +85,8 @@ void FilmForce::place(const mbd::RelativeMotion& motion) {
   parameters_.head(acting_) = gap_->parameters();
   parameters_.segment(acting_, motion.s.size()) = motion.s;
   parameters_.tail(motion.s.size()) = motion.s_rate;
-  add_to_shell(thermal_shape_, surfaces_);
+  add_to_shell(thermal_shape_->now(), surfaces_);
+  if (thermal_shape_->moves()) surfaces_.g_rate += thermal_shape_->rate();
   deforming_->place(motion.s, motion.s_rate, gap_->turning(), surfaces_);
   feed(motion.t);
   // A liner may be pushed beyond its undeformed surface; surfaces without one may not meet.
@@ -101,15 +104,7 @@ void FilmForce::feed(double t) {
 
 /// Of the surfaces as their bodies deform, without the liner.
 double FilmForce::smallest_gap() const {
-  return deforming_->deform() || thermal_shape_.size() > 0 ? surfaces_.g.minCoeff() : gap_->smallest_gap();
-}
-
-/// Over a run a shell's body stays at the temperature it begins with (thermal.38).
-void FilmForce::shape_by_temperature() {
-  const auto* body = std::get_if<film::BodyWall>(&options_.thermal->shell);
-  if (body == nullptr || !body->conduction->deforms()) return;
-  const double T = body->T_start.value_or(options_.thermal->T_supply);
-  thermal_shape_ = body->conduction->shape_by_rise * (T - body->conduction->T_reference);
+  return deforming_->deform() || thermal_shape_->now().size() > 0 ? surfaces_.g.minCoeff() : gap_->smallest_gap();
 }
 
 void FilmForce::report_contact() {
@@ -167,6 +162,7 @@ void FilmForce::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {
   history_ = history_start_;
   history_.dt = dt;
   growth_->begin_step(dt);
+  thermal_shape_->begin_step(dt);
   u_ = u_start_;
   linearised_ = false;
   iterations_ = exchanges_ = 0;
@@ -347,6 +343,7 @@ void FilmForce::close_step() {
     history_start_.viscosity = heat_->viscosity();
   }
   growth_->accept_step(growth_by_temperature(), history_.dt);
+  thermal_shape_->accept_step(history_.dt);
   const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
   history_start_.w = fields.w;
   history_start_.density = fields.density;
@@ -367,12 +364,13 @@ const film::WallExchange& FilmForce::mean_exchange() {
   return heat_->mean_exchange();
 }
 
-void FilmForce::settle_walls(const Eigen::Vector2d& T_nodes) {
+void FilmForce::settle_walls(const Eigen::VectorXd& T_nodes) {
   walls_ = heat_->settle_walls(T_nodes);
   growth_->settle(growth_by_temperature());
+  thermal_shape_->settle(heat_->shell_opening_in_time());
 }
 
-void FilmForce::move_walls(const Eigen::Vector2d& T) {
+void FilmForce::move_walls(const Eigen::VectorXd& T) {
   HERSEY_REQUIRE(heat_.has_value(), "a film with temperatures");
   heat_->move_walls(T);
   history_start_.viscosity = heat_->viscosity();
@@ -417,6 +415,7 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
     seen.power_into_bodies += (deforming_->openings().transpose() * seen.film.normal_forces).dot(motion.s_rate);
   // Walls that grow apart are pushed on as shapes that open the gap everywhere are (thermal.43).
   seen.power_of_growth = growth_->rate() * seen.film.normal_forces.sum();
+  if (thermal_shape_->moves()) seen.power_of_growth += thermal_shape_->rate().dot(seen.film.normal_forces);
   seen.power_into_bodies += seen.power_of_growth;
   seen.clearance = model().c + growth_->now();
   seen.film_iterations = observed_iterations_;
@@ -470,6 +469,7 @@ void FilmForce::persist(Archive& archive) {
     heat_->persist(archive);
     archive.io("wall_correction", walls_.largest), archive.io("wall_rise", walls_.rise);
     growth_->persist(archive);
+    thermal_shape_->persist(archive);
   }
   archive.io("started", started_);
   archive.io("u", u_start_);

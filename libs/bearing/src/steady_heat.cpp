@@ -112,7 +112,7 @@ void begin_on_half_grid(const film::FilmModel& model, const OperatingPoint& poin
                         SteadySearch& search, TemperaturePath& path) {
   if (options.start_heat || options.elasticity || !film::can_be_coarsened(model.grid)) return;
   // Walls that move with their heat find their way with the film of the grid itself.
-  if (has_nodes(*options.thermal) || options.thermal->expansion ||
+  if (film::terminals_of(*options.thermal).has_any() || options.thermal->expansion ||
       std::holds_alternative<film::BodyWall>(options.thermal->shell))
     return;
   film::FilmModel half = model;
@@ -138,7 +138,7 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const OperatingPoint
   SteadySearch search(model, point, options);
   TemperaturePath path(model, *options.thermal, point, options.start_heat);
   std::optional<film::ThermalNetwork> network;
-  if (options.network && has_nodes(*options.thermal)) network.emplace(*options.network);
+  if (options.network && film::terminals_of(*options.thermal).has_any()) network.emplace(*options.network);
   begin_on_half_grid(model, point, options, search, path);
   const SteadySummary summary =
       come_together(model, options, kHeatTolerance, search, path, network ? &*network : nullptr);

@@ -449,5 +449,43 @@ TEST_CASE("WallsOfANetwork_AreInBalance") {
   }
 }
 
+// A sump that feeds the bearing, takes its oil back and is cooled, and a block around the ring: all heat of the film
+// goes into the air through both, and the film is that of oil and surroundings of these temperatures.
+TEST_CASE("SumpAndBlockOfANetwork_AreInBalance") {
+  const film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  SteadyOptions options{.thermal = ring_at_50()};
+  const film::NetworkNode sump{.T = 323.15, .node = 0}, block{.T = 313.15, .node = 1};
+  options.thermal->oil = {.line = sump, .edges = sump, .features = {}, .drain = sump};
+  options.thermal->oil.features.assign(model.features.size(), sump);
+  auto& ring = std::get<film::RingWall>(options.thermal->shell);
+  ring.surroundings = block, ring.T_ambient = block.T;
+  options.network = film::ThermalNetworkModel{
+      .nodes = {{"sump", 1e4, 323.15, false}, {"block", 1e3, 313.15, false}, {"room", 0, 298.15, true}},
+      .paths = {{"cooler", 0, 2, 60}, {"housing", 1, 2, 3}, {"across", 0, 1, 1}}};
+  SteadyState hot, given;
+  const SteadySummary summary = solve_steady(model, point(), options, hot);
+  CAPTURE(summary.message);
+  REQUIRE(summary.converged);
+  CHECK(summary.heat_iterations <= 25);
+  const film::NetworkObservables& seen = hot.heat->network;
+  const film::HeatBalance& balance = hot.heat->seen.balance;
+  CHECK(std::abs(seen.error()) < 1e-10);                            // round-off
+  CHECK(balance.error() < 1e-8);                                    // what the last change of temperature leaves
+  CHECK(seen.heat[0] == relative(balance.to_oil).epsilon(1e-6));    // as much oil comes as leaves: film's residual
+  CHECK(seen.heat[1] == relative(balance.to_shell).epsilon(1e-6));  // likewise
+  CHECK(seen.to_fixed == relative(balance.power).epsilon(1e-6));    // likewise
+  CHECK(std::abs(seen.T[0] - 323.15) > 1);
+  SteadyOptions held = options;
+  held.network.reset();
+  held.thermal->oil = {};
+  held.thermal->T_supply = held.thermal->T_edges = seen.T[0];
+  held.thermal->T_features.assign(model.features.size(), seen.T[0]);
+  auto& same = std::get<film::RingWall>(held.thermal->shell);
+  same.surroundings.reset(), same.T_ambient = seen.T[1];
+  REQUIRE(solve_steady(model, point(), held, given).converged);
+  CHECK(given.heat->seen.T_max - seen.T[0] == relative(hot.heat->seen.T_max - seen.T[0]).epsilon(1e-5));  // on two ways
+  CHECK(given.heat->seen.balance.power == relative(balance.power).epsilon(1e-6));                         // likewise
+}
+
 }  // namespace hot_bearing_test
 }  // namespace hersey::bearing

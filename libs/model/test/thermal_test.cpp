@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 #include <variant>
 
@@ -165,6 +166,22 @@ TEST_CASE("EverythingAboutHeat_IsRead") {
   CHECK(bearing.film.lubricant.mu0 == read_bearing("grade: iso_vg_46, temperature: 50 degC", "").film.lubricant.mu0);
 }
 
+TEST_CASE("MaterialsThatRub_AreRead") {
+  const auto with_materials = [](const std::string& shell) {
+    return "model: film, supply_temperature: 50 degC}\n    materials: {shell: {youngs_modulus: 60 GPa, poisson_ratio: "
+           "0.3" +
+           shell + "}, journal: {youngs_modulus: 210 GPa, poisson_ratio: 0.3}";
+  };
+  const Bearing bearing = read_bearing(
+      "grade: iso_vg_46", with_materials(", density: 7300 kg/m^3, conductivity: 55 W/m/K, specific_heat: 230 J/kg/K"));
+  const auto& heat = std::get<film::ThermalModel>(bearing.heat);
+  CHECK(heat.shell_surface.effusivity() == relative(std::sqrt(55 * 7300 * 230.0)).epsilon(digits));
+  CHECK(heat.journal_surface.effusivity() == relative(std::sqrt(50 * 3.6e6)).epsilon(digits));  // steel
+  CHECK(tells("grade: iso_vg_46", with_materials(", conductivity: 55 W/m/K, specific_heat: 230 J/kg/K"),
+              "a `specific_heat` and no `density`"));
+  CHECK(tells("grade: iso_vg_46", with_materials(", density: 7300 kg/m^3, conductivity: 55 W/m/K"), "specific_heat"));
+}
+
 TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
   CHECK(tells("grade: iso_vg_47, temperature: 50 degC", "", "did you mean 'iso_vg_46'"));
   CHECK(tells("density: 850 kg/m^3", "", "a lubricant without a viscosity"));
@@ -319,6 +336,26 @@ TEST_CASE("WallsAreNodesOfANetwork") {
   CHECK(std::get<film::NodeWall>(heat.shell).T == relative(303.15).epsilon(digits));
   CHECK(std::get<film::NodeWall>(heat.journal).node == 1);
   CHECK(model.warnings.empty());
+}
+
+TEST_CASE("OilAndSurroundings_AreNodesOfANetwork") {
+  const std::string ring = ", shell: {wall: ring, outer_diameter: 160 mm, ambient: {node: block}}, drains_to: shaft";
+  const Model model =
+      read_text(film_with(", temperature: {node: room}", network,
+                          "model: film, supply_temperature: {node: block}, edge_temperature: 40 degC" + ring),
+                "m.yaml");
+  const auto& heat = std::get<film::ThermalModel>(model.bearings.at(0).heat);
+  CHECK(heat.T_supply == relative(303.15).epsilon(digits));
+  CHECK(heat.oil.line->node == 2);
+  CHECK(!heat.oil.edges);
+  CHECK(heat.T_edges == relative(313.15).epsilon(digits));
+  CHECK(heat.oil.drain->node == 1);
+  CHECK(std::get<film::RingWall>(heat.shell).surroundings->node == 0);
+  CHECK(std::get<film::RingWall>(heat.shell).T_ambient == relative(303.15).epsilon(digits));
+  CHECK(model.warnings.empty());
+  CHECK(has_fault(film_with("", network, "model: film, supply_temperature: {node: sump}"),
+                  "unknown thermal node 'sump'"));
+  CHECK(has_fault(film_with("", network, hot_film + ", drains_to: rom"), "did you mean 'room'"));
 }
 
 TEST_CASE("Mistakes_InTheThermalNetwork_AreTold") {

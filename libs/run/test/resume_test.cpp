@@ -182,6 +182,22 @@ TEST_CASE("ResumedFilmBetweenWarmBodies_IsTheSame") {
   }
 }
 
+// In steps, and over cycles of eight of them: interrupted within the first and within the second.
+TEST_CASE("ResumedFilmWithItsSump_IsTheSame") {
+  const std::string line = "    supply: {line: widest_gap, pressure: 1 bar}\n";
+  const std::string heat =
+      "    thermal: {model: film, supply_temperature: {node: sump}, drains_to: sump, layers: 3, shell: {wall: ring, "
+      "outer_diameter: 60 mm, ambient: {node: block}}}\n";
+  std::string text = edited(rig_with(line, line + heat), "viscosity: 15 mPa.s", "grade: iso_vg_22");
+  text = edited(text, "simulation:\n",
+                "thermal:\n  nodes:\n    sump: {heat_capacity: 5 J/K}\n    block: {heat_capacity: 2 J/K}\n    room: "
+                "{fixed: 20 degC}\n  paths:\n    out: {between: [block, room], conductance: 3 W/K}\n    cooler: "
+                "{between: [sump, room], conductance: 9 W/K}\nsimulation:\n");
+  check_resumed(text, 7, 12);
+  check_resumed(edited(text, "duration: \"${duration}\"", "cycle: {period: 16 deg, until_converged: 0, most: 4}"), 7,
+                12);
+}
+
 TEST_CASE("ResumedFilmUnderErrorControl_IsTheSame") {
   check_resumed(rig_with("step: 2 deg", "step: {tolerance: 1e-5}\n  settle: {tolerance: 1e-9, over: 1 ms}"), 9, 30);
 }

@@ -149,6 +149,32 @@ TEST_CASE("BearingsShareABody") {
   CHECK(largest(series(file, "/thermal/heat_balance_error")) < 1e-9);  // round-off
 }
 
+const std::string sump_and_block =
+    "model: film, supply_temperature: {node: shaft}, drains_to: shaft, layers: 3, shell: {wall: ring, outer_diameter: "
+    "60 mm, ambient: {node: block}}";
+
+// What oil and ring give the nodes that they lead to, those receive: in steps, and over cycles, at whose end both are
+// where the cycle's mean heat passes them by.
+TEST_CASE("SumpAndBlock_TakeWhatOilAndRingGive") {
+  const TemporaryDirectory scratch;
+  for (const bool cycles : {false, true}) {
+    CAPTURE(cycles);
+    std::string text = warm_rig(sump_and_block);
+    if (cycles) text = edited(text, "  duration: \"${duration}\"\n", "  cycle: {period: 10 ms, most: 5}\n");
+    const Summary summary = simulate(rig(text), {.results = scratch / "sump.h5", .overwrite = true});
+    CAPTURE(summary.message);
+    REQUIRE(summary.status == Status::completed);
+    const results::Reader file(scratch / "sump.h5");
+    const std::vector<double> sump = series(file, "/thermal/T_shaft"), supplied = series(file, bearing + "T_side");
+    // Over cycles it warms by what the oil brings; in milliseconds it has but begun to, from 40 degC.
+    CHECK((cycles ? sump.back() - sump.front() > 0.05 : std::abs(sump.back() - sump.front()) > 0.01));
+    CHECK(supplied.back() > sump.back());
+    CHECK(largest(series(file, bearing + "heat_balance_error")) < 1e-6);  // the film's residual
+    CHECK(largest(series(file, "/thermal/heat_balance_error")) < 1e-9);   // round-off
+    if (!cycles) CHECK(series(file, "/thermal/heat_from_films_shaft").back() > 0);
+  }
+}
+
 // A wall of next to no capacity takes the temperature at which it passes on what it gets, in steps of any length.
 TEST_CASE("SmallCapacity_DoesNotLimitTheStep") {
   const TemporaryDirectory scratch;

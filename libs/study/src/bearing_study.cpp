@@ -67,7 +67,12 @@ Eigen::Vector2d polar(double length, double angle) {
 
 // A steady film whose oil stays in and whose walls are bodies that nothing cools has no temperature.
 void require_way_out(const model::Model& model, const model::Bearing& bearing, const film::ThermalModel& heat) {
-  if (!has_nodes(heat) || !film::is_closed(bearing.film)) return;
+  if (heat.oil.drain && !film::reaches_surroundings(model.thermal.network, heat.oil.drain->node))
+    throw InputError(Fault{bearing.position, "bearings." + bearing.name + ".thermal.drains_to",
+                           "oil that drains to '" + heat.oil.drain->name +
+                               "', whose heat reaches no surroundings: in a steady state it has nowhere to go",
+                           "a path from there to a node with a `fixed` temperature", ""});
+  if (!has_node_walls(heat) || !film::is_closed(bearing.film)) return;
   const film::FilmTerminals at = film::terminals_of(heat);
   const auto leads_out = [&](const std::optional<std::size_t>& node) {
     return node && film::reaches_surroundings(model.thermal.network, *node);
@@ -130,7 +135,8 @@ bool let_heat_follow(const model::Bearing& bearing, const BearingStudyOptions& o
   if (solution.elasticity || (heat != nullptr && std::holds_alternative<film::BodyWall>(heat->shell)))
     refuse_total(bearing, "surfaces that deform", "rigid surfaces");
   if (bearing.expansion) refuse_total(bearing, "walls that expand", "a clearance without `expansion`");
-  if (heat != nullptr && has_nodes(*heat)) refuse_total(bearing, "walls in a network", "walls by themselves");
+  if (heat != nullptr && film::terminals_of(*heat).has_any())
+    refuse_total(bearing, "nodes of a network", "walls and oil by themselves");
   bearing::SteadyOptions nearby = steady;
   nearby.start_film = solution.state.u;
   if (solution.state.heat) nearby.start_heat = solution.state.heat->state;
@@ -167,7 +173,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     steady.thermal = *heat;
     if (auto* body = std::get_if<film::BodyWall>(&steady.thermal->shell))
       body->conduction = bodies.conduction(model, bearing);
-    if (has_nodes(*heat)) {
+    if (film::terminals_of(*heat).has_any()) {
       steady.network = model.thermal.network;
       for (const film::ThermalNode& node : model.thermal.network.nodes) solution.node_names.push_back(node.name);
     }

@@ -26,6 +26,10 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
   HERSEY_REQUIRE(model.lubricant.specific_heat > 0 && model.lubricant.conductivity >= 0, "an oil that holds heat");
   HERSEY_REQUIRE(thermal.T_features.empty() || thermal.T_features.size() == model.features.size(),
                  "a temperature for each feature or none");
+  HERSEY_REQUIRE(thermal.oil.features.empty() || thermal.oil.features.size() == model.features.size(),
+                 "a node for each feature or none");
+  for (const SurfaceMaterial& surface : {thermal.shell_surface, thermal.journal_surface})
+    HERSEY_REQUIRE(surface.conductivity > 0 && surface.heat_capacity > 0, "surfaces that conduct and hold heat");
   if (const auto* ring = std::get_if<RingWall>(&thermal.shell)) {
     HERSEY_REQUIRE(ring->outer_radius > model.R && ring->conductivity > 0 && ring->heat_capacity > 0,
                    "a ring around the film that conducts and holds heat");
@@ -91,6 +95,7 @@ struct FilmHeat::Impl {
   void average_walls();
   [[nodiscard]] CarryingFilm carrying() const { return {flow, wrench, flows, dt}; }
   void find_exchange();
+  [[nodiscard]] Eigen::VectorXd nodes_now() const;
 
   ThermalModel thermal;
   FlowBalance flow;
@@ -99,10 +104,12 @@ struct FilmHeat::Impl {
   HeatEquations equations;
   HeatState state;
   MeanHeat::Answer mean;
+  bool has_settled = false;  // walls that are held
   HeatState start_of_step, end_of_step;
   bool is_observed = true;
   double dt = 0;                   // of the last step [s]
   HeatState by_shell, by_journal;  // changes of the state with temperatures of nodes, per kelvin
+  std::vector<HeatState> by_outside;
   WallExchange exchange;
   HeatObservables seen;
   TemperatureFields shown;
@@ -129,10 +136,18 @@ HeatState FilmHeat::Impl::start() const {
   }
   if (const auto* journal = std::get_if<NodeWall>(&thermal.journal)) first.journal = journal->T;
   if (const auto* shell = std::get_if<NodeWall>(&thermal.shell)) first.shell.setConstant(grid.n_phi, shell->T);
+  first.outside = outside_at_start(thermal);
   first.supplies.resize(equations.supplies());
-  for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k);
+  for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k, first.outside);
   if (shears_layers()) first.thinning.setOnes(first.film.size() + 2 * grid.size());
   return first;
+}
+
+/// Temperatures at the film's terminals, in the order of WallExchange [K].
+Eigen::VectorXd FilmHeat::Impl::nodes_now() const {
+  Eigen::VectorXd T(2 + state.outside.size());
+  T << (state.shell.size() > 0 ? state.shell[0] : 0), state.journal, state.outside;
+  return T;
 }
 
 /// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them in turn: they are worked out once.
@@ -214,7 +229,7 @@ void FilmHeat::set_state(const HeatState& state) {
   const HeatState& now = impl_->state;
   HERSEY_REQUIRE(state.film.size() == now.film.size() && state.shell.size() == now.shell.size() &&
                      state.wall_heat.size() == now.wall_heat.size() && state.supplies.size() == now.supplies.size() &&
-                     state.thinning.size() == now.thinning.size(),
+                     state.outside.size() == now.outside.size() && state.thinning.size() == now.thinning.size(),
                  "temperatures of this film");
   impl_->state = state;
   impl_->average_walls();
@@ -223,6 +238,13 @@ void FilmHeat::set_state(const HeatState& state) {
 Eigen::VectorXd FilmHeat::shell_opening() const {
   const WallConduction* wall = conduction_of(impl_->thermal.shell);
   return wall == nullptr || !wall->deforms() ? Eigen::VectorXd() : wall->shape(impl_->state.wall_heat);
+}
+
+// Before it has settled the body is as warm everywhere (thermal.38).
+Eigen::VectorXd FilmHeat::shell_opening_in_time() const {
+  const WallConduction* wall = conduction_of(impl_->thermal.shell);
+  if (wall == nullptr || !wall->deforms() || impl_->has_settled) return shell_opening();
+  return wall->shape_by_rise * (impl_->state.shell.mean() - wall->T_reference);
 }
 
 Eigen::VectorXd FilmHeat::body_temperatures() const {
@@ -271,20 +293,29 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   if (m.shears_layers()) m.thin();
   m.end_of_step = m.state;
   m.is_observed = false;
-  if (has_nodes(m.thermal) && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
+  if (terminals_of(m.thermal).has_any() && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
 }
 
 // What walls that are nodes take up, and by how much more of a film that follows them (thermal.45).
 void FilmHeat::Impl::find_exchange() {
   const CarryingFilm film = carrying();
-  exchange = {};
-  exchange.T = {state.shell.size() > 0 ? state.shell[0] : 0, state.journal};
+  const Eigen::Index outside = state.outside.size(), n = 2 + outside;
+  exchange.T = nodes_now();
+  exchange.heat.setZero(n), exchange.by_T.setZero(n, n);
+  exchange.heat.tail(outside) = equations.into_outside(film, state);
   const auto into_walls = [&](const HeatState& change) {
-    Eigen::Vector2d heat = Eigen::Vector2d::Zero();
+    Eigen::Vector2d walls = Eigen::Vector2d::Zero();
     for (int node = 0; node < flow.size(); ++node)
-      heat += Eigen::Vector2d(equations.into_shell(film, change, node), equations.into_journal(film, change, node));
+      walls += Eigen::Vector2d(equations.into_shell(film, change, node), equations.into_journal(film, change, node));
+    Eigen::VectorXd heat(n);
+    heat << walls, equations.into_outside(film, change);
     return heat;
   };
+  by_outside.clear();
+  for (Eigen::Index place = 0; place < outside; ++place) {
+    by_outside.push_back(equations.response_to_outside(place));
+    exchange.by_T.col(2 + place) = into_walls(by_outside.back());
+  }
   const bool is_shell = std::holds_alternative<NodeWall>(thermal.shell);
   const bool is_journal = std::holds_alternative<NodeWall>(thermal.journal);
   if (is_shell) {
@@ -303,15 +334,18 @@ void FilmHeat::Impl::find_exchange() {
 
 const WallExchange& FilmHeat::exchange() const { return impl_->exchange; }
 
-void FilmHeat::move_walls(const Eigen::Vector2d& T) {
+void FilmHeat::move_walls(const Eigen::VectorXd& T) {
   Impl& m = *impl_;
-  const Eigen::Vector2d by = T - m.exchange.T;
+  const Eigen::VectorXd by = T - m.exchange.T;
   const auto move = [&m](const HeatState& change, double dT) {
     m.state.film += dT * change.film;
     if (change.shell.size() > 0) m.state.shell += dT * change.shell;
     m.state.journal += dT * change.journal;
     m.state.supplies += dT * change.supplies;
+    m.state.outside += dT * change.outside;
   };
+  for (std::size_t place = 0; place < m.by_outside.size(); ++place)
+    move(m.by_outside[place], by[2 + static_cast<Eigen::Index>(place)]);
   if (std::holds_alternative<NodeWall>(m.thermal.shell)) move(m.by_shell, by[0]);
   if (std::holds_alternative<NodeWall>(m.thermal.journal)) move(m.by_journal, by[1]);
   m.exchange.heat += m.exchange.by_T * by;
@@ -332,7 +366,7 @@ double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, c
 }
 
 Eigen::VectorXd FilmHeat::Impl::held_walls() const {
-  const bool has_ring = std::holds_alternative<RingWall>(thermal.shell);
+  const bool has_ring = has_own_temperatures(thermal.shell);
   const bool has_journal = std::holds_alternative<FreeJournal>(thermal.journal);
   Eigen::VectorXd T((has_ring ? state.shell.size() : 0) + (has_journal ? 1 : 0));
   if (has_ring) T.head(state.shell.size()) = state.shell;
@@ -341,21 +375,22 @@ Eigen::VectorXd FilmHeat::Impl::held_walls() const {
 }
 
 void FilmHeat::Impl::set_held_walls(const Eigen::VectorXd& T) {
-  if (std::holds_alternative<RingWall>(thermal.shell)) state.shell = T.head(state.shell.size());
+  if (has_own_temperatures(thermal.shell)) state.shell = T.head(state.shell.size());
   if (std::holds_alternative<FreeJournal>(thermal.journal)) state.journal = T.tail(1)[0];
 }
 
 const WallExchange& FilmHeat::mean_exchange() {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.holds_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
-  m.mean = m.equations.mean().answer();
-  m.mean.exchange.T = {m.state.shell.size() > 0 ? m.state.shell[0] : 0, m.state.journal};
+  m.mean = m.equations.mean().answer(m.state.shell);
+  m.mean.exchange.T = m.nodes_now();
   return m.mean.exchange;
 }
 
-WallCorrection FilmHeat::settle_walls(const Eigen::Vector2d& T_nodes) {
+WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
   Impl& m = *impl_;
-  const Eigen::Vector2d by = T_nodes - m.mean.exchange.T;
+  (void)m.look();  // of the step before
+  const Eigen::VectorXd by = T_nodes - m.mean.exchange.T;
   const bool is_shell = std::holds_alternative<NodeWall>(m.thermal.shell);
   const bool is_journal = std::holds_alternative<NodeWall>(m.thermal.journal);
   WallCorrection correction{.rise = -std::numeric_limits<double>::infinity()};
@@ -368,16 +403,22 @@ WallCorrection FilmHeat::settle_walls(const Eigen::Vector2d& T_nodes) {
   const Eigen::VectorXd before = m.held_walls();
   if (before.size() > 0) {
     Eigen::VectorXd after = before;
+    if (m.mean.heat.size() > 0) m.state.wall_heat = m.mean.heat;
     const auto follow = [&](const MeanHeat::Change& change, double share) {
-      if (std::holds_alternative<RingWall>(m.thermal.shell)) after.head(change.ring.size()) += share * change.ring;
+      if (has_own_temperatures(m.thermal.shell)) after.head(change.ring.size()) += share * change.ring;
+      if (change.heat.size() > 0) m.state.wall_heat += share * change.heat;
       if (std::holds_alternative<FreeJournal>(m.thermal.journal)) after.tail(1)[0] += share * change.journal;
     };
     follow(m.mean.without, 1);
     if (is_shell) follow(m.mean.by_shell, by[0]);
     if (is_journal) follow(m.mean.by_journal, by[1]);
+    for (std::size_t place = 0; place < m.mean.by_outside.size(); ++place)
+      follow(m.mean.by_outside[place], by[2 + static_cast<Eigen::Index>(place)]);
     note((after - before).cwiseAbs().maxCoeff(), after.maxCoeff());
     m.set_held_walls(after);
   }
+  m.state.outside = T_nodes.tail(m.state.outside.size());
+  m.has_settled = true;
   if (!std::isfinite(correction.rise)) correction.rise = 0;
   m.average_walls();
   return correction;
@@ -395,7 +436,8 @@ void FilmHeat::Impl::observe() {
   seen.balance = equations.balance(film, start_of_step, end_of_step);
   seen.T_supplies = end_of_step.supplies;
   if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
-    seen.T_body_max = wall->body(end_of_step.wall_heat).maxCoeff();
+    seen.T_body_max =
+        dt > 0 && !has_settled ? end_of_step.shell.maxCoeff() : wall->body(end_of_step.wall_heat).maxCoeff();
   show_surfaces(film);
   find_hottest();
   average(film);
@@ -473,8 +515,10 @@ void FilmHeat::persist(Archive& archive) {
   archive.io("T_journal", impl_->state.journal);
   archive.io("wall_heat", impl_->state.wall_heat);
   archive.io("T_supplies", impl_->state.supplies);
+  if (impl_->state.outside.size() > 0) archive.io("T_outside", impl_->state.outside);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
   if (!impl_->holds_walls()) return;
+  archive.io("has_settled", impl_->has_settled);
   impl_->equations.mean().persist(archive);
 }
 

@@ -20,6 +20,8 @@ void HeatEquations::assemble(const CarryingFilm& film, const HeatState& start) {
   known_.setZero(system_.size() + 1 + supplies());
   by_shell_.setZero(known_.size());
   by_journal_.setZero(system_.size());
+  by_outside_.setZero(known_.size(), at_.outside());
+  outside_ = start.outside;
   by_supply_.assign(static_cast<std::size_t>(start.film.size()), 0.0);
   add_storage(film, start);
   add_flows(film);
@@ -133,7 +135,9 @@ void HeatEquations::add_edges(const CarryingFilm& film) {
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       system_.diagonal(row) += rc_ * in * width(l);
-      known_[row] += rc_ * in * width(l) * thermal_.T_edges;
+      known_[row] += rc_ * in * width(l) * at_edges(outside_);
+      if (const Eigen::Index place = at_.place_of_oil(thermal_.oil.edges); place >= 0)
+        by_outside_(row, place) += rc_ * in * width(l);
     }
   }
 }
@@ -150,13 +154,13 @@ void HeatEquations::add_conduction(const CarryingFilm& film) {
   }
 }
 
-// Half of what asperities dissipate goes into either wall; one without heat leaves it to the oil (thermal.13).
+// A wall without heat leaves its share of what asperities dissipate to the oil (thermal.53).
 void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) {
   const bool is_insulated = !conducts(thermal_.shell);
   const bool has_rows = has_own_temperatures(thermal_.shell);
   for (int node = 0; node < model_.grid.size(); ++node) {
     const int row = system_.row(node, 0), i = node / model_.grid.n_z;
-    const double friction = 0.5 * asperity_power(film, node);
+    const double friction = shell_friction(film, node);
     if (is_insulated) {
       known_[row] += friction;
       continue;
@@ -175,15 +179,17 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
     system_.from_film(node, 1) += flux.next;
     known_[system_.ring_row(i)] += friction;
   }
-  if (const auto* ring = std::get_if<RingWall>(&thermal_.shell)) add_ring(*ring, film, start);
+  if (std::holds_alternative<RingWall>(thermal_.shell)) add_ring(film, start);
   if (const WallConduction* body = conduction_of(thermal_.shell)) add_body(*body, film, start);
 }
 
-// A steady body answers all of the heat at once (thermal.36); over a step it keeps its temperatures.
+// A steady body answers all of the heat at once (thermal.36); over a step it keeps its temperatures. Where these are
+// held for a cycle the rows are first balances of heat, of which the mean is taken.
 void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start) {
   const int n = model_.grid.n_phi, first = system_.ring_row(0);
   if (film.dt > 0) {
     system_.set_answer(nullptr, 1);
+    if (holds_walls(film)) return;
     for (int node = 0; node < model_.grid.size(); ++node) system_.from_film(node, 0) = system_.from_film(node, 1) = 0;
     for (int i = 0; i < n; ++i) {
       system_.diagonal(first + i) = 1;
@@ -208,7 +214,8 @@ void HeatEquations::add_ring(const RingWall& ring, const CarryingFilm& film, con
     system_.diagonal(system_.ring_row(next)) += ring_.around[i];
     system_.ring_before(next) -= ring_.around[i];
     system_.diagonal(row) += ring_.outside[i];
-    known_[row] += ring_.outside[i] * ring.T_ambient;
+    known_[row] += ring_.outside[i] * at_ring(outside_);
+    if (at_.ambient) by_outside_(row, at_.place_of_ambient()) += ring_.outside[i];
     if (film.dt == 0 || holds_walls(film)) continue;
     system_.diagonal(row) += ring_.capacity[i] / film.dt;
     known_[row] += ring_.capacity[i] / film.dt * start.shell[i];
@@ -220,7 +227,7 @@ void HeatEquations::add_journal(const CarryingFilm& film) {
   for (int node = 0; node < model_.grid.size(); ++node) {
     const int row = system_.row(node, top());
     if (is_insulated) {
-      known_[row] += 0.5 * asperity_power(film, node);
+      known_[row] += journal_friction(film, node);
       continue;
     }
     const WallFlux flux = to_journal(film, node);
@@ -247,12 +254,14 @@ void HeatEquations::add_supplies(const CarryingFilm& film) {
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double share = held.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
-      held.rows.push_back({system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row]});
+      held.rows.push_back(
+          {system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row], by_outside_.row(row)});
       held.rows.back().entries.front().second += rc_ * held.flow * share;
       const double in = rc_ * std::max(held.flow, 0.0) * share, taken_on = held.chi * rc_ * passing * width(l);
       system_.diagonal(row) += in;
       system_.scale(row, 1 - held.chi);
       known_[row] *= 1 - held.chi, by_shell_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
+      by_outside_.row(row) *= 1 - held.chi;
       system_.diagonal(row) += taken_on;
       by_supply_[row] = (1 - held.chi) * in + taken_on;
     }
@@ -295,7 +304,7 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
     for (int node = 0; node < model_.grid.size(); ++node) {
       into_journal_[node] = to_journal(film, node);
       journal_self_ += into_journal_[node].wall();
-      known_[journal] += 0.5 * asperity_power(film, node);
+      known_[journal] += journal_friction(film, node);
     }
     if (film.dt > 0 && !holds_walls(film)) {
       journal_self_ += free->heat_capacity / film.dt;
@@ -310,14 +319,18 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
     for (const Held::Row& row : held.rows) {
       known_[journal + 1 + held.supply] += row.known;
       by_shell_[journal + 1 + held.supply] += row.by_shell;
+      by_outside_.row(journal + 1 + held.supply) += row.by_outside;
     }
   }
-  for (const Renewal& renewal : renewals_)
-    known_[journal + 1 + renewal.supply] += renewal.heat * (1 - renewal.stirred) * fresh(renewal.supply);
+  const auto give = [&](int supply, double heat) {  // oil at the temperature of fresh oil
+    known_[journal + 1 + supply] += heat * fresh(supply, outside_);
+    if (const Eigen::Index place = oil_of(supply); place >= 0) by_outside_(journal + 1 + supply, place) += heat;
+  };
+  for (const Renewal& renewal : renewals_) give(renewal.supply, renewal.heat * (1 - renewal.stirred));
   supply_self_.assign(flow.size(), 0.0);
   for (int s = 0; s < supplies(); ++s) {
     supply_self_[s] = rc_ * std::max(-flow[s], 0.0) + thread;
-    known_[journal + 1 + s] += (rc_ * std::max(flow[s], 0.0) + thread) * fresh(s);
+    give(s, rc_ * std::max(flow[s], 0.0) + thread);
   }
 }
 

@@ -13,20 +13,41 @@ double HeatEquations::oil_share(const Node& node) { return std::clamp(node.theta
 HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal)
     : model_(model),
       thermal_(thermal),
+      at_(terminals_of(thermal)),
       across_(layering_of(static_cast<std::size_t>(thermal.layers))),
       rc_(model.lubricant.density * model.lubricant.specific_heat),
+      shell_share_(friction_share(thermal.shell_surface, thermal.journal_surface)),
       system_(model.grid, thermal.layers, has_own_temperatures(thermal.shell)),
       mean_(model.grid, thermal.layers,
             {.ring = has_own_temperatures(thermal.shell),
              .shell_node = std::holds_alternative<NodeWall>(thermal.shell),
              .free_journal = std::holds_alternative<FreeJournal>(thermal.journal),
-             .journal_node = std::holds_alternative<NodeWall>(thermal.journal)}) {
+             .journal_node = std::holds_alternative<NodeWall>(thermal.journal),
+             .outside = at_.outside(),
+             .body = conduction_of(thermal.shell)}) {
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }
 
-// Oil of its own temperature, or the film's (thermal.39).
-double HeatEquations::fresh(int supply) const {
+Eigen::Index HeatEquations::oil_of(int supply) const {
+  const int feature = supply - (has_line() ? 1 : 0);
+  if (feature < 0) return at_.place_of_oil(thermal_.oil.line);
+  return thermal_.oil.features.empty() ? -1
+                                       : at_.place_of_oil(thermal_.oil.features[static_cast<std::size_t>(feature)]);
+}
+
+double HeatEquations::at_edges(const Eigen::VectorXd& outside) const {
+  const Eigen::Index place = at_.place_of_oil(thermal_.oil.edges);
+  return place < 0 ? thermal_.T_edges : outside[place];
+}
+
+double HeatEquations::at_ring(const Eigen::VectorXd& outside) const {
+  return at_.ambient ? outside[at_.place_of_ambient()] : std::get<RingWall>(thermal_.shell).T_ambient;
+}
+
+// Oil of a node's temperature, of its own, or the film's (thermal.39).
+double HeatEquations::fresh(int supply, const Eigen::VectorXd& outside) const {
+  if (const Eigen::Index place = oil_of(supply); place >= 0) return outside[place];
   const int feature = supply - (has_line() ? 1 : 0);
   if (feature < 0) return thermal_.T_line.value_or(thermal_.T_supply);
   if (thermal_.T_features.empty()) return thermal_.T_supply;
@@ -38,6 +59,15 @@ double HeatEquations::asperity_power(const CarryingFilm& film, int node) const {
   const GridGeometry& geometry = film.balance.geometry();
   const double area = geometry.weight_phi[node / model_.grid.n_z] * geometry.weight_z[node % model_.grid.n_z];
   return area * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact();
+}
+
+// Shared by the surfaces' effusivities (thermal.53).
+double HeatEquations::shell_friction(const CarryingFilm& film, int node) const {
+  return shell_share_ * asperity_power(film, node);
+}
+
+double HeatEquations::journal_friction(const CarryingFilm& film, int node) const {
+  return (1 - shell_share_) * asperity_power(film, node);
 }
 
 // By the slope of the temperature at the wall, behind which more may resist. Oil that stands in a supply is no film: it
@@ -89,7 +119,7 @@ double HeatEquations::start_volume(const CarryingFilm& film, int node) const {
 Eigen::VectorXd HeatEquations::heat_into_shell(const CarryingFilm& film, const HeatState& state) const {
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(model_.grid.n_phi);
   for (int node = 0; node < model_.grid.size(); ++node)
-    heat[node / model_.grid.n_z] += into_shell(film, state, node) + 0.5 * asperity_power(film, node);
+    heat[node / model_.grid.n_z] += into_shell(film, state, node) + shell_friction(film, node);
   return heat;
 }
 
@@ -97,7 +127,7 @@ double HeatEquations::renewed(const HeatState& state, int supply) const {
   double heat = 0;
   for (const Renewal& renewal : renewals_) {
     if (renewal.supply != supply) continue;
-    const double T = fresh(supply), above = state.film[renewal.row] - T;
+    const double T = fresh(supply, state.outside), above = state.film[renewal.row] - T;
     heat += renewal.heat * (above - renewal.stirred * (state.supplies[supply] - T));
   }
   return heat;
@@ -109,17 +139,17 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
   const double T0 = thermal_.T_supply;
   HeatBalance sum;
   for (int node = 0; node < model_.grid.size(); ++node) {
-    const double friction = asperity_power(film, node), out = film.balance.outflow(node);
-    sum.power += friction;
-    sum.to_shell += into_shell(film, end, node) + (conducts(thermal_.shell) ? 0.5 * friction : 0);
-    sum.to_journal += into_journal(film, end, node) + (conducts(thermal_.journal) ? 0.5 * friction : 0);
+    const double out = film.balance.outflow(node);
+    sum.power += asperity_power(film, node);
+    sum.to_shell += into_shell(film, end, node) + (conducts(thermal_.shell) ? shell_friction(film, node) : 0);
+    sum.to_journal += into_journal(film, end, node) + (conducts(thermal_.journal) ? journal_friction(film, node) : 0);
     const double from = film.dt > 0 ? start_volume(film, node) : 0;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double T = end.film[row] - T0;
       sum.power += film.flows.dissipation(node, l);
       sum.to_oil +=
-          rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out * width(l) * (thermal_.T_edges - T0));
+          rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out * width(l) * (at_edges(end.outside) - T0));
       sum.to_oil += rc_ * film.flows.lost(node) * width(l) * T;
       if (film.dt == 0) {
         sum.stored += rc_ * film.balance.storage(node) * width(l) * T;
@@ -132,7 +162,7 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
   for (const Held& held : held_) flow[held.supply] += held.flow;
   for (int k = 0; k < supplies(); ++k)
-    sum.to_oil += renewed(end, k) - rc_ * flow[k] * ((flow[k] > 0 ? fresh(k) : end.supplies[k]) - T0);
+    sum.to_oil += renewed(end, k) - rc_ * flow[k] * ((flow[k] > 0 ? fresh(k, end.outside) : end.supplies[k]) - T0);
   return sum;
 }
 

@@ -14,6 +14,7 @@
 #include "heat/layering.h"
 #include "heat/mean_heat.h"
 #include "heat/wall_flux.h"
+#include "hersey/film/film_terminals.h"
 #include "hersey/film/heat_state.h"
 #include "hersey/film/thermal_model.h"
 #include "hersey/solver/gmres.h"
@@ -45,6 +46,11 @@ class HeatEquations {
   /// one kelvin: the shell everywhere, or the journal.
   [[nodiscard]] HeatState response_to_shell();
   [[nodiscard]] HeatState response_to_journal();
+  /// Likewise one of the nodes that are no walls (FilmTerminals).
+  [[nodiscard]] HeatState response_to_outside(Eigen::Index place);
+  /// Heat into those [W], of temperatures or, as it is linear in them, of a change (theory manual, thermal.54,
+  /// thermal.55).
+  [[nodiscard]] Eigen::VectorXd into_outside(const CarryingFilm& film, const HeatState& state) const;
 
   /// Each term by its own integral over a step from `start` to `end` (thermal.17).
   [[nodiscard]] HeatBalance balance(const CarryingFilm& film, const HeatState& start, const HeatState& end) const;
@@ -55,8 +61,8 @@ class HeatEquations {
   /// Of walls that are held (WallMotion::held), the means of the steps solved since they settled.
   [[nodiscard]] MeanHeat& mean() { return mean_; }
 
-  /// Of oil supplied, before it meets what is in the groove [K].
-  [[nodiscard]] double fresh(int supply) const;
+  /// Of oil supplied, before it meets what is in the groove [K]. @param outside  of HeatState
+  [[nodiscard]] double fresh(int supply, const Eigen::VectorXd& outside) const;
   [[nodiscard]] int supplies() const { return static_cast<int>(model_.features.size()) + (has_line() ? 1 : 0); }
 
  private:
@@ -68,6 +74,7 @@ class HeatEquations {
     struct Row {
       HeatSystem::Row entries;  ///< its own first; what oil from the supply brings included
       double known = 0, by_shell = 0, by_journal = 0;
+      Eigen::RowVectorXd by_outside = {};
     };
     std::vector<Row> rows;
   };
@@ -84,6 +91,9 @@ class HeatEquations {
   [[nodiscard]] int next_to_bottom() const { return std::min(1, top()); }
   [[nodiscard]] int top() const { return thermal_.layers - 1; }
   [[nodiscard]] double asperity_power(const CarryingFilm& film, int node) const;
+  /// What of that goes into either wall.
+  [[nodiscard]] double shell_friction(const CarryingFilm& film, int node) const;
+  [[nodiscard]] double journal_friction(const CarryingFilm& film, int node) const;
   /// Of the layer beside a wall, 0 or the last. @param resistance  of the wall itself, per area [m^2 K/W]
   [[nodiscard]] WallFlux to_wall(const CarryingFilm& film, int node, int layer, double resistance) const;
   /// And between a layer and the next [W/K].
@@ -91,6 +101,12 @@ class HeatEquations {
   [[nodiscard]] WallFlux to_shell(const CarryingFilm& film, int node) const;
   [[nodiscard]] WallFlux to_journal(const CarryingFilm& film, int node) const;
   [[nodiscard]] double start_volume(const CarryingFilm& film, int node) const;
+  /// Place among the nodes that are no walls of that which a supply, or edges, draw oil from; -1: none.
+  [[nodiscard]] Eigen::Index oil_of(int supply) const;
+  [[nodiscard]] double at_edges(const Eigen::VectorXd& outside) const;
+  [[nodiscard]] double at_ring(const Eigen::VectorXd& outside) const;
+  /// Rows of layers and supplies whose oil leaves the film for good, and with what heat per kelvin [W/K].
+  [[nodiscard]] std::vector<std::pair<int, double>> drained(const CarryingFilm& film) const;
 
   void assemble(const CarryingFilm& film, const HeatState& start);
   void add_storage(const CarryingFilm& film, const HeatState& start);
@@ -102,7 +118,7 @@ class HeatEquations {
   void add_edges(const CarryingFilm& film);
   void add_conduction(const CarryingFilm& film);
   void add_shell(const CarryingFilm& film, const HeatState& start);
-  void add_ring(const RingWall& ring, const CarryingFilm& film, const HeatState& start);
+  void add_ring(const CarryingFilm& film, const HeatState& start);
   void add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start);
   [[nodiscard]] Eigen::VectorXd heat_into_shell(const CarryingFilm& film, const HeatState& state) const;
   void add_journal(const CarryingFilm& film);
@@ -115,6 +131,7 @@ class HeatEquations {
   void hold_journal(const HeatState& start);
   [[nodiscard]] std::vector<double> fresh_shares(const CarryingFilm& film) const;
   void add_equations_to_mean(const CarryingFilm& film, const HeatState& start);
+  [[nodiscard]] OutsideOfMean outside_of_mean(const CarryingFilm& film, const std::vector<double>& fresh) const;
   void add_heat_to_mean(const CarryingFilm& film, const HeatState& start, const HeatState& end);
   /// y = A x, x = [layers; ring; journal; supplies].
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
@@ -133,12 +150,16 @@ class HeatEquations {
 
   const FilmModel model_;
   const ThermalModel thermal_;
+  const FilmTerminals at_;
   const Layering& across_;
-  double rc_ = 0;  ///< heat capacity of the oil per volume [J/(m^3 K)]
+  double rc_ = 0;             ///< heat capacity of the oil per volume [J/(m^3 K)]
+  double shell_share_ = 0.5;  ///< of the heat that asperities make [-]
   RingConductances ring_;
   HeatSystem system_;
   Eigen::VectorXd known_;               ///< right-hand sides of all rows [W]
   Eigen::VectorXd by_shell_;            ///< of all rows, by the temperature of a shell that is held [W/K]
+  Eigen::MatrixXd by_outside_;          ///< of all rows, by those of the nodes that are no walls [W/K]
+  Eigen::VectorXd outside_;             ///< temperatures of these in the step [K]
   Eigen::VectorXd by_journal_;          ///< of the rows of layers and ring, by the journal's temperature [W/K]
   std::vector<double> by_supply_;       ///< of the rows of layers, by that of the supply that holds the node [W/K]
   std::vector<int> supply_of_;          ///< of each node, -1 for none

@@ -40,7 +40,7 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   if (rows > start.film.size()) end.shell = x.segment(start.film.size(), model_.grid.n_phi);
   end.journal = x[rows];
   end.supplies = x.tail(supplies());
-  if (conduction_of(thermal_.shell) != nullptr) end.wall_heat = heat_into_shell(film, end);
+  if (conduction_of(thermal_.shell) != nullptr && !holds_walls(film)) end.wall_heat = heat_into_shell(film, end);
   if (holds_walls(film)) add_heat_to_mean(film, start, end);
   return end;
 }
@@ -111,7 +111,48 @@ HeatState HeatEquations::response(const Eigen::VectorXd& known) {
   if (rows > film) change.shell = x.segment(film, model_.grid.n_phi);
   change.journal = x[rows];
   change.supplies = x.tail(supplies());
+  change.outside.setZero(at_.outside());
   return change;
+}
+
+HeatState HeatEquations::response_to_outside(Eigen::Index place) {
+  HeatState change = response(by_outside_.col(place));
+  change.outside[place] = 1;
+  return change;
+}
+
+// Oil that leaves over the edges, into a supply that takes it away, or to be replaced by what a supply gives.
+std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& film) const {
+  std::vector<std::pair<int, double>> oil;
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const double out = film.balance.outflow(node);
+    for (int l = 0; l < layers() && out > 0; ++l)
+      oil.emplace_back(system_.row(node, l), rc_ * out * film.flows.leaving_share(node, l));
+  }
+  Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
+  for (const Held& held : held_) flow[held.supply] += held.flow;
+  for (int s = 0; s < supplies(); ++s)
+    if (flow[s] < 0) oil.emplace_back(system_.size() + 1 + s, -rc_ * flow[s]);
+  for (const Renewal& renewal : renewals_) {
+    oil.emplace_back(renewal.row, renewal.heat);
+    oil.emplace_back(system_.size() + 1 + renewal.supply, -renewal.heat * renewal.stirred);
+  }
+  return oil;
+}
+
+// A node that oil comes from gives it at its own temperature and grows no colder; what comes back warms it
+// (thermal.54).
+Eigen::VectorXd HeatEquations::into_outside(const CarryingFilm& film, const HeatState& state) const {
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(at_.outside());
+  for (int i = 0; at_.ambient && i < model_.grid.n_phi; ++i)
+    heat[at_.place_of_ambient()] += ring_.outside[i] * (state.shell[i] - state.outside[at_.place_of_ambient()]);
+  if (!at_.drain) return heat;
+  const double T = state.outside[at_.place_of_drain()];
+  for (const auto& [row, rate] : drained(film)) {
+    const int supply = row - system_.size() - 1;
+    heat[at_.place_of_drain()] += rate * ((supply >= 0 ? state.supplies[supply] : state.film[row]) - T);
+  }
+  return heat;
 }
 
 HeatState HeatEquations::response_to_shell() {

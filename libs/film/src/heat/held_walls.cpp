@@ -19,9 +19,10 @@ bool HeatEquations::holds_walls(const CarryingFilm& film) const {
 
 // The walls' rows say that temperatures stay.
 void HeatEquations::hold_walls(const HeatState& start) {
-  if (std::holds_alternative<RingWall>(thermal_.shell)) {
+  if (has_own_temperatures(thermal_.shell)) {
     system_.hold_ring();
     known_.segment(system_.ring_row(0), model_.grid.n_phi) = start.shell;
+    by_outside_.middleRows(system_.ring_row(0), model_.grid.n_phi).setZero();
   }
   hold_journal(start);
 }
@@ -36,6 +37,41 @@ std::vector<double> HeatEquations::fresh_shares(const CarryingFilm& film) const 
   }
   for (std::size_t s = 0; s < given.size(); ++s) net[s] = given[s] > 0 ? std::max(net[s], 0.0) / given[s] : 0;
   return net;
+}
+
+// What the nodes that are no walls do to the film in the mean, and it to them: fresh oil comes at a node's temperature,
+// what leaves the film takes its own along.
+OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std::vector<double>& fresh) const {
+  const Eigen::Index n = at_.outside(), rows = system_.size();
+  OutsideOfMean mean{Eigen::MatrixXd::Zero(rows, n), Eigen::MatrixXd::Zero(n, rows), Eigen::VectorXd::Zero(n)};
+  const auto take = [&mean](Eigen::Index place, int row, double rate) {
+    mean.from(place, row) += rate, mean.self[place] -= rate;
+  };
+  for (int i = 0; at_.ambient && i < model_.grid.n_phi; ++i) {
+    mean.by(system_.ring_row(i), at_.place_of_ambient()) += ring_.outside[i];
+    take(at_.place_of_ambient(), system_.ring_row(i), ring_.outside[i]);
+  }
+  const Eigen::Index drain = at_.place_of_drain(), edges = at_.place_of_oil(thermal_.oil.edges);
+  for (int node = 0; node < model_.grid.size(); ++node) {
+    const double out = film.balance.outflow(node), given = film.balance.supply(node);
+    const bool is_held = film.balance.is_held(node);
+    const int supply = is_held ? film.balance.feature_at(node) + (has_line() ? 1 : 0) : -1;
+    const double share = is_held ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
+    const double replaced = is_held ? (1 - thermal_.carry_over) * (1 - film.balance.balance_share(node)) *
+                                          inflow_[static_cast<std::size_t>(node)]
+                                    : 0;
+    for (int l = 0; l < layers(); ++l) {
+      const int row = system_.row(node, l);
+      if (edges >= 0 && out < 0) mean.by(row, edges) -= rc_ * out * width(l);
+      if (const Eigen::Index oil = is_held ? oil_of(supply) : -1; oil >= 0)
+        mean.by(row, oil) += rc_ * (share + replaced) * width(l);
+      if (drain < 0) continue;
+      if (out > 0) take(drain, row, rc_ * out * film.flows.leaving_share(node, l));
+      if (is_held && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_share(node, l));
+      if (is_held) take(drain, row, rc_ * replaced * width(l));
+    }
+  }
+  return mean;
 }
 
 // As if nothing were stirred: a supply may go round with the journal, and the mean of what it stirs is none. Without
@@ -69,7 +105,8 @@ void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatSt
                                 .by_shell = by_shell_.head(system_.size()),
                                 .to_shell = into_shell,
                                 .to_journal = into_journal,
-                                .capacity = film.dt * storage_});
+                                .capacity = film.dt * storage_,
+                                .outside = at_.outside() > 0 ? outside_of_mean(film, fresh) : OutsideOfMean{}});
 }
 
 void HeatEquations::hold_journal(const HeatState& start) {
@@ -85,17 +122,19 @@ void HeatEquations::add_heat_to_mean(const CarryingFilm& film, const HeatState& 
   const auto ring_row = [this](int i) -> int { return system_.ring_row(i % model_.grid.n_phi); };
   const auto* ring = std::get_if<RingWall>(&thermal_.shell);
   for (int node = 0; node < model_.grid.size(); ++node) {
-    const double friction = 0.5 * asperity_power(film, node), to_shell = into_shell(film, end, node) + friction;
-    if (ring != nullptr) into[ring_row(node / model_.grid.n_z)] += to_shell;
-    shell += to_shell, journal += into_journal(film, end, node) + friction;
+    const double to_shell = into_shell(film, end, node) + shell_friction(film, node);
+    if (has_own_temperatures(thermal_.shell)) into[ring_row(node / model_.grid.n_z)] += to_shell;
+    shell += to_shell, journal += into_journal(film, end, node) + journal_friction(film, node);
   }
   for (int i = 0; ring != nullptr && i < n; ++i) {
     const double around = ring_.around[i] * (end.shell[(i + 1) % n] - end.shell[i]);
-    into[ring_row(i)] += around + ring_.outside[i] * (ring->T_ambient - end.shell[i]);
+    into[ring_row(i)] += around + ring_.outside[i] * (at_ring(outside_) - end.shell[i]);
     into[ring_row(i + 1)] -= around;
   }
   if (std::holds_alternative<FreeJournal>(thermal_.journal)) into[rows] = journal;
-  mean_.add_heat(film.dt, into, {shell, journal}, start.film, end.film);
+  Eigen::VectorXd into_nodes(2 + at_.outside());
+  into_nodes << shell, journal, into_outside(film, end);
+  mean_.add_heat(film.dt, into, into_nodes, start.film, end.film);
 }
 
 }  // namespace hersey::film

@@ -27,7 +27,9 @@ void MeanHeat::clear() {
   by_journal_.setZero(system_.size());
   by_shell_.setZero(system_.size());
   to_shell_.setZero(grid_.size(), 2), to_journal_.setZero(grid_.size(), 2);
-  into_nodes_.setZero();
+  const Eigen::Index n = walls_.outside;
+  into_nodes_.setZero(2 + n);
+  outside_.by.setZero(system_.size(), n), outside_.from.setZero(n, system_.size()), outside_.self.setZero(n);
   into_.setZero(system_.size() + 1);
   capacity_.setZero(grid_.size() * layers_);
 }
@@ -37,6 +39,10 @@ void MeanHeat::add_equations(double dt, const Equations& equations) {
   for (Eigen::Index row = 0; row < equations.added.size(); ++row)
     system_.diagonal(static_cast<int>(row)) += dt * equations.added[row];
   capacity_ += dt * equations.capacity;
+  if (walls_.outside > 0) {
+    outside_.by += dt * equations.outside.by, outside_.from += dt * equations.outside.from;
+    outside_.self += dt * equations.outside.self;
+  }
   if (walls_.free_journal || walls_.journal_node) {
     by_journal_ += dt * equations.by_journal;
     add(dt, equations.to_journal, to_journal_);
@@ -46,7 +52,7 @@ void MeanHeat::add_equations(double dt, const Equations& equations) {
   add(dt, equations.to_shell, to_shell_);
 }
 
-void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vector2d& into_nodes,
+void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::VectorXd& into_nodes,
                         const Eigen::VectorXd& start, const Eigen::VectorXd& end) {
   if (time_ == 0) begin_ = start;
   end_ = end;
@@ -55,21 +61,40 @@ void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vec
   into_nodes_ += dt * into_nodes;
 }
 
-// What the film has stored since the beginning, it has taken from walls.
-Eigen::VectorXd MeanHeat::missing() const {
+// What the film has stored since the beginning, it has taken from walls. A body lacks what its temperatures differ from
+// those that the mean heat would give it (thermal.56).
+Eigen::VectorXd MeanHeat::missing(const Eigen::VectorXd& shell) const {
   Eigen::VectorXd missing = into_;
   missing.head(capacity_.size()) += capacity_.cwiseProduct(end_ - begin_) / time_;
+  if (walls_.body == nullptr) return missing;
+  const Eigen::Index first = capacity_.size(), n = grid_.n_phi;
+  missing.segment(first, n) = time_ * (walls_.body->T0 - shell) + walls_.body->rise * into_.segment(first, n);
   return missing;
+}
+
+// Of a body: its own temperature, and by the heat into all of its angles those of the film and of itself.
+HeatSystem::Row MeanHeat::answer_entries(int i) const {
+  HeatSystem::Row entries{{system_.ring_row(i), time_}};
+  for (int j = 0; j < grid_.n_phi; ++j)
+    for (const auto& [column, entry] : system_.ring_entries(j))
+      entries.emplace_back(column, walls_.body->rise(i, j) * entry);
+  return entries;
 }
 
 MeanHeat::Change MeanHeat::change_of(const Eigen::VectorXd& x) const {
   const int ring = walls_.ring ? grid_.n_phi : 0;
-  return {x.segment(system_.size() - ring, ring), walls_.free_journal ? x[system_.size()] : 0};
+  Change change{x.segment(system_.size() - ring, ring), walls_.free_journal ? x[system_.size()] : 0};
+  if (walls_.body == nullptr) return change;
+  change.heat.setZero(ring);
+  for (int i = 0; i < ring; ++i)
+    for (const auto& [column, entry] : system_.ring_entries(i)) change.heat[i] -= entry * x[column] / time_;
+  return change;
 }
 
 // Into nodes, of a change of the film between them [W s].
-Eigen::Vector2d MeanHeat::heat_of(const Eigen::VectorXd& x) const {
-  Eigen::Vector2d heat = Eigen::Vector2d::Zero();
+Eigen::VectorXd MeanHeat::heat_of(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(into_nodes_.size());
+  heat.tail(walls_.outside) = outside_.from * x.head(system_.size());
   for (int node = 0; node < grid_.size(); ++node) {
     for (int beside = 0; beside < std::min(layers_, 2); ++beside) {
       if (walls_.shell_node) heat[0] += to_shell_(node, beside) * x[system_.row(node, beside)];
@@ -80,7 +105,7 @@ Eigen::Vector2d MeanHeat::heat_of(const Eigen::VectorXd& x) const {
 }
 
 // Temperatures at which nothing is stored and walls take up no heat (thermal.19); nodes leave that to their network.
-MeanHeat::Answer MeanHeat::answer() {
+MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell) {
   HERSEY_REQUIRE(has_steps(), "a mean over some time");
   const Eigen::SparseMatrix<double> A = matrix();
   solver::SparseLu lu;
@@ -91,20 +116,32 @@ MeanHeat::Answer MeanHeat::answer() {
     return x;
   };
   Answer answer;
-  const Eigen::VectorXd x = solve(missing());
+  const Eigen::VectorXd x = solve(missing(shell));
+  if (walls_.body != nullptr) answer.heat = into_.segment(capacity_.size(), grid_.n_phi) / time_;
   answer.without = change_of(x);
   answer.exchange.heat = (into_nodes_ + heat_of(x)) / time_;
+  answer.exchange.by_T.setZero(into_nodes_.size(), into_nodes_.size());
+  const auto column = [this](const Eigen::VectorXd& by, Eigen::Index node, double self) -> Eigen::VectorXd {
+    return (heat_of(by) + self * Eigen::VectorXd::Unit(into_nodes_.size(), node)) / time_;
+  };
+  for (Eigen::Index place = 0; place < walls_.outside; ++place) {
+    Eigen::VectorXd by(system_.size() + 1);
+    by << outside_.by.col(place), 0;
+    by = solve(by);
+    answer.by_outside.push_back(change_of(by));
+    answer.exchange.by_T.col(2 + place) = column(by, 2 + place, outside_.self[place]);
+  }
   if (walls_.shell_node) {
     Eigen::VectorXd by_shell(system_.size() + 1);
     by_shell << by_shell_, 0;
     by_shell = solve(by_shell);
     answer.by_shell = change_of(by_shell);
-    answer.exchange.by_T.col(0) = (heat_of(by_shell) - Eigen::Vector2d(to_shell_.sum(), 0)) / time_;
+    answer.exchange.by_T.col(0) = column(by_shell, 0, -to_shell_.sum());
   }
   if (walls_.journal_node) {
     const Eigen::VectorXd by_journal = solve(Eigen::VectorXd::Unit(A.rows(), system_.size()));
     answer.by_journal = change_of(by_journal);
-    answer.exchange.by_T.col(1) = (heat_of(by_journal) - Eigen::Vector2d(0, to_journal_.sum())) / time_;
+    answer.exchange.by_T.col(1) = column(by_journal, 1, -to_journal_.sum());
   }
   clear();
   return answer;
@@ -117,8 +154,9 @@ Eigen::SparseMatrix<double> MeanHeat::matrix() const {
     if (entry != 0) entries.emplace_back(row, column, entry);
   };
   for (int row = 0; row < rows; ++row) {
-    const HeatSystem::Row of =
-        row < film ? system_.entries(row / layers_, row % layers_) : system_.ring_entries(row - film);
+    const HeatSystem::Row of = row < film               ? system_.entries(row / layers_, row % layers_)
+                               : walls_.body != nullptr ? answer_entries(row - film)
+                                                        : system_.ring_entries(row - film);
     for (const auto& [column, entry] : of) add(row, column, entry);
     add(row, rows, -by_journal_[row]);
   }
@@ -141,6 +179,9 @@ void MeanHeat::persist(Archive& archive) {
   archive.io("into_nodes", into_nodes_);
   archive.io("into", into_), archive.io("begin_T", begin_), archive.io("end_T", end_);
   archive.io("capacity", capacity_);
+  if (walls_.outside == 0) return;
+  archive.io("by_outside", outside_.by), archive.io("to_outside", outside_.from);
+  archive.io("outside_self", outside_.self);
 }
 
 }  // namespace hersey::film

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
 
 #include "hersey/core/contract.h"
 
@@ -24,22 +23,7 @@ std::vector<bool> reached(const ThermalNetworkModel& model, std::vector<bool> fr
   return from;
 }
 
-/// Place of a wall in WallExchange and the node it is.
-std::vector<std::pair<Index, Index>> walls_of(const FilmTerminals& at) {
-  std::vector<std::pair<Index, Index>> walls;
-  if (at.shell) walls.emplace_back(0, static_cast<Index>(*at.shell));
-  if (at.journal) walls.emplace_back(1, static_cast<Index>(*at.journal));
-  return walls;
-}
-
 }  // namespace
-
-FilmTerminals terminals_of(const ThermalModel& thermal) {
-  FilmTerminals at;
-  if (const auto* shell = std::get_if<NodeWall>(&thermal.shell)) at.shell = shell->node;
-  if (const auto* journal = std::get_if<NodeWall>(&thermal.journal)) at.journal = journal->node;
-  return at;
-}
 
 double NetworkObservables::error() const {
   const double in = heat.sum();
@@ -85,11 +69,11 @@ void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {
   }
   for (const FilmAtNodes& film : films) {
     const WallExchange& seen = film.exchange;
-    const Eigen::Vector2d heat = seen.heat + seen.by_T * (walls(film.at, seen.T) - seen.T);
-    for (const auto& [row, i] : walls_of(film.at)) {
+    const Eigen::VectorXd heat = seen.heat + seen.by_T * (walls(film.at, seen.T) - seen.T);
+    for (const auto& [row, i] : film.at.nodes()) {
       b[i] += heat[row];
       if (seen.by_T(row, row) != 0) holds[static_cast<std::size_t>(i)] = true;
-      for (const auto& [column, j] : walls_of(film.at)) A(i, j) -= seen.by_T(row, column);
+      for (const auto& [column, j] : film.at.nodes()) A(i, j) -= seen.by_T(row, column);
     }
   }
   for (std::size_t k = 0; k < n; ++k)
@@ -114,8 +98,8 @@ void ThermalNetwork::observe(double dt, const Eigen::VectorXd& change, const std
   seen_.to_fixed = seen_.stored = 0;
   for (const FilmAtNodes& film : films) {
     const WallExchange& seen = film.exchange;
-    const Eigen::Vector2d heat = seen.heat + seen.by_T * (walls(film.at, seen.T) - seen.T);
-    for (const auto& [row, i] : walls_of(film.at)) seen_.heat[i] += heat[row];
+    const Eigen::VectorXd heat = seen.heat + seen.by_T * (walls(film.at, seen.T) - seen.T);
+    for (const auto& [row, i] : film.at.nodes()) seen_.heat[i] += heat[row];
   }
   for (std::size_t k = 0; k < model_.nodes.size(); ++k) {
     const auto i = static_cast<Index>(k);
@@ -132,9 +116,9 @@ void ThermalNetwork::observe(double dt, const Eigen::VectorXd& change, const std
   }
 }
 
-Eigen::Vector2d ThermalNetwork::walls(const FilmTerminals& at, const Eigen::Vector2d& otherwise) const {
-  Eigen::Vector2d T = otherwise;
-  for (const auto& [row, i] : walls_of(at)) T[row] = seen_.T[i];
+Eigen::VectorXd ThermalNetwork::walls(const FilmTerminals& at, const Eigen::VectorXd& otherwise) const {
+  Eigen::VectorXd T = otherwise;
+  for (const auto& [row, i] : at.nodes()) T[row] = seen_.T[i];
   return T;
 }
 

@@ -75,6 +75,17 @@ void require_above_cavitation(Context& context, const Value& pressure, const fil
 /// The node of the network that `wall` names; reports one that is not there.
 [[nodiscard]] film::NodeWall node_wall_of(Context& context, const Value& wall);
 
+/// The node called so by a reference; none, reported, where there is no such node.
+[[nodiscard]] std::optional<film::NetworkNode> network_node(Context& context, const Value& name);
+
+/// A temperature, of its own or that of a node (which it has at the start).
+struct OwnTemperature {
+  double T = 0;  ///< [K]
+  std::optional<film::NetworkNode> node = {};
+};
+/// What `temperature_or_node` has read; nothing where the value is missing or broken.
+[[nodiscard]] std::optional<OwnTemperature> own_temperature(Context& context, const Value* value);
+
 /// Warns of a temperature beyond what is known of the oil called `oil`.
 void warn_of_temperature(Context& context, const Value& T, const OilValidity& validity, const std::string& oil);
 

@@ -76,7 +76,7 @@ void check_walls(Context& context, const Value& thermal, const film::FilmModel& 
                          "`carry_over: 0`, or `cavitation: mass_conserving`");
   }
   const bool leaves = !film::is_closed(film);
-  const bool takes = ring != nullptr || has_nodes(heat) || std::holds_alternative<film::BodyWall>(heat.shell) ||
+  const bool takes = ring != nullptr || has_node_walls(heat) || std::holds_alternative<film::BodyWall>(heat.shell) ||
                      std::holds_alternative<film::WallAtTemperature>(heat.shell) ||
                      std::holds_alternative<film::WallAtTemperature>(heat.journal);
   if (!leaves && !takes)
@@ -84,29 +84,38 @@ void check_walls(Context& context, const Value& thermal, const film::FilmModel& 
                          "a shell or journal that is `given`, a `ring` or a `node`, or an open edge");
 }
 
-/// What `temperature` says of a supply line or a feature; nothing where it is left to `supply_temperature`.
-std::optional<double> own_temperature(const Value* supply) {
-  if (supply == nullptr || supply->broken) return std::nullopt;
-  const Value* T = supply->find("temperature");
-  return T != nullptr && !T->broken ? std::optional(T->number) : std::nullopt;
+/// The key `temperature` of a supply line or a feature; null where it is left to `supply_temperature`.
+const Value* temperature_of(const Value* supply) {
+  return supply == nullptr || supply->broken ? nullptr : supply->find("temperature");
 }
 
+/// Where oil comes from and goes to, and how warm it comes.
 void read_supplies(Context& context, const Value& bearing, const film::FilmModel& film, film::ThermalModel& heat) {
-  heat.T_line = own_temperature(bearing.find("supply"));
+  const Value& thermal = *bearing.find("thermal");
+  const OwnTemperature all = own_temperature(context, thermal.find("supply_temperature")).value_or(OwnTemperature{});
+  heat.T_supply = all.T;
+  const auto edges = own_temperature(context, thermal.find("edge_temperature")).value_or(all);
+  heat.T_edges = edges.T, heat.oil.edges = edges.node;
+  const auto line = own_temperature(context, temperature_of(bearing.find("supply")));
+  if (line) heat.T_line = line->T;
+  if (film.supply.kind != film::SupplyKind::none) heat.oil.line = line ? line->node : all.node;
   for (const film::SurfaceFeature& feature : film.features) {
     const Value* value = bearing.find("features")->find(feature.name);
-    const std::optional<double> T = own_temperature(value);
-    if (T && !feature.is_fed)
+    const auto own = own_temperature(context, temperature_of(value));
+    if (own && !feature.is_fed)
       context.fault(*value->find("temperature"), "a temperature of a pocket that nothing feeds",
                     "a `pressure` that feeds it, or no temperature: it holds the film's own oil");
-    heat.T_features.push_back(T.value_or(heat.T_supply));
+    heat.T_features.push_back(own.value_or(all).T);
+    heat.oil.features.push_back(own.value_or(all).node);
   }
+  if (const Value* drain = thermal.find("drains_to"); drain != nullptr && !drain->broken)
+    heat.oil.drain = network_node(context, *drain);
 }
 
 /// Supplies' temperatures without a film that has any.
 void warn_of_unused_temperatures(Context& context, const Value& bearing) {
   const auto warn = [&](const Value& supply) {
-    if (!own_temperature(&supply)) return;
+    if (temperature_of(&supply) == nullptr || temperature_of(&supply)->broken) return;
     const Value& T = *supply.find("temperature");
     context.model.warnings.push_back({T.position, T.path, "a temperature of a supply that the film does not ask for",
                                       "`thermal: {model: film, ...}`, or none",
@@ -123,16 +132,34 @@ void complete_walls(Context& context, const Value& thermal, const film::Grid& gr
     heat.shell = wall_at_temperature(context, *shell.find("temperature"), grid);
   if (std::holds_alternative<film::NodeWall>(heat.shell)) heat.shell = node_wall_of(context, shell);
   if (std::holds_alternative<film::NodeWall>(heat.journal)) heat.journal = node_wall_of(context, journal);
+  auto* ring = std::get_if<film::RingWall>(&heat.shell);
+  const auto ambient = ring != nullptr ? own_temperature(context, shell.find("ambient")) : std::nullopt;
+  if (ambient) ring->T_ambient = ambient->T, ring->surroundings = ambient->node;
+}
+
+/// Of the shell or the journal, by which the heat of asperities is shared; steel where nothing is said.
+film::SurfaceMaterial surface_of(Context& context, const Value& bearing, const char* wall) {
+  const Value* materials = bearing.find("materials");
+  const Value* material = materials != nullptr && !materials->broken ? materials->find(wall) : nullptr;
+  if (material == nullptr || material->broken || !material->has("conductivity") || !material->has("specific_heat"))
+    return {};
+  const double density = number_of(*material, "density");
+  if (!(density > 0)) {
+    context.fault_at_key(*material, "a material with a `specific_heat` and no `density`",
+                         "its `density` as well: heat is stored by their product", "steel has 7850 kg/m^3");
+    return {};
+  }
+  return {.conductivity = number_of(*material, "conductivity"),
+          .heat_capacity = density * number_of(*material, "specific_heat")};
 }
 
 film::ThermalModel film_heat(Context& context, const Value& value, const film::FilmModel& film) {
   const Value& thermal = *value.find("thermal");
   film::ThermalModel heat;
   heat.layers = integer_of(thermal, "layers");
-  heat.T_supply = number_of(thermal, "supply_temperature");
-  const Value* edges = thermal.find("edge_temperature");
-  heat.T_edges = edges != nullptr ? edges->number : heat.T_supply;
   heat.carry_over = number_of(thermal, "carry_over");
+  heat.shell_surface = surface_of(context, value, "shell");
+  heat.journal_surface = surface_of(context, value, "journal");
   heat.shell = read_alternative(*thermal.find("shell"), shell_walls());
   heat.journal = read_alternative(*thermal.find("journal"), journal_walls());
   if (auto* free = std::get_if<film::FreeJournal>(&heat.journal); free != nullptr && free->heat_capacity == 0)
@@ -175,8 +202,11 @@ void read_thermal(Context& context, const Value& value, const Lubricant* lubrica
     for (const char* key : {"temperature", "supply_temperature", "edge_temperature"}) {
       const auto is_key = [&](const Member& member) { return member.key == key; };
       const auto found = std::find_if(thermal->members.begin(), thermal->members.end(), is_key);
-      if (found != thermal->members.end() && found->value.given)
-        warn_of_temperature(context, found->value, bearing.validity, lubricant->name);
+      if (found == thermal->members.end() || !found->value.given || found->value.broken) continue;
+      const bool is_any = found->value.type->kind == Type::Kind::any_of && !found->value.members.empty();
+      const Value& given = is_any ? found->value.members.front().value : found->value;
+      if (given.type->kind == Type::Kind::quantity)
+        warn_of_temperature(context, given, bearing.validity, lubricant->name);
     }
   }
   if (T) {

@@ -2,6 +2,7 @@
 #include <variant>
 
 #include "hersey/core/spelling.h"
+#include "hersey/film/film_terminals.h"
 #include "interpret/interpret.h"
 
 // Lumped bodies and surroundings, and which walls they are.
@@ -34,12 +35,25 @@ void read_path(Context& context, const std::string& name, const Value& value) {
 
 }  // namespace
 
+std::optional<film::NetworkNode> network_node(Context& context, const Value& name) {
+  const auto node = node_called(context, name);
+  if (!node) return std::nullopt;
+  const film::ThermalNode& found = context.model.thermal.network.nodes[*node];
+  return film::NetworkNode{.T = found.T, .node = *node, .name = found.name};
+}
+
 film::NodeWall node_wall_of(Context& context, const Value& wall) {
   const Value* name = wall.find("node");
-  const auto node = name != nullptr ? node_called(context, *name) : std::nullopt;
-  if (!node) return {};
-  const film::ThermalNode& found = context.model.thermal.network.nodes[*node];
-  return {.T = found.T, .node = *node, .name = found.name};
+  return name == nullptr ? film::NodeWall{} : network_node(context, *name).value_or(film::NodeWall{});
+}
+
+std::optional<OwnTemperature> own_temperature(Context& context, const Value* value) {
+  if (value == nullptr || value->broken || value->members.empty()) return std::nullopt;
+  const Value& content = value->members.front().value;
+  if (content.broken) return std::nullopt;
+  if (content.type->kind == Type::Kind::quantity) return OwnTemperature{content.number};
+  const auto node = network_node(context, *content.find("node"));
+  return node ? std::optional(OwnTemperature{node->T, node}) : std::nullopt;
 }
 
 void interpret_thermal_network(Context& context) {
@@ -67,8 +81,7 @@ void check_thermal_network(Context& context) {
   for (const Bearing& bearing : context.model.bearings) {
     const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
     if (heat == nullptr) continue;
-    if (const auto* shell = std::get_if<film::NodeWall>(&heat->shell)) is_met[shell->node] = true;
-    if (const auto* journal = std::get_if<film::NodeWall>(&heat->journal)) is_met[journal->node] = true;
+    for (const auto& [place, node] : film::terminals_of(*heat).nodes()) is_met[static_cast<std::size_t>(node)] = true;
   }
   for (std::size_t k = 0; k < is_met.size(); ++k) {
     if (is_met[k]) continue;

@@ -1,7 +1,24 @@
+#include "hersey/film/thermal_network.h"
 #include "interpret/interpret.h"
 #include "schema/film_vocabulary.h"
 
 namespace hersey::model {
+namespace {
+
+/// In the mean over a cycle a node stores nothing.
+void require_way_out_of_drains(Context& context) {
+  for (const Bearing& bearing : context.model.bearings) {
+    const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
+    if (heat == nullptr || !heat->oil.drain) continue;
+    if (film::reaches_surroundings(context.model.thermal.network, heat->oil.drain->node)) continue;
+    const Value* value = context.root.find("bearings")->find(bearing.name);
+    context.fault_at_key(*value->find("thermal")->find("drains_to"),
+                         "oil that drains to '" + heat->oil.drain->name + "', whose heat reaches no surroundings",
+                         "a path from there to a node with a `fixed` temperature, or `thermal.walls: transient`");
+  }
+}
+
+}  // namespace
 
 void interpret_thermal_walls(Context& context) {
   Model& model = context.model;
@@ -14,6 +31,7 @@ void interpret_thermal_walls(Context& context) {
       context.fault(*walls, "walls at the mean heat of a cycle, in a machine without cycles",
                     "'transient' or 'frozen', or a `simulation.cycle`");
   }
+  if (model.thermal_walls == ThermalWalls::cycle_mean) require_way_out_of_drains(context);
   if (model.thermal_walls == ThermalWalls::transient) return;
   for (Bearing& bearing : model.bearings)
     if (auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) heat->walls = film::WallMotion::held;

@@ -1,6 +1,7 @@
 #include "schema/film_vocabulary.h"
 #include "schema/format.h"
 #include "schema/oil_laws.h"
+#include "schema/thermal_walls.h"
 
 namespace hersey::model {
 namespace {
@@ -69,7 +70,7 @@ TypePtr compliance_format() {
 }
 
 TypePtr materials_format() {
-  const TypePtr material =
+  const TypePtr material = with_together(
       object("a material",
              {
                  required("youngs_modulus", modulus(), "Young's modulus."),
@@ -77,7 +78,14 @@ TypePtr materials_format() {
                           "Poisson's ratio."),
                  defaulted("density", quantity("kg/m^3", "7850 kg/m^3", Range::not_negative()), "0",
                            "Density; not used by rigid bodies."),
-             });
+                 optional("conductivity", quantity("W/m/K", "50 W/m/K", Range::positive()),
+                          "Of heat, at the surface that rubs (of the lining): both surfaces share the heat that "
+                          "asperities make by sqrt(conductivity density specific_heat).",
+                          "steel: 50 W/m/K, 3.6 MJ/m^3/K"),
+                 optional("specific_heat", quantity("J/kg/K", "460 J/kg/K", Range::positive()), "Likewise.",
+                          "that of steel"),
+             }),
+      {"conductivity", "specific_heat"});
   return object("two materials", {
                                      required("shell", material, "Of the bearing shell."),
                                      required("journal", material, "Of the journal."),
@@ -175,8 +183,8 @@ TypePtr bearings_format() {
               "line", or_word(quantity("rad", "180 deg"), {{"widest_gap", "always where the gap is widest"}}),
               "Where oil enters, over the whole width: an angle from the shell's x-axis towards y, or `widest_gap`."),
           defaulted("pressure", pressure(), "0 Pa", "Supply pressure."),
-          optional("temperature", temperature("50 degC"), "Of its oil, in a bearing with `thermal: {model: film}`.",
-                   "`thermal.supply_temperature`"),
+          optional("temperature", temperature_or_node("50 degC"),
+                   "Of its oil, in a bearing with `thermal: {model: film}`.", "`thermal.supply_temperature`"),
       });
   const TypePtr bearing = object(
       "a bearing",

@@ -4,6 +4,7 @@
 #include "schema/format.h"
 #include "schema/oil_laws.h"
 #include "schema/profile_shapes.h"
+#include "schema/thermal_walls.h"
 
 // What the two surfaces of a bearing are like, and the grid between them.
 namespace hersey::model {
@@ -24,7 +25,7 @@ TypePtr features_format() {
           "not fed: a pocket of the given depth"),
       defaulted("depth", quantity("m", "0.5 mm", Range::not_negative()), "0 mm",
                 "By how much it widens the gap, and its friction falls; 0 leaves the gap as it is."),
-      optional("temperature", temperature("50 degC"),
+      optional("temperature", temperature_or_node("50 degC"),
                "Of the oil that feeds it, in a bearing with `thermal: {model: film}`.", "`thermal.supply_temperature`"),
   };
   return named("a mapping from names to holes, grooves and pockets",

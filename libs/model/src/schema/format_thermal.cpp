@@ -42,7 +42,7 @@ Key expansion_key(bool of_film) {
 }  // namespace
 
 TypePtr thermal_format() {
-  const TypePtr supply = temperature("50 degC");
+  const TypePtr supply = temperature("50 degC"), supply_or_node = temperature_or_node("50 degC");
   return variant(
       "a model of the film's temperature", "model", {},
       {
@@ -58,8 +58,11 @@ TypePtr thermal_format() {
             expansion_key(false)}},
           {"film",
            "the film's energy across and along it, with viscosity from place to place",
-           {required("supply_temperature", supply, "Of the oil that comes through line, holes and grooves."),
-            optional("edge_temperature", supply, "Of the oil that edges draw in.", "that of the supply"),
+           {required("supply_temperature", supply_or_node,
+                     "Of the oil that comes through line, holes and grooves; of a node, it follows the node."),
+            optional("edge_temperature", supply_or_node, "Of the oil that edges draw in.", "that of the supply"),
+            optional("drains_to", reference(Refers::thermal_node, "sump"),
+                     "Node of the network that the oil warms which leaves the film.", "its heat goes away with it"),
             defaulted("layers", integer(5, {.low = 1, .high = film::most_layers}), "5",
                       "Into which the film is divided across; 1: one temperature across the film."),
             defaulted("shell", variant("a shell's wall", "wall", {}, variants_of(shell_walls())), "insulated",

@@ -37,6 +37,13 @@ Variant node_wall() {
 
 }  // namespace
 
+TypePtr temperature_or_node(const std::string& example) {
+  return any_of("a temperature such as " + example + ", or {node: NAME}",
+                {temperature(example),
+                 object("a node's temperature",
+                        {required("node", reference(Refers::thermal_node, "sump"), "Of the network `thermal`.")})});
+}
+
 const std::vector<Alternative<film::ShellWall>>& shell_walls() {
   static const std::vector<Alternative<film::ShellWall>> walls{
       {{"insulated", "no heat passes", {}}, [](const Value&) { return film::InsulatedWall{}; }},
@@ -50,13 +57,13 @@ const std::vector<Alternative<film::ShellWall>>& shell_walls() {
          defaulted("conductivity", quantity("W/m/K", "50 W/m/K", Range::positive()), "50 W/m/K", "Of its material."),
          defaulted("heat_transfer", quantity("W/m^2/K", "80 W/m^2/K", Range::not_negative()), "80 W/m^2/K",
                    "From its outside and its ends to the surroundings."),
-         required("ambient", temperature("40 degC"), "Temperature of these."),
+         required("ambient", temperature_or_node("40 degC"),
+                  "Temperature of these, or the node that they are and that the heat warms."),
          optional("temperature", temperature("60 degC"), "With which a simulation begins.", "that of the supply")}},
        [](const Value& wall) {
          return film::RingWall{.outer_radius = number_of(wall, "outer_diameter") / 2,
                                .conductivity = number_of(wall, "conductivity"),
                                .transfer = number_of(wall, "heat_transfer"),
-                               .T_ambient = number_of(wall, "ambient"),
                                .heat_capacity = heat_of_steel,
                                .T_start = start_of(wall)};
        }},
@@ -66,7 +73,9 @@ const std::vector<Alternative<film::ShellWall>>& shell_walls() {
                   "Surface or set of nodes of the mesh that the film lies on.",
                   "those of `shell_surface`, or all faces on the bearing's cylinder"),
          optional("temperature", temperature("60 degC"),
-                  "Of all of the body in a simulation, in which it stays as it is.", "that of the supply")}},
+                  "Of all of the body as a simulation begins. It stays so, but for cycles with `walls: cycle_mean`, at "
+                  "whose ends it takes the temperatures that their mean heat gives it.",
+                  "that of the supply")}},
        [](const Value& wall) {
          const Value* T = wall.find("temperature");
          return film::BodyWall{.conduction = {},

@@ -122,13 +122,16 @@ struct WordsOfShell {
   }
   std::string operator()(const film::NodeWall& wall) const { return words_of_node(wall); }
   std::string operator()(const film::RingWall& ring) const {
-    return fmt::format("a ring to {:.4g} mm, {:.4g} W/m/K, {:.4g} W/m^2/K to surroundings at {:.4g} degC",
-                       2e3 * ring.outer_radius, ring.conductivity, ring.transfer, celsius(ring.T_ambient));
+    const std::string to = ring.surroundings ? words_of_node(*ring.surroundings)
+                                             : fmt::format("surroundings at {:.4g} degC", celsius(ring.T_ambient));
+    return fmt::format("a ring to {:.4g} mm, {:.4g} W/m/K, {:.4g} W/m^2/K to {}", 2e3 * ring.outer_radius,
+                       ring.conductivity, ring.transfer, to);
   }
   std::string operator()(const film::BodyWall& wall) const {
     return "in a body whose mesh conducts heat steadily" +
-           (wall.T_start ? fmt::format("; in a simulation it stays at {:.4g} degC", celsius(*wall.T_start))
-                         : std::string("; in a simulation it stays at the temperature of the supply"));
+           (wall.T_start ? fmt::format("; in a simulation it begins at {:.4g} degC", celsius(*wall.T_start))
+                         : std::string("; in a simulation it begins at the temperature of the supply")) +
+           " and moves at the end of cycles only";
   }
 };
 
@@ -153,6 +156,29 @@ std::string other_supplies(const film::FilmModel& film, const film::ThermalModel
   return text.empty() ? text : text + ")";
 }
 
+/// Nodes that oil comes from and goes to.
+std::string nodes_of_oil(const film::FilmModel& film, const film::ThermalModel& heat) {
+  std::string text;
+  const auto add = [&text](const std::string& how, const std::optional<film::NetworkNode>& node) {
+    if (node) text += "; " + how + " node '" + node->name + "'";
+  };
+  if (film.supply.kind != film::SupplyKind::none) add("through the line oil comes as warm as", heat.oil.line);
+  for (std::size_t k = 0; k < heat.oil.features.size(); ++k)
+    if (film.features[k].is_fed)
+      add("through " + film.features[k].name + " oil comes as warm as", heat.oil.features[k]);
+  add("edges draw in oil as warm as", heat.oil.edges);
+  add("what leaves warms", heat.oil.drain);
+  return text;
+}
+
+/// Where the heat of asperities goes.
+std::string rubbing(const film::FilmModel& film, const film::ThermalModel& heat) {
+  if (film.asperities.model == film::AsperityModel::none) return {};
+  const double shell = 100 * film::friction_share(heat.shell_surface, heat.journal_surface);
+  return fmt::format("; of the asperities' heat {:.3g} % into the shell, {:.3g} % into the journal, by effusivities",
+                     shell, 100 - shell);
+}
+
 /// What the film's temperature is; empty where nothing depends on one.
 std::string heat(const model::Bearing& bearing) {
   const film::Lubricant& oil = bearing.film.lubricant;
@@ -160,10 +186,10 @@ std::string heat(const model::Bearing& bearing) {
   if (const auto* film = std::get_if<film::ThermalModel>(&bearing.heat)) {
     return fmt::format(
         "film in {} layers, viscosity {}, oil supplied at {:.4g} degC{}, {:.4g} J/kg/K, {:.4g} W/m/K; shell {}; "
-        "journal {}; grooves carry over {:.3g} of the film's oil",
+        "journal {}; grooves carry over {:.3g} of the film's oil{}",
         film->layers, law, celsius(film->T_supply), other_supplies(bearing.film, *film), oil.specific_heat,
         oil.conductivity, std::visit(WordsOfShell{}, film->shell), std::visit(WordsOfJournal{}, film->journal),
-        film->carry_over);
+        film->carry_over, nodes_of_oil(bearing.film, *film) + rubbing(bearing.film, *film));
   }
   if (const auto* one = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
     const std::string by = one->cools_by_surroundings

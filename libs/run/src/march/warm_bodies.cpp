@@ -12,7 +12,7 @@ void warm_bodies(model::Machine& machine, double dt) {
   std::vector<bearing::FilmForce*> warmed;
   for (const model::BuiltBearing& built : machine.bearings) {
     const film::FilmHeat* heat = built.bearing->heat();
-    if (heat == nullptr || !has_nodes(heat->thermal())) continue;
+    if (heat == nullptr || !film::terminals_of(heat->thermal()).has_any()) continue;
     films.push_back({film::terminals_of(heat->thermal()), heat->exchange()});
     warmed.push_back(built.bearing.get());
   }
@@ -32,7 +32,7 @@ void settle_walls(model::Machine& machine) {
   }
   if (machine.network) machine.network->advance(0, films);
   for (std::size_t i = 0; i < films.size(); ++i) {
-    const Eigen::Vector2d held = films[i].exchange.T;
+    const Eigen::VectorXd& held = films[i].exchange.T;
     warm[i]->settle_walls(machine.network ? machine.network->walls(films[i].at, held) : held);
   }
 }

@@ -67,6 +67,7 @@ struct BearingObservation {
 
 class ClearanceGrowth;
 class DeformingSurfaces;
+class ThermalShape;
 
 /// An oil film between the surfaces of a shell frame A and of a journal frame B (theory manual, chapter bearing), where
 /// GapKinematics says how those lie to each other. The surfaces are rigid, or belong to elastic bodies whose shapes
@@ -115,12 +116,11 @@ class FilmForce : public mbd::TwoBodyForce {
   /// A cycle of the machine has ended with the step last accepted: as film::FilmHeat::mean_exchange().
   const film::WallExchange& mean_exchange();
   /// Likewise film::FilmHeat::settle_walls().
-  void settle_walls(const Eigen::Vector2d& T_nodes);
+  void settle_walls(const Eigen::VectorXd& T_nodes);
   /// Of a film with temperatures; null: it has one.
   [[nodiscard]] const film::FilmHeat* heat() const { return heat_ ? &*heat_ : nullptr; }
-  /// After a step has been accepted: walls that are nodes of a network have these temperatures at its end, shell and
-  /// journal [K].
-  void move_walls(const Eigen::Vector2d& T);
+  /// After a step has been accepted: likewise film::FilmHeat::move_walls().
+  void move_walls(const Eigen::VectorXd& T);
   /// What temperatures have come to at the state last accepted, where no film goes on from there: a clearance that they
   /// close, or oil that warms without bound, and where. Empty: nothing of that.
   /// @param closed  share of the clearance as given below which it counts as closed [-]
@@ -134,7 +134,6 @@ class FilmForce : public mbd::TwoBodyForce {
 
  private:
   void place(const mbd::RelativeMotion& motion);
-  void shape_by_temperature();
   void feed(double t);
   void report_contact();
   [[nodiscard]] double smallest_gap() const;
@@ -156,7 +155,7 @@ class FilmForce : public mbd::TwoBodyForce {
   film::Reynolds reynolds_;
   std::optional<film::FilmHeat> heat_;  // at the state last accepted
   film::WallCorrection walls_;
-  Eigen::VectorXd thermal_shape_;  // of a shell whose body keeps its temperature, at the nodes; empty: none
+  std::unique_ptr<ThermalShape> thermal_shape_;  // of a shell in a body
   std::unique_ptr<ClearanceGrowth> growth_;
   std::unique_ptr<GapKinematics> gap_;
   std::unique_ptr<DeformingSurfaces> deforming_;

@@ -37,7 +37,7 @@ struct WallConduction {
 [[nodiscard]] WallConduction on_grid(const WallConduction& wall, const Grid& from, const Grid& to);
 
 /// A shell in a body that conducts heat. A steady film is in balance with it; over a time step it keeps its
-/// temperature.
+/// temperature, and over cycles it settles at that of their mean heat (WallMotion::held, theory manual, thermal.56).
 struct BodyWall {
   std::shared_ptr<const WallConduction> conduction;  ///< never null
   std::optional<double> T_start = {};                ///< with which a simulation begins [K]; unset: the supply's

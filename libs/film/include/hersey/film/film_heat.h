@@ -52,22 +52,24 @@ class FilmHeat {
   /// Of walls that are held (WallMotion::held), by the means over all steps since the last call: what those that are
   /// nodes take up, rings and free journals following. @throws ContractError without a step since then
   const WallExchange& mean_exchange();
-  /// After mean_exchange(): nodes have these temperatures, shell and journal [K]; rings and free journals take those at
+  /// After mean_exchange(): nodes have these temperatures, as exchange().T [K]; rings and free journals take those at
   /// which they would take up no heat; call after call ever better (theory manual, thermal.19). Returns how far off
   /// they were.
-  WallCorrection settle_walls(const Eigen::Vector2d& T_nodes);
+  WallCorrection settle_walls(const Eigen::VectorXd& T_nodes);
 
   /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.35); empty:
   /// it does not.
   [[nodiscard]] Eigen::VectorXd shell_opening() const;
+  /// The same in a simulation, in which a body keeps its temperatures, settle_walls() apart.
+  [[nodiscard]] Eigen::VectorXd shell_opening_in_time() const;
   /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.
   [[nodiscard]] Eigen::VectorXd body_temperatures() const;
 
-  /// After advance(), of walls that are nodes: those were held at the temperatures they had.
+  /// After advance(), of nodes of a network: those were held at the temperatures they had.
   [[nodiscard]] const WallExchange& exchange() const;
-  /// After advance(): walls that are nodes had rather these temperatures, shell and journal [K], at the end of the
+  /// After advance(): nodes had rather these temperatures, as exchange().T [K], at the end of the
   /// step; the film follows, and the heat they take up is exchange().heat + exchange().by_T (T - exchange().T).
-  void move_walls(const Eigen::Vector2d& T);
+  void move_walls(const Eigen::VectorXd& T);
 
   /// After advance(): fields and numbers of that film; before, of one at the temperatures of its supply and walls.
   [[nodiscard]] TemperatureFields fields() const;

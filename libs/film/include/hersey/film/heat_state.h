@@ -12,6 +12,7 @@ struct HeatState {
   Eigen::VectorXd shell;  ///< of ring or node, or as given, shape (n_phi); of an insulated shell nothing
   double journal = 0;     ///< of a journal that is not insulated
   Eigen::VectorXd wall_heat = {};  ///< into each angle of a shell in a body [W], shape (n_phi); else nothing
+  Eigen::VectorXd outside = {};    ///< of nodes of a network that are no walls (FilmTerminals), or empty
   Eigen::VectorXd supplies;        ///< of the supply line and then of each feature: what leaves them for the film
   /// What shear leaves of the layers' viscosities [-], as `film`, and then by what the flow along pressure is easier
   /// around and along the axis than these say [-], node by node; empty: there is one layer, or nothing thins.
@@ -63,12 +64,12 @@ struct HeatObservables {
   HeatBalance balance;
 };
 
-/// What walls that are nodes of a network have taken up, and how that follows their temperatures (theory manual,
-/// thermal.45): shell, then journal; zero for a wall that is no node.
+/// What nodes of a network have taken up, and how that follows their temperatures (theory manual, thermal.45): shell,
+/// journal, zero for a wall that is no node, and the others in the order of FilmTerminals.
 struct WallExchange {
-  Eigen::Vector2d T = Eigen::Vector2d::Zero();     ///< of the walls [K]
-  Eigen::Vector2d heat = Eigen::Vector2d::Zero();  ///< into them at these temperatures [W]
-  Eigen::Matrix2d by_T = Eigen::Matrix2d::Zero();  ///< its change with them, the film following [W/K]
+  Eigen::VectorXd T = Eigen::Vector2d::Zero();     ///< of these [K]
+  Eigen::VectorXd heat = Eigen::Vector2d::Zero();  ///< into them at these temperatures [W]
+  Eigen::MatrixXd by_T = Eigen::Matrix2d::Zero();  ///< its change with them, the film following [W/K]
 };
 
 }  // namespace hersey::film

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -23,6 +24,13 @@ struct WallAtTemperature {
   Eigen::VectorXd around = {};  ///< of the shell at the grid's angles [K], shape (n_phi); empty: T everywhere
 };
 
+/// A node of a ThermalNetwork.
+struct NetworkNode {
+  double T = 293.15;      ///< at the start [K]
+  std::size_t node = 0;   ///< place in the network
+  std::string name = {};  ///< of that node
+};
+
 /// A shell that is a ring around the film: heat is conducted around it and through it to its surroundings
 /// (theory manual, thermal.12).
 struct RingWall {
@@ -31,7 +39,8 @@ struct RingWall {
   double transfer = 80;          ///< coefficient from its outside and its ends to the surroundings [W/(m^2 K)], >= 0
   double T_ambient = 313.15;     ///< of these [K]
   double heat_capacity = 3.6e6;  ///< per volume [J/(m^3 K)], > 0; of no account to a steady film
-  std::optional<double> T_start = {};  ///< with which a simulation begins [K]; unset: the supply's
+  std::optional<double> T_start = {};            ///< with which a simulation begins [K]; unset: the supply's
+  std::optional<NetworkNode> surroundings = {};  ///< whose temperature T_ambient is, and which the heat warms
 };
 
 /// A journal of one temperature that gives off no heat but to the film: turning fast, every point of it sees the mean
@@ -43,10 +52,13 @@ struct FreeJournal {
 
 /// A wall that is a lumped body, node of a ThermalNetwork: it has one temperature, which moves with the network
 /// (theory manual, thermal.44).
-struct NodeWall {
-  double T = 293.15;      ///< at the start [K]
-  std::size_t node = 0;   ///< of the network
-  std::string name = {};  ///< of that node
+using NodeWall = NetworkNode;
+
+/// Nodes that oil comes from, in place of temperatures that are given, and goes to (theory manual, thermal.54).
+struct OilNodes {
+  std::optional<NetworkNode> line = {}, edges = {};
+  std::vector<std::optional<NetworkNode>> features = {};  ///< empty: none of them
+  std::optional<NetworkNode> drain = {};                  ///< that oil warms which leaves the film
 };
 
 using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall, BodyWall, NodeWall>;
@@ -64,6 +76,20 @@ struct ThermalExpansion {
   }
 };
 
+/// What a wall's surface is made of: how it takes up the heat that asperities make on it.
+struct SurfaceMaterial {
+  double conductivity = 50;      ///< k [W/(m K)], > 0
+  double heat_capacity = 3.6e6;  ///< per volume, rho c [J/(m^3 K)], > 0
+
+  /// sqrt(k rho c) [W s^(1/2)/(m^2 K)]: heat goes into half-spaces of one surface temperature in proportion to it.
+  [[nodiscard]] double effusivity() const { return std::sqrt(conductivity * heat_capacity); }
+};
+
+/// Share of the friction's heat that goes into the first of two surfaces that rub (theory manual, thermal.53).
+[[nodiscard]] inline double friction_share(const SurfaceMaterial& first, const SurfaceMaterial& second) {
+  return first.effusivity() / (first.effusivity() + second.effusivity());
+}
+
 /// What rings and free journals do in a simulation.
 enum class WallMotion {
   by_their_heat,  ///< warm as their heat capacity lets them
@@ -77,15 +103,17 @@ struct ThermalModel {
   std::optional<double> T_line = {};    ///< through the line instead [K]
   std::vector<double> T_features = {};  ///< through each feature instead [K]; empty: T_supply
   double T_edges = 313.15;              ///< of the oil that edges draw in [K]
+  OilNodes oil = {};
   ShellWall shell = InsulatedWall{};
   JournalWall journal = FreeJournal{};
   WallMotion walls = WallMotion::by_their_heat;  ///< of no account to a steady film
   double carry_over = 1;  ///< share of the film's oil that passes a groove with it [-], 0 (all is renewed) to 1
-  std::optional<ThermalExpansion> expansion = {};  ///< of the walls; unset: they keep their size
+  std::optional<ThermalExpansion> expansion = {};            ///< of the walls; unset: they keep their size
+  SurfaceMaterial shell_surface = {}, journal_surface = {};  ///< share the asperities' heat; steel
 };
 
 /// Whether one of the walls is a node of a network.
-[[nodiscard]] inline bool has_nodes(const ThermalModel& thermal) {
+[[nodiscard]] inline bool has_node_walls(const ThermalModel& thermal) {
   return std::holds_alternative<NodeWall>(thermal.shell) || std::holds_alternative<NodeWall>(thermal.journal);
 }
 

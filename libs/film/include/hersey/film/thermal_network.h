@@ -2,13 +2,12 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "hersey/core/archive.h"
+#include "hersey/film/film_terminals.h"
 #include "hersey/film/heat_state.h"
-#include "hersey/film/thermal_model.h"
 
 namespace hersey::film {
 
@@ -31,14 +30,6 @@ struct ThermalNetworkModel {
   std::vector<ThermalNode> nodes;
   std::vector<ThermalPath> paths;
 };
-
-/// Which nodes the walls of a film are; unset: none.
-struct FilmTerminals {
-  std::optional<std::size_t> shell, journal;
-};
-
-/// Of a film's walls.
-[[nodiscard]] FilmTerminals terminals_of(const ThermalModel& thermal);
 
 /// A film's heat at its terminals.
 struct FilmAtNodes {
@@ -76,8 +67,9 @@ class ThermalNetwork {
   /// balance without time where dt = 0: bodies that neither a film nor surroundings hold keep theirs.
   void advance(double dt, const std::vector<FilmAtNodes>& films);
 
-  /// Temperatures of a film's walls now, shell and journal [K]; those of `otherwise` where a wall is no node.
-  [[nodiscard]] Eigen::Vector2d walls(const FilmTerminals& at, const Eigen::Vector2d& otherwise) const;
+  /// Temperatures now at a film's terminals, in the order of WallExchange [K]; those of `otherwise` where a wall is no
+  /// node.
+  [[nodiscard]] Eigen::VectorXd walls(const FilmTerminals& at, const Eigen::VectorXd& otherwise) const;
 
   /// Of the last step; before the first one of temperatures only.
   [[nodiscard]] const NetworkObservables& observables() const { return seen_; }
