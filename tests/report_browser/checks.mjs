@@ -323,6 +323,103 @@ export const everyReport = {
   },
 };
 
+const spectra = (page) => page.locator(".sections details", { has: page.locator("summary", { hasText: /^Spectra and orders$/ }) });
+
+/** What a figure saves as a table: its head, and rows of numbers. */
+async function table(page, figure) {
+  const waiting = page.waitForEvent("download");
+  await figure.getByRole("button", { name: /as CSV$/ }).click();
+  const [head, ...rows] = (await readFile(await (await waiting).path())).toString().split("\n");
+  return { head, rows: rows.map((row) => row.split(",").map(Number)) };
+}
+
+/** Of runs with as many instants as spectra need. */
+export const spectraReport = {
+  "the spectrum of any series is shown, over frequency and with a logarithmic scale": async (page) => {
+    const section = spectra(page);
+    if ((await section.getAttribute("open")) === null) await section.locator("summary").click();
+    const figure = section.locator('[data-figure="spectrum"]');
+    await figure.waitFor();
+    await figure.scrollIntoViewIfNeeded();
+    await frame(page);
+    const picker = page.getByLabel("Series whose spectrum is shown");
+    assert.ok((await picker.locator("option").count()) > 10, "there is little to choose from");
+    const before = [await picture(page, "spectrum"), await figure.locator("figcaption").innerText()];
+    await picker.selectOption(await picker.locator("option", { hasText: /peak film pressure|p max/i }).first().getAttribute("value"));
+    await frame(page);
+    const after = [await picture(page, "spectrum"), await figure.locator("figcaption").innerText()];
+    before.forEach((look, i) => assert.notEqual(after[i], look, "another series looks the same"));
+    await section.getByText("Logarithmic", { exact: true }).click();
+    await frame(page);
+    assert.notEqual(await picture(page, "spectrum"), after[0], "the logarithmic scale looks like the linear one");
+    const { head, rows } = await table(page, section.locator('[data-figure="spectrum"]'));
+    assert.match(head, /frequency \[Hz\].*amplitude \[MPa\]/);
+    assert.ok(rows.length > 16 && rows.every((row) => row.every(Number.isFinite)), "the table has no numbers");
+    await section.getByText("Linear", { exact: true }).click();
+    await section.locator("summary").click();
+  },
+};
+
+/** Of tests/report_browser/run_up.yaml: a slider swings by 1 mm once a turn, by 0.25 mm three times, while the shaft runs up. */
+export const runUpReport = {
+  "verdict and key numbers are on the first screen": firstScreen,
+
+  "order tracks have the amplitudes of the orders, over the speed": async (page) => {
+    await page.getByLabel("Series whose spectrum is shown").selectOption("/bodies/slider/position#0");
+    const figure = page.locator('[data-figure="order-tracks"]');
+    await figure.scrollIntoViewIfNeeded();
+    await frame(page);
+    assert.deepEqual(await figure.locator(".legend-entry").allInnerTexts(), ["order 0.5", "order 1", "order 2", "order 3"]);
+    const { head, rows } = await table(page, figure);
+    assert.match(head, /speed of hinge \[rpm\]/);
+    const inner = rows.filter(([speed]) => speed > 1000 && speed < 2900);
+    assert.ok(inner.length > 50, `${inner.length} speeds`);
+    // Series have single precision; rows at 1 kHz, six and more of them a period of order 3.
+    for (const [speed, half, first, second, third] of inner) {
+      assert.ok(Math.abs(first - 1) < 0.01 && Math.abs(third - 0.25) < 0.02, `at ${speed} rpm orders 1 and 3 have ${first} and ${third} mm`);
+      assert.ok(half < 0.01 && second < 0.02, `at ${speed} rpm orders 0.5 and 2 have ${half} and ${second} mm`);
+    }
+  },
+
+  "the waterfall's ridge lies on the first order": async (page) => {
+    const figure = page.locator('[data-figure="waterfall"]');
+    assert.match(await figure.locator("svg").getAttribute("aria-label"), /largest amplitude [\d.]+ mm at [\d.]+ Hz/);
+    const { head, rows } = await table(page, figure);
+    assert.match(head, /speed \[rpm\].*frequency \[Hz\].*\[mm\]/);
+    const peaks = new Map();
+    for (const [speed, frequency, amplitude] of rows) if (!(peaks.get(speed)?.amplitude >= amplitude)) peaks.set(speed, { frequency, amplitude });
+    assert.ok(peaks.size > 10, `${peaks.size} spectra`);
+    for (const [speed, { frequency }] of peaks)
+      // Within a piece of 1/15 of the run the speed changes by 200 rpm.
+      if (speed > 600) assert.ok(Math.abs(frequency - speed / 60) < 4, `at ${speed} rpm the peak is at ${frequency} Hz`);
+  },
+
+  "curves are drawn over the speed, and marked where the instant is": async (page) => {
+    const label = () => page.locator('[data-figure="slider-position"] .u-over, [data-figure="hinge-rates"] .u-over').first().getAttribute("aria-label");
+    if ((await page.locator("details:has(summary:text-is('Joints'))").getAttribute("open")) === null) await page.locator("summary", { hasText: /^Joints$/ }).click();
+    await frame(page);
+    assert.match(await label(), /against time$/);
+    await page.getByText("Speed", { exact: true }).click();
+    await frame(page);
+    assert.match(await label(), /against speed$/);
+    const { head, rows } = await table(page, page.locator('[data-figure="hinge-rates"]'));
+    assert.match(head, /^"speed \[rpm\]"/);
+    // In the second half of the run: the mean over a turn is below the speed itself by the square of what it gains in the turn.
+    for (const [speed, rate] of rows.slice(1000, -300)) assert.ok(Math.abs(speed - (60 * rate) / (2 * Math.PI)) < 2, `${speed} rpm at ${rate} rad/s`);
+    await page.getByText("Time", { exact: true }).click();
+  },
+
+  "drawings are saved as pictures, too": async (page) => {
+    for (const [format, start] of [["PNG", "\x89PNG"], ["SVG", "<svg"]]) {
+      const waiting = page.waitForEvent("download");
+      await page.locator('[data-figure="waterfall"]').getByRole("button", { name: new RegExp(`as ${format}$`) }).click();
+      const content = await readFile(await (await waiting).path());
+      assert.equal(content.toString("latin1", 0, 4), start);
+      assert.ok(content.length > 5000, `the ${format} has ${content.length} bytes`);
+    }
+  },
+};
+
 /** Of small motions about one state. */
 export const modesReport = {
   "verdict and key numbers are on the first screen": firstScreen,

@@ -4,7 +4,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { bearingReport, everyReport, comparisonReport, machineReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
+import { bearingReport, everyReport, comparisonReport, machineReport, runUpReport, spectraReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
 import { samplingReport } from "./sampling_checks.mjs";
 
 const flags = [
@@ -129,10 +129,11 @@ async function testReport(browser, file) {
   const isBearing = (await page.locator(".solution").count()) > 0;
   const isModes = (await page.locator(".mode-player").count()) > 0;
   const isMachine = (await page.locator(".assumptions .owners").count()) > 0;
+  const isRunUp = (await page.locator("h1").innerText()).startsWith("A run-up");
   const isSampling = (await page.locator('[data-figure="parallel"]').count()) > 0;
-  const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : {}), ...everyReport };
+  const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : {}), ...(isStudy && !isComparison ? spectraReport : {}), ...everyReport };
   const ofBearing = { ...(isStudy ? sweepReport : {}), ...bearingReport };
-  const tests = isSampling ? samplingReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
+  const tests = isSampling ? samplingReport : isRunUp ? runUpReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
   for (const [name, test] of Object.entries(tests)) await check(name, () => test(page));
   await testAccess(page);
   await check("nothing on the console and nothing over the network", async () => {

@@ -175,6 +175,15 @@ export class Run {
     });
   }
 
+  /** All datasets with a row for each instant of the time series, and a few numbers in each. */
+  seriesPaths(): { path: string; unit: string; description: string; width: number; columns: string[] }[] {
+    const rows = this.text.datasets["/time"]?.shape[0];
+    return Object.entries(this.text.datasets).flatMap(([path, { shape, unit, description, columns }]) => {
+      const width = shape.slice(1).reduce((a, b) => a * b, 1);
+      return shape[0] === rows && width <= 9 ? [{ path, unit, description, width, columns: columns ?? [] }] : [];
+    });
+  }
+
   number(object: string, name: string): number | undefined {
     const value = this.text.attributes[object]?.[name];
     return typeof value === "number" ? value : undefined;

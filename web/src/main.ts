@@ -82,5 +82,6 @@ function start(): void {
   }
 }
 
-addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((d) => d.setAttribute("open", "")));
+// On paper assumptions and licences are unfolded; sections with figures as the reader has left them.
+addEventListener("beforeprint", () => document.querySelectorAll("details.assumptions, .licences details").forEach((d) => d.setAttribute("open", "")));
 start();

@@ -10,7 +10,7 @@ import { sweepPlots } from "./line_plot";
 import { MachineView, sweepMachineViews } from "./machine_view";
 import { ModePlayer } from "./mode_player";
 import { Overview } from "./overview";
-import type { Abscissa } from "./series";
+import { speedAbscissa, type Abscissa } from "./series";
 import { summaryTables } from "./summary_table";
 import { SystemView } from "./system_view";
 import { Timeline } from "./timeline";
@@ -129,8 +129,13 @@ export class RunView {
       for (const b of worstFirst(this.run)) picker.append(h("option", { value: b, selected: b === this.bearing }, spaced(b)));
       parts.push(h("h2", {}, `Bearing ${spaced(this.bearing)}`), picker);
     }
-    if (this.run.column("/crank_angle"))
-      parts.push(segmented("Abscissa", [{ value: "angle", label: "Crank angle" }, { value: "time", label: "Time" }], this.abscissa, (a) => this.change(() => (this.abscissa = a as Abscissa))));
+    const choices = [
+      ...(this.run.column("/crank_angle") ? [{ value: "angle", label: "Crank angle" }] : []),
+      { value: "time", label: "Time" },
+      ...(speedAbscissa(this.run) ? [{ value: "speed", label: "Speed" }] : []),
+    ];
+    if (choices.length > 1)
+      parts.push(segmented("Abscissa", choices, this.abscissa, (a) => this.change(() => (this.abscissa = a as Abscissa))));
     return parts.length > 0 ? h("div", { class: "controls view-controls" }, ...parts) : null;
   }
 

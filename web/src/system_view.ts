@@ -6,15 +6,24 @@ import { figure, h } from "./dom";
 import { mechanismGraph } from "./mechanism_graph";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Axis, columns, curve, scaled, timeDisplay, type Abscissa } from "./series";
+import { SpectraView } from "./spectra_view";
 import { summaryTables } from "./summary_table";
 import { degree, millimetre, plain, type Display } from "./units";
 
+/** Sections that were opened or closed by hand stay so when the page is drawn anew. */
+const opened = new Map<string, boolean>();
+
 /** A section that draws its figures when it is first opened. */
-function section(title: string, open: boolean, fill: (body: HTMLElement) => void): HTMLElement {
+function section(title: string, openAtFirst: boolean, fill: (body: HTMLElement) => void): HTMLElement {
   const body = h("div", { class: "figures" });
+  const open = opened.get(title) ?? openAtFirst;
   const details = h("details", { open }, h("summary", {}, title), body);
+  let drawn = false;
   const draw = () => {
-    if (details.open && body.childElementCount === 0) fill(body);
+    opened.set(title, details.open);
+    if (!details.open || drawn) return;
+    drawn = true;
+    fill(body);
   };
   details.addEventListener("toggle", draw);
   draw();
@@ -44,6 +53,14 @@ export class SystemView {
     if (!alone) solution();
     if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", alone, (body) => this.power(body)));
     if (beamsOf(run).length > 0) this.element.append(section("Beams", alone, (body) => this.beamFigures(body)));
+    const spectra = SpectraView.of(run);
+    if (spectra)
+      this.element.append(
+        section("Spectra and orders", alone && SpectraView.isRunUp(run), (body) => {
+          body.replaceWith(spectra.element);
+          spectra.render();
+        }),
+      );
     const graph = mechanismGraph(run);
     if (graph) this.element.append(section("Mechanism", false, (body) => body.append(graph)));
     const joints = run.children("/joints").length;
