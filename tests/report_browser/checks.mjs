@@ -1,6 +1,10 @@
 // What a report must do in a real browser. Each check gets an open page and throws where the report falls short.
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
+import { execFileSync } from "node:child_process";
+import { copyFile, mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
@@ -45,6 +49,33 @@ const firstScreen = async (page) => {
   await page.setViewportSize({ width: 1280, height: 900 });
 };
 
+/** The page as it is printed, the text of each sheet: by pdftotext of poppler-utils. */
+async function printed(page) {
+  const folder = await mkdtemp(join(tmpdir(), "hersey-print-"));
+  try {
+    await page.pdf({ path: join(folder, "page.pdf"), preferCSSPageSize: true, printBackground: true });
+    const text = execFileSync("pdftotext", ["-layout", join(folder, "page.pdf"), "-"]).toString();
+    return text.split("\f").slice(0, -1);
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+}
+
+/** What the first sheet must hold, and none may be: empty, or buttons. */
+const onPaper = async (page) => {
+  const squeezed = (text) => text.replace(/\s+/g, "");
+  const sheets = await printed(page);
+  const first = squeezed(sheets[0]);
+  const title = squeezed(await page.locator("h1").innerText());
+  assert.ok(first.includes(title.slice(0, 20)), "the first sheet has no title");
+  for (const text of await page.locator(".verdict .judgements li").allInnerTexts()) assert.ok(first.includes(squeezed(text)), `the first sheet lacks the verdict "${text}"`);
+  const values = await page.locator(".tiles").first().locator(".tile-value").allInnerTexts();
+  assert.ok(values.length >= 4, "there are no key numbers");
+  for (const value of values) assert.ok(first.includes(squeezed(value).replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]/g, "").slice(0, 5)), `the first sheet lacks the key number ${value}`);
+  sheets.forEach((sheet, i) => assert.ok(sheet.trim().length > 0, `sheet ${i + 1} of ${sheets.length} is empty`));
+  for (const word of ["PNG", "SVG", "CSV"]) assert.ok(!new RegExp(`\\b${word}\\b`).test(sheets.join("\n")), `buttons are printed: ${word}`);
+};
+
 async function openAssumptions(page) {
   if ((await page.locator("details.assumptions").first().getAttribute("open")) === null) await page.locator("details.assumptions > summary").first().click();
 }
@@ -57,6 +88,8 @@ async function pressOnSlider(page, key) {
 
 export const everyReport = {
   "verdict and key numbers are on the first screen": firstScreen,
+
+  "the first printed sheet holds verdict and key numbers, none is empty": onPaper,
 
   "the licences of what the page contains stand at its foot": async (page) => {
     const foot = page.locator("footer.licences");
@@ -360,6 +393,49 @@ export const spectraReport = {
   },
 };
 
+/** Of a run with more stored fields than the page holds. */
+export const besideReport = {
+  "the page is below 8 MB, and opens in under 2 s of the browser's own time": async (page) => {
+    const file = fileURLToPath(page.url());
+    assert.ok((await readFile(file)).length < 8e6, "the page is too large");
+    const client = await page.context().newCDPSession(page);
+    await client.send("Performance.enable", { timeDomain: "threadTicks" });
+    await page.reload();
+    await page.waitForSelector("figure canvas");
+    const { metrics } = await client.send("Performance.getMetrics");
+    const work = metrics.find(({ name }) => name === "TaskDuration").value;
+    assert.ok(work < 2, `the page needs ${work} s to open`);
+  },
+
+  "all fields are loaded from the file beside the page when asked for": async (page) => {
+    const button = page.getByRole("button", { name: /^Load all \d+ \([\d.]+ MB\)$/ });
+    const wanted = Number(/\d+/.exec(await button.innerText())[0]);
+    const instants = () => page.locator(".timeline-slider").getAttribute("max").then((max) => Number(max) + 1);
+    const before = await instants();
+    assert.ok(before < wanted, `the page has ${before} of ${wanted} instants`);
+    await button.click();
+    await page.waitForFunction((n) => Number(document.querySelector(".timeline-slider").max) + 1 === n, wanted);
+    assert.equal(await button.count(), 0, "they can be loaded again");
+    await pressOnSlider(page, "Home");
+    await pressOnSlider(page, "End");
+    assert.ok((await colouredPixels(page.locator('[data-figure="map"]')))[0] > 1000, "the map is empty");
+  },
+
+  "a page without its file says so, and goes on": async (page) => {
+    const folder = await mkdtemp(join(tmpdir(), "hersey-alone-"));
+    const alone = await page.context().newPage();
+    try {
+      await copyFile(fileURLToPath(page.url()), join(folder, "report.html"));
+      await alone.goto(pathToFileURL(join(folder, "report.html")).href);
+      await alone.getByRole("button", { name: /^Load all/ }).click();
+      await alone.getByText(/report_fields\/\S+ is not beside this page/).waitFor();
+    } finally {
+      await alone.close();
+      await rm(folder, { recursive: true });
+    }
+  },
+};
+
 /** Of tests/report_browser/run_up.yaml: a slider swings by 1 mm once a turn, by 0.25 mm three times, while the shaft runs up. */
 export const runUpReport = {
   "verdict and key numbers are on the first screen": firstScreen,
@@ -518,6 +594,7 @@ export const comparisonReport = {
 /** Reports of a machine with several bearings. */
 export const machineReport = {
   "verdict and key numbers are on the first screen": firstScreen,
+  "the first printed sheet holds verdict and key numbers, none is empty": onPaper,
 
   "all bearings stand in one table, the worst first, and the verdict names it": async (page) => {
     const rows = page.locator(".overview tbody tr");
@@ -564,6 +641,7 @@ export const machineReport = {
 /** Reports of a bearing by itself. */
 export const bearingReport = {
   "verdict and key numbers are on the first screen": firstScreen,
+  "the first printed sheet holds verdict and key numbers, none is empty": onPaper,
   "title, conditions and status come first": everyReport["title, assumptions and status come first"],
   "the licences of what the page contains stand at its foot": everyReport["the licences of what the page contains stand at its foot"],
 

@@ -38,6 +38,16 @@ export interface RunText {
   assumptions: [string, string][];
   summary: SummaryRow[];
   model?: string;
+  /** Files with all instants of a film, where the page has but some. */
+  beside?: FieldsFile[];
+}
+
+/** A script beside the page (libs/report/src/write_html.cpp). */
+export interface FieldsFile {
+  bearing: string;
+  file: string;
+  bytes: number;
+  instants: number;
 }
 
 interface ReportText {
@@ -154,6 +164,18 @@ export class Run {
   }
   get model(): string | undefined {
     return this.text.model;
+  }
+
+  /** Where all instants of a bearing's film are, while the page has but some. */
+  fieldsBeside(bearing: string): FieldsFile | null {
+    return this.text.beside?.find((file) => file.bearing === bearing) ?? null;
+  }
+
+  /** Takes datasets in place of what it had of them. */
+  take(datasets: Record<string, DatasetText>): void {
+    for (const path of Object.keys(datasets)) this.decoded.delete(path);
+    Object.assign(this.text.datasets, datasets);
+    this.text.beside = this.text.beside?.filter(({ bearing }) => !Object.keys(datasets).some((path) => path.startsWith(`/bearings/${bearing}/`))) ?? [];
   }
 
   /** Datasets whose path begins with `prefix`: what follows it. */

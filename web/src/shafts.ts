@@ -10,8 +10,9 @@ export interface Shaft {
   speed: Float64Array;
 }
 
-/** Fewer turns than this have no speed worth plotting over. */
+/** Fewer turns than these have no speed worth plotting over; what tumbles is no shaft. */
 const fewestTurns = 2;
+const fewestOfBodies = 10;
 
 /** The crank first, else hinges, else bodies, those with the most turns first. */
 export function shafts(run: Run): Shaft[] {
@@ -27,7 +28,7 @@ export function shafts(run: Run): Shaft[] {
     return angle ? [[joint, angle]] : [];
   });
   const found = shaftsOf(hinges, time);
-  return found.length > 0 ? found : shaftsOf(run.children("/bodies").flatMap((body): [string, Numbers][] => turned(run, body, time)), time);
+  return found.length > 0 ? found : shaftsOf(run.children("/bodies").flatMap((body) => turned(run, body, time)), time, fewestOfBodies);
 }
 
 /** The way a body has turned about the axis that it turns about most. */
@@ -43,13 +44,13 @@ function turned(run: Run, body: string, time: Numbers): [string, Numbers][] {
   return [[body, ways.reduce((a, b) => (way(b) > way(a) ? b : a))]];
 }
 
-function shaftsOf(angles: [string, Numbers][], time: Numbers): Shaft[] {
+function shaftsOf(angles: [string, Numbers][], time: Numbers, fewest = fewestTurns): Shaft[] {
   return angles
     .flatMap(([name, angle]) => {
       const last = angle.length - 1;
       const sign = angle[last]! < angle[0]! ? -1 : 1;
       const turns = Float64Array.from(angle, (a) => (sign * a) / (2 * Math.PI));
-      return turns[last]! - turns[0]! >= fewestTurns ? [{ name, turns, speed: speedOf(turns, time) }] : [];
+      return turns[last]! - turns[0]! >= fewest ? [{ name, turns, speed: speedOf(turns, time) }] : [];
     })
     .sort((a, b) => travelled(b) - travelled(a));
 }
