@@ -38,8 +38,12 @@ async function onFirstScreen(page, locator, what) {
 
 const firstScreen = async (page) => {
   await page.setViewportSize({ width: 1366, height: 768 });
-  await page.waitForTimeout(800); // a smooth scroll that a check before has begun comes to its end
-  await page.evaluate(() => scrollTo(0, 0));
+  // A smooth scroll that a check before has begun comes to its end first, however slow the machine.
+  for (let still = 0, tries = 0; still < 3 && tries < 40; tries++) {
+    await page.evaluate(() => scrollTo({ top: 0, behavior: "instant" }));
+    await page.waitForTimeout(250);
+    still = (await page.evaluate(() => scrollY)) === 0 ? still + 1 : 0;
+  }
   await frame(page);
   assert.ok((await page.locator(".verdict .judgements li").count()) > 0, "there is no verdict");
   await onFirstScreen(page, page.locator(".verdict").first(), "the verdict");
