@@ -1,10 +1,10 @@
 // node report_test.mjs REPORT.html ...: opens reports in headless Chromium and checks that they work.
-// Needs `npm ci` in web/ and a Chromium (CHROMIUM=/path/to/it, default /usr/bin/chromium).
+// Needs `npm ci` in web/, a Chromium (CHROMIUM=/path/to/it, default /usr/bin/chromium) and pdftotext (poppler-utils).
 import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { bearingReport, everyReport, comparisonReport, machineReport, runReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
+import { bearingReport, besideReport, everyReport, comparisonReport, machineReport, runReport, runUpReport, spectraReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
 import { samplingReport } from "./sampling_checks.mjs";
 
 const flags = [
@@ -60,7 +60,8 @@ async function open(browser, file) {
   page.on("pageerror", (error) => complaints.push(`uncaught: ${error.message}`));
   page.on("request", (request) => {
     const target = request.url();
-    if (target !== url && !target.startsWith("data:") && !target.startsWith("blob:")) complaints.push(`request to ${target}`);
+    const isBeside = target.startsWith(url.replace(/\.html$/, "_fields/"));
+    if (target !== url && !isBeside && !target.startsWith("data:") && !target.startsWith("blob:")) complaints.push(`request to ${target}`);
   });
   await page.goto(url);
   await page.waitForSelector("figure canvas, .svg-plot, .fault", { timeout: 15000 });
@@ -129,10 +130,12 @@ async function testReport(browser, file) {
   const isBearing = (await page.locator(".solution").count()) > 0;
   const isModes = (await page.locator(".mode-player").count()) > 0;
   const isMachine = (await page.locator(".assumptions .owners").count()) > 0;
+  const isRunUp = (await page.locator("h1").innerText()).startsWith("A run-up");
+  const hasMore = (await page.getByRole("button", { name: /^Load all/ }).count()) > 0;
   const isSampling = (await page.locator('[data-figure="parallel"]').count()) > 0;
-  const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : runReport), ...everyReport };
+  const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : runReport), ...(isStudy && !isComparison ? spectraReport : {}), ...everyReport };
   const ofBearing = { ...(isStudy ? sweepReport : {}), ...bearingReport };
-  const tests = isSampling ? samplingReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
+  const tests = isSampling ? samplingReport : isRunUp ? runUpReport : hasMore ? besideReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
   for (const [name, test] of Object.entries(tests)) await check(name, () => test(page));
   await testAccess(page);
   await check("nothing on the console and nothing over the network", async () => {

@@ -46,6 +46,16 @@ export interface RunText {
   assumptions: [string, string][];
   summary: SummaryRow[];
   model?: string;
+  /** Files with all instants of a film, where the page has but some. */
+  beside?: FieldsFile[];
+}
+
+/** A script beside the page (libs/report/src/write_html.cpp). */
+export interface FieldsFile {
+  bearing: string;
+  file: string;
+  bytes: number;
+  instants: number;
 }
 
 interface ReportText {
@@ -164,6 +174,18 @@ export class Run {
     return this.text.model;
   }
 
+  /** Where all instants of a bearing's film are, while the page has but some. */
+  fieldsBeside(bearing: string): FieldsFile | null {
+    return this.text.beside?.find((file) => file.bearing === bearing) ?? null;
+  }
+
+  /** Takes datasets in place of what it had of them. */
+  take(datasets: Record<string, DatasetText>): void {
+    for (const path of Object.keys(datasets)) this.decoded.delete(path);
+    Object.assign(this.text.datasets, datasets);
+    this.text.beside = this.text.beside?.filter(({ bearing }) => !Object.keys(datasets).some((path) => path.startsWith(`/bearings/${bearing}/`))) ?? [];
+  }
+
   /** Datasets whose path begins with `prefix`: what follows it. */
   namesAfter(prefix: string): string[] {
     return Object.keys(this.text.datasets).flatMap((path) => (path.startsWith(prefix) ? [path.slice(prefix.length)] : []));
@@ -186,6 +208,15 @@ export class Run {
   /** Those of one number a row. */
   seriesIn(group: string): SeriesText[] {
     return this.growingIn(group).filter(({ width }) => width === 1);
+  }
+
+  /** All datasets with a row for each instant of the time series, and a few numbers in each. */
+  seriesPaths(): { path: string; unit: string; description: string; width: number; columns: string[] }[] {
+    const rows = this.text.datasets["/time"]?.shape[0];
+    return Object.entries(this.text.datasets).flatMap(([path, { shape, unit, description, columns }]) => {
+      const width = shape.slice(1).reduce((a, b) => a * b, 1);
+      return shape[0] === rows && width <= 9 ? [{ path, unit, description, width, columns: columns ?? [] }] : [];
+    });
   }
 
   number(object: string, name: string): number | undefined {

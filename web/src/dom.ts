@@ -33,20 +33,49 @@ function pictureButton(kind: string): HTMLElement {
   return button;
 }
 
-/** A button that saves a drawing with the colours and letters that the style sheet gives it. */
-function drawingButton(kind: string, drawing: SVGElement): HTMLElement {
-  const styles = ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family", "paint-order"];
-  const click = () => {
-    const copy = drawing.cloneNode(true) as SVGElement;
-    copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-    const originals = drawing.querySelectorAll("*");
-    copy.querySelectorAll<SVGElement>("*").forEach((part, i) => {
-      const look = getComputedStyle(originals[i]!);
-      for (const name of styles) part.style.setProperty(name, look.getPropertyValue(name));
+/** A drawing as text, with the colours and letters that the style sheet gives it, on paper of the page's colour. */
+function drawn(drawing: SVGElement, width: number, height: number): string {
+  const styles = ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-dasharray", "font-size", "font-family", "text-anchor", "paint-order"];
+  const copy = drawing.cloneNode(true) as SVGElement;
+  for (const [name, value] of Object.entries({ xmlns: "http://www.w3.org/2000/svg", width, height })) copy.setAttribute(name, String(value));
+  copy.style.background = getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
+  const originals = drawing.querySelectorAll("*");
+  copy.querySelectorAll<SVGElement>("*").forEach((part, i) => {
+    const look = getComputedStyle(originals[i]!);
+    for (const name of styles) part.style.setProperty(name, look.getPropertyValue(name));
+  });
+  return new XMLSerializer().serializeToString(copy);
+}
+
+/** The drawing that a figure shows: it may have been drawn anew since. */
+function drawingOf(button: HTMLElement): { drawing: SVGElement; width: number; height: number } | null {
+  const drawing = button.closest("figure")?.querySelector<SVGElement>(".figure-body svg");
+  if (!drawing) return null;
+  const { width, height } = drawing.getBoundingClientRect();
+  return { drawing, width: Math.round(width), height: Math.round(height) };
+}
+
+/** Buttons that save a drawing as it is, and as a picture twice as fine as on the screen. */
+export function drawingButtons(kind: string): HTMLElement[] {
+  const svg = h("button", { type: "button", class: "quiet", "aria-label": "Save the drawing of this figure as SVG" }, "SVG");
+  svg.addEventListener("click", () => {
+    const found = drawingOf(svg);
+    if (found) saveText(`${kind}.svg`, drawn(found.drawing, found.width, found.height), "image/svg+xml");
+  });
+  const png = h("button", { type: "button", class: "quiet", "aria-label": "Save the picture of this figure as PNG" }, "PNG");
+  png.addEventListener("click", () => {
+    const found = drawingOf(png);
+    if (!found) return;
+    const { drawing, width, height } = found;
+    const image = new Image();
+    image.addEventListener("load", () => {
+      const canvas = h("canvas", { width: 2 * width, height: 2 * height });
+      canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
+      canvas.toBlob((blob) => blob && save(`${kind}.png`, blob));
     });
-    saveText(`${kind}.svg`, copy.outerHTML, "image/svg+xml");
-  };
-  return h("button", { type: "button", class: "quiet", "aria-label": "Save the drawing of this figure as SVG", click }, "SVG");
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(drawn(drawing, width, height))}`;
+  });
+  return [svg, png];
 }
 
 /** A button that saves numbers as a table. */
@@ -63,7 +92,7 @@ export function figure(kind: string, caption: string, tools: Child, ...content: 
     "figure",
     { class: `figure ${kind}`, "data-figure": kind },
     h("div", { class: "figure-body" }, ...content),
-    h("figcaption", {}, h("span", { class: "caption" }, caption), h("span", { class: "tools" }, drawing ? drawingButton(kind, drawing) : pictureButton(kind), tools)),
+    h("figcaption", {}, h("span", { class: "caption" }, caption), h("span", { class: "tools" }, ...(drawing ? drawingButtons(kind) : [pictureButton(kind)]), tools)),
   );
 }
 
@@ -123,12 +152,20 @@ export function placeTooltip(tooltip: HTMLElement, holder: HTMLElement, x: numbe
   tooltip.style.top = `${Math.max(0, Math.min(y - 12, holder.clientHeight - tooltip.offsetHeight))}px`;
 }
 
+/** Sections that were opened or closed by hand stay so when the page is drawn anew. */
+const opened = new Map<string, boolean>();
+
 /** A section that draws its figures when it is first opened. */
-export function section(title: string, open: boolean, fill: (body: HTMLElement) => void): HTMLElement {
+export function section(title: string, openAtFirst: boolean, fill: (body: HTMLElement) => void): HTMLElement {
   const body = h("div", { class: "figures" });
+  const open = opened.get(title) ?? openAtFirst;
   const details = h("details", { open }, h("summary", {}, title), body);
+  let drawn = false;
   const draw = () => {
-    if (details.open && body.childElementCount === 0) fill(body);
+    opened.set(title, details.open);
+    if (!details.open || drawn) return;
+    drawn = true;
+    fill(body);
   };
   details.addEventListener("toggle", draw);
   draw();

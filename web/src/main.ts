@@ -82,5 +82,11 @@ function start(): void {
   }
 }
 
-addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((d) => d.setAttribute("open", "")));
+// On paper assumptions and licences are unfolded, sections with figures as the reader has left them.
+let unfolded: Element[] = [];
+addEventListener("beforeprint", () => {
+  unfolded = [...document.querySelectorAll("details.assumptions:not([open]), .licences details:not([open])")];
+  for (const details of unfolded) details.setAttribute("open", "");
+});
+addEventListener("afterprint", () => unfolded.forEach((details) => details.removeAttribute("open")));
 start();

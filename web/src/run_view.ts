@@ -2,18 +2,20 @@
 
 import { BearingView } from "./bearing_view";
 import { sweepDrawings } from "./canvas";
-import type { Run } from "./data";
+import type { FieldsFile, Run } from "./data";
 import { h, segmented } from "./dom";
+import { loadFields } from "./fields_file";
 import { nearest } from "./film_fields";
 import { filmLoss, hottestOil, keyRow, largestLoad, moft, pofp, spaced, tileOf, worstFirst } from "./key_figures";
 import { sweepPlots } from "./line_plot";
 import { MachineView, sweepMachineViews } from "./machine_view";
 import { ModePlayer } from "./mode_player";
 import { Overview } from "./overview";
-import type { Abscissa } from "./series";
+import { speedAbscissa, type Abscissa } from "./series";
 import { summaryTables } from "./summary_table";
 import { SystemView } from "./system_view";
 import { Timeline } from "./timeline";
+import { format } from "./units";
 import { verdict } from "./verdict";
 
 /** The rows of the summary that stand large above the figures of one of several bearings. */
@@ -72,7 +74,7 @@ export class RunView {
     this.timeline = timeline;
     this.overview?.highlight(bearing);
     this.changing.replaceChildren(
-      ...[this.controls(), this.headline(), view?.element ?? null, modes?.element ?? null, machine ? h("div", { class: "figures" }, machine.element) : null, this.table(), this.notes(), view?.further ?? null, system.element, timeline.element].filter((e) => e !== null),
+      ...[this.controls(), this.headline(), this.notes(), view?.element ?? null, modes?.element ?? null, machine ? h("div", { class: "figures" }, machine.element) : null, this.table(), view?.further ?? null, system.element, timeline.element].filter((e) => e !== null),
     );
     sweepPlots();
     sweepDrawings();
@@ -129,8 +131,13 @@ export class RunView {
       for (const b of worstFirst(this.run)) picker.append(h("option", { value: b, selected: b === this.bearing }, spaced(b)));
       parts.push(h("h2", {}, `Bearing ${spaced(this.bearing)}`), picker);
     }
-    if (this.run.column("/crank_angle"))
-      parts.push(segmented("Abscissa", [{ value: "angle", label: "Crank angle" }, { value: "time", label: "Time" }], this.abscissa, (a) => this.change(() => (this.abscissa = a as Abscissa))));
+    const choices = [
+      ...(this.run.column("/crank_angle") ? [{ value: "angle", label: "Crank angle" }] : []),
+      { value: "time", label: "Time" },
+      ...(speedAbscissa(this.run) ? [{ value: "speed", label: "Speed" }] : []),
+    ];
+    if (choices.length > 1)
+      parts.push(segmented("Abscissa", choices, this.abscissa, (a) => this.change(() => (this.abscissa = a as Abscissa))));
     return parts.length > 0 ? h("div", { class: "controls view-controls" }, ...parts) : null;
   }
 
@@ -155,11 +162,27 @@ export class RunView {
   }
 
   private notes(): HTMLElement | null {
+    const { run, bearing } = this;
+    const beside = run.fieldsBeside(bearing);
+    const shown = run.dataset(`/bearings/${bearing}/fields/time`)?.values.length ?? 0;
     const parts = [
-      this.run.seriesStride > 1 ? `Curves show every ${ordinal(this.run.seriesStride)} stored instant; the summary uses all of them.` : "",
-      this.run.fieldStride > 1 ? `Maps show every ${ordinal(this.run.fieldStride)} stored field.` : "",
+      run.seriesStride > 1 ? `Curves show every ${ordinal(run.seriesStride)} stored instant; the summary uses all of them.` : "",
+      beside ? `Maps show ${shown} of ${beside.instants} stored fields.` : "",
     ].filter((text) => text);
-    return parts.length > 0 ? h("p", { class: "note" }, parts.join(" ")) : null;
+    return parts.length > 0 ? h("p", { class: "note" }, parts.join(" "), beside ? " " : null, beside ? this.loader(beside) : null) : null;
+  }
+
+  /** Loads what the page has not of the fields of the bearing shown, and shows it. */
+  private loader({ bearing, instants, bytes }: FieldsFile): HTMLElement {
+    const button = h("button", { type: "button", class: "quiet" }, `Load all ${instants} (${format(bytes / 1e6, 2)} MB)`);
+    button.addEventListener("click", () => {
+      button.disabled = true;
+      loadFields(this.run, bearing).then(
+        () => this.change(() => undefined),
+        (error: Error) => button.replaceWith(h("span", { class: "fault", role: "status" }, error.message)),
+      );
+    });
+    return button;
   }
 
   private table(): HTMLElement {

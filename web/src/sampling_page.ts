@@ -1,10 +1,10 @@
 // The page of `hersey study`: what the study says in a table, its figures, and the run that is clicked.
 
-import { figure, h, segmented } from "./dom";
+import { drawingButtons, figure, h, segmented } from "./dom";
 import { themeButton } from "./header";
 import { histogram, indices, parallelCoordinates, paretoFront, progress, response, scatterMatrix, tornado } from "./sampling_figures";
 import { shortName, type StudyText } from "./sampling_data";
-import { campbell, waterfall } from "./speed_diagrams";
+import { campbell, studyWaterfall } from "./speed_diagrams";
 import { format, shownUnit, typeset, withUnit } from "./units";
 
 const mostRows = 500;
@@ -110,7 +110,7 @@ function choosable(kind: string, label: string, names: string[], draw: (k: numbe
   };
   show(0);
   const controls = names.length > 1 ? h("div", { class: "controls" }, segmented(label, names.map((n, k) => ({ value: String(k), label: n })), "0", (v) => show(Number(v)))) : null;
-  return h("figure", { class: `figure ${kind}`, "data-figure": kind }, h("div", { class: "figure-body" }, controls, holder), h("figcaption", {}, h("span", { class: "caption" }, caption)));
+  return h("figure", { class: `figure ${kind}`, "data-figure": kind }, h("div", { class: "figure-body" }, controls, holder), h("figcaption", {}, h("span", { class: "caption" }, caption), h("span", { class: "tools" }, ...drawingButtons(kind))));
 }
 
 function figures(study: StudyText, pick: (i: number) => void): HTMLElement[] {
@@ -119,7 +119,7 @@ function figures(study: StudyText, pick: (i: number) => void): HTMLElement[] {
     if (plot) list.push(figure(kind, caption, null, plot));
   };
   if (study.campbell) add("campbell", "Natural frequencies of damped motion over the speed, with the first three orders; hollow: damping ratio above 0.3, red: unstable.", campbell(study));
-  if (study.run_up) add("run-up", `Spectra of ${study.run_up.series} at each speed.`, waterfall(study));
+  if (study.run_up) add("run-up", `Spectra of ${study.run_up.series} at each speed.`, studyWaterfall(study));
   add("pareto", "The objectives of all runs; joined: those that none other beats, grey: those that break a bound.", paretoFront(study, pick));
   if (study.plan === "optimise") add("progress", "The objective over the search, and the best run so far that keeps to every bound.", progress(study, pick));
   const names = study.figures.map((f) => shortName(f.key));

@@ -2,9 +2,10 @@
 
 import type { Numbers, Run } from "./data";
 import type { Curve, LineFigure } from "./line_plot";
+import { risingSpeed, shafts } from "./shafts";
 import { degree, displayOf, type Display } from "./units";
 
-export type Abscissa = "time" | "angle";
+export type Abscissa = "time" | "angle" | "speed";
 
 /** Numbers times a factor. */
 export function scaled(values: ArrayLike<number>, factor: number): Float64Array {
@@ -17,6 +18,12 @@ export function timeDisplay(run: Run): Display {
   return longest >= 2 ? { factor: 1, unit: "s" } : { factor: 1e3, unit: "ms" };
 }
 
+/** The speed of what turns [rpm], where a run takes it up: null elsewhere. */
+export function speedAbscissa(run: Run): Float64Array | null {
+  const shaft = shafts(run)[0];
+  return shaft ? risingSpeed(shaft) : null;
+}
+
 /** The abscissa of a run's time series, and how an instant is placed on it. */
 export class Axis {
   readonly x: LineFigure["x"];
@@ -24,6 +31,11 @@ export class Axis {
 
   constructor(run: Run, kind: Abscissa) {
     this.time = run.column("/time") ?? new Float64Array();
+    const speed = kind === "speed" ? speedAbscissa(run) : null;
+    if (speed) {
+      this.x = { label: "speed", unit: "rpm", values: speed };
+      return;
+    }
     const angle = run.column("/crank_angle");
     const display = kind === "angle" && angle ? degree : timeDisplay(run);
     const values = kind === "angle" && angle ? angle : this.time;

@@ -1,8 +1,9 @@
 // Diagrams over a speed: natural frequencies with the orders of the speed, and a waterfall of spectra.
 
 import { shortName, type StudyText } from "./sampling_data";
-import { axes, canvasOf, path, scaleOf, svg, usual, withTitle, type Frame } from "./svg_plot";
+import { axes, canvasOf, scaleOf, svg, usual, withTitle, type Frame } from "./svg_plot";
 import { axisLabel, format, shownUnit } from "./units";
+import { waterfall } from "./waterfall";
 
 const wide: Frame = { ...usual, width: 640, height: 380 };
 const orders = [1, 2, 3];
@@ -39,21 +40,12 @@ export function campbell(study: StudyText): SVGElement {
   return plot;
 }
 
-/** Spectra one behind the other, the slowest in front. */
-export function waterfall(study: StudyText): SVGElement {
-  const data = study.run_up!;
-  const frame: Frame = { ...wide, height: 440 };
-  const plot = canvasOf(frame, "Waterfall of spectra");
-  const highest = Math.max(...data.rows.flatMap((row) => row.amplitude));
-  const x = scaleOf([0, Math.max(...data.rows.map((row) => row.frequency[row.frequency.length - 1] ?? 0))], frame.left, frame.width - frame.right, 0);
-  const speeds = data.rows.map((row) => row.x);
-  const y = scaleOf([Math.min(...speeds), Math.max(...speeds)], frame.height - frame.bottom, frame.top + 70, 0.02);
-  axes(plot, frame, x, y, "frequency [Hz]", axisLabel(shortName(data.parameter), shownUnit(data.unit)));
-  for (const row of [...data.rows].reverse()) {
-    const base = y.at(row.x);
-    const points = row.frequency.map((f, i): [number, number] => [x.at(f), base - (70 * row.amplitude[i]!) / highest]);
-    plot.append(withTitle(svg("path", { d: path(points), class: "ridge" }), `${format(row.x)} ${shownUnit(data.unit)}`));
-  }
-  plot.append(svg("text", { x: frame.width - frame.right, y: frame.top + 8, "text-anchor": "end" }, `largest amplitude ${format(highest)} (SI)`));
-  return plot;
+/** Spectra of the runs of a study, each at its speed. */
+export function studyWaterfall(study: StudyText): SVGElement {
+  const { rows, parameter, unit } = study.run_up!;
+  const turns = perSecond[unit];
+  return waterfall(
+    rows.map(({ x, frequency, amplitude }) => ({ at: x, frequency, amplitude })),
+    { x: "frequency [Hz]", y: axisLabel(shortName(parameter), shownUnit(unit)), unit: shownUnit(unit), amplitude: "(SI)", ...(turns ? { turns } : {}) },
+  );
 }

@@ -7,6 +7,7 @@ import { furtherFigures } from "./further_series";
 import { mechanismGraph } from "./mechanism_graph";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Axis, columns, curve, scaled, timeDisplay, type Abscissa } from "./series";
+import { SpectraView } from "./spectra_view";
 import { summaryTables } from "./summary_table";
 import { degree, millimetre, plain, type Display } from "./units";
 
@@ -33,6 +34,14 @@ export class SystemView {
     if (!alone) solution();
     if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", alone, (body) => this.power(body)));
     if (beamsOf(run).length > 0) this.element.append(section("Beams", alone, (body) => this.beamFigures(body)));
+    const spectra = SpectraView.of(run);
+    if (spectra)
+      this.element.append(
+        section("Spectra and orders", alone && SpectraView.isRunUp(run), (body) => {
+          body.replaceWith(spectra.element);
+          spectra.render();
+        }),
+      );
     const graph = mechanismGraph(run);
     if (graph) this.element.append(section("Mechanism", false, (body) => body.append(graph)));
     const joints = run.children("/joints").length;

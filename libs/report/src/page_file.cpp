@@ -29,6 +29,15 @@ std::string script_safe(const std::string& text) {
 
 }  // namespace
 
+void write_script(const std::string& function, const nlohmann::json& argument, const std::filesystem::path& out) {
+  const std::string text = argument.dump(-1, ' ', false, json::error_handler_t::replace);
+  try {
+    write_file(out, {function, "(", text, ");\n"});
+  } catch (const std::runtime_error& error) {
+    throw results::WriteError(out, std::string("cannot write the report's fields: ") + error.what());
+  }
+}
+
 void write_page(const nlohmann::json& data, const std::filesystem::path& out) {
   static constexpr std::string_view slot = R"(<script id="hersey-data" type="application/json"></script>)";
   const std::string_view page = report_page();

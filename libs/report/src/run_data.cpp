@@ -34,12 +34,17 @@ json attributes_of(const Reader& reader, const std::string& object) {
 
 std::size_t stride_for(std::size_t rows, std::size_t most) { return rows <= most ? 1 : (rows + most - 1) / most; }
 
-/// Instants of fields to skip so that all fields fit into the budget.
-std::size_t field_stride(const Reader& reader, std::size_t budget) {
+/// Those of a film at its stored instants; not those of modes, and of cycles, of which there are few.
+bool is_of_film(const std::string& path) {
+  return path.starts_with("/bearings/") && in_fields(path) && path.find("/cycles/") == std::string::npos;
+}
+
+/// Instants of fields to skip so that all fields, of films or the others, fit into the budget.
+std::size_t field_stride(const Reader& reader, std::size_t budget, bool of_films) {
   std::size_t bytes = 0, longest = 1;
   for (const std::string& path : reader.datasets()) {
     const DatasetInfo info = reader.info(path);
-    if (!is_field(info)) continue;
+    if (!is_field(info) || is_of_film(path) != of_films) continue;
     bytes += info.shape[0] * info.shape[1] * info.shape[2] * sizeof(std::uint16_t);
     longest = std::max(longest, info.shape[0]);
   }
@@ -89,7 +94,8 @@ json dataset(const Reader& reader, const std::string& path, const DatasetInfo& i
 
 json run_data(const Reader& reader, const Budget& budget) {
   const std::size_t series_stride = stride_for(reader.rows(), shown_rows(reader, budget));
-  const std::size_t instants_stride = field_stride(reader, budget.field_bytes);
+  const std::size_t instants_stride = field_stride(reader, budget.field_bytes, true);
+  const std::size_t other_stride = field_stride(reader, budget.field_bytes, false);
   const std::size_t shown = (reader.rows() + series_stride - 1) / series_stride;
   const std::size_t most_around = std::clamp<std::size_t>(budget.series_rows / 10, 90, 360);
   const std::size_t around_stride = stride_for(shown, most_around);
@@ -112,11 +118,23 @@ json run_data(const Reader& reader, const Budget& budget) {
       const DatasetInfo info = reader.info(path);
       if (info.is_text) continue;
       const std::size_t of_series = is_around(path) ? around_stride * series_stride : series_stride;
-      const std::size_t stride = !info.grows ? 1 : in_fields(path) ? instants_stride : of_series;
+      const std::size_t of_field = is_of_film(path) ? instants_stride : other_stride;
+      const std::size_t stride = !info.grows ? 1 : in_fields(path) ? of_field : of_series;
       run["datasets"][path] = dataset(reader, path, info, stride);
     }
   }
   return run;
+}
+
+json film_fields(const Reader& reader, const std::string& bearing, std::size_t budget) {
+  const std::size_t stride = field_stride(reader, budget, true);
+  json datasets = json::object();
+  for (const std::string& path : reader.datasets()) {
+    if (!path.starts_with("/bearings/" + bearing + "/") || !is_of_film(path)) continue;
+    const DatasetInfo info = reader.info(path);
+    if (info.grows && !info.is_text) datasets[path] = dataset(reader, path, info, stride);
+  }
+  return datasets;
 }
 
 }  // namespace hersey::report

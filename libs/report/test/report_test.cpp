@@ -124,6 +124,35 @@ TEST_CASE("LongRuns_AreThinnedButKeepTheirEnd") {
   CHECK(shown["datasets"]["/bearings/big_end/fields/phi"]["shape"] == json({4}));  // a grid is not an instant
 }
 
+TEST_CASE("FieldsBeyondTheBudget_LieBesideThePage") {
+  const TemporaryDirectory directory;
+  const SmallRun run{.rows = 1000};
+  run.write(directory / "run.h5");
+  const std::filesystem::path page = directory / "page.html", file = directory / "page_fields" / "0_0.js";
+  const auto shown_with = [&](std::size_t field_bytes) {
+    write_html({directory / "run.h5"}, page, {.field_bytes = field_bytes});
+    return data_of(content(page))["runs"][0];
+  };
+  CHECK(shown_with(1000 * 12 * 2)["beside"].empty());
+  CHECK_FALSE(std::filesystem::exists(file));
+  const json beside = shown_with(100 * 12 * 2)["beside"];
+  REQUIRE(beside.size() == 1);
+  CHECK(beside[0]["bearing"] == "big_end");
+  CHECK(beside[0]["file"] == "page_fields/0_0.js");
+  CHECK(beside[0]["instants"] == 1000);
+  const std::string script = content(file);
+  CHECK(beside[0]["bytes"] == script.size());
+  const std::string call = "herseyFields(";
+  REQUIRE(script.starts_with(call));
+  const json given = json::parse(script.substr(call.size(), script.rfind(')') - call.size()));
+  CHECK(given["run"] == "run");
+  const json& pressure = given["datasets"]["/bearings/big_end/fields/pressure"];
+  CHECK(pressure["shape"] == json({1000, 4, 3}));
+  const auto low = decode<float>(pressure["low"]);
+  CHECK(low[123] == static_cast<float>(run.p_max(123)));
+  CHECK_FALSE(given["datasets"].contains("/bearings/big_end/fields/phi"));  // the page has the grid
+}
+
 TEST_CASE("Fields_TakeTwoBytesANumber") {
   const SmallRun run;
   const Page page({run});

@@ -32,14 +32,17 @@ struct ReportOptions {
   std::string title;               ///< empty: the first file's title
   std::size_t series_rows = 4000;  ///< most rows of a time series shown per run; more are thinned evenly
   std::vector<std::string> names;  ///< of the runs, as for summary_table
-  std::size_t field_bytes = std::size_t{24} << 20;   ///< most bytes for all stored fields together; else fewer instants
-  std::size_t series_bytes = std::size_t{32} << 20;  ///< most bytes for all time series together; else fewer rows
+  std::size_t field_bytes = std::size_t{4} << 20;  ///< most bytes of the films' fields in the page; else fewer instants
+  std::size_t beside_bytes = std::size_t{256} << 20;  ///< most bytes of them in files beside it, read when asked for
+  std::size_t series_bytes = std::size_t{32} << 20;   ///< most bytes for all time series together; else fewer rows
 };
 
 /// Writes one HTML file that shows a run, or several as a study: no network, no other file, any browser.
 ///
-/// Time series and fields are thinned to the options' limits (the page says so); the summary is not: it sees every row.
-/// Fields have two bytes a number, each right to 1/131068 of its instant's range.
+/// Where the page holds some instants of the films only, all of them lie beside it, in the folder OUT_fields (OUT
+/// without its extension), a script for each film that the page loads at the press of a button. The page works without
+/// them. Time series and fields are thinned to the options' limits (the page says so); the summary is not: it sees
+/// every row. Fields have two bytes a number, each right to 1/131068 of its instant's range.
 /// @throws results::ReadError if a results file cannot be read; results::WriteError if `out` cannot be written.
 /// @pre results is not empty.
 /// @verified_by report_test.cpp, tests/report_browser
