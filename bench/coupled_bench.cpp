@@ -54,7 +54,7 @@ Cost paper_loads(const std::filesystem::path& examples, const std::filesystem::p
     ++cost.runs;
     cost.steps += result.summary.steps;
     cost.iterations += result.summary.newton_iterations;
-    cost.completed = cost.completed && result.error.empty() && result.summary.status == run::Status::completed;
+    cost.completed = cost.completed && result.solved() && result.summary.status == run::Status::completed;
   }
   cost.wall = std::chrono::duration<double>(Clock::now() - began).count();
   return cost;

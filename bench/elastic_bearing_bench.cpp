@@ -104,7 +104,7 @@ int main(int count, char** arguments) {
                                 {}};
       const study::BearingSolution solution = study::solve_bearings(path, {run}, {}).front();
       const double time = since(start);
-      if (!solution.solved()) fmt::print("{}\n", solution.error);
+      if (!solution.solved()) fmt::print("{}\n", solution.message);
       fmt::print("{:6}{:>10}{:>12.2f}{:>18}{:>14.6f}{:>14.5f}{:>15.5f}\n", form, load, time,
                  solution.summary.iterations, solution.numbers.eccentricity_ratio, 1e6 * solution.state.film.h_min,
                  1e-6 * solution.state.film.p_max);

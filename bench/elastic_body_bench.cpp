@@ -44,7 +44,7 @@ bool time_body(const std::array<int, 3>& cells) {
   double memory = 0;
   const double analysis = seconds([&] { memory = stiffness.memory_estimate(); });
   bool sound = true;
-  const double factor = seconds([&] { sound = stiffness.factorise().ok(); });
+  const double factor = seconds([&] { sound = stiffness.factorise().solved(); });
   if (!sound) std::abort();
   const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(body.size(), 1), sixty = Eigen::MatrixXd::Ones(body.size(), 60);
   Eigen::MatrixXd u = stiffness.solve(one);
@@ -56,7 +56,7 @@ bool time_body(const std::array<int, 3>& cells) {
   const double reduction = seconds([&] {
     reduced = reduce(body, {end_of(body, "x0", 0), end_of(body, "x1", 0.3)}, {.modes = 30});
   });
-  if (!modes.ok || !reduced.ok) std::abort();
+  if (!modes.solved() || !reduced.solved()) std::abort();
   fmt::print("{:>7} {:9.2f} {:9.2f} {:9.2f} {:9.1f} {:9.1f} {:9.2f} {:9.2f} {:9.2f}\n", body.size(), assembly, analysis,
              factor, 1e3 * solve, 1e3 * block, vibration, reduction, memory / gibibyte);
   const bool small = body.size() < 50000;

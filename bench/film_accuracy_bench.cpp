@@ -81,9 +81,9 @@ bool print_case(const char* title, Make&& make, Error&& error) {
       }
       const int runs = solver.kind == FilmSolver::sor || grid.size() > 20000 ? 1 : 5;
       const TimedFilm film = timed_film(b, {.solver = solver.kind, .rtol = solver.rtol, .max_iterations = 200}, runs);
-      converged = converged && film.summary.converged;
+      converged = converged && film.summary.solved();
       fmt::print(" | {:11.4f} {:>10}", film.seconds,
-                 film.summary.converged ? fmt::format("{:.1e}", error(b.model, film)) : "no answer");
+                 film.summary.solved() ? fmt::format("{:.1e}", error(b.model, film)) : "no answer");
     }
     fmt::print("\n");
   }

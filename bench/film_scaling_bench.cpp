@@ -56,7 +56,7 @@ Parts parts_of(const BenchBearing& b, const Eigen::VectorXd& u, FilmSolver solve
     MultigridSolver multigrid(b.model.grid.n_phi, b.model.grid.n_z, balance.column_start(), balance.row_index());
     bool sound = true;
     parts.setup = shortest(3, [&] { sound = sound && multigrid.setup(balance.values(), true); });
-    parts.solve = shortest(3, [&] { sound = sound && multigrid.solve(rhs, {.rtol = 1e-5}, x).converged; });
+    parts.solve = shortest(3, [&] { sound = sound && multigrid.solve(rhs, {.rtol = 1e-5}, x).solved(); });
     if (!sound) std::abort();
   }
   return parts;
@@ -82,13 +82,13 @@ int main(int argc, char** argv) {
     const double memory = megabytes(), us = 1e6 * multigrid.seconds / n;
     const std::string multigrid_shares = shares(parts_of(b, multigrid.u, FilmSolver::multigrid));
     fmt::print("{:>11} {:8} | ", fmt::format("{} x {}", n_phi, n_z), n);
-    converged = converged && multigrid.summary.converged;
+    converged = converged && multigrid.summary.solved();
     most_iterations = std::max(most_iterations, multigrid.summary.iterations);
     if (n_phi <= largest_direct) {
       const TimedFilm newton = timed_film(b, {}, runs);
       fmt::print("{:9.4f} {:6.2f} {:4} {:>14}", newton.seconds, 1e6 * newton.seconds / n, newton.summary.iterations,
                  shares(parts_of(b, newton.u, FilmSolver::newton)));
-      converged = converged && newton.summary.converged;
+      converged = converged && newton.summary.solved();
       if (multigrid.seconds >= newton.seconds) first_faster = 0;
       if (multigrid.seconds < newton.seconds && first_faster == 0) first_faster = n;
     } else {

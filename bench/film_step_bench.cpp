@@ -26,7 +26,7 @@ Iteration warm_iteration(const BenchBearing& b, FilmSolver solver, const std::ve
   const Eigen::MatrixXd rigid(n, 0);
   CondensedFilm condensed;
   const FilmHistory history{1e-4, Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n)};
-  if (!solve_film(reynolds, b.motion, history, {.solver = solver}, u).converged) std::abort();
+  if (!solve_film(reynolds, b.motion, history, {.solver = solver}, u).solved()) std::abort();
   Iteration best;
   double least = std::numeric_limits<double>::infinity();
   for (int run = 0; run < 300; ++run) {

@@ -37,7 +37,7 @@ struct SteadyCase {
   void time() {
     bearing::SteadyState state;
     seconds = std::min(seconds, film::shortest(1, [&] { summary = solve_steady(model, point, options, state); }));
-    if (!summary.converged) std::abort();
+    if (!summary.solved()) std::abort();
   }
 };
 

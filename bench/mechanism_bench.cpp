@@ -34,7 +34,7 @@ Cost run(Mechanism& mechanism, solver::State& state, double end, int steps, doub
   Cost cost;
   const solver::InitialiseSummary start = solver::initialise(
       mechanism, state, {.held = mechanism.given_coordinates(), .held_rates = mechanism.given_rates()});
-  if (!start.consistent()) {
+  if (!start.solved()) {
     fmt::print("{}\n", start.message);
     return cost;
   }
@@ -42,7 +42,7 @@ Cost run(Mechanism& mechanism, solver::State& state, double end, int steps, doub
   const double began = cpu_seconds();
   for (int i = 1; i <= steps; ++i) {
     const solver::StepSummary summary = integrator.step(mechanism, state, end * i / steps - state.t);
-    if (!summary.converged()) {
+    if (!summary.solved()) {
       fmt::print("{}\n", summary.message);
       return cost;
     }

@@ -66,11 +66,11 @@ Steps turn(const std::shared_ptr<mbd::ModalBody>& body, int steps) {
   solver::State state = m->initial_state();
   const auto start = solver::initialise(
       *m, state, {.held = m->given_coordinates(), .held_rates = m->given_rates(), .stiff = m->elastic_coordinates()});
-  if (!start.consistent()) std::abort();
+  if (!start.solved()) std::abort();
   solver::GeneralizedAlpha integrator;
   const auto step = [&] {
     const solver::StepSummary summary = integrator.step(*m, state, dt);
-    if (!summary.converged()) {
+    if (!summary.solved()) {
       fmt::print("{}\n", summary.message);
       std::abort();
     }
@@ -93,7 +93,7 @@ bool time_body(const std::array<int, 3>& cells) {
   fem::ReductionOptions options;
   options.modes = 20;
   const fem::Reduction reduction = fem::reduce(mesh, ends_of(mesh.mesh), options);
-  if (!reduction.ok) std::abort();
+  if (!reduction.solved()) std::abort();
   const mbd::RayleighDamping damping{.stiffness = 1e-6};
 
   // One solution with a matrix as the body's own.
@@ -101,7 +101,7 @@ bool time_body(const std::array<int, 3>& cells) {
   double solve = 1e9;
   {
     fem::HeldStiffness held(mesh.K, mesh.m, supports.held, supports.C);
-    if (!held.factorise(-1 / (0.25 * dt * dt)).ok()) std::abort();
+    if (!held.factorise(-1 / (0.25 * dt * dt)).solved()) std::abort();
     const Eigen::VectorXd one = Eigen::VectorXd::Ones(mesh.size());
     for (int i = 0; i < 10; ++i) {
       const auto from = Clock::now();

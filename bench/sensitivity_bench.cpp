@@ -32,7 +32,7 @@ bool print_case(const std::string& path) {
     if (!solutions.front().solved()) std::abort();
     slopes = std::min(slopes, film::shortest(1, [&] {
                         for (const study::Sensitivity& s : study::sensitivities(path, solutions.front(), options, keys))
-                          if (s.error.empty() && !s.exact) std::abort();
+                          if (s.solved() && !s.exact) std::abort();
                       }));
   }
   fmt::print("{:<40} {:>2} parameters {:8.2f} ms, one solution {:8.2f} ms, ratio {:5.2f} (target {})\n",

@@ -104,7 +104,7 @@ class FourBars {
   FourBars() : mechanism_(mbd::test::four_bars(2)), state_(mechanism_->initial_state()) {
     const solver::InitialiseSummary start = solver::initialise(
         *mechanism_, state_, {.held = mechanism_->given_coordinates(), .held_rates = mechanism_->given_rates()});
-    if (!start.consistent()) throw std::runtime_error(start.message);
+    if (!start.solved()) throw std::runtime_error(start.message);
   }
 
   Trial equal(int count) {
@@ -127,7 +127,7 @@ class FourBars {
         return errors.lpNorm<Eigen::Infinity>() <= 1;
       };
       const solver::StepSummary summary = integrator_.step(*mechanism_, state_, dt, judge);
-      if (summary.converged()) {
+      if (summary.solved()) {
         control.accepted(dt, errors);
         take(before, summary);
       } else {
@@ -140,7 +140,7 @@ class FourBars {
 
  private:
   void take(const solver::State& before, const solver::StepSummary& summary) {
-    if (!summary.converged()) throw std::runtime_error(summary.message);
+    if (!summary.solved()) throw std::runtime_error(summary.message);
     ++trial_.steps;
     trial_.cost += summary.iterations;
     for (; kInterval * static_cast<double>(trial_.path.size() + 1) <= state_.t + 1e-12;) {

@@ -31,7 +31,7 @@ inline bool reach(double share, const fem::ElasticBody& body, const std::vector<
     fem::FiniteStrain inner;
     fem::finite_strain(body, u, inner);
     stiffness.replace(inner.tangent);
-    if (!stiffness.factorise().ok()) return false;
+    if (!stiffness.factorise().solved()) return false;
     const Eigen::VectorXd residual = inner.force - share * f + inner.tangent * prescribed;
     const Eigen::VectorXd correction = prescribed - stiffness.solve(residual);
     const double moved = correction.cwiseAbs().maxCoeff();

@@ -221,7 +221,7 @@ int bearing_command(const BearingArguments& arguments) {
       say("warning: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", doubt);
     if (solution.solved()) continue;
     all_solved = false;
-    say("hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.error);
+    say("hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.message);
   }
   if (!arguments.csv.empty()) write(arguments.csv, bearing_csv(solutions));
   if (!arguments.fields.empty() && all_solved) write(arguments.fields, bearing_fields_csv(solutions.front()));

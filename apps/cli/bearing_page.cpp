@@ -45,7 +45,7 @@ void add_features(const BearingSolution& solution, PageSolution& page) {
 PageSolution page_of(const BearingSolution& solution) {
   PageSolution page;
   page.label = solution.run.label;
-  page.error = solution.error;
+  page.status = solution.status, page.message = solution.message;
   for (const model::StudyValue& value : solution.run.values) {
     page.values.emplace_back(value.name.substr(value.name.find_last_of('.') + 1), value.text);
   }

@@ -238,7 +238,7 @@ nlohmann::json sensitivity_json(const BearingSolution& solution, const study::Se
                           {"value", sensitivity.value},
                           {"unit", sensitivity.unit},
                           {"exact", sensitivity.exact}};
-  if (!sensitivity.error.empty()) document["error"] = sensitivity.error;
+  if (!sensitivity.solved()) document["error"] = sensitivity.message;
   const std::vector<BearingFigure> figures = study::figures_of(solution);
   for (std::size_t k = 0; k < sensitivity.slopes.size(); ++k)
     if (std::isfinite(sensitivity.slopes[k])) document["derivatives"][figures[k].key] = sensitivity.slopes[k];
@@ -268,8 +268,8 @@ std::string sensitivity_text(const BearingSolution& solution, const std::vector<
   std::vector<std::vector<std::string>> lines{{"change in % where grows by 1 %:"}};
   std::vector<const study::Sensitivity*> columns;
   for (const study::Sensitivity& s : sensitivities) {
-    if (!s.error.empty()) {
-      remarks += fmt::format("  no sensitivity to {}: {}\n", s.parameter, s.error);
+    if (!s.solved()) {
+      remarks += fmt::format("  no sensitivity to {}: {}\n", s.parameter, s.message);
       continue;
     }
     if (!s.exact) remarks += fmt::format("  {}: from two solutions beside this one\n", s.parameter);
@@ -289,7 +289,7 @@ std::string sensitivity_text(const BearingSolution& solution, const std::vector<
 }
 
 nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<study::Sensitivity>& sensitivities) {
-  nlohmann::json document{{"label", solution.run.label}, {"error", solution.error}};
+  nlohmann::json document{{"label", solution.run.label}, {"error", solution.message}};
   for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;  // as given
   if (!solution.solved()) return document;
   for (const auto& [name, text] : surface_remarks(solution)) document["surfaces"][name] = text;

@@ -192,7 +192,7 @@ int reduce_command(const ReduceArguments& arguments) {
   for (const std::string& text : arguments.frames) frames.push_back(frame_of(mesh, text));
   const fem::ElasticBody body = body_of(std::move(mesh), arguments, material_faults);
   const fem::Reduction reduction = fem::reduce(body, frames, options_of(body.mesh, arguments));
-  if (!reduction.ok) throw std::runtime_error(reduction.message);
+  if (!reduction.solved()) throw std::runtime_error(reduction.message);
   fem::write_reduced_body(arguments.output, reduction.body);
   print(body, reduction.body, arguments.output);
   return kOk;

@@ -261,10 +261,10 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
     ++finished;
     bar.clear();
     const std::string label = fmt::format("{}/{} {}", finished, runs.size(), runs[i].label);
-    if (result.error.empty()) {
+    if (result.solved()) {
       tell(label, result.summary);
     } else {
-      say("hersey: {}: {}\n", label, result.error);
+      say("hersey: {}: {}\n", label, result.message);
     }
   };
   const std::vector<study::RunResult> results = study::simulate_all(arguments.model, runs, options);
@@ -274,8 +274,8 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
   Paths files;
   std::vector<run::Summary> summaries;
   for (const study::RunResult& result : results) {
-    code = std::max(code, result.error.empty() ? exit_code(result.summary.status) : static_cast<int>(kFailed));
-    if (!result.error.empty()) continue;
+    code = std::max(code, result.solved() ? exit_code(result.summary.status) : static_cast<int>(kFailed));
+    if (!result.solved()) continue;
     files.push_back(result.summary.results);
     summaries.push_back(result.summary);
   }

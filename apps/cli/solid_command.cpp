@@ -121,7 +121,7 @@ int modes_command(const SolidArguments& arguments) {
   require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
   const fem::ElasticBody body = solid_of(arguments, true);
   const fem::Vibration modes = fem::natural_modes(body, held_of(arguments, body.mesh), {.count = arguments.count});
-  if (!modes.ok) return fail(modes.message);
+  if (!modes.solved()) return fail(modes.message);
   if (!arguments.vtu.empty()) write_modes(arguments, body, modes);
   if (!arguments.json) {
     print_modes(arguments, body, modes);
@@ -151,7 +151,7 @@ int stress_command(const SolidArguments& arguments) {
   result.solution = fem::solve_static(body, supports, f);
   if (!result.solution.held)
     throw InputError(Fault{{"", 0, 0}, "--hold", result.solution.message, "sets that leave no motion free", ""});
-  if (!result.solution.ok) return fail(result.solution.message);
+  if (!result.solution.solved()) return fail(result.solution.message);
   const Eigen::VectorXd u = result.solution.u.col(0);
   result.stress = result.heat ? fem::recover_stress(body, u, result.heat->materials, result.heat->rise)
                               : fem::recover_stress(body, u);

@@ -92,7 +92,7 @@ void conduct(const SolidArguments& arguments, const fem::ElasticBody& body, Soli
   const solver::FactorSummary summary = conduction.factorise();
   if (summary.status == solver::FactorStatus::singular)
     refuse_heat("--cooling", summary.message, "--cooling SURFACE=80W/m^2/K:20degC, or --temperature SET=80degC");
-  if (!summary.ok()) throw std::runtime_error(summary.message);
+  if (!summary.solved()) throw std::runtime_error(summary.message);
   heat.T = conduction.temperatures(into);
   const Eigen::VectorXd cooling = conduction.cooling(heat.T), held = conduction.held_heat(heat.T, into);
   const auto name_of = [](const std::string& text) { return text.substr(0, text.find('=')); };

@@ -91,7 +91,7 @@ class Task {
 
   void solve(const model::StudyRun& run, const json& request, json& reply) {
     for (const auto& [name, solution] : solver_.solve(run, bearings_)) {
-      if (!solution.solved()) throw std::runtime_error(solution.error);
+      if (!solution.solved()) throw std::runtime_error(solution.message);
       for (const study::BearingFigure& figure : study::figures_of(solution))
         add("bearings." + name + "." + figure.key, figure.words.empty() ? figure.value * figure.si : NAN, figure.name,
             figure.unit, figure.si_unit, figure.si);
@@ -113,8 +113,8 @@ class Task {
     const std::vector<study::BearingFigure> figures = study::figures_of(solution);
     auto name = parameters.items().begin();
     for (const study::Sensitivity& found : study::sensitivities(arguments_.model, solution, options, keys)) {
-      if (!found.exact || !found.error.empty()) {
-        reply["no_slopes"] = found.error.empty() ? "the film has no derivative with " + name.key() : found.error;
+      if (!found.exact || !found.solved()) {
+        reply["no_slopes"] = found.solved() ? "the film has no derivative with " + name.key() : found.message;
         return;
       }
       for (std::size_t k = 0; k < figures.size(); ++k) {

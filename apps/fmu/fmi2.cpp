@@ -11,9 +11,9 @@
 
 #define HERSEY_EXPORT __attribute__((visibility("default")))
 
+using hersey::fmu::CallStatus;
 using hersey::fmu::Instance;
 using hersey::fmu::InstanceState;
-using hersey::fmu::Outcome;
 
 namespace {
 
@@ -28,15 +28,15 @@ struct State {
   std::vector<unsigned char> bytes;  ///< serialised when its size was asked for
 };
 
-fmi2Status status_of(Outcome outcome) {
+fmi2Status status_of(CallStatus outcome) {
   switch (outcome) {
-    case Outcome::ok:
+    case CallStatus::ok:
       return fmi2OK;
-    case Outcome::warning:
+    case CallStatus::warning:
       return fmi2Warning;
-    case Outcome::discard:
+    case CallStatus::discard:
       return fmi2Discard;
-    case Outcome::error:
+    case CallStatus::error:
       return fmi2Error;
   }
   return fmi2Fatal;
@@ -68,7 +68,7 @@ fmi2Status with(fmi2Component component, const Action& action) {
 
 fmi2Status without_variables(fmi2Component component, std::size_t count, const char* type) {
   return with(component, [&](Component& one) {
-    return count == 0 ? Outcome::ok : one.instance->error(std::string("this FMU has no variables of type ") + type);
+    return count == 0 ? CallStatus::ok : one.instance->error(std::string("this FMU has no variables of type ") + type);
   });
 }
 
@@ -89,7 +89,7 @@ HERSEY_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2
   // Without a logger nobody is told anything.
   const fmi2CallbackFunctions told = callbacks != nullptr ? *callbacks : fmi2CallbackFunctions{};
   const std::string own_name = name != nullptr ? name : "";
-  const auto log = [told, own_name](Outcome outcome, const char* category, const std::string& message) {
+  const auto log = [told, own_name](CallStatus outcome, const char* category, const std::string& message) {
     if (told.logger == nullptr) return;
     told.logger(told.componentEnvironment, own_name.c_str(), status_of(outcome), category, escaped(message).c_str());
   };
@@ -103,7 +103,7 @@ HERSEY_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2
     component->instance->set_logging(logging != 0);
     return component.release();
   } catch (const std::exception& failure) {
-    log(Outcome::error, "logStatusError", hersey::error_text(failure));
+    log(CallStatus::error, "logStatusError", hersey::error_text(failure));
     return nullptr;
   }
 }
@@ -114,7 +114,7 @@ HERSEY_EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolea
                                              const fmi2String* /*categories*/) {
   return with(component, [&](Component& one) {
     one.instance->set_logging(on != 0);
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 
@@ -180,13 +180,13 @@ HERSEY_EXPORT fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* 
   return with(component, [&](Component& one) {
     if (state == nullptr) return one.instance->error("no room for a state");
     std::unique_ptr<InstanceState> saved;
-    const Outcome outcome = one.instance->save(saved);
-    if (outcome != Outcome::ok) return outcome;
+    const CallStatus outcome = one.instance->save(saved);
+    if (outcome != CallStatus::ok) return outcome;
     if (*state == nullptr) *state = new State;
     auto& kept = *static_cast<State*>(*state);
     kept.held = std::move(saved);
     kept.bytes.clear();
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 HERSEY_EXPORT fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
@@ -208,7 +208,7 @@ HERSEY_EXPORT fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi
     auto& kept = *static_cast<State*>(state);
     if (kept.bytes.empty()) kept.bytes = hersey::fmu::to_bytes(*kept.held);
     *size = kept.bytes.size();
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 HERSEY_EXPORT fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fmi2Byte* bytes,
@@ -218,7 +218,7 @@ HERSEY_EXPORT fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUs
   return with(component, [&](Component& one) {
     if (bytes == nullptr || size < needed) return one.instance->error("too little room for the serialised state");
     std::memcpy(bytes, static_cast<State*>(state)->bytes.data(), needed);
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 HERSEY_EXPORT fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte* bytes, std::size_t size,
@@ -231,7 +231,7 @@ HERSEY_EXPORT fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const 
     auto& kept = *static_cast<State*>(*state);
     kept.held = std::move(held);
     kept.bytes.clear();
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 

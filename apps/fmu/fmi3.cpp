@@ -11,9 +11,9 @@
 
 #define HERSEY_EXPORT __attribute__((visibility("default")))
 
+using hersey::fmu::CallStatus;
 using hersey::fmu::Instance;
 using hersey::fmu::InstanceState;
-using hersey::fmu::Outcome;
 
 namespace {
 
@@ -22,15 +22,15 @@ struct State {
   std::vector<unsigned char> bytes;  ///< serialised when its size was asked for
 };
 
-fmi3Status status_of(Outcome outcome) {
+fmi3Status status_of(CallStatus outcome) {
   switch (outcome) {
-    case Outcome::ok:
+    case CallStatus::ok:
       return fmi3OK;
-    case Outcome::warning:
+    case CallStatus::warning:
       return fmi3Warning;
-    case Outcome::discard:
+    case CallStatus::discard:
       return fmi3Discard;
-    case Outcome::error:
+    case CallStatus::error:
       return fmi3Error;
   }
   return fmi3Fatal;
@@ -50,7 +50,7 @@ fmi3Status with(fmi3Instance instance, const Action& action) {
 
 fmi3Status without_variables(fmi3Instance instance, std::size_t count, const char* type) {
   return with(instance, [&](Instance& one) {
-    return count == 0 ? Outcome::ok : one.error(std::string("this FMU has no variables of type ") + type);
+    return count == 0 ? CallStatus::ok : one.error(std::string("this FMU has no variables of type ") + type);
   });
 }
 
@@ -72,7 +72,7 @@ HERSEY_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean 
                                              const fmi3String* /*categories*/) {
   return with(instance, [&](Instance& one) {
     one.set_logging(on);
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 
@@ -91,7 +91,7 @@ HERSEY_EXPORT fmi3Instance fmi3InstantiateCoSimulation(
   try {
     if (name == nullptr || *name == '\0') throw std::invalid_argument("an instance without a name");
     if (token == nullptr) throw std::invalid_argument("an instance without an instantiation token");
-    const auto tell = [environment, log](Outcome outcome, const char* category, const std::string& message) {
+    const auto tell = [environment, log](CallStatus outcome, const char* category, const std::string& message) {
       if (log != nullptr) log(environment, status_of(outcome), category, message.c_str());
     };
     // A path; FMI 2, and importers that have grown up with it, name a URI.
@@ -121,8 +121,8 @@ HERSEY_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3
                                                      fmi3Float64 /*tolerance*/, fmi3Float64 start, fmi3Boolean has_stop,
                                                      fmi3Float64 stop) {
   return with(instance, [&](Instance& one) {
-    const Outcome outcome = one.set_up(start, has_stop ? std::optional(stop) : std::nullopt);
-    return outcome == Outcome::ok ? one.enter_initialisation() : outcome;
+    const CallStatus outcome = one.set_up(start, has_stop ? std::optional(stop) : std::nullopt);
+    return outcome == CallStatus::ok ? one.enter_initialisation() : outcome;
   });
 }
 HERSEY_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
@@ -258,13 +258,13 @@ HERSEY_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* st
   return with(instance, [&](Instance& one) {
     if (state == nullptr) return one.error("no room for a state");
     std::unique_ptr<InstanceState> saved;
-    const Outcome outcome = one.save(saved);
-    if (outcome != Outcome::ok) return outcome;
+    const CallStatus outcome = one.save(saved);
+    if (outcome != CallStatus::ok) return outcome;
     if (*state == nullptr) *state = new State;
     auto& kept = *static_cast<State*>(*state);
     kept.held = std::move(saved);
     kept.bytes.clear();
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 HERSEY_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
@@ -286,7 +286,7 @@ HERSEY_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3F
     auto& kept = *static_cast<State*>(state);
     if (kept.bytes.empty()) kept.bytes = hersey::fmu::to_bytes(*kept.held);
     *size = kept.bytes.size();
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 HERSEY_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3Byte* bytes,
@@ -296,7 +296,7 @@ HERSEY_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUSta
   return with(instance, [&](Instance& one) {
     if (bytes == nullptr || size < needed) return one.error("too little room for the serialised state");
     std::memcpy(bytes, static_cast<State*>(state)->bytes.data(), needed);
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 HERSEY_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte* bytes, std::size_t size,
@@ -308,7 +308,7 @@ HERSEY_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fm
     auto& kept = *static_cast<State*>(*state);
     kept.held = std::move(held);
     kept.bytes.clear();
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 
@@ -318,13 +318,13 @@ HERSEY_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi
   return with(instance, [&](Instance& one) {
     double reached = time;
     bool has_ended = false;
-    const Outcome outcome = one.step(time, length, reached, has_ended);
+    const CallStatus outcome = one.step(time, length, reached, has_ended);
     if (needs_events != nullptr) *needs_events = false;
     if (ends != nullptr) *ends = has_ended;
     if (is_early != nullptr) *is_early = false;
     if (last_successful_time != nullptr) *last_successful_time = reached;
     // An end in order is no failure: the importer is asked to terminate.
-    return has_ended ? Outcome::ok : outcome;
+    return has_ended ? CallStatus::ok : outcome;
   });
 }
 

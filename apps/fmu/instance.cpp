@@ -46,7 +46,7 @@ Instance::Instance(std::string name, const std::string& token, std::filesystem::
   (void)reset();
 }
 
-Outcome Instance::guarded(const std::function<Outcome()>& action) {
+CallStatus Instance::guarded(const std::function<CallStatus()>& action) {
   try {
     return action();
   } catch (const std::exception& failure) {
@@ -54,17 +54,17 @@ Outcome Instance::guarded(const std::function<Outcome()>& action) {
   }
 }
 
-void Instance::say(Outcome outcome, const char* category, const std::string& message) const {
-  const bool is_always_told = outcome == Outcome::error || outcome == Outcome::discard;
+void Instance::say(CallStatus outcome, const char* category, const std::string& message) const {
+  const bool is_always_told = outcome == CallStatus::error || outcome == CallStatus::discard;
   if (log_ && (is_logging_ || is_always_told)) log_(outcome, category, message);
 }
 
-Outcome Instance::error(const std::string& message) {
-  say(Outcome::error, "logStatusError", message);
-  return Outcome::error;
+CallStatus Instance::error(const std::string& message) {
+  say(CallStatus::error, "logStatusError", message);
+  return CallStatus::error;
 }
 
-Outcome Instance::set_up(double start_time, std::optional<double> stop_time) {
+CallStatus Instance::set_up(double start_time, std::optional<double> stop_time) {
   if (phase_ != Phase::instantiated) return error("the experiment is set up before the initialisation");
   if (!std::isfinite(start_time) || (stop_time && !(*stop_time > start_time)))
     return error(
@@ -72,7 +72,7 @@ Outcome Instance::set_up(double start_time, std::optional<double> stop_time) {
   start_time_ = start_time;
   stop_time_ = stop_time;
   is_set_up_ = true;
-  return Outcome::ok;
+  return CallStatus::ok;
 }
 
 // The model with what the importer gave for its parameters; what it left is as in the file, to the last bit.
@@ -105,21 +105,21 @@ void Instance::build() {
   }
 }
 
-Outcome Instance::enter_initialisation() {
+CallStatus Instance::enter_initialisation() {
   if (phase_ != Phase::instantiated) return error("initialisation begins once, behind instantiation or reset");
   return guarded([&] {
     build();
     phase_ = Phase::initialisation;
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 
-Outcome Instance::exit_initialisation() {
+CallStatus Instance::exit_initialisation() {
   if (phase_ != Phase::initialisation) return error("initialisation is not under way");
   return guarded([&] {
     if (!simulation_) build();
     phase_ = Phase::stepping;
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 
@@ -142,13 +142,13 @@ double Instance::get_one(unsigned reference) const {
   return simulation_->output(outputs_[i]).at(one.column);
 }
 
-Outcome Instance::get(const unsigned* references, std::size_t count, double* values) {
+CallStatus Instance::get(const unsigned* references, std::size_t count, double* values) {
   if (count > 0 && (references == nullptr || values == nullptr)) return error("no room for values");
   return guarded([&] {
     // Parameters set in the initialisation make another machine.
     if (phase_ == Phase::initialisation && !simulation_) build();
     for (std::size_t k = 0; k < count; ++k) values[k] = get_one(references[k]);
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 
@@ -170,17 +170,17 @@ void Instance::set_one(unsigned reference, double value) {
   is_set_[i] = true;
 }
 
-Outcome Instance::set(const unsigned* references, std::size_t count, const double* values) {
+CallStatus Instance::set(const unsigned* references, std::size_t count, const double* values) {
   if (count > 0 && (references == nullptr || values == nullptr)) return error("no values are given");
   if (phase_ == Phase::terminated || phase_ == Phase::failed)
     return error("nothing can be set any more: reset, or restore a state");
   return guarded([&] {
     for (std::size_t k = 0; k < count; ++k) set_one(references[k], values[k]);
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 
-Outcome Instance::step(double time, double length, double& reached, bool& ends) {
+CallStatus Instance::step(double time, double length, double& reached, bool& ends) {
   reached = time_;
   ends = false;
   if (phase_ != Phase::stepping) return error("steps are taken behind the initialisation, and not behind a failure");
@@ -191,27 +191,27 @@ Outcome Instance::step(double time, double length, double& reached, bool& ends) 
     const run::Advance advance = simulation_->advance_to(time + length);
     if (advance.status == run::Advance::Status::advanced) {
       reached = time_ = time + length;
-      say(Outcome::ok, "logAll", fmt::format("t = {:.9g} s", time_));
-      return Outcome::ok;
+      say(CallStatus::ok, "logAll", fmt::format("t = {:.9g} s", time_));
+      return CallStatus::ok;
     }
     reached = time_ = simulation_->time();
     if (advance.status == run::Advance::Status::ended) {
       ends = true;
-      say(Outcome::discard, "logStatusDiscard", advance.message);
-      return Outcome::discard;
+      say(CallStatus::discard, "logStatusDiscard", advance.message);
+      return CallStatus::discard;
     }
     phase_ = Phase::failed;
     return error(advance.message);
   });
 }
 
-Outcome Instance::terminate() {
+CallStatus Instance::terminate() {
   if (phase_ != Phase::stepping && phase_ != Phase::failed) return error("there is nothing to terminate");
   phase_ = Phase::terminated;
-  return Outcome::ok;
+  return CallStatus::ok;
 }
 
-Outcome Instance::reset() {
+CallStatus Instance::reset() {
   simulation_.reset();
   phase_ = Phase::instantiated;
   values_.clear();
@@ -220,10 +220,10 @@ Outcome Instance::reset() {
   is_set_up_ = false;
   stop_time_.reset();
   start_time_ = time_ = 0;
-  return Outcome::ok;
+  return CallStatus::ok;
 }
 
-Outcome Instance::save(std::unique_ptr<InstanceState>& state) {
+CallStatus Instance::save(std::unique_ptr<InstanceState>& state) {
   return guarded([&] {
     auto saved = std::make_unique<InstanceState>();
     saved->phase = phase_;
@@ -235,11 +235,11 @@ Outcome Instance::save(std::unique_ptr<InstanceState>& state) {
     saved->time = time_;
     if (simulation_) saved->simulation = simulation_->save();
     state = std::move(saved);
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 
-Outcome Instance::restore(const InstanceState& state) {
+CallStatus Instance::restore(const InstanceState& state) {
   return guarded([&] {
     if (state.values.size() != values_.size()) throw std::runtime_error("the state is of another FMU");
     bool is_same_machine = simulation_ != nullptr && state.is_set_up == is_set_up_ && state.start_time == start_time_ &&
@@ -260,7 +260,7 @@ Outcome Instance::restore(const InstanceState& state) {
     }
     time_ = state.time;
     phase_ = state.phase;
-    return Outcome::ok;
+    return CallStatus::ok;
   });
 }
 

@@ -16,7 +16,7 @@ namespace hersey::fmu {
 enum class Phase { instantiated, initialisation, stepping, terminated, failed };
 
 /// How a call of the interface ended. `discard`: a step that ended early, in order.
-enum class Outcome { ok, warning, discard, error };
+enum class CallStatus { ok, warning, discard, error };
 
 /// Everything an instance is in: parameters, inputs and, once there is one, the state of the simulation.
 struct InstanceState {
@@ -38,7 +38,7 @@ struct InstanceState {
 /// throws: what is wrong is told through `log`.
 class Instance {
  public:
-  using Log = std::function<void(Outcome, const char* category, const std::string& message)>;
+  using Log = std::function<void(CallStatus, const char* category, const std::string& message)>;
 
   /// Reads what the FMU holds. @throws std::exception where its resources are damaged, or the token is of another FMU
   Instance(std::string name, const std::string& token, std::filesystem::path resources, Log log);
@@ -47,30 +47,30 @@ class Instance {
   [[nodiscard]] Phase phase() const { return phase_; }
 
   /// Times of the experiment [s].
-  [[nodiscard]] Outcome set_up(double start_time, std::optional<double> stop_time);
-  [[nodiscard]] Outcome enter_initialisation();
-  [[nodiscard]] Outcome exit_initialisation();
-  [[nodiscard]] Outcome get(const unsigned* references, std::size_t count, double* values);
-  [[nodiscard]] Outcome set(const unsigned* references, std::size_t count, const double* values);
+  [[nodiscard]] CallStatus set_up(double start_time, std::optional<double> stop_time);
+  [[nodiscard]] CallStatus enter_initialisation();
+  [[nodiscard]] CallStatus exit_initialisation();
+  [[nodiscard]] CallStatus get(const unsigned* references, std::size_t count, double* values);
+  [[nodiscard]] CallStatus set(const unsigned* references, std::size_t count, const double* values);
   /// From `time`, `length` on. @param reached  the time that has been come to
-  [[nodiscard]] Outcome step(double time, double length, double& reached, bool& ends);
-  [[nodiscard]] Outcome terminate();
-  [[nodiscard]] Outcome reset();
+  [[nodiscard]] CallStatus step(double time, double length, double& reached, bool& ends);
+  [[nodiscard]] CallStatus terminate();
+  [[nodiscard]] CallStatus reset();
 
-  [[nodiscard]] Outcome save(std::unique_ptr<InstanceState>& state);
-  [[nodiscard]] Outcome restore(const InstanceState& state);
+  [[nodiscard]] CallStatus save(std::unique_ptr<InstanceState>& state);
+  [[nodiscard]] CallStatus restore(const InstanceState& state);
 
   /// Tells an error and returns it.
-  Outcome error(const std::string& message);
+  CallStatus error(const std::string& message);
   void set_logging(bool is_on) { is_logging_ = is_on; }
 
  private:
-  [[nodiscard]] Outcome guarded(const std::function<Outcome()>& action);
+  [[nodiscard]] CallStatus guarded(const std::function<CallStatus()>& action);
   void build();
   void set_one(unsigned reference, double value);
   [[nodiscard]] double get_one(unsigned reference) const;
   [[nodiscard]] const Variable& variable(unsigned reference) const;
-  void say(Outcome outcome, const char* category, const std::string& message) const;
+  void say(CallStatus outcome, const char* category, const std::string& message) const;
 
   std::string name_;
   std::filesystem::path resources_;

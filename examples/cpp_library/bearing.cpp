@@ -12,7 +12,7 @@ int main() {
   point.load = Eigen::Vector2d(0, -2500);  // on the journal [N]
   bearing::SteadyState state;
   const bearing::SteadySummary summary = bearing::solve_steady(film, point, {}, state);
-  if (!summary.converged) {
+  if (!summary.solved()) {
     std::fprintf(stderr, "no answer: %s\n", summary.message.c_str());
     return 1;
   }

@@ -22,12 +22,12 @@ int main() {
   const auto mechanism = builder.finalise();
   solver::State state = mechanism->initial_state();
   const auto start = solver::initialise(*mechanism, state, {.held = mechanism->given_coordinates()});
-  if (!start.consistent()) return std::fprintf(stderr, "%s\n", start.message.c_str()), 1;
+  if (!start.solved()) return std::fprintf(stderr, "%s\n", start.message.c_str()), 1;
   solver::GeneralizedAlpha integrator;
   const double period = 2 * M_PI * std::sqrt((I + m * l * l) / (m * 9.81 * l)), dt = period / 400;
   for (int k = 0; k < 400; ++k) {
     const solver::StepSummary step = integrator.step(*mechanism, state, dt);
-    if (!step.converged()) return std::fprintf(stderr, "%s\n", step.message.c_str()), 1;
+    if (!step.solved()) return std::fprintf(stderr, "%s\n", step.message.c_str()), 1;
   }
   std::printf("angle after one period of small swings: %.4f rad\n", state.q[0]);
 }

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     std::printf("film %.2f um", 1e6 * simulation.output("bearings.film.h_min")[0]);
     simulation.set("forces.weight.components.y", -900);  // [N]
     while (advance.status == run::Advance::Status::advanced) advance = simulation.step();
-    if (advance.has_failed()) return std::fprintf(stderr, "%s\n", advance.message.c_str()), 1;
+    if (!advance.solved()) return std::fprintf(stderr, "%s\n", advance.message.c_str()), 1;
     std::printf(", at the end %.2f um\n", 1e6 * simulation.output("bearings.film.h_min")[0]);
   } catch (const InputError& error) {
     return std::fprintf(stderr, "%s\n", error.what()), 2;

@@ -91,7 +91,7 @@ Eigen::VectorXd places_along(const BearingSolution& solution) {
 void bind_bearing(py::module_& core) {
   using Guard = py::call_guard<py::gil_scoped_release>;
   py::class_<BearingSolution>(core, "BearingSolution")
-      .def_property_readonly("error", [](const BearingSolution& s) { return s.error; })
+      .def_property_readonly("error", [](const BearingSolution& s) { return s.message; })
       .def_property_readonly("label", [](const BearingSolution& s) { return s.run.label; })
       .def_property_readonly("warnings", [](const BearingSolution& s) { return s.doubts; })
       .def_property_readonly("linearisations", [](const BearingSolution& s) { return s.summary.iterations; })

@@ -98,7 +98,7 @@ RowMajor by_node(const Eigen::VectorXd& u) { return Eigen::Map<const RowMajor>(u
 std::tuple<Eigen::VectorXd, std::vector<RowMajor>, int> modes(const fem::ElasticBody& body, const Names& hold,
                                                               int count) {
   const fem::Vibration found = fem::natural_modes(body, held_by(body.mesh, hold), {.count = count});
-  if (!found.ok) throw std::runtime_error(found.message);
+  if (!found.solved()) throw std::runtime_error(found.message);
   std::vector<RowMajor> shapes;
   for (Eigen::Index k = 0; k < found.omega.size(); ++k) shapes.push_back(by_node(found.shapes.col(k)));
   return {found.omega / (2 * std::numbers::pi), std::move(shapes), found.rigid};
@@ -122,7 +122,7 @@ StaticResult solve_static(const fem::ElasticBody& body, const Names& hold,
   for (const int dof : held_by(body.mesh, hold)) supports.push_back({dof, 0});
   const fem::StaticSolution solution = fem::solve_static(body, supports, f);
   if (!solution.held) refuse("hold", solution.message, "sets that leave no motion free");
-  if (!solution.ok) throw std::runtime_error(solution.message);
+  if (!solution.solved()) throw std::runtime_error(solution.message);
   const fem::Stress stress = fem::recover_stress(body, solution.u.col(0));
   return {by_node(solution.u.col(0)), by_node(solution.reaction.col(0)), stress.nodal.transpose(),
           stress.nodal_von_mises, stress.energy};
@@ -150,7 +150,7 @@ std::shared_ptr<fem::ReducedBody> reduce(const fem::ElasticBody& body,
   }
   if (static_error > 0) options.static_error = static_error;
   fem::Reduction reduction = fem::reduce(body, placed, options);
-  if (!reduction.ok) throw std::runtime_error(reduction.message);
+  if (!reduction.solved()) throw std::runtime_error(reduction.message);
   return std::make_shared<fem::ReducedBody>(std::move(reduction.body));
 }
 

@@ -29,7 +29,7 @@ std::unique_ptr<run::Simulation> make(const CheckedModel& checked, const std::st
 }
 
 py::tuple told(const run::Advance& advance) {
-  static constexpr const char* names[]{"advanced", "ended", "failed"};
+  static constexpr const char* names[]{"failed", "advanced", "ended"};
   return py::make_tuple(names[static_cast<int>(advance.status)], advance.message);
 }
 

@@ -50,7 +50,7 @@ UserFunction::~UserFunction() {
 
 void UserFunction::refuse(const std::string& found) const {
   const std::lock_guard guard(calls_->mutex);
-  if (calls_->trouble.empty()) calls_->trouble = found;
+  if (calls_->fault.empty()) calls_->fault = found;
   throw std::runtime_error("the Python function of " + calls_->name + " " + found);
 }
 

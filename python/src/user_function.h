@@ -17,7 +17,7 @@ struct UserCalls {
   std::atomic<long> calls{0};
   std::atomic<double> seconds{0};  ///< inside the interpreter, waiting for it included
   std::mutex mutex;
-  std::string trouble;         ///< empty: none
+  std::string fault;           ///< empty: none
   pybind11::object exception;  ///< that it raised; null otherwise
 };
 

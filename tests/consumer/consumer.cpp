@@ -15,5 +15,5 @@ int main() {  // a journal bearing at eccentricity ratio 0.6 and 3570 rpm, fed a
   Eigen::VectorXd u = Eigen::VectorXd::Zero(model.grid.size());
   const FilmSolveSummary summary = solve_film(reynolds, motion, {}, {}, u);
   std::printf("peak pressure %.2f MPa\n", 1e-6 * observe_film(model, motion, {}, {-0.6 * model.c, 0}, u).p_max);
-  return summary.converged ? 0 : 1;
+  return summary.solved() ? 0 : 1;
 }

@@ -143,7 +143,7 @@ void FilmForce::fill_gap() {
   for (int k = 0; k < kMostFirstFilms; ++k) {
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, u_);
     if (!summary.domain.is_inside()) return report(summary.domain);
-    if (!summary.converged) {
+    if (!summary.solved()) {
       domain_error_ = "no film at the start: " + summary.message;
       return;
     }
@@ -267,7 +267,7 @@ void FilmForce::evaluate_partitioned(mbd::ForceResponse& response) {
     iterations_ += summary.iterations;
     ++exchanges_;
     if (!summary.domain.is_inside()) return report(summary.domain);
-    if (!summary.converged) {
+    if (!summary.solved()) {
       domain_error_ = summary.message;
       return;
     }
@@ -299,7 +299,7 @@ bool FilmForce::step_stands() {
   history_.by_gap = true;
   Eigen::VectorXd film = u_;
   const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, film);
-  if (summary.converged) u_ = film;
+  if (summary.solved()) u_ = film;
   iterations_ += summary.iterations;
   return false;
 }

@@ -76,7 +76,7 @@ GridError estimate_grid_error(const film::FilmModel& model, const SteadyState& s
     coarse = with_half_grid(coarse);
     if (from_here.thermal) take_to(coarse.grid, fine, *from_here.thermal);
     SteadyState coarse_state;
-    if (!is_fine_enough(coarse.grid) || !solve_steady(coarse, state.point, from_here, coarse_state).converged) break;
+    if (!is_fine_enough(coarse.grid) || !solve_steady(coarse, state.point, from_here, coarse_state).solved()) break;
     figures.push_back(figures_of(coarse, coarse_state));
   }
   GridError error;

@@ -46,7 +46,7 @@ SteadySummary lost(SteadySummary summary, double T) {
 /// An answer, unless oil of temperature T is none.
 SteadySummary judged(SteadySummary summary, double T) {
   if (T <= hottest_oil) return summary;
-  summary.converged = false;
+  summary.set_solved(false);
   summary.message = fmt::format(
       "thermal runaway: the balance of heat does not close with oil below {:.0f} degC, and no oil is one above {:.0f} "
       "degC",
@@ -74,7 +74,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     summary = solve_steady(model, at, next, state);
     linearisations += summary.iterations;
     summary.iterations = linearisations, summary.heat_iterations = k;
-    if (!summary.converged) {
+    if (!summary.solved()) {
       if (k == 1) return summary;
       if (++steps_back > most_steps_back) return lost(summary, from + rise);
       rise = 0.5 * (rise + carried);
@@ -83,7 +83,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     }
     carried = rise;
     if (!heat.cools_by_surroundings && !(state.film.flow_left + state.film.flow_right > 0)) {
-      summary.converged = false;
+      summary.set_solved(false);
       summary.message = "no oil leaves over the edges to take the heat along: give `cooling` by the surroundings";
       return summary;
     }
@@ -94,7 +94,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, rise), image = Eigen::VectorXd::Constant(1, found);
     rise = std::clamp(mixing.next(x, image)[0], coldest_trial - from, hottest_trial - from);
   }
-  summary.converged = false;
+  summary.set_solved(false);
   summary.message = fmt::format("the balance of heat finds no temperature in {} turns; last {:.0f} degC",
                                 most_iterations, from + rise - film::zero_celsius);
   return from + rise > hottest_oil ? judged(summary, from + rise) : summary;

@@ -17,7 +17,7 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   if (options.thermal) return solve_with_heat(model, point, options, state);
   SteadySearch search(model, point, options);
   const SteadySummary summary = search.solve();
-  if (summary.converged) state = search.state();
+  if (summary.solved()) state = search.state();
   return summary;
 }
 

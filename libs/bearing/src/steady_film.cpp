@@ -165,7 +165,7 @@ film::FilmSolveSummary SteadyFilm::solve_by_factorisation(const film::SurfaceMot
 
 film::FilmSolveSummary SteadyFilm::solve_film(const film::SurfaceMotion& motion, VectorXd& u) {
   film::FilmSolveSummary solved = film::solve_film(reynolds_, motion, history_, film_options_, u);
-  if (solved.converged || film_options_.solver != film::FilmSolver::multigrid) return solved;
+  if (solved.solved() || film_options_.solver != film::FilmSolver::multigrid) return solved;
   const int before = solved.iterations;
   solved = solve_by_factorisation(motion, u);
   solved.iterations += before;
@@ -177,13 +177,13 @@ film::FilmSolveSummary SteadyFilm::solve(const Eigen::Vector2d& e, VectorXd& x) 
   film::FilmSolveSummary solved;
   const VectorXd start = x;
   if (!x.head(reynolds_.size()).isZero(0)) solved = solve_together(e, x);
-  if (!solved.converged) {
+  if (!solved.solved()) {
     const int before = solved.iterations;
     x = start;
     solved = solve_in_turn(e, x);
     solved.iterations += before;
   }
-  if (!solved.converged) {
+  if (!solved.solved()) {
     // No film at one deformation says nothing of others.
     solved.domain = {};
     solved.relative_residual = std::max(1.0, solved.relative_residual);
@@ -205,8 +205,8 @@ film::FilmSolveSummary SteadyFilm::solve_together(const Eigen::Vector2d& e, Vect
     if (linearisations == 0) return summary;
     summary.iterations += linearisations;
     summary.relative_residual = relative_residual();
-    summary.converged = summary.relative_residual <= film_options_.rtol;
-    if (summary.converged) return summary;
+    summary.set_solved(summary.relative_residual <= film_options_.rtol);
+    if (summary.solved()) return summary;
     idle = summary.relative_residual < 0.5 * best ? 0 : idle + 1;
     best = std::min(best, summary.relative_residual);
     x += cut(e, x, dx_);
@@ -222,10 +222,10 @@ film::FilmSolveSummary SteadyFilm::solve_in_turn(const Eigen::Vector2d& e, Vecto
     VectorXd u = film_of(at);
     summary = solve_film(surfaces(e, at), u);
     iterations += summary.iterations;
-    if (!summary.converged) return false;
+    if (!summary.solved()) return false;
     at.head(u.size()) = u;
     summary.domain = linearise(e, at);
-    summary.converged = false;
+    summary.set_solved(false);
     return summary.domain.is_inside();
   };
   const auto finish = [&] {
@@ -235,8 +235,8 @@ film::FilmSolveSummary SteadyFilm::solve_in_turn(const Eigen::Vector2d& e, Vecto
   if (!film_at(x)) return finish();
   for (int k = 0; k < kMostIterations; ++k) {
     summary.relative_residual = relative_residual();
-    summary.converged = summary.relative_residual <= film_options_.rtol;
-    if (summary.converged) return finish();
+    summary.set_solved(summary.relative_residual <= film_options_.rtol);
+    if (summary.solved()) return finish();
     const VectorXd from = x, dx = cut(e, x, dx_);
     const double missing = r_s_.norm();
     bool nearer = false;
@@ -336,7 +336,7 @@ int SteadyFilm::linearise_near(const Eigen::Vector2d& e, VectorXd& x) {
   if (!deforms() || reynolds_.relative_residual() < kFarFilm) return 1;
   VectorXd u = film_of(x);
   const film::FilmSolveSummary solved = solve_film(surfaces(e, x), u);
-  if (solved.converged) x.head(u.size()) = u;
+  if (solved.solved()) x.head(u.size()) = u;
   return linearise(e, x).is_inside() ? solved.iterations + 2 : 0;
 }
 

@@ -52,7 +52,7 @@ void tell_runaway(const film::HeatObservables& seen, bool has_lost_film, SteadyS
     summary.message = fmt::format("thermal runaway: oil that warms to {} is too thin for the film to stay; {}",
                                   hottest_of(seen), summary.message);
   } else if (seen.T_max > hottest_oil) {
-    summary.converged = false;
+    summary.set_solved(false);
     summary.message = fmt::format(
         "thermal runaway: the film's heat leaves it with oil of {} only, and no oil is one above {:.0f} degC",
         hottest_of(seen), celsius(hottest_oil));
@@ -74,7 +74,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
   SteadySummary summary;
   for (int k = 0; k < kMostHeatIterations; ++k) {
     const bool is_open = model.c + path.growth() > seized * model.c;
-    summary.converged = false;
+    summary.set_solved(false);
     if (is_open) {
       search.set_growth(path.growth());
       search.set_tolerance(std::max(options.rtol, std::min(kCoarsest, kShareOfNearness * path.nearness())));
@@ -83,7 +83,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
       summary = search.has_film() ? search.once_more() : search.solve();
     }
     summary.heat_iterations = k + 1;
-    if (!summary.converged) {
+    if (!summary.solved()) {
       if (path.step_back()) continue;
       if (!is_open)
         summary.message = seizure(model, path.growth(), path.heat().observables());
@@ -100,7 +100,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     }
     path.step_on(k);
   }
-  summary.converged = false;
+  summary.set_solved(false);
   summary.message = fmt::format("film and temperature do not come together in {} turns; hottest oil {}",
                                 kMostHeatIterations, hottest_of(path.heat().observables()));
   tell_runaway(path.heat().observables(), false, summary);
@@ -123,7 +123,7 @@ void begin_on_half_grid(const film::FilmModel& model, const OperatingPoint& poin
     wall->around = film::GridTransfer(model.grid, half.grid).around(wall->around);
   SteadySearch search_there(half, point, on_half);
   TemperaturePath path_there(half, thermal, point, std::nullopt);
-  if (!come_together(half, on_half, kHalfGridTolerance, search_there, path_there, nullptr).converged) return;
+  if (!come_together(half, on_half, kHalfGridTolerance, search_there, path_there, nullptr).solved()) return;
   const film::GridTransfer transfer(half.grid, model.grid);
   const double fill = film::fill_scale(model) / film::fill_scale(half);
   search.begin_at(search_there.position(),
@@ -142,7 +142,7 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const OperatingPoint
   begin_on_half_grid(model, point, options, search, path);
   const SteadySummary summary =
       come_together(model, options, kHeatTolerance, search, path, network ? &*network : nullptr);
-  if (!summary.converged) return summary;
+  if (!summary.solved()) return summary;
   state = search.state();
   state.heat = SteadyHeat{
       path.heat().state(), path.heat().observables(), path.heat().fields(), path.heat().body_temperatures(), {}};

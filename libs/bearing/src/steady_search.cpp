@@ -36,7 +36,7 @@ bool SteadySearch::film_at(const Eigen::Vector2d& e) {
   (is_swept() ? summary_.film_iterations : summary_.iterations) += solved.iterations;
   summary_.message = solved.message;
   is_unsolved_ = is_unsolved(solved);
-  return solved.converged && flows() && linearise();
+  return solved.solved() && flows() && linearise();
 }
 
 bool SteadySearch::is_unsolved(const film::FilmSolveSummary& solved) const {
@@ -68,8 +68,8 @@ void SteadySearch::begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u) 
 }
 
 SteadySummary SteadySearch::at_given_position() {
-  summary_.converged = film_at(point_.e);
-  if (summary_.converged) x_ += film_.increment();  // beyond the tolerance: derivatives and differences then agree
+  summary_.set_solved(film_at(point_.e));
+  if (summary_.solved()) x_ += film_.increment();  // beyond the tolerance: derivatives and differences then agree
   return summary_;
 }
 
@@ -88,7 +88,7 @@ SteadySummary SteadySearch::under_load() {
     summary_.message = why_not();
     return summary_;
   }
-  summary_.converged = true;
+  summary_.set_solved(true);
   summary_.message.clear();
   return summary_;
 }
@@ -98,12 +98,12 @@ SteadySummary SteadySearch::once_more() {
   budget_ = summary_.iterations + options_.max_linearisations;
   const Eigen::Vector2d e = e_;
   const Eigen::VectorXd x = x_;
-  summary_.converged = linearise() && (one_step(*point_.load) || together(*point_.load));
-  if (!summary_.converged) {
+  summary_.set_solved(linearise() && (one_step(*point_.load) || together(*point_.load)));
+  if (!summary_.solved()) {
     x_ = x;
-    summary_.converged = film_at(e) && together(*point_.load);
+    summary_.set_solved(film_at(e) && together(*point_.load));
   }
-  if (!summary_.converged) return under_load();
+  if (!summary_.solved()) return under_load();
   summary_.message.clear();
   return summary_;
 }

@@ -34,7 +34,7 @@ SteadySummary find_total_coefficients(const film::FilmModel& model, const Steady
       varied = middle + side * by;
       SteadyState beside;
       summary = solve(point, beside);
-      if (!summary.converged) break;
+      if (!summary.solved()) break;
       difference += side * generalised(beside.film.wrench_on_shell);
     }
     varied = middle;
@@ -44,9 +44,9 @@ SteadySummary find_total_coefficients(const film::FilmModel& model, const Steady
     const double by = k < 2 ? step : 2 * step / model.L;
     OperatingPoint point = here;
     found.stiffness.col(k) = slope(coordinate(point, k), point, by);
-    if (!summary.converged) return summary;
+    if (!summary.solved()) return summary;
     if (frequency > 0) found.damping.col(k) = slope(rate(point, k), point, frequency * by);
-    if (!summary.converged) return summary;
+    if (!summary.solved()) return summary;
   }
   total = found;
   return summary;

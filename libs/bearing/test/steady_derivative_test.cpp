@@ -64,7 +64,7 @@ SteadyState solved(const BearingBeside& bearing, const SteadyState* from = nullp
   SteadyState state;
   const SteadySummary summary = solve_steady(bearing.model, bearing.point, options, state);
   CAPTURE(summary.message);
-  REQUIRE(summary.converged);
+  REQUIRE(summary.solved());
   return state;
 }
 

@@ -52,7 +52,7 @@ class Survey {
     if (H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect, &links) < 0)
       return fmt::format("a group that cannot be read: '{}'", path);
     for (const Link& link : links)
-      if (std::string trouble = of_link(group, link, path + "/" + link.name, depth); !trouble.empty()) return trouble;
+      if (std::string foreign = of_link(group, link, path + "/" + link.name, depth); !foreign.empty()) return foreign;
     return {};
   }
 

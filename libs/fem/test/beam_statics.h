@@ -191,7 +191,7 @@ inline bool equilibrate(BeamBalance& balance, double size, double share, BeamSta
   solver::SymmetricFactor factor;
   factor.analyse(symmetric);
   const solver::FactorSummary summary = factor.factorise(symmetric);
-  return summary.ok() ? summary.negative_pivots : -1;
+  return summary.solved() ? summary.negative_pivots : -1;
 }
 
 }  // namespace hersey::fem::test

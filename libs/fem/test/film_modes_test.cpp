@@ -25,7 +25,7 @@ FilmSurface must_make(const Mesh& mesh, const FilmCylinder& cylinder, const Surf
   const FilmSurfaceResult result =
       film_surface(mesh, faces_on_cylinder(mesh, cylinder, tolerance), cylinder, functions, tolerance);
   CAPTURE(result.message);
-  REQUIRE(result.ok());
+  REQUIRE(result.solved());
   return *result.surface;
 }
 
@@ -33,7 +33,7 @@ FilmSurface must_make(const Mesh& mesh, const FilmCylinder& cylinder, const Surf
 HeldStiffness held_by(const ElasticBody& body, const std::vector<InterfaceFrame>& frames) {
   const FrameSupports supports = frame_supports(body.mesh, frames);
   HeldStiffness stiffness(body.K, body.m, supports.held, supports.C);
-  REQUIRE(stiffness.factorise().ok());
+  REQUIRE(stiffness.factorise().solved());
   return stiffness;
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("ThinLiner_GivesWayAsColumnsDo") {
     for (const char* end : {"bottom", "top"})
       for (const int dof : dofs_of(body.mesh.node_sets.at(end), {false, false, true})) held.push_back(dof);
     HeldStiffness stiffness(body.K, body.m, held);
-    REQUIRE(stiffness.factorise().ok());
+    REQUIRE(stiffness.factorise().solved());
     const FilmSurface surface = must_make(body.mesh, film_of(ring), {18, 3, ring.width});
     const VectorXd p = VectorXd::Constant(surface.functions.count(), 2.0) + cosine_on(surface.functions);
     const VectorXd d = surface.coefficients(stiffness.solve(surface.T * p));
@@ -132,7 +132,7 @@ TEST_CASE("FilmModes_OfASurfaceThatAFrameHolds_AreNone") {
   const Ring ring{.cells = {1, 12, 2}};
   const ElasticBody body = assemble(ring_mesh(ElementType::hex8, ring), {steel});
   HeldStiffness stiffness(body.K, body.m, dofs_of(body.mesh.node_sets.at("bore")));
-  REQUIRE(stiffness.factorise().ok());
+  REQUIRE(stiffness.factorise().solved());
   const FilmSurface surface = must_make(body.mesh, film_of(ring), {12, 3, ring.width});
   const FilmModes modes = film_modes(stiffness, surface, 60, 1e-6);
   CHECK(modes.compliance.size() == 0);
@@ -148,7 +148,7 @@ TEST_CASE("CoefficientsFromAFrame_SeeDeformationAlone") {
   const std::vector<InterfaceFrame> frames = {average_on(body.mesh, "outside"),
                                               {"bore", {0, 0, 1e-3}, nodes, Connection::rigid, {}}};
   const Reduction reduction = reduce(body, frames, {.modes = 3});
-  REQUIRE(reduction.ok);
+  REQUIRE(reduction.solved());
   const MatrixXd U = reduction.body.Phi.rightCols(9);  // of frame 1, and vibrations
   const FilmSurface surface = must_make(body.mesh, film_of(ring), {16, 4, ring.width});
   CHECK(surface.coefficients(U).leftCols(6).colwise().norm().maxCoeff() > 1);
@@ -167,7 +167,7 @@ TEST_CASE("ReducedBody_AnswersFilmPressuresAsTheMeshDoes") {
   options.film_modes = 30;
   const Reduction reduction = reduce(body, frames, options);
   CAPTURE(reduction.message);
-  REQUIRE(reduction.ok);
+  REQUIRE(reduction.solved());
   const ReducedBody& reduced = reduction.body;
   REQUIRE(reduced.film_modes.size() == 1);
   const FilmModes& modes = reduced.film_modes[0];

@@ -31,7 +31,7 @@ FilmSurface must_make(const Mesh& mesh, const FilmCylinder& cylinder, const Surf
   const FilmSurfaceResult result =
       film_surface(mesh, faces_on_cylinder(mesh, cylinder, tolerance), cylinder, functions, tolerance);
   CAPTURE(result.message);
-  REQUIRE(result.ok());
+  REQUIRE(result.solved());
   return *result.surface;
 }
 
@@ -199,7 +199,7 @@ TEST_CASE("Surfaces_ThatAreNoneAreRefusedWithTheReason") {
   const SurfaceFunctions functions(16, 4, bore.L);
   const auto message_of = [&](const FilmCylinder& film, const std::vector<ElementFace>& faces, double tolerance) {
     const FilmSurfaceResult result = film_surface(mesh, faces, film, functions, tolerance);
-    CHECK_FALSE(result.ok());
+    CHECK_FALSE(result.solved());
     CHECK_FALSE(result.remedy.empty());
     return result.message;
   };
@@ -249,10 +249,10 @@ TEST_CASE("AFunctionThatTheSurfaceDoesNotReach_IsRefused") {
     return middle.z() > 0.375 * ring.width && std::abs(std::atan2(middle.y(), middle.x())) < 3.1 * pi / 24;
   });
   CHECK(faces.size() == 48 * 8 - 6);
-  CHECK(film_surface(mesh, faces, film_of(ring), {16, 4, ring.width}, near).ok());
+  CHECK(film_surface(mesh, faces, film_of(ring), {16, 4, ring.width}, near).solved());
   const FilmSurfaceResult fine = film_surface(mesh, faces, film_of(ring), {48, 7, ring.width}, near);
   CAPTURE(fine.message);
-  CHECK_FALSE(fine.ok());
+  CHECK_FALSE(fine.solved());
   CHECK(fine.message.find("finer than the surface") != std::string::npos);
 }
 

@@ -19,7 +19,7 @@ FilmSurface bore_of(const Mesh& mesh, const Ring& ring) {
   const FilmCylinder cylinder = film_of(ring);
   const FilmSurfaceResult result =
       film_surface(mesh, faces_on_cylinder(mesh, cylinder, 1e-9), cylinder, {12, 3, ring.width}, 1e-9);
-  REQUIRE(result.ok());
+  REQUIRE(result.solved());
   return *result.surface;
 }
 
@@ -35,12 +35,12 @@ TEST_CASE("StaticAnswers_AreThoseOfTheReductionWithEveryFilmMode") {
   const std::vector<InterfaceFrame> frames = outside_of(body.mesh);
   const StaticAnswers answers = static_answers(body, frames, surface, Vector3::Zero(), Vector3::UnitZ());
   INFO(answers.message);
-  REQUIRE(answers.ok);
+  REQUIRE(answers.solved());
   ReductionOptions options;
   options.modes = 0;
   options.film_surfaces = {surface};
   const Reduction reduced = reduce(body, frames, options);
-  REQUIRE(reduced.ok);
+  REQUIRE(reduced.solved());
   const FilmModes& films = reduced.body.film_modes.front();
   REQUIRE(films.compliance.size() > 10);
   for (Eigen::Index k = 0; k < films.compliance.size(); ++k) {
@@ -59,7 +59,7 @@ TEST_CASE("TurningRing_GrowsByTheClosedForm") {
   const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});
   const FilmSurface surface = bore_of(body.mesh, ring);
   const StaticAnswers answers = static_answers(body, outside_of(body.mesh), surface, Vector3::Zero(), Vector3::UnitZ());
-  REQUIRE(answers.ok);
+  REQUIRE(answers.solved());
   const double E = 2.1e11, nu = 0.3, a2 = ring.inner * ring.inner, b2 = ring.outer * ring.outer, r = ring.inner;
   const double grows =
       steel.density * r / (8 * E) *
@@ -74,7 +74,7 @@ TEST_CASE("StaticAnswers_OfABodyThatNothingHolds_SayWhy") {
   const FilmSurface surface = bore_of(body.mesh, ring);
   const StaticAnswers answers =
       static_answers(body, {{"nowhere", Vector3::Zero(), {}, Connection::rigid, {}}}, surface, {}, Vector3::UnitZ());
-  CHECK_FALSE(answers.ok);
+  CHECK_FALSE(answers.solved());
   CHECK(answers.message == "frame 'nowhere' sits on no node");
 }
 

@@ -84,7 +84,7 @@ Ring pressed_ring(ElementType type, int radial, int around) {
   hold("y1", 0);
   hold("z0", 2);
   const StaticSolution solution = solve_static(body, supports, pressure_load(mesh, mesh.surfaces.at("x0"), 20e6));
-  REQUIRE(solution.ok);
+  REQUIRE(solution.solved());
   return {std::move(body), solution.u.col(0)};
 }
 

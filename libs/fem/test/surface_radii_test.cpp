@@ -29,7 +29,7 @@ struct Ring {
     const FilmCylinder cylinder{.X = {}, .R = is_bore ? 0.0225 : 0.03, .L = 0.0156, .is_bore = is_bore};
     FilmSurfaceResult found =
         film_surface(mesh, faces_on_cylinder(mesh, cylinder, 1e-6), cylinder, SurfaceFunctions(8, 1, cylinder.L), 1e-6);
-    REQUIRE(found.ok());
+    REQUIRE(found.solved());
     surface = *found.surface;
     for (Vector3& node : mesh.nodes) node += move(node);
   }

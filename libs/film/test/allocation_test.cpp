@@ -34,7 +34,7 @@ Step some_step(const FilmModel& m) {
   step.history = {1e-4, Eigen::VectorXd::Ones(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
   step.u.setZero(m.grid.size());
   Reynolds reynolds(m);
-  REQUIRE(solve_film(reynolds, step.motion, step.history, {}, step.u).converged);
+  REQUIRE(solve_film(reynolds, step.motion, step.history, {}, step.u).solved());
   return step;
 }
 

@@ -61,7 +61,7 @@ class Machine {
   void run_cycle(int steps = 100) {
     for (int k = 0; k < steps; ++k) {
       history_.viscosity = heat.viscosity();
-      if (!solve_film(reynolds_, motion_, history_, {}, u_).converged) throw std::runtime_error("no film");
+      if (!solve_film(reynolds_, motion_, history_, {}, u_).solved()) throw std::runtime_error("no film");
       heat.advance(motion_, history_, u_);
       history_.theta = film_fields(reynolds_.model(), motion_, u_).theta;
     }

@@ -85,7 +85,7 @@ TEST_CASE("HeatIntoABody_IsThatOfTheBalance_AndItsTemperaturesFollow") {
   FilmHistory history;
   for (int k = 0; k < 3; ++k) {
     history.viscosity = heat.viscosity();
-    REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+    REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
     heat.advance(motion, history, u);
     const HeatState& state = heat.state();
     CHECK(state.wall_heat.sum() == relative(heat.observables().balance.to_shell).epsilon(1e-12));  // round-off
@@ -109,7 +109,7 @@ TEST_CASE("BodyInAStep_KeepsItsTemperature") {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(model.grid.size());
   FilmHistory history;
   history.viscosity = heat.viscosity();
-  REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+  REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
   history.dt = 1e-3;
   history.theta.setOnes(u.size());
   heat.advance(motion, history, u);

@@ -324,7 +324,7 @@ TEST_CASE("ResponseOfASolvedFilm_MatchesFiniteDifference") {
     s.u.setZero();
     Reynolds reynolds(s.model);
     const FilmSolveOptions options{.rtol = 1e-13};
-    REQUIRE(solve_film(reynolds, s.motion, s.history, options, s.u).converged);
+    REQUIRE(solve_film(reynolds, s.motion, s.history, options, s.u).solved());
     for (const auto& [name, direction] : directions(s)) {
       const std::string what = name;  // clang 14 captures no structured binding
       CAPTURE(what);
@@ -336,9 +336,9 @@ TEST_CASE("ResponseOfASolvedFilm_MatchesFiniteDifference") {
       // Smaller steps than above: the set of cavitated nodes must not change between both sides.
       constexpr double step = 1e-6;
       Eigen::VectorXd before = s.u, after = s.u;
-      REQUIRE(solve_film(reynolds, moved(s.motion, direction, step), s.history, options, after).converged);
+      REQUIRE(solve_film(reynolds, moved(s.motion, direction, step), s.history, options, after).solved());
       const Vector6 wrench_after = reynolds.wrench_on_shell();
-      REQUIRE(solve_film(reynolds, moved(s.motion, direction, -step), s.history, options, before).converged);
+      REQUIRE(solve_film(reynolds, moved(s.motion, direction, -step), s.history, options, before).solved());
       const Vector6 difference = (wrench_after - reynolds.wrench_on_shell()) / (2 * step);
       // Round-off of the solves, amplified by 1/step, against the wrench itself.
       CHECK((total - difference).norm() < 1e-6 * reynolds.wrench_on_shell().norm());

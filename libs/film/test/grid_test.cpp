@@ -77,7 +77,7 @@ double load_of(const Grid& grid, double e) {
   m.supply = {SupplyKind::widest_gap, 0, 0};
   m.shear_force = ShearForce::torque_only;
   const SolvedFilm film = solve_cold(m, turning(m, e, 100));
-  REQUIRE(film.summary.converged);
+  REQUIRE(film.summary.solved());
   CHECK(film.observed.mass_balance_error < 1e-9);  // the solver's tolerance is 1e-10 per node
   return film.wrench.segment<2>(3).norm();
 }

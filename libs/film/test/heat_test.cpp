@@ -160,7 +160,7 @@ TEST_CASE("ConcentricFilm_IsGuessedExactly") {
     history.viscosity = heat.viscosity();
     Reynolds reynolds(model);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(model.grid.size());
-    REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+    REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
     heat.advance(motion, history, u);
     const HeatState guess = first_guess(model, thermal, T_oil, heat.state());
     const int at = model.grid.index(45, 2);  // 270 deg
@@ -192,7 +192,7 @@ TEST_CASE("TemperaturesBySweeps_AreThoseOfTheFactorisedSystem") {
   FilmHistory history;
   ThermalModel thermal = supplied_at_40(3);
   history.viscosity = FilmHeat(model, thermal).viscosity();
-  REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+  REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
   FlowBalance balance(model);
   REQUIRE(balance.evaluate(motion, history, u).is_inside());
   FilmWrench wrench(model);
@@ -412,7 +412,7 @@ TEST_CASE("FilmThatWarms_ConservesHeatAndEndsSteady") {
   for (const double dt : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e4, 1e4, 1e4, 1e4, 1e4, 1e4, 1e4}) {
     history.dt = dt;
     history.viscosity = heat.viscosity();
-    REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+    REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
     heat.advance(motion, history, u);
     history.theta = film_fields(model, motion, u).theta;
     CAPTURE(dt);

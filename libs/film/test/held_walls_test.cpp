@@ -50,7 +50,7 @@ class Machine {
                             .omega_journal = 300};
       const SurfaceMotion motion = surfaces(model_, journal);
       history_.viscosity = heat_.viscosity();
-      REQUIRE(solve_film(reynolds_, motion, history_, {}, u_).converged);
+      REQUIRE(solve_film(reynolds_, motion, history_, {}, u_).solved());
       heat_.advance(motion, history_, u_);
       history_.theta = film_fields(model_, motion, u_).theta;
       heat_into_journal += heat_.observables().balance.to_journal / steps;

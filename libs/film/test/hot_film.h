@@ -31,7 +31,7 @@ inline HotFilm solve_hot(const FilmModel& model, const ThermalModel& thermal, co
   for (hot.iterations = 1; hot.iterations <= 100; ++hot.iterations) {
     history.viscosity = heat.viscosity();
     const FilmSolveSummary solved = solve_film(reynolds, motion, history, {}, u);
-    if (!solved.converged) throw std::runtime_error(solved.message);
+    if (!solved.solved()) throw std::runtime_error(solved.message);
     const HeatState before = heat.state();
     heat.advance(motion, history, u);
     const Eigen::VectorXd x = before.film.array() - thermal.T_supply,

@@ -66,7 +66,7 @@ TEST_CASE("CarriedOil_DoesNotDependOnTheFrame") {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   const int steps = 45;
   for (int s = 0; s < steps; ++s) {
-    REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+    REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
     history.theta = film_fields(m, motion, u).theta;
   }
   double worst = 0;

@@ -54,7 +54,7 @@ class Machine {
   void advance(double dt) {
     history_.dt = dt;
     history_.viscosity = heat.viscosity();
-    if (!solve_film(reynolds_, motion_, history_, {}, u_).converged) throw std::runtime_error("no film");
+    if (!solve_film(reynolds_, motion_, history_, {}, u_).solved()) throw std::runtime_error("no film");
     heat.advance(motion_, history_, u_);
     if (dt > 0) history_.theta = film_fields(reynolds_.model(), motion_, u_).theta;
   }

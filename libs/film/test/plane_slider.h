@@ -42,7 +42,7 @@ inline SolvedFilm solve_in_layers(const FilmModel& model, const SurfaceMotion& m
   for (int k = 0; k < 60; ++k) {
     history.viscosity = heat.viscosity();
     film.summary = solve_film(reynolds, motion, history, {}, film.u);
-    REQUIRE(film.summary.converged);
+    REQUIRE(film.summary.solved());
     const Eigen::VectorXd before = heat.state().thinning;
     heat.advance(motion, history, film.u);
     if ((heat.state().thinning - before).cwiseAbs().maxCoeff() < 1e-12) break;  // round-off of the film's solution
@@ -87,7 +87,7 @@ inline SolvedSlider solve(const Slider& slider, int n) {
     beside += share * s.dx * slider.mu * left * rate;
   }
   s.film = slider.layers == 1 ? solve_cold(m, motion, {0, 0}) : solve_in_layers(m, motion, slider.layers);
-  REQUIRE(s.film.summary.converged);
+  REQUIRE(s.film.summary.solved());
   CHECK(s.film.observed.mass_balance_error < 1e-10 * m.grid.size());  // the solver's tolerance, per node
   s.p.resize(n + 1), s.theta.resize(n + 1);
   for (int k = 0; k <= n; ++k) {

@@ -61,7 +61,7 @@ TEST_CASE("RoughSlider_MeetsTheIntegralWithOrderTwo") {
         motion.g.segment(m.grid.index(i, 0), 3).setConstant(g);
       }
       const SolvedFilm film = solve_cold(m, motion, {0, 0});
-      REQUIRE(film.summary.converged);
+      REQUIRE(film.summary.solved());
       CHECK(film.observed.mass_balance_error < 1e-9);  // the solver's tolerance is 1e-10 per node
       double found = 0;
       for (int i = 0; i <= n; ++i) found += film.fields.p[m.grid.index(i, 1)] * dx;
@@ -135,7 +135,7 @@ TEST_CASE("MechanicalPowerBetweenRoughSurfaces_IsDissipated") {
     FilmModel m = full_bearing(120, 25);
     m.roughness = roughness;
     const SolvedFilm film = solve_cold(m, journal);
-    REQUIRE(film.summary.converged);
+    REQUIRE(film.summary.solved());
     const Eigen::Vector2d force = film.wrench.segment<2>(3);
     const double bodies = -force.dot(journal.e_rate) + film.observed.torque_journal * journal.omega_journal +
                           film.observed.torque_shell * journal.omega_shell;
@@ -177,7 +177,7 @@ TEST_CASE("RoughTimeSteps_ConserveOil") {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   Journal journal = turning(m, 0.5, omega);
   SurfaceMotion before = surfaces(m, journal);
-  REQUIRE(solve_film(reynolds, before, {}, {}, u).converged);
+  REQUIRE(solve_film(reynolds, before, {}, {}, u).solved());
   double smallest = 1;
   for (int step = 1; step <= 20; ++step) {
     const FilmFields fields = film_fields(m, before, u);
@@ -186,7 +186,7 @@ TEST_CASE("RoughTimeSteps_ConserveOil") {
     journal.e = (0.5 + 0.024 * step) * m.c * Eigen::Vector2d(-std::cos(0.1 * step), 0.8 * std::sin(0.1 * step));
     SurfaceMotion motion = surfaces(m, journal);
     motion.g_rate = (motion.g - before.g) / dt;
-    REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+    REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
     const FilmObservables o = observe_film(m, motion, history, journal.e, u);
     const double change = (o.oil_volume - volume_before) / dt;
     // Summed over nodes that the solver leaves 1e-10 of the largest throughput.
@@ -204,8 +204,8 @@ TEST_CASE("RoughSor_MeetsNewton") {
   m.roughness = rough({1e-6, 6}, {1e-6, 0.5});
   const SolvedFilm newton = solve_cold(m, turning(m, 0.8, 374));
   const SolvedFilm sor = solve_cold(m, turning(m, 0.8, 374), {.solver = FilmSolver::sor, .rtol = 1e-9});
-  REQUIRE(newton.summary.converged);
-  REQUIRE(sor.summary.converged);
+  REQUIRE(newton.summary.solved());
+  REQUIRE(sor.summary.solved());
   // SOR ends at 1e-9, which weak spots of the film amplify.
   CHECK((newton.wrench - sor.wrench).norm() < 1e-6 * newton.wrench.norm());
 }
@@ -223,7 +223,7 @@ TEST_CASE("FromFullFilmToContact_NewtonArrives") {
       CAPTURE(e);
       const SolvedFilm film = solve_cold(m, turning(m, e, 374));
       CAPTURE(film.summary.message);
-      CHECK(film.summary.converged);
+      CHECK(film.summary.solved());
       CHECK(film.summary.iterations <= 15);
       const double load = film.wrench.segment<2>(3).norm();
       CHECK(load > before);

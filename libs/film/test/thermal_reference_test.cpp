@@ -186,7 +186,7 @@ TEST_CASE("ConcentricFilmThatStartsUp_IsThatOfItsClosedForm") {
     history.dt = 0.02 / steps;
     for (int k = 0; k < steps; ++k) {
       history.viscosity = heat.viscosity();
-      REQUIRE(solve_film(reynolds, motion, history, {}, u).converged);
+      REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
       heat.advance(motion, history, u);
       history.theta = film_fields(model, motion, u).theta;
     }

@@ -96,7 +96,7 @@ TEST_CASE("TorqueOnShapedSurfaces_IsThatOfTheSurfaces") {
       ShapedFilm film = shaped(k == 0 ? Grid{120, 41} : Grid{240, 81});
       film.shell = c.shell, film.turning = c.journal;
       const SolvedFilm solved = film.solved();
-      REQUIRE(solved.summary.converged);
+      REQUIRE(solved.summary.solved());
       const Moments exact = surface_integrals(film, solved.fields);
       on_journal[k] = solved.observed.torque_journal / exact.journal - 1;
       on_shell[k] = solved.observed.torque_shell / exact.shell - 1;
@@ -113,7 +113,7 @@ TEST_CASE("TorqueOnShapedSurfaces_IsThatOfTheSurfaces") {
 /// What the bodies put in by the wrench less what the fields take, over that.
 double power_error(const ShapedFilm& film, double at_least_taken) {
   const SolvedFilm solved = film.solved();
-  REQUIRE(solved.summary.converged);
+  REQUIRE(solved.summary.solved());
   const Journal& j = film.journal;
   const FilmObservables& o = solved.observed;
   const double bodies = -solved.wrench.segment<2>(3).dot(j.e_rate) + o.torque_journal * j.omega_journal;

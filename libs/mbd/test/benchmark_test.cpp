@@ -85,7 +85,7 @@ ChosenSteps four_bars_with_tolerance(double tolerance) {
     };
     const solver::StepSummary step = integrator.step(*m, state, dt, judge);
     chosen.iterations += step.iterations;
-    if (step.converged()) {
+    if (step.solved()) {
       control.accepted(dt, errors);
       ++chosen.steps;
     } else {
@@ -105,7 +105,7 @@ TEST_CASE("FourBars_CostNoMoreThanEqualStepsOfTheSameError") {
   int iterations = 0;
   for (int i = 1; i <= 3000; ++i) {
     const solver::StepSummary step = integrator.step(*m, state, 10.0 * i / 3000 - state.t);
-    REQUIRE(step.converged());
+    REQUIRE(step.solved());
     iterations += step.iterations;
   }
   const double error = error_at_the_end(*m, state), equal = error * 3000 * 3000;

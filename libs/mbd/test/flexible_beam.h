@@ -43,7 +43,7 @@ struct Beam {
     options.modes = modes;
     if (contact) options.contact_faces.push_back(body.mesh.surfaces.at("y1"));
     const fem::Reduction reduction = fem::reduce(body, frames, options);
-    REQUIRE_MESSAGE(reduction.ok, reduction.message);
+    REQUIRE_MESSAGE(reduction.solved(), reduction.message);
     return reduction.body;
   }
   [[nodiscard]] ModalBodyData reduced() const { return modal_data(reduced_mesh(), damping); }

@@ -50,7 +50,7 @@ json figures(const PageSolution& solution) {
 json solution_data(const PageSolution& solution, const std::string& bearing) {
   json data{{"label", solution.label},
             {"values", pairs(solution.values)},
-            {"error", solution.error},
+            {"error", solution.message},
             {"remark", solution.remark},
             {"figures", figures(solution)},
             {"clearance", solution.clearance},
@@ -62,7 +62,7 @@ json solution_data(const PageSolution& solution, const std::string& bearing) {
     data["features"].push_back(
         {{"name", f.name}, {"round", f.is_round}, {"phi", f.phi}, {"z", f.z}, {"arc", f.arc}, {"length", f.length}});
   }
-  if (solution.error.empty()) data["datasets"] = datasets(solution, bearing);
+  if (solution.solved()) data["datasets"] = datasets(solution, bearing);
   return data;
 }
 

@@ -19,6 +19,7 @@ using nlohmann::json;
 
 PageSolution small_solution() {
   PageSolution solution;
+  solution.set_solved(true);
   solution.values = {{"load", "100 N"}};
   solution.figures = {{"h_min", "film", "minimum film thickness", "um", 5.6, 0.03},
                       {"critical_mass", "stability", "critical mass", "kg", std::numeric_limits<double>::infinity(), -1,
@@ -45,7 +46,9 @@ json data_of(const std::filesystem::path& path) {
 TEST_CASE("BearingPage_HoldsFiguresFeaturesAndFields") {
   const TemporaryDirectory directory;
   BearingPage page{.title = "</script> of mine", .bearing = "main", .solutions = {small_solution()}};
-  page.solutions.push_back({.label = "load = 1 MN", .values = {{"load", "1 MN"}}, .error = "no equilibrium"});
+  page.solutions.push_back(no_answer<PageSolution>("no equilibrium"));
+  page.solutions.back().label = "load = 1 MN";
+  page.solutions.back().values = {{"load", "1 MN"}};
   write_html(page, directory.path() / "page.html");
   const json data = data_of(directory.path() / "page.html");
   CHECK(data["title"] == "</script> of mine");

@@ -111,8 +111,8 @@ class Contents {
       fail(seal == Seal::broken ? "damaged: it has changed since it was written" : "not a checkpoint, or cut short");
     file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
     if (!file_.valid()) fail("not a checkpoint");
-    if (const std::string trouble = foreign_content(file_.get(), path); !trouble.empty())
-      fail("not a checkpoint of hersey: it has " + trouble);
+    if (const std::string foreign = foreign_content(file_.get(), path); !foreign.empty())
+      fail("not a checkpoint of hersey: it has " + foreign);
     if (H5Lexists(file_.get(), "format", H5P_DEFAULT) <= 0 || text("format") != kFormat) fail("not a checkpoint");
     if (numbers("format_version").values != std::vector<double>{kVersion})
       fail("a checkpoint of another version of the program");

@@ -79,8 +79,8 @@ struct Reader::Impl {
     keep_metadata(access.get());
     file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));
     if (!file.valid()) fail("not a readable HDF5 file");
-    if (const std::string trouble = foreign_content(file.get(), path); !trouble.empty())
-      fail("no results file of hersey: it has " + trouble);
+    if (const std::string foreign = foreign_content(file.get(), path); !foreign.empty())
+      fail("no results file of hersey: it has " + foreign);
   }
 
   [[nodiscard]] bool exists(const std::string& name) const {

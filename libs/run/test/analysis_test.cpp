@@ -309,7 +309,7 @@ TEST_CASE("RotorOnItsFilm_HasTheEigenvaluesOfTheSteadyCoefficients") {
   bearing::OperatingPoint point;
   point.journal_speed = 100 * kPi;
   point.load = Eigen::Vector2d(0, 500);  // the rod is pushed down, the film pushes the journal up
-  REQUIRE(bearing::solve_steady(model.bearings[0].film, point, {}, state).converged);
+  REQUIRE(bearing::solve_steady(model.bearings[0].film, point, {}, state).solved());
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
   A.topRightCorner<2, 2>().setIdentity();
   A.bottomLeftCorner<2, 2>() = -state.coefficients.stiffness.topLeftCorner<2, 2>() / 0.5;

@@ -104,7 +104,7 @@ Vector3 errors_of_a_pattern(int repetitions) {
   const auto keep = [](const solver::State&, const Eigen::VectorXd&) { return true; };
   for (int i = 0; i < repetitions; ++i) {
     for (const double share : {1.0, 1.25, 1.5, 1.75, 2.0, 1.0, 1.25, 1.5, 1.25})
-      REQUIRE(integrator.step(*machine.mechanism, state, share / (12.5 * repetitions), keep).converged());
+      REQUIRE(integrator.step(*machine.mechanism, state, share / (12.5 * repetitions), keep).solved());
   }
   const mbd::Observation seen = machine.mechanism->observe(state);
   const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81 / 1.1)};
@@ -146,7 +146,7 @@ simulation: {duration: 2 s, step: 1 ms, spectral_radius: 0.8}
         {.spectral_radius = 0.8, .rtol = 1e-9, .corrects_changes = false, .returns_to_constraints = true});
     for (int i = 0; i < 100; ++i) {
       for (const double share : {1.0, 0.5, 0.125, 0.0625, 0.0625, 0.125, 0.25, 0.5})
-        REQUIRE(integrator.step(*machine.mechanism, state, 1e-3 * share, judge).converged());
+        REQUIRE(integrator.step(*machine.mechanism, state, 1e-3 * share, judge).solved());
     }
     // rad/s: constraints, to round-off over the shortest step.
     CHECK(std::abs(machine.mechanism->observe(state).joints[0].rate[0] - 60) < 1e-8);

@@ -63,7 +63,7 @@ class EquilibriumSearch {
       here_ = steady;
     }
     if (!options_.turning) polish();
-    summary_.converged = true;
+    summary_.set_solved(true);
     state = here_;
     if (!options_.turning) judge(state);
     return summary_;
@@ -322,7 +322,7 @@ class EquilibriumSearch {
 EquilibriumSummary find_equilibrium(Equations& equations, State& state, const EquilibriumOptions& options) {
   State found = state;
   EquilibriumSummary summary = EquilibriumSearch(equations, state, options).run(found);
-  if (!summary.converged) return summary;
+  if (!summary.solved()) return summary;
   state = std::move(found);
   equations.begin_step(state, 0);
   VectorXd residual, scale;

@@ -68,9 +68,9 @@ struct GeneralizedAlpha::Workspace {
   VectorXd error;         ///< estimate of the step's local error of position
   VectorXd across;        ///< the part of it across the constraints
   VectorXd drift;         ///< smoothed `across`/dt^3 of the accepted steps; empty where it was not estimated
-  SettledStart start;   ///< of the step: the state's own motion, or what is left of it when fast motions have died out
-  VectorXd v_start;     ///< velocity the step starts from
-  std::string trouble;  ///< why the last assembly was outside the domain, empty if inside
+  SettledStart start;  ///< of the step: the state's own motion, or what is left of it when fast motions have died out
+  VectorXd v_start;    ///< velocity the step starts from
+  std::string why_outside;  ///< why the last assembly was outside the domain, empty if inside
 
   void choose_start(Equations& equations, const State& state, double dt);
   void predict(double dt);
@@ -134,14 +134,14 @@ void GeneralizedAlpha::Workspace::place(Equations& equations, const State& state
   trial.vdot = vdot_predicted + stage.m * (at - dq_predicted);
 }
 
-/// Assembles at the trial state; false, with `trouble`, outside the domain of the equations.
+/// Assembles at the trial state; false, with `why_outside`, outside the domain of the equations.
 bool GeneralizedAlpha::Workspace::assemble(Equations& equations, const GeneralizedAlphaOptions& options,
                                            bool with_tangent) {
   equations.assemble(trial, stage, residual, scale, with_tangent ? &tangent : nullptr);
   is_tangent_current = with_tangent;
-  trouble = equations.domain_error();
-  if (trouble.empty() && !residual.allFinite()) trouble = "the residual is not a number";
-  if (!trouble.empty()) return false;
+  why_outside = equations.domain_error();
+  if (why_outside.empty() && !residual.allFinite()) why_outside = "the residual is not a number";
+  if (!why_outside.empty()) return false;
   measure(equations, options);
   return true;
 }
@@ -341,7 +341,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     summary.message = fmt::format("t = {:.9g} s, step {:.3g} s: {}", state.t, dt, why);
     return summary;
   };
-  if (!w.enter_domain(equations, state, options_)) return fail(StepStatus::domain_error, w.trouble);
+  if (!w.enter_domain(equations, state, options_)) return fail(StepStatus::domain_error, w.why_outside);
   // Factors serve as long as they bring the residual down fast (theory manual, integrator.20). Condensed unknowns move
   // with each tangent and need their own.
   const bool may_keep_factors = !equations.has_condensed_unknowns();
@@ -352,7 +352,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     const bool may_go_on = summary.iterations < options_.max_iterations;
     if (w.is_solved(keeps_factors && may_go_on ? kWithOldFactors : 1)) {
       if (equations.step_stands()) break;
-      if (!w.assemble(equations, options_)) return fail(StepStatus::domain_error, w.trouble);
+      if (!w.assemble(equations, options_)) return fail(StepStatus::domain_error, w.why_outside);
       keeps_factors = false;
       continue;
     }
@@ -362,11 +362,11 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
                               summary.iterations, w.worst_name(equations), w.worst()));
     ++summary.iterations;
     if (!keeps_factors && !w.is_tangent_current && !w.assemble(equations, options_))
-      return fail(StepStatus::domain_error, w.trouble);
+      return fail(StepStatus::domain_error, w.why_outside);
     const double before = w.worst();
     if (!(keeps_factors || w.factorise(equations.nv())) || !w.solve_increment(equations.nv()))
       return fail(StepStatus::singular, "the equations are singular here; worst equation: " + w.worst_name(equations));
-    if (!w.move(equations, state, options_, !may_keep_factors)) return fail(StepStatus::domain_error, w.trouble);
+    if (!w.move(equations, state, options_, !may_keep_factors)) return fail(StepStatus::domain_error, w.why_outside);
     keeps_factors = may_keep_factors && w.worst() < kFastEnough * before;
   }
 

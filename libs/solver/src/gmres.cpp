@@ -1,5 +1,7 @@
 #include "hersey/solver/gmres.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,8 +66,9 @@ GmresSummary Gmres::solve(const Operator& A, const Operator& M, const Eigen::Vec
   summary.residual_norm = b.norm();
   const double target = std::max(options.atol, options.rtol * summary.residual_norm);
   for (;;) {
-    summary.converged = summary.residual_norm <= target;
-    if (summary.converged || summary.iterations >= options.max_iterations || !std::isfinite(summary.residual_norm)) {
+    summary.set_solved(summary.residual_norm <= target);
+    if (summary.solved() || summary.iterations >= options.max_iterations || !std::isfinite(summary.residual_norm)) {
+      if (!summary.solved()) summary.message = fmt::format("no convergence in {} iterations", summary.iterations);
       return summary;
     }
     basis_[0] = residual_ / summary.residual_norm;
@@ -85,7 +88,10 @@ GmresSummary Gmres::solve(const Operator& A, const Operator& M, const Eigen::Vec
     A(x, residual_);
     residual_ = b - residual_;
     summary.residual_norm = residual_.norm();
-    if (!(summary.residual_norm < before)) return summary;  // stagnation, or not a number
+    if (!(summary.residual_norm < before)) {  // stagnation, or not a number
+      summary.message = fmt::format("the residual stays where it is after {} iterations", summary.iterations);
+      return summary;
+    }
   }
 }
 

@@ -170,9 +170,9 @@ bool report_redundancy(Equations& equations, const State& state, bool assembled,
   return true;
 }
 
-void outside_domain(const State& state, const std::string& trouble, InitialiseSummary& summary) {
+void outside_domain(const State& state, const std::string& why, InitialiseSummary& summary) {
   summary.status = InitialiseStatus::domain_error;
-  summary.message = fmt::format("at the start, t = {:.6g} s: {}", state.t, trouble);
+  summary.message = fmt::format("at the start, t = {:.6g} s: {}", state.t, why);
 }
 
 /// Accelerations and multipliers of `trial`, and the velocities of motions that have no inertia; false, with the
@@ -183,16 +183,15 @@ bool find_accelerations(Equations& equations, State& trial, InitialiseSummary& s
   Equations::SparseMatrix S;
   const auto assembled = [&] {
     equations.begin_step(trial, 0);
-    const std::string trouble = assemble_forces(equations, trial, 0, h, S);
-    if (!trouble.empty()) outside_domain(trial, trouble, summary);
+    const Outcome forces = assemble_forces(equations, trial, 0, h, S);
+    if (!forces.solved()) outside_domain(trial, forces.message, summary);
     equations.constraint_rates(trial, velocity, gamma);
-    return trouble.empty();
+    return forces.solved();
   };
   if (!assembled()) return false;
   AccelerationSolution solution = solve_kkt(S, nv, h, gamma);
   if (!solution.undetermined.empty()) {
     const MasslessSummary balance = balance_massless(equations, trial, massless_motions(S, nv));
-    if (!balance.message.empty()) outside_domain(trial, balance.message, summary);
     if (!balance.undetermined.empty()) {
       summary.status = InitialiseStatus::undetermined;
       summary.undetermined = names_of(equations, balance.undetermined, 0);
@@ -200,8 +199,10 @@ bool find_accelerations(Equations& equations, State& trial, InitialiseSummary& s
           "nothing determines the motion of: {}. Give the bodies there mass and inertia, "
           "or hold the motion by a joint, a drive, a damper or a film",
           fmt::join(summary.undetermined, "; "));
+    } else if (!balance.solved()) {
+      outside_domain(trial, balance.message, summary);
     }
-    if (!balance.balanced() || !assembled()) return false;
+    if (!balance.solved() || !assembled()) return false;
     solution = solve_kkt_but_massless(S, nv, h, gamma);
   }
   trial.vdot = std::move(solution.vdot);
@@ -222,7 +223,7 @@ InitialiseSummary initialise(Equations& equations, State& state, const Initialis
   summary.residual = std::numeric_limits<double>::infinity();
   Assembly(equations, trial, options, summary).run();
   // Conflicting constraints are redundant ones, and that is the better message.
-  if (report_redundancy(equations, trial, summary.consistent(), summary) || !summary.consistent()) return summary;
+  if (report_redundancy(equations, trial, summary.solved(), summary) || !summary.solved()) return summary;
 
   project_velocities(equations, trial, options);
 
@@ -240,7 +241,7 @@ bool shed_violations(Equations& equations, State& state, double dt) {
   if (equations.nlambda() == 0) return true;
   VectorXd h, velocity, gamma;
   Equations::SparseMatrix S;
-  if (!assemble_forces(equations, state, dt, h, S).empty()) return false;
+  if (!assemble_forces(equations, state, dt, h, S).solved()) return false;
   equations.constraint_rates(state, velocity, gamma);
   const AccelerationSolution change = solve_kkt(S, equations.nv(), VectorXd::Zero(equations.nv()), velocity);
   if (!change.undetermined.empty() || !change.vdot.allFinite()) return false;
@@ -260,7 +261,7 @@ bool restart(Equations& equations, State& state, double dt) {
 bool solve_accelerations(Equations& equations, State& state, double dt) {
   VectorXd h, velocity, gamma;
   Equations::SparseMatrix S;
-  if (!assemble_forces(equations, state, dt, h, S).empty()) return false;
+  if (!assemble_forces(equations, state, dt, h, S).solved()) return false;
   equations.constraint_rates(state, velocity, gamma);
   AccelerationSolution solution = solve_kkt(S, equations.nv(), h, gamma);
   // Motions without inertia stay in balance.

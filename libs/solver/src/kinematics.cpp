@@ -55,8 +55,8 @@ KinematicsSummary solve_kinematics(Equations& equations, State& state) {
   equations.begin_step(trial, 0);
   VectorXd h;
   Equations::SparseMatrix S;
-  if (std::string trouble = assemble_forces(equations, trial, 0, h, S); !trouble.empty())
-    return failure(summary, KinematicsStatus::singular, fmt::format("t = {:.9g} s: {}", trial.t, trouble));
+  if (const Outcome forces = assemble_forces(equations, trial, 0, h, S); !forces.solved())
+    return failure(summary, KinematicsStatus::singular, fmt::format("t = {:.9g} s: {}", trial.t, forces.message));
   equations.constraint_rates(trial, velocity, gamma);
   AccelerationSolution solution = solve_kkt(S, nv, h, gamma);
   // At a dead point drives and constraints no longer prescribe the motion, and forces grow without bound.

@@ -312,8 +312,7 @@ bool solve_bordered(const Equations::SparseMatrix& S, Index nv, const VectorXd& 
   return SparseKkt(S, nv).solve(b, x);
 }
 
-std::string assemble_forces(Equations& equations, const State& state, double dt, VectorXd& h,
-                            Equations::SparseMatrix& S) {
+Outcome assemble_forces(Equations& equations, const State& state, double dt, VectorXd& h, Equations::SparseMatrix& S) {
   constexpr int max_iterations = 60;
   constexpr double internal_rtol = 1e-10;
   const Index nv = equations.nv();
@@ -324,8 +323,8 @@ std::string assemble_forces(Equations& equations, const State& state, double dt,
   VectorXd residual, scale;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     equations.assemble(at_rest, stage, residual, scale, &S);
-    if (std::string trouble = equations.domain_error(); !trouble.empty()) return trouble;
-    if (!residual.allFinite()) return "the forces are not numbers";
+    if (std::string why = equations.domain_error(); !why.empty()) return no_answer<Outcome>(std::move(why));
+    if (!residual.allFinite()) return no_answer<Outcome>("the forces are not numbers");
     if (equations.internal_residual() > internal_rtol) continue;
     h = residual.head(nv);
     if (equations.nlambda() > 0) {
@@ -334,10 +333,11 @@ std::string assemble_forces(Equations& equations, const State& state, double dt,
       equations.constraints(at_rest, phi, sizes, &G);
       fill_jacobian(G, nv, S);
     }
-    return {};
+    return {Ending::solved};
   }
-  return fmt::format("{} is not solved in {} iterations (relative residual {:.2g})",
-                     equations.name_of_internal_residual(), max_iterations, equations.internal_residual());
+  return no_answer<Outcome>(fmt::format("{} is not solved in {} iterations (relative residual {:.2g})",
+                                        equations.name_of_internal_residual(), max_iterations,
+                                        equations.internal_residual()));
 }
 
 }  // namespace hersey::solver

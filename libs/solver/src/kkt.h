@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/solver/equations.h"
 
 namespace hersey::solver {
@@ -51,8 +51,8 @@ void fill_jacobian(const Equations::SparseMatrix& G, Eigen::Index nv, Equations:
                                                  const Eigen::VectorXd& weight);
 
 /// Assembles at vdot = lambda = 0, over a step of length dt, until condensed unknowns are solved to 1e-10: forces h and
-/// S = [M G^T; G D] as in solve_kkt. Returns what went wrong, or nothing.
-[[nodiscard]] std::string assemble_forces(Equations& equations, const State& state, double dt, Eigen::VectorXd& h,
-                                          Equations::SparseMatrix& S);
+/// S = [M G^T; G D] as in solve_kkt.
+[[nodiscard]] Outcome assemble_forces(Equations& equations, const State& state, double dt, Eigen::VectorXd& h,
+                                      Equations::SparseMatrix& S);
 
 }  // namespace hersey::solver

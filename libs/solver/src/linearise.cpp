@@ -54,7 +54,8 @@ Linearisation linearise(Equations& equations, const State& state, double dt) {
   linear.M = block(0, 0, 1);
   linear.C = block(0, 1, 0);
   linear.K = block(1, 0, 0);
-  linear.trouble = equations.domain_error();
+  linear.message = equations.domain_error();
+  linear.set_solved(linear.message.empty());
   return linear;
 }
 
@@ -160,6 +161,7 @@ Modes find_modes(const Linearisation& linear) {
   }
   std::sort(found.modes.begin(), found.modes.end(),
             [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });
+  found.set_solved(true);
   return found;
 }
 

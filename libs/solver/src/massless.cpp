@@ -13,6 +13,7 @@ using Index = Equations::Index;
 constexpr double kMasslessTolerance = 1e-10;  // of the terms that a motion balances
 constexpr double kNoDamping = 1e-10;          // relative to that of the coordinates in a motion
 constexpr int kMasslessIterations = 60, kMasslessHalvings = 12;
+constexpr const char* kNoBalance = "no velocity balances the forces on motions without inertia";
 
 class MasslessBalance {
  public:
@@ -24,19 +25,25 @@ class MasslessBalance {
 
   MasslessSummary run(State& state) {
     MasslessSummary summary;
-    if (!evaluate()) return {{}, trouble_};
+    if (!evaluate()) return no_answer<MasslessSummary>(trouble_);
     for (int iteration = 0; worst_ > kMasslessTolerance; ++iteration) {
-      if (iteration == kMasslessIterations) return {{}, "no velocity balances the forces on motions without inertia"};
-      if (summary.undetermined = unheld(); !summary.undetermined.empty()) return summary;
-      if (!advance()) return {{}, trouble_};
+      if (iteration == kMasslessIterations) return no_answer<MasslessSummary>(kNoBalance);
+      if (summary.undetermined = unheld(); !summary.undetermined.empty()) return loose(summary);
+      if (!advance()) return no_answer<MasslessSummary>(trouble_);
     }
     // Forces that happen to vanish hold nothing.
-    if (summary.undetermined = unheld(); !summary.undetermined.empty()) return summary;
+    if (summary.undetermined = unheld(); !summary.undetermined.empty()) return loose(summary);
     state.v = here_.v;
+    summary.set_solved(true);
     return summary;
   }
 
  private:
+  static MasslessSummary loose(MasslessSummary summary) {
+    summary.fail("nothing holds some of the motions without inertia");
+    return summary;
+  }
+
   bool evaluate() {
     here_.v = v_start_ + N_ * y_;
     VectorXd residual, scale;
@@ -91,7 +98,7 @@ class MasslessBalance {
       if (worst_ <= kMasslessTolerance || (unit.cwiseProduct(force_)).norm() < unit.cwiseProduct(force).norm())
         return true;
     }
-    if (trouble_.empty()) trouble_ = "no velocity balances the forces on motions without inertia";
+    if (trouble_.empty()) trouble_ = kNoBalance;
     return false;
   }
 

@@ -1,19 +1,16 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/solver/equations.h"
 
 namespace hersey::solver {
 
 /// How `balance_massless` went.
-struct MasslessSummary {
+struct [[nodiscard]] MasslessSummary : Outcome {
   std::vector<Equations::Index> undetermined;  ///< components of motions that nothing holds; empty: there are none
-  std::string message;                         ///< why there is no balance; empty where there is
-
-  [[nodiscard]] bool balanced() const { return undetermined.empty() && message.empty(); }
 };
 
 /// Gives motions without inertia the velocity at which the forces along them vanish, N^T h(q, v, t) = 0, by Newton's

@@ -78,7 +78,7 @@ class StaticDeformation {
       if (!factorise()) return failure("the deformation is not determined; worst equation: " + worst_row_);
       if (!advance()) return failure(trouble_.empty() ? still_open() : trouble_);
     }
-    summary_.converged = true;
+    summary_.set_solved(true);
     summary_.residual = worst_;
     state = here_;
     return summary_;
@@ -260,7 +260,7 @@ class StaticDeformation {
 
 StaticDeformationSummary settle_deformations(Equations& equations, State& state, const InitialiseOptions& options) {
   StaticDeformationSummary summary = StaticDeformation(equations, state, options).run(state);
-  if (!summary.converged) return summary;
+  if (!summary.solved()) return summary;
   equations.begin_step(state, 0);
   VectorXd residual, scale;
   equations.assemble(state, {.dt = 0, .k = 0, .c = 0, .m = 1, .dq = {}}, residual, scale, nullptr);

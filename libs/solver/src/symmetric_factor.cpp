@@ -138,16 +138,17 @@ FactorSummary SymmetricFactor::factorise(const Eigen::SparseMatrix<double>& A) {
   HERSEY_REQUIRE(A.cols() == m.mumps.n && A.nonZeros() == m.stored, "the pattern is the one analysed");
   m.factorised = false;
   if (m.memory() > m.memory_limit)
-    return {.status = FactorStatus::too_large,
-            .message = fmt::format("a factor of {} unknowns needs about {:.1f} GiB, and {:.1f} GiB are free", m.mumps.n,
-                                   m.memory() / (1024 * mebibyte), m.memory_limit / (1024 * mebibyte))};
+    return {{FactorStatus::too_large,
+             fmt::format("a factor of {} unknowns needs about {:.1f} GiB, and {:.1f} GiB are free", m.mumps.n,
+                         m.memory() / (1024 * mebibyte), m.memory_limit / (1024 * mebibyte))}};
   m.take_values(A);
   for (const double value : m.values)
-    if (!std::isfinite(value)) return {.message = "the matrix has entries that are not numbers"};
+    if (!std::isfinite(value)) return no_answer<FactorSummary>("the matrix has entries that are not numbers");
   m.factorise_with_room();
   if (m.infog(1) < 0 && m.infog(1) != error_singular)
-    return {.message = fmt::format("the factorisation ended with MUMPS error {} ({})", m.infog(1), m.infog(2))};
-  FactorSummary summary{.status = FactorStatus::factorised, .negative_pivots = m.infog(12)};
+    return no_answer<FactorSummary>(
+        fmt::format("the factorisation ended with MUMPS error {} ({})", m.infog(1), m.infog(2)));
+  FactorSummary summary{{FactorStatus::factorised}, m.infog(12)};
   const int null_pivots = m.infog(28);
   for (int i = 0; i < null_pivots; ++i) summary.null_unknowns.push_back(m.mumps.pivnul_list[i] - 1);
   std::sort(summary.null_unknowns.begin(), summary.null_unknowns.end());
@@ -155,7 +156,7 @@ FactorSummary SymmetricFactor::factorise(const Eigen::SparseMatrix<double>& A) {
     summary.status = FactorStatus::singular;
     summary.message = fmt::format("the matrix is singular: {} of its {} pivots vanish", null_pivots, m.mumps.n);
   }
-  m.factorised = summary.ok();
+  m.factorised = summary.solved();
   return summary;
 }
 

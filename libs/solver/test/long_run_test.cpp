@@ -25,7 +25,7 @@ EnergyErrors energy_errors(double rho, int periods, int steps_per_period) {
   const double start = energy(s);
   EnergyErrors errors;
   for (int i = 0; i < periods * steps_per_period; ++i) {
-    REQUIRE(integrator.step(e, s, period / steps_per_period).converged());
+    REQUIRE(integrator.step(e, s, period / steps_per_period).solved());
     double& error = 10 * i < periods * steps_per_period ? errors.early : errors.late;
     error = std::max(error, std::abs(energy(s) - start));
   }

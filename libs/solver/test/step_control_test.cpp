@@ -129,7 +129,7 @@ double estimate_over_truth(double rho, double dt, double& smallest) {
       error = estimate;
       return true;
     };
-    REQUIRE(integrator.step(e, s, dt, judge).converged());
+    REQUIRE(integrator.step(e, s, dt, judge).solved());
     // The exact motion through the state before the step.
     const double exact = before.q[0] * std::cos(3 * dt) + before.v[0] / 3 * std::sin(3 * dt);
     const double truth = exact - s.q[0];
@@ -160,13 +160,13 @@ TEST_CASE("InaccurateStep_LeavesEverythingAsItWas") {
   test::OneCoordinate fresh = e;
   GeneralizedAlpha integrator({.spectral_radius = 0.7}), other({.spectral_radius = 0.7});
   State s = e.at(1, 0), alone = s;
-  REQUIRE(integrator.step(e, s, 0.1).converged());
-  REQUIRE(other.step(fresh, alone, 0.1).converged());
+  REQUIRE(integrator.step(e, s, 0.1).solved());
+  REQUIRE(other.step(fresh, alone, 0.1).solved());
   const StepSummary refused = integrator.step(e, s, 0.2, [](const State&, const Eigen::VectorXd&) { return false; });
   CHECK(refused.status == StepStatus::inaccurate);
   CHECK(e.accepted == 1);
-  REQUIRE(integrator.step(e, s, 0.05).converged());
-  REQUIRE(other.step(fresh, alone, 0.05).converged());
+  REQUIRE(integrator.step(e, s, 0.05).solved());
+  REQUIRE(other.step(fresh, alone, 0.05).solved());
   CHECK(s.q == alone.q);
   CHECK(s.v == alone.v);
 }
@@ -186,7 +186,7 @@ Swing swing(bool chosen, double dt) {
   Swing result;
   for (int i = 0; i < static_cast<int>(std::lround(4 / dt)); ++i) {
     const StepSummary step = integrator.step(e, s, dt, [](const State&, const Eigen::VectorXd&) { return true; });
-    REQUIRE(step.converged());
+    REQUIRE(step.solved());
     CHECK(step.residual <= 1);
     result.iterations += step.iterations;
   }

@@ -147,9 +147,9 @@ bool let_heat_follow(const model::Bearing& bearing, const BearingStudyOptions& o
   const bearing::SteadySummary summary =
       bearing::find_total_coefficients(solution.model, solution.state, beside, solution.state.coefficients);
   solution.thermal_coefficients = ThermalCoefficients::total;
-  if (summary.converged) return true;
-  solution.error =
-      fmt::format("bearing {}: no coefficients with temperatures that follow: {}", bearing.name, summary.message);
+  if (summary.solved()) return true;
+  solution.fail(
+      fmt::format("bearing {}: no coefficients with temperatures that follow: {}", bearing.name, summary.message));
   return false;
 }
 
@@ -180,8 +180,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     if (start != nullptr) steady.start_heat = temperatures_of(*start, bearing.film, *steady.thermal);
   }
   solution.summary = solve_at(solution.model, point, bearing.heat, steady, solution.state);
-  if (!solution.summary.converged) {
-    solution.error = fmt::format("bearing {}: {}", bearing.name, solution.summary.message);
+  if (!solution.summary.solved()) {
+    solution.fail(fmt::format("bearing {}: {}", bearing.name, solution.summary.message));
     return;
   }
   for (const std::string& doubt : doubts_of(bearing, solution.state))
@@ -195,6 +195,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
       solution.coefficients, bearing::clearance(solution.model, solution.state.point), solution.numbers.load, omega);
   if (options.grid_error) solution.grid_error = bearing::estimate_grid_error(solution.model, solution.state, steady);
   solution.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  solution.set_solved(true);
 }
 
 [[noreturn]] void fault(const std::string& found, const std::string& suggestion = {}) {
@@ -270,11 +271,12 @@ void follow_neighbours(const ModelReader& read, const BearingStudyOptions& optio
     for (std::size_t i = 0; i < solutions.size(); ++i) {
       const BearingSolution* neighbour = solutions[i].solved() ? nullptr : solved_neighbour(solutions, i);
       if (neighbour == nullptr) continue;
-      BearingSolution again{.run = solutions[i].run, .error = {}};
+      BearingSolution again;
+      again.run = solutions[i].run;
       try {
         solve_one(read(again.run.overrides), options, &neighbour->state, bodies, again);
       } catch (const std::exception& error) {
-        again.error = error_text(error);
+        again.fail(error_text(error));
       }
       if (!again.solved()) continue;
       again.from_neighbour = true;
@@ -384,7 +386,7 @@ std::vector<BearingSolution> solve_bearings(const ModelReader& read, const std::
           solve_one(read(runs[i].overrides), options, nullptr, bodies, solutions[i]);
         }
       } catch (const std::exception& error) {
-        solutions[i].error = error_text(error);
+        solutions[i].fail(error_text(error));
       }
     }
   };
@@ -419,7 +421,8 @@ struct RunSolver::Impl {
 
   BearingSolution attempt(const model::Model& model, const model::StudyRun& run, const std::string& bearing,
                           const bearing::SteadyState* start) {
-    BearingSolution solution{.run = run, .error = {}};
+    BearingSolution solution;
+    solution.run = run;
     const BearingStudyOptions options{.bearing = bearing, .grid_error = false};
     solve_one(model, options, start, bodies, solution);
     return solution;

@@ -182,7 +182,7 @@ Sides solved_anew(const std::string& path, const BearingSolution& solution, cons
     runs[side].overrides = parameter.overrides(solution.run.overrides, side == 0 ? -1 : 1);
   std::vector<BearingSolution> found = solve_bearings(path, runs, alone);
   for (const BearingSolution& side : found)
-    if (!side.solved()) throw std::runtime_error(side.error);
+    if (!side.solved()) throw std::runtime_error(side.message);
   return {std::move(found[0]), std::move(found[1]), 2 * parameter.step};
 }
 
@@ -245,10 +245,11 @@ std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSol
       found.exact = sides.has_value();
       if (!sides) sides = solved_anew(path, solution, options, varied(key, *middle, kSolutionStep));
       found.slopes = slopes_between(solution, *sides, si.size);
+      found.set_solved(true);
     } catch (const InputError& error) {
-      found.error = fmt::format("it has no values on both sides: {}", error_text(error));
+      found.fail(fmt::format("it has no values on both sides: {}", error_text(error)));
     } catch (const std::exception& error) {
-      found.error = error_text(error);
+      found.fail(error_text(error));
     }
   }
   return all;

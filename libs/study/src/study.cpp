@@ -42,10 +42,11 @@ class Computing {
 
 RunResult simulate_one(const std::string& path, const model::StudyRun& run, const Options& options, std::size_t index,
                        Queue& queue) {
-  RunResult result{.run = run, .summary = {}, .error = {}};
+  RunResult result;
+  result.run = run;
   Computing computing(queue, options);
   if (options.stop != nullptr && *options.stop) {
-    result.error = "stopped on request before it began";
+    result.fail("stopped on request before it began");
     return result;
   }
   run::Options run_options;
@@ -70,8 +71,9 @@ RunResult simulate_one(const std::string& path, const model::StudyRun& run, cons
       options.on_warnings(index, warnings);
     }
     result.summary = run::simulate(model, run_options);
+    result.set_solved(true);
   } catch (const std::exception& error) {
-    result.error = error_text(error);
+    result.fail(error_text(error));
   }
   return result;
 }

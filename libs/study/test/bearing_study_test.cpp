@@ -113,7 +113,7 @@ TEST_CASE("StribeckWithFlowFactors_DiffersWhereFilmAndAsperitiesMeet") {
     auto curve = solve_bearings(example, runs, {.bearing = "", .grid_error = false, .threads = 2});
     for (const BearingSolution& solution : curve) {
       CAPTURE(solution.run.label);
-      CAPTURE(solution.error);
+      CAPTURE(solution.message);
       REQUIRE(solution.solved());
       CHECK(value_of(solution, "mass_balance_error") < 1e-9);  // the solver leaves 1e-10 of the largest throughput
     }
@@ -144,7 +144,7 @@ TEST_CASE("Stribeck_FallsFromBoundaryFrictionAndRisesWithTheFilm") {
   std::vector<double> friction;
   for (const BearingSolution& solution : curve) {
     CAPTURE(solution.run.label);
-    CAPTURE(solution.error);
+    CAPTURE(solution.message);
     REQUIRE(solution.solved());
     CHECK(value_of(solution, "load") == doctest::Approx(2500).epsilon(1e-8));  // the search ends at 1e-10 of the load
     friction.push_back(value_of(solution, "friction_journal"));

@@ -82,7 +82,7 @@ struct Rig {
 
   [[nodiscard]] BearingSolution solved(const std::vector<std::string>& overrides, bool grid_error = false) const {
     auto solutions = solve_bearings(path, {{overrides, "", "", {}}}, {.bearing = "", .grid_error = grid_error});
-    INFO(solutions.at(0).error);
+    INFO(solutions.at(0).message);
     REQUIRE(solutions.at(0).solved());
     return std::move(solutions.front());
   }

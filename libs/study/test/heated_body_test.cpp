@@ -77,7 +77,7 @@ struct Written {
 BearingSolution solved(const std::vector<std::string>& overrides, bool grid_error = false) {
   auto solutions =
       solve_bearings("heated_body_test.yaml", {{overrides, "", "", {}}}, {.bearing = "", .grid_error = grid_error});
-  INFO(solutions.at(0).error);
+  INFO(solutions.at(0).message);
   REQUIRE(solutions.at(0).solved());
   return solutions.front();
 }

@@ -26,7 +26,7 @@ const std::vector<std::string> coarse{"bearings.main.grid={circumferential: 48, 
 BearingSolution solved(const std::string& path, std::vector<std::string> overrides, const std::string& further = {}) {
   if (!further.empty()) overrides.push_back(further);
   auto solutions = solve_bearings(path, {{overrides, "", "", {}}}, {.bearing = "", .grid_error = false});
-  CAPTURE(solutions.at(0).error);
+  CAPTURE(solutions.at(0).message);
   REQUIRE(solutions.at(0).solved());
   return solutions.front();
 }
@@ -79,7 +79,7 @@ TEST_CASE("SensitivitiesWithHeat_AreDifferencesAndSaySo") {
   const BearingSolution here = solved(hot, small);
   const auto found = sensitivities(hot, here, {}, {"bearings.main.width"});
   REQUIRE(found.size() == 1);
-  CAPTURE(found[0].error);
+  CAPTURE(found[0].message);
   CHECK_FALSE(found[0].exact);
   check(hot, small, found[0], "bearings.main.width=59.994 mm", "bearings.main.width=60.006 mm", 0.012e-3,
         kHotDifferences);

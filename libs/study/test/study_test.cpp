@@ -41,7 +41,7 @@ TEST_CASE("RunsAtTheSameTime_GiveTheNumbersOfRunsAlone") {
   const auto together = simulate_all(folder.model(), runs, {.directory = folder.path(), .threads = 4});
   for (std::size_t i = 0; i < runs.size(); ++i) {
     CAPTURE(runs[i].label);
-    REQUIRE(together[i].error.empty());
+    REQUIRE(together[i].solved());
     const run::Summary alone = run::simulate(model::read(folder.model(), runs[i].overrides),
                                              {.results = folder.path() / ("alone" + std::to_string(i) + ".h5")});
     // No state is shared between runs: the same operations in the same order.
@@ -61,8 +61,8 @@ TEST_CASE("RunsAtTheSameTime_WriteTheirCheckpoints") {
   Options options{.directory = folder.path(), .threads = 4, .stop = &stop};
   options.on_progress = [&](std::size_t, const run::Progress& progress) { stop = stop || progress.t > 1e-3; };
   for (const RunResult& result : simulate_all(folder.model(), runs, options)) {
-    CAPTURE(result.error + result.summary.message);
-    CHECK(result.error.empty());
+    CAPTURE(result.message + result.summary.message);
+    CHECK(result.solved());
     CHECK(result.summary.status == run::Status::stopped);
     CHECK(std::filesystem::exists(run::checkpoint_file(result.summary.results)));
   }
@@ -71,7 +71,7 @@ TEST_CASE("RunsAtTheSameTime_WriteTheirCheckpoints") {
   const auto resumed = simulate_all(folder.model(), runs, options);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     CAPTURE(runs[i].label);
-    REQUIRE(resumed[i].error.empty());
+    REQUIRE(resumed[i].solved());
     const std::filesystem::path alone = folder.path() / ("alone" + std::to_string(i) + ".h5");
     REQUIRE(run::simulate(model::read(folder.model(), runs[i].overrides), {.results = alone}).status ==
             run::Status::completed);
@@ -91,7 +91,7 @@ TEST_CASE("FailedRun_LeavesTheOthersAlone") {
   options.on_finished = [&](std::size_t, const RunResult&) { ++finished; };
   const auto results = simulate_all(folder.model(), runs, options);
   CHECK(finished == 4);
-  CHECK(!results[1].error.empty());
+  CHECK(!results[1].solved());
   for (std::size_t i : {0, 2, 3}) CHECK(results[i].summary.status == run::Status::completed);
 }
 

@@ -121,7 +121,7 @@ double HeldStiffness::memory_estimate() {
 }
 
 solver::FactorSummary HeldStiffness::factorise(double shift) {
-  if (free_.empty()) return {.status = solver::FactorStatus::factorised};
+  if (free_.empty()) return {{solver::FactorStatus::factorised}};
   analyse();
   return factor_.factorise(shifted(shift));
 }
@@ -155,9 +155,14 @@ StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>&
   }
   HeldStiffness stiffness(body.K, body.m, held);
   const solver::FactorSummary summary = stiffness.factorise();
-  if (summary.status == solver::FactorStatus::singular) return {.held = false, .message = what_is_loose(body, held)};
-  if (!summary.ok()) return {.message = summary.message};
-  StaticSolution solution{.ok = true};
+  if (summary.status == solver::FactorStatus::singular) {
+    auto loose = no_answer<StaticSolution>(what_is_loose(body, held));
+    loose.held = false;
+    return loose;
+  }
+  if (!summary.solved()) return no_answer<StaticSolution>(summary.message);
+  StaticSolution solution;
+  solution.set_solved(true);
   const Eigen::VectorXd forces_of_supports = body.K * prescribed;
   solution.u = stiffness.solve(f.colwise() - forces_of_supports).colwise() + prescribed;
   const Eigen::MatrixXd unbalanced = body.K * solution.u - f;

@@ -123,7 +123,8 @@ MatrixXd new_block(const LanczosProblem& problem, const Basis& basis, const Matr
 }  // namespace
 
 LanczosResult block_lanczos(const LanczosProblem& problem, int wanted, double smallest, double rtol) {
-  LanczosResult result{.solves = 1};
+  LanczosResult result;
+  result.solves = 1;
   std::mt19937_64 generator(20240229);  // the same for every run
   Basis basis;
   const Index block = std::min(block_size, problem.rank);
@@ -137,7 +138,7 @@ LanczosResult block_lanczos(const LanczosProblem& problem, int wanted, double sm
     const Ritz ritz = ritz_pairs(problem, basis.H, leaving);
     const Index needed = asked(ritz, wanted, smallest);
     if (basis.used >= problem.rank || is_converged(ritz, needed, rtol)) {
-      result.converged = true;
+      result.set_solved(true);
       result.theta = ritz.theta.tail(needed).reverse();
       result.vectors = basis.vectors() * ritz.vectors.rightCols(needed).rowwise().reverse();
       return result;
@@ -146,6 +147,7 @@ LanczosResult block_lanczos(const LanczosProblem& problem, int wanted, double sm
     // A space that A keeps to itself: whatever else there is, is found from a new start.
     if (W.cols() == 0) W = new_block(problem, basis, problem.A(random_block(problem.size, block, generator)), BW);
   }
+  result.fail("the iteration for modes found no further direction");
   return result;
 }
 

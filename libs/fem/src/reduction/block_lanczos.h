@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <functional>
 
+#include "hersey/core/outcome.h"
+
 namespace hersey::fem {
 
 /// Largest eigenpairs of A, self-adjoint in the inner product x^T B y: A x = theta x.
@@ -12,8 +14,7 @@ struct LanczosProblem {
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> A, B;
 };
 
-struct LanczosResult {
-  bool converged = false;
+struct [[nodiscard]] LanczosResult : Outcome {
   Eigen::VectorXd theta;    ///< descending
   Eigen::MatrixXd vectors;  ///< B-orthonormal
   int solves = 0;

@@ -55,7 +55,7 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) throw std::runtime_error("is no HDF5 file that can be read");
   Hdf5File file(std::move(lock), id);
-  if (const std::string trouble = foreign_content(id, path); !trouble.empty()) throw std::runtime_error(trouble);
+  if (const std::string foreign = foreign_content(id, path); !foreign.empty()) throw std::runtime_error(foreign);
   return file;
 }
 

@@ -85,19 +85,22 @@ FrameSupports frame_supports(const Mesh& mesh, const std::vector<InterfaceFrame>
 
 Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& frames, const ReductionOptions& options) {
   HERSEY_REQUIRE(options.loads.size() == 0 || options.loads.rows() == body.size(), "one force per degree of freedom");
-  if (frames.empty()) return {.message = "a reduced body needs a frame that something attaches to"};
-  if (std::string fault = fault_of(body.mesh, frames); !fault.empty()) return {.message = std::move(fault)};
+  if (frames.empty()) return no_answer<Reduction>("a reduced body needs a frame that something attaches to");
+  if (std::string fault = fault_of(body.mesh, frames); !fault.empty()) return no_answer<Reduction>(std::move(fault));
   const Interface interface = interface_of(body.mesh, frames);
   HeldStiffness stiffness(body.K, body.m, interface.held, interface.C);
-  if (const solver::FactorSummary summary = stiffness.factorise(); !summary.ok())
-    return {.message = summary.status == solver::FactorStatus::singular
-                           ? "a part of the body is not connected to the frames"
-                           : summary.message};
+  if (const solver::FactorSummary summary = stiffness.factorise(); !summary.solved())
+    return no_answer<Reduction>(summary.status == solver::FactorStatus::singular
+                                    ? "a part of the body is not connected to the frames"
+                                    : summary.message);
   MatrixXd internal(body.size(), 0);
-  Vibration modes{.ok = true, .omega = VectorXd(0), .shapes = MatrixXd(body.size(), 0)};
+  Vibration modes;
+  modes.set_solved(true);
+  modes.omega.resize(0);
+  modes.shapes.resize(body.size(), 0);
   if (options.modes > 0 && stiffness.freedom() > 0)
     modes = natural_modes(body, interface.held, {.count = options.modes, .highest = options.highest}, interface.C);
-  if (!modes.ok) return {.message = modes.message};
+  if (!modes.solved()) return no_answer<Reduction>(modes.message);
   const MatrixXd exact = options.loads.size() ? stiffness.solve(options.loads) : MatrixXd(body.size(), 0);
   const StaticShapes of_surfaces = static_shapes(stiffness, modes, options);
   std::vector<FilmModes> films;
@@ -110,7 +113,8 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
   internal.resize(body.size(), modes.shapes.cols() + exact.cols() + of_surfaces.added.cols() + of_films.cols());
   internal << modes.shapes, exact, of_surfaces.added, of_films;
 
-  Reduction reduction{.ok = true};
+  Reduction reduction;
+  reduction.set_solved(true);
   ReducedBody& reduced = reduction.body;
   reduced.frames = frames;
   reduced.nodes = body.mesh.nodes;

@@ -46,13 +46,13 @@ StaticAnswers static_answers(const ElasticBody& body, const std::vector<Interfac
   if (!answers.message.empty()) return answers;
   const Interface interface = interface_of(body.mesh, frames);
   HeldStiffness stiffness(body.K, body.m, interface.held, interface.C);
-  if (const solver::FactorSummary summary = stiffness.factorise(); !summary.ok()) {
+  if (const solver::FactorSummary summary = stiffness.factorise(); !summary.solved()) {
     answers.message = summary.status == solver::FactorStatus::singular
                           ? "a part of the body is not connected to the frames"
                           : summary.message;
     return answers;
   }
-  answers.ok = true;
+  answers.set_solved(true);
   answers.shapes = constraint_modes(body, interface, stiffness);
   answers.stiffness = answers.shapes.transpose() * (body.K * answers.shapes);
   answers.stiffness = (0.5 * (answers.stiffness + answers.stiffness.transpose())).eval();

@@ -50,23 +50,26 @@ void point_upward(Eigen::MatrixXd& shapes) {
 Vibration natural_modes(const ElasticBody& body, const std::vector<int>& held, const VibrationOptions& options,
                         const Eigen::SparseMatrix<double>& C) {
   HERSEY_REQUIRE(options.count > 0 && options.rtol > 0, "some modes are wanted");
-  if (!(body.mass > 0)) return {.message = "the body has no mass: give its material a density"};
+  if (!(body.mass > 0)) return no_answer<Vibration>("the body has no mass: give its material a density");
   HeldStiffness stiffness(body.K, body.m, held, C);
   const double estimate = lowest_estimate(body);
   const double shift = -shift_share * estimate;
   const solver::FactorSummary summary = stiffness.factorise(shift);
-  if (!summary.ok()) return {.message = summary.message};
+  if (!summary.solved()) return no_answer<Vibration>(summary.message);
 
   const LanczosProblem problem{.size = body.size(),
                                .rank = stiffness.freedom(),
                                .A = [&](const Eigen::MatrixXd& x) { return stiffness.solve(mass_times(body.m, x)); },
                                .B = [&](const Eigen::MatrixXd& x) { return mass_times(body.m, x); }};
-  if (problem.rank <= 0) return {.message = "no degree of freedom is free"};
+  if (problem.rank <= 0) return no_answer<Vibration>("no degree of freedom is free");
   const double smallest = 1 / (options.highest * options.highest - shift);
   const LanczosResult lanczos = block_lanczos(problem, options.count, smallest, options.rtol);
-  if (!lanczos.converged) return {.message = "the iteration for modes found no further direction"};
+  if (!lanczos.solved()) return no_answer<Vibration>(lanczos.message);
 
-  Vibration modes{.ok = true, .shapes = lanczos.vectors, .solves = lanczos.solves};
+  Vibration modes;
+  modes.set_solved(true);
+  modes.shapes = lanczos.vectors;
+  modes.solves = lanczos.solves;
   modes.omega.resize(lanczos.theta.size());
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k) {
     const double omega_squared = shift + 1 / lanczos.theta[k];

@@ -39,7 +39,9 @@ int parts_of(const Mesh& mesh, const std::vector<ElementFace>& faces, const Film
 }
 
 FilmSurfaceResult refused(std::string message, std::string remedy) {
-  return {.surface = std::nullopt, .message = std::move(message), .remedy = std::move(remedy)};
+  auto result = no_answer<FilmSurfaceResult>(std::move(message));
+  result.remedy = std::move(remedy);
+  return result;
 }
 
 /// The radius nearest to the cylinder's at which the mesh has outer nodes in the film's width.
@@ -171,7 +173,10 @@ FilmSurfaceResult film_surface(const Mesh& mesh, const std::vector<ElementFace>&
     return refused(fmt::format("{} functions around and {} along are finer than the surface", functions.around(),
                                functions.along()),
                    "take fewer");
-  return {.surface = surface, .message = {}, .remedy = {}};
+  FilmSurfaceResult result;
+  result.surface = std::move(surface);
+  result.set_solved(true);
+  return result;
 }
 
 }  // namespace hersey::fem

@@ -110,8 +110,8 @@ solver::FactorSummary HeatConduction::factorise() {
   const bool is_cooled =
       std::any_of(to_face_.begin(), to_face_.end(), [](const VectorXd& to_face) { return to_face.sum() > 0; });
   if (!is_cooled && free_.size() == owner_.size())
-    return {.status = solver::FactorStatus::singular, .message = "the body's heat has nowhere to go"};
-  if (free_.empty()) return {.status = solver::FactorStatus::factorised};
+    return {{solver::FactorStatus::singular, "the body's heat has nowhere to go"}};
+  if (free_.empty()) return {{solver::FactorStatus::factorised}};
   const SparseMatrix A = lower_part_of(A_, free_);
   factor_.analyse(A);
   solver::FactorSummary summary = factor_.factorise(A);

@@ -115,9 +115,11 @@ HeatedSurface heated_surface(const ElasticBody& body, const std::vector<ThermalM
                              const HeatedSurfaceOptions& options) {
   HERSEY_REQUIRE(options.angles.size() >= 3, "angles around the film");
   HeatConduction conduction(body.mesh, thermal, surroundings, body.integration);
-  if (const solver::FactorSummary summary = conduction.factorise(); !summary.ok()) return {.message = summary.message};
+  if (const solver::FactorSummary summary = conduction.factorise(); !summary.solved())
+    return no_answer<HeatedSurface>(summary.message);
   const MatrixXd P = heat_of_angles(body.mesh, surface, options.angles);
-  HeatedSurface result{.ok = true};
+  HeatedSurface result;
+  result.set_solved(true);
   result.T_body0 = conduction.temperatures(VectorXd::Zero(P.rows()));
   result.rise_body = conduction.rises(P);
   result.T0 = P.transpose() * result.T_body0;
@@ -128,8 +130,8 @@ HeatedSurface heated_surface(const ElasticBody& body, const std::vector<ThermalM
   HeldStiffness stiffness(body.K, body.m, options.held.empty() ? statically_determinate(body.mesh) : options.held);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular)
-    return {.message = "what holds the body as it expands leaves it a motion"};
-  if (!summary.ok()) return {.message = summary.message};
+    return no_answer<HeatedSurface>("what holds the body as it expands leaves it a motion");
+  if (!summary.solved()) return no_answer<HeatedSurface>(summary.message);
   MatrixXd shapes(surface.functions.count(), rises.cols());
   for (Index first = 0; first < rises.cols(); first += at_once) {
     const Index columns = std::min(at_once, rises.cols() - first);

@@ -124,7 +124,7 @@ bool Reynolds::Impl::solve_by_multigrid(const Eigen::VectorXd& b, double rtol, E
   if (!multigrid_is_sound) return false;
   const solver::GmresSummary summary = multigrid->solve(b, {.rtol = rtol, .max_iterations = most_iterations}, x);
   counts.iterations += summary.iterations;
-  return summary.converged;
+  return summary.solved();
 }
 
 void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {

@@ -50,7 +50,7 @@ void HeatEquations::solve_for(const Eigen::VectorXd& known, double share, Eigen:
   const auto M = [this](const Eigen::VectorXd& b, Eigen::VectorXd& v) { precondition(b, v); };
   const solver::GmresOptions wanted{
       .rtol = share, .max_iterations = most_iterations_, .restart = (most_iterations_ + 1) / 2};
-  if (!gmres_.solve(A, M, known, wanted, x).converged) factorise_for(known, x);
+  if (!gmres_.solve(A, M, known, wanted, x).solved()) factorise_for(known, x);
 }
 
 // Where oil turns round in cells that sweeps cannot follow.

@@ -103,15 +103,15 @@ void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, bool
     return;
   }
   const int empty = emptiest_node(model, u);
-  if (summary.converged && empty >= 0) {
-    summary.converged = false;
+  if (summary.solved() && empty >= 0) {
+    summary.set_solved(false);
     summary.worst_node = empty;
     summary.message = why_empty(model, u, empty, is_steady);
-  } else if (summary.converged && starved(model, u)) {
+  } else if (summary.solved() && starved(model, u)) {
     summary.message =
         "the film carries no pressure: nothing supplies it above the cavitation pressure; add a supply line, "
         "a hole or an edge pressure above it";
-  } else if (!summary.converged) {
+  } else if (!summary.solved()) {
     summary.message =
         fmt::format("relative residual {:.2e} after {} iterations, {:.0e} was asked; worst in {}",
                     summary.relative_residual, summary.iterations, rtol, where(model.grid, summary.worst_node));
@@ -161,8 +161,8 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
     }
     summary.relative_residual = reynolds.relative_residual();
     summary.worst_node = reynolds.worst_node();
-    summary.converged = summary.relative_residual <= options.rtol;
-    if (summary.converged || summary.iterations == options.max_iterations) return summary;
+    summary.set_solved(summary.relative_residual <= options.rtol);
+    if (summary.solved() || summary.iterations == options.max_iterations) return summary;
     reynolds.newton_increment(du, linear_tolerance(options.rtol, summary.relative_residual, last));
     last = summary.relative_residual;
     before = u;
@@ -193,7 +193,7 @@ bool start_on_coarser_grid(const Reynolds& reynolds, const SurfaceMotion& motion
   start_on_coarser_grid(coarse_reynolds, coarse.motion, coarse.history, roughly, iterations, coarse.u);
   const FilmSolveSummary summary = solve_here(coarse_reynolds, coarse.motion, coarse.history, roughly, coarse.u);
   iterations += summary.iterations;
-  if (!summary.converged) return false;
+  if (!summary.solved()) return false;
   u = refined(coarse, model);
   return true;
 }
@@ -226,7 +226,7 @@ FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, 
   briefly.max_iterations = std::min(options.max_iterations, patience);
   u = near;
   FilmSolveSummary summary = solve_by_newton(reynolds, motion, history, briefly, u);
-  if (summary.converged) return summary;
+  if (summary.solved()) return summary;
   u = near;
   summary = sweep_on(reynolds, motion, history, options, u);
   summary.iterations = briefly.max_iterations;
@@ -242,7 +242,7 @@ FilmSolveSummary fill_from_none(Reynolds& reynolds, const SurfaceMotion& motion,
   Reynolds direct(reynolds.model());
   const Eigen::VectorXd start = u;
   FilmSolveSummary summary = solve_by_newton(direct, motion, history, options, u, none);
-  if (!summary.converged && options.insists) {
+  if (!summary.solved() && options.insists) {
     const int before = summary.iterations;
     u = start;
     summary = sweep_on(reynolds, motion, history, options, u);
@@ -267,20 +267,20 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
     const bool is_no_film = summary.iterations == 0 && !summary.domain.is_inside();
     if (is_no_film) start.setZero();
   }
-  if (!summary.converged) {
+  if (!summary.solved()) {
     u = start;
     start_on_coarser_grid(reynolds, motion, history, options, coarse_iterations, u);
     const int before = summary.iterations;
     summary = solve_here(reynolds, motion, history, options, u);
     summary.iterations += before;
   }
-  if (!summary.converged && options.insists && options.solver != FilmSolver::sor && options.max_iterations > patience) {
+  if (!summary.solved() && options.insists && options.solver != FilmSolver::sor && options.max_iterations > patience) {
     const int before = summary.iterations;
     summary = rescue_by_sor(reynolds, motion, history, options, start, u);
     summary.iterations += before;
   }
   summary.coarse_iterations = coarse_iterations;
-  if (summary.converged && emptiest_node(reynolds.model(), u) >= 0) {
+  if (summary.solved() && emptiest_node(reynolds.model(), u) >= 0) {
     const int before = summary.iterations;
     summary = fill_from_none(reynolds, motion, history, options, u);
     summary.iterations += before;

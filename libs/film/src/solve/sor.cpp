@@ -198,8 +198,8 @@ FilmSolveSummary Sor::solve(const FilmSolveOptions& options, Eigen::VectorXd& u)
     if (!summary.domain.is_inside()) return summary;
     summary.relative_residual = balance_.relative_residual();
     summary.worst_node = balance_.worst_node();
-    summary.converged = summary.relative_residual <= options.rtol;
-    if (summary.converged || summary.iterations >= most) return summary;
+    summary.set_solved(summary.relative_residual <= options.rtol);
+    if (summary.solved() || summary.iterations >= most) return summary;
     followed += following() * (u - followed);
     if (followed != u) summary.domain = update_coefficients(followed);
     if (!summary.domain.is_inside()) return summary;
@@ -216,7 +216,7 @@ FilmSolveSummary solve_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, c
   FilmSolveSummary summary = sor.solve(options, u);
   // Leaves the object at the answer, as Newton does.
   if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
-  summary.converged = summary.converged && summary.domain.is_inside();
+  summary.set_solved(summary.solved() && summary.domain.is_inside());
   return summary;
 }
 

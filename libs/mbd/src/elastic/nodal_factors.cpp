@@ -64,7 +64,7 @@ bool NodalFactors::factorise(NodalFactor& factor, double shift, double scale, st
   if (K_.rows() > 0) factor.matrix.replace(K_);
   factor.shift = shift;
   factor.scale = scale;
-  if (const solver::FactorSummary summary = factor.matrix.factorise(shift); !summary.ok()) {
+  if (const solver::FactorSummary summary = factor.matrix.factorise(shift); !summary.solved()) {
     message = summary.message;
     factors_.pop_front();
     return false;

@@ -55,7 +55,7 @@ ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& 
   if (further > 0) {
     const fem::FrameSupports supports = supports_of(body, reduced);
     fem::HeldStiffness held(body.K, body.m, supports.held, supports.C);
-    HERSEY_REQUIRE(held.factorise().ok(), "a reduction has held it");
+    HERSEY_REQUIRE(held.factorise().solved(), "a reduction has held it");
     Psi -= held.solve(MatrixXd(body.K * Psi));
   }
   Psi.rightCols(films) = data.displacements.rightCols(films);

@@ -36,7 +36,7 @@ fem::ReductionOptions options_of(const Flexible& flexible, const std::vector<con
 fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh, const fem::ReductionOptions& options) {
   if (mesh == nullptr) return *body.flexible->reduced;
   fem::Reduction reduction = fem::reduce(*mesh, interface_frames(body), options);
-  if (!reduction.ok) throw cannot_be_held(body, reduction.message);
+  if (!reduction.solved()) throw cannot_be_held(body, reduction.message);
   return std::move(reduction.body);
 }
 

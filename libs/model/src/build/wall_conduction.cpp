@@ -73,7 +73,7 @@ std::shared_ptr<const film::WallConduction> wall_conduction(const Model& model, 
   const std::vector<fem::ThermalMaterial> materials(body.flexible->materials.size(), heat.material);
   fem::HeatedSurface found =
       fem::heated_surface(assembled(body), materials, surroundings_of(model, body), *bearing.heated_shell, options);
-  if (!found.ok)
+  if (!found.solved())
     throw InputError(Fault{body.flexible->position, "bodies." + body.name + ".flexible.heat", found.message,
                            "a body that `cooling` or `temperatures` reach, and that `fixed` holds if at all", ""});
   auto wall = std::make_shared<film::WallConduction>();

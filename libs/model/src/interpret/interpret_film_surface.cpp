@@ -67,7 +67,7 @@ class FilmSurfaceReader {
     if (named == nullptr) faces = fem::faces_on_cylinder(mesh, cylinder, tolerance);
     const fem::FilmSurfaceResult result =
         fem::film_surface(mesh, faces, cylinder, functions_of(mesh, faces, cylinder), tolerance);
-    if (!result.ok()) context_.fault(at, result.message, expected(), result.remedy);
+    if (!result.solved()) context_.fault(at, result.message, expected(), result.remedy);
     return result.surface;
   }
 

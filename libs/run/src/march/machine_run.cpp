@@ -48,20 +48,21 @@ void MachineRun::begin() {
   work_.begin();
 }
 
-std::string MachineRun::step(double limit) {
+Outcome MachineRun::step(double limit) {
   const MarchedStep step = march_.take(state_, limit);
-  if (!step.is_taken()) {
+  if (!step.solved()) {
     // A journal that touches has been told so already.
-    const bool is_advised = step.trouble.find("asperities") != std::string::npos;
+    const bool is_advised = step.message.find("asperities") != std::string::npos;
     if (const std::string why = thermal_trouble(machine_, true); !why.empty())
-      return fmt::format("t = {:.6g} s: {}; no step goes on from there: {}", state_.t, why, step.trouble);
-    return step.trouble + (is_advised ? "" : record_.thin_films());
+      return no_answer<Outcome>(
+          fmt::format("t = {:.6g} s: {}; no step goes on from there: {}", state_.t, why, step.message));
+    return no_answer<Outcome>(step.message + (is_advised ? "" : record_.thin_films()));
   }
   if (model_.thermal_walls == model::ThermalWalls::transient) warm_bodies(machine_, step.dt);
   record(step);
-  if (const std::string trouble = thermal_trouble(machine_); !trouble.empty())
-    return fmt::format("t = {:.6g} s: {}", state_.t, trouble);
-  return {};
+  if (const std::string why = thermal_trouble(machine_); !why.empty())
+    return no_answer<Outcome>(fmt::format("t = {:.6g} s: {}", state_.t, why));
+  return {Ending::solved};
 }
 
 StepRecord MachineRun::observe(const MarchedStep& step) {
@@ -165,15 +166,15 @@ void MachineRun::report_progress(const StepRecord& step) const {
                         .elapsed = elapsed()});
 }
 
-std::string MachineRun::finish(Status status, const std::string& message, const Summary* coarse) {
+Outcome MachineRun::finish(Status status, const std::string& message, const Summary* coarse) {
   cost_ = cost();
   try {
     if (coarse != nullptr && status == Status::completed) record_.write_step_errors(*coarse);
     record_.finish(as_written(status), message, cost_->wall_time, cost_->work);
   } catch (const results::WriteError& error) {
-    return error.what();
+    return no_answer<Outcome>(error.what());
   }
-  return {};
+  return {Ending::solved};
 }
 
 Summary MachineRun::summary() const {

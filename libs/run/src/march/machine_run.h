@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hersey/core/archive.h"
+#include "hersey/core/outcome.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/run/options.h"
@@ -37,9 +38,9 @@ class MachineRun {
   [[nodiscard]] std::string ending() const { return record_.ending(state_.t); }
 
   /// One accepted step, at most to `limit` [s].
-  /// @returns why there is none, or why none can follow it; empty where all is well
+  /// @returns unsolved, why there is none, or why none can follow it
   /// @pre begun, not at the end, state().t < limit
-  [[nodiscard]] std::string step(double limit = std::numeric_limits<double>::infinity());
+  [[nodiscard]] Outcome step(double limit = std::numeric_limits<double>::infinity());
 
   /// What acts has jumped: StepMarch::take_jump.
   void take_jump(bool moves) { march_.take_jump(state_, moves); }
@@ -62,9 +63,9 @@ class MachineRun {
   /// Writes a checkpoint beside the results where one is due, or in any case.
   void write_checkpoint(bool in_any_case);
 
-  /// Closes the results. @returns why that failed; empty where it did not
+  /// Closes the results. @returns unsolved, why that failed
   /// @param coarse  summary of the run with steps twice as long; null where no step error is asked for
-  [[nodiscard]] std::string finish(Status status, const std::string& message, const Summary* coarse);
+  [[nodiscard]] Outcome finish(Status status, const std::string& message, const Summary* coarse);
 
   /// The figures of all steps so far.
   [[nodiscard]] Summary summary() const;

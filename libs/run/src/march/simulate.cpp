@@ -44,13 +44,13 @@ class Run {
   Summary run() {
     try {
       analyse();
-      if (const std::string trouble = machine_.finish(status_, message_, coarse_); !trouble.empty()) fail(trouble);
+      if (const Outcome written = machine_.finish(status_, message_, coarse_); !written.solved()) fail(written.message);
       if (status_ == Status::completed) discard_checkpoint(options_.results);
     } catch (const results::WriteError& error) {
       fail(error.what());
     } catch (const std::exception& error) {
       fail(fmt::format("t = {:.6g} s: {}", machine_.state().t, error_text(error)));
-      if (const std::string trouble = machine_.finish(status_, message_, nullptr); !trouble.empty()) fail(trouble);
+      if (const Outcome written = machine_.finish(status_, message_, nullptr); !written.solved()) fail(written.message);
     }
     Summary summary = machine_.summary();
     summary.status = status_;
@@ -86,7 +86,7 @@ class Run {
   void march() {
     machine_.begin();
     while (!machine_.is_at_end()) {
-      if (const std::string trouble = machine_.step(); !trouble.empty()) return fail(trouble);
+      if (const Outcome step = machine_.step(); !step.solved()) return fail(step.message);
       if (is_stopped()) return;
     }
     message_ = machine_.ending();
@@ -110,16 +110,14 @@ class Run {
     const solver::EquilibriumSummary rest = solver::find_equilibrium(machine_.mechanism(), machine_.state(), options);
     newton_iterations_ += rest.iterations;
     message_ = rest.message;
-    if (!rest.converged) fail(options.turning ? rest.message : "static: " + rest.message);
-    return rest.converged;
+    if (!rest.solved()) fail(options.turning ? rest.message : "static: " + rest.message);
+    return rest.solved();
   }
 
   void linearise_here() {
     const solver::Linearisation linear = solver::linearise(machine_.mechanism(), machine_.state(), machine_.last_dt());
-    solver::Modes found;
-    if (linear.trouble.empty()) found = solver::find_modes(linear);
-    const std::string& trouble = linear.trouble.empty() ? found.message : linear.trouble;
-    if (!trouble.empty()) return fail("modes: " + trouble);
+    const solver::Modes found = linear.solved() ? solver::find_modes(linear) : no_answer<solver::Modes>(linear.message);
+    if (!found.solved()) return fail("modes: " + found.message);
     machine_.write_modes(found);
     if (!found.stable) message_ = "unstable: a small motion grows (negative damping ratio)";
   }
@@ -190,6 +188,7 @@ Summary resume(const model::Model& model, const Options& options) {
   if (begun && is_complete(model, options.results)) {
     summary.results = options.results;
     summary.t_end = summary.t_results = last_time(options.results);
+    summary.status = Status::completed;
     summary.message = "it was complete already";
     return summary;
   }

@@ -57,19 +57,19 @@ struct Simulation::Impl {
 
   // Steps are taken one by one; a limit that is passed is none.
   Advance take(double limit) {
-    if (is_finished) return {Advance::Status::ended, "the simulation is finished"};
-    if (!failure.empty()) return {Advance::Status::failed, failure};
+    if (is_finished) return {{Advance::Status::ended, "the simulation is finished"}};
+    if (!failure.empty()) return {{Advance::Status::failed, failure}};
     if (run.is_at_end()) return ended();
     is_shown = false;
     restored.clear();
     try {
       settle_jump();
-      failure = run.step(limit);
+      if (const Outcome step = run.step(limit); !step.solved()) failure = step.message;
     } catch (const std::exception& error) {
       failure = fmt::format("t = {:.6g} s: {}", run.state().t, error_text(error));
     }
-    if (!failure.empty()) return {Advance::Status::failed, failure};
-    return {};
+    if (!failure.empty()) return {{Advance::Status::failed, failure}};
+    return {{Advance::Status::advanced}};
   }
 
   [[nodiscard]] Advance ended() const {
@@ -77,7 +77,7 @@ struct Simulation::Impl {
     if (message.empty())
       message = fmt::format("simulation.duration ends at t = {:.6g} s: a longer one goes on",
                             model.simulation.start + model.simulation.duration);
-    return {Advance::Status::ended, std::move(message)};
+    return {{Advance::Status::ended, std::move(message)}};
   }
 
   void settle_jump() {
@@ -172,7 +172,7 @@ Advance Simulation::advance_to(double t) {
     const Advance step = impl_->take(t);
     if (step.status != Advance::Status::advanced) return step;
   }
-  return {};
+  return {{Advance::Status::advanced}};
 }
 
 const std::vector<InputInfo>& Simulation::inputs() const { return impl_->inputs.infos(); }
@@ -239,8 +239,8 @@ Summary Simulation::summary() const {
 Summary Simulation::finish() {
   const Summary found = summary();
   if (std::exchange(impl_->is_finished, true) || impl_->options.results.empty()) return found;
-  const std::string trouble = impl_->run.finish(found.status, found.message, nullptr);
-  if (!trouble.empty()) throw std::runtime_error(trouble);
+  const Outcome written = impl_->run.finish(found.status, found.message, nullptr);
+  if (!written.solved()) throw std::runtime_error(written.message);
   return summary();
 }
 

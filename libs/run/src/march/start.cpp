@@ -129,7 +129,7 @@ void deform(const model::Model& model, model::Machine& machine, solver::Initiali
   }
   if (options.stiff.empty()) return;
   const solver::StaticDeformationSummary summary = solver::settle_deformations(*machine.mechanism, state, options);
-  if (summary.converged) return;
+  if (summary.solved()) return;
   throw InputError(Fault{model.position_of("simulation"), "simulation.initial_deformation",
                          "a start in which the deformation that the forces hold cannot be found: " + summary.message,
                          "forces that the bodies can carry at the start",
@@ -147,7 +147,7 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   options.held_rates = machine.mechanism->given_rates();
   options.stiff = machine.mechanism->elastic_coordinates();
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
-  if (!summary.consistent()) throw InputError(faults_of(model, summary));
+  if (!summary.solved()) throw InputError(faults_of(model, summary));
   require_given_start(model, *machine.mechanism, state, summary);
   require_clearance(model, machine, state);
   deform(model, machine, options, state);

@@ -100,7 +100,7 @@ MarchedStep StepMarch::take(solver::State& state, double limit) {
   MarchedStep step = plan.analysis == model::Analysis::kinematics ? follow_drives(state, target)
                      : control_                                   ? take_controlled(state, target)
                                                                   : take_fixed(state, target);
-  if (!step.is_taken()) return step;
+  if (!step.solved()) return step;
   last_dt_ = step.dt;
   const double scale = control_ ? std::max(std::abs(target), plan.error_control->largest) : plan.step;
   if (target - state.t > 1e-12 * scale) return step;
@@ -128,17 +128,20 @@ void StepMarch::restart(solver::State& state) {
 
 // Nothing integrated: the last step, gone on with, is where Newton's method begins.
 MarchedStep StepMarch::follow_drives(solver::State& state, double target) const {
-  MarchedStep step{.dt = target - state.t};
+  MarchedStep step;
+  step.dt = target - state.t;
   const Eigen::VectorXd guess = step.dt * state.v + 0.5 * step.dt * step.dt * state.vdot;
   solver::State next = state;
   machine_.mechanism->retract(state.q, guess, next.q);
   next.t = target;
   const solver::KinematicsSummary solved = solver::solve_kinematics(*machine_.mechanism, next);
   step.solution.iterations = solved.iterations;
-  if (solved.solved())
-    state = next;
-  else
-    step.trouble = solved.message;
+  if (!solved.solved()) {
+    step.fail(solved.message);
+    return step;
+  }
+  state = next;
+  step.set_solved(true);
   return step;
 }
 
@@ -172,9 +175,10 @@ MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
       return !may_be_cut || step_error_.of_coordinates() <= kMeaningless;
     };
     step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
-    if (step.solution.converged()) {
+    if (step.solution.solved()) {
       step.local_error = step_error_.largest();
       trial_ = 2 * step.dt;
+      step.set_solved(true);
       return step;
     }
     ++rejected_;
@@ -182,8 +186,8 @@ MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
     const int enough = step.solution.status == solver::StepStatus::inaccurate ? 1 : 2;
     if (++failures == enough && has_smooth_motion_) restart(state);
     if (trial_ < model_.simulation.smallest_step) {
-      step.trouble = fmt::format("t = {:.6g} s: no convergence with a step of {:.2g} s: {}{}", state.t, step.dt,
-                                 step.solution.message, advice(step.solution));
+      step.fail(fmt::format("t = {:.6g} s: no convergence with a step of {:.2g} s: {}{}", state.t, step.dt,
+                            step.solution.message, advice(step.solution)));
       return step;
     }
   }
@@ -201,10 +205,11 @@ MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
     const double remaining = target - state.t;
     step.dt = control_->proposed(remaining);
     step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
-    if (step.solution.converged()) {
+    if (step.solution.solved()) {
       if (step.dt == remaining) state.t = target;  // exactly, not as a sum of steps
       step.local_error = step_error_.largest();
       control_->accepted(step.dt, errors);
+      step.set_solved(true);
       return step;
     }
     ++rejected_;
@@ -213,8 +218,8 @@ MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
     const std::string reason =
         inaccurate ? fmt::format("the error of {} is {:.2g} times the tolerance", step_error_.worst(), step.error)
                    : step.solution.message;
-    step.trouble = fmt::format("t = {:.6g} s: {} with the smallest step, {:.2g} s: {}", state.t,
-                               inaccurate ? "the tolerance is exceeded" : "no convergence", step.dt, reason);
+    step.fail(fmt::format("t = {:.6g} s: {} with the smallest step, {:.2g} s: {}", state.t,
+                          inaccurate ? "the tolerance is exceeded" : "no convergence", step.dt, reason));
     return step;
   }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hersey/core/archive.h"
+#include "hersey/core/outcome.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/solver/generalized_alpha.h"
@@ -15,15 +16,12 @@
 
 namespace hersey::run {
 
-/// How one step of a run was found.
-struct MarchedStep {
+/// How one step of a run was found; where none could be taken, why, with its time.
+struct [[nodiscard]] MarchedStep : Outcome {
   double dt = 0;  ///< [s]
   solver::StepSummary solution;
   double error = 0;        ///< estimated, over the tolerance; 0 where it is not controlled
   double local_error = 0;  ///< estimated, StepError::largest; 0 where nothing is integrated
-  std::string trouble;     ///< why no step could be taken, with its time; empty when one was
-
-  [[nodiscard]] bool is_taken() const { return trouble.empty(); }
 };
 
 /// Takes a machine step by step through the instants that its run has to hit: by a fixed step and its halves where

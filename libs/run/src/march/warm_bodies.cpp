@@ -40,9 +40,9 @@ void settle_walls(model::Machine& machine) {
 std::string thermal_trouble(const model::Machine& machine, bool has_failed) {
   constexpr double all_but_closed = 0.3;  // of the clearance as given
   for (const model::BuiltBearing& built : machine.bearings)
-    if (const std::string trouble = built.bearing->thermal_trouble(has_failed ? all_but_closed : bearing::seized);
-        !trouble.empty())
-      return "bearing " + built.bearing->name() + ": " + trouble;
+    if (const std::string why = built.bearing->thermal_trouble(has_failed ? all_but_closed : bearing::seized);
+        !why.empty())
+      return "bearing " + built.bearing->name() + ": " + why;
   return {};
 }
 

@@ -1,23 +1,22 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <string>
 
 #include "hersey/bearing/global_heat.h"
 #include "hersey/bearing/operating_point.h"
+#include "hersey/core/outcome.h"
 #include "hersey/film/film_heat.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/observables.h"
 
 namespace hersey::bearing {
 
-struct SteadySummary {
-  bool converged = false;
+/// Unsolved, `message` tells why; solved, it may tell of a film without oil.
+struct [[nodiscard]] SteadySummary : Outcome {
   int iterations = 0;       ///< linearisations of the film on the way
   int film_iterations = 0;  ///< SOR sweeps or multigrid cycles of film solves on the way
   int heat_iterations = 0;  ///< of film and temperature in turn
   double force_error = 0;   ///< |force - load| / |load|; 0 where the position is given
-  std::string message;      ///< why there is no answer; also a remark on the answer, such as a film without oil
 };
 
 /// Force of the film on the shell, Q = (F_x, F_y, M_y, -M_x), against position s = (e_x, e_y, t_x, t_y) of the journal:

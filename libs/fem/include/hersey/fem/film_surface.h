@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/core/surface_functions.h"
 #include "hersey/fem/film_cylinder.h"
 #include "hersey/fem/film_modes.h"
@@ -31,13 +32,10 @@ struct FilmSurface : SurfaceMap {
   std::optional<int> modes = std::nullopt;  ///< that a body keeps at most, other than ReductionOptions::film_modes
 };
 
-/// A surface, or why there is none.
-struct FilmSurfaceResult {
+/// A surface, or what is wrong with it.
+struct [[nodiscard]] FilmSurfaceResult : Outcome {
   std::optional<FilmSurface> surface;
-  std::string message;  ///< what is wrong
   std::string remedy;
-  /// Whether there is one.
-  [[nodiscard]] bool ok() const { return surface.has_value(); }
 };
 
 /// Integrals over the parts of `faces` with |z| <= L / 2, each cut exactly there and divided finely against the

@@ -56,7 +56,7 @@ class HeatConduction {
   [[nodiscard]] solver::FactorSummary factorise();
 
   /// T (n, columns) [K] of heat (n, columns) [W] into the nodes. Heat into a held node goes straight out of it.
-  /// @pre the last factorise() was ok()
+  /// @pre the last factorise() was solved()
   [[nodiscard]] Eigen::MatrixXd temperatures(const Eigen::MatrixXd& heat) const;
 
   /// What of these heat alone makes: T where all surroundings and held nodes are at 0.

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/film_surface.h"
 #include "hersey/fem/heat_conduction.h"
@@ -20,9 +20,7 @@ struct HeatedSurfaceOptions {
 
 /// Linear in the heat into each angle: at angle phi_i it has the weight w_i(phi), 1 there and 0 at both neighbours, and
 /// is spread evenly over the film's width.
-struct HeatedSurface {
-  bool ok = false;
-  std::string message;        ///< why not
+struct [[nodiscard]] HeatedSurface : Outcome {
   Eigen::VectorXd T0;         ///< mean temperatures with the same weights, no heat from the film, shape (angles) [K]
   Eigen::MatrixXd rise;       ///< by the heat into each angle, shape (angles, angles) [K/W], symmetric
   Eigen::VectorXd T_body0;    ///< at the nodes of the mesh, no heat [K]

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/fem/elastic_body.h"
 #include "hersey/solver/symmetric_factor.h"
 
@@ -34,7 +35,7 @@ class HeldStiffness {
   [[nodiscard]] solver::FactorSummary factorise(double shift = 0);
 
   /// u (3 n, columns) with (K - shift M) u = f where the body is free, u = 0 where it is held and C u = 0.
-  /// @pre the last factorise() was ok()
+  /// @pre the last factorise() was solved()
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const;
 
   /// The same with C u = d, d (constraints, columns).
@@ -63,10 +64,8 @@ class HeldStiffness {
 };
 
 /// What became of a static solution.
-struct StaticSolution {
-  bool ok = false;
+struct [[nodiscard]] StaticSolution : Outcome {
   bool held = true;          ///< false: some motion meets no resistance
-  std::string message;       ///< why not
   Eigen::MatrixXd u;         ///< displacements (3 n, loads) [m]
   Eigen::MatrixXd reaction;  ///< forces of the supports (3 n, loads) [N], zero where the body is free
 };

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/film_modes.h"
 #include "hersey/fem/frame_motion.h"
@@ -49,9 +50,8 @@ struct ReducedBody {
   [[nodiscard]] Eigen::Index internal_first() const { return 6 * static_cast<Eigen::Index>(frames.size()); }
 };
 
-struct Reduction {
-  bool ok = false;
-  std::string message;  ///< why not, naming the frame where one is to blame
+/// A reduced body; unsolved, the message names the frame where one is to blame.
+struct [[nodiscard]] Reduction : Outcome {
   ReducedBody body;
 };
 

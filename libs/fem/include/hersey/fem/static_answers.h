@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/film_surface.h"
 #include "hersey/fem/reduction.h"
@@ -11,10 +11,9 @@
 namespace hersey::fem {
 
 /// What a mesh answers at rest to motions of its frames, to every pressure on one film surface and to spin: the static
-/// condensation of all its degrees of freedom to frames and surface (theory manual, bearing.23).
-struct StaticAnswers {
-  bool ok = false;
-  std::string message;         ///< why not, naming the frame where one is to blame
+/// condensation of all its degrees of freedom to frames and surface (theory manual, bearing.23). Unsolved, the message
+/// names the frame where one is to blame.
+struct [[nodiscard]] StaticAnswers : Outcome {
   Eigen::MatrixXd shapes;      ///< displacements for unit [rotation; displacement] of each frame, (3 n, 6 frames)
   Eigen::MatrixXd stiffness;   ///< of the frames, (6 frames, 6 frames)
   Eigen::MatrixXd compliance;  ///< G^-1 T^T K^-1 T G^-1, frames at rest: displacement by forces on the functions [m/N]

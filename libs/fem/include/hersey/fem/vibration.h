@@ -1,8 +1,8 @@
 #pragma once
 
 #include <limits>
-#include <string>
 
+#include "hersey/core/outcome.h"
 #include "hersey/fem/held_stiffness.h"
 
 namespace hersey::fem {
@@ -14,9 +14,7 @@ struct VibrationOptions {
 };
 
 /// Natural modes in ascending order of frequency.
-struct Vibration {
-  bool ok = false;
-  std::string message;     ///< why not
+struct [[nodiscard]] Vibration : Outcome {
   Eigen::VectorXd omega;   ///< angular frequencies [rad/s]; 0 for motions that strain nothing
   Eigen::MatrixXd shapes;  ///< (3 n, modes), with M-norm 1, the largest component positive; zero where held
   int rigid = 0;           ///< how many are motions without strain

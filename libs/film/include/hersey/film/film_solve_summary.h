@@ -1,7 +1,6 @@
 #pragma once
 
-#include <string>
-
+#include "hersey/core/outcome.h"
 #include "hersey/film/film_domain.h"
 #include "hersey/film/film_model.h"
 
@@ -14,14 +13,13 @@ struct FilmSolveOptions {
   bool insists = true;      ///< where Newton's method cycles, SOR sweeps go on; a step in time may rather be shortened
 };
 
-struct FilmSolveSummary {
-  bool converged = false;
+/// Unsolved, `message` tells why; solved, a film without oil.
+struct [[nodiscard]] FilmSolveSummary : Outcome {
   int iterations = 0;         ///< Newton iterations, or SOR sweeps, on the film's own grid
   int coarse_iterations = 0;  ///< likewise on coarser grids, where the start was sought
   double relative_residual = 0;
   int worst_node = 0;
-  FilmDomain domain;    ///< of the last trial; outside: the iteration had nowhere to go
-  std::string message;  ///< why it ended, where it did not converge; also where it converged to a film without oil
+  FilmDomain domain;  ///< of the last trial; outside: the iteration had nowhere to go
 };
 
 }  // namespace hersey::film

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "hersey/core/outcome.h"
+
 namespace hersey::report {
 
 /// One number of a solution in the unit people use.
@@ -30,11 +32,10 @@ struct PageField {
   Eigen::VectorXd values;  ///< at the nodes, index i z.size() + j
 };
 
-/// One operating point of a bearing by itself.
-struct PageSolution {
+/// One operating point of a bearing by itself. Unsolved, it has a label, values and why there is no solution.
+struct [[nodiscard]] PageSolution : Outcome {
   std::string label;                                        ///< what tells it from the others; empty if alone
   std::vector<std::pair<std::string, std::string>> values;  ///< of the swept parameters, as written
-  std::string error;                                        ///< why there is no solution; then the rest is empty
   std::string remark;                                       ///< about its stability and the like
   std::vector<PageFigure> figures;
   std::vector<PageFeature> features;

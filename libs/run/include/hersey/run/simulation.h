@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hersey/core/archive.h"
+#include "hersey/core/outcome.h"
 #include "hersey/model/model.h"
 #include "hersey/run/options.h"
 #include "hersey/run/port_info.h"
@@ -14,17 +15,15 @@
 namespace hersey::run {
 
 /// How an advance ended.
-struct Advance {
-  enum class Status {
-    advanced,  ///< where it was asked to go
-    ended,     ///< before that, in order: the end of simulation.duration, a run that has settled or repeats itself
-    failed,    ///< without an answer; time() is that of the last good step, and the results up to it are intact
-  };
-  Status status = Status::advanced;
-  std::string message;  ///< why it ended, or failed
+enum class AdvanceStatus {
+  failed,    ///< without an answer; time() is that of the last good step, and the results up to it are intact
+  advanced,  ///< where it was asked to go
+  ended,     ///< before that, in order: the end of simulation.duration, a run that has settled or repeats itself
+};
 
-  /// Whether it ended without an answer.
-  [[nodiscard]] bool has_failed() const { return status == Status::failed; }
+/// Outcome of an advance, solved unless it failed. The message tells why it ended, or failed.
+struct [[nodiscard]] Advance : OutcomeOf<AdvanceStatus, AdvanceStatus::advanced, AdvanceStatus::ended> {
+  using Status = AdvanceStatus;
 };
 
 /// One machine, stepped from outside: for control, co-simulation, and programs that decide as they go.

@@ -6,14 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/run/work.h"
 
 namespace hersey::run {
 
 enum class Status {
+  failed,     ///< no convergence at the smallest step, or the results file could not be written
   completed,  ///< reached the end, or settled
   stopped,    ///< asked to stop; results up to then are complete
-  failed,     ///< no convergence at the smallest step, or the results file could not be written
 };
 
 /// What the length of the steps has done to the figures of one bearing: the size of their errors, estimated; not a
@@ -66,9 +67,9 @@ struct EnergySummary {
   [[nodiscard]] double error() const { return largest > 0 ? std::abs(unexplained()) / largest : 0; }
 };
 
-struct Summary {
-  Status status = Status::completed;
-  std::string message;   ///< why it ended early; "settled" where it did because nothing changed any more
+/// A run that completed or was stopped is solved. The message tells why it ended early: "settled" where nothing changed
+/// any more.
+struct [[nodiscard]] Summary : OutcomeOf<Status, Status::completed, Status::stopped> {
   std::string warning;   ///< what the user should know about a resumed run
   double t_end = 0;      ///< last accepted time [s]
   double t_results = 0;  ///< last time in the results file [s]

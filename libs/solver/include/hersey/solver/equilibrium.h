@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "hersey/core/outcome.h"
 #include "hersey/solver/equations.h"
 
 namespace hersey::solver {
@@ -17,15 +18,14 @@ struct EquilibriumOptions {
 /// Whether small motions about an equilibrium come back to it.
 enum class EquilibriumKind { stable, neutral, unstable };
 
-/// Outcome of `find_equilibrium`. Unless it converged the state is unchanged.
-struct EquilibriumSummary {
-  bool converged = false;
+/// Outcome of `find_equilibrium`. Unless it is solved the state is unchanged; a solved one that is not stable has a
+/// message that says so.
+struct [[nodiscard]] EquilibriumSummary : Outcome {
   int iterations = 0;
   double residual = 0;    ///< largest row residual relative to its tolerance
   std::string worst_row;  ///< the row behind `residual`, by name
   EquilibriumKind kind = EquilibriumKind::stable;
   std::string softest;  ///< coordinate that moves most in the motion of least stiffness, by name; empty if none is free
-  std::string message;  ///< empty when converged to a stable equilibrium
 };
 
 /// Rest under the forces at state.t: r(q, 0, 0, lambda) = 0 and Phi(q) = 0, from the consistent `state`.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "hersey/core/outcome.h"
 #include "hersey/solver/equations.h"
 
 namespace hersey::solver {
@@ -27,18 +28,13 @@ struct GeneralizedAlphaOptions {
 };
 
 /// How a step ended.
-enum class StepStatus { converged, no_convergence, domain_error, singular, inaccurate };
+enum class StepStatus { no_convergence, domain_error, singular, inaccurate, converged };
 
-/// Outcome of one step. Unless `status` is `converged` the state is the one the step started from.
-struct StepSummary {
-  StepStatus status = StepStatus::no_convergence;
+/// Outcome of one step. Unless it is solved the state is the one the step started from.
+struct [[nodiscard]] StepSummary : OutcomeOf<StepStatus, StepStatus::converged> {
   int iterations = 0;     ///< Newton iterations spent
-  double residual = 0;    ///< largest residual relative to what this step may leave, <= 1 when converged
-  std::string worst_row;  ///< the row behind `residual`, by name; empty when converged
-  std::string message;    ///< empty when converged, otherwise one sentence: what failed and where
-
-  /// Whether the step was taken.
-  [[nodiscard]] bool converged() const { return status == StepStatus::converged; }
+  double residual = 0;    ///< largest residual relative to what this step may leave, <= 1 when solved
+  std::string worst_row;  ///< the row behind `residual`, by name; empty when solved
 };
 
 /// Says whether a solved step is accurate enough, from the state it ends in and the estimate of its error of position:

@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "hersey/core/outcome.h"
+
 namespace hersey::solver {
 
 struct GmresOptions {
@@ -13,8 +15,7 @@ struct GmresOptions {
   int restart = 20;         ///< vectors kept, > 0
 };
 
-struct GmresSummary {
-  bool converged = false;
+struct [[nodiscard]] GmresSummary : Outcome {
   int iterations = 0;        ///< applications of the operator
   double residual_norm = 0;  ///< Euclidean, as the recurrence has it
 };
@@ -27,7 +28,7 @@ class Gmres {
  public:
   using Operator = std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>;
 
-  /// Solves from x = 0. Not converged, x is the best answer so far.
+  /// Solves from x = 0. Unsolved, x is the best answer so far.
   [[nodiscard]] GmresSummary solve(const Operator& A, const Operator& M, const Eigen::VectorXd& b,
                                    const GmresOptions& options, Eigen::VectorXd& x);
 

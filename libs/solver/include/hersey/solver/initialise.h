@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/solver/equations.h"
 #include "hersey/solver/initialise_options.h"
 
 namespace hersey::solver {
 
-enum class InitialiseStatus { consistent, cannot_assemble, redundant, undetermined, domain_error };
+enum class InitialiseStatus { cannot_assemble, redundant, undetermined, domain_error, consistent };
 
 /// What is left open of the constraints of one name where the mechanism cannot be assembled.
 struct OpenConstraint {
@@ -16,19 +17,14 @@ struct OpenConstraint {
   double size = 0;   ///< Euclidean norm of the residuals of these rows [m; -; unit of a drive]
 };
 
-/// Outcome of `initialise`. Unless `status` is `consistent` the state is unchanged.
-struct InitialiseSummary {
-  InitialiseStatus status = InitialiseStatus::cannot_assemble;
+/// Outcome of `initialise`. Unless it is solved, the state consistent, that is unchanged.
+struct [[nodiscard]] InitialiseSummary : OutcomeOf<InitialiseStatus, InitialiseStatus::consistent> {
   int iterations = 0;                     ///< of the position assembly
   double residual = 0;                    ///< largest constraint residual relative to its scale
   std::vector<std::string> redundant;     ///< rows that constrain a motion constrained already, by name
   std::vector<std::string> undetermined;  ///< velocity components whose motion nothing determines, by name
   std::vector<OpenConstraint> open;       ///< at the closest configuration found, the widest first
   std::vector<OpenConstraint> conflict;   ///< the same with the held positions at rest; empty where these could stay
-  std::string message;                    ///< empty when consistent
-
-  /// Whether the state was made consistent.
-  [[nodiscard]] bool consistent() const { return status == InitialiseStatus::consistent; }
 };
 
 /// Makes `state` consistent with the constraints at state.t: positions by damped Newton's method with small increments,

@@ -3,22 +3,18 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/solver/equations.h"
 
 namespace hersey::solver {
 
-enum class KinematicsStatus { solved, undetermined, cannot_close, singular };
+enum class KinematicsStatus { singular, undetermined, cannot_close, solved };
 
-/// Outcome of `solve_kinematics`. Unless `status` is `solved` the state is unchanged.
-struct KinematicsSummary {
-  KinematicsStatus status = KinematicsStatus::singular;
+/// Outcome of `solve_kinematics`. Unless it is solved the state is unchanged.
+struct [[nodiscard]] KinematicsSummary : OutcomeOf<KinematicsStatus, KinematicsStatus::solved> {
   int iterations = 0;                     ///< of the positions
   double residual = 0;                    ///< largest constraint residual relative to its scale
   std::vector<std::string> undetermined;  ///< velocity components that constraints and drives leave free, by name
-  std::string message;                    ///< empty when solved
-
-  /// Whether the motion was found.
-  [[nodiscard]] bool solved() const { return status == KinematicsStatus::solved; }
 };
 
 /// Velocity components, by name, that the constraints leave free at `state`; empty where they prescribe every motion.

@@ -2,9 +2,9 @@
 
 #include <Eigen/Dense>
 #include <complex>
-#include <string>
 #include <vector>
 
+#include "hersey/core/outcome.h"
 #include "hersey/solver/equations.h"
 
 namespace hersey::solver {
@@ -15,10 +15,9 @@ namespace hersey::solver {
 ///
 /// M, C and K of shape (free, free), those of the equations projected by Z; K holds the geometric stiffness of the
 /// multipliers, condensed unknowns their answer within `dt`. Theory manual eq. (integrator.27).
-struct Linearisation {
+struct [[nodiscard]] Linearisation : Outcome {
   Eigen::MatrixXd Z;  ///< shape (nv, free)
   Eigen::MatrixXd M, C, K;
-  std::string trouble;  ///< why there is none; empty otherwise
 };
 
 /// @param dt  length of the step within which condensed unknowns answer [s]; > 0 keeps those of the last step, 0 solves
@@ -36,10 +35,9 @@ struct Mode {
   Eigen::VectorXcd shape;       ///< of the velocity components, shape (nv), the largest entry 1
 };
 
-struct Modes {
+struct [[nodiscard]] Modes : Outcome {
   std::vector<Mode> modes;  ///< by rising frequency; motions without stiffness and damping have frequency 0
   bool stable = true;       ///< no motion grows; a free motion does not count as growing
-  std::string message;      ///< why there are none; empty otherwise
 };
 
 /// All small motions: eigenvalues of [0 I; -M^-1 K  -M^-1 C]. @cost O(free^3)

@@ -1,17 +1,14 @@
 #pragma once
 
-#include <string>
-
+#include "hersey/core/outcome.h"
 #include "hersey/solver/initialise.h"
 
 namespace hersey::solver {
 
-/// Outcome of `settle_deformations`. Unless it converged the state is unchanged.
-struct StaticDeformationSummary {
-  bool converged = false;
+/// Outcome of `settle_deformations`. Unless it is solved the state is unchanged.
+struct [[nodiscard]] StaticDeformationSummary : Outcome {
   int iterations = 0;   ///< of Newton's method
   double residual = 0;  ///< largest row residual relative to its tolerance
-  std::string message;  ///< empty when converged: what failed, and where
 };
 
 /// Deforms what is elastic as the forces at the start hold it, so that a run does not begin with the vibrations of

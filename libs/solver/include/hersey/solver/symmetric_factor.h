@@ -2,26 +2,24 @@
 
 #include <Eigen/SparseCore>
 #include <memory>
-#include <string>
 #include <vector>
+
+#include "hersey/core/outcome.h"
 
 namespace hersey::solver {
 
 enum class FactorStatus {
-  factorised,
+  failed,     ///< not a number, or out of memory on the way
   singular,   ///< some unknowns have no equation of their own: `null_unknowns`
   too_large,  ///< the factor would not fit into the memory at hand; nothing was tried
-  failed      ///< not a number, or out of memory on the way
+  factorised
 };
 
-struct FactorSummary {
-  FactorStatus status = FactorStatus::failed;
+/// Whether there is a factor to solve with; why not, with figures.
+struct [[nodiscard]] FactorSummary : OutcomeOf<FactorStatus, FactorStatus::factorised> {
   int negative_pivots = 0;  ///< as many as A has negative eigenvalues (Sylvester's law of inertia)
-  std::vector<int>
-      null_unknowns;    ///< where pivots vanished, ascending: some, not always all, of the null space's dimensions
-  std::string message;  ///< why it failed, with figures; empty if it did not
-  /// Whether there is a factor to solve with.
-  [[nodiscard]] bool ok() const { return status == FactorStatus::factorised; }
+  /// Where pivots vanished, ascending: some, not always all, of the null space's dimensions.
+  std::vector<int> null_unknowns = {};
 };
 
 /// Sparse L D L^T of a sequence of large symmetric matrices that share one pattern (MUMPS, ordering by METIS).
@@ -49,12 +47,13 @@ class SymmetricFactor {
   /// Factorisation is refused above this; at first nine tenths of the memory that the machine has free.
   void set_memory_limit(double bytes);
 
-  /// Factorises a matrix with the pattern that analyse() saw. After anything but `ok()` there is nothing to solve with.
+  /// Factorises a matrix with the pattern that analyse() saw. After anything but `solved()` there is nothing to solve
+  /// with.
   [[nodiscard]] FactorSummary factorise(const Eigen::SparseMatrix<double>& A);
 
   /// Overwrites every column of `b` (n, columns) by the solution of A x = b. Many columns at once take far less
   /// than one after the other.
-  /// @pre the last factorise() was ok()
+  /// @pre the last factorise() was solved()
   void solve(Eigen::Ref<Eigen::MatrixXd> b) const;
 
   /// Rows n of the pattern; 0 before analyse().

@@ -15,9 +15,9 @@ namespace hersey::study {
 enum class ThermalCoefficients { frozen, total };
 
 /// A bearing by itself at one operating point, and all that is to be said about it.
-struct BearingSolution {
+/// Unsolved, all but `run` is empty.
+struct [[nodiscard]] BearingSolution : Outcome {
   model::StudyRun run;
-  std::string error;  ///< why there is no solution; then the rest is empty
   film::FilmModel model;
   bool expands = false;                 ///< its clearance follows the temperatures of its walls
   std::vector<std::string> node_names;  ///< of the thermal network that its walls belong to; none: they belong to none
@@ -35,8 +35,6 @@ struct BearingSolution {
 
   /// Whether its temperatures have been solved for.
   [[nodiscard]] bool has_temperatures() const { return state.heat || state.effective; }
-  /// Whether there is a solution.
-  [[nodiscard]] bool solved() const { return error.empty(); }
 };
 
 struct BearingStudyOptions {
@@ -80,7 +78,7 @@ class BearingSolver {
   BearingSolver();
   /// The bearing of `model` that `options` name; `options.threads` and `options.first` are without meaning. May be
   /// called from several threads at once.
-  /// @returns a solution, or why there is none in BearingSolution::error.
+  /// @returns a solution, or why there is none.
   /// @throws InputError where the model gives no operating point, or one that cannot be solved.
   [[nodiscard]] BearingSolution solve(const model::Model& model, const BearingStudyOptions& options) const;
 

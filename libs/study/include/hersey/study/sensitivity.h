@@ -7,14 +7,13 @@
 
 namespace hersey::study {
 
-/// How every figure of a bearing's solution follows one key of the model file.
-struct Sensitivity {
+/// How every figure of a bearing's solution follows one key of the model file. Unsolved, `slopes` is empty.
+struct [[nodiscard]] Sensitivity : Outcome {
   std::string parameter;  ///< key path
   double value = 0;       ///< [unit]
   std::string unit;       ///< SI
   double size = 1;        ///< of the unit in the file, in `unit`
   bool exact = true;      ///< by the Jacobian of the solution; else by the difference of two solutions
-  std::string error;      ///< why there is none; then `slopes` is empty
   /// Derivative of each of figures_of(solution), SI over SI; not a number where a figure has none.
   std::vector<double> slopes;
 };

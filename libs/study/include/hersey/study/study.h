@@ -12,11 +12,11 @@
 
 namespace hersey::study {
 
-/// One run of a study and how it ended.
-struct RunResult {
+/// One run of a study. Solved, it has a summary, which tells how the run ended; unsolved, it could not start or write
+/// its results, and `summary` is empty.
+struct [[nodiscard]] RunResult : Outcome {
   model::StudyRun run;
   run::Summary summary;
-  std::string error;  ///< the run could not start or write its results; then `summary` is empty
 };
 
 struct Options {
