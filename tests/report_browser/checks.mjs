@@ -451,7 +451,7 @@ export const besideReport = {
 
   "a page without its file says so, and goes on": async (page) => {
     const folder = await mkdtemp(join(tmpdir(), "hersey-alone-"));
-    const alone = await page.context().newPage();
+    const alone = await page.context().browser().newPage();
     try {
       await copyFile(fileURLToPath(page.url()), join(folder, "report.html"));
       await alone.goto(pathToFileURL(join(folder, "report.html")).href);
