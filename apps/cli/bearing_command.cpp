@@ -208,6 +208,7 @@ int bearing_command(const BearingArguments& arguments) {
   require_one(arguments, model, runs.size());
   const auto coefficients = arguments.thermal_coefficients == "total" ? study::ThermalCoefficients::total
                                                                       : study::ThermalCoefficients::frozen;
+  study::require_coefficients(study::bearing_called(model, arguments.bearing), coefficients);
   const study::BearingStudyOptions options{.bearing = arguments.bearing,
                                            .grid_error = !arguments.no_grid_error,
                                            .thermal_coefficients = coefficients,

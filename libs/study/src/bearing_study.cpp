@@ -131,12 +131,7 @@ bearing::SteadySummary solve_at(film::FilmModel& film, const bearing::OperatingP
 bool let_heat_follow(const model::Bearing& bearing, const BearingStudyOptions& options,
                      const bearing::SteadyOptions& steady, BearingSolution& solution) {
   if (options.thermal_coefficients == ThermalCoefficients::frozen || !solution.has_temperatures()) return true;
-  const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
-  if (solution.elasticity || (heat != nullptr && std::holds_alternative<film::BodyWall>(heat->shell)))
-    refuse_total(bearing, "surfaces that deform", "rigid surfaces");
-  if (bearing.expansion) refuse_total(bearing, "walls that expand", "a clearance without `expansion`");
-  if (heat != nullptr && film::terminals_of(*heat).has_any())
-    refuse_total(bearing, "nodes of a network", "walls and oil by themselves");
+  require_coefficients(bearing, options.thermal_coefficients);
   bearing::SteadyOptions nearby = steady;
   nearby.start_film = solution.state.u;
   if (solution.state.heat) nearby.start_heat = solution.state.heat->state;
@@ -338,6 +333,18 @@ void require_rest(const model::Bearing& bearing) {
 }
 
 }  // namespace
+
+void require_coefficients(const model::Bearing& bearing, ThermalCoefficients coefficients) {
+  const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
+  const bool has_temperatures = heat != nullptr || std::holds_alternative<bearing::GlobalHeat>(bearing.heat);
+  if (coefficients == ThermalCoefficients::frozen || !has_temperatures) return;
+  const bool is_elastic = bearing.shell_surface || bearing.journal_surface;
+  if (is_elastic || (heat != nullptr && std::holds_alternative<film::BodyWall>(heat->shell)))
+    refuse_total(bearing, "surfaces that deform", "rigid surfaces");
+  if (bearing.expansion) refuse_total(bearing, "walls that expand", "a clearance without `expansion`");
+  if (heat != nullptr && film::terminals_of(*heat).has_any())
+    refuse_total(bearing, "nodes of a network", "walls and oil by themselves");
+}
 
 bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
   if (!bearing.operating_point) {

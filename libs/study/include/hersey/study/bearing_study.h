@@ -53,6 +53,9 @@ struct BearingStudyOptions {
 /// @throws InputError where the bearing has none.
 [[nodiscard]] bearing::OperatingPoint operating_point_of(const model::Bearing& bearing);
 
+/// @throws InputError where temperatures that follow the motion are not to be had of this bearing's coefficients.
+void require_coefficients(const model::Bearing& bearing, ThermalCoefficients coefficients);
+
 /// Gives the model with overrides in place, as model::read does; called from several threads at once.
 using ModelReader = std::function<model::Model(const std::vector<std::string>& overrides)>;
 
