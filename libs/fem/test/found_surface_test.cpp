@@ -10,6 +10,7 @@
 #include "hersey/fem/mesh_file.h"
 #include "ring.h"
 #include "small_bodies.h"
+#include "source_dir.h"
 
 namespace hersey::fem {
 namespace found_surface_test {
@@ -266,7 +267,7 @@ TEST_CASE("SurfaceThatTheMeshNames_KeepsItsName_AndOthersAreAdded") {
 TEST_CASE("ExampleParts_HaveTheBoresAndJournalsOfTheirPages") {
   const auto uses = [](const char* file, Use use) {
     std::vector<std::string> names;
-    const auto path = std::filesystem::path(HERSEY_SOURCE_DIR) / "examples/meshes" / file;
+    const auto path = std::filesystem::path(hersey::source_dir()) / "examples/meshes" / file;
     for (const FoundSurface& surface : find_surfaces(read_mesh(path, 1e-3)))
       if (surface.use() == use) names.push_back(surface.name);
     return names;

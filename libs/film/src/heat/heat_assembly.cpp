@@ -205,7 +205,7 @@ void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& fil
   known_.segment(first, n) = scale * body.temperatures(friction);
 }
 
-void HeatEquations::add_ring(const RingWall& ring, const CarryingFilm& film, const HeatState& start) {
+void HeatEquations::add_ring(const CarryingFilm& film, const HeatState& start) {
   const int n = model_.grid.n_phi;
   for (int i = 0; i < n; ++i) {
     const int row = system_.ring_row(i), next = (i + 1) % n;
