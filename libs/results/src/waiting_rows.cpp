@@ -11,6 +11,7 @@ namespace hersey::results {
 namespace {
 
 constexpr std::size_t prepared_bytes = std::size_t{4} << 20;    // at a time
+constexpr std::size_t prepared_first = std::size_t{64} << 20;   // of the bytes expected, before the first row
 constexpr std::size_t gathered_numbers = std::size_t{1} << 16;  // 512 KiB: what a processor holds close to itself
 
 /// Asks for large pages, of which a machine's rows fill less than one a step instead of dozens of small ones. A wish.
@@ -44,15 +45,19 @@ void WaitingRows::expect(std::size_t numbers, std::size_t steps) {
   // Memory that is never used costs nothing, to move it does.
   if (numbers > 0) numbers_.reserve(std::min(most_numbers / numbers, steps) * numbers);
   wish_large_pages(numbers_.data(), numbers_.capacity() * sizeof(double));
+  prepare(std::min(numbers_.capacity(), prepared_first / sizeof(double)));
+}
+
+void WaitingRows::prepare(std::size_t end) {
+  if (end <= prepared_) return;
+  put_memory_behind(numbers_.data() + prepared_, (end - prepared_) * sizeof(double));
+  prepared_ = end;
 }
 
 std::span<double> WaitingRows::open(std::size_t width) {
   const std::size_t end = used_ + width;
-  if (end > prepared_ && end <= numbers_.capacity()) {
-    const std::size_t last = std::min(numbers_.capacity(), end + prepared_bytes / sizeof(double));
-    put_memory_behind(numbers_.data() + prepared_, (last - prepared_) * sizeof(double));
-    prepared_ = last;
-  }
+  if (end > prepared_ && end <= numbers_.capacity())
+    prepare(std::min(numbers_.capacity(), end + prepared_bytes / sizeof(double)));
   numbers_.resize(used_);
   numbers_.resize(end);
   return {numbers_.data() + used_, width};

@@ -16,7 +16,8 @@ class WaitingRows {
  public:
   static constexpr std::size_t most_numbers = std::size_t{1} << 25;  // 256 MiB
 
-  /// Makes room for as many steps of `numbers` numbers as fit, so that rows need not be moved.
+  /// Makes room for as many steps of `numbers` numbers as fit, so that rows need not be moved; the first of it has its
+  /// memory at once.
   void expect(std::size_t numbers, std::size_t steps);
 
   /// Room for `width` numbers, zeros, which count once they are added; a second call forgets the first.
@@ -33,6 +34,9 @@ class WaitingRows {
                 const std::function<void(std::size_t series, const std::vector<double>& rows)>& take);
 
  private:
+  /// Puts memory behind the first `end` numbers.
+  void prepare(std::size_t end);
+
   /// Rows of series that follow each other.
   struct Run {
     std::uint32_t first = 0, count = 0;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMeaningless = 0.02;  // rad, or sizes of the machine, that one step may be off
 constexpr double kOneInstant = 1e-6;   // of the fixed step: instants that others reckon up
 constexpr double kOfTolerance = 0.1;   // of a step's error that what films leave unsolved may be
-constexpr double kLargestCondensed = 1e-5;
+constexpr double kLargestCondensed = 1e-6;
 constexpr double kShortest = 1.0 / 64;  // of the fixed step: shorter ones are taken whatever their error
 
 solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {

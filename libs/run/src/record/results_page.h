@@ -47,6 +47,14 @@ parameters. Others are compared under their names, in every table and figure: th
 beside. `--names before,after` gives them names of your own. The page lays up to eight runs over each other over the last cycle (over the whole
 run where there is none), with what they differ by and a table of changes. A page is never written over what it is made from.
 
+The section *Spectra and orders* of a run's page shows the amplitudes of any of its series: over frequency, under Hann's window, of the last
+cycle or the second half, or of the whole run; or over the orders of what turns (the crank, else a hinge, else a body) over whole turns,
+where the lines of what repeats are exact. A sine of amplitude 1 has a peak of 1. Where the speed changes by more than a fifth there are a waterfall
+and order tracks too (windows of up to 8 turns), and curves can be drawn over the speed, its mean over one turn.
+
+A page holds at most 4 MB of the films' fields. Where more are stored it shows every k-th instant, and a button loads all of a film from the folder
+beside it (`report_fields` beside `report.html`, up to 256 MB); move both together. Pages work without the folder.
+
 ## Layout
 
 `n` is the number of stored instants, `m` that of stored fields, `c` that of cycles; `<...>` stands for a name. Vectors of bodies and joints are in ground or joint
