@@ -107,6 +107,7 @@ export const runReport = {
     for (const [section, caption] of [["Further quantities of the film", "Wear depth: depth worn off the shell."], ["Bodies", "anything: Load: what it bears."]]) {
       await other.locator("details > summary", { hasText: section }).click();
       const figure = other.locator("figure", { hasText: caption });
+      await figure.first().waitFor({ timeout: 5000 }).catch(() => {});  // a section draws when it has opened
       assert.equal(await figure.count(), 1, `no figure "${caption}"`);
       assert.ok(Math.max(...(await colouredPixels(figure))) > 0, `nothing is drawn of "${caption}"`);
     }
