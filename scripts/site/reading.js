@@ -7,5 +7,8 @@ addEventListener("load", () => {
     }
   };
   mark();
+  // The theme's search is a dialog without a name, and its list scrolls.
+  document.querySelector(".md-search")?.setAttribute("aria-label", "Search");
+  document.querySelector(".md-search__scrollwrap")?.setAttribute("tabindex", "0");
   addEventListener("resize", mark);
 });
