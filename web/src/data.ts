@@ -198,11 +198,17 @@ export class Run {
 
   /** The datasets in a group with a row for each of the time series', with what the file says of them. */
   growingIn(group: string): SeriesText[] {
-    const rows = this.text.datasets["/time"]?.shape[0];
     return this.datasetNames(group).flatMap((name) => {
-      const { shape, unit, description } = this.text.datasets[`${group}/${name}`]!;
-      return shape[0] === rows ? [{ name, unit, description, width: shape.slice(1).reduce((a, b) => a * b, 1) }] : [];
+      const { unit, description } = this.text.datasets[`${group}/${name}`]!;
+      const width = this.widthOf(`${group}/${name}`);
+      return width === undefined ? [] : [{ name, unit, description, width }];
     });
+  }
+
+  /** Numbers in each row of a dataset with a row for each instant of the time series. */
+  private widthOf(path: string): number | undefined {
+    const { shape } = this.text.datasets[path]!;
+    return shape[0] === this.text.datasets["/time"]?.shape[0] ? shape.slice(1).reduce((a, b) => a * b, 1) : undefined;
   }
 
   /** Those of one number a row. */
@@ -212,10 +218,9 @@ export class Run {
 
   /** All datasets with a row for each instant of the time series, and a few numbers in each. */
   seriesPaths(): { path: string; unit: string; description: string; width: number; columns: string[] }[] {
-    const rows = this.text.datasets["/time"]?.shape[0];
-    return Object.entries(this.text.datasets).flatMap(([path, { shape, unit, description, columns }]) => {
-      const width = shape.slice(1).reduce((a, b) => a * b, 1);
-      return shape[0] === rows && width <= 9 ? [{ path, unit, description, width, columns: columns ?? [] }] : [];
+    return Object.entries(this.text.datasets).flatMap(([path, { unit, description, columns }]) => {
+      const width = this.widthOf(path);
+      return width !== undefined && width <= 9 ? [{ path, unit, description, width, columns: columns ?? [] }] : [];
     });
   }
 
