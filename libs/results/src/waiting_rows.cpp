@@ -11,7 +11,7 @@ namespace hersey::results {
 namespace {
 
 constexpr std::size_t prepared_bytes = std::size_t{4} << 20;    // at a time
-constexpr std::size_t prepared_first = std::size_t{64} << 20;   // of the bytes expected, before the first row
+constexpr std::size_t prepared_steps = 512;                     // before the first row
 constexpr std::size_t gathered_numbers = std::size_t{1} << 16;  // 512 KiB: what a processor holds close to itself
 
 /// Asks for large pages, of which a machine's rows fill less than one a step instead of dozens of small ones. A wish.
@@ -45,7 +45,7 @@ void WaitingRows::expect(std::size_t numbers, std::size_t steps) {
   // Memory that is never used costs nothing, to move it does.
   if (numbers > 0) numbers_.reserve(std::min(most_numbers / numbers, steps) * numbers);
   wish_large_pages(numbers_.data(), numbers_.capacity() * sizeof(double));
-  prepare(std::min(numbers_.capacity(), prepared_first / sizeof(double)));
+  prepare(std::min(numbers_.capacity(), prepared_steps * numbers));
 }
 
 void WaitingRows::prepare(std::size_t end) {
@@ -89,7 +89,7 @@ WaitingRows::Places WaitingRows::places(const std::vector<std::size_t>& widths) 
 }
 
 void WaitingRows::take_out(const std::vector<std::size_t>& widths,
-                           const std::function<void(std::size_t series, const std::vector<double>& rows)>& take) {
+                           const std::function<void(std::size_t series, std::span<const double> rows)>& take) {
   const Places at = places(widths);
   const auto first_of = [&](std::size_t series) { return series > 0 ? at.last[series - 1] : 0; };
   const auto count_of = [&](std::size_t series) { return at.last[series] - first_of(series); };

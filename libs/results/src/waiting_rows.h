@@ -14,7 +14,7 @@ namespace hersey::results {
 /// little more than their copying, and of rows of neighbouring series it is kept only where they begin.
 class WaitingRows {
  public:
-  static constexpr std::size_t most_numbers = std::size_t{1} << 25;  // 256 MiB
+  static constexpr std::size_t most_numbers = std::size_t{1} << 24;  // 128 MiB
 
   /// Makes room for as many steps of `numbers` numbers as fit, so that rows need not be moved; the first of it has its
   /// memory at once.
@@ -31,7 +31,7 @@ class WaitingRows {
   /// Gives all rows of one series at a time, in the series' order, and forgets them.
   /// @param widths  numbers per row of each series
   void take_out(const std::vector<std::size_t>& widths,
-                const std::function<void(std::size_t series, const std::vector<double>& rows)>& take);
+                const std::function<void(std::size_t series, std::span<const double> rows)>& take);
 
  private:
   /// Puts memory behind the first `end` numbers.

@@ -9,7 +9,9 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <exception>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -17,6 +19,7 @@
 #include <unordered_set>
 
 #include "dimension_scales.h"
+#include "growing_dataset.h"
 #include "hdf5_handle.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/sealed_file.h"
@@ -30,20 +33,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t chunk_numbers = 256;         // 2 KiB: rewritten at most once a flush while it fills
-constexpr std::size_t large_chunk_numbers = 1024;  // of series of many rows
-constexpr std::size_t block_numbers = 1u << 20;    // that rows of one series are copied in
-constexpr std::size_t many_numbers =
-    WaitingRows::most_numbers / 8 * 7;                // then a flush is due, however short ago the last
-constexpr double flush_share = 0.03;                  // of the time of a run, which flushes take at most
-constexpr std::size_t chunk_cache_bytes = 64u << 10;  // per dataset; only the last chunk is ever touched again
-
-/// One growing dataset.
-struct Growing {
-  std::string name;
-  Handle dataset;
-  std::vector<hsize_t> shape;  // shape[0] rows are in it
-};
+constexpr std::size_t block_numbers = 1u << 20;  // that rows of one series are copied in
+constexpr double flush_share = 0.03;             // of the time of a run, which flushes take at most
+constexpr unsigned index_node_half = 8;          // entries of half an index node: most series have a dozen chunks
 
 std::size_t numbers_of(const std::vector<std::size_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
@@ -67,6 +59,13 @@ int create(const std::filesystem::path& path, bool overwrite) {
   if (fd >= 0) return fd;
   if (errno == EEXIST && !overwrite) throw FileExists(path);
   throw WriteError(path, std::string("cannot create the results file: ") + std::strerror(errno));
+}
+
+/// Of datasets whose chunks are written whole.
+Handle without_chunk_cache() {
+  Handle access(H5Pcreate(H5P_DATASET_ACCESS));
+  H5Pset_chunk_cache(access.get(), 1, 0, 1.0);
+  return access;
 }
 
 }  // namespace
@@ -96,18 +95,21 @@ struct Writer::Impl {
   Handle scalar{H5Screate(H5S_SCALAR)};
   Handle file;
   std::optional<DimensionScales> scales;
-  std::vector<Growing> growing;
+  std::vector<GrowingDataset> growing;
   std::vector<std::size_t> widths;        // numbers per row of each; in memory too
   WaitingRows waiting;                    // not in the file yet
+  WaitingRows leaving;                    // on their way into it
   std::vector<double> open_rows;          // of a block that is being filled in; in memory
   bool expects_rows = false;              // room for them is made
   std::unordered_set<std::string> names;  // of groups and datasets made so far
   std::string parent_name = "/";          // of the group opened last
   Handle parent;
   std::map<std::vector<hsize_t>, Handle> creations;  // property lists of datasets by the shape of their chunks
-  std::map<std::size_t, Handle> accesses;            // and by the room in memory for chunks
+  Handle without_cache = without_chunk_cache();
   Clock::time_point last_flush = Clock::now();
   double flush_cost = 0;  // of the last one [s]; before there are rows, what making the series took
+  std::future<void>
+      writing;  // what is under way: the file, its series, `leaving` and the cost are its own until it ends
 
   std::size_t keep(std::string_view name, std::string_view unit, std::string_view description,
                    std::vector<std::size_t> row_shape, std::string_view dimension) {
@@ -138,7 +140,9 @@ struct Writer::Impl {
       throw WriteError(path, "HDF5 refuses the file driver");
     }
     keep_metadata(access.get());
-    file = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+    const Handle creation(H5Pcreate(H5P_FILE_CREATE));
+    H5Pset_istore_k(creation.get(), index_node_half);
+    file = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()));
     require(file.valid(), "HDF5 cannot create the file");
     scales.emplace(file.get());
   }
@@ -238,21 +242,6 @@ struct Writer::Impl {
     return list.get();
   }
 
-  hid_t access_of(std::size_t row_bytes) {
-    const std::size_t bytes = std::max(chunk_cache_bytes, 2 * row_bytes);
-    Handle& list = accesses[bytes];
-    if (list.valid()) return list.get();
-    list = Handle(H5Pcreate(H5P_DATASET_ACCESS));
-    H5Pset_chunk_cache(list.get(), 31, bytes, 1.0);
-    return list.get();
-  }
-
-  /// Chunks of a run of many rows are larger: making a chunk costs more than filling it.
-  [[nodiscard]] std::size_t chunk_rows(std::size_t width) const {
-    const std::size_t least = chunk_numbers / width, most = large_chunk_numbers / width;
-    return std::max<std::size_t>(1, std::clamp(options.rows / 4, least, most));
-  }
-
   void make_scale(const Handle& dataset, const std::string& name) {
     require(scales->make_scale(dataset.get(), name), "HDF5 cannot make " + name + " a dimension");
   }
@@ -314,27 +303,25 @@ struct Writer::Impl {
   std::size_t make_growing(std::string_view name, const std::vector<hsize_t>& row_shape, std::string_view unit,
                            std::string_view description, Precision precision, std::vector<std::string> dimensions) {
     const Clock::time_point began = Clock::now();
-    Growing entry{absolute(name), {}, {0}};
-    std::size_t width = 1;
+    std::vector<hsize_t> shape{0}, largest{H5S_UNLIMITED}, chunk{1};
     for (const hsize_t n : row_shape) {
       HERSEY_REQUIRE(n > 0, "a row has numbers");
-      entry.shape.push_back(n);
-      width *= n;
+      for (std::vector<hsize_t>* sizes : {&shape, &largest, &chunk}) sizes->push_back(n);
     }
-    std::vector<hsize_t> largest = entry.shape, chunk = entry.shape;
-    largest[0] = H5S_UNLIMITED;
-    chunk[0] = chunk_rows(width);
-    const int rank = static_cast<int>(entry.shape.size());
-    const Handle space(H5Screate_simple(rank, entry.shape.data(), largest.data()));
+    const std::size_t width = std::accumulate(row_shape.begin(), row_shape.end(), std::size_t{1}, std::multiplies<>());
+    const std::size_t chunk_rows = GrowingDataset::chunk_rows(width, options.rows);
+    chunk[0] = chunk_rows;
+    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), largest.data()));
     const hid_t type = precision == Precision::float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-    entry.dataset = make_dataset(name, type, space.get(), creation_of(chunk), access_of(8 * width), unit, description);
-    const std::string rows = scales->of_rows(entry.name);
-    if (rows == entry.name && row_shape.empty()) make_scale(entry.dataset, rows);
-    if (scales->has(rows) && rows != entry.name) {
+    const std::string path_ = absolute(name);
+    Handle dataset = make_dataset(path_, type, space.get(), creation_of(chunk), without_cache.get(), unit, description);
+    const std::string rows = scales->of_rows(path_);
+    if (rows == path_ && row_shape.empty()) make_scale(dataset, rows);
+    if (scales->has(rows) && rows != path_) {
       dimensions.insert(dimensions.begin(), rows);
-      name_dimensions(entry.dataset, entry.name, dimensions);
+      name_dimensions(dataset, path_, dimensions);
     }
-    growing.push_back(std::move(entry));
+    growing.emplace_back(path_, std::move(dataset), row_shape, chunk_rows, precision);
     widths.push_back(width);
     flush_cost += std::chrono::duration<double>(Clock::now() - began).count();
     return growing.size() - 1;
@@ -346,12 +333,10 @@ struct Writer::Impl {
       open_rows.assign(width, 0);
       return open_rows;
     }
-    require_open();
+    if (!options.writes_beside) require(true, {});
+    HERSEY_REQUIRE(file.valid(), "the results file is finished");
     if (!expects_rows) expect_rows();
-    if (!waiting.has_room_for(width)) {
-      const Hdf5Session session;
-      drain();
-    }
+    if (!waiting.has_room_for(width)) make_room();
     return waiting.open(width);
   }
 
@@ -367,42 +352,65 @@ struct Writer::Impl {
   }
 
   void expect_rows() {
-    waiting.expect(std::accumulate(widths.begin(), widths.end(), std::size_t{0}), options.rows + 2);
+    const std::size_t numbers = std::accumulate(widths.begin(), widths.end(), std::size_t{0});
+    waiting.expect(numbers, options.rows + 2);
+    if (options.writes_beside) leaving.expect(numbers, options.rows + 2);
     expects_rows = true;
   }
 
-  /// Hands the rows to HDF5, one series after the other; they are safe only after H5Fflush.
-  void drain() {
-    waiting.take_out(widths, [this](std::size_t series, const std::vector<double>& rows) { add_rows(series, rows); });
+  void make_room() {
+    if (options.writes_beside) return hand_over();
+    const Hdf5Session session;
+    require(true, {});
+    drain(waiting);
   }
 
-  void add_rows(std::size_t series, const std::vector<double>& rows) {
-    Growing& entry = growing[series];
-    std::vector<hsize_t> start(entry.shape.size(), 0), count = entry.shape;
-    start[0] = entry.shape[0];
-    count[0] = rows.size() / widths[series];
-    entry.shape[0] += count[0];
-    bool good = H5Dset_extent(entry.dataset.get(), entry.shape.data()) >= 0;
-    const Handle space(H5Dget_space(entry.dataset.get()));
-    const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr));
-    good = good && H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
-    good = good &&
-           H5Dwrite(entry.dataset.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, rows.data()) >= 0;
-    require(good, "HDF5 cannot add rows");
+  /// Has the rows put into the file beside what goes on; waits for those before them.
+  void hand_over() {
+    settle();
+    require(true, {});
+    std::swap(waiting, leaving);
+    writing = std::async(std::launch::async, [this] {
+      const Hdf5Session session;
+      flush(leaving);
+    });
   }
 
-  void flush() {
+  /// Waits for rows that are on their way into the file. @throws WriteError where they did not get there
+  void settle() {
+    if (writing.valid()) writing.get();
+  }
+
+  [[nodiscard]] bool is_writing() const {
+    return writing.valid() && writing.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+  }
+
+  /// To be alone with the file, rows handed over being in it.
+  [[nodiscard]] Hdf5Session enter() {
+    settle();
+    return Hdf5Session();
+  }
+
+  /// Hands rows to HDF5, one series after the other; they are safe only after H5Fflush.
+  void drain(WaitingRows& rows) {
+    rows.take_out(widths, [this](std::size_t series, std::span<const double> numbers) {
+      require(growing[series].add(numbers), "HDF5 cannot add rows");
+    });
+  }
+
+  void flush(WaitingRows& rows) {
     const Clock::time_point began = Clock::now();
-    const bool has_rows = waiting.numbers() > 0;
-    drain();
+    const bool has_rows = rows.numbers() > 0;
+    drain(rows);
     require(H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0, "HDF5 cannot flush");
     last_flush = Clock::now();
     // A flush of few rows does not tell what the next one will cost.
     if (has_rows) flush_cost = std::max(std::chrono::duration<double>(last_flush - began).count(), 0.5 * flush_cost);
   }
 
+  /// While nothing is under way.
   [[nodiscard]] bool is_flush_due() const {
-    if (waiting.numbers() >= many_numbers || options.flush_interval == 0) return true;
+    if (options.flush_interval == 0) return true;
     const std::chrono::duration<double> since = Clock::now() - last_flush;
     return since.count() >= std::max(options.flush_interval, flush_cost / flush_share);
   }
@@ -435,7 +443,7 @@ Writer::Writer(std::filesystem::path path, Options options) {
   attribute("/", "created", now_iso8601());
   attribute("/", "status", to_string(Status::running));
   attribute("/", "message", "");
-  impl_->flush();
+  impl_->flush(impl_->waiting);
 }
 
 Writer::Writer(InMemory) : impl_(std::make_unique<Impl>()) { impl_->in_memory = true; }
@@ -450,14 +458,14 @@ Writer::~Writer() {
 
 void Writer::attribute(std::string_view object, std::string_view name, std::string_view text) {
   if (impl_->in_memory) return;
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   impl_->set_text(impl_->open_or_make(absolute(object)).get(), name, text);
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, double value) {
   if (impl_->in_memory) return;
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   const Handle target = impl_->open_or_make(absolute(object));
   impl_->set_attribute(target.get(), name, H5T_NATIVE_DOUBLE, impl_->scalar.get(), &value);
@@ -465,7 +473,7 @@ void Writer::attribute(std::string_view object, std::string_view name, double va
 
 void Writer::attribute(std::string_view object, std::string_view name, int value) {
   if (impl_->in_memory) return;
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   const Handle target = impl_->open_or_make(absolute(object));
   impl_->set_attribute(target.get(), name, H5T_NATIVE_INT, impl_->scalar.get(), &value);
@@ -473,7 +481,7 @@ void Writer::attribute(std::string_view object, std::string_view name, int value
 
 void Writer::attribute(std::string_view object, std::string_view name, const std::vector<std::string>& texts) {
   if (impl_->in_memory) return;
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   std::vector<const char*> pointers;
   pointers.reserve(texts.size());
@@ -486,7 +494,7 @@ void Writer::attribute(std::string_view object, std::string_view name, const std
 
 void Writer::text(std::string_view path, std::string_view content, std::string_view description) {
   if (impl_->in_memory) return;
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   const Handle dataset =
       impl_->make_dataset(path, impl_->text.get(), impl_->scalar.get(), H5P_DEFAULT, H5P_DEFAULT, "1", description);
@@ -499,7 +507,7 @@ void Writer::text(std::string_view path, std::string_view content, std::string_v
 void Writer::text_table(std::string_view path, const std::vector<std::pair<std::string, std::string>>& rows,
                         std::string_view description) {
   if (impl_->in_memory) return;
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   std::vector<const char*> pointers;
   for (const auto& [name, content] : rows) pointers.insert(pointers.end(), {name.c_str(), content.c_str()});
@@ -519,7 +527,7 @@ void Writer::text_table(std::string_view path, const std::vector<std::pair<std::
 void Writer::constant(std::string_view path, std::span<const double> values, std::string_view unit,
                       std::string_view description, std::string_view dimension) {
   if (impl_->in_memory) return;
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   HERSEY_REQUIRE(!values.empty(), "a constant has numbers");
   impl_->write_constant(absolute(path), values, unit, description, dimension);
@@ -530,7 +538,7 @@ void Writer::labels(std::string_view path, const std::vector<std::string>& names
     impl_->words[absolute(path)] = names;
     return;
   }
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   HERSEY_REQUIRE(!names.empty(), "labels are of something");
   impl_->write_labels(absolute(path), names, description);
@@ -543,7 +551,7 @@ Series Writer::series(std::string_view path, int columns, std::string_view unit,
     if (columns > 1) shape.push_back(static_cast<std::size_t>(columns));
     return {this, impl_->keep(path, unit, description, std::move(shape), dimension)};
   }
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   HERSEY_REQUIRE(columns >= 1, "a row has numbers");
   std::vector<hsize_t> row;
@@ -560,7 +568,7 @@ Series Writer::field(std::string_view path, std::array<int, 2> shape, std::strin
   if (impl_->in_memory)
     return {this, impl_->keep(path, unit, description,
                               {static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(shape[1])}, {})};
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   HERSEY_REQUIRE(shape[0] >= 1 && shape[1] >= 1, "a row has numbers");
   const std::vector<hsize_t> row{static_cast<hsize_t>(shape[0]), static_cast<hsize_t>(shape[1])};
@@ -611,26 +619,26 @@ std::vector<std::pair<std::string, std::size_t>> Writer::rows() {
   impl_->sync();
   std::vector<std::pair<std::string, std::size_t>> rows;
   rows.reserve(impl_->growing.size());
-  for (const Growing& entry : impl_->growing) rows.emplace_back(entry.name, entry.shape[0]);
+  for (const GrowingDataset& entry : impl_->growing) rows.emplace_back(entry.name(), entry.rows());
   return rows;
 }
 
 void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::string, std::size_t>>& rows) {
   if (impl_->in_memory) return;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
   if (rows.size() != impl_->growing.size()) throw ReadError(from.path(), "it holds other series");
-  const Hdf5Session session;
-  impl_->drain();
+  impl_->drain(impl_->waiting);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Growing& entry = impl_->growing[i];
+    GrowingDataset& entry = impl_->growing[i];
     const auto& [name, count] = rows[i];
-    if (name != entry.name || !from.has(name)) throw ReadError(from.path(), "it lacks " + entry.name);
-    const std::size_t width = impl_->widths[i], block = std::max<std::size_t>(1, block_numbers / width);
+    if (name != entry.name() || !from.has(name)) throw ReadError(from.path(), "it lacks " + entry.name());
+    const std::size_t width = entry.width(), block = std::max<std::size_t>(1, block_numbers / width);
     for (std::size_t first = 0; first < count; first += block) {
       const std::size_t size = std::min(block, count - first);
       const Array part = from.read_rows(name, first, size);
       if (part.values.size() != size * width) throw ReadError(from.path(), "it lacks rows of " + name);
-      impl_->add_rows(i, part.values);
+      impl_->require(entry.add(part.values), "HDF5 cannot add rows");
     }
   }
   flush();
@@ -638,6 +646,7 @@ void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::stri
 
 void Writer::rename(const std::filesystem::path& path, bool replace) {
   if (impl_->in_memory) return;
+  impl_->settle();
   impl_->require_open();
   impl_->sync();
   bool renamed = false;
@@ -657,34 +666,45 @@ void Writer::rename(const std::filesystem::path& path, bool replace) {
 
 void Writer::flush() {
   if (impl_->in_memory) return;
-  const Hdf5Session session;
+  const Hdf5Session session = impl_->enter();
   impl_->require_open();
-  impl_->flush();
+  impl_->flush(impl_->waiting);
 }
 
 void Writer::flush_if_due() {
-  if (impl_->in_memory) return;
-  if (impl_->is_flush_due()) flush();
+  if (impl_->in_memory || impl_->is_writing()) return;
+  impl_->settle();
+  if (!impl_->is_flush_due()) return;
+  if (impl_->options.writes_beside)
+    impl_->hand_over();
+  else
+    flush();
 }
 
 void Writer::finish(Status status, std::string_view message) {
   if (impl_->in_memory) return;
   if (!impl_->file.valid()) return;
+  std::exception_ptr untold;
+  try {
+    impl_->settle();
+  } catch (const WriteError&) {
+    untold = std::current_exception();
+  }
   const Hdf5Session session;
   const bool failed_before = impl_->status.failed;
   if (!failed_before) {
     try {
-      impl_->flush();  // whoever reads the status finds all the rest
+      impl_->flush(impl_->waiting);  // whoever reads the status finds all the rest
       const Handle root(H5Oopen(impl_->file.get(), "/", H5P_DEFAULT));
       impl_->set_text(root.get(), "status", to_string(status));
       impl_->set_text(root.get(), "message", message);
-      impl_->flush();
+      impl_->flush(impl_->waiting);
     } catch (const WriteError&) {
-      impl_->close();
-      throw;
+      untold = std::current_exception();
     }
   }
   impl_->close();
+  if (untold) std::rethrow_exception(untold);
   if (failed_before) return;
   impl_->require(true, {});
   try {

@@ -13,7 +13,9 @@ using Taken = std::map<std::size_t, std::vector<double>>;
 
 Taken taken(WaitingRows& rows, const std::vector<std::size_t>& widths) {
   Taken all;
-  rows.take_out(widths, [&](std::size_t series, const std::vector<double>& numbers) { all[series] = numbers; });
+  rows.take_out(widths, [&](std::size_t series, std::span<const double> numbers) {
+    all[series].assign(numbers.begin(), numbers.end());
+  });
   return all;
 }
 

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numeric>
@@ -215,6 +216,33 @@ TEST_CASE("FlushIfDue_WaitsForItsInterval") {
   }
   CHECK(Reader(eager).rows() == 1);
   CHECK_FALSE(Reader(lazy).has("/time"));
+}
+
+TEST_CASE("RowsWrittenBeside_AreThoseWrittenAtOnce") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5";
+  Writer writer(path, {.flush_interval = 0, .writes_beside = true});
+  const Series time = writer.series("/time", 1, "s", "time");
+  const Series force = writer.series("/force", 3, "N", "force", Precision::float32);
+  for (int k = 0; k < 5000; ++k) {
+    time.append(k);
+    force.append({0.5 * k, 1.0 * k, 2.0 * k});
+    writer.flush_if_due();
+    if (k == 2500) writer.attribute("/", "half", "way");
+  }
+  writer.flush();
+  const Reader under_way(path);
+  CHECK(under_way.rows() == 5000);
+  CHECK(under_way.text_attribute("/", "half") == "way");
+  writer.finish(Status::completed);
+  const Reader reader(path);
+  const std::vector<double> times = reader.read("/time").values, forces = reader.read("/force").values;
+  REQUIRE(times.size() == 5000);
+  REQUIRE(forces.size() == 15000);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    REQUIRE(times[k] == static_cast<double>(k));
+    for (std::size_t i = 0; i < 3; ++i) REQUIRE(forces[3 * k + i] == times[k] * std::array{0.5, 1.0, 2.0}[i]);
+  }
 }
 
 TEST_CASE("WrongUse_IsAContractError") {

@@ -38,7 +38,7 @@ constexpr double kFastEnough = 0.05;
 constexpr double kOfPrediction = 1e-3;
 
 /// The largest residual left in this way, relative to the terms balanced.
-constexpr double kLargestLeft = 1e-6;
+constexpr double kLargestLeft = 1e-7;
 
 }  // namespace
 

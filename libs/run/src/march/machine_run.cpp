@@ -167,8 +167,13 @@ void MachineRun::report_progress(const StepRecord& step) const {
 }
 
 Outcome MachineRun::finish(Status status, const std::string& message, const Summary* coarse) {
-  cost_ = cost();
+  cost_ = cost();  // in case of a file that cannot be written
   try {
+    {
+      const Stopwatch watch(work_.recording());
+      record_.flush();
+    }
+    cost_ = cost();
     if (coarse != nullptr && status == Status::completed) record_.write_step_errors(*coarse);
     record_.finish(as_written(status), message, cost_->wall_time, cost_->work);
   } catch (const results::WriteError& error) {

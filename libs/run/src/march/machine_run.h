@@ -67,6 +67,9 @@ class MachineRun {
   /// @param coarse  summary of the run with steps twice as long; null where no step error is asked for
   [[nodiscard]] Outcome finish(Status status, const std::string& message, const Summary* coarse);
 
+  /// Time of the row that was handed to the results last [s]; none since the run was begun or resumed.
+  [[nodiscard]] std::optional<double> last_row() const { return record_.last_row(); }
+
   /// The figures of all steps so far.
   [[nodiscard]] Summary summary() const;
 

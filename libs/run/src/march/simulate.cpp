@@ -44,19 +44,20 @@ class Run {
   Summary run() {
     try {
       analyse();
-      if (const Outcome written = machine_.finish(status_, message_, coarse_); !written.solved()) fail(written.message);
+      finish(coarse_);
       if (status_ == Status::completed) discard_checkpoint(options_.results);
     } catch (const results::WriteError& error) {
-      fail(error.what());
+      fail_to_write(error.what());
     } catch (const std::exception& error) {
       fail(fmt::format("t = {:.6g} s: {}", machine_.state().t, error_text(error)));
-      if (const Outcome written = machine_.finish(status_, message_, nullptr); !written.solved()) fail(written.message);
+      finish(nullptr);
     }
     Summary summary = machine_.summary();
     summary.status = status_;
     summary.message = message_;
     summary.newton_iterations += newton_iterations_;
-    summary.t_results = last_time(options_.results);
+    const std::optional<double> last_row = machine_.last_row();
+    summary.t_results = is_all_written_ && last_row ? *last_row : last_time(options_.results);
     return summary;
   }
 
@@ -122,6 +123,16 @@ class Run {
     if (!found.stable) message_ = "unstable: a small motion grows (negative damping ratio)";
   }
 
+  void finish(const Summary* coarse) {
+    if (const Outcome written = machine_.finish(status_, message_, coarse); !written.solved())
+      fail_to_write(written.message);
+  }
+
+  void fail_to_write(std::string message) {
+    is_all_written_ = false;
+    fail(std::move(message));
+  }
+
   void fail(std::string message) {
     status_ = Status::failed;
     message_ = std::move(message);
@@ -133,7 +144,8 @@ class Run {
   const Summary* coarse_;
   Status status_ = Status::completed;
   std::string message_;
-  int newton_iterations_ = 0;  // of finding rest
+  int newton_iterations_ = 0;   // of finding rest
+  bool is_all_written_ = true;  // what was handed to the results file is in it
 };
 
 // What could not begin leaves nothing behind.

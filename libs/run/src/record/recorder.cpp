@@ -3,6 +3,7 @@
 #include <sstream>
 #include <utility>
 
+#include "hersey/core/task_pool.h"
 #include "hersey/results/reader.h"
 #include "record/geometry_record.h"
 #include "record/header_record.h"
@@ -36,7 +37,9 @@ std::filesystem::path new_file(const Options& options, bool resumes) {
 
 results::Writer writer_of(const model::Model& model, const Options& options, bool resumes) {
   if (options.results.empty()) return results::Writer(results::InMemory{});
-  return results::Writer(new_file(options, resumes), {.overwrite = true, .rows = expected_rows(model)});
+  return results::Writer(
+      new_file(options, resumes),
+      {.overwrite = true, .rows = expected_rows(model), .writes_beside = TaskPool::shared().threads() > 1});
 }
 
 /// Inner nodes of beams, bodies and joints of the mechanism, are not written one by one.

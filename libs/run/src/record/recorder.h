@@ -51,6 +51,7 @@ class Recorder {
   /// Small motions about `state`.
   void write_modes(const solver::State& state, const solver::Modes& found) { modes_->append(state, found); }
   void flush_if_due() { writer_.flush_if_due(); }
+  void flush() { writer_.flush(); }
   /// Without a results file: what was written last.
   [[nodiscard]] const std::vector<results::LatestRow>& latest() const { return writer_.latest(); }
   /// How many rows there are; restoring takes so many from the results of the run that was interrupted.

@@ -86,7 +86,7 @@ summary never does.
 | `running` | under way; or the program was killed, or the disk was full, before it could say more |
 
 Rows are flushed together, at most every half second while a run goes on, less often where a flush of thousands of series would take
-more than 3 % of the time. What was flushed stays readable whatever
+more than 3 % of the time, and by a thread of their own where the program may use more than one. What was flushed stays readable whatever
 happens to the program: it may be killed (`SIGKILL`) at any instant, a flush included, without `h5clear` or any other
 repair. HDF5 by itself does not promise that; the writer's own file driver (`libs/results/src/reserving_driver.h`) holds
 metadata back until a flush is complete, writes it in an order that is consistent at every moment, and reserves disk

@@ -81,7 +81,10 @@ std::string RunRecord::thin_films() const {
 void RunRecord::write(const StepRecord& step) {
   const double t = step.mechanism.t, slack = 1e-9 * model_.simulation.step;
   deformed_.write(t, t - model_.simulation.start, slack, step);
-  if (is_row_due(t, slack)) recorder_.write_row(step, energy_.sums());
+  if (is_row_due(t, slack)) {
+    recorder_.write_row(step, energy_.sums());
+    last_row_ = t;
+  }
   if (are_fields_due(t, slack)) recorder_.write_fields(step);
   recorder_.flush_if_due();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ class RunRecord {
   /// The start of the run, then every accepted step.
   void take(const StepRecord& step);
   void declare_cost(const Work& work);
+  /// Puts into the file what waits in memory.
+  void flush() { recorder_.flush(); }
+  /// Time of the row that was handed to the file last [s]; none since the run was begun or resumed.
+  [[nodiscard]] std::optional<double> last_row() const { return last_row_; }
   void write_modes(const solver::State& state, const solver::Modes& found) { recorder_.write_modes(state, found); }
   void finish(results::Status status, const std::string& message, double wall_time, const Work& work);
 
@@ -78,6 +83,7 @@ class RunRecord {
   bool settled_ = false, repeats_ = false;
   double next_fields_ = -std::numeric_limits<double>::infinity();
   double next_row_ = 0;  ///< in intervals
+  std::optional<double> last_row_;
 };
 
 }  // namespace hersey::run

@@ -31,6 +31,8 @@ struct WriterOptions {
   bool overwrite = false;       ///< replace an existing file instead of throwing FileExists
   double flush_interval = 0.5;  ///< shortest time between two writes by flush_if_due() [s], >= 0
   std::size_t rows = 0;         ///< expected of the series, as far as known
+  /// flush_if_due() has rows put into the file by a thread of its own while others are added.
+  bool writes_beside = false;
 };
 
 /// Kept instead of a file.
@@ -110,7 +112,8 @@ class SeriesBlock {
 /// Groups on the way to a dataset or attribute are made as needed. Declare all series before the first flush: the file
 /// then keeps its structure and only grows. Rows wait in memory; a flush puts all of them into the file together, after
 /// which they survive a SIGKILL of the program, and another process may read them between flushes. Space is reserved
-/// before it is used, so a full disk costs the rows since the last flush and nothing else.
+/// before it is used, so a full disk costs the rows since the last flush and nothing else. What a thread of the
+/// writer's own could not write is told by the next call.
 ///
 /// Every method but the destructor throws WriteError when the file cannot be written, and from then on again; finish()
 /// and the destructor then close the file in its last good state without another exception.

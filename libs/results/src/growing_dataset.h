@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hdf5_handle.h"
+#include "hersey/results/writer.h"
+
+namespace hersey::results {
+
+/// A dataset of a results file that gets rows.
+///
+/// Its chunks are put into the file whole, as they will lie there: HDF5 then need not find out which part of which
+/// chunk a row belongs to, nor keep any of them. With thousands of series that is most of what rows cost.
+class GrowingDataset {
+ public:
+  /// Rows of a chunk. One of many rows is larger, for making a chunk costs more than filling it.
+  /// @param width  numbers per row
+  /// @param expected  rows in the end, as far as is known
+  [[nodiscard]] static std::size_t chunk_rows(std::size_t width, std::size_t expected);
+
+  /// @param dataset  chunked, of `chunk_rows` rows each, with no row yet
+  /// @param row_shape  of a row; empty: one number
+  GrowingDataset(std::string name, Handle dataset, const std::vector<hsize_t>& row_shape, std::size_t chunk_rows,
+                 Precision precision);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] std::size_t rows() const { return shape_.front(); }
+  [[nodiscard]] std::size_t width() const { return width_; }
+
+  /// Adds rows, one after the other; they are safe only after H5Fflush. @returns false where HDF5 fails
+  [[nodiscard]] bool add(std::span<const double> rows);
+
+ private:
+  bool write_chunk(std::span<const double> rows);
+  template <class Number>
+  bool write_chunk_of(std::span<const double> rows);
+
+  std::string name_;
+  Handle dataset_;
+  std::vector<hsize_t> shape_;
+  std::size_t width_, chunk_numbers_;
+  Precision precision_;
+  hsize_t next_chunk_ = 0;     // its first row
+  std::vector<double> begun_;  // rows of the last chunk, while it is not full
+};
+
+}  // namespace hersey::results
