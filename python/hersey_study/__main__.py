@@ -69,9 +69,7 @@ def work(args):
         else:
             texts = study.planned()
             done = study.folder.done(failed_too=not args.again)
-            from .folder import identity
-
-            reused = len({identity(settings, t) for t in texts} & done)
+            reused = len({study.identity(t) for t in texts} & done)
             study.table = Table(len(texts), reused, settings["wanted"], study.folder.units)
             if args.on == "slurm":
                 slurm.run(study, texts, args)
@@ -86,6 +84,8 @@ def work(args):
 
 def main():
     args = arguments()
+    # One processor each for the runs, and none for threads that BLAS would start with NumPy.
+    os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     from .folder import FolderError
     from .study import StudyError

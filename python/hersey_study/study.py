@@ -63,6 +63,7 @@ class Study:
         self.failed = {}
         self.seconds = 0.0
         self.search = None  # how an optimum was looked for
+        self._identities = {}
 
     def __enter__(self):
         return self
@@ -70,10 +71,17 @@ class Study:
     def __exit__(self, *_):
         self.folder.close()
 
+    def identity(self, texts):
+        """Name of the run with these values."""
+        key = tuple(texts)
+        if key not in self._identities:
+            self._identities[key] = identity(self.settings, texts)
+        return self._identities[key]
+
     def request(self, texts, slopes=False):
         """A run as the program that answers it wants it; `slopes`: with its derivatives, where it has exact ones."""
         settings = self.settings
-        run = identity(settings, texts)
+        run = self.identity(texts)
         values = [[p["name"], text] for p, text in zip(settings["parameters"], texts)]
         request = {"run": run, "set": [f"{name}={text}" for name, text in values], "values": values}
         if slopes:
@@ -147,7 +155,7 @@ class Study:
         """What the runs of the plan have given: a Results."""
         wanted_runs = {}
         for texts in texts_of_runs:
-            wanted_runs.setdefault(identity(self.settings, texts), texts)
+            wanted_runs.setdefault(self.identity(texts), texts)
         found = {}
         for record in self.folder.read():
             if record["run"] not in wanted_runs:

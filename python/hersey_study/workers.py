@@ -9,6 +9,9 @@ import subprocess
 # Runs that a process has been given at once: it need not wait for the next one to be sent.
 AHEAD = 2
 
+# Of a pipe at a time, as much as one holds; more would be memory that is taken and given back with every answer.
+READ_BYTES = 1 << 16
+
 
 class RunnerError(Exception):
     """A runner that cannot be used, in words for the user."""
@@ -36,7 +39,7 @@ class Worker:
 
     def answers(self):
         """Lines that have come; None at the end of the process."""
-        data = os.read(self.process.stdout.fileno(), 1 << 20)
+        data = os.read(self.process.stdout.fileno(), READ_BYTES)
         if not data:
             return None
         lines = (self._buffer + data).split(b"\n")
@@ -68,8 +71,6 @@ def answer_all(study, requests, jobs):
     A process that dies with a run in it makes that run a failed one; those that waited behind it are given to another.
     """
     command = command_of(study)
-    environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-    os.environ.update(environment)
     selector = selectors.DefaultSelector()
     waiting = iter(requests)
     returned, workers, started, answered = [], set(), 0, False

@@ -335,6 +335,16 @@ class Studies(unittest.TestCase):
             self.assertLess(abs(row["frequency"][0] / exact - 1), 1e-9)
         self.assertEqual(os.listdir(os.path.join(self.out, "runs")), [])
 
+    def test_simulations_asked_for_nothing_tell_the_first_figures(self):
+        model = self.path("shaken.yaml")
+        with open(model, "w", encoding="utf-8") as file:
+            file.write(SHAKEN.replace("duration: 1 s", "duration: 20 ms") + "  parameters: {rate: [20, 40]}\n")
+        for runs in (2, 0):  # the second time they are there
+            run = self.study(model)
+            self.assertEqual(run.returncode, OK, run.stderr)
+            self.assertEqual(len(self.results()["runs"]), 2)
+            self.assertIn("2/2 runs" if runs else "2 runs are done already", run.stdout + run.stderr)
+
     def test_runs_that_none_other_beats_are_the_front(self):
         study = ("  plan: full_factorial\n  parameters: {x1: [-1, 0, 1, 2, 3], x2: [1]}\n"
                  "  minimise: [valley, sum]\n")
