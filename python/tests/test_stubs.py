@@ -1,19 +1,30 @@
-"""The stubs of the extension module name what it has."""
+"""The stubs of the extension module are those of what was built, and the package's own annotations fit together."""
 
-import ast
+import importlib.util
+import os
+import subprocess
+import sys
 
+import pytest
 from conftest import ROOT
 
-from hersey import _core
+ALLOWED = ROOT / "python" / "tests" / "stubtest_allowlist.txt"
+
+needs_mypy = pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
 
 
-def test_stubs_name_every_function_and_member():
-    tree = ast.parse((ROOT / "python" / "hersey" / "_core.pyi").read_text(encoding="utf-8"))
-    named = {node.name: {part.target.id if isinstance(part, ast.AnnAssign) else part.name for part in node.body
-                         if isinstance(part, (ast.AnnAssign, ast.FunctionDef))} if isinstance(node, ast.ClassDef) else None
-             for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
-    for name in (name for name in dir(_core) if not name.startswith("_")):
-        assert name in named, name
-        if named[name] is not None:
-            members = {member for member in vars(getattr(_core, name)) if not member.startswith("_")}
-            assert members == {member for member in named[name] if not member.startswith("_")}, name
+def run(folder, *command):
+    # Nothing of the tree gets a cache.
+    environment = dict(os.environ, MYPY_CACHE_DIR=str(folder / "cache"))
+    done = subprocess.run([sys.executable, "-m", *command], capture_output=True, text=True, cwd=folder, env=environment)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@needs_mypy
+def test_stubs_are_what_was_built(tmp_path):
+    run(tmp_path, "mypy.stubtest", "hersey._core", "--concise", "--allowlist", str(ALLOWED))
+
+
+@needs_mypy
+def test_annotations_fit_together(tmp_path):
+    run(tmp_path, "mypy", "--ignore-missing-imports", "-p", "hersey")
