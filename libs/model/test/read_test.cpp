@@ -1,10 +1,12 @@
 #include "hersey/model/read.h"
 
+#include <fstream>
 #include <limits>
 #include <map>
 #include <numbers>
 
 #include "model_text.h"
+#include "temporary_directory.h"
 
 namespace hersey::model {
 namespace read_test {
@@ -397,6 +399,24 @@ TEST_CASE("RefinedGrid_IsFineWhereAsked") {
   const auto height = [&](int j) { return grid.z_over_L(j + 1) - grid.z_over_L(j); };
   CHECK(height(0) < 0.7 * height(10));
   CHECK(height(0) == near(height(19)));
+}
+
+TEST_CASE("FileReadOnce_GivesTheModelsOfEachReading") {
+  const TemporaryDirectory folder;
+  const std::string path = (folder / "m.yaml").string();
+  std::ofstream(path) << good_model;
+  const ModelFile file(path);
+  const std::string width = "bearings.big_end.width=17 mm";
+  const Model before = read(path), wider = read(path, {width});
+  REQUIRE(wider.bearings[0].film.L == near(17e-3));
+  std::ofstream(path) << "hersey: 1\n";  // noticed by nobody who has read it
+  for (int round = 0; round < 2; ++round) {
+    CHECK(file.read().bearings[0].film.L == before.bearings[0].film.L);
+    CHECK(file.read({width}).bearings[0].film.L == wider.bearings[0].film.L);
+    CHECK(file.read({width}).resolved_text == wider.resolved_text);
+    CHECK_THROWS_WITH_AS((void)file.read({"bearings.big_end.widht=17 mm"}), doctest::Contains("did you mean"), InputError);
+  }
+  CHECK_THROWS_AS(ModelFile((folder / "none.yaml").string()), InputError);
 }
 
 TEST_CASE("Solver_IsOneOfThree") {

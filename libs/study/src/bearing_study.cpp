@@ -408,7 +408,8 @@ std::vector<BearingSolution> solve_bearings(const ModelReader& read, const std::
 
 std::vector<BearingSolution> solve_bearings(const std::string& path, const std::vector<model::StudyRun>& runs,
                                             const BearingStudyOptions& options) {
-  const auto read = [&](const std::vector<std::string>& overrides) { return model::read(path, overrides); };
+  const model::ModelFile file(path);
+  const auto read = [&](const std::vector<std::string>& overrides) { return file.read(overrides); };
   return solve_bearings(ModelReader(read), runs, options);
 }
 
@@ -425,6 +426,12 @@ struct RunSolver::Impl {
   std::vector<std::string> given;
   KnownBodies bodies;
   std::map<std::string, std::optional<BearingSolution>> as_it_stands;  ///< by bearing; empty: has no solution
+  std::optional<model::ModelFile> file;                                ///< once it was readable
+
+  model::Model read(const std::vector<std::string>& overrides) {
+    if (!file) file.emplace(path);
+    return file->read(overrides);
+  }
 
   BearingSolution attempt(const model::Model& model, const model::StudyRun& run, const std::string& bearing,
                           const bearing::SteadyState* start) {
@@ -440,7 +447,7 @@ struct RunSolver::Impl {
     if (known != as_it_stands.end()) return known->second ? &*known->second : nullptr;
     std::optional<BearingSolution>& kept = as_it_stands[bearing];
     try {
-      kept = attempt(model::read(path, given), {given, "", "", {}}, bearing, nullptr);
+      kept = attempt(read(given), {given, "", "", {}}, bearing, nullptr);
       if (!kept->solved()) kept.reset();
     } catch (const std::exception&) {
       kept.reset();  // the model as it stands has no answer: the run's own reason is told
@@ -458,7 +465,7 @@ RunSolver::~RunSolver() = default;
 
 std::vector<std::pair<std::string, BearingSolution>> RunSolver::solve(const model::StudyRun& run,
                                                                       const std::vector<std::string>& bearings) {
-  const model::Model model = model::read(impl_->path, run.overrides);
+  const model::Model model = impl_->read(run.overrides);
   std::vector<std::string> wanted = bearings;
   if (wanted.empty())
     for (const model::Bearing& bearing : model.bearings)

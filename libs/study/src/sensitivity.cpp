@@ -133,7 +133,7 @@ void complete(BearingSolution& solution) {
 class Tangent {
  public:
   Tangent(const std::string& path, const BearingSolution& solution, const std::string& bearing)
-      : path_(path), here_(solution), bearing_(bearing), derivative_(solution.model, solution.state) {
+      : file_(path), here_(solution), bearing_(bearing), derivative_(solution.model, solution.state) {
     here_.state = derivative_.here();
     complete(here_);
   }
@@ -151,7 +151,7 @@ class Tangent {
 
  private:
   [[nodiscard]] std::optional<BearingSolution> beside(const Varied& parameter, double sign) {
-    const model::Model model = model::read(path_, parameter.overrides(here_.run.overrides, sign));
+    const model::Model model = file_.read(parameter.overrides(here_.run.overrides, sign));
     const model::Bearing& bearing = bearing_called(model, bearing_);
     bearing::BearingBeside side{bearing.film, operating_point_of(bearing)};
     // The scale of its unknowns is the state's: only their meaning counts.
@@ -166,7 +166,7 @@ class Tangent {
     return solution;
   }
 
-  const std::string& path_;
+  model::ModelFile file_;
   BearingSolution here_;
   const std::string& bearing_;
   bearing::SteadyDerivative derivative_;

@@ -133,24 +133,43 @@ void tell_of_conversion(const std::string& text, const std::string& file, std::v
 
 }  // namespace
 
-Model read_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+struct ModelFile::Content {
+  std::string text, file;
+  std::vector<Fault> faults;  // of YAML
+  std::optional<Node> root;
+};
+
+ModelFile::ModelFile(const std::string& path) : ModelFile(file_text(path), path) {}
+
+ModelFile::ModelFile(std::string text, std::string file) {
+  auto content = std::make_shared<Content>();
+  content->text = std::move(text);
+  content->file = std::move(file);
+  content->root = parse_yaml(content->text, content->file, content->faults);
+  content_ = std::move(content);
+}
+
+Model ModelFile::read(const std::vector<std::string>& overrides) const {
   std::vector<Fault> faults;
   const std::vector<Override> changes = parse_overrides(overrides, faults);
-  std::optional<Node> root = parse_yaml(text, file, faults);
-  const bool is_yaml = root.has_value();
+  faults.insert(faults.end(), content_->faults.begin(), content_->faults.end());
   Model model;
-  if (is_yaml) model = read_tree(std::move(*root), file, changes, faults);
+  if (content_->root) model = read_tree(*content_->root, content_->file, changes, faults);
   if (!faults.empty()) {
     tidy(faults);
-    if (is_yaml) tell_of_conversion(text, file, faults);
+    if (content_->root) tell_of_conversion(content_->text, content_->file, faults);
     throw InputError(std::move(faults));
   }
-  model.resolved_text = resolved(text, overrides);
+  model.resolved_text = resolved(content_->text, overrides);
   return model;
 }
 
+Model read_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+  return ModelFile(text, file).read(overrides);
+}
+
 Model read(const std::string& path, const std::vector<std::string>& overrides) {
-  return read_text(file_text(path), path, overrides);
+  return ModelFile(path).read(overrides);
 }
 
 SourcePosition Model::position_of(const std::string& path) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,23 @@ namespace hersey::model {
 /// As `read`, from text; `file` names it in faults and is where relative paths of tables start.
 [[nodiscard]] Model read_text(const std::string& text, const std::string& file,
                               const std::vector<std::string>& overrides = {});
+
+/// A model file that is read several times, with other overrides each time: it is opened and taken apart once, and what
+/// happens to it meanwhile changes nothing. May be used by several threads; copies share what was read.
+class ModelFile {
+ public:
+  /// @throws InputError where it cannot be read or is larger than any model; other faults are told by read()
+  explicit ModelFile(const std::string& path);
+  /// Of text; `file` names it in faults and is where relative paths of tables start.
+  ModelFile(std::string text, std::string file);
+
+  /// As model::read. @throws InputError
+  [[nodiscard]] Model read(const std::vector<std::string>& overrides = {}) const;
+
+ private:
+  struct Content;
+  std::shared_ptr<const Content> content_;
+};
 
 /// The text of a model file. @throws InputError where it cannot be read or is larger than any model
 [[nodiscard]] std::string file_text(const std::string& path);
