@@ -22,12 +22,12 @@ std::size_t GrowingDataset::chunk_rows(std::size_t width, std::size_t expected) 
 }
 
 GrowingDataset::GrowingDataset(std::string name, Handle dataset, const std::vector<hsize_t>& row_shape,
-                               std::size_t chunk_rows, Precision precision)
+                               std::size_t chunk_rows, NumberSize size)
     : name_(std::move(name)),
       dataset_(std::move(dataset)),
       width_(std::accumulate(row_shape.begin(), row_shape.end(), std::size_t{1}, std::multiplies<>())),
       chunk_numbers_(chunk_rows * width_),
-      precision_(precision) {
+      size_(size) {
   shape_.push_back(0);
   shape_.insert(shape_.end(), row_shape.begin(), row_shape.end());
 }
@@ -52,7 +52,7 @@ bool GrowingDataset::add(std::span<const double> rows) {
 
 /// The chunk in which rows are written next, zeros behind those it has so far.
 bool GrowingDataset::write_chunk(std::span<const double> rows) {
-  return precision_ == Precision::float64 ? write_chunk_of<double>(rows) : write_chunk_of<float>(rows);
+  return size_ == NumberSize::eight_bytes ? write_chunk_of<double>(rows) : write_chunk_of<float>(rows);
 }
 
 template <class Number>

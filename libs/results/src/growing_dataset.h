@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "hdf5_handle.h"
-#include "hersey/results/writer.h"
 
 namespace hersey::results {
+
+/// Of a number as it is stored.
+enum class NumberSize { four_bytes, eight_bytes };
 
 /// A dataset of a results file that gets rows.
 ///
@@ -25,7 +27,7 @@ class GrowingDataset {
   /// @param dataset  chunked, of `chunk_rows` rows each, with no row yet
   /// @param row_shape  of a row; empty: one number
   GrowingDataset(std::string name, Handle dataset, const std::vector<hsize_t>& row_shape, std::size_t chunk_rows,
-                 Precision precision);
+                 NumberSize size);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] std::size_t rows() const { return shape_.front(); }
@@ -43,7 +45,7 @@ class GrowingDataset {
   Handle dataset_;
   std::vector<hsize_t> shape_;
   std::size_t width_, chunk_numbers_;
-  Precision precision_;
+  NumberSize size_;
   hsize_t next_chunk_ = 0;     // its first row
   std::vector<double> begun_;  // rows of the last chunk, while it is not full
 };

@@ -11,7 +11,7 @@ namespace hersey::results {
 namespace {
 
 constexpr std::size_t prepared_bytes = std::size_t{4} << 20;    // at a time
-constexpr std::size_t prepared_steps = 512;                     // before the first row
+constexpr std::size_t prepared_steps = 1024;                    // before the first row
 constexpr std::size_t gathered_numbers = std::size_t{1} << 16;  // 512 KiB: what a processor holds close to itself
 
 /// Asks for large pages, of which a machine's rows fill less than one a step instead of dozens of small ones. A wish.

@@ -321,7 +321,8 @@ struct Writer::Impl {
       dimensions.insert(dimensions.begin(), rows);
       name_dimensions(dataset, path_, dimensions);
     }
-    growing.emplace_back(path_, std::move(dataset), row_shape, chunk_rows, precision);
+    growing.emplace_back(path_, std::move(dataset), row_shape, chunk_rows,
+                         precision == Precision::float32 ? NumberSize::four_bytes : NumberSize::eight_bytes);
     widths.push_back(width);
     flush_cost += std::chrono::duration<double>(Clock::now() - began).count();
     return growing.size() - 1;

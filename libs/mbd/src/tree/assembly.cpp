@@ -29,7 +29,7 @@ void compute_directions(const Tree& tree, const TreeMotion& motion, const solver
 void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& response) {
   const TreeMotion& motion = assembly.motion;
   const Pose X_WA = motion.pose(pair.a);
-  const Vector6 W = force_transform(X_WA) * response.W_B_A;
+  const Vector6 W = moved_force(X_WA, response.W_B_A);
   for (const SignedColumn& row : pair.columns) {
     const Vector6& J = motion.J(row.column);
     assembly.add_residual(row.column, -row.sign * J.dot(W), magnitude(J, W));
@@ -38,15 +38,19 @@ void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& r
 
   const Matrix6 to_A = motion_transform(X_WA.inverse());
   const Matrix6 K = to_A.transpose() * response.dW_dX * to_A;
-  const Matrix6 D = to_A.transpose() * response.dW_dV * to_A;
+  const bool is_damped = !response.dW_dV.isZero(0);  // that of a constraint is not
+  Matrix6 D;
+  if (is_damped) D = to_A.transpose() * response.dW_dV * to_A;
   const double c = assembly.stage.c;
   for (const SignedColumn& col : pair.columns) {
     // A column that moves b alone changes the relative pose by +J and the relative velocity by J x (V_b - V_p);
     // one that moves a alone by the negative of both, and turns the wrench with a.
     const Vector6& J_k = assembly.directions[col.column].J;
     const Link& link = assembly.tree.links[assembly.tree.columns[col.column].link];
-    const Vector6 dV = cross_motion(J_k, motion.V(pair.b.link) - motion.V(link.parent)) + c * motion.J(col.column);
-    Vector6 dW = col.sign * (K * J_k + D * dV);
+    Vector6 dW = col.sign * (K * J_k);
+    if (is_damped)
+      dW += col.sign *
+            (D * (cross_motion(J_k, motion.V(pair.b.link) - motion.V(link.parent)) + c * motion.J(col.column)));
     if (col.sign < 0) dW += cross_force(J_k, W);
     for (const SignedColumn& row : pair.columns) {
       const Vector6& J_j = motion.J(row.column);

@@ -141,12 +141,13 @@ void MechanismParts::add_coordinate_forces(Assembly& assembly, const State& stat
   }
 }
 
-ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const Eigen::VectorXd& lambda) {
+ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const Eigen::VectorXd& lambda,
+                               bool with_derivative) {
   ForceResponse response;
   for (std::size_t i = 0; i < closure.rows.size(); ++i) {
     const double l = lambda[closure.first_row + static_cast<int>(i)];
     response.W_B_A -= l * closure.rows[i].wrench(X_AB);
-    response.dW_dX -= l * closure.rows[i].wrench_derivative(X_AB);
+    if (with_derivative) response.dW_dX -= l * closure.rows[i].wrench_derivative(X_AB);
   }
   return response;
 }
@@ -162,14 +163,14 @@ void MechanismParts::add_closures(Assembly& assembly, const State& state) const 
   for (const Closure& closure : tree.closures) {
     const Pose X_WA = motion.pose(closure.pair.a);
     const Pose X_AB = X_WA.inverse() * motion.pose(closure.pair.b);
-    add_pair_force(assembly, closure.pair, closure_response(closure, X_AB, state.lambda));
+    add_pair_force(assembly, closure.pair, closure_response(closure, X_AB, state.lambda, assembly.tangent != nullptr));
     for (std::size_t i = 0; i < closure.rows.size(); ++i) {
       const ConstraintRow& row = closure.rows[i];
       const int at = nv + closure.first_row + static_cast<int>(i);
       const bool positional = row.kind == ConstraintRow::Kind::position;
       assembly.add_residual(at, row.value(X_AB), positional ? closure_length(closure, X_WA) : 1.0);
       if (!assembly.tangent) continue;
-      const Vector6 w = force_transform(X_WA) * row.wrench(X_AB);
+      const Vector6 w = moved_force(X_WA, row.wrench(X_AB));
       for (const SignedColumn& col : closure.pair.columns) {
         assembly.add_tangent(col.column, at, col.sign * motion.J(col.column).dot(w));
         assembly.add_tangent(at, col.column, col.sign * assembly.directions[col.column].J.dot(w));
@@ -254,7 +255,7 @@ void Mechanism::constraints(const State& state, Eigen::VectorXd& phi, Eigen::Vec
       phi[at] = row.value(X_AB);
       if (row.kind == ConstraintRow::Kind::position) scale[at] = m.closure_length(closure, X_WA);
       if (!jacobian) continue;
-      const Vector6 w = force_transform(X_WA) * row.wrench(X_AB);
+      const Vector6 w = moved_force(X_WA, row.wrench(X_AB));
       for (const SignedColumn& col : closure.pair.columns)
         jacobian->coeffRef(at, col.column) = col.sign * m.motion.J(col.column).dot(w);
     }

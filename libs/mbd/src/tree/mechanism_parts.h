@@ -132,6 +132,7 @@ struct MechanismParts {
 };
 
 /// The wrench of a closure's multipliers, with its geometric stiffness, in the form of a two-body force.
-[[nodiscard]] ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const Eigen::VectorXd& lambda);
+[[nodiscard]] ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const Eigen::VectorXd& lambda,
+                                             bool with_derivative);
 
 }  // namespace hersey::mbd

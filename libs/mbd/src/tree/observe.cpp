@@ -170,19 +170,19 @@ void MechanismParts::observe_reactions(const solver::State& state, Observation& 
   }
   for (std::size_t i = 0; i < loads.size(); ++i) need[body_of(spec.loads[i].frame)] -= loads[i].wrench(motion, state);
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
-    const Vector6 W = force_transform(motion.pose(tree.forces[i].a)) * seen.force_wrenches[i];
+    const Vector6 W = moved_force(motion.pose(tree.forces[i].a), seen.force_wrenches[i]);
     need[body_of(spec.forces[i].b)] -= W;
     need[body_of(spec.forces[i].a)] += W;
   }
   for (std::size_t i = 0; i < elastics.size(); ++i)
     for (std::size_t f = 0; f < spec.elastics[i].frames.size(); ++f)
       need[body_of(spec.elastics[i].frames[f])] +=
-          force_transform(motion.pose(elastics[i].frame(f))) * seen.elastics[i].wrenches[f];
+          moved_force(motion.pose(elastics[i].frame(f)), seen.elastics[i].wrenches[f]);
   std::vector<Vector6> through(spec.joints.size(), Vector6::Zero());  // on the tree's outer side
   for (const Closure& closure : tree.closures) {
     const Pose X_WA = motion.pose(closure.pair.a);
     const Pose X_AB = X_WA.inverse() * motion.pose(closure.pair.b);
-    const Vector6 W = force_transform(X_WA) * closure_response(closure, X_AB, state.lambda).W_B_A;
+    const Vector6 W = moved_force(X_WA, closure_response(closure, X_AB, state.lambda, false).W_B_A);
     through[closure.joint] = W;
     need[body_of(spec.joints[closure.joint].outboard)] -= W;
     need[body_of(spec.joints[closure.joint].inboard)] += W;

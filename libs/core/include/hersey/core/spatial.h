@@ -54,6 +54,14 @@ struct Pose {
   return Ad;
 }
 
+/// Ad*(X_AB) W_B, without the matrix.
+[[nodiscard]] inline Vector6 moved_force(const Pose& X_AB, const Vector6& W_B) {
+  const Vector3 f = X_AB.R * W_B.tail<3>();
+  Vector6 W;
+  W << X_AB.R * W_B.head<3>() + X_AB.r.cross(f), f;
+  return W;
+}
+
 /// V x U for two motion vectors (the Lie bracket of se(3)).
 [[nodiscard]] inline Vector6 cross_motion(const Vector6& V, const Vector6& U) {
   Vector6 c;
