@@ -414,7 +414,8 @@ TEST_CASE("FileReadOnce_GivesTheModelsOfEachReading") {
     CHECK(file.read().bearings[0].film.L == before.bearings[0].film.L);
     CHECK(file.read({width}).bearings[0].film.L == wider.bearings[0].film.L);
     CHECK(file.read({width}).resolved_text == wider.resolved_text);
-    CHECK_THROWS_WITH_AS((void)file.read({"bearings.big_end.widht=17 mm"}), doctest::Contains("did you mean"), InputError);
+    CHECK_THROWS_WITH_AS((void)file.read({"bearings.big_end.widht=17 mm"}), doctest::Contains("did you mean"),
+                         InputError);
   }
   CHECK_THROWS_AS(ModelFile((folder / "none.yaml").string()), InputError);
 }
