@@ -4,7 +4,6 @@ is not computed again: a search that was killed goes on where it was."""
 import math
 
 from . import distributions
-from .folder import identity
 from .study import StudyError, number
 from .workers import answer_all
 
@@ -38,7 +37,7 @@ class _Runs:
         """The record of a run, with its derivatives or the reason why there are none if `slopes`."""
         study = self.study
         texts = [distributions.text(p, v) for p, v in zip(self.parameters, self.low + x * self.range)]
-        run = identity(study.settings, texts)
+        run = study.identity(texts)
         self.seen.append(texts)
         self.looked_at.add(run)
         record = self.known.get(run)
@@ -186,7 +185,7 @@ def _best_of(study, runs, otherwise):
     objective = settings["objectives"][0]
     best, where = math.inf, otherwise
     for texts in runs.seen:
-        record = runs.known[identity(settings, texts)]
+        record = runs.known[study.identity(texts)]
         if record["status"] != "completed":
             continue
         figures = record["figures"]

@@ -16,6 +16,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <system_error>
 #include <unordered_set>
 
 #include "dimension_scales.h"
@@ -371,10 +372,15 @@ struct Writer::Impl {
     settle();
     require(true, {});
     std::swap(waiting, leaving);
-    writing = std::async(std::launch::async, [this] {
+    const auto write = [this] {
       const Hdf5Session session;
       flush(leaving);
-    });
+    };
+    try {
+      writing = std::async(std::launch::async, write);
+    } catch (const std::system_error&) {  // the system has no thread to give
+      write();
+    }
   }
 
   /// Waits for rows that are on their way into the file. @throws WriteError where they did not get there

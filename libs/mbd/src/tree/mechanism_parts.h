@@ -131,7 +131,7 @@ struct MechanismParts {
   void observe_elastic_bodies(Observation& seen);
 };
 
-/// The wrench of a closure's multipliers, with its geometric stiffness, in the form of a two-body force.
+/// The wrench of a closure's multipliers in the form of a two-body force; its geometric stiffness where asked for.
 [[nodiscard]] ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const Eigen::VectorXd& lambda,
                                              bool with_derivative);
 
