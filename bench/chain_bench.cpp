@@ -41,6 +41,7 @@ void write_model(const fs::path& path, int links, double duration) {
 struct Line {
   /// [s] of computing; recording: share of the steps, all that is put into the file up to its end included
   double check = 0, start_up = 0, step = 0, recording = 0, report = 0;
+  double iterations = 0;  ///< of Newton per step: a longer chain pulls harder at its hinge
   bool completed = false;
 };
 
@@ -64,6 +65,7 @@ Line measure(const fs::path& folder, int links, int steps) {
   const double share = std::min(1.0, all / wall);  // other programs run as well
   line.start_up = summary.work.start_up * share;
   line.step = summary.work.stepping * share / steps;
+  line.iterations = summary.work.newton_iterations.mean;
   for (const run::WorkPart& part : summary.work.parts)
     if (part.name == "recording") line.recording = part.seconds / summary.work.stepping;
   began = cpu_seconds();
@@ -77,27 +79,28 @@ Line measure(const fs::path& folder, int links, int steps) {
 int main() {
   const fs::path folder = fs::temp_directory_path() / fmt::format("hersey-chain-{}", ::getpid());
   fs::create_directories(folder);
-  fmt::print("{:>8} {:>10} {:>12} {:>12} {:>14} {:>12} {:>12}\n", "links", "check [s]", "start-up [s]", "step [ms]",
-             "us/step/link", "recording", "report [s]");
+  fmt::print("{:>8} {:>10} {:>12} {:>12} {:>14} {:>10} {:>12} {:>12}\n", "links", "check [s]", "start-up [s]",
+             "step [ms]", "us/link/step", "/iteration", "recording", "report [s]");
   bool met = true;
-  double per_link = 0;
+  double of_a_thousand = 0;
   for (const auto& [links, steps] : {std::pair{100, 2000}, {200, 1000}, {1000, 1500}, {5000, 600}}) {
     const Line line = measure(folder, links, steps);
-    fmt::print("{:8} {:10.2f} {:12.2f} {:12.2f} {:14.2f} {:11.1f}% {:12.2f}\n", links, line.check, line.start_up,
-               1e3 * line.step, 1e6 * line.step / links, 100 * line.recording, line.report);
+    const double per_link = line.step / links, per_iteration = per_link / line.iterations;
+    fmt::print("{:8} {:10.2f} {:12.2f} {:12.2f} {:14.2f} {:10.2f} {:11.1f}% {:12.2f}\n", links, line.check,
+               line.start_up, 1e3 * line.step, 1e6 * per_link, 1e6 * per_iteration, 100 * line.recording, line.report);
     std::fflush(stdout);
     met &= line.completed;
     if (links == 200) met &= line.report <= 2;
     if (links == 1000) {
-      per_link = line.step / links;
+      of_a_thousand = per_iteration;
       met &= line.step <= 6e-3 && line.recording <= 0.1 && line.start_up <= 2 && line.check <= 1;
     }
-    if (links == 5000) met &= line.step / links <= 1.3 * per_link;
+    if (links == 5000) met &= per_iteration <= 1.3 * of_a_thousand;
   }
   fs::remove_all(folder);
   fmt::print(
       "1000 links: a step in 6 ms, a tenth of it recording, start-up in 2 s, check in 1 s; 200: report in 2 s;\n"
-      "5000: at most 1.3 times the cost per link   {}\n",
+      "5000: at most 1.3 times the cost per link and iteration   {}\n",
       met ? "met" : "MISSED");
   return met ? 0 : 1;
 }

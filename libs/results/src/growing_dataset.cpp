@@ -9,6 +9,7 @@
 namespace hersey::results {
 namespace {
 
+constexpr std::size_t narrow = 4;                  // numbers per row: scalars, vectors, orientations
 constexpr std::size_t small_chunk_numbers = 256;   // 2 KiB: rewritten at most once a flush while it fills
 constexpr std::size_t large_chunk_numbers = 1024;  // of series of many rows
 
@@ -17,8 +18,9 @@ static_assert(std::endian::native == std::endian::little, "chunks lie in the fil
 }  // namespace
 
 std::size_t GrowingDataset::chunk_rows(std::size_t width, std::size_t expected) {
-  const std::size_t least = small_chunk_numbers / width, most = large_chunk_numbers / width;
-  return std::max<std::size_t>(1, std::clamp(expected / 4, least, most));
+  const std::size_t columns = std::max(width, narrow);
+  const std::size_t least = small_chunk_numbers / columns, most = large_chunk_numbers / columns;
+  return std::bit_floor(std::max<std::size_t>(1, std::clamp(expected / 4, least, most)));
 }
 
 GrowingDataset::GrowingDataset(std::string name, Handle dataset, const std::vector<hsize_t>& row_shape,

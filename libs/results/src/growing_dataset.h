@@ -23,6 +23,8 @@ class GrowingDataset {
   /// @param width  numbers per row
   /// @param expected  rows in the end, as far as is known
   [[nodiscard]] static std::size_t chunk_rows(std::size_t width, std::size_t expected);
+  /// Of rows of up to four numbers, as most are: the same for all, so that their chunks fill at the same step.
+  [[nodiscard]] static std::size_t narrow_chunk_rows(std::size_t expected) { return chunk_rows(1, expected); }
 
   /// @param dataset  chunked, of `chunk_rows` rows each, with no row yet
   /// @param row_shape  of a row; empty: one number

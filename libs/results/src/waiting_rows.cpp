@@ -11,7 +11,6 @@ namespace hersey::results {
 namespace {
 
 constexpr std::size_t prepared_bytes = std::size_t{4} << 20;    // at a time
-constexpr std::size_t prepared_steps = 1024;                    // before the first row
 constexpr std::size_t gathered_numbers = std::size_t{1} << 16;  // 512 KiB: what a processor holds close to itself
 
 /// Asks for large pages, of which a machine's rows fill less than one a step instead of dozens of small ones. A wish.
@@ -45,7 +44,7 @@ void WaitingRows::expect(std::size_t numbers, std::size_t steps) {
   // Memory that is never used costs nothing, to move it does.
   if (numbers > 0) numbers_.reserve(std::min(most_numbers / numbers, steps) * numbers);
   wish_large_pages(numbers_.data(), numbers_.capacity() * sizeof(double));
-  prepare(std::min(numbers_.capacity(), prepared_steps * numbers));
+  prepare(numbers_.capacity());
 }
 
 void WaitingRows::prepare(std::size_t end) {
@@ -65,6 +64,7 @@ std::span<double> WaitingRows::open(std::size_t width) {
 
 void WaitingRows::add(std::size_t first, std::size_t count) {
   used_ = numbers_.size();
+  if (runs_.empty() || first == runs_.front().first) ++steps_;
   if (!runs_.empty() && runs_.back().first + runs_.back().count == first)
     runs_.back().count += static_cast<std::uint32_t>(count);
   else
@@ -116,6 +116,7 @@ void WaitingRows::take_out(const std::vector<std::size_t>& widths,
   numbers_.clear();
   used_ = 0;
   runs_.clear();
+  steps_ = 0;
 }
 
 }  // namespace hersey::results

@@ -26,6 +26,8 @@ class WaitingRows {
   void add(std::size_t first, std::size_t count);
 
   [[nodiscard]] std::size_t numbers() const { return used_; }
+  /// Rows of the series that was added first since rows were last taken out.
+  [[nodiscard]] std::size_t steps() const { return steps_; }
   [[nodiscard]] bool has_room_for(std::size_t count) const { return used_ + count <= most_numbers; }
 
   /// Gives all rows of one series at a time, in the series' order, and forgets them.
@@ -51,6 +53,7 @@ class WaitingRows {
   std::vector<double> numbers_;
   std::size_t used_ = 0;  // of numbers_; what lies behind is open
   std::vector<Run> runs_;
+  std::size_t steps_ = 0;
   std::size_t prepared_ = 0;  // numbers up to which memory is there, not just promised
 };
 

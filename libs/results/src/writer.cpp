@@ -11,7 +11,6 @@
 #include <ctime>
 #include <exception>
 #include <functional>
-#include <future>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -26,8 +25,7 @@
 #include "hersey/core/sealed_file.h"
 #include "hersey/results/reader.h"
 #include "object_path.h"
-#include "reserving_driver.h"
-#include "waiting_rows.h"
+#include "row_flow.h"
 
 namespace hersey::results {
 namespace {
@@ -35,8 +33,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t block_numbers = 1u << 20;  // that rows of one series are copied in
-constexpr double flush_share = 0.03;             // of the time of a run, which flushes take at most
-constexpr unsigned index_node_half = 8;          // entries of half an index node: most series have a dozen chunks
 
 std::size_t numbers_of(const std::vector<std::size_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
@@ -49,17 +45,6 @@ std::string now_iso8601() {
   char text[sizeof "2026-01-31T12:34:56Z"];
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
   return text;
-}
-
-/// @returns descriptor of a new, empty file.
-int create(const std::filesystem::path& path, bool overwrite) {
-  // The old file is unlinked, not truncated: a program still reading or writing it keeps its own.
-  std::error_code ignored;
-  if (overwrite && std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
-  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd >= 0) return fd;
-  if (errno == EEXIST && !overwrite) throw FileExists(path);
-  throw WriteError(path, std::string("cannot create the results file: ") + std::strerror(errno));
 }
 
 /// Of datasets whose chunks are written whole.
@@ -89,28 +74,21 @@ struct Writer::Impl {
   bool in_memory = false;
   std::vector<LatestRow> latest;                          // in memory
   std::map<std::string, std::vector<std::string>> words;  // labels, by path; in memory
-  std::filesystem::path path;
   Options options;
-  DriverStatus status;
+  OpenFile file;
+  RowFlow flow;
   Handle text = text_type();
   Handle scalar{H5Screate(H5S_SCALAR)};
-  Handle file;
   std::optional<DimensionScales> scales;
-  std::vector<GrowingDataset> growing;
-  std::vector<std::size_t> widths;        // numbers per row of each; in memory too
-  WaitingRows waiting;                    // not in the file yet
-  WaitingRows leaving;                    // on their way into it
+  std::vector<std::size_t> widths;        // numbers per row of each series; in memory
   std::vector<double> open_rows;          // of a block that is being filled in; in memory
-  bool expects_rows = false;              // room for them is made
   std::unordered_set<std::string> names;  // of groups and datasets made so far
   std::string parent_name = "/";          // of the group opened last
   Handle parent;
   std::map<std::vector<hsize_t>, Handle> creations;  // property lists of datasets by the shape of their chunks
   Handle without_cache = without_chunk_cache();
-  Clock::time_point last_flush = Clock::now();
-  double flush_cost = 0;  // of the last one [s]; before there are rows, what making the series took
-  std::future<void>
-      writing;  // what is under way: the file, its series, `leaving` and the cost are its own until it ends
+
+  explicit Impl(Options how) : options(how), flow(file, options.rows, options.flush_interval, options.writes_beside) {}
 
   std::size_t keep(std::string_view name, std::string_view unit, std::string_view description,
                    std::vector<std::size_t> row_shape, std::string_view dimension) {
@@ -133,45 +111,18 @@ struct Writer::Impl {
     return numbers;
   }
 
-  void open() {
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS));
-    const int fd = create(path, options.overwrite);
-    if (!use_reserving_driver(access.get(), fd, status)) {
-      ::close(fd);
-      throw WriteError(path, "HDF5 refuses the file driver");
-    }
-    keep_metadata(access.get());
-    const Handle creation(H5Pcreate(H5P_FILE_CREATE));
-    H5Pset_istore_k(creation.get(), index_node_half);
-    file = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()));
-    require(file.valid(), "HDF5 cannot create the file");
-    scales.emplace(file.get());
-  }
-
-  /// Turns a failed call or a failed driver into the one exception the caller sees.
-  void require(bool good, std::string_view what) {
-    if (!good && !status.failed) {
-      status.failed = true;
-      status.reason = what;
-    }
-    if (status.failed) throw WriteError(path, "cannot write results: " + status.reason);
-  }
-
-  void require_open() {
-    HERSEY_REQUIRE(file.valid(), "the results file is finished");
-    require(true, {});
-  }
+  void require(bool good, std::string_view what) { file.require(good, what); }
 
   Handle open_or_make(const std::string& object) {
     if (object != "/") make_groups(object);
-    return Handle(H5Oopen(file.get(), object.c_str(), H5P_DEFAULT));
+    return Handle(H5Oopen(file.handle.get(), object.c_str(), H5P_DEFAULT));
   }
 
   void make_groups(const std::string& group) {
     for (std::size_t end = group.find('/', 1);; end = group.find('/', end + 1)) {
       const std::string part = group.substr(0, end);
       if (names.insert(part).second) {
-        const Handle made(H5Gcreate2(file.get(), part.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+        const Handle made(H5Gcreate2(file.handle.get(), part.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
         require(made.valid(), "HDF5 cannot create group " + part);
       }
       if (end == std::string::npos) return;
@@ -221,7 +172,7 @@ struct Writer::Impl {
   void open_group(const std::string& name) {
     if (parent.valid() && parent_name == name) return;
     if (name != "/") make_groups(name);
-    parent = Handle(H5Gopen2(file.get(), name.c_str(), H5P_DEFAULT));
+    parent = Handle(H5Gopen2(file.handle.get(), name.c_str(), H5P_DEFAULT));
     parent_name = name;
     require(parent.valid(), "HDF5 cannot open group " + name);
   }
@@ -322,29 +273,21 @@ struct Writer::Impl {
       dimensions.insert(dimensions.begin(), rows);
       name_dimensions(dataset, path_, dimensions);
     }
-    growing.emplace_back(path_, std::move(dataset), row_shape, chunk_rows,
-                         precision == Precision::float32 ? NumberSize::four_bytes : NumberSize::eight_bytes);
-    widths.push_back(width);
-    flush_cost += std::chrono::duration<double>(Clock::now() - began).count();
-    return growing.size() - 1;
+    const NumberSize size = precision == Precision::float32 ? NumberSize::four_bytes : NumberSize::eight_bytes;
+    return flow.add({path_, std::move(dataset), row_shape, chunk_rows, size},
+                    std::chrono::duration<double>(Clock::now() - began).count());
   }
 
   /// Room for a row, or for rows that are handed over together.
   std::span<double> open_row(std::size_t width) {
-    if (in_memory) {
-      open_rows.assign(width, 0);
-      return open_rows;
-    }
-    if (!options.writes_beside) require(true, {});
-    HERSEY_REQUIRE(file.valid(), "the results file is finished");
-    if (!expects_rows) expect_rows();
-    if (!waiting.has_room_for(width)) make_room();
-    return waiting.open(width);
+    if (!in_memory) return flow.open(width);
+    open_rows.assign(width, 0);
+    return open_rows;
   }
 
   /// What was opened last is a row of each of these series.
   void add_open_row(std::size_t first, std::size_t count) {
-    if (!in_memory) return waiting.add(first, count);
+    if (!in_memory) return flow.add_opened(first, count);
     auto at = open_rows.begin();
     for (std::size_t series = first; series < first + count; ++series) {
       const auto end = at + static_cast<std::ptrdiff_t>(widths[series]);
@@ -353,107 +296,32 @@ struct Writer::Impl {
     }
   }
 
-  void expect_rows() {
-    const std::size_t numbers = std::accumulate(widths.begin(), widths.end(), std::size_t{0});
-    waiting.expect(numbers, options.rows + 2);
-    if (options.writes_beside) leaving.expect(numbers, options.rows + 2);
-    expects_rows = true;
-  }
-
-  void make_room() {
-    if (options.writes_beside) return hand_over();
-    const Hdf5Session session;
-    require(true, {});
-    drain(waiting);
-  }
-
-  /// Has the rows put into the file beside what goes on; waits for those before them.
-  void hand_over() {
-    settle();
-    require(true, {});
-    std::swap(waiting, leaving);
-    const auto write = [this] {
-      const Hdf5Session session;
-      flush(leaving);
-    };
-    try {
-      writing = std::async(std::launch::async, write);
-    } catch (const std::system_error&) {  // the system has no thread to give
-      write();
-    }
-  }
-
-  /// Waits for rows that are on their way into the file. @throws WriteError where they did not get there
-  void settle() {
-    if (writing.valid()) writing.get();
-  }
-
-  [[nodiscard]] bool is_writing() const {
-    return writing.valid() && writing.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+  [[nodiscard]] std::size_t width(std::size_t series) const {
+    return in_memory ? widths.at(series) : flow.width(series);
   }
 
   /// To be alone with the file, rows handed over being in it.
   [[nodiscard]] Hdf5Session enter() {
-    settle();
+    flow.settle();
     return Hdf5Session();
-  }
-
-  /// Hands rows to HDF5, one series after the other; they are safe only after H5Fflush.
-  void drain(WaitingRows& rows) {
-    rows.take_out(widths, [this](std::size_t series, std::span<const double> numbers) {
-      require(growing[series].add(numbers), "HDF5 cannot add rows");
-    });
-  }
-
-  void flush(WaitingRows& rows) {
-    const Clock::time_point began = Clock::now();
-    const bool has_rows = rows.numbers() > 0;
-    drain(rows);
-    require(H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0, "HDF5 cannot flush");
-    last_flush = Clock::now();
-    // A flush of few rows does not tell what the next one will cost.
-    if (has_rows) flush_cost = std::max(std::chrono::duration<double>(last_flush - began).count(), 0.5 * flush_cost);
-  }
-
-  /// While nothing is under way.
-  [[nodiscard]] bool is_flush_due() const {
-    if (options.flush_interval == 0) return true;
-    const std::chrono::duration<double> since = Clock::now() - last_flush;
-    return since.count() >= std::max(options.flush_interval, flush_cost / flush_share);
-  }
-
-  /// Puts what is flushed onto the disk.
-  void sync() {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool synced = fd >= 0 && (::fsync(fd) == 0 || errno == EINVAL);
-    const std::string reason = std::strerror(errno);
-    if (fd >= 0) ::close(fd);
-    require(synced, reason);
-  }
-
-  void close() {
-    growing.clear();
-    parent.reset();
-    const bool good = file.reset();
-    if (!good && !status.failed) status = {true, "HDF5 cannot close the file"};
   }
 };
 
 Writer::Writer(std::filesystem::path path, Options options) {
   const Hdf5Session session;
-  impl_ = std::make_unique<Impl>();
-  impl_->path = std::move(path);
-  impl_->options = options;
-  impl_->open();
+  impl_ = std::make_unique<Impl>(options);
+  impl_->file.path = std::move(path);
+  impl_->file.open(options.overwrite);
+  impl_->scales.emplace(impl_->file.handle.get());
   attribute("/", "format", "hersey-results");
   attribute("/", "format_version", 1);
   attribute("/", "created", now_iso8601());
   attribute("/", "status", to_string(Status::running));
   attribute("/", "message", "");
-  impl_->flush(impl_->waiting);
+  impl_->flow.flush();
 }
 
-Writer::Writer(InMemory) : impl_(std::make_unique<Impl>()) { impl_->in_memory = true; }
+Writer::Writer(InMemory) : impl_(std::make_unique<Impl>(Options{})) { impl_->in_memory = true; }
 
 Writer::~Writer() {
   try {
@@ -466,14 +334,14 @@ Writer::~Writer() {
 void Writer::attribute(std::string_view object, std::string_view name, std::string_view text) {
   if (impl_->in_memory) return;
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   impl_->set_text(impl_->open_or_make(absolute(object)).get(), name, text);
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, double value) {
   if (impl_->in_memory) return;
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   const Handle target = impl_->open_or_make(absolute(object));
   impl_->set_attribute(target.get(), name, H5T_NATIVE_DOUBLE, impl_->scalar.get(), &value);
 }
@@ -481,7 +349,7 @@ void Writer::attribute(std::string_view object, std::string_view name, double va
 void Writer::attribute(std::string_view object, std::string_view name, int value) {
   if (impl_->in_memory) return;
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   const Handle target = impl_->open_or_make(absolute(object));
   impl_->set_attribute(target.get(), name, H5T_NATIVE_INT, impl_->scalar.get(), &value);
 }
@@ -489,7 +357,7 @@ void Writer::attribute(std::string_view object, std::string_view name, int value
 void Writer::attribute(std::string_view object, std::string_view name, const std::vector<std::string>& texts) {
   if (impl_->in_memory) return;
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   std::vector<const char*> pointers;
   pointers.reserve(texts.size());
   for (const std::string& text : texts) pointers.push_back(text.c_str());
@@ -502,7 +370,7 @@ void Writer::attribute(std::string_view object, std::string_view name, const std
 void Writer::text(std::string_view path, std::string_view content, std::string_view description) {
   if (impl_->in_memory) return;
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   const Handle dataset =
       impl_->make_dataset(path, impl_->text.get(), impl_->scalar.get(), H5P_DEFAULT, H5P_DEFAULT, "1", description);
   const std::string copy(content);
@@ -515,7 +383,7 @@ void Writer::text_table(std::string_view path, const std::vector<std::pair<std::
                         std::string_view description) {
   if (impl_->in_memory) return;
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   std::vector<const char*> pointers;
   for (const auto& [name, content] : rows) pointers.insert(pointers.end(), {name.c_str(), content.c_str()});
   const std::array<hsize_t, 2> shape{rows.size(), 2};
@@ -535,7 +403,7 @@ void Writer::constant(std::string_view path, std::span<const double> values, std
                       std::string_view description, std::string_view dimension) {
   if (impl_->in_memory) return;
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   HERSEY_REQUIRE(!values.empty(), "a constant has numbers");
   impl_->write_constant(absolute(path), values, unit, description, dimension);
 }
@@ -546,7 +414,7 @@ void Writer::labels(std::string_view path, const std::vector<std::string>& names
     return;
   }
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   HERSEY_REQUIRE(!names.empty(), "labels are of something");
   impl_->write_labels(absolute(path), names, description);
 }
@@ -559,7 +427,7 @@ Series Writer::series(std::string_view path, int columns, std::string_view unit,
     return {this, impl_->keep(path, unit, description, std::move(shape), dimension)};
   }
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   HERSEY_REQUIRE(columns >= 1, "a row has numbers");
   std::vector<hsize_t> row;
   std::vector<std::string> dimensions;
@@ -576,7 +444,7 @@ Series Writer::field(std::string_view path, std::array<int, 2> shape, std::strin
     return {this, impl_->keep(path, unit, description,
                               {static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(shape[1])}, {})};
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
+  impl_->file.require_open();
   HERSEY_REQUIRE(shape[0] >= 1 && shape[1] >= 1, "a row has numbers");
   const std::vector<hsize_t> row{static_cast<hsize_t>(shape[0]), static_cast<hsize_t>(shape[1])};
   const std::string name = absolute(path);
@@ -591,7 +459,7 @@ Series Writer::field(std::string_view path, std::array<int, 2> shape, std::strin
 void Series::append(std::span<const double> row) const {
   HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
   Writer::Impl& impl = *writer_->impl_;
-  const std::size_t width = impl.widths[index_];
+  const std::size_t width = impl.width(index_);
   HERSEY_REQUIRE(row.size() == width, fmt::format("a row of {} numbers was given, {} are due", row.size(), width));
   std::copy(row.begin(), row.end(), impl.open_row(width).begin());
   impl.add_open_row(index_, 1);
@@ -599,7 +467,7 @@ void Series::append(std::span<const double> row) const {
 
 std::size_t Series::width() const {
   HERSEY_REQUIRE(writer_ != nullptr, "a series comes from Writer::series");
-  return writer_->impl_->widths.at(index_);
+  return writer_->impl_->width(index_);
 }
 
 void SeriesBlock::add(const Series& series) {
@@ -623,21 +491,21 @@ const std::vector<LatestRow>& Writer::latest() const { return impl_->latest; }
 std::vector<std::pair<std::string, std::size_t>> Writer::rows() {
   if (impl_->in_memory) return {};
   flush();
-  impl_->sync();
+  impl_->file.sync();
   std::vector<std::pair<std::string, std::size_t>> rows;
-  rows.reserve(impl_->growing.size());
-  for (const GrowingDataset& entry : impl_->growing) rows.emplace_back(entry.name(), entry.rows());
+  rows.reserve(impl_->flow.datasets().size());
+  for (const GrowingDataset& entry : impl_->flow.datasets()) rows.emplace_back(entry.name(), entry.rows());
   return rows;
 }
 
 void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::string, std::size_t>>& rows) {
   if (impl_->in_memory) return;
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
-  if (rows.size() != impl_->growing.size()) throw ReadError(from.path(), "it holds other series");
-  impl_->drain(impl_->waiting);
+  impl_->file.require_open();
+  if (rows.size() != impl_->flow.datasets().size()) throw ReadError(from.path(), "it holds other series");
+  impl_->flow.drain();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    GrowingDataset& entry = impl_->growing[i];
+    GrowingDataset& entry = impl_->flow.datasets()[i];
     const auto& [name, count] = rows[i];
     if (name != entry.name() || !from.has(name)) throw ReadError(from.path(), "it lacks " + entry.name());
     const std::size_t width = entry.width(), block = std::max<std::size_t>(1, block_numbers / width);
@@ -653,74 +521,70 @@ void Writer::copy_rows(const Reader& from, const std::vector<std::pair<std::stri
 
 void Writer::rename(const std::filesystem::path& path, bool replace) {
   if (impl_->in_memory) return;
-  impl_->settle();
-  impl_->require_open();
-  impl_->sync();
+  impl_->flow.settle();
+  impl_->file.require_open();
+  impl_->file.sync();
   bool renamed = false;
   if (replace) {
-    renamed = ::rename(impl_->path.c_str(), path.c_str()) == 0;
+    renamed = ::rename(impl_->file.path.c_str(), path.c_str()) == 0;
   } else {
-    renamed = ::renameat2(AT_FDCWD, impl_->path.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0;
+    renamed = ::renameat2(AT_FDCWD, impl_->file.path.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0;
     if (!renamed && errno == EEXIST) throw FileExists(path);
     if (!renamed && errno == EINVAL) {  // a file system without this flag
       if (std::filesystem::exists(path)) throw FileExists(path);
-      renamed = ::rename(impl_->path.c_str(), path.c_str()) == 0;
+      renamed = ::rename(impl_->file.path.c_str(), path.c_str()) == 0;
     }
   }
   impl_->require(renamed, std::strerror(errno));
-  impl_->path = path;
+  impl_->file.path = path;
 }
 
 void Writer::flush() {
   if (impl_->in_memory) return;
   const Hdf5Session session = impl_->enter();
-  impl_->require_open();
-  impl_->flush(impl_->waiting);
+  impl_->file.require_open();
+  impl_->flow.flush();
 }
 
 void Writer::flush_if_due() {
-  if (impl_->in_memory || impl_->is_writing()) return;
-  impl_->settle();
-  if (!impl_->is_flush_due()) return;
-  if (impl_->options.writes_beside)
-    impl_->hand_over();
-  else
-    flush();
+  if (!impl_->in_memory) impl_->flow.end_step();
 }
 
 void Writer::finish(Status status, std::string_view message) {
   if (impl_->in_memory) return;
-  if (!impl_->file.valid()) return;
+  if (!impl_->file.handle.valid()) return;
   std::exception_ptr untold;
   try {
-    impl_->settle();
+    impl_->flow.settle();
   } catch (const WriteError&) {
     untold = std::current_exception();
   }
   const Hdf5Session session;
-  const bool failed_before = impl_->status.failed;
+  const bool failed_before = impl_->file.status.failed;
   if (!failed_before) {
     try {
-      impl_->flush(impl_->waiting);  // whoever reads the status finds all the rest
-      const Handle root(H5Oopen(impl_->file.get(), "/", H5P_DEFAULT));
+      impl_->flow.flush();  // whoever reads the status finds all the rest
+      const Handle root(H5Oopen(impl_->file.handle.get(), "/", H5P_DEFAULT));
       impl_->set_text(root.get(), "status", to_string(status));
       impl_->set_text(root.get(), "message", message);
-      impl_->flush(impl_->waiting);
+      impl_->flow.flush();
     } catch (const WriteError&) {
       untold = std::current_exception();
     }
   }
-  impl_->close();
+  impl_->flow.datasets().clear();
+  impl_->parent.reset();
+  impl_->file.close();
   if (untold) std::rethrow_exception(untold);
   if (failed_before) return;
   impl_->require(true, {});
   try {
-    seal_file(impl_->path);
+    seal_file(impl_->file.path);
   } catch (const std::runtime_error&) {
     // All is there: without its seal the file is read as that of a run that was killed.
   }
 }
 
-const std::filesystem::path& Writer::path() const { return impl_->path; }
+const std::filesystem::path& Writer::path() const { return impl_->file.path; }
 
 }  // namespace hersey::results

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <future>
+#include <span>
+#include <vector>
+
+#include "growing_dataset.h"
+#include "open_file.h"
+#include "waiting_rows.h"
+
+namespace hersey::results {
+
+/// The way of rows into the file: they wait in memory until their series' chunks are full or a flush is due, and go
+/// into the file at once or, where a thread is to be had, beside what goes on.
+class RowFlow {
+ public:
+  /// @param file  outlives it; touched by a thread of its own while rows are under way: settle() first
+  /// @param expected  rows of a series in the end, as far as known
+  /// @param flush_interval  shortest time between two flushes that nobody asked for [s]
+  RowFlow(OpenFile& file, std::size_t expected, double flush_interval, bool writes_beside)
+      : file_(file), expected_(expected), flush_interval_(flush_interval), writes_beside_(writes_beside) {}
+
+  /// @param cost  of making it [s]: a sign of what the first flush will take
+  /// @returns the number of the series
+  std::size_t add(GrowingDataset dataset, double cost);
+  [[nodiscard]] std::vector<GrowingDataset>& datasets() { return datasets_; }
+  [[nodiscard]] std::size_t width(std::size_t series) const { return widths_.at(series); }
+
+  /// Room for `width` numbers, zeros: a row, or rows that are handed over together. @throws WriteError
+  [[nodiscard]] std::span<double> open(std::size_t width);
+  /// What was opened last is a row of each of `count` series from `first` on.
+  void add_opened(std::size_t first, std::size_t count) { waiting_.add(first, count); }
+
+  /// Puts all rows into the file, which keeps them from then on. Rows under way come first: settle(). @throws
+  /// WriteError
+  void flush() { flush(waiting_); }
+  /// Hands rows to HDF5, which are safe only after a flush; settle() first. @throws WriteError
+  void drain() { drain(waiting_); }
+  /// At the end of a step: has rows put into the file where that is due, unless some are under way. @throws WriteError
+  void end_step();
+  /// Waits for rows that are on their way into the file. @throws WriteError where they did not get there
+  void settle() {
+    if (writing_.valid()) writing_.get();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void expect_rows();
+  void make_room();
+  void hand_over(bool with_flush);
+  void drain(WaitingRows& rows);
+  void flush(WaitingRows& rows);
+  [[nodiscard]] bool is_writing() const;
+  [[nodiscard]] bool is_flush_due() const;
+  [[nodiscard]] bool are_chunks_full() const;
+
+  OpenFile& file_;
+  std::size_t expected_;
+  double flush_interval_;
+  bool writes_beside_;
+  std::vector<GrowingDataset> datasets_;
+  std::vector<std::size_t> widths_;  // numbers per row of each
+  WaitingRows waiting_;              // not in the file yet
+  WaitingRows leaving_;              // on their way into it
+  std::size_t steps_at_a_time_ = 0;  // rows of most series that go together; 0 until there is room for them
+  Clock::time_point last_flush_ = Clock::now();
+  double flush_cost_ = 0;      // of the last one [s]; before there are rows, what making the series took
+  std::future<void> writing_;  // while it is under way the file, its datasets, leaving_ and the cost are its own
+};
+
+}  // namespace hersey::results
