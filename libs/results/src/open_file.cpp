@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "hersey/core/contract.h"
-#include "hersey/results/writer.h"
+#include "hersey/results/error.h"
 
 namespace hersey::results {
 namespace {
