@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <system_error>
@@ -62,6 +63,22 @@ void OpenFile::sync() {
   const std::string reason = std::strerror(errno);
   if (fd >= 0) ::close(fd);
   require(synced, reason);
+}
+
+void OpenFile::rename(const std::filesystem::path& to, bool replace) {
+  bool renamed = false;
+  if (replace) {
+    renamed = ::rename(path.c_str(), to.c_str()) == 0;
+  } else {
+    renamed = ::renameat2(AT_FDCWD, path.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0;
+    if (!renamed && errno == EEXIST) throw FileExists(to);
+    if (!renamed && errno == EINVAL) {  // a file system without this flag
+      if (std::filesystem::exists(to)) throw FileExists(to);
+      renamed = ::rename(path.c_str(), to.c_str()) == 0;
+    }
+  }
+  require(renamed, std::strerror(errno));
+  path = to;
 }
 
 void OpenFile::close() {

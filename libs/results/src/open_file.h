@@ -22,6 +22,8 @@ struct OpenFile {
   void require_open();
   /// Puts what is flushed onto the disk. @throws WriteError
   void sync();
+  /// Gives it another name, in one piece. @param replace  a file of that name; else @throws FileExists, WriteError
+  void rename(const std::filesystem::path& to, bool replace);
   /// In order or not: `status` tells.
   void close();
 };

@@ -41,14 +41,14 @@ void RowFlow::expect_rows() {
 void RowFlow::make_room() {
   if (writes_beside_) return hand_over(false);
   const Hdf5Session session;
-  file_.require(true, {});
-  drain(waiting_);
+  file_.require_open();
+  drain();
 }
 
 /// Has the rows put into the file beside what goes on; waits for those before them.
 void RowFlow::hand_over(bool with_flush) {
   settle();
-  file_.require(true, {});
+  file_.require_open();
   std::swap(waiting_, leaving_);
   const auto write = [this, with_flush] {
     const Hdf5Session session;
@@ -85,7 +85,7 @@ void RowFlow::end_step() {
   if (!is_due && !are_chunks_full()) return;
   if (writes_beside_) return hand_over(is_due);
   const Hdf5Session session;
-  file_.require(true, {});
+  file_.require_open();
   is_due ? flush() : drain();
 }
 

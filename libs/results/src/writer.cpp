@@ -1,13 +1,8 @@
 #include "hersey/results/writer.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
-#include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <exception>
 #include <functional>
@@ -15,7 +10,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <system_error>
 #include <unordered_set>
 
 #include "dimension_scales.h"
@@ -80,7 +74,6 @@ struct Writer::Impl {
   Handle text = text_type();
   Handle scalar{H5Screate(H5S_SCALAR)};
   std::optional<DimensionScales> scales;
-  std::vector<std::size_t> widths;        // numbers per row of each series; in memory
   std::vector<double> open_rows;          // of a block that is being filled in; in memory
   std::unordered_set<std::string> names;  // of groups and datasets made so far
   std::string parent_name = "/";          // of the group opened last
@@ -94,7 +87,6 @@ struct Writer::Impl {
                    std::vector<std::size_t> row_shape, std::string_view dimension) {
     LatestRow row{absolute(name), std::string(unit), std::string(description), std::move(row_shape), {}, {}};
     if (row.shape.size() == 1) row.components = names_of(row.shape.front(), dimension);
-    widths.push_back(numbers_of(row.shape));
     latest.push_back(std::move(row));
     return latest.size() - 1;
   }
@@ -290,14 +282,14 @@ struct Writer::Impl {
     if (!in_memory) return flow.add_opened(first, count);
     auto at = open_rows.begin();
     for (std::size_t series = first; series < first + count; ++series) {
-      const auto end = at + static_cast<std::ptrdiff_t>(widths[series]);
+      const auto end = at + static_cast<std::ptrdiff_t>(width(series));
       latest[series].values.assign(at, end);
       at = end;
     }
   }
 
   [[nodiscard]] std::size_t width(std::size_t series) const {
-    return in_memory ? widths.at(series) : flow.width(series);
+    return in_memory ? numbers_of(latest.at(series).shape) : flow.width(series);
   }
 
   /// To be alone with the file, rows handed over being in it.
@@ -524,19 +516,7 @@ void Writer::rename(const std::filesystem::path& path, bool replace) {
   impl_->flow.settle();
   impl_->file.require_open();
   impl_->file.sync();
-  bool renamed = false;
-  if (replace) {
-    renamed = ::rename(impl_->file.path.c_str(), path.c_str()) == 0;
-  } else {
-    renamed = ::renameat2(AT_FDCWD, impl_->file.path.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0;
-    if (!renamed && errno == EEXIST) throw FileExists(path);
-    if (!renamed && errno == EINVAL) {  // a file system without this flag
-      if (std::filesystem::exists(path)) throw FileExists(path);
-      renamed = ::rename(impl_->file.path.c_str(), path.c_str()) == 0;
-    }
-  }
-  impl_->require(renamed, std::strerror(errno));
-  impl_->file.path = path;
+  impl_->file.rename(path, replace);
 }
 
 void Writer::flush() {

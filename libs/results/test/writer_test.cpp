@@ -218,6 +218,49 @@ TEST_CASE("FlushIfDue_WaitsForItsInterval") {
   CHECK_FALSE(Reader(lazy).has("/time"));
 }
 
+// Rows that fill chunks go into the file before a flush is due. It still shows those of the last flush, as it would
+// after a kill: a copy of it is what is there then.
+TEST_CASE("RowsThatFillChunks_LeaveMemory_AndShowOnceFlushed") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "run.h5", killed = directory / "killed.h5";
+  bool writes_beside = false;
+  SUBCASE("at once") {}
+  SUBCASE("beside") { writes_beside = true; }
+  constexpr int columns = 1000, flushed = 10, steps = 1400;  // in all more than the 8 MiB that are worth moving
+  Writer writer(path, {.flush_interval = 3600, .rows = steps, .writes_beside = writes_beside});
+  const Series time = writer.series("/time", 1, "s", "time");
+  const Series pressure = writer.series("/pressure", columns, "Pa", "pressure");
+  std::vector<double> row(columns);
+  const auto add = [&](int k) {
+    time.append(k);
+    for (int i = 0; i < columns; ++i) row[i] = k + 1e-3 * i;
+    pressure.append(row);
+    writer.flush_if_due();
+  };
+  int k = 0;
+  while (k < flushed) add(k++);
+  writer.flush();
+  const auto size_then = std::filesystem::file_size(path);
+  while (k < steps) add(k++);
+  writer.attribute("/", "rows", "all on their way");  // waits for them
+  CHECK(std::filesystem::file_size(path) > size_then + 8 * columns * steps / 2);
+  std::filesystem::copy_file(path, killed);
+  {
+    const Reader reader(killed);
+    CHECK(reader.rows() == flushed);
+    CHECK(reader.read("/pressure").values.back() == flushed - 1 + 1e-3 * (columns - 1));
+  }
+  writer.finish(Status::completed);
+  const Reader reader(path);
+  CHECK(reader.rows() == steps);
+  const std::vector<double> values = reader.read("/pressure").values;
+  REQUIRE(values.size() == std::size_t{columns} * steps);
+  bool all_there = true;
+  for (int step = 0; step < steps; ++step)
+    for (int i = 0; i < columns; ++i) all_there &= values[step * columns + i] == step + 1e-3 * i;
+  CHECK(all_there);
+}
+
 TEST_CASE("RowsWrittenBeside_AreThoseWrittenAtOnce") {
   const TemporaryDirectory directory;
   const auto path = directory / "run.h5";
