@@ -1,12 +1,17 @@
 #include "heat/heat_system.h"
 
-#include <cstdlib>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
 
 namespace hersey::film {
 
 HeatSystem::HeatSystem(const Grid& grid, int layers, bool has_ring) : grid_(grid), layers_(layers) {
   const int n_phi = grid.n_phi, n_z = grid.n_z;
   layer_.resize(static_cast<std::size_t>(grid.size() * layers));
+  from_places_.resize(8 * layer_.size());
+  is_linked_.resize(static_cast<std::size_t>(8 * grid.size()));
   pivots_.resize(layer_.size());
   if (has_ring) ring_.resize(static_cast<std::size_t>(n_phi));
   from_film_.resize(static_cast<std::size_t>(2 * grid.size()));
@@ -19,8 +24,18 @@ HeatSystem::HeatSystem(const Grid& grid, int layers, bool has_ring) : grid_(grid
 
 void HeatSystem::set_zero() {
   layer_.assign(layer_.size(), {});
+  from_places_.assign(from_places_.size(), 0);
+  is_linked_.assign(is_linked_.size(), false);
   ring_.assign(ring_.size(), {});
   from_film_.assign(from_film_.size(), 0);
+}
+
+// Loops over the layers of a column are unrolled for the numbers mostly asked for.
+template <class Action>
+void HeatSystem::for_layers(Action&& action) const {
+  if (layers_ == 1) return action(std::integral_constant<int, 1>{});
+  if (layers_ == 5) return action(std::integral_constant<int, 5>{});
+  action(std::integral_constant<int, 0>{});
 }
 
 HeatSystem::Row HeatSystem::entries(int node, int layer) const {
@@ -29,10 +44,9 @@ HeatSystem::Row HeatSystem::entries(int node, int layer) const {
   Row entries{{at, of.self}};
   if (layer > 0) entries.emplace_back(at - 1, of.below);
   if (layer + 1 < layers_) entries.emplace_back(at + 1, of.above);
-  for (int side = 0; side < 4; ++side) {
-    if (of.beside[side] != 0) entries.emplace_back(row(neighbour(node, side), layer), of.beside[side]);
-    if (of.beyond[side] != 0) entries.emplace_back(row(next_but_one(node, side), layer), of.beyond[side]);
-  }
+  for (int place = 8 * node; place < 8 * (node + 1); ++place)
+    if (const double entry = from_places_[place * layers_ + layer]; entry != 0)
+      entries.emplace_back(row(node_at(place), layer), entry);
   if (of.ring != 0) entries.emplace_back(ring_row(node / grid_.n_z), of.ring);
   return entries;
 }
@@ -71,6 +85,8 @@ HeatSystem::Row HeatSystem::answer_entries(int i) const {
 
 void HeatSystem::scale(int row, double factor) {
   for (double* entry : layer_[row].entries()) *entry *= factor;
+  const int node = row / layers_, layer = row % layers_;
+  for (int place = 8 * node; place < 8 * (node + 1); ++place) from_places_[place * layers_ + layer] *= factor;
 }
 
 void HeatSystem::add(double weight, const HeatSystem& other) {
@@ -79,6 +95,8 @@ void HeatSystem::add(double weight, const HeatSystem& other) {
     for (std::size_t k = 0; k < to.size(); ++k) *to[k] += weight * *from[k];
   };
   for (std::size_t row = 0; row < layer_.size(); ++row) add_entries(layer_[row], other.layer_[row]);
+  for (std::size_t k = 0; k < from_places_.size(); ++k) from_places_[k] += weight * other.from_places_[k];
+  for (std::size_t k = 0; k < is_linked_.size(); ++k) is_linked_[k] = is_linked_[k] || other.is_linked_[k];
   for (std::size_t i = 0; i < ring_.size(); ++i) add_entries(ring_[i], other.ring_[i]);
   for (std::size_t k = 0; k < from_film_.size(); ++k) from_film_[k] += weight * other.from_film_[k];
 }
@@ -91,8 +109,11 @@ void HeatSystem::hold_ring() {
 void HeatSystem::persist(Archive& archive) {
   std::vector<double> entries;
   const auto each = [this](auto&& action) {
-    for (Layer& of : layer_)
-      for (double* entry : of.entries()) action(*entry);
+    for (int row = 0; row < film_rows(); ++row) {
+      for (double* entry : layer_[row].entries()) action(*entry);
+      const int node = row / layers_, layer = row % layers_;
+      for (int place = 8 * node; place < 8 * (node + 1); ++place) action(from_places_[place * layers_ + layer]);
+    }
     for (Ring& of : ring_)
       for (double* entry : of.entries()) action(*entry);
   };
@@ -100,26 +121,43 @@ void HeatSystem::persist(Archive& archive) {
   archive.io("entries", entries);
   auto next = entries.cbegin();
   each([&next](double& entry) { entry = *next++; });
+  is_linked_.assign(is_linked_.size(), true);
   archive.io("from_film", from_film_);
 }
 
-void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  for (int node = 0; node < grid_.size(); ++node) {
-    for (int l = 0; l < layers_; ++l) {
-      const int at = row(node, l);
-      const Layer& of = layer_[at];
-      double sum = of.self * x[at];
-      if (l > 0) sum += of.below * x[at - 1];
-      if (l + 1 < layers_) sum += of.above * x[at + 1];
-      for (int side = 0; side < 4; ++side) {
-        if (of.beside[side] != 0) sum += of.beside[side] * x[row(neighbour(node, side), l)];
-        if (of.beyond[side] != 0) sum += of.beyond[side] * x[row(next_but_one(node, side), l)];
-      }
-      y[at] = sum;
-    }
-    if (ring_.empty()) continue;
-    y[row(node, 0)] += layer_[row(node, 0)].ring * x[ring_row(node / grid_.n_z)];
+// What other columns give, from as many sums as there are layers.
+template <int N>
+void HeatSystem::subtract(int begin, int end, const double* x, std::span<double> sums) const {
+  const int n = N > 0 ? N : layers_;
+  for (int link = begin; link < end; ++link) {
+    const auto& [place, row] = linked_[link];
+    const double* from = x + row;
+    const double* entry = from_places_.data() + place * n;
+    for (int l = 0; l < n; ++l) sums[l] -= entry[l] * from[l];
   }
+}
+
+template <int N>
+void HeatSystem::multiply_layers(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  const int n = N > 0 ? N : layers_;
+  std::array<double, N == 0 ? most_layers : N> sums;
+  for (int node = 0; node < grid_.size(); ++node) {
+    const int first = row(node, 0);
+    for (int l = 0; l < n; ++l) {
+      const Layer& of = layer_[first + l];
+      sums[l] = -of.self * x[first + l];
+      if (l > 0) sums[l] -= of.below * x[first + l - 1];
+      if (l + 1 < n) sums[l] -= of.above * x[first + l + 1];
+    }
+    subtract<N>(links_[node].begin, links_[node].end, x.data(), sums);
+    for (int l = 0; l < n; ++l) y[first + l] = -sums[l];
+    if (!ring_.empty()) y[first] += layer_[first].ring * x[ring_row(node / grid_.n_z)];
+  }
+}
+
+void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  for_layers([&](auto number) { multiply_layers<number()>(x, y); });
+  if (ring_.empty()) return;
   const int n = ring_rows();
   for (int i = 0; i < n; ++i) {
     const Ring& of = ring_[i];
@@ -140,32 +178,54 @@ void HeatSystem::prepare(int first, bool forwards) {
     for (int j = middle; j < grid_.n_z; ++j) order_.push_back(grid_.index(i, j));
     for (int j = middle - 1; j >= 0; --j) order_.push_back(grid_.index(i, j));
   }
+  find_links();
   for (int node = 0; node < grid_.size(); ++node) {
     double last = 0;
     for (int l = 0; l < layers_; ++l) {
       const Layer& of = layer_[row(node, l)];
       const double inverse = 1 / (of.self - of.below * last);
       last = of.above * inverse;
-      pivots_[row(node, l)] = {inverse, last};
+      pivots_[row(node, l)] = {inverse, of.below * inverse, last};
     }
   }
   if (!ring_.empty()) prepare_ring();
 }
 
-void HeatSystem::solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-  const int first = row(node, 0), top = layers_ - 1;
-  for (int l = 0; l < layers_; ++l) {
-    const Layer& of = layer_[first + l];
-    double rest = b[first + l];
-    for (int side = 0; side < 4; ++side) {
-      if (of.beside[side] != 0) rest -= of.beside[side] * x[row(neighbour(node, side), l)];
-      if (of.beyond[side] != 0) rest -= of.beyond[side] * x[row(next_but_one(node, side), l)];
+// Of the four neighbours and those beyond most give a column nothing: oil comes from one side around and one along.
+void HeatSystem::find_links() {
+  std::vector<int> turn(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) turn[order_[k]] = static_cast<int>(k);
+  links_.clear(), linked_.clear();
+  const auto count = [this] { return static_cast<int>(linked_.size()); };
+  for (int node = 0; node < grid_.size(); ++node) {
+    Links links{.begin = count()};
+    for (const bool later : {false, true}) {
+      if (later) links.later = count();
+      for (int place = 8 * node; place < 8 * (node + 1); ++place)
+        if (is_linked_[place] && (turn[node_at(place)] > turn[node]) == later)
+          linked_.emplace_back(place, row(node_at(place), 0));
     }
-    if (l == 0 && !ring_.empty()) rest -= of.ring * x[ring_row(node / grid_.n_z)];
-    if (l > 0) rest -= of.below * x[first + l - 1];
-    x[first + l] = rest * pivots_[first + l].first;
+    links.end = count();
+    links_.push_back(links);
   }
-  for (int l = top - 1; l >= 0; --l) x[first + l] -= pivots_[first + l].second * x[first + l + 1];
+}
+
+// Column by column; those that come later are still zero.
+template <int N>
+void HeatSystem::sweep_layers(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  const int n = N > 0 ? N : layers_;
+  std::array<double, N == 0 ? most_layers : N> rest;
+  for (const int node : order_) {
+    const int first = row(node, 0);
+    for (int l = 0; l < n; ++l) rest[l] = b[first + l];
+    subtract<N>(links_[node].begin, links_[node].later, x.data(), rest);
+    if (!ring_.empty()) rest[0] -= layer_[first].ring * x[ring_row(node / grid_.n_z)];
+    const Pivot* pivot = &pivots_[first];
+    rest[0] *= pivot[0].inverse;
+    for (int l = 1; l < n; ++l) rest[l] = rest[l] * pivot[l].inverse - pivot[l].below * rest[l - 1];
+    for (int l = n - 2; l >= 0; --l) rest[l] -= pivot[l].above * rest[l + 1];
+    for (int l = 0; l < n; ++l) x[first + l] = rest[l];
+  }
 }
 
 void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
@@ -179,7 +239,7 @@ void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
       solve_ring(x);
     }
   }
-  for (const int node : order_) solve_column(node, b, x);
+  for_layers([&](auto number) { sweep_layers<number()>(b, x); });
   if (ring_.empty()) return;
   Eigen::VectorXd by_film = Eigen::VectorXd::Zero(ring_rows());
   for (int i = 0; i < ring_rows(); ++i)

@@ -2,12 +2,14 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "heat/wall_answer.h"
 #include "hersey/core/archive.h"
 #include "hersey/film/grid.h"
+#include "hersey/film/thermal_model.h"
 
 namespace hersey::film {
 
@@ -37,9 +39,9 @@ class HeatSystem {
   }
   [[nodiscard]] double& below(int node, int layer) { return layer_[row(node, layer)].below; }
   [[nodiscard]] double& above(int node, int layer) { return layer_[row(node, layer)].above; }
-  [[nodiscard]] double& beside(int node, int layer, Side side) { return layer_[row(node, layer)].beside[side]; }
+  [[nodiscard]] double& beside(int node, int layer, Side side) { return from_place(8 * node + side, layer); }
   /// Of the node two steps away on that side.
-  [[nodiscard]] double& beyond(int node, int layer, Side side) { return layer_[row(node, layer)].beyond[side]; }
+  [[nodiscard]] double& beyond(int node, int layer, Side side) { return from_place(8 * node + 4 + side, layer); }
   [[nodiscard]] double& to_ring(int node) { return layer_[row(node, 0)].ring; }
   /// Entry of the ring's row by one of the two layers beside it.
   [[nodiscard]] double& from_film(int node, int layer) { return from_film_[2 * node + layer]; }
@@ -59,11 +61,11 @@ class HeatSystem {
   /// The ring keeps its temperature: its rows become those of the unit matrix.
   void hold_ring();
 
+  /// Makes ready for products, and for sweeps that begin at angle `first` and go towards growing angles, or falling
+  /// ones.
+  void prepare(int first, bool forwards);
   /// The first size() entries of y = A x; what x and y have beyond is left alone.
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
-
-  /// Makes ready for sweeps that begin at angle `first` and go towards growing angles, or falling ones.
-  void prepare(int first, bool forwards);
   /// x with A x = b but for what flows against the sweep and what the ring gives back to it; likewise the first size()
   /// entries.
   void sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
@@ -74,15 +76,19 @@ class HeatSystem {
  private:
   struct Layer {
     double self = 0, below = 0, above = 0, ring = 0;
-    std::array<double, 4> beside{}, beyond{};
-    [[nodiscard]] std::array<double*, 12> entries() {
-      return {&self,      &below,     &above,     &ring,      &beside[0], &beside[1],
-              &beside[2], &beside[3], &beyond[0], &beyond[1], &beyond[2], &beyond[3]};
-    }
+    [[nodiscard]] std::array<double*, 4> entries() { return {&self, &below, &above, &ring}; }
   };
   struct Ring {
     double self = 0, before = 0, after = 0;
     [[nodiscard]] std::array<double*, 3> entries() { return {&self, &before, &after}; }
+  };
+  /// Those of one column with others: from `later` on with such as a sweep comes to later.
+  struct Links {
+    int begin = 0, later = 0, end = 0;
+  };
+  /// 1/pivot, and the entries below and above over it.
+  struct Pivot {
+    double inverse = 0, below = 0, above = 0;
   };
   [[nodiscard]] int film_rows() const { return static_cast<int>(layer_.size()); }
   [[nodiscard]] int ring_rows() const { return static_cast<int>(ring_.size()); }
@@ -90,7 +96,24 @@ class HeatSystem {
   [[nodiscard]] double from_film(int node, const Eigen::VectorXd& x) const;
   [[nodiscard]] int neighbour(int node, int side) const { return neighbours_[node][side]; }
   [[nodiscard]] int next_but_one(int node, int side) const { return neighbour(neighbour(node, side), side); }
-  void solve_column(int node, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
+  /// The node whose place is `place` % 8 around another: four beside it, four beyond these.
+  [[nodiscard]] int node_at(int place) const {
+    const int node = place / 8, side = place % 4;
+    return place % 8 < 4 ? neighbour(node, side) : next_but_one(node, side);
+  }
+  [[nodiscard]] double& from_place(int place, int layer) {
+    is_linked_[place] = true;
+    return from_places_[place * layers_ + layer];
+  }
+  void find_links();
+  template <class Action>
+  void for_layers(Action&& action) const;
+  template <int N>
+  void subtract(int begin, int end, const double* x, std::span<double> sums) const;
+  template <int N>
+  void multiply_layers(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  template <int N>
+  void sweep_layers(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
   [[nodiscard]] Row answer_entries(int i) const;
   void prepare_ring();
   void solve_ring(Eigen::VectorXd& x) const;
@@ -98,11 +121,15 @@ class HeatSystem {
   Grid grid_;
   int layers_;
   std::vector<Layer> layer_;
+  std::vector<double> from_places_;  ///< entries by the eight nodes around each, of all layers side by side
+  std::vector<char> is_linked_;      ///< whether there may be any
   std::vector<Ring> ring_;
-  std::vector<double> from_film_;                  ///< entries of the ring's rows by the two lowest layers of each node
-  std::vector<std::array<int, 4>> neighbours_;     ///< itself where there is none
-  std::vector<int> order_;                         ///< of nodes in a sweep
-  std::vector<std::pair<double, double>> pivots_;  ///< of every layer: 1/pivot, entry above over the pivot
+  std::vector<double> from_film_;               ///< entries of the ring's rows by the two lowest layers of each node
+  std::vector<std::array<int, 4>> neighbours_;  ///< itself where there is none
+  std::vector<int> order_;                      ///< of nodes in a sweep
+  std::vector<Pivot> pivots_;                   ///< of every layer in its column
+  std::vector<Links> links_;                    ///< of each node
+  std::vector<std::pair<int, int>> linked_;     ///< of each link the place around its node, and the other's first row
   std::vector<std::pair<double, double>> ring_pivots_;
   Eigen::VectorXd closing_;  ///< answer of the open ring to what closes it
   double closing_share_ = 0;
