@@ -74,6 +74,7 @@ void RowFlow::flush(WaitingRows& rows) {
   drain(rows);
   file_.require(H5Fflush(file_.handle.get(), H5F_SCOPE_LOCAL) >= 0, "HDF5 cannot flush");
   last_flush_ = Clock::now();
+  rows_at_flush_ = datasets_.empty() ? 0 : datasets_.front().rows();
   // A flush of few rows does not tell what the next one will cost.
   if (has_rows) flush_cost_ = std::max(std::chrono::duration<double>(last_flush_ - began).count(), 0.5 * flush_cost_);
 }
@@ -93,18 +94,26 @@ bool RowFlow::is_writing() const {
   return writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
 }
 
-/// Of the first series, which most others keep pace with; while nothing is under way.
-bool RowFlow::are_chunks_full() const {
-  if (steps_at_a_time_ == 0 || datasets_.empty()) return false;
-  const std::size_t written = datasets_.front().rows();
-  return (written + waiting_.steps()) / steps_at_a_time_ > written / steps_at_a_time_;
+/// Rows that the chunks, as far as they are begun, still take. Of the first series, which most others keep pace with;
+/// while nothing is under way.
+std::size_t RowFlow::missing_steps() const {
+  const std::size_t begun = datasets_.front().rows() % steps_at_a_time_;
+  return steps_at_a_time_ - std::min(steps_at_a_time_, begun + waiting_.steps());
 }
 
-/// While nothing is under way.
+bool RowFlow::are_chunks_full() const { return steps_at_a_time_ > 0 && !datasets_.empty() && missing_steps() == 0; }
+
+/// While nothing is under way. A chunk that is written before it is full is written again: where all are about to be, a
+/// flush waits for that as long again at most.
 bool RowFlow::is_flush_due() const {
   if (flush_interval_ == 0) return true;
-  const std::chrono::duration<double> since = Clock::now() - last_flush_;
-  return since.count() >= std::max(flush_interval_, flush_cost_ / flush_share);
+  const double since = std::chrono::duration<double>(Clock::now() - last_flush_).count();
+  const double interval = std::max(flush_interval_, flush_cost_ / flush_share);
+  if (since < interval) return false;
+  if (steps_at_a_time_ == 0 || datasets_.empty() || since >= 2 * interval) return true;
+  const double steps = static_cast<double>(datasets_.front().rows() + waiting_.steps() - rows_at_flush_);
+  const bool are_full_soon = static_cast<double>(missing_steps()) * since <= steps * (2 * interval - since);
+  return missing_steps() == 0 || !are_full_soon;
 }
 
 }  // namespace hersey::results

@@ -56,6 +56,7 @@ class RowFlow {
   [[nodiscard]] bool is_writing() const;
   [[nodiscard]] bool is_flush_due() const;
   [[nodiscard]] bool are_chunks_full() const;
+  [[nodiscard]] std::size_t missing_steps() const;
 
   OpenFile& file_;
   std::size_t expected_;
@@ -67,8 +68,9 @@ class RowFlow {
   WaitingRows leaving_;              // on their way into it
   std::size_t steps_at_a_time_ = 0;  // rows of most series that go together; 0 until there is room for them
   Clock::time_point last_flush_ = Clock::now();
-  double flush_cost_ = 0;      // of the last one [s]; before there are rows, what making the series took
-  std::future<void> writing_;  // while it is under way the file, its datasets, leaving_ and the cost are its own
+  std::size_t rows_at_flush_ = 0;  // of the first series
+  double flush_cost_ = 0;          // of the last one [s]; before there are rows, what making the series took
+  std::future<void> writing_;      // while it is under way the file, its datasets, leaving_ and the cost are its own
 };
 
 }  // namespace hersey::results
