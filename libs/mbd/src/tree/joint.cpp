@@ -1,32 +1,31 @@
 #include "hersey/mbd/joint.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "hersey/core/contract.h"
+#include "tree/joint_kind.h"
 
 namespace hersey::mbd {
 namespace {
 
-constexpr Coordinate kRotation{.name = "rotation", .rotational = true};
-constexpr Coordinate kTranslation{.name = "translation"};
-constexpr std::array<Coordinate, 1> kRevolute{kRotation};
-constexpr std::array<Coordinate, 1> kPrismatic{kTranslation};
-constexpr std::array<Coordinate, 2> kCylindrical{kTranslation, {.name = "rotation", .offset = 1, .rotational = true}};
-constexpr std::array<Coordinate, 1> kSpherical{
-    {{.name = "orientation", .size = 3, .rotational = true, .orientation = true}}};
-constexpr std::array<Coordinate, 3> kPlanar{
-    {{.name = "x"}, {.name = "y", .offset = 1}, {.name = "rotation", .offset = 2, .rotational = true}}};
-constexpr std::array<Coordinate, 2> kFree{
-    {{.name = "position", .size = 3},
-     {.name = "orientation", .offset = 3, .size = 3, .rotational = true, .orientation = true}}};
-
-constexpr std::array<Coordinate, 2> kUniversal{
-    {{.name = "rotation_1", .rotational = true}, {.name = "rotation_2", .offset = 1, .rotational = true}}};
-
-constexpr std::array<std::string_view, 9> kNames{"fixed",  "revolute", "prismatic", "cylindrical", "spherical",
-                                                 "planar", "free",     "universal", "screw"};
+std::vector<Coordinate> coordinates_of(const JointKind& kind) {
+  std::vector<Coordinate> coordinates;
+  auto step = kind.chain.begin();
+  int offset = 0;
+  for (const JointKind::Name& name : kind.coordinates) {
+    Coordinate coordinate{.name = name.text,
+                          .offset = offset,
+                          .size = 0,
+                          .rotational = turns(step->motion),
+                          .orientation = step->motion == Motion::ball};
+    for (int k = 0; k < name.steps; ++k) coordinate.size += values_of((step++)->motion);
+    offset += coordinate.size;
+    coordinates.push_back(coordinate);
+  }
+  return coordinates;
+}
 
 Pose rotation(const Vector3& rotation_vector) {
   return {rotation_exp(rotation_vector).toRotationMatrix(), Vector3::Zero()};
@@ -34,35 +33,21 @@ Pose rotation(const Vector3& rotation_vector) {
 
 }  // namespace
 
-std::string_view name_of(JointType type) { return kNames[static_cast<std::size_t>(type)]; }
+std::string_view name_of(JointType type) { return kind_of(type).name; }
 
 std::optional<JointType> joint_type_of(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    if (kNames[i] == name) return static_cast<JointType>(i);
+  for (const JointKind& kind : joint_kinds())
+    if (kind.name == name) return kind.type;
   return std::nullopt;
 }
 
 std::span<const Coordinate> coordinates_of(JointType type) {
-  switch (type) {
-    case JointType::fixed:
-      return {};
-    case JointType::revolute:
-    case JointType::screw:
-      return kRevolute;
-    case JointType::prismatic:
-      return kPrismatic;
-    case JointType::cylindrical:
-      return kCylindrical;
-    case JointType::spherical:
-      return kSpherical;
-    case JointType::planar:
-      return kPlanar;
-    case JointType::free:
-      return kFree;
-    case JointType::universal:
-      return kUniversal;
-  }
-  HERSEY_REQUIRE(false, "every joint type is listed");
+  static const std::vector<std::vector<Coordinate>> all = [] {
+    std::vector<std::vector<Coordinate>> made;
+    for (const JointKind& kind : joint_kinds()) made.push_back(coordinates_of(kind));
+    return made;
+  }();
+  return all.at(static_cast<std::size_t>(type));
 }
 
 std::string rate_name(const Coordinate& coordinate) {
@@ -101,29 +86,28 @@ Matrix3 joint_axes(const Vector3& axis) {
 Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> values, double lead) {
   HERSEY_REQUIRE(static_cast<int>(values.size()) == degrees_of_freedom(type), "one value per degree of freedom");
   const Matrix3 axes = joint_axes(axis);
-  const Vector3 n = axes.col(2);
-  switch (type) {
-    case JointType::fixed:
-      return {};
-    case JointType::revolute:
-      return rotation(values[0] * n);
-    case JointType::prismatic:
-      return {Matrix3::Identity(), values[0] * n};
-    case JointType::cylindrical:
-      return Pose{Matrix3::Identity(), values[0] * n} * rotation(values[1] * n);
-    case JointType::spherical:
-      return rotation({values[0], values[1], values[2]});
-    case JointType::planar:
-      return Pose{Matrix3::Identity(), values[0] * axes.col(0) + values[1] * axes.col(1)} * rotation(values[2] * n);
-    case JointType::free:
-      return Pose{Matrix3::Identity(), Vector3(values[0], values[1], values[2])} *
-             rotation({values[3], values[4], values[5]});
-    case JointType::universal:
-      return rotation(values[0] * axes.col(0)) * rotation(values[1] * axes.col(1));
-    case JointType::screw:
-      return Pose{Matrix3::Identity(), lead / (2 * std::numbers::pi) * values[0] * n} * rotation(values[0] * n);
+  Pose X_IO;
+  auto value = values.begin();
+  for (const JointKind::Step& step : kind_of(type).chain) {
+    const Vector3 along = direction(step.along, axes);
+    if (step.motion == Motion::ball) {
+      X_IO = X_IO * rotation({value[0], value[1], value[2]});
+    } else {
+      if (step.motion == Motion::prismatic) X_IO = X_IO * Pose{Matrix3::Identity(), *value * along};
+      if (step.motion == Motion::screw)
+        X_IO = X_IO * Pose{Matrix3::Identity(), lead / (2 * std::numbers::pi) * *value * along};
+      if (turns(step.motion)) X_IO = X_IO * rotation(*value * along);
+    }
+    value += values_of(step.motion);
   }
-  HERSEY_REQUIRE(false, "every joint type is listed");
+  return X_IO;
+}
+
+bool turns_about_one_axis(JointType type) {
+  int turning = 0;
+  for (const JointKind::Step& step : kind_of(type).chain)
+    if (turns(step.motion)) turning += values_of(step.motion);
+  return turning == 1;
 }
 
 }  // namespace hersey::mbd

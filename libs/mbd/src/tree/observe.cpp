@@ -29,55 +29,46 @@ double kinetic_energy(const Link& link, const Pose& X_WL, const Vector6& V) {
 /// Values and rates of a joint that is not in the tree, read off its frames' relative motion.
 void measure_joint(JointType type, const Vector3& axis, const RelativeMotion& relative, JointObservation& seen) {
   const Matrix3 axes = joint_axes(axis);
-  const Vector3 t1 = axes.col(0), t2 = axes.col(1), n = axes.col(2);
   const Matrix3& R = relative.X_AB.R;
   const Vector3& r = relative.X_AB.r;
   const Vector3 omega = relative.V_AB_A.head<3>(), v = relative.V_AB_A.tail<3>() + omega.cross(r);
+  int count = 0;
   const auto add = [&](double position, double rate) {
-    const Eigen::Index count = seen.position.size();
-    seen.position.conservativeResize(count + 1);
-    seen.rate.conservativeResize(count + 1);
     seen.position[count] = position;
-    seen.rate[count] = rate;
+    seen.rate[count++] = rate;
   };
-  const auto add_rotation = [&] { add(std::atan2(t2.dot(R * t1), t1.dot(R * t1)), n.dot(omega)); };
-  const auto add_orientation = [&] {
-    const Vector3 phi = rotation_log(Eigen::Quaterniond(R)), rate = R.transpose() * omega;
-    for (int i = 0; i < 3; ++i) add(phi[i], rate[i]);
+  seen.position.resize(degrees_of_freedom(type));
+  seen.rate.resize(degrees_of_freedom(type));
+  const std::vector<JointKind::Step>& chain = kind_of(type).chain;
+  // About a: where it takes u. With a second axis b the first takes b along, and the second moves a of the inboard
+  // frame as the outboard one sees it.
+  const auto add_rotation = [&](const Vector3& a, const Vector3& b, bool is_second) {
+    const Vector3 u = is_second ? Vector3(R.transpose() * b) : Vector3(R * b);
+    const double turned = std::atan2(a.cross(b).dot(u), b.dot(u));
+    add(is_second ? -turned : turned, is_second ? (R * a).dot(omega) : a.dot(omega));
   };
-  switch (type) {
-    case JointType::fixed:
-      break;
-    case JointType::revolute:
-      add_rotation();
-      break;
-    case JointType::prismatic:
-      add(n.dot(r), n.dot(v));
-      break;
-    case JointType::cylindrical:
-      add(n.dot(r), n.dot(v));
-      add_rotation();
-      break;
-    case JointType::spherical:
-      add_orientation();
-      break;
-    case JointType::planar:
-      add(t1.dot(r), t1.dot(v));
-      add(t2.dot(r), t2.dot(v));
-      add_rotation();
-      break;
-    case JointType::free:
-      for (int i = 0; i < 3; ++i) add(r[i], v[i]);
-      add_orientation();
-      break;
-    case JointType::universal: {
-      const Vector3 second = R * t2, first = R.transpose() * t1;
-      add(std::atan2(n.dot(second), t2.dot(second)), t1.dot(omega));
-      add(std::atan2(n.dot(first), t1.dot(first)), second.dot(omega));
-      break;
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    const Vector3 a = direction(chain[k].along, axes);
+    switch (chain[k].motion) {
+      case Motion::prismatic:
+        add(a.dot(r), a.dot(v));
+        break;
+      case Motion::revolute: {
+        const bool is_second = k > 0 && chain[k - 1].motion == Motion::revolute;
+        const bool is_first = k + 1 < chain.size() && chain[k + 1].motion == Motion::revolute;
+        const Along other = is_second ? chain[k - 1].along : is_first ? chain[k + 1].along : Along::t1;
+        add_rotation(a, direction(other, axes), is_second);
+        break;
+      }
+      case Motion::ball: {
+        const Vector3 phi = rotation_log(Eigen::Quaterniond(R)), rate = R.transpose() * omega;
+        for (int i = 0; i < 3; ++i) add(phi[i], rate[i]);
+        break;
+      }
+      case Motion::screw:  // never without a chain of its own
+      case Motion::none:
+        break;
     }
-    case JointType::screw:  // never without a chain of its own
-      break;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "hersey/core/contract.h"
+#include "tree/joint_kind.h"
 
 namespace hersey::mbd {
 namespace {
@@ -19,31 +20,14 @@ struct Element {
 
 std::vector<Element> elements_of(JointType type, const Vector3& axis, double lead = 0) {
   const Matrix3 axes = joint_axes(axis);
-  const Vector3 n = axes.col(2);
-  switch (type) {
-    case JointType::fixed:
-      return {};
-    case JointType::revolute:
-      return {{Motion::revolute, n, 0}};
-    case JointType::prismatic:
-      return {{Motion::prismatic, n, 0}};
-    case JointType::cylindrical:
-      return {{Motion::prismatic, n, 0}, {Motion::revolute, n, 1}};
-    case JointType::spherical:
-      return {{Motion::ball, n, 0}};
-    case JointType::planar:
-      return {{Motion::prismatic, axes.col(0), 0}, {Motion::prismatic, axes.col(1), 1}, {Motion::revolute, n, 2}};
-    case JointType::free:
-      return {{Motion::prismatic, Vector3::UnitX(), 0},
-              {Motion::prismatic, Vector3::UnitY(), 1},
-              {Motion::prismatic, Vector3::UnitZ(), 2},
-              {Motion::ball, n, 3}};
-    case JointType::universal:
-      return {{Motion::revolute, axes.col(0), 0}, {Motion::revolute, axes.col(1), 1}};
-    case JointType::screw:
-      return {{Motion::screw, n, 0, lead / (2 * std::numbers::pi)}};
+  std::vector<Element> elements;
+  int value = 0;
+  for (const JointKind::Step& step : kind_of(type).chain) {
+    elements.push_back({step.motion, direction(step.along, axes), value,
+                        step.motion == Motion::screw ? lead / (2 * std::numbers::pi) : 0});
+    value += values_of(step.motion);
   }
-  return {};
+  return elements;
 }
 
 /// Grows the tree; see build_tree.
@@ -180,7 +164,7 @@ class TreeBuilder {
       link.X_PF = base.X_LF;
       link.axis = reversed ? Vector3(-e.axis) : e.axis;
       link.travel = e.travel;
-      link.columns = e.motion == Motion::ball ? 3 : 1;
+      link.columns = values_of(e.motion);
       link.joint = joint;
       link.body = body;
       link.value = e.value;
@@ -237,8 +221,7 @@ class TreeBuilder {
     closure.joint = j;
     closure.pair.a = tree_.frames[joint.inboard.index];
     closure.pair.b = tree_.frames[joint.outboard.index];
-    // A screw's constraint counts turns, which poses do not show.
-    if (used_[j] || read_[j] || starts_as_given(j) || joint.type == JointType::screw) {
+    if (used_[j] || read_[j] || starts_as_given(j) || kind_of(joint.type).rows.empty()) {
       closure.pair.a = add_chain(j, -1, elements_of(joint.type, joint.axis, joint.lead), false, closure.pair.a);
       closure.rows = constraint_rows(JointType::fixed, joint.axis);
     } else {

@@ -5,11 +5,9 @@
 
 #include "hersey/mbd/mechanism_spec.h"
 #include "tree/constraint_row.h"
+#include "tree/joint_kind.h"
 
 namespace hersey::mbd {
-
-/// The motion an elementary joint allows.
-enum class Motion { none, revolute, prismatic, ball, screw };
 
 /// A link of the spanning tree and the elementary joint that carries it on its parent: every joint is a chain of
 /// elementary joints (theory manual, section "Joints"), whose inner links are massless. Link 0 is ground. A link's

@@ -42,11 +42,6 @@ class RigidGroups {
   std::vector<std::size_t> group_;
 };
 
-bool has_one_axis_of_rotation(mbd::JointType type) {
-  using Type = mbd::JointType;
-  return type == Type::revolute || type == Type::cylindrical || type == Type::planar || type == Type::screw;
-}
-
 /// One bearing against the joints and the velocities of the start.
 class AxisCheck {
  public:
@@ -58,7 +53,7 @@ class AxisCheck {
     const Vector3 axis = in_ground(force.a, Vector3::UnitZ());
     const double most = 2 * bearing.film.c / bearing.film.L;  // the tilt by which the surfaces touch
     for (const mbd::JointSpec& joint : spec_.joints) {
-      if (!has_one_axis_of_rotation(joint.type) || !joins(joint, shell, journal)) continue;
+      if (!mbd::turns_about_one_axis(joint.type) || !joins(joint, shell, journal)) continue;
       const double angle = std::acos(std::min(1.0, std::abs(in_ground(joint.inboard, joint.axis).dot(axis))));
       if (angle > most) return warnings.push_back(across(bearing, joint.name, angle));
     }

@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "hersey/core/spatial.h"
+#include "hersey/mbd/joint_type.h"
 
 namespace hersey::mbd {
-
-/// What a joint leaves free between its inboard frame I and its outboard frame O. X_IO is the identity at zero.
-enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, planar, free, universal, screw };
 
 /// "revolute": as users write it.
 [[nodiscard]] std::string_view name_of(JointType type);
@@ -37,6 +35,9 @@ struct Coordinate {
 
 /// What a coordinate's rate is called: rotation_rate; velocity of a position, angular_velocity of an orientation.
 [[nodiscard]] std::string rate_name(const Coordinate& coordinate);
+
+/// Whether it lets its bodies turn against each other about its axis alone.
+[[nodiscard]] bool turns_about_one_axis(JointType type);
 
 /// Number of values (and of degrees of freedom) of a joint type, 0..6.
 [[nodiscard]] int degrees_of_freedom(JointType type);
