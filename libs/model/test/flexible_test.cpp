@@ -202,8 +202,8 @@ TEST_CASE("SurfaceLoad_IsReadWithItsFaces") {
                     "  pin: {type: pressure, body: bar, faces: left, pressure: 1 bar, towards: -1 0 0}\n",
                 "m.yaml");
   REQUIRE(model.forces.size() == 3);
-  const SurfaceLoad &gas = model.forces[0].surface_load, &push = model.forces[1].surface_load,
-                    &pin = model.forces[2].surface_load;
+  const auto load = [&](std::size_t i) { return std::get<SurfaceLoad>(model.forces[i].data); };
+  const SurfaceLoad gas = load(0), push = load(1), pin = load(2);
   CHECK(gas.is_pressure);
   CHECK(gas.axes == Axes::body);
   CHECK(gas.faces.size() == 1);

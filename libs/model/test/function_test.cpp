@@ -14,7 +14,7 @@ constexpr double pi = std::numbers::pi;
 std::string with_force(const std::string& function) { return edited(good_model, "\"-${load}\"", function); }
 
 Function force_of(const std::string& function) {
-  return read_text(with_force(function), "m.yaml").forces[0].load.functions[1];
+  return read_text(with_force(function), "m.yaml").forces[0].as<BodyLoad>()->functions[1];
 }
 
 /// A folder of its own for a model with its table, removed at the end.
@@ -123,7 +123,7 @@ TEST_CASE("TableFromFile_IsConvertedAndScaled") {
   const Folder folder;
   CHECK(folder.faults_with("# a cycle\r\nangle [deg]; pressure [bar]\r\n0; 1\r\n\r\n360; 11\r\n") == "no fault");
   const Model model = read(folder.file("m.yaml"));
-  const Function& force = model.forces[0].load.functions[1];
+  const Function& force = model.forces[0].as<BodyLoad>()->functions[1];
   REQUIRE(force.variables.size() == 1);
   CHECK(force.variables[0].joint == "main");
   CHECK_FALSE(force.domain.has_value());  // periodic: covers everything

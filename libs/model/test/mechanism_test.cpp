@@ -59,15 +59,16 @@ TEST_CASE("GearsAndTheirForces_AreRead") {
   CHECK(model.couplings[1].terms[0].factor == doctest::Approx(0.02));
   CHECK(model.couplings[2].terms[0].function->value->value(std::vector<double>{0.5}) ==
         doctest::Approx(0.1 * std::sin(0.5) + 0.1245));
-  const Bushing& bushing = model.forces[0].bushing;
+  const Bushing& bushing = *model.forces[0].as<Bushing>();
   CHECK(bushing.stiffness(4, 4) == doctest::Approx(2000));
   CHECK(bushing.stiffness(2, 2) == doctest::Approx(100));
   CHECK(bushing.stiffness(2, 4) == doctest::Approx(7));  // y and the rotation about z
   CHECK(bushing.damping(2, 2) == doctest::Approx(0.5));
-  CHECK(model.forces[1].joint_friction.coulomb == doctest::Approx(3));
-  CHECK(model.forces[2].coordinate_spring.restoring->value->value(std::vector<double>{0.005}) == doctest::Approx(25));
-  CHECK(model.forces[3].spring_damper.tension->value->value(std::vector<double>{0.1}) == doctest::Approx(1));
-  CHECK(model.forces[4].speed_control.limit == doctest::Approx(5));
+  CHECK(model.forces[1].as<JointFriction>()->coulomb == doctest::Approx(3));
+  CHECK(model.forces[2].as<CoordinateSpring>()->restoring->value->value(std::vector<double>{0.005}) ==
+        doctest::Approx(25));
+  CHECK(model.forces[3].as<SpringDamper>()->tension->value->value(std::vector<double>{0.1}) == doctest::Approx(1));
+  CHECK(model.forces[4].as<SpeedControl>()->limit == doctest::Approx(5));
   const Machine machine = build(model);
   const mbd::MechanismSpec& spec = machine.mechanism->spec();
   CHECK(spec.couplings.size() == 3);

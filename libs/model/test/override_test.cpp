@@ -10,7 +10,7 @@ namespace hersey::model {
 namespace override_test {
 
 double push_force(const std::vector<std::string>& overrides) {
-  return read_text(good_model, "m.yaml", overrides).forces[0].load.functions[1].value->value({});
+  return read_text(good_model, "m.yaml", overrides).forces[0].as<BodyLoad>()->functions[1].value->value({});
 }
 
 TEST_CASE("Parameters_AreReplacedFromOutside") {
@@ -35,19 +35,19 @@ TEST_CASE("KeyPaths_AreReplacedFromOutside") {
   CHECK(model.bearings[0].film.R == doctest::Approx(0.025).epsilon(1e-15));  // round-off of units
   CHECK(model.bearings[0].film.edge_right.pressure == 2e5);
   CHECK(model.title == "Another");
-  CHECK(model.forces[0].load.functions[0].value->value({}) == 7);
+  CHECK(model.forces[0].as<BodyLoad>()->functions[0].value->value({}) == 7);
   CHECK(model.gravity.z() == -9.81);
 }
 
 TEST_CASE("AnOverride_MayUseParameters") {
   const Model model = read_text(good_model, "m.yaml", {"forces.push.components.0=${load}"});
-  CHECK(model.forces[0].load.functions[0].value->value({}) == 500);
+  CHECK(model.forces[0].as<BodyLoad>()->functions[0].value->value({}) == 500);
 }
 
 TEST_CASE("Parameters_MayUseThoseAbove") {
   const std::string text = edited(edited(good_model, "  speed: 3000 rpm", "  half: \"-${load}\"\n  speed: 3000 rpm"),
                                   "components: [0 N,", "components: [\"${half}\",");
-  CHECK(read_text(text, "m.yaml").forces[0].load.functions[0].value->value({}) == -500);
+  CHECK(read_text(text, "m.yaml").forces[0].as<BodyLoad>()->functions[0].value->value({}) == -500);
 }
 
 TEST_CASE("ParametersInsideText_AreReplaced") {
@@ -55,7 +55,7 @@ TEST_CASE("ParametersInsideText_AreReplaced") {
                                   "[0 N, \"-${load}\", 0 N]", "[0 N, {expression: \"-${amount}*t\", unit: N}, 0 N]");
   const Model model = read_text(edited(text, "  load: 500 N", "  load: 500 N\n  amount: 25"), "m.yaml");
   CHECK(model.title == "Test at 500 N, 3000 rpm");
-  CHECK(model.forces[0].load.functions[1].value->value(std::array{2.0}) == -50);
+  CHECK(model.forces[0].as<BodyLoad>()->functions[1].value->value(std::array{2.0}) == -50);
 }
 
 TEST_CASE("ParametersInsideVectors_KeepTheirUnit") {
@@ -72,7 +72,7 @@ std::string with_force_in_x(const std::string& force, const std::string& paramet
 
 double force_in_x(const std::string& force, const std::string& parameters, double t = 0) {
   const Model model = read_text(with_force_in_x(force, parameters), "m.yaml");
-  const Function& function = model.forces[0].load.functions[0];
+  const Function& function = model.forces[0].as<BodyLoad>()->functions[0];
   const std::vector<double> x(function.variables.size(), t);
   return function.value->value(x);
 }

@@ -41,8 +41,8 @@ TEST_CASE("GoodModel_IsReadInSI") {
   CHECK(model.drives[0].prescribes == Drive::Prescribes::speed);
   CHECK(model.drives[0].motion.value->value({}) == near(100 * pi));
   REQUIRE(model.forces.size() == 1);
-  REQUIRE(model.forces[0].load.functions.size() == 3);
-  CHECK(model.forces[0].load.functions[1].value->value({}) == -500);
+  REQUIRE(model.forces[0].as<BodyLoad>()->functions.size() == 3);
+  CHECK(model.forces[0].as<BodyLoad>()->functions[1].value->value({}) == -500);
   REQUIRE(model.bearings.size() == 1);
   const Bearing& bearing = model.bearings[0];
   CHECK(bearing.journal.body == "shaft");
@@ -263,25 +263,25 @@ TEST_CASE("ForcesOfEveryType_AreRead") {
 lubricants:)");
   const Model model = read_text(text, "m.yaml");
   REQUIRE(model.forces.size() == 4);
-  CHECK(model.forces[0].type == ForceType::load);
-  CHECK_FALSE(model.forces[0].load.is_torque);
-  CHECK(model.forces[0].load.axes == Axes::ground);
-  const BodyLoad& twist = model.forces[1].load;
+  const auto& push = std::get<BodyLoad>(model.forces[0].data);
+  CHECK_FALSE(push.is_torque);
+  CHECK(push.axes == Axes::ground);
+  const auto& twist = std::get<BodyLoad>(model.forces[1].data);
   CHECK(twist.is_torque);
   CHECK(twist.at.frame == "pin");
   CHECK(twist.axes == Axes::body);
   CHECK(twist.direction == Vector3::UnitZ());
   REQUIRE(twist.functions.size() == 1);
   CHECK(twist.functions[0].value->value({}) == 2);
-  CHECK(model.forces[2].type == ForceType::spring_damper);
-  CHECK(model.forces[2].spring_damper.to.body == "rod");
-  CHECK(model.forces[2].spring_damper.stiffness == near(1e4));
-  CHECK(model.forces[2].spring_damper.free_length == near(0.05));
-  CHECK(model.forces[3].type == ForceType::coordinate_spring);
-  CHECK(model.forces[3].coordinate_spring.on.joint == "guide");
-  CHECK(model.forces[3].coordinate_spring.on.coordinate == "rotation");
-  CHECK(model.forces[3].coordinate_spring.stiffness == near(20));
-  CHECK(model.forces[3].coordinate_spring.free_position == near(pi));
+  const auto& spring = std::get<SpringDamper>(model.forces[2].data);
+  CHECK(spring.to.body == "rod");
+  CHECK(spring.stiffness == near(1e4));
+  CHECK(spring.free_length == near(0.05));
+  const auto& torsion = std::get<CoordinateSpring>(model.forces[3].data);
+  CHECK(torsion.on.joint == "guide");
+  CHECK(torsion.on.coordinate == "rotation");
+  CHECK(torsion.stiffness == near(20));
+  CHECK(torsion.free_position == near(pi));
 }
 
 TEST_CASE("Positions_PointAtTheKeys") {

@@ -64,7 +64,7 @@ TEST_CASE("Study_IsEveryCombination") {
   const Model model = read(file.path(), runs[7].overrides);
   CHECK(model.bearings[0].film.cavitation == film::Cavitation::guembel);
   CHECK(model.bearings[0].film.c == doctest::Approx(68e-6).epsilon(1e-14));  // round-off of units
-  CHECK(model.forces[0].load.functions[1].value->value({}) == -1000);
+  CHECK(model.forces[0].as<BodyLoad>()->functions[1].value->value({}) == -1000);
 }
 
 const std::string variants = R"(study:

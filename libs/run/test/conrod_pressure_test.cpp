@@ -30,7 +30,8 @@ TEST_CASE("ConrodUnderBorePressure_MovesAsItsWholeMesh") {
   const std::vector<fem::ElementFace> faces = fem::faces_called(body.mesh, "big_end");
   std::vector<fem::Support> supports;
   for (const int dof : fem::dofs_of(body.mesh.node_sets.at("small_end"))) supports.push_back({dof, 0});
-  const Eigen::VectorXd f = 30e6 * fem::cosine_pressure_load(body.mesh, faces, *model.forces[0].surface_load.direction);
+  const Eigen::VectorXd f =
+      30e6 * fem::cosine_pressure_load(body.mesh, faces, *model.forces[0].as<model::SurfaceLoad>()->direction);
   const fem::StaticSolution whole = fem::solve_static(body, supports, f);
   REQUIRE(whole.solved());
   // Displacement of the bore's nodes by the amplitudes of the shapes.

@@ -10,38 +10,11 @@
 #include "hersey/bearing/journal_bearing.h"
 #include "hersey/core/contract.h"
 #include "hersey/fem/surface_loads.h"
-#include "hersey/mbd/bushing.h"
 #include "hersey/mbd/coordinate_laws.h"
-#include "hersey/mbd/spring_damper.h"
 #include "hersey/model/wall_conduction.h"
 
 namespace hersey::model {
 namespace {
-
-mbd::JointType joint_type(JointType type) {
-  switch (type) {
-    case JointType::fixed:
-      return mbd::JointType::fixed;
-    case JointType::revolute:
-      return mbd::JointType::revolute;
-    case JointType::prismatic:
-      return mbd::JointType::prismatic;
-    case JointType::cylindrical:
-      return mbd::JointType::cylindrical;
-    case JointType::spherical:
-      return mbd::JointType::spherical;
-    case JointType::planar:
-      return mbd::JointType::planar;
-    case JointType::free:
-      return mbd::JointType::free;
-    case JointType::universal:
-      return mbd::JointType::universal;
-    case JointType::screw:
-      return mbd::JointType::screw;
-  }
-  HERSEY_REQUIRE(false, "every joint type is listed");
-  return {};
-}
 
 // A function of time and of the crank's rotation as one of time alone: the crank turns at constant speed.
 class OverTime final : public ScalarFunction {
@@ -201,7 +174,7 @@ class Builder {
   };
 
   static StartingValues starting_values(const Joint& joint, bool rates) {
-    const mbd::JointType type = joint_type(joint.type);
+    const JointType type = joint.type;
     const int count = mbd::degrees_of_freedom(type);
     StartingValues known;
     for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type)) {
@@ -217,7 +190,7 @@ class Builder {
   void add_joint(const Joint& joint) {
     StartingValues position = starting_values(joint, false), rate = starting_values(joint, true);
     const mbd::JointId id = mechanism_.add_joint({.name = joint.name,
-                                                  .type = joint_type(joint.type),
+                                                  .type = joint.type,
                                                   .inboard = frame(joint.inboard),
                                                   .outboard = frame(joint.outboard),
                                                   .axis = joint.axis,
@@ -226,7 +199,7 @@ class Builder {
                                                   .initial_rate = std::move(rate.values),
                                                   .loose = std::move(position.loose),
                                                   .loose_rate = std::move(rate.loose)});
-    joints_[joint.name] = {id, joint_type(joint.type)};
+    joints_[joint.name] = {id, joint.type};
   }
 
   [[nodiscard]] mbd::CoordinateRef coordinate(const std::string& joint, const std::string& name) const {
@@ -263,12 +236,11 @@ class Builder {
     return term;
   }
 
-  void add_load(const Force& force) {
-    const BodyLoad& load = force.load;
+  void add(const std::string& name, const BodyLoad& load) {
     // The mechanism takes the body's axes, the file those of the frame named.
     const Matrix3 R = load.axes == Axes::body ? poses_.at({load.at.body, load.at.frame}).R : Matrix3::Identity();
     const int first = load.is_torque ? 0 : 3;
-    mbd::LoadSpec spec{.name = force.name,
+    mbd::LoadSpec spec{.name = name,
                        .frame = frame(load.at),
                        .axes = load.axes == Axes::body ? mbd::LoadAxes::body : mbd::LoadAxes::ground,
                        .terms = {}};
@@ -288,82 +260,51 @@ class Builder {
     return static_cast<std::size_t>(at - machine_.flexibles.begin());
   }
 
-  void add_surface_load(const Force& force) {
-    const SurfaceLoad& load = force.surface_load;
+  void add(const std::string& name, const SurfaceLoad& load) {
     const std::size_t at = flexible_called(load.body);
     const BuiltFlexible& flexible = machine_.flexibles[at];
     const std::size_t first = mechanism_.nodal_loads(flexible.elastic);
     for (std::size_t i = 0; i < load.functions.size(); ++i)
-      mechanism_.add_nodal_load(flexible.elastic, nodal_load(force, *flexible.mesh, i),
+      mechanism_.add_nodal_load(flexible.elastic, nodal_load(name, load, *flexible.mesh, i),
                                 std::make_shared<OverTime>(load.functions[i], model_.simulation));
-    machine_.surface_loads.push_back({force.name, at, first, load.functions.size()});
+    machine_.surface_loads.push_back({name, at, first, load.functions.size()});
   }
 
   // What the value `i` of a surface load is multiplied with.
-  static mbd::NodalLoad nodal_load(const Force& force, const fem::Mesh& mesh, std::size_t i) {
-    const SurfaceLoad& load = force.surface_load;
+  static mbd::NodalLoad nodal_load(const std::string& name, const SurfaceLoad& load, const fem::Mesh& mesh,
+                                   std::size_t i) {
     Eigen::VectorXd f;
     if (load.is_pressure)
       f = load.direction ? fem::cosine_pressure_load(mesh, load.faces, *load.direction)
                          : fem::pressure_load(mesh, load.faces, 1);
     else
       f = fem::spread_force(mesh, load.faces, load.direction.value_or(Vector3::Unit(static_cast<Eigen::Index>(i))));
-    return {force.name, load.axes == Axes::ground ? mbd::LoadAxes::ground : mbd::LoadAxes::body,
+    return {name, load.axes == Axes::ground ? mbd::LoadAxes::ground : mbd::LoadAxes::body,
             Eigen::Map<const Eigen::Matrix3Xd>(f.data(), 3, f.size() / 3)};
   }
 
   void add_force(const Force& force) {
-    switch (force.type) {
-      case ForceType::surface_load:
-        add_surface_load(force);
-        break;
-      case ForceType::load:
-        add_load(force);
-        break;
-      case ForceType::spring_damper: {
-        const SpringDamper& spring = force.spring_damper;
-        mechanism_.add_force(force.name, frame(spring.from), frame(spring.to),
-                             std::make_shared<mbd::SpringDamper>(spring.stiffness, spring.damping, spring.free_length,
-                                                                 spring.tension ? spring.tension->value : nullptr));
-        break;
-      }
-      case ForceType::coordinate_spring:
-        add_coordinate_spring(force);
-        break;
-      case ForceType::bushing: {
-        const Bushing& bushing = force.bushing;
-        mechanism_.add_force(force.name, frame(bushing.from), frame(bushing.to),
-                             std::make_shared<mbd::Bushing>(bushing.stiffness, bushing.damping));
-        break;
-      }
-      case ForceType::joint_friction: {
-        const JointFriction& friction = force.joint_friction;
-        mechanism_.add_coordinate_force(
-            force.name, coordinate(friction.on),
-            std::make_shared<mbd::JointFriction>(friction.coulomb, friction.viscous, friction.transition_speed));
-        break;
-      }
-      case ForceType::speed_control: {
-        const SpeedControl& control = force.speed_control;
-        mechanism_.add_coordinate_force(
-            force.name, coordinate(control.on),
-            std::make_shared<mbd::SpeedController>(control.speed.value, control.proportional, control.integral,
-                                                   control.limit));
-        break;
-      }
-    }
+    std::visit([&](const auto& data) { add(force.name, data); }, force.data);
   }
 
-  void add_coordinate_spring(const Force& force) {
-    const CoordinateSpring& spring = force.coordinate_spring;
-    mechanism_.add_spring({.name = force.name,
+  /// Whatever acts between two frames, or on a coordinate, and makes itself.
+  template <class Law>
+  void add(const std::string& name, const Law& law) {
+    if constexpr (requires { law.from; })
+      mechanism_.add_force(name, frame(law.from), frame(law.to), law.made());
+    else
+      mechanism_.add_coordinate_force(name, coordinate(law.on), law.made());
+  }
+
+  void add(const std::string& name, const CoordinateSpring& spring) {
+    mechanism_.add_spring({.name = name,
                            .coordinate = coordinate(spring.on),
                            .stiffness = spring.stiffness,
                            .damping = spring.damping,
                            .free_position = spring.free_position});
     if (spring.restoring)
       mechanism_.add_coordinate_force(
-          force.name, coordinate(spring.on),
+          name, coordinate(spring.on),
           std::make_shared<mbd::FunctionSpring>(spring.restoring->value, spring.free_position));
   }
 

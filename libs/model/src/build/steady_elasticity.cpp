@@ -60,13 +60,8 @@ std::vector<std::size_t> frames_with_joints(const Model& model, const Body& body
 std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& bearing, const Body& body,
                                             std::size_t own) {
   Attached attached(body);
-  for (const Force& force : model.forces) {
-    if (force.type == ForceType::load) attached.add(force.load.at);
-    if (force.type == ForceType::spring_damper) attached.add(force.spring_damper.from);
-    if (force.type == ForceType::spring_damper) attached.add(force.spring_damper.to);
-    if (force.type == ForceType::bushing) attached.add(force.bushing.from);
-    if (force.type == ForceType::bushing) attached.add(force.bushing.to);
-  }
+  for (const Force& force : model.forces)
+    for (const FrameName& frame : frames_of(force)) attached.add(frame);
   for (const Bearing& other : model.bearings) {
     if (other.name == bearing.name) continue;
     attached.add(other.shell);

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "hersey/core/spelling.h"
+#include "hersey/mbd/joint.h"
 #include "interpret/interpret.h"
 
 namespace hersey::model {
@@ -42,17 +43,6 @@ Matrix3 inertia_of(Context& context, const Value& body) {
                          "none negative, and none greater than the sum of the others");
   }
   return inertia;
-}
-
-const std::map<std::string, JointType>& joint_types() {
-  static const std::map<std::string, JointType> types = {
-      {"fixed", JointType::fixed},         {"revolute", JointType::revolute},
-      {"prismatic", JointType::prismatic}, {"cylindrical", JointType::cylindrical},
-      {"spherical", JointType::spherical}, {"planar", JointType::planar},
-      {"free", JointType::free},           {"universal", JointType::universal},
-      {"screw", JointType::screw},
-  };
-  return types;
 }
 
 /// The coordinates that the mapping `key` of a joint gives values.
@@ -139,7 +129,7 @@ void interpret_joints(Context& context) {
     joint.name = name;
     joint.position = value.key_position;
     std::tie(joint.inboard, joint.outboard) = pair_of(context, value);
-    if (const auto type = joint_types().find(value.text); type != joint_types().end()) joint.type = type->second;
+    joint.type = mbd::joint_type_of(value.text).value_or(joint.type);
     if (value.find("axis") != nullptr) joint.axis = direction_of(context, value, "axis");
     if (joint.type == JointType::screw) {
       joint.lead = number_of(value, "lead");

@@ -321,17 +321,15 @@ void check_functions_of_crank(Context& context) {
     for (const Function& pressure : bearing.feature_pressures)
       require_function_of_crank(context, pressure, "a pressure");
   for (const Force& force : context.model.forces)
-    for (const Function& function : force.surface_load.functions)
-      require_function_of_crank(context, function, "a load on a mesh");
+    if (const auto* load = force.as<SurfaceLoad>())
+      for (const Function& function : load->functions) require_function_of_crank(context, function, "a load on a mesh");
 }
 
 void check_table_ranges(Context& context) {
   if (context.model.simulation.duration <= 0) return;
   for (const Drive& drive : context.model.drives) check_table_range(context, drive.motion);
-  for (const Force& force : context.model.forces) {
-    for (const Function& function : force.load.functions) check_table_range(context, function);
-    for (const Function& function : force.surface_load.functions) check_table_range(context, function);
-  }
+  for (const Force& force : context.model.forces)
+    for (const auto& followed : functions_of(force)) check_table_range(context, *followed.function);
 }
 
 }  // namespace hersey::model

@@ -76,10 +76,8 @@ void check_size(Context& context) {
   const Simulation& run = model.simulation;
   if (!run.error_control || run.duration <= 0) return;
   for (const Drive& drive : model.drives) check_bends(context, drive.motion);
-  for (const Force& force : model.forces) {
-    for (const Function& function : force.load.functions) check_bends(context, function);
-    for (const Function& function : force.surface_load.functions) check_bends(context, function);
-  }
+  for (const Force& force : model.forces)
+    for (const auto& followed : functions_of(force)) check_bends(context, *followed.function);
   for (const Bearing& bearing : model.bearings)
     for (const Function& pressure : bearing.feature_pressures) check_bends(context, pressure);
   check_interval(context, "interval", model.output.interval);

@@ -1,3 +1,8 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hersey/mbd/joint.h"
 #include "schema/format.h"
 #include "schema/machine_vocabulary.h"
 
@@ -39,67 +44,90 @@ Key between_format() {
                   "second.");
 }
 
-Key axis_key(const std::string& meaning) { return defaulted("axis", axis_format(), "z", meaning); }
+/// What the values of a joint's coordinates, or their rates, look like: of one number and of three.
+struct ValueFormat {
+  std::string unit, example, three, text;
+};
 
-Key initial_format(std::vector<Key> coordinates) {
-  return defaulted(
-      "initial", object("initial values of coordinates", std::move(coordinates)), "{}",
-      "Where the joint starts, and how fast. Values given are kept; those left out start from 0 and move where loops, "
-      "drives and couplings ask for it. Values that do not fit together are moved by the least that makes them fit, "
-      "and "
-      "told, if that is at most 1e-3 (rad, of the machine's size, of the largest rate); otherwise refused.");
+ValueFormat at_start(const mbd::Coordinate& coordinate) {
+  if (coordinate.orientation) return {"rad", "", "0 0 30 deg", "Rotation vector at the start."};
+  if (coordinate.rotational) return {"rad", "30 deg", "", "Angle at the start."};
+  if (coordinate.size == 3) return {"m", "", "0 0.01 0 mm", "Position at the start, inboard axes."};
+  return {"m", "0.1 mm", "", "Displacement at the start."};
 }
 
-Key guess_format(std::vector<Key> coordinates) {
+ValueFormat rate_at_start(const mbd::Coordinate& coordinate) {
+  if (coordinate.orientation) return {"rad/s", "", "0 0 3570 rpm", "At the start, in the outboard frame's axes."};
+  if (coordinate.rotational) return {"rad/s", "3570 rpm", "", "Angular velocity at the start."};
+  if (coordinate.size == 3) return {"m/s", "", "0 0 2 m/s", "Velocity at the start, inboard axes."};
+  return {"m/s", "2 m/s", "", "Velocity at the start."};
+}
+
+ValueFormat near_start(const mbd::Coordinate& coordinate) {
+  ValueFormat format = at_start(coordinate);
+  format.text.replace(format.text.find("at the start"), std::string("at the start").size(), "near the start");
+  return format;
+}
+
+Key value_key(const std::string& name, const ValueFormat& format) {
+  return optional(name,
+                  format.three.empty() ? quantity(format.unit, format.example) : vector(format.unit, format.three),
+                  format.text, "0");
+}
+
+Key initial_key(mbd::JointType type) {
+  std::vector<Key> values;
+  for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type))
+    values.push_back(value_key(std::string(coordinate.name), at_start(coordinate)));
+  for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type))
+    values.push_back(value_key(mbd::rate_name(coordinate), rate_at_start(coordinate)));
   return defaulted(
-      "guess", object("guesses of coordinates", std::move(coordinates)), "{}",
+      "initial", object("initial values of coordinates", std::move(values)), "{}",
+      "Where the joint starts, and how fast. Values given are kept; those left out start from 0 and move where loops, "
+      "drives and couplings ask for it. Values that do not fit together are moved by the least that makes them fit, "
+      "and told, if that is at most 1e-3 (rad, of the machine's size, of the largest rate); otherwise refused.");
+}
+
+Key guess_key(mbd::JointType type) {
+  std::vector<Key> values;
+  for (const mbd::Coordinate& coordinate : mbd::coordinates_of(type))
+    values.push_back(value_key(std::string(coordinate.name), near_start(coordinate)));
+  return defaulted(
+      "guess", object("guesses of coordinates", std::move(values)), "{}",
       "Where the search for coordinates that `initial` leaves open begins: chooses among the ways in which "
       "a loop can close. Not kept.");
 }
 
-Key angle_guess(const std::string& name) {
-  return optional(name, quantity("rad", "30 deg"), "Angle near the start.", "0");
-}
-Key shift_guess(const std::string& name) {
-  return optional(name, quantity("m", "0.1 mm"), "Displacement near the start.", "0");
-}
-Key orientation_guess() {
-  return optional("orientation", vector("rad", "0 0 30 deg"), "Rotation vector near the start.", "0");
-}
-Key position_guess() {
-  return optional("position", vector("m", "0 0.01 0 mm"), "Position near the start, inboard axes.", "0");
-}
+/// What the model file says of a joint type; its coordinates follow from the type.
+struct JointFormat {
+  mbd::JointType type;
+  std::string text;
+  std::string axis = {};  ///< what its axis is; empty: it has none
+  std::vector<Key> more = {};
+};
 
-Key angle_key(const std::string& name) { return optional(name, quantity("rad", "30 deg"), "Angle at the start.", "0"); }
-Key angle_rate_key(const std::string& name) {
-  return optional(name, quantity("rad/s", "3570 rpm"), "Angular velocity at the start.", "0");
-}
-Key shift_key(const std::string& name) {
-  return optional(name, quantity("m", "0.1 mm"), "Displacement at the start.", "0");
-}
-Key shift_rate_key(const std::string& name) {
-  return optional(name, quantity("m/s", "2 m/s"), "Velocity at the start.", "0");
-}
-
-std::vector<Key> orientation_keys() {
+std::vector<JointFormat> joint_formats() {
+  using enum mbd::JointType;
   return {
-      optional("orientation", vector("rad", "0 0 30 deg"), "Rotation vector at the start.", "0"),
-      optional("angular_velocity", vector("rad/s", "0 0 3570 rpm"), "At the start, in the outboard frame's axes.", "0"),
+      {fixed, "no motion"},
+      {revolute, "rotation about an axis; coordinate `rotation`",
+       "Axis of rotation in the inboard frame: x, y, z or three numbers."},
+      {prismatic, "sliding along an axis; coordinate `translation`", "Axis of sliding in the inboard frame."},
+      {cylindrical, "sliding along and rotation about one axis; coordinates `translation`, `rotation`",
+       "Axis of sliding and rotation in the inboard frame."},
+      {spherical, "a ball; coordinate `orientation` (a rotation vector)"},
+      {planar, "motion in a plane; coordinates `x`, `y`, `rotation`", "Normal of the plane in the inboard frame."},
+      {universal,
+       "a cross (Cardan) joint between shafts along `axis`: the cross turns about the first of the two axes normal to "
+       "it in the inboard frame (x for z, y for x, z for y) and about the second in the outboard frame; coordinates "
+       "`rotation_1`, `rotation_2`",
+       "Axis of the shafts in the inboard frame."},
+      {screw,
+       "rotation about an axis with travel along it; coordinate `rotation`",
+       "Axis of the thread in the inboard frame.",
+       {required("lead", quantity("m", "5 mm"), "Travel per turn, right-handed where positive.")}},
+      {free, "all six motions; coordinates `position`, `orientation`"},
   };
-}
-
-std::vector<Key> free_keys() {
-  std::vector<Key> keys = {
-      optional("position", vector("m", "0 0.01 0 mm"), "Position at the start, inboard axes.", "0"),
-      optional("velocity", vector("m/s", "0 0 2 m/s"), "Velocity at the start, inboard axes.", "0"),
-  };
-  for (Key& key : orientation_keys()) keys.push_back(std::move(key));
-  return keys;
-}
-
-std::vector<Key> planar_keys() {
-  return {shift_key("x"),           shift_key("y"),           angle_key("rotation"),
-          shift_rate_key("x_rate"), shift_rate_key("y_rate"), angle_rate_key("rotation_rate")};
 }
 
 }  // namespace
@@ -141,55 +169,18 @@ TypePtr bodies_format() {
 }
 
 TypePtr joints_format() {
-  const auto about = axis_key("Axis of rotation in the inboard frame: x, y, z or three numbers.");
-  const auto along = axis_key("Axis of sliding in the inboard frame.");
-  const auto both = axis_key("Axis of sliding and rotation in the inboard frame.");
-  const auto normal = axis_key("Normal of the plane in the inboard frame.");
-  const auto shaft = axis_key("Axis of the shafts in the inboard frame.");
-  const auto thread = axis_key("Axis of the thread in the inboard frame.");
-  return named(
-      "a mapping from names to joints",
-      variant("a joint", "type", {between_format()},
-              {
-                  {"fixed", "no motion", {}},
-                  {"revolute",
-                   "rotation about an axis; coordinate `rotation`",
-                   {about, initial_format({angle_key("rotation"), angle_rate_key("rotation_rate")}),
-                    guess_format({angle_guess("rotation")})}},
-                  {"prismatic",
-                   "sliding along an axis; coordinate `translation`",
-                   {along, initial_format({shift_key("translation"), shift_rate_key("translation_rate")}),
-                    guess_format({shift_guess("translation")})}},
-                  {"cylindrical",
-                   "sliding along and rotation about one axis; coordinates `translation`, `rotation`",
-                   {both,
-                    initial_format({shift_key("translation"), angle_key("rotation"), shift_rate_key("translation_rate"),
-                                    angle_rate_key("rotation_rate")}),
-                    guess_format({shift_guess("translation"), angle_guess("rotation")})}},
-                  {"spherical",
-                   "a ball; coordinate `orientation` (a rotation vector)",
-                   {initial_format(orientation_keys()), guess_format({orientation_guess()})}},
-                  {"planar",
-                   "motion in a plane; coordinates `x`, `y`, `rotation`",
-                   {normal, initial_format(planar_keys()),
-                    guess_format({shift_guess("x"), shift_guess("y"), angle_guess("rotation")})}},
-                  {"universal",
-                   "a cross (Cardan) joint between shafts along `axis`: the cross turns about the first of the two "
-                   "axes normal to it in the inboard frame (x for z, y for x, z for y) and about the second in the "
-                   "outboard frame; coordinates `rotation_1`, `rotation_2`",
-                   {shaft,
-                    initial_format({angle_key("rotation_1"), angle_key("rotation_2"), angle_rate_key("rotation_1_rate"),
-                                    angle_rate_key("rotation_2_rate")}),
-                    guess_format({angle_guess("rotation_1"), angle_guess("rotation_2")})}},
-                  {"screw",
-                   "rotation about an axis with travel along it; coordinate `rotation`",
-                   {thread, required("lead", quantity("m", "5 mm"), "Travel per turn, right-handed where positive."),
-                    initial_format({angle_key("rotation"), angle_rate_key("rotation_rate")}),
-                    guess_format({angle_guess("rotation")})}},
-                  {"free",
-                   "all six motions; coordinates `position`, `orientation`",
-                   {initial_format(free_keys()), guess_format({position_guess(), orientation_guess()})}},
-              }));
+  std::vector<Variant> kinds;
+  for (JointFormat& joint : joint_formats()) {
+    std::vector<Key> keys;
+    if (!joint.axis.empty()) keys.push_back(defaulted("axis", axis_format(), "z", joint.axis));
+    for (Key& key : joint.more) keys.push_back(std::move(key));
+    if (mbd::degrees_of_freedom(joint.type) > 0) {
+      keys.push_back(initial_key(joint.type));
+      keys.push_back(guess_key(joint.type));
+    }
+    kinds.push_back({std::string(mbd::name_of(joint.type)), joint.text, std::move(keys)});
+  }
+  return named("a mapping from names to joints", variant("a joint", "type", {between_format()}, std::move(kinds)));
 }
 
 TypePtr drives_format() {

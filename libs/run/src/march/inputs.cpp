@@ -34,7 +34,9 @@ bool counts_on_crank(const model::Model& model) {
                        [](const model::Variable& variable) { return variable.kind != model::Variable::Kind::time; });
   };
   for (const model::Force& force : model.forces)
-    if (std::any_of(force.surface_load.functions.begin(), force.surface_load.functions.end(), counts)) return true;
+    if (const auto* load = force.as<model::SurfaceLoad>();
+        load != nullptr && std::any_of(load->functions.begin(), load->functions.end(), counts))
+      return true;
   for (const model::Bearing& bearing : model.bearings)
     if (std::any_of(bearing.feature_pressures.begin(), bearing.feature_pressures.end(), counts)) return true;
   return false;
@@ -56,22 +58,9 @@ Inputs::Inputs(model::Model& model) : plan_(model.simulation) {
           "cycles, or pressures over the crank angle, count on the crank's constant speed: give them over time, or "
           "leave the speed as it is";
   }
-  for (model::Force& force : model.forces) {
-    const auto add_all = [&](std::vector<model::Function>& functions, const std::string& unit, const std::string& what,
-                             bool is_pressure) {
-      for (model::Function& function : functions) add(function, unit, what + " " + force.name, Jump::of_force);
-      (void)is_pressure;
-    };
-    if (force.type == model::ForceType::load)
-      add_all(force.load.functions, force.load.is_torque ? "N.m" : "N", force.load.is_torque ? "torque" : "force",
-              false);
-    if (force.type == model::ForceType::surface_load)
-      add_all(force.surface_load.functions, force.surface_load.is_pressure ? "Pa" : "N",
-              force.surface_load.is_pressure ? "pressure" : "force", true);
-    if (force.type == model::ForceType::speed_control)
-      add(force.speed_control.speed, speed_unit(force.speed_control.on.coordinate), "wanted speed of " + force.name,
-          Jump::of_force);
-  }
+  for (model::Force& force : model.forces)
+    for (const auto& followed : functions_of(force))
+      add(*followed.function, followed.unit, followed.text, Jump::of_force);
   for (model::Bearing& bearing : model.bearings)
     for (std::size_t f = 0; f < bearing.feature_pressures.size(); ++f)
       if (bearing.film.features[f].is_fed)

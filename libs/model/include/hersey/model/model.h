@@ -22,8 +22,12 @@
 #include "hersey/film/thermal_model.h"
 #include "hersey/film/thermal_network.h"
 #include "hersey/mbd/contact.h"
+#include "hersey/mbd/joint_type.h"
 #include "hersey/mbd/nodal_body.h"
 #include "hersey/mbd/shape.h"
+#include "hersey/model/force.h"
+#include "hersey/model/function.h"
+#include "hersey/model/names.h"
 #include "hersey/model/oil_validity.h"
 #include "hersey/model/study_settings.h"
 #include "hersey/solver/fixed_point_iteration.h"
@@ -33,33 +37,6 @@
 /// Everything that has a name in the file keeps it and its position, so that a fault found later (a gap closed at the
 /// start, a table that does not cover the run) can point at the line that causes it.
 namespace hersey::model {
-
-/// A frame fixed on a body; `frame` is empty for the body's own frame.
-struct FrameName {
-  std::string body;  ///< a body's name, or "ground"
-  std::string frame;
-  SourcePosition position;
-};
-
-/// What a function of the model file depends on.
-struct Variable {
-  enum class Kind { time, coordinate, rate, argument };  ///< argument: what the function's place says, a length, ...
-  Kind kind = Kind::time;
-  std::string joint;       ///< empty for time
-  std::string coordinate;  ///< "rotation", "translation", "x", "y"; empty for time
-};
-
-/// A load, drive or magnitude: `value->value(x)` with x[i] the value of variables[i] in SI (s, rad, m, rad/s, m/s).
-struct Function {
-  std::shared_ptr<const ScalarFunction> value;      ///< never null; result in SI
-  std::vector<Variable> variables;                  ///< empty for a constant
-  std::optional<std::pair<double, double>> domain;  ///< range of variables[0] a table covers; unset: everywhere
-  SourcePosition position;
-  std::string path;  ///< key path, e.g. "forces.gas.magnitude"
-
-  /// Whether it reads nothing, not even the time.
-  [[nodiscard]] bool is_constant() const { return variables.empty(); }
-};
 
 struct Frame {
   std::string name;
@@ -132,7 +109,7 @@ struct Body {
   SourcePosition position;
 };
 
-enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, planar, free, universal, screw };
+using mbd::JointType;
 
 /// Value of a coordinate or of its rate at the start.
 struct InitialValue {
@@ -164,73 +141,6 @@ struct Drive {
   SourcePosition position;
 };
 
-enum class Axes { ground, body };
-
-/// A force [N] or torque [N m] on a body, at the origin of `at`.
-struct BodyLoad {
-  bool is_torque = false;
-  FrameName at;
-  Axes axes = Axes::ground;          ///< axes of components or direction: ground's or those of frame `at`
-  std::optional<Vector3> direction;  ///< unit vector; then `functions` holds the magnitude alone
-  std::vector<Function> functions;   ///< three components, or one magnitude along `direction`
-};
-
-struct SpringDamper {
-  FrameName from, to;
-  double stiffness = 0;             ///< [N/m], >= 0
-  double damping = 0;               ///< [N s/m], >= 0
-  double free_length = 0;           ///< [m], >= 0
-  std::optional<Function> tension;  ///< further pull [N] over the length [m]
-};
-
-/// A scalar joint coordinate.
-struct CoordinateName {
-  std::string joint, coordinate;
-};
-
-/// Spring and damper on one joint coordinate.
-struct CoordinateSpring {
-  CoordinateName on;
-  double stiffness = 0;               ///< [N m/rad] or [N/m], >= 0
-  double damping = 0;                 ///< [N m s/rad] or [N s/m], >= 0
-  double free_position = 0;           ///< [rad] or [m]
-  std::optional<Function> restoring;  ///< further torque or force that pulls back, over the stretch [rad] or [m]
-};
-
-/// An elastic connection in all six directions, rotations first in the matrices.
-struct Bushing {
-  FrameName from, to;
-  Matrix6 stiffness = Matrix6::Zero(), damping = Matrix6::Zero();  ///< symmetric, positive semidefinite
-};
-
-struct JointFriction {
-  CoordinateName on;
-  double coulomb = 0;           ///< [N m] or [N], >= 0
-  double viscous = 0;           ///< [N m s/rad] or [N s/m], >= 0
-  double transition_speed = 0;  ///< [rad/s] or [m/s], > 0
-};
-
-struct SpeedControl {
-  CoordinateName on;
-  Function speed;           ///< of time [rad/s] or [m/s]
-  double proportional = 0;  ///< [N m s/rad] or [N s/m], >= 0
-  double integral = 0;      ///< [N m/rad] or [N/m], >= 0
-  double limit = 0;         ///< [N m] or [N], > 0; infinity for none
-};
-
-/// A pressure [Pa] on faces of a flexible body's mesh, against their outward normals; or a force [N] spread evenly over
-/// their area.
-struct SurfaceLoad {
-  bool is_pressure = false;
-  std::string body;
-  std::vector<fem::ElementFace> faces;
-  Axes axes = Axes::body;            ///< of a force
-  std::optional<Vector3> direction;  ///< of a force's magnitude; of a pressure: it falls as the cosine from there
-  std::vector<Function> functions;   ///< of time or the crank's rotation: one value, or three components of a force
-};
-
-enum class ForceType { load, surface_load, spring_damper, coordinate_spring, bushing, joint_friction, speed_control };
-
 /// output = sum of f_i(input_i): a gear, a rack, a cam.
 struct CoordinateCoupling {
   struct Term {
@@ -241,20 +151,6 @@ struct CoordinateCoupling {
   std::string name;
   CoordinateName output;
   std::vector<Term> terms;
-  SourcePosition position;
-};
-
-/// One entry of `forces`; the member named by `type` holds the data.
-struct Force {
-  std::string name;
-  ForceType type = ForceType::load;
-  BodyLoad load;
-  SurfaceLoad surface_load;
-  SpringDamper spring_damper;
-  CoordinateSpring coordinate_spring;
-  Bushing bushing;
-  JointFriction joint_friction;
-  SpeedControl speed_control;
   SourcePosition position;
 };
 

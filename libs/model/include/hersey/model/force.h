@@ -1,0 +1,122 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "hersey/core/spatial.h"
+#include "hersey/fem/mesh.h"
+#include "hersey/mbd/bushing.h"
+#include "hersey/mbd/coordinate_laws.h"
+#include "hersey/mbd/spring_damper.h"
+#include "hersey/model/function.h"
+#include "hersey/model/names.h"
+
+/// The section `forces`. What acts between two frames (`from`, `to`) or on a joint coordinate (`on`) makes itself:
+/// nothing else has to know which it is.
+namespace hersey::model {
+
+/// A force [N] or torque [N m] on a body, at the origin of `at`.
+struct BodyLoad {
+  bool is_torque = false;
+  FrameName at;
+  Axes axes = Axes::ground;          ///< axes of components or direction: ground's or those of frame `at`
+  std::optional<Vector3> direction;  ///< unit vector; then `functions` holds the magnitude alone
+  std::vector<Function> functions;   ///< three components, or one magnitude along `direction`
+};
+
+struct SpringDamper {
+  FrameName from, to;
+  double stiffness = 0;             ///< [N/m], >= 0
+  double damping = 0;               ///< [N s/m], >= 0
+  double free_length = 0;           ///< [m], >= 0
+  std::optional<Function> tension;  ///< further pull [N] over the length [m]
+  /// A law of its own for each machine.
+  [[nodiscard]] std::shared_ptr<mbd::TwoBodyForce> made() const {
+    return std::make_shared<mbd::SpringDamper>(stiffness, damping, free_length, tension ? tension->value : nullptr);
+  }
+};
+
+/// Spring and damper on one joint coordinate.
+struct CoordinateSpring {
+  CoordinateName on;
+  double stiffness = 0;               ///< [N m/rad] or [N/m], >= 0
+  double damping = 0;                 ///< [N m s/rad] or [N s/m], >= 0
+  double free_position = 0;           ///< [rad] or [m]
+  std::optional<Function> restoring;  ///< further torque or force that pulls back, over the stretch [rad] or [m]
+};
+
+/// An elastic connection in all six directions, rotations first in the matrices.
+struct Bushing {
+  FrameName from, to;
+  Matrix6 stiffness = Matrix6::Zero(), damping = Matrix6::Zero();  ///< symmetric, positive semidefinite
+  /// A law of its own for each machine.
+  [[nodiscard]] std::shared_ptr<mbd::TwoBodyForce> made() const {
+    return std::make_shared<mbd::Bushing>(stiffness, damping);
+  }
+};
+
+struct JointFriction {
+  CoordinateName on;
+  double coulomb = 0;           ///< [N m] or [N], >= 0
+  double viscous = 0;           ///< [N m s/rad] or [N s/m], >= 0
+  double transition_speed = 0;  ///< [rad/s] or [m/s], > 0
+  /// A law of its own for each machine, with its own memory.
+  [[nodiscard]] std::shared_ptr<mbd::CoordinateForce> made() const {
+    return std::make_shared<mbd::JointFriction>(coulomb, viscous, transition_speed);
+  }
+};
+
+struct SpeedControl {
+  CoordinateName on;
+  Function speed;           ///< of time [rad/s] or [m/s]
+  double proportional = 0;  ///< [N m s/rad] or [N s/m], >= 0
+  double integral = 0;      ///< [N m/rad] or [N/m], >= 0
+  double limit = 0;         ///< [N m] or [N], > 0; infinity for none
+  /// A law of its own for each machine, with its own memory.
+  [[nodiscard]] std::shared_ptr<mbd::CoordinateForce> made() const {
+    return std::make_shared<mbd::SpeedController>(speed.value, proportional, integral, limit);
+  }
+};
+
+/// A pressure [Pa] on faces of a flexible body's mesh, against their outward normals; or a force [N] spread evenly over
+/// their area.
+struct SurfaceLoad {
+  bool is_pressure = false;
+  std::string body;
+  std::vector<fem::ElementFace> faces;
+  Axes axes = Axes::body;            ///< of a force
+  std::optional<Vector3> direction;  ///< of a force's magnitude; of a pressure: it falls as the cosine from there
+  std::vector<Function> functions;   ///< of time or the crank's rotation: one value, or three components of a force
+};
+
+/// One entry of `forces`.
+struct Force {
+  std::string name;
+  std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, JointFriction, SpeedControl> data;
+  SourcePosition position;
+
+  /// Its data where it is a T, null otherwise.
+  template <class T>
+  [[nodiscard]] const T* as() const {
+    return std::get_if<T>(&data);
+  }
+};
+
+/// A function of time that a force follows, and how it is told.
+template <class F>
+struct ForceFunction {
+  F* function;
+  std::string unit, text;  ///< "N", "force gas"
+};
+
+/// What a force follows over time; not laws over a length or an angle.
+[[nodiscard]] std::vector<ForceFunction<Function>> functions_of(Force& force);
+[[nodiscard]] std::vector<ForceFunction<const Function>> functions_of(const Force& force);
+
+/// The frames that a force acts on.
+[[nodiscard]] std::vector<FrameName> frames_of(const Force& force);
+
+}  // namespace hersey::model
