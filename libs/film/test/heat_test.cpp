@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "balance/flow_balance.h"
+#include "film_over_time.h"
 #include "heat/heat_equations.h"
 #include "heat/layer_flows.h"
 #include "hot_film.h"
@@ -13,22 +14,10 @@
 namespace hersey::film {
 namespace heat_test {
 
-/// mu = 0.0277 exp(-0.034 (T - 40 degC)) Pa s, as in all reference cases.
-Lubricant thinning_oil() {
-  Lubricant oil{.mu0 = 0.0277, .density = 860};
-  oil.temperature_law = ExponentialViscosity{.mu_ref = 0.0277, .T_ref = 40 + zero_celsius, .beta = 0.034};
-  oil.specific_heat = 2000, oil.conductivity = 0.13;
-  return oil;
-}
-
 FilmModel bearing(double R, double L, double c, int n_phi, int n_z) {
   FilmModel model{.R = R, .L = L, .c = c, .grid = {.n_phi = n_phi, .n_z = n_z}, .lubricant = thinning_oil()};
   model.shear_force = ShearForce::torque_only;
   return model;
-}
-
-ThermalModel supplied_at_40(int layers) {
-  return {.layers = layers, .T_supply = 40 + zero_celsius, .T_edges = 40 + zero_celsius};
 }
 
 TEST_CASE("LawsOfTemperature_HaveTheirPublishedValues") {
@@ -400,29 +389,20 @@ TEST_CASE("FilmThatWarms_ConservesHeatAndEndsSteady") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
   const Journal journal = turning(model, 0.5, 300);
-  const SurfaceMotion motion = surfaces(model, journal);
   ThermalModel thermal = supplied_at_40(3);
   thermal.journal = FreeJournal{.heat_capacity = 0.5};
   thermal.shell = RingWall{.outer_radius = 0.026, .transfer = 2000, .T_ambient = 313.15, .heat_capacity = 1e4};
-  FilmHeat heat(model, thermal);
-  Reynolds reynolds(model);
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(model.grid.size());
-  FilmHistory history;
-  history.theta = Eigen::VectorXd::Ones(model.grid.size());
+  FilmOverTime film(model, thermal, journal);
   for (const double dt : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e4, 1e4, 1e4, 1e4, 1e4, 1e4, 1e4}) {
-    history.dt = dt;
-    history.viscosity = heat.viscosity();
-    REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
-    heat.advance(motion, history, u);
-    history.theta = film_fields(model, motion, u).theta;
+    film.advance(dt);
     CAPTURE(dt);
-    CHECK(heat.observables().balance.error() < 1e-7);  // the film's residual
+    CHECK(film.heat.observables().balance.error() < 1e-7);  // the film's residual
   }
-  const HotFilm steady = solve_hot(model, thermal, motion, journal.e);
+  const HotFilm steady = solve_hot(model, thermal, surfaces(model, journal), journal.e);
   // What is left of the slowest wall after the last long step.
-  CHECK(std::abs(heat.observables().T_max - steady.heat.T_max) < 1e-3);
+  CHECK(std::abs(film.heat.observables().T_max - steady.heat.T_max) < 1e-3);
   // Likewise.
-  CHECK(std::abs(heat.state().journal - steady.heat.T_journal) < 1e-3);
+  CHECK(std::abs(film.heat.state().journal - steady.heat.T_journal) < 1e-3);
 }
 
 }  // namespace heat_test
