@@ -53,6 +53,7 @@ FlowBalance::FlowBalance(const FilmModel& model)
   cells_.resize(static_cast<std::size_t>(n));
   tube_of_.assign(faces_.size(), -1);
   held_index_.assign(n, -1);
+  edge_index_.assign(n, -1);
 }
 
 void FlowBalance::lay_faces() {

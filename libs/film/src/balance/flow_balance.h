@@ -123,6 +123,12 @@ class FlowBalance {
   [[nodiscard]] int feature_at(int node) const;       ///< the feature that feeds this node; -1 for none
   /// Whether line or feature have a part in a node's row.
   [[nodiscard]] bool is_held(int node) const { return held_index_[node] >= 0; }
+  /// Share of a node's oil that a supply has stirred [-]: 1 on line and features, on edges too where they reach these,
+  /// though the edge has its own pressure there.
+  [[nodiscard]] double supplied_share(int node) const;
+  [[nodiscard]] bool is_supplied(int node) const { return supplied_at(node) != nullptr; }
+  /// The feature that does; -1: the line, or none.
+  [[nodiscard]] int supplied_by(int node) const;
   /// Share of a node's own balance in its row: 1 away from line and features, 0 on them.
   [[nodiscard]] double balance_share(int node) const;
   [[nodiscard]] double supply_conductance(int node) const;  ///< what ties u to the supply in that row [m^3/(Pa s)]
@@ -238,6 +244,7 @@ class FlowBalance {
   /// Change of the flow over face f with the surfaces.
   [[nodiscard]] double flow_along(std::size_t f, const MotionDirection& direction) const;
   [[nodiscard]] const HeldNode* held_at(int node) const;
+  [[nodiscard]] const HeldNode* supplied_at(int node) const;
   [[nodiscard]] Tie tie(const HeldNode& held) const;
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
@@ -305,7 +312,9 @@ class FlowBalance {
   SurfaceMotion speeds_;
   Sliding sliding_;
   std::vector<HeldNode> held_;
-  std::vector<int> held_index_;  ///< of every node its place in held_, -1 for none
+  std::vector<int> held_index_;          ///< of every node its place in held_, -1 for none
+  std::vector<HeldNode> held_at_edges_;  ///< would be held if their edges had no pressure of their own
+  std::vector<int> edge_index_;          ///< likewise
   std::vector<CoveredNode> covered_;
   bool liner_rests_ = false;  ///< the step starts with the deformation it ends with
   double phi_start_ = 0;

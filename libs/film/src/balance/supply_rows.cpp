@@ -5,10 +5,30 @@
 
 // Rows of the residual that supply line and features have a part in (film.21, film.22).
 namespace hersey::film {
+namespace {
+
+constexpr double as_written = 1e-9;  // of a length that a model's author has written
+
+}  // namespace
 
 const FlowBalance::HeldNode* FlowBalance::held_at(int node) const {
   const int index = held_index_[node];
   return index < 0 ? nullptr : &held_[index];
+}
+
+const FlowBalance::HeldNode* FlowBalance::supplied_at(int node) const {
+  const int index = edge_index_[node];
+  return index < 0 ? held_at(node) : &held_at_edges_[index];
+}
+
+double FlowBalance::supplied_share(int node) const {
+  const HeldNode* supplied = supplied_at(node);
+  return supplied == nullptr ? 0 : supplied->chi;
+}
+
+int FlowBalance::supplied_by(int node) const {
+  const HeldNode* supplied = supplied_at(node);
+  return supplied == nullptr ? -1 : supplied->feature;
 }
 
 double FlowBalance::balance_share(int node) const {
@@ -103,18 +123,19 @@ bool FlowBalance::gives_way(const HeldNode& held, const HeldNode& to) {
   return held.u != to.u ? held.u < to.u : held.inwards < to.inwards;
 }
 
-// Edges win where they meet a line or a feature. One in air is filled there, but its pressure cannot rise.
+// Edges win where they meet a line or a feature, but for the oil, which is the supply's. One in air is filled there,
+// but its pressure cannot rise.
 void FlowBalance::hold(const HeldNode& held) {
   const int j = held.node % model_.grid.n_z;
-  if (edge_row(j)) return;
-  int& index = held_index_[held.node];
-  if (index >= 0 && !gives_way(held_[index], held)) return;
+  std::vector<HeldNode>& nodes = edge_row(j) ? held_at_edges_ : held_;
+  int& index = (edge_row(j) ? edge_index_ : held_index_)[held.node];
+  if (index >= 0 && !gives_way(nodes[index], held)) return;
   if (index < 0) {
-    index = static_cast<int>(held_.size());
-    held_.emplace_back();
+    index = static_cast<int>(nodes.size());
+    nodes.emplace_back();
   }
-  held_[index] = held;
-  if (open_row(j)) held_[index].u = 0;
+  nodes[index] = held;
+  if (open_row(j)) nodes[index].u = 0;
 }
 
 // The line cuts the tubes between two columns of nodes. Each side is tied to it by what of the tube lies on its side,
@@ -150,7 +171,8 @@ void FlowBalance::hold_line(double phi) {
 
 void FlowBalance::find_supply(const SurfaceMotion& motion) {
   for (const HeldNode& held : held_) held_index_[held.node] = -1;
-  held_.clear();
+  for (const HeldNode& held : held_at_edges_) edge_index_[held.node] = -1;
+  held_.clear(), held_at_edges_.clear();
   line_ = {};
   if (model_.supply.kind != SupplyKind::none) hold_line(motion.phi_supply);
   for (std::size_t f = 0; f < model_.features.size(); ++f) {
@@ -161,6 +183,8 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
     covered_.clear();
     cover(model_, geometry_, feature, motion.phi_journal, covered_);
     for (const CoveredNode& node : covered_) {
+      const int j = node.node % model_.grid.n_z;
+      if (edge_row(j) && std::abs(geometry_.z[j] - feature.z) > (0.5 + as_written) * feature.length) continue;
       hold({.node = node.node,
             .chi = node.share,
             .chi_journal = node.share_phi,
