@@ -10,8 +10,8 @@ namespace layered_reference_test {
 
 using namespace thermal_reference;
 
-/// Bearings with a groove of finite length on nodes where its borders are, in eight layers. The program's shaft is
-/// within 0.2 K by then: on 60 x 13 nodes and in five layers 0.25 K off, its oil 5 % (docs/refinement.md).
+/// Bearings with a groove of finite length in eight layers, on as many nodes around as it takes for shafts within 0.2 K
+/// of the program's: on 60 they are 0.37 K off, by the rim of the groove, whose control volumes heat no wall.
 Case in_layers(std::string name, const Reference& expected) {
   Case c = grooved(std::move(name), 8, expected);
   c.model.grid = {.n_phi = 120, .n_z = 17};
@@ -74,16 +74,11 @@ TEST_CASE("FilmInARing_IsThatOfAnIndependentProgram") {
   const Case fine = in_a_ring(in_layers("F3", expected));
   const HotFilm on_fine = compare(fine);
   CHECK(std::abs(on_fine.heat.T_journal - zero_celsius - 45.7838) < shaft_bar);
-  // On the usual grid all but the flow of oil is as close, and the shaft is within 0.3 K.
-  const Case c = in_a_ring(grooved("F3", 5, expected));
-  const HotFilm hot = solve_hot(c.model, c.thermal, surfaces(c.model, c.journal), c.journal.e);
-  CHECK(std::abs(hot.heat.T_journal - zero_celsius - 45.7838) < 0.3);
-  CHECK(hot.film.force_pressure.norm() == relative(expected.load).epsilon(c.bars.load));
-  CHECK(hot.heat.balance.power == relative(expected.power).epsilon(c.bars.power));
-  CHECK(hot.heat.balance.error() < 1e-8);
-  CHECK(hot.iterations <= 20);
+  // On the usual grid all but the shaft is as close.
+  const HotFilm hot = compare(in_a_ring(grooved("F3", 5, expected)));
+  CHECK(std::abs(hot.heat.T_journal - zero_celsius - 45.7838) < 2 * shaft_bar);
   for (const HotFilm* one : {&on_fine, &hot}) {
-    CHECK(std::abs(one->heat.T_shell_max - zero_celsius - 51.442) < c.bars.T);
+    CHECK(std::abs(one->heat.T_shell_max - zero_celsius - 51.442) < fine.bars.T);
     CHECK(one->heat.balance.to_shell == relative(40.3176).epsilon(0.03));  // as at walls that are given
     CHECK(std::abs(one->heat.balance.to_journal) < 1e-6);
   }
