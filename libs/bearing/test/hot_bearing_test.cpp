@@ -43,7 +43,11 @@ TEST_CASE("OneEffectiveTemperature_IsThatOfTheBalance") {
   REQUIRE(state.effective);
   CHECK(std::abs(state.effective->T - zero_celsius - 65.987) < 0.05);  // its grid and this one
   CHECK(std::abs(state.effective->T_out - zero_celsius - 81.973) < 0.1);
-  CHECK(state.e.norm() / model.c == relative(0.57887).epsilon(1e-3));  // its grid and this one
+  CHECK(state.e.norm() / model.c == relative(0.57887).epsilon(1e-3));                           // as well
+  CHECK(state.film.power_film == relative(1147.18836).epsilon(3e-3));                           // as well
+  CHECK(state.film.flow_left + state.film.flow_right == relative(2.1351906e-5).epsilon(5e-3));  // as well
+  CHECK(model.lubricant.mu0 == relative(0.014163034).epsilon(2e-3));      // 0.05 K, by the oil's slope of 0.03 1/K
+  CHECK(model.lubricant.density == relative(840.2002358).epsilon(1e-4));  // likewise, of 0.00065 1/K
   CHECK(summary.heat_iterations <= 20);
   // The balance itself, with the oil at the temperature found.
   const double rise =

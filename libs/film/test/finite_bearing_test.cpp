@@ -47,6 +47,37 @@ TEST_CASE("FiniteBearing_MeetsTheTable") {
   }
 }
 
+// The same with oil that is conserved, and a broken film that rubs by its fill: Sommerfeld number, attitude, friction,
+// side flow.
+TEST_CASE("BearingsOfOneViscosity_HaveTheTabledNumbers") {
+  int rows = 0;
+  for (const CsvRow& row : read_csv(data + "isoviscous_numbers.csv")) {
+    const double epsilon = number(row, "epsilon"), L_over_D = number(row, "L_over_D");
+    CAPTURE(L_over_D);
+    CAPTURE(epsilon);
+    FilmModel model{.R = 0.05, .L = 0.1 * L_over_D, .c = 50e-6, .grid = {.n_phi = 120, .n_z = 25}};
+    model.lubricant.mu0 = 0.02;
+    model.shear_force = ShearForce::torque_only;
+    model.supply = {SupplyKind::fixed_angle, 0, 0};
+    const double omega = 100, psi = 1e-3;
+    const Journal journal = turning(model, epsilon, omega);
+    const SolvedFilm film = solve_cold(model, surfaces(model, journal), journal.e);
+    const Eigen::Vector2d W = film.observed.force_pressure.head<2>(), e = journal.e;
+    // As asked above: 1 %, above 0.9 second order in the few cells of the narrow film.
+    const double accuracy = epsilon <= 0.9 ? 0.01 : 0.02;
+    CHECK(W.norm() * psi * psi / (2 * model.R * model.L * 0.02 * omega) ==
+          relative(number(row, "So")).epsilon(accuracy));
+    const double attitude = std::atan2(std::abs(W.x() * e.y() - W.y() * e.x()), W.dot(e));
+    CHECK(std::abs(attitude - number(row, "attitude")) * 180 / pi < 0.3);
+    const double friction = std::abs(film.observed.torque_journal) / (model.R * W.norm());
+    CHECK(friction / psi == relative(number(row, "friction")).epsilon(accuracy));
+    const double side_flow = film.observed.flow_left + film.observed.flow_right;
+    CHECK(side_flow / (1e-3 * psi * omega) == relative(number(row, "side_flow")).epsilon(accuracy));
+    ++rows;
+  }
+  CHECK(rows == 24);
+}
+
 // Complementarity all around, without a line at the widest gap, lets the film begin up to 40 degrees before it: another
 // bearing than Raimondi's and Boyd's. The supply line makes it theirs. Values of an independent code.
 TEST_CASE("FilmAllAround_BeginsBeforeTheWidestGap") {

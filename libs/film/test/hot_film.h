@@ -8,6 +8,19 @@
 
 namespace hersey::film {
 
+/// The oil of all reference cases: mu = 0.0277 exp(-0.034 (T - 40 degC)) Pa s.
+inline Lubricant thinning_oil() {
+  Lubricant oil{.mu0 = 0.0277, .density = 860};
+  oil.temperature_law = ExponentialViscosity{.mu_ref = 0.0277, .T_ref = 40 + zero_celsius, .beta = 0.034};
+  oil.specific_heat = 2000, oil.conductivity = 0.13;
+  return oil;
+}
+
+/// Oil at 40 degC, from supplies and edges.
+inline ThermalModel supplied_at_40(int layers) {
+  return {.layers = layers, .T_supply = 40 + zero_celsius, .T_edges = 40 + zero_celsius};
+}
+
 /// A steady film that agrees with its temperature.
 struct HotFilm {
   int iterations = 0;

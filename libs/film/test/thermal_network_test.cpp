@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "hot_film.h"
+#include "film_over_time.h"
 #include "relative.h"
 
 // Lumped bodies, alone and warmed by films.
@@ -13,44 +13,10 @@ namespace hersey::film {
 namespace thermal_network_test {
 
 FilmModel bearing(int n_phi, int n_z) {
-  FilmModel model{.R = 0.025, .L = 0.02, .c = 25e-6, .grid = {.n_phi = n_phi, .n_z = n_z}};
-  model.lubricant = {.mu0 = 0.0277, .density = 860};
-  model.lubricant.temperature_law = ExponentialViscosity{.mu_ref = 0.0277, .T_ref = 40 + zero_celsius, .beta = 0.034};
+  FilmModel model = small_bearing(25e-6, n_phi, n_z);
   model.shear_force = ShearForce::torque_only;
-  model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
   return model;
 }
-
-/// A film over time between walls that are nodes of a network.
-class WarmFilm {
- public:
-  WarmFilm(const FilmModel& model, const ThermalModel& thermal, const Journal& journal)
-      : heat(model, thermal), motion_(surfaces(model, journal)), reynolds_(model) {
-    u_ = Eigen::VectorXd::Zero(model.grid.size());
-    history_.theta = Eigen::VectorXd::Ones(model.grid.size());
-  }
-
-  /// Over dt, its walls held.
-  void advance(double dt) {
-    history_.dt = dt;
-    history_.viscosity = heat.viscosity();
-    if (!solve_film(reynolds_, motion_, history_, {}, u_).solved()) throw std::runtime_error("no film");
-    heat.advance(motion_, history_, u_);
-    history_.theta = film_fields(reynolds_.model(), motion_, u_).theta;
-  }
-  [[nodiscard]] FilmAtNodes at_nodes() const { return {terminals_of(heat.thermal()), heat.exchange()}; }
-  void follow(const ThermalNetwork& network) {
-    heat.move_walls(network.walls(terminals_of(heat.thermal()), heat.exchange().T));
-  }
-
-  FilmHeat heat;
-
- private:
-  SurfaceMotion motion_;
-  Reynolds reynolds_;
-  Eigen::VectorXd u_;
-  FilmHistory history_;
-};
 
 // C dT/dt = P0 exp(-beta (T - 40)) - G (T - 25) of one body around and within a concentric film, by an independent
 // program (quadrature of a fine step).
@@ -71,7 +37,7 @@ TEST_CASE("BodyWarmedByAFilm_IsThatOfTheReference") {
   for (std::size_t level = 0; level < 3; ++level) {
     const double dt = 2 / std::exp2(level);
     ThermalNetwork network(bodies);
-    WarmFilm film(model, thermal, {.omega_journal = 300});
+    FilmOverTime film(model, thermal, {.omega_journal = 300});
     double t = 0;
     for (std::size_t k = 0; k < times.size(); ++k) {
       for (; t < times[k] - 0.5 * dt; t += dt) {
@@ -93,7 +59,7 @@ TEST_CASE("BodyWarmedByAFilm_IsThatOfTheReference") {
 }
 
 ThermalModel between_nodes(std::size_t shell, std::size_t journal) {
-  ThermalModel thermal{.layers = 4, .T_supply = 40 + zero_celsius, .T_edges = 40 + zero_celsius};
+  ThermalModel thermal = supplied_at_40(4);
   thermal.shell = NodeWall{.T = 320, .node = shell};
   thermal.journal = NodeWall{.T = 310, .node = journal};
   return thermal;
@@ -112,14 +78,14 @@ TEST_CASE("AnswerToWalls_IsThatOfFiniteDifferences") {
         ThermalModel thermal = between_nodes(0, 1);
         thermal.carry_over = cavitation == Cavitation::reynolds ? 0 : 0.7;
         const Journal journal{.e = {12e-6, 8e-6}, .omega_journal = omega};
-        WarmFilm film(model, thermal, journal);
+        FilmOverTime film(model, thermal, journal);
         film.advance(dt);
         const WallExchange at = film.heat.exchange();
         CHECK(at.T == Eigen::Vector2d(320, 310));
         // The same step with other walls from the start, against the one that is moved there at its end.
         for (const Eigen::Vector2d& T : {Eigen::Vector2d(330, 310), Eigen::Vector2d(320, 290)}) {
           thermal.shell = NodeWall{.T = T[0], .node = 0}, thermal.journal = NodeWall{.T = T[1], .node = 1};
-          WarmFilm other(model, thermal, journal);
+          FilmOverTime other(model, thermal, journal);
           other.advance(dt);
           const Eigen::Vector2d expected = at.heat + at.by_T * (T - at.T);
           const double scale = at.heat.cwiseAbs().maxCoeff() + (at.by_T * (T - at.T)).cwiseAbs().maxCoeff();
@@ -127,7 +93,7 @@ TEST_CASE("AnswerToWalls_IsThatOfFiniteDifferences") {
           CHECK((other.heat.exchange().heat - expected).norm() < solved * scale);
           ThermalModel again = between_nodes(0, 1);
           again.carry_over = thermal.carry_over;
-          WarmFilm same(model, again, journal);
+          FilmOverTime same(model, again, journal);
           same.advance(dt);
           same.heat.move_walls(T);
           CHECK((same.heat.state().film - other.heat.state().film).cwiseAbs().maxCoeff() <
@@ -153,8 +119,8 @@ TEST_CASE("StepsOfAnyLength_ConserveHeat") {
                                              {"lonely", 10, 333, false}},
                                    .paths = {{"seat", 0, 2, 300}, {"outside", 2, 3, 5}, {"stub", 1, 3, 1}}};
   ThermalNetwork network(bodies);
-  WarmFilm first(model, between_nodes(0, 1), {.e = {12e-6, 0}, .omega_journal = 200});
-  WarmFilm second(model, between_nodes(2, 1), {.e = {0, -8e-6}, .omega_journal = 200});
+  FilmOverTime first(model, between_nodes(0, 1), {.e = {12e-6, 0}, .omega_journal = 200});
+  FilmOverTime second(model, between_nodes(2, 1), {.e = {0, -8e-6}, .omega_journal = 200});
   for (const double dt : {1e-6, 1e-4, 1e-2, 1.0, 100.0, 1e4, 1e4, 1e5, 1e6, 1e7, 1e7, 1e7, 1e7, 1e7, 1e7}) {
     CAPTURE(dt);
     first.advance(dt), second.advance(dt);

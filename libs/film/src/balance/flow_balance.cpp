@@ -53,6 +53,8 @@ FlowBalance::FlowBalance(const FilmModel& model)
   cells_.resize(static_cast<std::size_t>(n));
   tube_of_.assign(faces_.size(), -1);
   held_index_.assign(n, -1);
+  edge_index_.assign(n, -1);
+  land_index_.assign(n, -1);
 }
 
 void FlowBalance::lay_faces() {
@@ -249,14 +251,18 @@ bool FlowBalance::lets_nothing_in(int node) const {
   return cavitation_.loses_oil() && edge_unknown(j) == 0 && u_[inside] < round_off;
 }
 
-double FlowBalance::outflow(int node) const {
+double FlowBalance::outflow_of_row(int node) const {
   const int j = node % model_.grid.n_z;
   if (open_row(j)) return slack(node);
   if (!edge_row(j)) return 0;
   return lets_nothing_in(node) ? 0 : -balance_[node];
 }
 
-double FlowBalance::supply(int node) const { return is_held(node) ? balance_[node] + outflow(node) : 0; }
+double FlowBalance::outflow(int node) const { return outflow_of_row(node) + over_land(node); }
+
+double FlowBalance::supply(int node) const {
+  return (is_held(node) ? balance_[node] + outflow_of_row(node) : 0) + over_land(node);
+}
 
 void FlowBalance::replace_boundary_rows() {
   const Grid& grid = model_.grid;

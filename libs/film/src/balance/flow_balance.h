@@ -121,8 +121,19 @@ class FlowBalance {
   [[nodiscard]] double supply(int node) const;        ///< oil entering from line or feature at this node [m^3/s]
   [[nodiscard]] double power_of_tie(int node) const;  ///< dissipated between the node and what holds it [W]
   [[nodiscard]] int feature_at(int node) const;       ///< the feature that feeds this node; -1 for none
+  /// Of what a feature feeds at an edge, and what leaves there, that which flows straight over the land between its end
+  /// and the edge, beyond what the tube from the next node carries (film.22) [m^3/s].
+  [[nodiscard]] double over_land(int node) const;
+  [[nodiscard]] double drop_over_land(int node) const;   ///< of pressure, on that way [Pa]
+  [[nodiscard]] double power_over_land(int node) const;  ///< [W]
   /// Whether line or feature have a part in a node's row.
   [[nodiscard]] bool is_held(int node) const { return held_index_[node] >= 0; }
+  /// Share of a node's oil that a supply has stirred [-]: 1 on line and features, on edges too where they reach these,
+  /// though the edge has its own pressure there.
+  [[nodiscard]] double supplied_share(int node) const;
+  [[nodiscard]] bool is_supplied(int node) const { return supplied_at(node) != nullptr; }
+  /// The feature that does; -1: the line, or none.
+  [[nodiscard]] int supplied_by(int node) const;
   /// Share of a node's own balance in its row: 1 away from line and features, 0 on them.
   [[nodiscard]] double balance_share(int node) const;
   [[nodiscard]] double supply_conductance(int node) const;  ///< what ties u to the supply in that row [m^3/(Pa s)]
@@ -130,6 +141,8 @@ class FlowBalance {
   /// By how much of itself a u < 0, missing oil, draws on the supply [-]: wholly on line and features, not at all from
   /// the next node.
   [[nodiscard]] double draws(int node) const;
+  /// Whether the supply gives a node what it lacks, and takes nothing from it.
+  [[nodiscard]] bool only_fills(int node) const;
   /// What the surfaces carry from a node towards the supply line beside it.
   struct TowardsLine {
     bool counts = false;     ///< whether the line has a part in the node's row
@@ -170,6 +183,12 @@ class FlowBalance {
     double way = 0;                       ///< line: to it, as a share of the tube [-]
     double way_line = 0;                  ///< with phi_supply [1/rad]
   };
+  /// A node of an edge within a cell of which a feature ends.
+  struct Land {
+    int node = 0, inside = 0, feature = 0;
+    double conductance = 0;  ///< of the land beyond that of the tube, per 1/12 of h^3/mu [-]
+    double u = 0;            ///< of the feature [Pa]
+  };
   /// What ties a held node to its u [m^3/(Pa s)], with derivatives.
   struct Tie {
     double k = 0, k_u = 0, k_g = 0;
@@ -208,8 +227,10 @@ class FlowBalance {
   void lay_pattern();
   void find_supply(const SurfaceMotion& motion);
   void hold_line(double phi);
+  void find_land(int feature, double phi, double u);
+  [[nodiscard]] const Land* land_at(int node) const;
   [[nodiscard]] static bool gives_way(const HeldNode& held, const HeldNode& to);
-  void hold(const HeldNode& held);
+  void hold(const HeldNode& held, bool only_oil = false);
   [[nodiscard]] std::size_t line_face(const HeldNode& held) const;
   [[nodiscard]] bool has_line_row(int node) const;
   [[nodiscard]] double line_balance(int node) const;
@@ -238,6 +259,7 @@ class FlowBalance {
   /// Change of the flow over face f with the surfaces.
   [[nodiscard]] double flow_along(std::size_t f, const MotionDirection& direction) const;
   [[nodiscard]] const HeldNode* held_at(int node) const;
+  [[nodiscard]] const HeldNode* supplied_at(int node) const;
   [[nodiscard]] Tie tie(const HeldNode& held) const;
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
@@ -254,7 +276,8 @@ class FlowBalance {
   [[nodiscard]] bool is_limited(std::size_t f) const;
   void replace_boundary_rows();
   [[nodiscard]] double slack(int node) const;
-  [[nodiscard]] bool lets_nothing_in(int node) const;  ///< on a flooded edge
+  [[nodiscard]] double outflow_of_row(int node) const;  ///< without what flows over land
+  [[nodiscard]] bool lets_nothing_in(int node) const;   ///< on a flooded edge
   [[nodiscard]] double slack_u(int node) const;
   [[nodiscard]] double storage_u(int node) const;
   [[nodiscard]] double storage_h(int node) const;
@@ -305,7 +328,11 @@ class FlowBalance {
   SurfaceMotion speeds_;
   Sliding sliding_;
   std::vector<HeldNode> held_;
-  std::vector<int> held_index_;  ///< of every node its place in held_, -1 for none
+  std::vector<int> held_index_;          ///< of every node its place in held_, -1 for none
+  std::vector<HeldNode> held_at_edges_;  ///< would be held if their edges had no pressure of their own
+  std::vector<int> edge_index_;          ///< likewise
+  std::vector<Land> lands_;
+  std::vector<int> land_index_;  ///< of every node its place there, -1 for none
   std::vector<CoveredNode> covered_;
   bool liner_rests_ = false;  ///< the step starts with the deformation it ends with
   double phi_start_ = 0;

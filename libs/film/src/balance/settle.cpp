@@ -47,9 +47,10 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
     const double end = given ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
     const double coming = (end - start) / dt_ + leaving[i];
     if (edge_row(j)) out = lets_nothing_in(i) ? 0 : -coming;
-    (j == 0 ? oil.flow_left : oil.flow_right) += out;
-    if (is_held(i)) oil.flow_supply += coming + out;
-    if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] += coming + out;
+    const double land = over_land(i), fed = (is_held(i) ? coming + out : 0) + land;
+    (j == 0 ? oil.flow_left : oil.flow_right) += out + land;
+    oil.flow_supply += fed;
+    if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] += fed;
     oil.content[i] = end / whole;
   }
   if (conserves) pass_on(takes_what_comes, oil);
@@ -80,9 +81,9 @@ double FlowBalance::pass_along(int j, double carry, const std::vector<char>& tak
     const int i = grid.index(forwards ? step : grid.n_phi - 1 - step, j);
     if (takes_what_comes[static_cast<std::size_t>(i)] != 0) {
       const double flow = for_good ? carry / dt_ : 0;
-      if (is_held(i)) oil.flow_supply -= flow;
-      if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] -= flow;
       if (!is_held(i)) (j == 0 ? oil.flow_left : oil.flow_right) += flow;
+      if (is_held(i)) oil.flow_supply -= flow;
+      if (const int feature = feature_at(i); is_held(i) && feature >= 0) oil.flow_features[feature] -= flow;
       carry = 0;
       continue;
     }

@@ -102,7 +102,7 @@ void HeatEquations::add_second_order(const CarryingFilm& film, std::size_t f, in
     length = geometry.dx[beyond == last ? last : i];
   }
   const FlowBalance& b = film.balance;
-  if (b.is_held(from) || b.is_held(behind) || b.nodes()[behind].content < 1e-3) return;
+  if (b.is_supplied(from) || b.is_supplied(behind) || b.nodes()[behind].content < 1e-3) return;
   const double heat = rc_ * std::abs(q) * 0.5 * face.length / length;
   const HeatSystem::Side side = side_of(from, to);
   system_.diagonal(system_.row(from, layer)) += heat;
@@ -243,10 +243,10 @@ void HeatEquations::add_supplies(const CarryingFilm& film) {
   held_.clear();
   supply_of_.assign(static_cast<std::size_t>(model_.grid.size()), -1);
   for (int node = 0; node < model_.grid.size(); ++node) {
-    if (!film.balance.is_held(node)) continue;
+    if (!film.balance.is_supplied(node)) continue;
     Held held{.node = node,
-              .supply = film.balance.feature_at(node) + (has_line() ? 1 : 0),
-              .chi = 1 - film.balance.balance_share(node),
+              .supply = film.balance.supplied_by(node) + (has_line() ? 1 : 0),
+              .chi = film.balance.supplied_share(node),
               .flow = film.balance.supply(node)};
     supply_of_[node] = held.supply;
     const double passing = std::max(inflow_[static_cast<std::size_t>(node)] + std::max(held.flow, 0.0),
@@ -284,7 +284,7 @@ void HeatEquations::renew(const CarryingFilm& film) {
       const Held* held = held_at[static_cast<std::size_t>(q > 0 ? faces[f].b : faces[f].a)];
       if (held == nullptr || q == 0) continue;
       const double heat = (1 - thermal_.carry_over) * held->chi * rc_ * std::abs(q);
-      const double stirred = 1 - film.balance.balance_share(from);
+      const double stirred = film.balance.supplied_share(from);
       // What another supply has stirred is its own matter.
       const bool is_same = supply_of_[from] == held->supply;
       renewals_.push_back(

@@ -76,7 +76,7 @@ WallFlux HeatEquations::to_wall(const CarryingFilm& film, int node, int layer, d
   const Node& at = film.balance.nodes()[node];
   const double k = model_.lubricant.conductivity * oil_share(at) / at.h;
   const auto [beside, next] = across_.slope_at_wall(static_cast<std::size_t>(layer));
-  const double area = film.balance.balance_share(node) * film.balance.area(node);
+  const double area = (1 - film.balance.supplied_share(node)) * film.balance.area(node);
   const double share = area / (1 + resistance * k * (beside - next));
   return {share * k * beside, share * k * next};
 }

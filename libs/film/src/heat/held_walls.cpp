@@ -31,8 +31,8 @@ void HeatEquations::hold_walls(const HeatState& start) {
 std::vector<double> HeatEquations::fresh_shares(const CarryingFilm& film) const {
   std::vector<double> given(static_cast<std::size_t>(supplies()), 0.0), net = given;
   for (int node = 0; node < model_.grid.size(); ++node) {
-    if (!film.balance.is_held(node)) continue;
-    const auto supply = static_cast<std::size_t>(film.balance.feature_at(node) + (has_line() ? 1 : 0));
+    if (!film.balance.is_supplied(node)) continue;
+    const auto supply = static_cast<std::size_t>(film.balance.supplied_by(node) + (has_line() ? 1 : 0));
     given[supply] += std::max(film.balance.supply(node), 0.0), net[supply] += film.balance.supply(node);
   }
   for (std::size_t s = 0; s < given.size(); ++s) net[s] = given[s] > 0 ? std::max(net[s], 0.0) / given[s] : 0;
@@ -54,10 +54,10 @@ OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std
   const Eigen::Index drain = at_.place_of_drain(), edges = at_.place_of_oil(thermal_.oil.edges);
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double out = film.balance.outflow(node), given = film.balance.supply(node);
-    const bool is_held = film.balance.is_held(node);
-    const int supply = is_held ? film.balance.feature_at(node) + (has_line() ? 1 : 0) : -1;
+    const bool is_held = film.balance.is_supplied(node);
+    const int supply = is_held ? film.balance.supplied_by(node) + (has_line() ? 1 : 0) : -1;
     const double share = is_held ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
-    const double replaced = is_held ? (1 - thermal_.carry_over) * (1 - film.balance.balance_share(node)) *
+    const double replaced = is_held ? (1 - thermal_.carry_over) * film.balance.supplied_share(node) *
                                           inflow_[static_cast<std::size_t>(node)]
                                     : 0;
     for (int l = 0; l < layers(); ++l) {
@@ -85,9 +85,9 @@ void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatSt
     into_shell[static_cast<std::size_t>(node)] = to_shell(film, node);
     into_journal[static_cast<std::size_t>(node)] = to_journal(film, node);
     double renewed = 0;
-    if (film.balance.is_held(node)) {
-      const auto supply = static_cast<std::size_t>(film.balance.feature_at(node) + (has_line() ? 1 : 0));
-      const double replaced = (1 - thermal_.carry_over) * (1 - film.balance.balance_share(node));
+    if (film.balance.is_supplied(node)) {
+      const auto supply = static_cast<std::size_t>(film.balance.supplied_by(node) + (has_line() ? 1 : 0));
+      const double replaced = (1 - thermal_.carry_over) * film.balance.supplied_share(node);
       renewed = rc_ * (fresh[supply] * std::max(film.balance.supply(node), 0.0) +
                        replaced * inflow_[static_cast<std::size_t>(node)]);
     }

@@ -133,7 +133,7 @@ void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench,
   add_powers(balance, motion, wrench, whole);
   double sum = 0;
   for (int k = 0; k < nodes; ++k) {
-    along_pressure[static_cast<std::size_t>(k)] += balance.power_of_tie(k);
+    along_pressure[static_cast<std::size_t>(k)] += balance.power_of_tie(k) + balance.power_over_land(k);
     sum += along_pressure[static_cast<std::size_t>(k)] + balance.area(k) * sliding_power(balance, wrench, motion, k);
   }
   const double scale = sum > 0 ? whole.power_film / sum : 1;

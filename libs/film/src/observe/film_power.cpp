@@ -23,6 +23,15 @@ Eigen::VectorXd parabolic_shares(const Eigen::VectorXd& length) {
   return shares;
 }
 
+/// Work that oil brings along which a feature feeds over the land before an edge, beyond what a held node says of it.
+double oil_over_land(const FlowBalance& balance, int node) {
+  if (balance.over_land(node) == 0) return 0;
+  const int j = node % balance.model().grid.n_z;
+  const double edge = balance.open_row(j) ? 0 : balance.edge_unknown(j);
+  const double counted = balance.is_held(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
+  return (oil_work(balance.model().lubricant, edge + balance.drop_over_land(node)) - counted) * balance.over_land(node);
+}
+
 }  // namespace
 
 // Sliding shears the oil: share mu slip^2/h, more of it between rough surfaces.
@@ -62,10 +71,11 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
       o.power_film += area * sliding_power(balance, wrench, motion, k) +
                       around[j] * (pressure_power(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
       if (j + 1 < grid.n_z) o.power_film += axial[j] * pressure_power(balance, balance.face_above(i, j));
+      o.power_film += balance.power_over_land(k);
       o.power_asperity += area * node.asperity * friction;
       // What the supply feeds comes at its own pressure: the way to the node dissipates (FlowBalance::power_of_tie).
       if (balance.is_held(k)) o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
-      o.power_oil += work * balance.outflow(k);
+      o.power_oil += work * balance.outflow(k) - oil_over_land(balance, k);
       o.power_stored +=
           area * (work * balance.storage(k) / balance.area(k) - (node.wall + node.asperity) * motion.g_rate[k]);
     }

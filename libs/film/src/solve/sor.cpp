@@ -161,7 +161,7 @@ void Sor::relax(int i, int j) {
   const bool open = balance_.open_row(j);
   const double own = balance_.balance_share(node), tie = balance_.supply_conductance(node);
   const double full = own * (r.known + r.transport) - tie * balance_.supply_unknown(node);
-  const double conductance = own * (open ? balance_.conductance_scale() : r.K) + tie;
+  const double conductance = own * (open ? balance_.conductance_scale() : r.K) + (balance_.only_fills(node) ? 0 : tie);
   const double target = -full / conductance;
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
   if (u >= 0 || cavitation_.has_tension()) return place(node, u, j);
