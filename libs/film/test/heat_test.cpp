@@ -256,7 +256,8 @@ TEST_CASE("CopesBearing_IsThatOfAnIndependentProgram") {
 
 // The fast case of the design (R 50, L 80 mm, c 145 um, 4000 rpm, epsilon 0.8 in a ring of steel), on which few layers
 // err most, with the usual grid against layers and nodes that leave little. Asked were 1.5 %, 0.3 K and 1 %, which
-// these nodes meet but for a hair: the control volumes on the groove's rim heat no wall. What layers leave is far less.
+// these nodes meet but for a hair: 60 nodes around leave 1.2 % of the load and 0.3 K (18817, 18621 and 18602 N on 60,
+// 120 and 240). What layers leave is far less.
 TEST_CASE("FiveLayers_AreNearSixteenOnTwiceTheNodes") {
   const auto solved = [](int layers, int n_phi, int n_z) {
     FilmModel model = bearing(0.05, 0.08, 145e-6, n_phi, n_z);

@@ -11,7 +11,7 @@ namespace layered_reference_test {
 using namespace thermal_reference;
 
 /// Bearings with a groove of finite length in eight layers, on as many nodes around as it takes for shafts within 0.2 K
-/// of the program's: on 60 they are 0.37 K off, by the rim of the groove, whose control volumes heat no wall.
+/// of the program's: on 60 they are 0.37 K off, which falls with the square of their distance.
 Case in_layers(std::string name, const Reference& expected) {
   Case c = grooved(std::move(name), 8, expected);
   c.model.grid = {.n_phi = 120, .n_z = 17};
