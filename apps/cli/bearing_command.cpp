@@ -140,22 +140,35 @@ void require_one(const BearingArguments& arguments, const model::Model& model, s
   for (const auto& [option, file] : {std::pair("--fields", arguments.fields), std::pair("--vtu", arguments.vtu)})
     if (!file.empty() && runs > 1)
       throw InputError(Fault{{option, 0, 0}, "", fmt::format("{} solutions", runs), "a single one", ""});
-  if (arguments.vtu.empty() || study::bearing_called(model, arguments.bearing).heated_shell) return;
+  const model::Bearing& bearing = study::bearing_called(model, arguments.bearing);
+  if (arguments.vtu.empty() || bearing.heated_shell || bearing.heated_journal) return;
   throw InputError(Fault{{"--vtu", 0, 0},
                          "",
-                         "a bearing whose shell is in no body that conducts heat",
-                         "a bearing with `thermal: {model: film, shell: {wall: body}}`",
+                         "a bearing whose walls are in no body that conducts heat",
+                         "a bearing with `thermal: {model: film, shell: {wall: body}}`, or such a journal",
                          ""});
 }
 
-// Temperatures of the body that the shell is in, on its mesh.
-void write_body(const BearingArguments& arguments, const model::Model& model, const study::BearingSolution& solution) {
-  const std::string& name = study::bearing_called(model, arguments.bearing).shell.body;
+// Temperatures of a body that a wall is in, on its mesh.
+void write_body(const std::filesystem::path& file, const model::Model& model, const std::string& name,
+                const Eigen::VectorXd& T) {
   const auto body = std::find_if(model.bodies.begin(), model.bodies.end(),
                                  [&](const model::Body& candidate) { return candidate.name == name; });
   fem::VtuFrame frame;
-  frame.node_fields.push_back({"temperature", solution.state.heat->T_body.transpose()});
-  fem::write_vtu(arguments.vtu, *body->flexible->mesh, frame);
+  frame.node_fields.push_back({"temperature", T.transpose()});
+  fem::write_vtu(file, *body->flexible->mesh, frame);
+}
+
+// Of shell and journal; where both are bodies the journal's has a file beside the shell's.
+void write_bodies(const BearingArguments& arguments, const model::Model& model,
+                  const study::BearingSolution& solution) {
+  const model::Bearing& bearing = study::bearing_called(model, arguments.bearing);
+  const std::filesystem::path given = arguments.vtu;
+  if (bearing.heated_shell) write_body(given, model, bearing.shell.body, solution.state.heat->T_body);
+  if (!bearing.heated_journal) return;
+  std::filesystem::path beside = given;
+  if (bearing.heated_shell) beside.replace_filename(given.stem().string() + "_journal" + given.extension().string());
+  write_body(beside, model, bearing.journal.body, solution.state.heat->T_journal_body);
 }
 
 // One list per solution.
@@ -226,7 +239,7 @@ int bearing_command(const BearingArguments& arguments) {
   }
   if (!arguments.csv.empty()) write(arguments.csv, bearing_csv(solutions));
   if (!arguments.fields.empty() && all_solved) write(arguments.fields, bearing_fields_csv(solutions.front()));
-  if (!arguments.vtu.empty() && all_solved) write_body(arguments, model, solutions.front());
+  if (!arguments.vtu.empty() && all_solved) write_bodies(arguments, model, solutions.front());
   if (!arguments.report.empty()) {
     report::write_html(bearing_page(arguments, solutions), arguments.report);
     if (!arguments.json) fmt::print("report: {}\n", arguments.report.string());

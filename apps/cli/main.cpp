@@ -101,7 +101,9 @@ CLI::App* add_bearing_command(CLI::App& app, BearingArguments& bearing) {
   command->add_option("--csv", bearing.csv, "Write every figure of every solution as a table")->type_name("FILE");
   command->add_option("--fields", bearing.fields, "Write pressure, film thickness and fill fraction of a solution")
       ->type_name("FILE");
-  command->add_option("--vtu", bearing.vtu, "Write the temperatures of the body that the shell is in for ParaView")
+  command
+      ->add_option("--vtu", bearing.vtu,
+                   "Write the temperatures of the body that the shell, or the journal, is in for ParaView")
       ->type_name("FILE");
   command->add_option("--report", bearing.report, "Write a page with figures, maps and curves of all solutions")
       ->type_name("FILE");

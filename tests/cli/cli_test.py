@@ -2,6 +2,7 @@
 """Behaviour of the command line, as documented by `hersey --help`: exit codes, messages, files kept, Ctrl-C."""
 
 import glob
+import itertools
 import json
 import math
 import os
@@ -30,6 +31,27 @@ def hersey(*arguments, **options):
     """Runs the program to its end and returns the finished process with its output as text."""
     return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, timeout=600,
                           stdin=subprocess.DEVNULL, **options)
+
+
+def write_hollow_shaft(path, inner, outer, width, around=48, along=4, through=3):
+    """Hexahedra about the z-axis, the middle in the origin, with the set of nodes `bore`; lengths in mm."""
+    def label(layer, i, k):
+        return 1 + layer + (through + 1) * ((i % around) + around * k)
+
+    lines, bore = ["*NODE"], []
+    for k in range(along + 1):
+        for i in range(around):
+            bore.append(f"{label(0, i, k)},")
+            for layer in range(through + 1):
+                phi, r = 2 * math.pi * i / around, inner + (outer - inner) * layer / through
+                lines.append(f"{label(layer, i, k)}, {r * math.cos(phi):.12g}, {r * math.sin(phi):.12g}, "
+                             f"{width * k / along - width / 2:.12g}")
+    lines.append("*ELEMENT, TYPE=C3D8, ELSET=all")
+    for n, (k, i, layer) in enumerate(itertools.product(range(along), range(around), range(through))):
+        corners = [label(layer + a, i + b, z) for z in (k, k + 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        lines.append(", ".join(map(str, [n + 1] + corners)))
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines + ["*NSET, NSET=bore"] + bore) + "\n")
 
 
 class CommandLine(unittest.TestCase):
@@ -631,6 +653,38 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         run = hersey("bearing", pedestal, *grid, "--shell-speed", "10rpm")
         self.assertEqual(run.returncode, WRONG_INPUT)
         self.assertIn("temperatures are those of a body", run.stderr)
+
+    def test_bearing_whose_journal_is_in_a_body_as_well(self):
+        pedestal = os.path.join(HERE, "../../examples/hot_pedestal/model.yaml")
+        mesh, vtu = (os.path.join(self._folder.name, name) for name in ("shaft.inp", "pedestal.vtu"))
+        write_hollow_shaft(mesh, inner=10, outer=26, width=30)
+        shaft = (f"bodies.shaft={{flexible: {{mesh: {mesh}, length_unit: 1 mm, material: {{youngs_modulus: 210 GPa, "
+                 "poisson_ratio: 0.3, density: 7850 kg/m^3}, heat: {conductivity: 46 W/m/K, expansion: 12e-6 1/K, cooling: "
+                 "{bore: {heat_transfer: 100 W/m^2/K, ambient: 25 degC}}}}, frames: {axis: {nodes: bore, connection: "
+                 "average, origin: 0 0 0 mm}}}")
+        both = ("--set", shaft, "--set", "joints.turn.between=[ground, shaft.axis]", "--set",
+                "bearings.main.journal=shaft.axis", "--set", "bearings.main.thermal.journal={wall: body}", "--set",
+                "bearings.main.grid={circumferential: 40, axial: 9}")
+        run = hersey("bearing", pedestal, *both, "--no-grid-error", "--vtu", vtu, "--json")
+        self.assertEqual(run.returncode, OK, run.stderr)
+        figures = {key: figure["value"] for key, figure in json.loads(run.stdout)["solutions"][0]["figures"].items()}
+        self.assertLess(figures["T_journal"], figures["T_journal_body_max"] + 1e-6)
+        self.assertTrue(5e-6 < figures["journal_growth"] < 15e-6)
+        self.assertLess(figures["journal_distortion"], 0.2 * figures["journal_growth"])
+        self.assertAlmostEqual(figures["clearance_of_bodies"],
+                               34e-6 + figures["bore_growth"] - figures["journal_growth"], places=12)
+        for file in (vtu, os.path.join(self._folder.name, "pedestal_journal.vtu")):
+            with open(file, "rb") as content:
+                self.assertIn(b'Name="temperature"', content.read())
+        told = hersey("bearing", pedestal, *both, "--no-grid-error")
+        self.assertIn("growth of the journal's radius by temperature, mean", told.stdout)
+        self.assertIn("radial clearance with what bodies have grown (hot), mean", told.stdout)
+        run = hersey("bearing", pedestal, *both, "--set", "bearings.main.thermal.shell=insulated", "--speed", "0 rpm",
+                     "--shell-speed", "10 rpm")
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("a journal at rest, whose temperatures are those of a body", run.stderr)
+        run = hersey("bearing", pedestal, *both, "--set", "bodies.shaft.flexible.heat.expansion=100e-6 1/K")
+        self.assertIn("a seizure: the clearance of 34 um closes to", run.stderr)
 
     def test_bearing_sweeps_combine_and_are_written_as_a_table(self):
         table = os.path.join(self._folder.name, "table.csv")

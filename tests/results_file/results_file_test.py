@@ -28,6 +28,7 @@ RUNS = {
     "flexible_slider_crank": ["--set", "simulation.duration=1ms"],
     "examples/conrod_pressure/static.yaml": [],
     "examples/flexible_rotor/modes.yaml": [],
+    "examples/hot_pedestal/with_shaft.yaml": [],
     "tests/results_file/every_line.yaml": ["--step-error"],
 }
 # Lines that no run of seconds has: films on elastic surfaces, modes of meshed bodies, meshes as shapes of ground.

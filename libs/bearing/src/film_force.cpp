@@ -11,6 +11,7 @@
 #include "deforming_surfaces.h"
 #include "hersey/bearing/operating_point.h"
 #include "hersey/core/contract.h"
+#include "hot_clearance.h"
 #include "temperature_path.h"
 #include "thermal_shape.h"
 
@@ -45,6 +46,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
       options_(options),
       reynolds_(model, film::linear_solver_of(options.film.solver)),
       thermal_shape_(std::make_unique<ThermalShape>()),
+      journal_shape_(std::make_unique<ThermalShape>()),
       growth_(std::make_unique<ClearanceGrowth>()),
       gap_(std::move(gap)),
       deforming_(std::make_unique<DeformingSurfaces>(model, options.shell_surface, options.journal_surface)),
@@ -59,6 +61,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
     heat_.emplace(model, *options_.thermal);
     history_.viscosity = heat_->viscosity();
     thermal_shape_->start_at(heat_->shell_opening_in_time());
+    journal_shape_->start_at(journal_shape_by_temperature());
   }
   growth_->start_at(growth_by_temperature());
   history_start_ = observed_history_ = history_;
@@ -77,6 +80,11 @@ double FilmForce::growth_by_temperature() const {
   return walls ? walls->growth(model().R, seen.T_shell_wall, seen.T_journal_wall) : 0;
 }
 
+// Of a journal in a body, at the nodes (thermal.60, thermal.61).
+Eigen::VectorXd FilmForce::journal_shape_by_temperature() const {
+  return film::around(model().grid, heat_->journal_growth_in_time());
+}
+
 void FilmForce::place(const mbd::RelativeMotion& motion) {
   gap_->open_by(growth_->now(), growth_->rate());
   domain_error_ = gap_->place(motion, surfaces_);
@@ -87,6 +95,8 @@ void FilmForce::place(const mbd::RelativeMotion& motion) {
   parameters_.tail(motion.s.size()) = motion.s_rate;
   add_to_shell(thermal_shape_->now(), surfaces_);
   if (thermal_shape_->moves()) surfaces_.g_rate += thermal_shape_->rate();
+  add_to_journal(journal_shape_->now(), surfaces_);
+  if (journal_shape_->moves()) surfaces_.g_rate -= journal_shape_->rate();
   deforming_->place(motion.s, motion.s_rate, gap_->turning(), surfaces_);
   feed(motion.t);
   // A liner may be pushed beyond its undeformed surface; surfaces without one may not meet.
@@ -104,7 +114,8 @@ void FilmForce::feed(double t) {
 
 /// Of the surfaces as their bodies deform, without the liner.
 double FilmForce::smallest_gap() const {
-  return deforming_->deform() || thermal_shape_->now().size() > 0 ? surfaces_.g.minCoeff() : gap_->smallest_gap();
+  const bool has_shape = thermal_shape_->now().size() > 0 || journal_shape_->now().size() > 0;
+  return deforming_->deform() || has_shape ? surfaces_.g.minCoeff() : gap_->smallest_gap();
 }
 
 void FilmForce::report_contact() {
@@ -116,9 +127,10 @@ void FilmForce::report_contact() {
       fmt::format("the journal touches the shell (smallest undeformed gap {:.4g} um at {:.0f} deg, z = {:.3g} mm; {})",
                   1e6 * smallest_gap(), grid.phi(i) * 180 / std::numbers::pi, 1e3 * model().L * grid.z_over_L(j),
                   gap_->position_text());
-  if (growth_->now() != 0)
+  const HotClearance hot = hot_clearance(model(), growth_->now(), thermal_shape_->now(), journal_shape_->now());
+  if (hot.has_shape || growth_->now() != 0)
     domain_error_ += fmt::format("; its clearance of {:.4g} um is {:.4g} um at the temperatures of its walls",
-                                 1e6 * model().c, 1e6 * (model().c + growth_->now()));
+                                 1e6 * model().c, 1e6 * hot.smallest);
   if (model().asperities.model != film::AsperityModel::none) return;
   domain_error_ += model().compliance > 0 ? "; where no film pressure parts them, as at the edges, only `asperities` do"
                                           : "; smooth surfaces have nothing but the film between them: `asperities` "
@@ -163,6 +175,7 @@ void FilmForce::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {
   history_.dt = dt;
   growth_->begin_step(dt);
   thermal_shape_->begin_step(dt);
+  journal_shape_->begin_step(dt);
   u_ = u_start_;
   linearised_ = false;
   iterations_ = exchanges_ = 0;
@@ -344,6 +357,7 @@ void FilmForce::close_step() {
   }
   growth_->accept_step(growth_by_temperature(), history_.dt);
   thermal_shape_->accept_step(history_.dt);
+  journal_shape_->accept_step(history_.dt);
   const film::FilmFields fields = film::film_fields(model(), surfaces_, u_);
   history_start_.w = fields.w;
   history_start_.density = fields.density;
@@ -368,6 +382,7 @@ void FilmForce::settle_walls(const Eigen::VectorXd& T_nodes) {
   walls_ = heat_->settle_walls(T_nodes);
   growth_->settle(growth_by_temperature());
   thermal_shape_->settle(heat_->shell_opening_in_time());
+  journal_shape_->settle(journal_shape_by_temperature());
 }
 
 void FilmForce::move_walls(const Eigen::VectorXd& T) {
@@ -381,12 +396,9 @@ std::string FilmForce::thermal_trouble(double closed) const {
   if (!heat_) return {};
   const film::HeatObservables& seen = heat_->observables();
   const auto celsius = [](double T) { return T - film::zero_celsius; };
-  const double c = model().c, hot = c + growth_->target();
-  if (hot <= closed * c)
-    return fmt::format(
-        "a seizure: the clearance of {:.4g} um closes to {:.4g} um with the shell at {:.0f} degC and the journal at "
-        "{:.0f} degC ({})",
-        1e6 * c, 1e6 * hot, celsius(seen.T_shell_wall), celsius(seen.T_journal_wall), gap_->position_text());
+  const HotClearance hot =
+      hot_clearance(model(), growth_->target(), heat_->shell_opening_in_time(), journal_shape_by_temperature());
+  if (hot.smallest <= closed * model().c) return seizure_text(model(), hot, seen, gap_->position_text());
   if (seen.T_max < hottest_trial) return {};
   return fmt::format("a thermal runaway: the hottest oil has {:.0f} degC, at {:.0f} deg, z = {:.3g} mm",
                      celsius(seen.T_max), seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
@@ -416,6 +428,10 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   // Walls that grow apart are pushed on as shapes that open the gap everywhere are (thermal.43).
   seen.power_of_growth = growth_->rate() * seen.film.normal_forces.sum();
   if (thermal_shape_->moves()) seen.power_of_growth += thermal_shape_->rate().dot(seen.film.normal_forces);
+  if (journal_shape_->moves()) seen.power_of_growth -= journal_shape_->rate().dot(seen.film.normal_forces);
+  if (thermal_shape_->now().size() > 0) seen.bore_growth = thermal_shape_->now().mean();
+  if (journal_shape_->now().size() > 0) seen.journal_growth = journal_shape_->now().mean();
+  seen.clearance_of_bodies = model().c + growth_->now() + seen.bore_growth - seen.journal_growth;
   seen.power_into_bodies += seen.power_of_growth;
   seen.clearance = model().c + growth_->now();
   seen.film_iterations = observed_iterations_;
@@ -470,6 +486,8 @@ void FilmForce::persist(Archive& archive) {
     archive.io("wall_correction", walls_.largest), archive.io("wall_rise", walls_.rise);
     growth_->persist(archive);
     thermal_shape_->persist(archive);
+    const Archive::Group journal(archive, "journal");
+    journal_shape_->persist(archive);
   }
   archive.io("started", started_);
   archive.io("u", u_start_);

@@ -35,6 +35,8 @@ film::FilmModel with_half_grid(film::FilmModel model) {
 void take_to(const film::Grid& coarse, const film::Grid& fine, film::ThermalModel& thermal) {
   if (auto* body = std::get_if<film::BodyWall>(&thermal.shell))
     body->conduction = std::make_shared<const film::WallConduction>(film::on_grid(*body->conduction, fine, coarse));
+  if (auto* body = std::get_if<film::BodyJournal>(&thermal.journal))
+    body->conduction = std::make_shared<const film::JournalConduction>(film::on_grid(*body->conduction, fine, coarse));
   auto* wall = std::get_if<film::WallAtTemperature>(&thermal.shell);
   if (wall == nullptr || wall->around.size() == 0) return;
   const Eigen::VectorXd T = wall->around;

@@ -43,6 +43,10 @@ void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion) {
   motion.shell_opening += shape;
 }
 
+void add_to_journal(const Eigen::VectorXd& shape, film::SurfaceMotion& motion) {
+  if (shape.size() > 0) motion.g -= shape;
+}
+
 ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point, const Eigen::Vector2d& e) {
   ParameterVector parameters = ParameterVector::Zero();
   parameters.segment<2>(kEx) = e;

@@ -26,6 +26,7 @@ film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& 
   loaded.tilt = state.tilt;
   film::SurfaceMotion motion = steady_surfaces(model, loaded, state.e);
   add_to_shell(state.thermal_shape, motion);
+  add_to_journal(state.journal_shape, motion);
   if (state.d_shell.size() > 0) motion.g += state.d_shell;
   if (state.d_journal.size() > 0) motion.g -= state.d_journal;
   film::FilmFields fields = film::film_fields(model, motion, state.u);

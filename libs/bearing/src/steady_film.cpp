@@ -124,12 +124,14 @@ void SteadyFilm::lay_openings() {
 film::SurfaceMotion SteadyFilm::rigid_surfaces(const OperatingPoint& point, const Eigen::Vector2d& e) const {
   film::SurfaceMotion motion = steady_surfaces(model_, point, e);
   add_to_shell(thermal_shape_, motion);
+  add_to_journal(journal_shape_, motion);
   return motion;
 }
 
 double SteadyFilm::undeformed_gap(const Eigen::Vector2d& e) const {
-  return thermal_shape_.size() > 0 ? rigid_surfaces(point_, e).g.minCoeff()
-                                   : smallest_gap(model_, parameters_of(model_, point_, e), point_.growth);
+  const bool has_shape = thermal_shape_.size() > 0 || journal_shape_.size() > 0;
+  return has_shape ? rigid_surfaces(point_, e).g.minCoeff()
+                   : smallest_gap(model_, parameters_of(model_, point_, e), point_.growth);
 }
 
 film::SurfaceMotion SteadyFilm::surfaces(const Eigen::Vector2d& e, const VectorXd& x) {

@@ -39,10 +39,13 @@ class SteadyFilm {
 
   /// Viscosities by the oil's temperatures from now on.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
-  /// How far the shell lies outside its cylinder at the nodes by temperature from now on [m] (thermal.35); empty:
-  /// nowhere.
-  void set_thermal_shape(Eigen::VectorXd shape) { thermal_shape_ = std::move(shape); }
+  /// How far shell and journal lie outside their cylinders at the nodes by temperature from now on [m] (thermal.35,
+  /// thermal.60); empty: nowhere.
+  void set_thermal_shapes(Eigen::VectorXd shell, Eigen::VectorXd journal) {
+    thermal_shape_ = std::move(shell), journal_shape_ = std::move(journal);
+  }
   [[nodiscard]] const Eigen::VectorXd& thermal_shape() const { return thermal_shape_; }
+  [[nodiscard]] const Eigen::VectorXd& journal_shape() const { return journal_shape_; }
   /// On the film's relative residual, instead of SteadyOptions::rtol.
   void set_tolerance(double rtol) { film_options_.rtol = rtol; }
   /// Of a steady film, with its viscosities.
@@ -116,7 +119,7 @@ class SteadyFilm {
   DeformingSurfaces deforming_;
   film::Reynolds reynolds_;
   film::FilmHistory history_;  // dt = 0: a steady film
-  Eigen::VectorXd thermal_shape_;
+  Eigen::VectorXd thermal_shape_, journal_shape_;
   Eigen::MatrixXd C_, C_W_;                         // of both bodies, shell first; C_W for the wrench on the shell
   Eigen::VectorXd s_0_;                             // what the spin of the bodies does
   Eigen::MatrixXd offset_by_s_, by_offset_moment_;  // of the shell's body, SurfaceFlexibility

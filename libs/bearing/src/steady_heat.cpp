@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "clearance_growth.h"
 #include "hersey/film/grid_transfer.h"
 #include "hersey/film/thermal_network.h"
+#include "hot_clearance.h"
 #include "steady_search.h"
 #include "temperature_path.h"
 
@@ -26,6 +28,10 @@ constexpr double kHalfGridTolerance = 0.1;
 
 // The film is solved to this share of how far its temperatures still move.
 constexpr double kShareOfNearness = 0.1;
+
+// Of the clearance between bodies a turn leaves at least this share: films that close too far on the way make heat that
+// no answer has.
+constexpr double kLeastLeft = 0.4;
 
 // No film is solved less well than this: none at all would do.
 constexpr double kCoarsest = 1e-3;
@@ -59,38 +65,36 @@ void tell_runaway(const film::HeatObservables& seen, bool has_lost_film, SteadyS
   }
 }
 
-// Walls have grown into each other.
-std::string seizure(const film::FilmModel& model, double growth, const film::HeatObservables& seen) {
-  return fmt::format(
-      "a seizure: the clearance of {:.4g} um closes to {:.4g} um with the shell at {:.0f} degC and the journal at "
-      "{:.0f} degC",
-      1e6 * model.c, 1e6 * (model.c + growth), celsius(seen.T_shell_wall), celsius(seen.T_journal_wall));
-}
-
 // Film and temperature in turn until the film's temperatures, and the clearance with those of its walls, stay.
 // @param network  of walls that are nodes; null: none is
 SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& options, double nearness,
                             SteadySearch& search, TemperaturePath& path, film::ThermalNetwork* network) {
   SteadySummary summary;
+  double clearance_before = 0;
   for (int k = 0; k < kMostHeatIterations; ++k) {
-    const bool is_open = model.c + path.growth() > seized * model.c;
+    Eigen::VectorXd shell = path.heat().shell_opening();
+    Eigen::VectorXd journal = film::around(model.grid, path.heat().journal_growth());
+    const HotClearance hot = hot_clearance(model, path.growth(), shell, journal);
+    const bool is_open = hot.smallest > seized * model.c;
+    if (is_open && hot.has_shape && hot.smallest < kLeastLeft * clearance_before && path.step_back()) continue;
     summary.set_solved(false);
     if (is_open) {
       search.set_growth(path.growth());
       search.set_tolerance(std::max(options.rtol, std::min(kCoarsest, kShareOfNearness * path.nearness())));
       search.set_viscosity(path.heat().viscosity());
-      search.set_thermal_shape(path.heat().shell_opening());
+      search.set_thermal_shapes(std::move(shell), std::move(journal));
       summary = search.has_film() ? search.once_more() : search.solve();
     }
     summary.heat_iterations = k + 1;
     if (!summary.solved()) {
       if (path.step_back()) continue;
       if (!is_open)
-        summary.message = seizure(model, path.growth(), path.heat().observables());
+        summary.message = seizure_text(model, hot, path.heat().observables());
       else if (path.has_film())
         tell_runaway(path.heat().observables(), true, summary);
       return summary;
     }
+    clearance_before = hot.smallest;
     search.heat(path.heat());
     if (network != nullptr) balance(*network, path.heat());
     path.take();
@@ -113,7 +117,8 @@ void begin_on_half_grid(const film::FilmModel& model, const OperatingPoint& poin
   if (options.start_heat || options.elasticity || !film::can_be_coarsened(model.grid)) return;
   // Walls that move with their heat find their way with the film of the grid itself.
   if (film::terminals_of(*options.thermal).has_any() || options.thermal->expansion ||
-      std::holds_alternative<film::BodyWall>(options.thermal->shell))
+      std::holds_alternative<film::BodyWall>(options.thermal->shell) ||
+      std::holds_alternative<film::BodyJournal>(options.thermal->journal))
     return;
   film::FilmModel half = model;
   half.grid = film::half_of(model.grid);
@@ -144,8 +149,12 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const OperatingPoint
       come_together(model, options, kHeatTolerance, search, path, network ? &*network : nullptr);
   if (!summary.solved()) return summary;
   state = search.state();
-  state.heat = SteadyHeat{
-      path.heat().state(), path.heat().observables(), path.heat().fields(), path.heat().body_temperatures(), {}};
+  state.heat = SteadyHeat{path.heat().state(),
+                          path.heat().observables(),
+                          path.heat().fields(),
+                          path.heat().body_temperatures(),
+                          path.heat().journal_body_temperatures(),
+                          {}};
   if (network) state.heat->network = network->observables();
   return summary;
 }

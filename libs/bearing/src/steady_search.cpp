@@ -160,6 +160,7 @@ SteadyState SteadySearch::state() {
   state.d_shell = film_.shell_displacement(x_);
   state.d_journal = film_.journal_displacement(x_);
   state.thermal_shape = film_.thermal_shape();
+  state.journal_shape = film_.journal_shape();
   state.film = film::observe_film(model_, film_.surfaces(e_, x_), film_.history(), e_, state.u, state.tilt);
   state.load = state.film.wrench_on_shell.segment<2>(3);
   state.coefficients = coefficients();

@@ -51,7 +51,9 @@ class SteadySearch {
 
   void set_viscosity(film::LayeredViscosity viscosity) { film_.set_viscosity(std::move(viscosity)); }
 
-  void set_thermal_shape(Eigen::VectorXd shape) { film_.set_thermal_shape(std::move(shape)); }
+  void set_thermal_shapes(Eigen::VectorXd shell, Eigen::VectorXd journal) {
+    film_.set_thermal_shapes(std::move(shell), std::move(journal));
+  }
   /// The clearance at other temperatures of its walls; the journal stays where it is in it.
   void set_growth(double growth);
 

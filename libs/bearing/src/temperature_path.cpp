@@ -23,6 +23,9 @@ TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::Therm
     : model_(model), thermal_(thermal), heat_(model, thermal) {
   if (const auto* body = std::get_if<film::BodyWall>(&thermal.shell); body != nullptr && body->conduction->deforms())
     per_watt_ = body->conduction->rise.rowwise().sum().mean();
+  if (const auto* body = std::get_if<film::BodyJournal>(&thermal.journal);
+      body != nullptr && body->conduction->deforms())
+    journal_per_watt_ = body->conduction->rise;
   if (thermal.expansion) {
     const double largest = std::max(std::abs(thermal.expansion->shell), std::abs(thermal.expansion->journal));
     if (largest > 0) per_metre_ = 1 / (model.R * largest);
@@ -53,9 +56,10 @@ void TemperaturePath::fill(double T_oil) {
 
 Eigen::VectorXd TemperaturePath::unknowns(double growth) const {
   const film::HeatState& now = heat_.state();
-  Eigen::VectorXd x(now.film.size() + now.thinning.size() + shape_unknowns() + growth_unknowns());
+  Eigen::VectorXd x(now.film.size() + now.thinning.size() + shape_unknowns() + journal_unknowns() + growth_unknowns());
   x << now.film.array() - thermal_.T_supply, kHeatOfShear * now.thinning.array().log(),
       per_watt_ * now.wall_heat.head(shape_unknowns()),
+      Eigen::VectorXd::Constant(journal_unknowns(), journal_per_watt_ * now.journal_heat),
       Eigen::VectorXd::Constant(growth_unknowns(), per_metre_ * growth);
   return x;
 }
@@ -70,6 +74,7 @@ void TemperaturePath::try_next(const Eigen::VectorXd& x) {
   next.film = x.head(film).array() + thermal_.T_supply;
   next.thinning = (x.segment(film, thinning) / kHeatOfShear).array().exp();
   if (per_watt_ > 0) next.wall_heat = x.segment(film + thinning, shape_unknowns()) / per_watt_;
+  if (journal_per_watt_ > 0) next.journal_heat = x[film + thinning + shape_unknowns()] / journal_per_watt_;
   try_next(std::move(next), per_metre_ > 0 ? x[x.size() - 1] / per_metre_ : 0);
 }
 

@@ -49,6 +49,7 @@ class TemperaturePath {
   [[nodiscard]] double called_for() const;
   [[nodiscard]] Eigen::VectorXd unknowns(double growth) const;
   [[nodiscard]] Eigen::Index shape_unknowns() const;
+  [[nodiscard]] Eigen::Index journal_unknowns() const { return journal_per_watt_ > 0 ? 1 : 0; }
   [[nodiscard]] Eigen::Index growth_unknowns() const;
   void try_next(film::HeatState next, double growth);
   void try_next(const Eigen::VectorXd& x);
@@ -60,11 +61,12 @@ class TemperaturePath {
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
   /// (thermal.37): heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
   double per_watt_ = 0;
-  double per_metre_ = 0;  ///< a growth of the clearance as a temperature [K/m]; 0: walls keep their size
+  double journal_per_watt_ = 0;  ///< likewise all of the heat into the journal's body
+  double per_metre_ = 0;         ///< a growth of the clearance as a temperature [K/m]; 0: walls keep their size
   double growth_ = 0;
-  /// Rises of temperature over the supply's [K]; what shear leaves of viscosities, heat that gives the shell its shape
-  /// and the growth of the clearance as if they were more of them [K]: being tried; those with which a film was found
-  /// last; what that made.
+  /// Rises of temperature over the supply's [K]; what shear leaves of viscosities, heat that gives shell and journal
+  /// their shapes and the growth of the clearance as if they were more of them [K]: being tried; those with which a
+  /// film was found last; what that made.
   Eigen::VectorXd tried_, last_, image_;
   std::optional<double> T_oil_;  ///< one temperature that all oil has at first [K]
   int steps_back_ = 0;

@@ -178,6 +178,97 @@ TEST_CASE("BoreThatHeatWidens_IsOneOfLargerClearance") {
   CHECK(error.known);
 }
 
+/// Heat warms all of the journal by the same and, where growth is not zero, widens it.
+film::BodyJournal even_journal(const film::Grid& grid, double rise, double growth) {
+  auto journal = std::make_shared<film::JournalConduction>();
+  journal->T0 = 40 + zero_celsius;
+  journal->rise = rise;
+  journal->T_body0.setConstant(1, journal->T0);
+  journal->rise_body.setConstant(1, rise);
+  if (growth != 0) {
+    journal->shape0.setZero(grid.n_z);
+    journal->shape_by_heat.setConstant(grid.n_z, growth);
+    journal->shape_by_rise.setZero(grid.n_z);
+  }
+  return {.conduction = journal};
+}
+
+SteadyOptions options_with(const film::BodyJournal& journal) {
+  SteadyOptions options{.thermal = film::ThermalModel{.T_supply = 50 + zero_celsius, .T_edges = 50 + zero_celsius}};
+  options.thermal->journal = journal;
+  return options;
+}
+
+// A journal that heat grows everywhere alike is one in a smaller clearance, and as warm as a node of a network that
+// passes its heat on through the same conductance.
+TEST_CASE("JournalThatHeatGrows_IsOneInASmallerClearance") {
+  film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  model.supply = {};  // a line is as thick as the clearance that is given
+  model.edge_left = model.edge_right = {film::EdgeKind::pressure, 1e5, 0};
+  SteadyState grown, small, lumped;
+  const SteadySummary summary = solve_steady(model, point(), options_with(even_journal(model.grid, 0.1, 2e-8)), grown);
+  CAPTURE(summary.message);
+  REQUIRE(summary.solved());
+  CHECK(summary.heat_iterations <= 25);
+  REQUIRE(grown.journal_shape.size() == model.grid.size());
+  CHECK(grown.thermal_shape.size() == 0);
+  const film::HeatObservables& seen = grown.heat->seen;
+  CHECK(seen.balance.error() < 1e-8);  // what the last change of temperature leaves
+  const double growth = grown.journal_shape[0];
+  CHECK(growth > 3e-6);  // a share of the clearance of 50 um that matters
+  CHECK(growth == relative(2e-8 * seen.balance.to_journal).epsilon(1e-7));  // 1e-8 of temperatures
+  CHECK(grown.heat->T_journal_body[0] == relative(313.15 + 0.1 * seen.balance.to_journal).epsilon(1e-12));  // eps
+  CHECK(seen.T_journal_body_max == grown.heat->T_journal_body[0]);
+  CHECK(steady_fields(model, grown).h.minCoeff() == relative(grown.film.h_min).epsilon(1e-2));  // nodes, and between
+  model.c -= growth;
+  REQUIRE(solve_steady(model, point(), options_with(even_journal(model.grid, 0.1, 0)), small).solved());
+  CHECK(small.journal_shape.size() == 0);
+  CHECK((grown.e - small.e).norm() < 1e-6 * model.c);                   // 1e-8 of temperatures, by the position's slope
+  CHECK(grown.film.p_max == relative(small.film.p_max).epsilon(1e-5));  // as well
+  CHECK(seen.T_max == relative(small.heat->seen.T_max).epsilon(1e-7));  // as well
+  SteadyOptions by_node = options_with({});
+  by_node.thermal->journal = film::NodeWall{.T = 313.15, .node = 0};
+  by_node.network = film::ThermalNetworkModel{.nodes = {{"shaft", 1e3, 313.15, false}, {"room", 0, 313.15, true}},
+                                              .paths = {{"stub", 0, 1, 1 / 0.1}}};
+  REQUIRE(solve_steady(model, point(), by_node, lumped).solved());
+  CHECK(lumped.heat->seen.T_journal == relative(small.heat->seen.T_journal).epsilon(1e-7));  // as well
+  CHECK(lumped.film.p_max == relative(small.film.p_max).epsilon(1e-5));                      // as well
+  const GridError error = estimate_grid_error(model, small, options_with(even_journal(model.grid, 0.1, 0)));
+  CHECK(error.known);
+}
+
+// Shell and journal that widen alike leave the clearance as it is.
+TEST_CASE("BoreAndJournalThatGrowAlike_KeepTheirClearance") {
+  film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  model.supply = {};
+  model.edge_left = model.edge_right = {film::EdgeKind::pressure, 1e5, 0};
+  SteadyOptions options = options_with(even_journal(model.grid, 0.1, 0));
+  options.thermal->shell = even_body(model.grid, 0.1, 0);
+  SteadyState rigid, both;
+  REQUIRE(solve_steady(model, point(), options, rigid).solved());
+  auto shell = std::make_shared<film::WallConduction>(*even_body(model.grid, 0.1, 1e-12).conduction);
+  auto journal = std::make_shared<film::JournalConduction>(*even_journal(model.grid, 0.1, 1e-12).conduction);
+  shell->shape0.setConstant(8e-6), journal->shape0.setConstant(8e-6);
+  options.thermal->shell = film::BodyWall{.conduction = shell};
+  options.thermal->journal = film::BodyJournal{.conduction = journal};
+  REQUIRE(solve_steady(model, point(), options, both).solved());
+  CHECK(both.journal_shape[3] == relative(8e-6).epsilon(1e-3));        // and a picometre per watt
+  CHECK((both.e - rigid.e).norm() < 1e-4 * model.c);                   // picometres per watt of a clearance of 50 um
+  CHECK(both.film.p_max == relative(rigid.film.p_max).epsilon(1e-3));  // likewise
+}
+
+TEST_CASE("JournalThatFillsItsBore_IsTold") {
+  film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
+  auto journal = std::make_shared<film::JournalConduction>(*even_journal(model.grid, 0.1, 5e-8).conduction);
+  journal->shape0 = Eigen::VectorXd::LinSpaced(model.grid.n_z, 0, 51e-6);  // at one end of the bearing
+  SteadyState state;
+  const SteadySummary summary = solve_steady(model, point(), options_with({.conduction = journal}), state);
+  CHECK_FALSE(summary.solved());
+  CAPTURE(summary.message);
+  CHECK(summary.message.find("a seizure: the clearance of 50 um closes to") != std::string::npos);
+  CHECK(summary.message.find(" at z = ") != std::string::npos);
+}
+
 TEST_CASE("HotBearing_CarriesItsLoadAndBalances") {
   const film::FilmModel model = scaled_for(model_of(vg46(323.15), 60, 13), point());
   SteadyOptions options;

@@ -7,6 +7,7 @@
 
 #include "hersey/fem/heat_conduction.h"
 #include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/stress.h"
 #include "ring.h"
 #include "small_bodies.h"
 

@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "hersey/film/thermal_model.h"
+#include "hersey/model/plausibility.h"
 #include "hersey/model/wall_conduction.h"
 #include "model_text.h"
 #include "ring_file.h"
@@ -44,9 +45,16 @@ bearings:
 simulation: {duration: 1 ms, step: 0.1 ms}
 )";
 
+/// The ring, and a hollow shaft that fits into it.
 struct WrittenRing {
-  WrittenRing() { std::ofstream("body_heat_test_ring.inp") << RingFile().text(); }
-  ~WrittenRing() { std::filesystem::remove("body_heat_test_ring.inp"); }
+  WrittenRing() {
+    std::ofstream("body_heat_test_ring.inp") << RingFile().text();
+    std::ofstream("body_heat_test_shaft.inp") << RingFile{.inner = 10, .outer = 22.5, .through = 3}.text();
+  }
+  ~WrittenRing() {
+    std::filesystem::remove("body_heat_test_ring.inp");
+    std::filesystem::remove("body_heat_test_shaft.inp");
+  }
   WrittenRing(const WrittenRing&) = delete;
   WrittenRing& operator=(const WrittenRing&) = delete;
 };
@@ -129,6 +137,121 @@ TEST_CASE("FaultsOfHeatInBodies_SayWhereAndWhatToDo") {
   CHECK(contains(told(shell, "expansion: {shell: 12e-6 1/K, journal: 12e-6 1/K}, " + shell),
                  "a shell that grows by its body's mesh and by a coefficient as well"));
   CHECK(told(shell, "expansion: {shell: 0 1/K, journal: 12e-6 1/K}, " + shell) == "no fault");
+}
+
+/// The same with a shaft whose mesh conducts too, cooled in its bore.
+std::string with_shaft() {
+  std::string text =
+      edited(machine_text, "shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}",
+             R"(shaft:
+    flexible:
+      mesh: body_heat_test_shaft.inp
+      length_unit: 1 mm
+      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
+      heat:
+        conductivity: 46 W/m/K
+        expansion: 12e-6 1/K
+        cooling: {bore: {heat_transfer: 300 W/m^2/K, ambient: 60 degC}}
+    frames:
+      axis: {nodes: bore, connection: average, origin: 0 0 0 mm})");
+  text = edited(text, "between: [ground, shaft]", "between: [ground, shaft.axis]");
+  text = edited(text, "journal: shaft", "journal: shaft.axis");
+  return edited(text, "shell: {wall: body, temperature: 70 degC}", "journal: {wall: body, temperature: 70 degC}");
+}
+
+TEST_CASE("JournalInABody_IsReadAndItsConductionFound") {
+  const WrittenRing file;
+  const std::string text = with_shaft();
+  CHECK(faults_of(text) == "no fault");
+  const Model model = read_text(text, "m.yaml");
+  const Bearing& bearing = model.bearings[0];
+  REQUIRE(bearing.heated_journal);
+  CHECK_FALSE(bearing.heated_shell);
+  CHECK(bearing.heated_journal->faces.size() == 24 * 3);
+  const auto& wall = std::get<film::BodyJournal>(std::get<film::ThermalModel>(bearing.heat).journal);
+  CHECK(*wall.T_start == doctest::Approx(343.15));
+  const auto conduction = journal_conduction(model, bearing);
+  REQUIRE(conduction);
+  CHECK(conduction->T0 == doctest::Approx(333.15).epsilon(1e-9));  // nothing warms it: round-off of a solution
+  const double per_log = 1 / (2 * 3.14159265358979 * 46 * 0.0156), out = 300 * 2 * 3.14159265358979 * 0.01 * 0.0156;
+  CHECK(conduction->rise == doctest::Approx(1 / out + per_log * std::log(2.25)).epsilon(0.02));  // 24 flat faces around
+  CHECK(conduction->shape0.size() == 5);
+  CHECK(conduction->shape0[0] == doctest::Approx(12e-6 * 0.0225 * 40).epsilon(0.02));    // likewise
+  CHECK(conduction->shape_by_rise[4] == doctest::Approx(12e-6 * 0.0225).epsilon(0.02));  // likewise
+  CHECK(conduction->T_body0.size() == 24 * 4 * 4);
+  CHECK(wall_conduction(model, bearing) == nullptr);
+  CHECK(fingerprint_of_journal(model, bearing) ==
+        fingerprint_of_journal(read_text(text, "m.yaml"), read_text(text, "m.yaml").bearings[0]));
+  const Model other = read_text(edited(text, "300 W/m^2/K", "200 W/m^2/K"), "m.yaml");
+  CHECK(fingerprint_of_journal(model, bearing) != fingerprint_of_journal(other, other.bearings[0]));
+  // Shell and journal, each in its body; what cools the rest of the shaft leaves its film alone.
+  const Model both = read_text(edited(edited(text, "journal: {wall: body", "shell: {wall: body}, journal: {wall: body"),
+                                      "cooling: {bore:", "cooling: {rest:"),
+                               "m.yaml");
+  REQUIRE(both.bearings[0].heated_shell);
+  CHECK(journal_conduction(both, both.bearings[0])->rise < conduction->rise);                      // bore and both ends
+  CHECK(wall_conduction(both, both.bearings[0])->T0[0] == doctest::Approx(313.15).epsilon(1e-9));  // as above
+}
+
+TEST_CASE("JournalInABodyThatDoesNotTurn_IsDoubted") {
+  const WrittenRing file;
+  const Model model = read_text(with_shaft(), "m.yaml"), other = read_text(machine_text, "m.yaml");
+  const Bearing& bearing = model.bearings[0];
+  CHECK(doubts_of_turning(bearing, 3, 3).empty());
+  CHECK(doubts_of_turning(bearing, -3, 3).empty());
+  CHECK(doubts_of_turning(other.bearings[0], 0, 0).empty());
+  CHECK(contains(doubts_of_turning(bearing, 0, 0).at(0), "does not turn in its shell"));
+  CHECK(contains(doubts_of_turning(bearing, -0.1, 2).at(0), "swings in its shell: 115 deg to and fro, 5.73 deg of it"));
+}
+
+// A mesh turned about its own axis is the same journal.
+TEST_CASE("JournalInABody_IsTheSameHoweverItIsTurned") {
+  const WrittenRing file;
+  const std::string text = with_shaft();
+  const Model model = read_text(text, "m.yaml");
+  const auto conduction = journal_conduction(model, model.bearings[0]);
+  for (const double angle : {3.7, 40.0, 131.0}) {
+    CAPTURE(angle);
+    const Model turned =
+        read_text(edited(text, "axis: {nodes: bore, connection: average, origin: 0 0 0 mm}",
+                         "axis: {nodes: bore, connection: average, origin: 0 0 0 mm, rotation: {axis: z, angle: " +
+                             std::to_string(angle) + " deg}}"),
+                  "m.yaml");
+    const auto seen = journal_conduction(turned, turned.bearings[0]);
+    CHECK(seen->rise == doctest::Approx(conduction->rise).epsilon(1e-6));  // of its area's quadrature
+    CHECK((seen->shape_by_heat - conduction->shape_by_heat).cwiseAbs().maxCoeff() <
+          1e-3 * conduction->shape_by_heat.maxCoeff());  // 24 flat faces seen by splines at other angles
+  }
+}
+
+TEST_CASE("FaultsOfJournalsInBodies_SayWhereAndWhatToDo") {
+  const WrittenRing file;
+  const std::string text = with_shaft();
+  const auto told_of = [&text](const std::string& from, const std::string& to) {
+    return faults_of(edited(text, from, to));
+  };
+  const std::string heat = R"(      heat:
+        conductivity: 46 W/m/K
+        expansion: 12e-6 1/K
+        cooling: {bore: {heat_transfer: 300 W/m^2/K, ambient: 60 degC}}
+)";
+  const std::string silent = told_of(heat, "");
+  CHECK(contains(silent,
+                 "bearings.main.thermal.journal: a wall in body 'shaft', which does not say how it conducts heat"));
+  CHECK(contains(silent, "add `heat: {conductivity"));
+  CHECK(contains(told_of("cooling: {bore:", "cooling: {outside:"),
+                 "a film on faces of 'shaft' that `cooling` names too"));
+  const std::string rigid = told("shell: {wall: body,", "journal: {wall: body,");
+  CHECK(contains(rigid, "a wall that conducts on rigid body 'shaft'"));
+  CHECK(contains(rigid, "or another wall to the journal"));
+  CHECK(contains(told_of("diameter: 45 mm", "diameter: 40 mm"), "no face of the mesh on the film's surface"));
+  CHECK(contains(told_of("{wall: body,", "{wall: body, faces: bore,"), "a radius of 10 mm"));
+  CHECK(contains(told_of("{wall: body,", "{wall: body, faces: pin,"), "unknown surface or set 'pin'"));
+  CHECK(faults_of(edited(text, "{wall: body,", "{wall: body, faces: outside,")) == "no fault");
+  const std::string journal = "journal: {wall: body,";
+  CHECK(contains(told_of(journal, "expansion: {shell: 12e-6 1/K, journal: 12e-6 1/K}, " + journal),
+                 "a journal that grows by its body's mesh and by a coefficient as well"));
+  CHECK(told_of(journal, "expansion: {shell: 12e-6 1/K, journal: 0 1/K}, " + journal) == "no fault");
 }
 
 }  // namespace body_heat_test

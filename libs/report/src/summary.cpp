@@ -204,7 +204,8 @@ class Summary {
   /// Beside the one at temperature.
   void given_clearance() {
     const auto cold = reader_.number_attribute("/bearings/" + group_, "radial_clearance");
-    if (cold && reader_.has(path_ + "clearance")) add("radial clearance as given (cold)", 1e6 * *cold, "µm");
+    if (cold && (reader_.has(path_ + "clearance") || reader_.has(path_ + "clearance_of_bodies")))
+      add("radial clearance as given (cold)", 1e6 * *cold, "µm");
   }
 
   void thermal_rows() {

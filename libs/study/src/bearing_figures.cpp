@@ -309,6 +309,25 @@ double growth(const Solution& s) { return s.state.thermal_shape.mean(); }
 
 double distortion(const Solution& s) { return (s.state.thermal_shape.array() - growth(s)).abs().maxCoeff(); }
 
+/// Likewise the journal's.
+bool journal_is_in_body(const Solution& s) { return s.state.heat && s.state.heat->T_journal_body.size() > 0; }
+
+bool has_journal_shape(const Solution& s) { return s.state.journal_shape.size() > 0; }
+
+double journal_growth(const Solution& s) { return s.state.journal_shape.mean(); }
+
+double journal_distortion(const Solution& s) {
+  return (s.state.journal_shape.array() - journal_growth(s)).abs().maxCoeff();
+}
+
+/// With both (thermal.63), the mean along.
+double clearance_of_bodies(const Solution& s) {
+  double c = bearing::clearance(s.model, s.state.point);
+  if (has_thermal_shape(s)) c += growth(s);
+  if (has_journal_shape(s)) c -= journal_growth(s);
+  return c;
+}
+
 Group heat() {
   using Seen = film::HeatObservables;
   using Balance = film::HeatBalance;
@@ -364,6 +383,26 @@ Group heat() {
         kCelsius,
         celsius(&Seen::T_journal),
         {.only = has_heat}},
+       {"T_journal_body_max",
+        "hottest place of the journal's body",
+        kCelsius,
+        celsius(&Seen::T_journal_body_max),
+        {.only = journal_is_in_body}},
+       {"journal_growth",
+        "growth of the journal's radius by temperature, mean",
+        kMicrometre,
+        journal_growth,
+        {.only = has_journal_shape}},
+       {"journal_distortion",
+        "  largest deviation from it, along",
+        kMicrometre,
+        journal_distortion,
+        {.only = has_journal_shape}},
+       {"clearance_of_bodies",
+        "radial clearance with what bodies have grown (hot), mean",
+        kMicrometre,
+        clearance_of_bodies,
+        {.only = [](const Solution& s) { return has_thermal_shape(s) || has_journal_shape(s); }}},
        {"T_film", "mean temperature of the oil in the film", kCelsius, celsius(&Seen::T_film_mean), {.only = has_heat}},
        {"T_side", "temperature of the side flow", kCelsius, celsius(&Seen::T_side), {.only = has_heat}},
        {"T_supply_<name>",

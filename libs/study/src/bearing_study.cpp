@@ -51,10 +51,19 @@ class KnownBodies {
     return conducting_.emplace(std::move(fingerprint), model::wall_conduction(model, bearing)).first->second;
   }
 
+  [[nodiscard]] std::shared_ptr<const film::JournalConduction> journal(const model::Model& model,
+                                                                       const model::Bearing& bearing) {
+    std::string fingerprint = model::fingerprint_of_journal(model, bearing);
+    const std::lock_guard lock(mutex_);
+    if (const auto found = journals_.find(fingerprint); found != journals_.end()) return found->second;
+    return journals_.emplace(std::move(fingerprint), model::journal_conduction(model, bearing)).first->second;
+  }
+
  private:
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<const bearing::SteadyElasticity>> elastic_;
   std::map<std::string, std::shared_ptr<const film::WallConduction>> conducting_;
+  std::map<std::string, std::shared_ptr<const film::JournalConduction>> journals_;
 };
 
 namespace {
@@ -79,7 +88,9 @@ void require_way_out(const model::Model& model, const model::Bearing& bearing, c
   };
   const bool takes = std::holds_alternative<film::RingWall>(heat.shell) ||
                      std::holds_alternative<film::WallAtTemperature>(heat.shell) ||
-                     std::holds_alternative<film::WallAtTemperature>(heat.journal);
+                     std::holds_alternative<film::WallAtTemperature>(heat.journal) ||
+                     std::holds_alternative<film::BodyWall>(heat.shell) ||
+                     std::holds_alternative<film::BodyJournal>(heat.journal);
   if (takes || leads_out(at.shell) || leads_out(at.journal)) return;
   throw InputError(Fault{bearing.position, "bearings." + bearing.name + ".thermal",
                          "closed edges, and walls that are bodies without a path to surroundings: in a steady state "
@@ -168,6 +179,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     steady.thermal = *heat;
     if (auto* body = std::get_if<film::BodyWall>(&steady.thermal->shell))
       body->conduction = bodies.conduction(model, bearing);
+    if (auto* body = std::get_if<film::BodyJournal>(&steady.thermal->journal))
+      body->conduction = bodies.journal(model, bearing);
     if (film::terminals_of(*heat).has_any()) {
       steady.network = model.thermal.network;
       for (const film::ThermalNode& node : model.thermal.network.nodes) solution.node_names.push_back(node.name);
@@ -316,6 +329,12 @@ void require_rest(const model::Bearing& bearing) {
                            "a shell that turns, whose temperatures are those of a body",
                            "0: the body rests under the film's heat, and the journal turns",
                            "another wall: `ring`, `given`, `insulated`"});
+  if (bearing.heated_journal && point.journal_speed == 0)
+    throw InputError(Fault{point.position, path + "journal_speed",
+                           "a journal at rest, whose temperatures are those of a body",
+                           "a speed: heat comes to a body evenly around because it turns in its film",
+                           "another wall: `free`, `given`, `insulated`, `node`; or let the shell rest and the journal "
+                           "turn: the film knows no difference between its surfaces"});
   if (bearing.shell_surface && point.shell_speed != 0)
     throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns and deforms",
                            "0: the shell's body is held at rest, and the journal turns",
@@ -339,7 +358,8 @@ void require_coefficients(const model::Bearing& bearing, ThermalCoefficients coe
   const bool has_temperatures = heat != nullptr || std::holds_alternative<bearing::GlobalHeat>(bearing.heat);
   if (coefficients == ThermalCoefficients::frozen || !has_temperatures) return;
   const bool is_elastic = bearing.shell_surface || bearing.journal_surface;
-  if (is_elastic || (heat != nullptr && std::holds_alternative<film::BodyWall>(heat->shell)))
+  if (is_elastic || (heat != nullptr && std::holds_alternative<film::BodyWall>(heat->shell)) ||
+      (heat != nullptr && std::holds_alternative<film::BodyJournal>(heat->journal)))
     refuse_total(bearing, "surfaces that deform", "rigid surfaces");
   if (bearing.expansion) refuse_total(bearing, "walls that expand", "a clearance without `expansion`");
   if (heat != nullptr && film::terminals_of(*heat).has_any())

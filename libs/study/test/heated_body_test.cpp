@@ -64,10 +64,13 @@ struct Written {
   Written() {
     std::ofstream("heated_body_test_ring.inp")
         << RingFile{.inner = 50, .outer = 100, .width = 80, .around = 60, .along = 6, .through = 8}.text();
+    std::ofstream("heated_body_test_shaft.inp")
+        << RingFile{.inner = 20, .outer = 50, .width = 80, .around = 48, .along = 4, .through = 4}.text();
     std::ofstream("heated_body_test.yaml") << machine;
   }
   ~Written() {
     std::filesystem::remove("heated_body_test_ring.inp");
+    std::filesystem::remove("heated_body_test_shaft.inp");
     std::filesystem::remove("heated_body_test.yaml");
   }
   Written(const Written&) = delete;
@@ -148,6 +151,90 @@ TEST_CASE("ShellThatHeatAndPressureDeform_CarriesItsLoad") {
   const film::FilmFields fields = bearing::steady_fields(both.model, both.state);
   CHECK(1e6 * fields.h.minCoeff() ==
         doctest::Approx(figure(both, "h_min")).epsilon(0.02));  // between nodes it is smaller
+}
+
+/// With a hollow shaft that oil in its bore cools, and what else is said.
+std::vector<std::string> with_shaft(std::vector<std::string> overrides, const std::string& expansion) {
+  const std::vector<std::string> shaft = {
+      "bodies.shaft={flexible: {mesh: heated_body_test_shaft.inp, length_unit: 1 mm, material: {youngs_modulus: 210 "
+      "GPa, "
+      "poisson_ratio: 0.3, density: 7850 kg/m^3}, heat: {conductivity: 50 W/m/K, expansion: " +
+          expansion +
+          ", cooling: {bore: {heat_transfer: 200 W/m^2/K, ambient: 50 degC}}}}, frames: {axis: {nodes: bore, "
+          "connection: "
+          "average, origin: 0 0 0 mm}}}",
+      "joints.slide.between=[ground, shaft.axis]", "bearings.main.journal=shaft.axis",
+      "bearings.main.thermal.journal={wall: body}"};
+  overrides.insert(overrides.begin(), shaft.begin(), shaft.end());
+  return overrides;
+}
+
+// Against the lumped body of the same conductance, in the clearance that the shaft leaves.
+TEST_CASE("MeshedShaft_IsALumpedBodyInASmallerClearance") {
+  const Written files;
+  const BearingSolution body = solved(with_shaft({}, "12e-6 1/K"));
+  CHECK(figure(body, "heat_balance_error") < 1e-8);  // the film's residual
+  const double growth = figure(body, "journal_growth"), heat = figure(body, "heat_to_journal");
+  CHECK(std::abs(heat) > 2);  // W
+  const double pi = 3.14159265358979;
+  const double out = 200 * 2 * pi * 0.02 * 0.08, per_log = 1 / (2 * pi * 50 * 0.08);
+  CHECK(figure(body, "T_journal") ==
+        doctest::Approx(50 + heat * (1 / out + per_log * std::log(2.5))).epsilon(2e-3));  // flat faces, four across
+  CHECK(figure(body, "T_journal_body_max") >= figure(body, "T_journal") - 1e-6);          // round-off
+  const double T_mean = body.state.heat->T_journal_body.mean() - 273.15;
+  CHECK(growth == doctest::Approx(12e-6 * 50e3 * (T_mean - 20)).epsilon(0.03));  // um; its nodes are denser inside
+  CHECK(figure(body, "journal_distortion") < 0.05 * growth);  // a few per cent of the slope at its free ends
+  CHECK(figure(body, "clearance_of_bodies") == doctest::Approx(145 - growth).epsilon(1e-9));  // round-off
+  const BearingSolution lumped =
+      solved({"thermal.nodes={shaft: {heat_capacity: 1 kJ/K}, oil: {fixed: 50 degC}}",
+              "thermal.paths={out: {between: [shaft, oil], conductance: " +
+                  std::to_string(heat / (figure(body, "T_journal") - 50)) + " W/K}}",
+              "bearings.main.thermal.journal={wall: node, node: shaft}",
+              "bearings.main.radial_clearance=" + std::to_string(145 - growth) + " um",
+              "bearings.main.operating_point.eccentricity_ratio=" + std::to_string(0.7 * 145 / (145 - growth))});
+  CHECK(figure(lumped, "load") == doctest::Approx(figure(body, "load")).epsilon(3e-3));            // by its shape along
+  CHECK(figure(lumped, "T_journal") == doctest::Approx(figure(body, "T_journal")).epsilon(1e-3));  // likewise
+  CHECK(figure(lumped, "heat_to_journal") == doctest::Approx(heat).epsilon(5e-3));                 // likewise
+}
+
+TEST_CASE("ShellAndJournalInBodies_CarryALoadTogether") {
+  const Written files;
+  const BearingSolution both = solved(
+      with_shaft({"bodies.ring.flexible.heat.expansion=12e-6 1/K", "bearings.main.grid={circumferential: 48, axial: 9}",
+                  "bearings.main.operating_point={journal_speed: 2000 rpm, load: 5 kN}"},
+                 "12e-6 1/K"),
+      true);
+  CHECK(both.grid_error.known);
+  CHECK(figure(both, "load") == doctest::Approx(5000).epsilon(1e-9));  // Newton's tolerance, 1e-10
+  CHECK(figure(both, "heat_balance_error") < 1e-8);                    // the film's residual
+  CHECK(
+      figure(both, "clearance_of_bodies") ==
+      doctest::Approx(145 + figure(both, "bore_growth") - figure(both, "journal_growth")).epsilon(1e-9));  // round-off
+  CHECK(both.summary.heat_iterations <= 30);
+  const film::FilmFields fields = bearing::steady_fields(both.model, both.state);
+  CHECK(1e6 * fields.h.minCoeff() ==
+        doctest::Approx(figure(both, "h_min")).epsilon(0.02));  // between nodes it is smaller
+}
+
+TEST_CASE("JournalInABodyAtRest_IsRefused") {
+  const Written files;
+  try {
+    (void)solved(
+        with_shaft({"bearings.main.thermal.shell=insulated", "bearings.main.operating_point.journal_speed=0 rpm",
+                    "bearings.main.operating_point.shell_speed=100 rpm"},
+                   "0 1/K"));
+    FAIL("no fault");
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    CAPTURE(what);
+    CHECK(what.find("operating_point.journal_speed: a journal at rest, whose temperatures are those of a body") !=
+          std::string::npos);
+    CHECK(what.find("because it turns") != std::string::npos);
+  }
+  const auto total = solve_bearings("heated_body_test.yaml", {{with_shaft({}, "0 1/K"), "", "", {}}},
+                                    {.bearing = "", .thermal_coefficients = ThermalCoefficients::total});
+  CHECK_FALSE(total.at(0).solved());
+  CHECK(total.at(0).message.find("'total' of surfaces that deform") != std::string::npos);
 }
 
 TEST_CASE("ShellInABodyThatTurns_IsRefused") {

@@ -67,6 +67,18 @@ MatrixXd heat_of_angles(const Mesh& mesh, const FilmSurface& surface, const std:
   return P * areas.cwiseInverse().asDiagonal();
 }
 
+/// The same of a unit of heat that is spread evenly over all of the surface (thermal.58).
+MatrixXd even_heat(const Mesh& mesh, const FilmSurface& surface) {
+  constexpr int pieces = 2;  // whose quadrature knows the polynomials of a face
+  MatrixXd P = MatrixXd::Zero(static_cast<Index>(mesh.nodes.size()), 1);
+  for (const ElementFace face : surface.faces)
+    visit_film_points(mesh, face, surface.cylinder, pieces, [&](const FilmPoint& point) {
+      for (std::size_t a = 0; a < point.nodes.size(); ++a)
+        P(point.nodes[a], 0) += std::abs(point.area) * point.N[static_cast<Index>(a)];
+    });
+  return P / P.sum();
+}
+
 /// Takes off what of a radial displacement in the surface's functions is a rigid motion of the surface: across the axis
 /// and tilted against it.
 MatrixXd without_rigid_motion(const FilmSurface& surface, const Mesh& mesh, const MatrixXd& shapes) {
@@ -110,14 +122,29 @@ std::vector<int> statically_determinate(const Mesh& mesh) {
   return held;
 }
 
+// A spline's functions around have all the same mean, and any turn of as many points meets it.
+MatrixXd mean_around(const SurfaceFunctions& functions, const MatrixXd& shapes, const std::vector<double>& z) {
+  HERSEY_REQUIRE(shapes.rows() == functions.count(), "shapes in the functions of this surface");
+  MatrixXd mean = MatrixXd::Zero(static_cast<Index>(z.size()), shapes.cols());
+  std::vector<SurfaceTerm> terms;
+  for (std::size_t j = 0; j < z.size(); ++j)
+    for (int i = 0; i < functions.around(); ++i) {
+      functions.at(turn * i / functions.around(), z[j], terms);
+      for (const SurfaceTerm& term : terms)
+        mean.row(static_cast<Index>(j)) += term.value / functions.around() * shapes.row(term.index);
+    }
+  return mean;
+}
+
 HeatedSurface heated_surface(const ElasticBody& body, const std::vector<ThermalMaterial>& thermal,
                              const ThermalSurroundings& surroundings, const FilmSurface& surface,
                              const HeatedSurfaceOptions& options) {
-  HERSEY_REQUIRE(options.angles.size() >= 3, "angles around the film");
+  HERSEY_REQUIRE(options.angles.empty() || options.angles.size() >= 3, "angles around the film");
   HeatConduction conduction(body.mesh, thermal, surroundings, body.integration);
   if (const solver::FactorSummary summary = conduction.factorise(); !summary.solved())
     return no_answer<HeatedSurface>(summary.message);
-  const MatrixXd P = heat_of_angles(body.mesh, surface, options.angles);
+  const MatrixXd P =
+      options.angles.empty() ? even_heat(body.mesh, surface) : heat_of_angles(body.mesh, surface, options.angles);
   HeatedSurface result;
   result.set_solved(true);
   result.T_body0 = conduction.temperatures(VectorXd::Zero(P.rows()));

@@ -41,6 +41,12 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
     HERSEY_REQUIRE(wall.T0.size() == n && wall.rise.rows() == n && wall.rise.cols() == n, "conduction at these angles");
     HERSEY_REQUIRE(!wall.deforms() || wall.shape0.size() == model.grid.size(), "a shape at the nodes of this grid");
   }
+  if (const auto* body = std::get_if<BodyJournal>(&thermal.journal)) {
+    HERSEY_REQUIRE(body->conduction != nullptr && body->conduction->rise >= 0, "a journal in a body that conducts");
+    const JournalConduction& journal = *body->conduction;
+    HERSEY_REQUIRE(!journal.deforms() || journal.shape0.size() == model.grid.n_z,
+                   "a shape along the axis of this grid");
+  }
   if (const auto* shell = std::get_if<WallAtTemperature>(&thermal.shell)) {
     HERSEY_REQUIRE(shell->around.size() == 0 || shell->around.size() == model.grid.n_phi,
                    "temperatures of shape (n_phi) or none");
@@ -61,10 +67,16 @@ HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, doubl
   const double beta = -std::visit([T](const auto& l) { return l.log_viscosity(T).slope; }, law);
   if (!(beta > 0)) return image;
   const double thicker = viscosity_at(law, T) / viscosity_at(law, T_oil);
-  image.film = image.film.unaryExpr([&](double hot) {
+  const auto thinned = [&](double hot) {
     const double rise = hot - T;
     return T + (rise > 0 ? std::log1p(beta * thicker * rise) / beta : rise);
-  });
+  };
+  image.film = image.film.unaryExpr(thinned);
+  // By so much less a journal grows: it would fill its bore at once.
+  if (const JournalConduction* body = conduction_of(thermal.journal); body != nullptr && body->rise > 0) {
+    image.journal = thinned(image.journal);
+    image.journal_heat = (image.journal - body->T0) / body->rise;
+  }
   return image;
 }
 
@@ -82,7 +94,7 @@ struct FilmHeat::Impl {
   [[nodiscard]] Eigen::VectorXd viscosities();
   void thin();
   [[nodiscard]] bool holds_walls() const { return thermal.walls == WallMotion::held; }
-  /// Those that are held, as one vector: ring and free journal [K].
+  /// Those that are held, as one vector: ring, or shell in a body, and journal [K].
   [[nodiscard]] Eigen::VectorXd held_walls() const;
   void set_held_walls(const Eigen::VectorXd& T);
   void show_rest();
@@ -124,6 +136,7 @@ HeatState FilmHeat::Impl::start() const {
   first.journal = T;
   if (const auto* journal = std::get_if<WallAtTemperature>(&thermal.journal)) first.journal = journal->T;
   if (const auto* journal = std::get_if<FreeJournal>(&thermal.journal)) first.journal = journal->T_start.value_or(T);
+  if (const auto* journal = std::get_if<BodyJournal>(&thermal.journal)) first.journal = journal->T_start.value_or(T);
   if (conducts(thermal.shell)) first.shell.setConstant(grid.n_phi, T);
   if (const auto* ring = std::get_if<RingWall>(&thermal.shell)) first.shell.setConstant(ring->T_start.value_or(T));
   if (const auto* shell = std::get_if<WallAtTemperature>(&thermal.shell)) {
@@ -247,6 +260,24 @@ Eigen::VectorXd FilmHeat::shell_opening_in_time() const {
   return wall->shape_by_rise * (impl_->state.shell.mean() - wall->T_reference);
 }
 
+Eigen::VectorXd FilmHeat::journal_growth() const {
+  const JournalConduction* journal = conduction_of(impl_->thermal.journal);
+  return journal == nullptr || !journal->deforms() ? Eigen::VectorXd() : journal->shape(impl_->state.journal_heat);
+}
+
+// Likewise (thermal.61).
+Eigen::VectorXd FilmHeat::journal_growth_in_time() const {
+  const JournalConduction* journal = conduction_of(impl_->thermal.journal);
+  if (journal == nullptr || !journal->deforms() || impl_->has_settled) return journal_growth();
+  return journal->shape_by_rise * (impl_->state.journal - journal->T_reference);
+}
+
+Eigen::VectorXd FilmHeat::journal_body_temperatures() const {
+  const JournalConduction* journal = conduction_of(impl_->thermal.journal);
+  return journal == nullptr || journal->T_body0.size() == 0 ? Eigen::VectorXd()
+                                                            : journal->body(impl_->state.journal_heat);
+}
+
 Eigen::VectorXd FilmHeat::body_temperatures() const {
   const WallConduction* wall = conduction_of(impl_->thermal.shell);
   return wall == nullptr || wall->T_body0.size() == 0 ? Eigen::VectorXd() : wall->body(impl_->state.wall_heat);
@@ -367,7 +398,7 @@ double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, c
 
 Eigen::VectorXd FilmHeat::Impl::held_walls() const {
   const bool has_ring = has_own_temperatures(thermal.shell);
-  const bool has_journal = std::holds_alternative<FreeJournal>(thermal.journal);
+  const bool has_journal = has_own_temperature(thermal.journal);
   Eigen::VectorXd T((has_ring ? state.shell.size() : 0) + (has_journal ? 1 : 0));
   if (has_ring) T.head(state.shell.size()) = state.shell;
   if (has_journal) T.tail(1)[0] = state.journal;
@@ -376,13 +407,13 @@ Eigen::VectorXd FilmHeat::Impl::held_walls() const {
 
 void FilmHeat::Impl::set_held_walls(const Eigen::VectorXd& T) {
   if (has_own_temperatures(thermal.shell)) state.shell = T.head(state.shell.size());
-  if (std::holds_alternative<FreeJournal>(thermal.journal)) state.journal = T.tail(1)[0];
+  if (has_own_temperature(thermal.journal)) state.journal = T.tail(1)[0];
 }
 
 const WallExchange& FilmHeat::mean_exchange() {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.holds_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
-  m.mean = m.equations.mean().answer(m.state.shell);
+  m.mean = m.equations.mean().answer(m.state.shell, m.state.journal);
   m.mean.exchange.T = m.nodes_now();
   return m.mean.exchange;
 }
@@ -404,10 +435,12 @@ WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
   if (before.size() > 0) {
     Eigen::VectorXd after = before;
     if (m.mean.heat.size() > 0) m.state.wall_heat = m.mean.heat;
+    m.state.journal_heat = m.mean.journal_heat;
     const auto follow = [&](const MeanHeat::Change& change, double share) {
       if (has_own_temperatures(m.thermal.shell)) after.head(change.ring.size()) += share * change.ring;
       if (change.heat.size() > 0) m.state.wall_heat += share * change.heat;
-      if (std::holds_alternative<FreeJournal>(m.thermal.journal)) after.tail(1)[0] += share * change.journal;
+      if (has_own_temperature(m.thermal.journal)) after.tail(1)[0] += share * change.journal;
+      m.state.journal_heat += share * change.journal_heat;
     };
     follow(m.mean.without, 1);
     if (is_shell) follow(m.mean.by_shell, by[0]);
@@ -438,6 +471,9 @@ void FilmHeat::Impl::observe() {
   if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
     seen.T_body_max =
         dt > 0 && !has_settled ? end_of_step.shell.maxCoeff() : wall->body(end_of_step.wall_heat).maxCoeff();
+  if (const JournalConduction* body = conduction_of(thermal.journal); body != nullptr && body->T_body0.size() > 0)
+    seen.T_journal_body_max =
+        dt > 0 && !has_settled ? end_of_step.journal : body->body(end_of_step.journal_heat).maxCoeff();
   show_surfaces(film);
   find_hottest();
   average(film);
@@ -514,6 +550,7 @@ void FilmHeat::persist(Archive& archive) {
   archive.io("T_shell", impl_->state.shell);
   archive.io("T_journal", impl_->state.journal);
   archive.io("wall_heat", impl_->state.wall_heat);
+  if (conduction_of(impl_->thermal.journal) != nullptr) archive.io("journal_heat", impl_->state.journal_heat);
   archive.io("T_supplies", impl_->state.supplies);
   if (impl_->state.outside.size() > 0) archive.io("T_outside", impl_->state.outside);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);

@@ -293,25 +293,36 @@ void HeatEquations::renew(const CarryingFilm& film) {
   }
 }
 
-// The journal's balance (thermal.13) and those of the supplies (thermal.15).
-void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& start) {
+// The balance of a free journal (thermal.13). One in a body passes all of its heat on through the body's resistance,
+// (thermal.59) over that: as to a lumped body of the temperature T_0 with the conductance 1/g.
+void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& start) {
   const int journal = system_.size();
   const auto* free = std::get_if<FreeJournal>(&thermal_.journal);
-  journal_is_free_ = free != nullptr;
+  const JournalConduction* body = conduction_of(thermal_.journal);
+  journal_moves_ = free != nullptr || (body != nullptr && body->rise > 0 && film.dt == 0);
   journal_self_ = 0;
   into_journal_.assign(static_cast<std::size_t>(model_.grid.size()), {});
-  if (journal_is_free_) {
+  if (journal_moves_) {
     for (int node = 0; node < model_.grid.size(); ++node) {
       into_journal_[node] = to_journal(film, node);
       journal_self_ += into_journal_[node].wall();
       known_[journal] += journal_friction(film, node);
     }
-    if (film.dt > 0 && !holds_walls(film)) {
+    if (body != nullptr) {
+      journal_self_ += 1 / body->rise;
+      known_[journal] += body->T0 / body->rise;
+    } else if (free != nullptr && film.dt > 0 && !holds_walls(film)) {
       journal_self_ += free->heat_capacity / film.dt;
       known_[journal] += free->heat_capacity / film.dt * start.journal;
     }
   }
-  if (journal_self_ == 0) hold_journal(start);
+  if (journal_self_ == 0) hold_journal(body != nullptr && film.dt == 0 ? body->T0 : start.journal);
+}
+
+// The row of the journal and those of the supplies (thermal.15).
+void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& start) {
+  const int journal = system_.size();
+  add_journal_row(film, start);
   const double thread = rc_ * 1e-9 * film.balance.largest_throughput();
   std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
   for (const Held& held : held_) {

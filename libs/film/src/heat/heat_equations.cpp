@@ -21,10 +21,11 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
       mean_(model.grid, thermal.layers,
             {.ring = has_own_temperatures(thermal.shell),
              .shell_node = std::holds_alternative<NodeWall>(thermal.shell),
-             .free_journal = std::holds_alternative<FreeJournal>(thermal.journal),
+             .own_journal = has_own_temperature(thermal.journal),
              .journal_node = std::holds_alternative<NodeWall>(thermal.journal),
              .outside = at_.outside(),
-             .body = conduction_of(thermal.shell)}) {
+             .body = conduction_of(thermal.shell),
+             .journal_body = conduction_of(thermal.journal)}) {
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }
@@ -120,6 +121,13 @@ Eigen::VectorXd HeatEquations::heat_into_shell(const CarryingFilm& film, const H
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(model_.grid.n_phi);
   for (int node = 0; node < model_.grid.size(); ++node)
     heat[node / model_.grid.n_z] += into_shell(film, state, node) + shell_friction(film, node);
+  return heat;
+}
+
+double HeatEquations::heat_into_journal(const CarryingFilm& film, const HeatState& state) const {
+  double heat = 0;
+  for (int node = 0; node < model_.grid.size(); ++node)
+    heat += into_journal(film, state, node) + journal_friction(film, node);
   return heat;
 }
 

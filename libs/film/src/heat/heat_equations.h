@@ -121,14 +121,16 @@ class HeatEquations {
   void add_ring(const CarryingFilm& film, const HeatState& start);
   void add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start);
   [[nodiscard]] Eigen::VectorXd heat_into_shell(const CarryingFilm& film, const HeatState& state) const;
+  [[nodiscard]] double heat_into_journal(const CarryingFilm& film, const HeatState& state) const;
   void add_journal(const CarryingFilm& film);
   void add_supplies(const CarryingFilm& film);
   void renew(const CarryingFilm& film);
   [[nodiscard]] double renewed(const HeatState& state, int supply) const;
+  void add_journal_row(const CarryingFilm& film, const HeatState& start);
   void add_remainder(const CarryingFilm& film, const HeatState& start);
   [[nodiscard]] bool holds_walls(const CarryingFilm& film) const;
   void hold_walls(const HeatState& start);
-  void hold_journal(const HeatState& start);
+  void hold_journal(double T);
   [[nodiscard]] std::vector<double> fresh_shares(const CarryingFilm& film) const;
   void add_equations_to_mean(const CarryingFilm& film, const HeatState& start);
   [[nodiscard]] OutsideOfMean outside_of_mean(const CarryingFilm& film, const std::vector<double>& fresh) const;
@@ -164,8 +166,8 @@ class HeatEquations {
   std::vector<double> by_supply_;       ///< of the rows of layers, by that of the supply that holds the node [W/K]
   std::vector<int> supply_of_;          ///< of each node, -1 for none
   double journal_self_ = 0;             ///< entry of the journal's row by itself [W/K]
-  std::vector<WallFlux> into_journal_;  ///< of a journal that is free, by the layers beside it
-  bool journal_is_free_ = false;
+  std::vector<WallFlux> into_journal_;  ///< of a journal that its heat moves, by the layers beside it
+  bool journal_moves_ = false;
   std::vector<double> supply_self_;  ///< of the supplies' rows
   Eigen::MatrixXd by_remainder_;  ///< what a sweep makes of layers and ring by journal and supplies, column by column
   Eigen::PartialPivLU<Eigen::MatrixXd> remainder_;  ///< journal and supplies, layers and ring following them

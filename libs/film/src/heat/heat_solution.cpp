@@ -31,7 +31,9 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   x.tail(supplies()) = start.supplies;
   multiply(x, missing);
   missing = known_ - missing;
-  const double steady = conduction_of(thermal_.shell) != nullptr ? body_share : steady_share;
+  const double steady = conduction_of(thermal_.shell) != nullptr || conduction_of(thermal_.journal) != nullptr
+                            ? body_share
+                            : steady_share;
   solve_for(missing, film.dt == 0 ? steady : step_share, change);
   x += change;
 
@@ -41,6 +43,7 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   end.journal = x[rows];
   end.supplies = x.tail(supplies());
   if (conduction_of(thermal_.shell) != nullptr && !holds_walls(film)) end.wall_heat = heat_into_shell(film, end);
+  if (conduction_of(thermal_.journal) != nullptr && !holds_walls(film)) end.journal_heat = heat_into_journal(film, end);
   if (holds_walls(film)) add_heat_to_mean(film, start, end);
   return end;
 }
@@ -81,7 +84,7 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   for (int i = 0; rows > system_.row(model_.grid.size(), 0) && i < n_phi; ++i)
     add(system_.ring_row(i), system_.ring_entries(i));
   entries.emplace_back(rows, rows, journal_self_);
-  for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
+  for (int node = 0; journal_moves_ && node < model_.grid.size(); ++node)
     for (const auto& [row, entry] : journal_entries(node)) entries.emplace_back(rows, row, entry);
   for (int s = 0; s < supplies(); ++s) entries.emplace_back(rows + 1 + s, rows + 1 + s, supply_self_[s]);
   for (const Held& held : held_) {
@@ -179,7 +182,7 @@ void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
   multiply_remainder(x, y);
 }
 
-// Of the row of a free journal, by the layers beside it.
+// Of the row of a journal that its heat moves, by the layers beside it.
 std::array<std::pair<int, double>, 2> HeatEquations::journal_entries(int node) const {
   const WallFlux& flux = into_journal_[node];
   return {{{system_.row(node, top()), -flux.beside}, {system_.row(node, next_to_top()), flux.next}}};
@@ -188,7 +191,7 @@ std::array<std::pair<int, double>, 2> HeatEquations::journal_entries(int node) c
 void HeatEquations::multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   const int rows = system_.size();
   y[rows] = journal_self_ * x[rows];
-  for (int node = 0; journal_is_free_ && node < model_.grid.size(); ++node)
+  for (int node = 0; journal_moves_ && node < model_.grid.size(); ++node)
     for (const auto& [row, entry] : journal_entries(node)) y[rows] += entry * x[row];
   for (int s = 0; s < supplies(); ++s) y[rows + 1 + s] = supply_self_[s] * x[rows + 1 + s];
   for (const Held& held : held_) {

@@ -28,6 +28,15 @@ const WallConduction* conduction_of(const ShellWall& shell) {
   return body == nullptr ? nullptr : body->conduction.get();
 }
 
+const JournalConduction* conduction_of(const JournalWall& journal) {
+  const auto* body = std::get_if<BodyJournal>(&journal);
+  return body == nullptr ? nullptr : body->conduction.get();
+}
+
+bool has_own_temperature(const JournalWall& journal) {
+  return std::holds_alternative<FreeJournal>(journal) || std::holds_alternative<BodyJournal>(journal);
+}
+
 bool conducts(const ShellWall& shell) { return !std::holds_alternative<InsulatedWall>(shell); }
 
 bool conducts(const JournalWall& journal) { return !std::holds_alternative<InsulatedWall>(journal); }

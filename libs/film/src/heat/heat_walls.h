@@ -23,6 +23,11 @@ struct RingConductances {
 /// The conduction of a shell in a body; null: it is in none.
 [[nodiscard]] const WallConduction* conduction_of(const ShellWall& shell);
 
+/// Likewise of a journal.
+[[nodiscard]] const JournalConduction* conduction_of(const JournalWall& journal);
+/// Whether a journal's temperature is found with those of the film, or settles with them over cycles.
+[[nodiscard]] bool has_own_temperature(const JournalWall& journal);
+
 /// Whether heat passes between the film and a wall.
 [[nodiscard]] bool conducts(const ShellWall& shell);
 /// Likewise.

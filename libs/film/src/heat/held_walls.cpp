@@ -24,7 +24,7 @@ void HeatEquations::hold_walls(const HeatState& start) {
     known_.segment(system_.ring_row(0), model_.grid.n_phi) = start.shell;
     by_outside_.middleRows(system_.ring_row(0), model_.grid.n_phi).setZero();
   }
-  hold_journal(start);
+  hold_journal(start.journal);
 }
 
 // Of the oil that a supply gives, line and then features: what is not the film's own that it has taken in elsewhere.
@@ -109,9 +109,9 @@ void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatSt
                                 .outside = at_.outside() > 0 ? outside_of_mean(film, fresh) : OutsideOfMean{}});
 }
 
-void HeatEquations::hold_journal(const HeatState& start) {
-  journal_self_ = 1, journal_is_free_ = false;
-  known_[system_.size()] = start.journal;
+void HeatEquations::hold_journal(double T) {
+  journal_self_ = 1, journal_moves_ = false;
+  known_[system_.size()] = T;
 }
 
 // What walls lack to keep their temperatures (thermal.18).
@@ -131,7 +131,7 @@ void HeatEquations::add_heat_to_mean(const CarryingFilm& film, const HeatState& 
     into[ring_row(i)] += around + ring_.outside[i] * (at_ring(outside_) - end.shell[i]);
     into[ring_row(i + 1)] -= around;
   }
-  if (std::holds_alternative<FreeJournal>(thermal_.journal)) into[rows] = journal;
+  if (has_own_temperature(thermal_.journal)) into[rows] = journal;
   Eigen::VectorXd into_nodes(2 + at_.outside());
   into_nodes << shell, journal, into_outside(film, end);
   mean_.add_heat(film.dt, into, into_nodes, start.film, end.film);

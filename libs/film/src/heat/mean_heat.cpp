@@ -43,7 +43,7 @@ void MeanHeat::add_equations(double dt, const Equations& equations) {
     outside_.by += dt * equations.outside.by, outside_.from += dt * equations.outside.from;
     outside_.self += dt * equations.outside.self;
   }
-  if (walls_.free_journal || walls_.journal_node) {
+  if (walls_.own_journal || walls_.journal_node) {
     by_journal_ += dt * equations.by_journal;
     add(dt, equations.to_journal, to_journal_);
   }
@@ -63,13 +63,21 @@ void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vec
 
 // What the film has stored since the beginning, it has taken from walls. A body lacks what its temperatures differ from
 // those that the mean heat would give it (thermal.56).
-Eigen::VectorXd MeanHeat::missing(const Eigen::VectorXd& shell) const {
+Eigen::VectorXd MeanHeat::missing(const Eigen::VectorXd& shell, double journal) const {
   Eigen::VectorXd missing = into_;
   missing.head(capacity_.size()) += capacity_.cwiseProduct(end_ - begin_) / time_;
+  if (const JournalConduction* body = walls_.journal_body; body != nullptr)  // (thermal.62)
+    missing[system_.size()] = journal_scale() * (time_ * (body->T0 - journal) + body->rise * into_[system_.size()]);
   if (walls_.body == nullptr) return missing;
   const Eigen::Index first = capacity_.size(), n = grid_.n_phi;
   missing.segment(first, n) = time_ * (walls_.body->T0 - shell) + walls_.body->rise * into_.segment(first, n);
   return missing;
+}
+
+// What the row of a journal in a body is multiplied by, of the size of the heat into it [W/K].
+double MeanHeat::journal_scale() const {
+  const double by_film = to_journal_.sum() / time_;
+  return by_film > 0 ? by_film : 1;
 }
 
 // Of a body: its own temperature, and by the heat into all of its angles those of the film and of itself.
@@ -83,7 +91,9 @@ HeatSystem::Row MeanHeat::answer_entries(int i) const {
 
 MeanHeat::Change MeanHeat::change_of(const Eigen::VectorXd& x) const {
   const int ring = walls_.ring ? grid_.n_phi : 0;
-  Change change{x.segment(system_.size() - ring, ring), walls_.free_journal ? x[system_.size()] : 0};
+  Change change{x.segment(system_.size() - ring, ring), walls_.own_journal ? x[system_.size()] : 0};
+  if (walls_.journal_body != nullptr)
+    change.journal_heat = (into_journal(x) - to_journal_.sum() * x[system_.size()]) / time_;
   if (walls_.body == nullptr) return change;
   change.heat.setZero(ring);
   for (int i = 0; i < ring; ++i)
@@ -91,21 +101,28 @@ MeanHeat::Change MeanHeat::change_of(const Eigen::VectorXd& x) const {
   return change;
 }
 
+// Into the journal, of a change of the film beside it [W s].
+double MeanHeat::into_journal(const Eigen::VectorXd& x) const {
+  double heat = 0;
+  for (int node = 0; node < grid_.size(); ++node)
+    for (int beside = 0; beside < std::min(layers_, 2); ++beside)
+      heat += to_journal_(node, beside) * x[system_.row(node, layers_ - 1 - beside)];
+  return heat;
+}
+
 // Into nodes, of a change of the film between them [W s].
 Eigen::VectorXd MeanHeat::heat_of(const Eigen::VectorXd& x) const {
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(into_nodes_.size());
   heat.tail(walls_.outside) = outside_.from * x.head(system_.size());
-  for (int node = 0; node < grid_.size(); ++node) {
-    for (int beside = 0; beside < std::min(layers_, 2); ++beside) {
-      if (walls_.shell_node) heat[0] += to_shell_(node, beside) * x[system_.row(node, beside)];
-      if (walls_.journal_node) heat[1] += to_journal_(node, beside) * x[system_.row(node, layers_ - 1 - beside)];
-    }
-  }
+  if (walls_.journal_node) heat[1] += into_journal(x);
+  for (int node = 0; walls_.shell_node && node < grid_.size(); ++node)
+    for (int beside = 0; beside < std::min(layers_, 2); ++beside)
+      heat[0] += to_shell_(node, beside) * x[system_.row(node, beside)];
   return heat;
 }
 
 // Temperatures at which nothing is stored and walls take up no heat (thermal.19); nodes leave that to their network.
-MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell) {
+MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell, double journal) {
   HERSEY_REQUIRE(has_steps(), "a mean over some time");
   const Eigen::SparseMatrix<double> A = matrix();
   solver::SparseLu lu;
@@ -116,8 +133,9 @@ MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell) {
     return x;
   };
   Answer answer;
-  const Eigen::VectorXd x = solve(missing(shell));
+  const Eigen::VectorXd x = solve(missing(shell, journal));
   if (walls_.body != nullptr) answer.heat = into_.segment(capacity_.size(), grid_.n_phi) / time_;
+  if (walls_.journal_body != nullptr) answer.journal_heat = into_[system_.size()] / time_;
   answer.without = change_of(x);
   answer.exchange.heat = (into_nodes_ + heat_of(x)) / time_;
   answer.exchange.by_T.setZero(into_nodes_.size(), into_nodes_.size());
@@ -160,11 +178,14 @@ Eigen::SparseMatrix<double> MeanHeat::matrix() const {
     for (const auto& [column, entry] : of) add(row, column, entry);
     add(row, rows, -by_journal_[row]);
   }
-  const double journal_self = walls_.free_journal ? to_journal_.sum() : 0;
+  const JournalConduction* body = walls_.journal_body;
+  const double by_heat = body != nullptr ? journal_scale() * body->rise : 1;  // (thermal.62), or a balance by itself
+  double journal_self = walls_.own_journal ? by_heat * to_journal_.sum() : 0;
+  if (body != nullptr) journal_self += journal_scale() * time_;
   add(rows, rows, journal_self != 0 ? journal_self : 1);
-  for (int node = 0; walls_.free_journal && node < grid_.size(); ++node)
+  for (int node = 0; walls_.own_journal && node < grid_.size(); ++node)
     for (int beside = 0; beside < std::min(layers_, 2); ++beside)
-      add(rows, system_.row(node, layers_ - 1 - beside), -to_journal_(node, beside));
+      add(rows, system_.row(node, layers_ - 1 - beside), -by_heat * to_journal_(node, beside));
   Eigen::SparseMatrix<double> A(rows + 1, rows + 1);
   A.setFromTriplets(entries.begin(), entries.end());
   return A;

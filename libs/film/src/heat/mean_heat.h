@@ -7,6 +7,7 @@
 #include "heat/heat_system.h"
 #include "heat/wall_flux.h"
 #include "hersey/core/archive.h"
+#include "hersey/film/body_journal.h"
 #include "hersey/film/body_wall.h"
 #include "hersey/film/grid.h"
 #include "hersey/film/heat_state.h"
@@ -24,12 +25,15 @@ struct OutsideOfMean {
 /// they take up, and of the film's equations of heat without storage (theory manual, thermal.18, thermal.19).
 class MeanHeat {
  public:
-  /// Walls that take up heat. A ring and a free journal settle with the film; nodes of a network with all of its films.
+  /// Walls that take up heat. A ring and a journal of its own temperature settle with the film; nodes of a network with
+  /// all of its films.
   struct Walls {
-    bool ring = false, shell_node = false, free_journal = false, journal_node = false;
+    bool ring = false, shell_node = false, own_journal = false, journal_node = false;
     Eigen::Index outside = 0;  ///< nodes that are no walls
     /// What the ring's rows stand for where it is a body that conducts; null: a ring. Outlives this.
     const WallConduction* body = nullptr;
+    /// Of a journal in a body; null: it is free, or has no temperature of its own. Outlives this.
+    const JournalConduction* journal_body = nullptr;
   };
 
   /// The equations of a step, walls' rows included.
@@ -44,19 +48,22 @@ class MeanHeat {
     const OutsideOfMean& outside;             ///< empty where there are no such nodes
   };
 
-  /// Of a ring, or a shell in a body, and a free journal [K].
+  /// Of a ring, or a shell in a body, and a journal of its own temperature [K].
   struct Change {
     Eigen::VectorXd ring;  ///< shape (n_phi), or empty
     double journal = 0;
     Eigen::VectorXd heat = {};  ///< into each angle of a shell in a body [W], or empty
+    double journal_heat = 0;    ///< into a journal in a body [W]; else 0
   };
 
-  /// Changes after which ring and free journal would take up no heat, and what nodes would then.
+  /// Changes after which ring and journal would take up no heat, or bodies what they pass on, and what nodes would
+  /// then.
   struct Answer {
     Change without;               ///< with the nodes as they are
     Change by_shell, by_journal;  ///< per kelvin of a node
     std::vector<Change> by_outside;
     Eigen::VectorXd heat = {};  ///< into each angle of a shell in a body, before any change [W]; else empty
+    double journal_heat = 0;    ///< likewise into a journal in a body; else 0
     WallExchange exchange;      ///< without temperatures
   };
 
@@ -70,16 +77,18 @@ class MeanHeat {
                 const Eigen::VectorXd& end);
   /// Since the last call of answer().
   [[nodiscard]] bool has_steps() const { return time_ > 0; }
-  /// By the means since the last call; there is a step since then. @param shell  temperatures of a shell in a body,
-  /// which it had all the time, shape (n_phi) [K]
-  [[nodiscard]] Answer answer(const Eigen::VectorXd& shell);
+  /// By the means since the last call; there is a step since then. @param shell, journal  temperatures of a shell,
+  /// shape (n_phi), and of a journal in a body, which they had all the time [K]
+  [[nodiscard]] Answer answer(const Eigen::VectorXd& shell, double journal);
 
   void persist(Archive& archive);
 
  private:
   [[nodiscard]] Change change_of(const Eigen::VectorXd& x) const;
   [[nodiscard]] Eigen::VectorXd heat_of(const Eigen::VectorXd& x) const;
-  [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& shell) const;
+  [[nodiscard]] double into_journal(const Eigen::VectorXd& x) const;
+  [[nodiscard]] double journal_scale() const;
+  [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& shell, double journal) const;
   [[nodiscard]] HeatSystem::Row answer_entries(int i) const;
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
   void clear();

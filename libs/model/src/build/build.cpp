@@ -383,6 +383,8 @@ class Builder {
       options.thermal = *heat;
       if (auto* body = std::get_if<film::BodyWall>(&options.thermal->shell))
         body->conduction = wall_conduction(model_, bearing);
+      if (auto* body = std::get_if<film::BodyJournal>(&options.thermal->journal))
+        body->conduction = journal_conduction(model_, bearing);
     }
     options.growth = bearing.growth;
     for (const Function& pressure : bearing.feature_pressures) {

@@ -138,6 +138,9 @@ void require_function_of_time(Context& context, const Function& function, const 
 /// cannot be, which is reported. @param bearing  all else of it has been read
 [[nodiscard]] std::shared_ptr<const fem::FilmSurface> heated_shell_of(Context& context, const Value& value,
                                                                       const Bearing& bearing);
+/// Likewise of the journal.
+[[nodiscard]] std::shared_ptr<const fem::FilmSurface> heated_journal_of(Context& context, const Value& value,
+                                                                        const Bearing& bearing);
 
 /// Reports a shell and a journal on meshes of different size.
 void require_facing_surfaces(Context& context, const Value& value, const Bearing& bearing);

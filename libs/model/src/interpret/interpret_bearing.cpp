@@ -387,6 +387,7 @@ void interpret_bearings(Context& context) {
     bearing.journal_surface = deforming_surface_of(context, value, "journal", bearing.journal, bearing.film);
     require_facing_surfaces(context, value, bearing);
     bearing.heated_shell = heated_shell_of(context, value, bearing);
+    bearing.heated_journal = heated_journal_of(context, value, bearing);
     bearing.solver = meaning_of(value, "solver", film_solver_words);
     bearing.coupling = coupling_of(value);
     film::FilmModel hot = bearing.film;

@@ -43,7 +43,8 @@ class FilmSurfaceReader {
   std::shared_ptr<const fem::FilmSurface> read_wall() {
     is_wall_ = true;
     what_ = "a wall that conducts";
-    remedy_ = "a `ring`, or a flexible body with a `mesh` and `heat`";
+    remedy_ = (is_shell_ ? "a `ring`" : "`free`, `given` or a `node`") +
+              std::string(", or a flexible body with a `mesh` and `heat`");
     const Body* body = flexible_body();
     if (body == nullptr) return nullptr;
     const Value* named = value_.find("faces");
@@ -94,9 +95,10 @@ class FilmSurfaceReader {
     if (body == bodies.end() && on_.body != "ground") return nullptr;  // told
     if (body == bodies.end() || !body->flexible) {
       const bool is_beam = body != bodies.end() && body->beam;
-      context_.fault_at_key(value_,
-                            what_ + " on " + std::string(is_beam ? "the beam '" : "rigid body '") + on_.body + "'",
-                            remedy_, "give 'flexible: {mesh: ...}' to the body, or leave '" + side() + "_surface' out");
+      context_.fault_at_key(
+          value_, what_ + " on " + std::string(is_beam ? "the beam '" : "rigid body '") + on_.body + "'", remedy_,
+          "give 'flexible: {mesh: ...}' to the body, or " +
+              (is_wall_ ? "another wall to the " + side() : "leave '" + side() + "_surface' out"));
       return nullptr;
     }
     if (body->flexible->reduced) {
@@ -191,25 +193,16 @@ std::optional<DeformingSurface> deforming_surface_of(Context& context, const Val
   return FilmSurfaceReader(context, choice, on, film, side == "shell").read();
 }
 
-std::shared_ptr<const fem::FilmSurface> heated_shell_of(Context& context, const Value& value, const Bearing& bearing) {
-  const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
-  if (heat == nullptr || !std::holds_alternative<film::BodyWall>(heat->shell)) return nullptr;
-  const Value& wall = *value.find("thermal")->find("shell");
-  const bool is_named = wall.find("faces") != nullptr;
-  std::shared_ptr<const fem::FilmSurface> surface;
-  if (bearing.shell_surface && !is_named)
-    surface = bearing.shell_surface->surface;
-  else
-    surface = FilmSurfaceReader(context, wall, bearing.shell, bearing.film, true).read_wall();
-  if (!surface) return nullptr;
-  const Body& body = *std::find_if(context.model.bodies.begin(), context.model.bodies.end(),
-                                   [&](const Body& candidate) { return candidate.name == bearing.shell.body; });
+namespace {
+
+/// Faults of a wall in a body that does not conduct, or whose film lies on what `cooling` names.
+bool conducts(Context& context, const Value& wall, const Body& body, const fem::FilmSurface& surface) {
   if (!body.flexible->heat) {
     context.fault_at_key(wall, "a wall in body '" + body.name + "', which does not say how it conducts heat",
                          "`heat` of `bodies." + body.name + ".flexible`",
                          "add `heat: {conductivity: 46 W/m/K, cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: "
                          "40 degC}}}` there");
-    return nullptr;
+    return false;
   }
   const auto is_same = [](fem::ElementFace a, fem::ElementFace b) {
     return a.element == b.element && a.face == b.face;
@@ -218,12 +211,44 @@ std::shared_ptr<const fem::FilmSurface> heated_shell_of(Context& context, const 
   for (std::size_t s = 0; s < of_body.surroundings.cooled.size(); ++s)
     for (const fem::ElementFace face :
          s == of_body.rest ? std::vector<fem::ElementFace>() : of_body.surroundings.cooled[s].faces)
-      if (std::any_of(surface->faces.begin(), surface->faces.end(), [&](auto film) { return is_same(face, film); })) {
+      if (std::any_of(surface.faces.begin(), surface.faces.end(), [&](auto film) { return is_same(face, film); })) {
         context.fault_at_key(wall, "a film on faces of '" + body.name + "' that `cooling` names too",
                              "surfaces of `cooling` that no film lies on");
-        return nullptr;
+        return false;
       }
-  return surface;
+  return true;
+}
+
+/// Of the wall of a bearing's shell or journal that is a body.
+std::shared_ptr<const fem::FilmSurface> heated_surface_of(Context& context, const Value& value, const Bearing& bearing,
+                                                          bool is_shell) {
+  const Value& wall = *value.find("thermal")->find(is_shell ? "shell" : "journal");
+  const FrameName& on = is_shell ? bearing.shell : bearing.journal;
+  const std::optional<DeformingSurface>& deforming = is_shell ? bearing.shell_surface : bearing.journal_surface;
+  std::shared_ptr<const fem::FilmSurface> surface;
+  if (deforming && wall.find("faces") == nullptr)
+    surface = deforming->surface;
+  else
+    surface = FilmSurfaceReader(context, wall, on, bearing.film, is_shell).read_wall();
+  if (!surface) return nullptr;
+  const Body& body = *std::find_if(context.model.bodies.begin(), context.model.bodies.end(),
+                                   [&](const Body& candidate) { return candidate.name == on.body; });
+  return conducts(context, wall, body, *surface) ? surface : nullptr;
+}
+
+}  // namespace
+
+std::shared_ptr<const fem::FilmSurface> heated_shell_of(Context& context, const Value& value, const Bearing& bearing) {
+  const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
+  if (heat == nullptr || !std::holds_alternative<film::BodyWall>(heat->shell)) return nullptr;
+  return heated_surface_of(context, value, bearing, true);
+}
+
+std::shared_ptr<const fem::FilmSurface> heated_journal_of(Context& context, const Value& value,
+                                                          const Bearing& bearing) {
+  const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
+  if (heat == nullptr || !std::holds_alternative<film::BodyJournal>(heat->journal)) return nullptr;
+  return heated_surface_of(context, value, bearing, false);
 }
 
 void require_facing_surfaces(Context& context, const Value& value, const Bearing& bearing) {

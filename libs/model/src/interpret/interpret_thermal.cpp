@@ -78,10 +78,11 @@ void check_walls(Context& context, const Value& thermal, const film::FilmModel& 
   const bool leaves = !film::is_closed(film);
   const bool takes = ring != nullptr || has_node_walls(heat) || std::holds_alternative<film::BodyWall>(heat.shell) ||
                      std::holds_alternative<film::WallAtTemperature>(heat.shell) ||
+                     std::holds_alternative<film::BodyJournal>(heat.journal) ||
                      std::holds_alternative<film::WallAtTemperature>(heat.journal);
   if (!leaves && !takes)
     context.fault_at_key(thermal, "closed edges, and walls that take no heat: it has nowhere to go",
-                         "a shell or journal that is `given`, a `ring` or a `node`, or an open edge");
+                         "a shell or journal that is `given`, a `ring`, a `body` or a `node`, or an open edge");
 }
 
 /// The key `temperature` of a supply line or a feature; null where it is left to `supply_temperature`.
@@ -170,6 +171,11 @@ film::ThermalModel film_heat(Context& context, const Value& value, const film::F
   if (heat.expansion && heat.expansion->shell != 0 && std::holds_alternative<film::BodyWall>(heat.shell)) {
     context.fault(*thermal.find("expansion"), "a shell that grows by its body's mesh and by a coefficient as well",
                   "'shell: 0 1/K' beside 'shell: {wall: body}'", "the body's `heat.expansion` says how the bore grows");
+  }
+  if (heat.expansion && heat.expansion->journal != 0 && std::holds_alternative<film::BodyJournal>(heat.journal)) {
+    context.fault(*thermal.find("expansion"), "a journal that grows by its body's mesh and by a coefficient as well",
+                  "'journal: 0 1/K' beside 'journal: {wall: body}'",
+                  "the body's `heat.expansion` says how the journal grows");
   }
   check_walls(context, thermal, film, heat);
   return heat;

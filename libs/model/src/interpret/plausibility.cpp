@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace hersey::model {
 namespace {
@@ -61,6 +62,18 @@ std::vector<std::string> doubts_of_surfaces(const Bearing& bearing, double p_max
     if (std::string doubt = doubt_of_gap(bearing, h_min); !doubt.empty()) doubts.push_back(std::move(doubt));
   }
   return doubts;
+}
+
+std::vector<std::string> doubts_of_turning(const Bearing& bearing, double turned, double travelled) {
+  constexpr double round_off = 1e-9;  // rad
+  if (!bearing.heated_journal || (travelled > round_off && std::abs(turned) > 0.5 * travelled)) return {};
+  const double degrees = 180 / std::numbers::pi;
+  const std::string how = travelled > round_off
+                              ? fmt::format("swings in its shell: {:.3g} deg to and fro, {:.3g} deg of it one way",
+                                            degrees * travelled, degrees * std::abs(turned))
+                              : std::string("does not turn in its shell");
+  return {"a journal whose temperatures are those of a body " + how +
+          ": that heat comes to it evenly around is an estimate"};
 }
 
 }  // namespace hersey::model

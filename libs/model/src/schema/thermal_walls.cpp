@@ -101,6 +101,17 @@ const std::vector<Alternative<film::JournalWall>>& journal_walls() {
          return film::WallAtTemperature{number_of(wall, "temperature"), {}};
        }},
       {{"insulated", "no heat passes", {}}, [](const Value&) { return film::InsulatedWall{}; }},
+      {{"body",
+        "the mesh of the journal's body conducts the heat, steadily: its `heat` says how and where to; the journal "
+        "turns, so that heat comes to it evenly around",
+        {optional("faces", text("a surface or a set of nodes", "pin"),
+                  "Surface or set of nodes of the mesh that the film lies on.",
+                  "those of `journal_surface`, or all faces on the bearing's cylinder"),
+         optional("temperature", temperature("60 degC"),
+                  "Of all of the body as a simulation begins. It stays so, but for cycles with `walls: cycle_mean`, at "
+                  "whose ends it takes the temperatures that their mean heat gives it.",
+                  "that of the supply")}},
+       [](const Value& wall) { return film::BodyJournal{.conduction = {}, .T_start = start_of(wall)}; }},
       {node_wall(), [](const Value&) { return film::NodeWall{}; }},
   };
   return walls;

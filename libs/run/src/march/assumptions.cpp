@@ -113,6 +113,13 @@ std::string words_of_node(const film::NodeWall& wall) {
   return fmt::format("body '{}' of the thermal network", wall.name);
 }
 
+std::string words_of_body(const std::optional<double>& T_start) {
+  return "in a body whose mesh conducts heat steadily" +
+         (T_start ? fmt::format("; in a simulation it begins at {:.4g} degC", celsius(*T_start))
+                  : std::string("; in a simulation it begins at the temperature of the supply")) +
+         " and moves at the end of cycles only";
+}
+
 struct WordsOfShell {
   std::string operator()(const film::InsulatedWall&) const { return "takes no heat"; }
   std::string operator()(const film::WallAtTemperature& wall) const {
@@ -127,12 +134,7 @@ struct WordsOfShell {
     return fmt::format("a ring to {:.4g} mm, {:.4g} W/m/K, {:.4g} W/m^2/K to {}", 2e3 * ring.outer_radius,
                        ring.conductivity, ring.transfer, to);
   }
-  std::string operator()(const film::BodyWall& wall) const {
-    return "in a body whose mesh conducts heat steadily" +
-           (wall.T_start ? fmt::format("; in a simulation it begins at {:.4g} degC", celsius(*wall.T_start))
-                         : std::string("; in a simulation it begins at the temperature of the supply")) +
-           " and moves at the end of cycles only";
-  }
+  std::string operator()(const film::BodyWall& wall) const { return words_of_body(wall.T_start); }
 };
 
 struct WordsOfJournal {
@@ -141,6 +143,9 @@ struct WordsOfJournal {
     return fmt::format("at {:.4g} degC", celsius(wall.T));
   }
   std::string operator()(const film::FreeJournal&) const { return "at one temperature, without net heat when steady"; }
+  std::string operator()(const film::BodyJournal& wall) const {
+    return words_of_body(wall.T_start) + ", heat coming to it evenly around";
+  }
   std::string operator()(const film::NodeWall& wall) const { return words_of_node(wall); }
 };
 

@@ -72,6 +72,12 @@ double flow_of_feature(const BearingRow& row, std::size_t k) {
 
 bool has_heat(const BearingPlan& plan) { return std::holds_alternative<film::ThermalModel>(plan.bearing.heat); }
 
+bool shell_is_in_body(const BearingPlan& plan) { return plan.bearing.heated_shell != nullptr; }
+
+bool journal_is_in_body(const BearingPlan& plan) { return plan.bearing.heated_journal != nullptr; }
+
+bool is_in_body(const BearingPlan& plan) { return shell_is_in_body(plan) || journal_is_in_body(plan); }
+
 bool expands(const BearingPlan& plan) { return plan.bearing.expansion.has_value(); }
 
 using Heat = film::HeatObservables;
@@ -180,6 +186,28 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
         .only = expands,
         .told = {{As::smallest, "smallest radial clearance at temperature (hot)", "µm"},
                  {As::at_end, "radial clearance at temperature (hot) at the end", "µm"}}}},
+      {"bore_growth",
+       "m",
+       "growth of the bore's radius by the temperature of its body, mean over the nodes",
+       of_bearing(&bearing::BearingObservation::bore_growth),
+       {.note = "of a shell in a body (`shell: {wall: body}`)",
+        .only = shell_is_in_body,
+        .told = {{As::at_end, "growth of the bore's radius at the end", "µm"}}}},
+      {"journal_growth",
+       "m",
+       "growth of the journal's radius by the temperature of its body, mean over the nodes",
+       of_bearing(&bearing::BearingObservation::journal_growth),
+       {.note = "of a journal in a body (`journal: {wall: body}`)",
+        .only = journal_is_in_body,
+        .told = {{As::at_end, "growth of the journal's radius at the end", "µm"}}}},
+      {"clearance_of_bodies",
+       "m",
+       "radial clearance with what bodies have grown, mean over the nodes",
+       of_bearing(&bearing::BearingObservation::clearance_of_bodies),
+       {.note = "where shell or journal is in a body; as given it is the attribute `radial_clearance`",
+        .only = is_in_body,
+        .told = {{As::smallest, "smallest radial clearance with what bodies have grown (hot)", "µm"},
+                 {As::at_end, "radial clearance with what bodies have grown (hot) at the end", "µm"}}}},
       {"attitude",
        "rad",
        "angle between load and line of centres",
@@ -284,6 +312,16 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        "mean temperature of the journal's surface",
        celsius(&Heat::T_journal),
        {.symbol = "T_J", .only = has_heat, .told = {{As::at_end, "temperature of the journal at the end", "°C"}}}},
+      {"T_body_max",
+       "degC",
+       "temperature of the hottest place of the shell's body",
+       celsius(&Heat::T_body_max),
+       {.only = shell_is_in_body, .told = {{As::at_end, "hottest place of the shell's body at the end", "°C"}}}},
+      {"T_journal_body_max",
+       "degC",
+       "temperature of the hottest place of the journal's body",
+       celsius(&Heat::T_journal_body_max),
+       {.only = journal_is_in_body, .told = {{As::at_end, "hottest place of the journal's body at the end", "°C"}}}},
       {"T_film", "degC", "mean temperature of the oil in the film", celsius(&Heat::T_film_mean), {.only = has_heat}},
       {"T_side",
        "degC",

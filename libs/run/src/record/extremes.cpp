@@ -31,6 +31,7 @@ void BearingExtremes::take(double t, double dt, const bearing::BearingObservatio
   summary_.max_force = std::max(summary_.max_force, seen.wrench_on_shell.tail<3>().norm());
   summary_.eccentricity_ratio = seen.position.ratio();
   if (seen.heat) summary_.T_max = std::fmax(summary_.T_max, seen.heat->T_max);  // of nothing yet and a number, that
+  summary_.turned += dt * seen.position.speed, summary_.travelled += dt * std::abs(seen.position.speed);
   summary_.worst_mass_balance = std::max(summary_.worst_mass_balance, film.mass_balance_error);
   const double put_in = -seen.power_into_bodies, taken = film.power_taken();
   summary_.energy_put_in += 0.5 * dt * (last_put_in_ + put_in);
@@ -60,6 +61,7 @@ void BearingExtremes::persist(Archive& archive) {
   archive.io("max_force", s.max_force), archive.io("T_max", s.T_max);
   archive.io("eccentricity_ratio", s.eccentricity_ratio);
   archive.io("worst_mass_balance", s.worst_mass_balance);
+  archive.io("turned", s.turned), archive.io("travelled", s.travelled);
   archive.io("energy_put_in", s.energy_put_in), archive.io("energy_taken", s.energy_taken);
   archive.io("last_put_in", last_put_in_), archive.io("last_taken", last_taken_);
   archive.io("time", time_), archive.io("energy", energy_), archive.io("volume", volume_);

@@ -122,6 +122,8 @@ void RunRecord::summarise(Summary& summary) const {
     bearing.doubts = model::doubts_of_film(plan.validity, bearing.T_max, bearing.pofp - plan.film.p_cav);
     for (std::string& doubt : model::doubts_of_surfaces(plan, bearing.pofp, bearing.moft))
       bearing.doubts.push_back(std::move(doubt));
+    for (std::string& doubt : model::doubts_of_turning(plan, bearing.turned, bearing.travelled))
+      bearing.doubts.push_back(std::move(doubt));
     summary.bearings.push_back(std::move(bearing));
   }
   for (std::size_t i = 0; i < step_errors_.size(); ++i) summary.bearings[i].step_error = step_errors_[i];

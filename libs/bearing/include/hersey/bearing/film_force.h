@@ -57,6 +57,9 @@ struct BearingObservation {
   double power_into_bodies = 0;  ///< of wrench, forces on shapes and growing walls [W]; negative: the film takes power
   double power_of_growth = 0;    ///< its part on walls that grow with their temperature [W]
   double clearance = 0;          ///< radial, at the temperatures of the walls [m]
+  /// How far walls in bodies have grown outwards by temperature, their means over the nodes [m]; and the clearance with
+  /// them (theory manual, thermal.63).
+  double bore_growth = 0, journal_growth = 0, clearance_of_bodies = 0;
   film::FilmObservables film;
   std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
   film::WallCorrection walls;                 ///< of held walls, when they settled last
@@ -143,6 +146,7 @@ class FilmForce : public mbd::TwoBodyForce {
   void close_step();
   void show_oil(film::FilmObservables& film) const;
   [[nodiscard]] double growth_by_temperature() const;
+  [[nodiscard]] Eigen::VectorXd journal_shape_by_temperature() const;
   void follow_surfaces();
   [[nodiscard]] film::FilmDomain linearise_film();
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
@@ -155,7 +159,7 @@ class FilmForce : public mbd::TwoBodyForce {
   film::Reynolds reynolds_;
   std::optional<film::FilmHeat> heat_;  // at the state last accepted
   film::WallCorrection walls_;
-  std::unique_ptr<ThermalShape> thermal_shape_;  // of a shell in a body
+  std::unique_ptr<ThermalShape> thermal_shape_, journal_shape_;  // of a shell and a journal in bodies
   std::unique_ptr<ClearanceGrowth> growth_;
   std::unique_ptr<GapKinematics> gap_;
   std::unique_ptr<DeformingSurfaces> deforming_;

@@ -73,6 +73,8 @@ struct SteadyOptions {
 
 /// The shell lies further out at the nodes by `shape` [m]; an empty one changes nothing.
 void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
+/// Likewise the journal.
+void add_to_journal(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
 
 /// Where the bodies of rigid surfaces stand and how they move with the journal at `e`.
 [[nodiscard]] ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point,

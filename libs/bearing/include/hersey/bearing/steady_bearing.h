@@ -32,7 +32,8 @@ struct SteadyHeat {
   film::HeatState state;
   film::HeatObservables seen;
   film::TemperatureFields fields;
-  Eigen::VectorXd T_body;  ///< of the body the shell is in, at the nodes of its mesh [K]; empty: it is in none
+  Eigen::VectorXd T_body;          ///< of the body the shell is in, at the nodes of its mesh [K]; empty: it is in none
+  Eigen::VectorXd T_journal_body;  ///< likewise of the journal's body [K]
   film::NetworkObservables network;  ///< of walls that are nodes; without nodes where none is
 };
 
@@ -48,6 +49,8 @@ struct SteadyState {
   Eigen::VectorXd d_shell, d_journal;  ///< radial displacement at the nodes, away from the axis [m]; empty where rigid
   /// By how much the shell's body puts it further out at the nodes by its temperature [m]; empty: not at all.
   Eigen::VectorXd thermal_shape;
+  /// And the journal's body the journal's surface, the mean around (thermal.60), at the nodes as well [m].
+  Eigen::VectorXd journal_shape;
   film::FilmObservables film;
   DynamicCoefficients coefficients;               ///< with the temperatures, and so the viscosities, as they are
   std::optional<SteadyHeat> heat;                 ///< of a film with temperatures

@@ -50,11 +50,12 @@ class FilmHeat {
   double thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
   /// Of walls that are held (WallMotion::held), by the means over all steps since the last call: what those that are
-  /// nodes take up, rings and free journals following. @throws ContractError without a step since then
+  /// nodes take up, rings and journals of their own temperature following. @throws ContractError without a step since
+  /// then
   const WallExchange& mean_exchange();
-  /// After mean_exchange(): nodes have these temperatures, as exchange().T [K]; rings and free journals take those at
-  /// which they would take up no heat; call after call ever better (theory manual, thermal.19). Returns how far off
-  /// they were.
+  /// After mean_exchange(): nodes have these temperatures, as exchange().T [K]; rings and journals of their own
+  /// temperature take those at which they would take up no heat; call after call ever better (theory manual,
+  /// thermal.19). Returns how far off they were.
   WallCorrection settle_walls(const Eigen::VectorXd& T_nodes);
 
   /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.35); empty:
@@ -64,6 +65,13 @@ class FilmHeat {
   [[nodiscard]] Eigen::VectorXd shell_opening_in_time() const;
   /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.
   [[nodiscard]] Eigen::VectorXd body_temperatures() const;
+  /// How far a journal in a body lies outside its cylinder by temperature, the mean around [m], shape (n_z)
+  /// (thermal.60); empty: it does not.
+  [[nodiscard]] Eigen::VectorXd journal_growth() const;
+  /// Likewise in a simulation.
+  [[nodiscard]] Eigen::VectorXd journal_growth_in_time() const;
+  /// And temperatures of the journal's body at the nodes of its mesh [K]; empty: there is none.
+  [[nodiscard]] Eigen::VectorXd journal_body_temperatures() const;
 
   /// After advance(), of nodes of a network: those were held at the temperatures they had.
   [[nodiscard]] const WallExchange& exchange() const;

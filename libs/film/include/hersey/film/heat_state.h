@@ -12,6 +12,7 @@ struct HeatState {
   Eigen::VectorXd shell;  ///< of ring or node, or as given, shape (n_phi); of an insulated shell nothing
   double journal = 0;     ///< of a journal that is not insulated
   Eigen::VectorXd wall_heat = {};  ///< into each angle of a shell in a body [W], shape (n_phi); else nothing
+  double journal_heat = 0;         ///< into a journal in a body [W]; else 0
   Eigen::VectorXd outside = {};    ///< of nodes of a network that are no walls (FilmTerminals), or empty
   Eigen::VectorXd supplies;        ///< of the supply line and then of each feature: what leaves them for the film
   /// What shear leaves of the layers' viscosities [-], as `film`, and then by what the flow along pressure is easier
@@ -56,6 +57,7 @@ struct HeatObservables {
   double T_shell_mean = 0;                       ///< over the area
   double T_body_max = 0;                         ///< of the body that the shell is in; else 0
   double T_journal = 0;                          ///< mean of the surface
+  double T_journal_body_max = 0;                 ///< of the body that the journal is in; else 0
   double T_film_mean = 0;                        ///< over the volume of the oil
   double T_side = 0;                             ///< of the oil that leaves over the edges; NaN where none does
   /// Means of the walls themselves, with which they expand; of one without heat, of its surface.

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "hersey/film/body_journal.h"
 #include "hersey/film/body_wall.h"
 
 namespace hersey::film {
@@ -62,7 +63,7 @@ struct OilNodes {
 };
 
 using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall, BodyWall, NodeWall>;
-using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall, NodeWall>;
+using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall, BodyJournal, NodeWall>;
 
 /// How a bearing's clearance follows the mean temperatures of its walls.
 struct ThermalExpansion {

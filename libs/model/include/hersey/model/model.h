@@ -241,6 +241,8 @@ struct Bearing {
   std::optional<DeformingSurface> shell_surface, journal_surface;  ///< unset: rigid
   /// On the mesh of the shell's body, of a shell whose wall is that body (film::BodyWall); else null.
   std::shared_ptr<const fem::FilmSurface> heated_shell;
+  /// Likewise of the journal's body, of a journal whose wall is that body (film::BodyJournal); else null.
+  std::shared_ptr<const fem::FilmSurface> heated_journal;
   std::optional<OperatingPoint> operating_point;
   SourcePosition position;
 };

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "hersey/film/body_journal.h"
 #include "hersey/film/body_wall.h"
 #include "hersey/model/model.h"
 
@@ -15,7 +16,14 @@ namespace hersey::model {
 ///   per angle of the film's grid
 [[nodiscard]] std::shared_ptr<const film::WallConduction> wall_conduction(const Model& model, const Bearing& bearing);
 
+/// Likewise to the body its journal is in, evenly around (theory manual, thermal.58, thermal.60).
+/// @throws InputError as wall_conduction() @cost a factorisation each, and two or three solutions
+[[nodiscard]] std::shared_ptr<const film::JournalConduction> journal_conduction(const Model& model,
+                                                                                const Bearing& bearing);
+
 /// All that `wall_conduction` depends on, in a row: equal for models with the same answer.
 [[nodiscard]] std::string fingerprint_of_wall(const Model& model, const Bearing& bearing);
+/// Likewise `journal_conduction`.
+[[nodiscard]] std::string fingerprint_of_journal(const Model& model, const Bearing& bearing);
 
 }  // namespace hersey::model

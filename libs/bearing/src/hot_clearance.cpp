@@ -1,0 +1,53 @@
+#include "hot_clearance.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "hersey/core/turn.h"
+
+namespace hersey::bearing {
+namespace {
+
+/// Of the angles of a grid, their share of a turn.
+Eigen::VectorXd shares(const film::Grid& grid) {
+  Eigen::VectorXd share(grid.n_phi);
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double before = i > 0 ? grid.phi(i - 1) : grid.phi(grid.n_phi - 1) - turn;
+    const double after = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + turn;
+    share[i] = (after - before) / (2 * turn);
+  }
+  return share;
+}
+
+}  // namespace
+
+HotClearance hot_clearance(const film::FilmModel& model, double growth, const Eigen::VectorXd& shell,
+                           const Eigen::VectorXd& journal) {
+  const double even = model.c + growth;
+  if (shell.size() == 0 && journal.size() == 0) return {even, 0, false};
+  const film::Grid& grid = model.grid;
+  const Eigen::VectorXd share = shares(grid);
+  HotClearance hot{std::numeric_limits<double>::infinity(), 0, true};
+  for (int j = 0; j < grid.n_z; ++j) {
+    double at = even;
+    for (int i = 0; i < grid.n_phi; ++i) {
+      if (shell.size() > 0) at += share[i] * shell[grid.index(i, j)];
+      if (journal.size() > 0) at -= share[i] * journal[grid.index(i, j)];
+    }
+    if (at < hot.smallest) hot.smallest = at, hot.z = model.L * grid.z_over_L(j);
+  }
+  return hot;
+}
+
+std::string seizure_text(const film::FilmModel& model, const HotClearance& hot, const film::HeatObservables& seen,
+                         const std::string& place) {
+  const auto celsius = [](double T) { return T - film::zero_celsius; };
+  return fmt::format(
+      "a seizure: the clearance of {:.4g} um closes to {:.4g} um{} with the shell at {:.0f} degC and the journal at "
+      "{:.0f} degC{}",
+      1e6 * model.c, 1e6 * hot.smallest, hot.has_shape ? fmt::format(" at z = {:.3g} mm", 1e3 * hot.z) : "",
+      celsius(seen.T_shell_wall), celsius(seen.T_journal_wall), place.empty() ? "" : " (" + place + ")");
+}
+
+}  // namespace hersey::bearing
