@@ -2,7 +2,8 @@
 
 import copy
 import math
-from dataclasses import dataclass
+import random
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -33,6 +34,8 @@ class Heat:
     journal: tuple = ("free",)
     carry_over: float = 1.0
     cooling: tuple | None = None  # (area, transfer, ambient), of a global one
+    T_air: float | None = None  # of what the bodies of a network are cooled by
+    paths: dict = field(default_factory=dict)  # conductance from block (the shell), shaft (the journal) or sump (the oil) to the air [W/K]
 
     def viscosity(self, mu):
         """Of an oil that has the viscosity `mu` at T."""
@@ -56,7 +59,17 @@ class Heat:
         if kind[0] == "ring":
             return {"wall": "ring", "outer_diameter": mm(kind[1]), "heat_transfer": f"{number(kind[2])} W/m^2/K",
                     "ambient": degrees(kind[3])}
+        if kind[0] == "node":
+            return {"wall": "node", "node": kind[1]}
         return kind[0]
+
+    def network(self):
+        """The model's section `thermal`, or nothing."""
+        if self.model != "film" or not self.paths:
+            return {}
+        nodes = {name: {"heat_capacity": "1 kJ/K"} for name in self.paths} | {"air": {"fixed": degrees(self.T_air)}}
+        paths = {f"of_{name}": {"between": [name, "air"], "conductance": f"{number(G)} W/K"} for name, G in self.paths.items()}
+        return {"thermal": {"nodes": nodes, "paths": paths}}
 
     def text(self):
         if self.model == "isothermal":
@@ -67,10 +80,12 @@ class Heat:
                 return {"model": "global", "cooling": {"area": f"{number(area)} m^2", "heat_transfer": f"{number(transfer)} W/m^2/K",
                                                        "ambient": degrees(ambient)}}
             return {"model": "global", "supply_temperature": degrees(self.T)}
-        entry = {"model": "film", "supply_temperature": degrees(self.T), "layers": self.layers, "shell": self.wall(self.shell),
+        entry = {"model": "film", "supply_temperature": {"node": "sump"} if "sump" in self.paths else degrees(self.T), "layers": self.layers, "shell": self.wall(self.shell),
                  "journal": self.wall(self.journal)}
         if self.T_edges is not None:
             entry["edge_temperature"] = degrees(self.T_edges)
+        if "sump" in self.paths:
+            entry["drains_to"] = "sump"
         if self.carry_over != 1:
             entry["carry_over"] = self.carry_over
         return entry
@@ -78,7 +93,8 @@ class Heat:
     def given(self):
         """All temperatures given."""
         walls = [wall[-1] for wall in (self.shell, self.journal) if wall[0] in ("given", "ring")]
-        return [self.T, *([self.T_edges] if self.T_edges is not None else []), *walls]
+        oil = [] if "sump" in self.paths else [self.T]
+        return [*oil, *(T for T in (self.T_edges, self.T_air) if T is not None), *walls]
 
 
 def of_constant_oil(b, model):
@@ -86,7 +102,31 @@ def of_constant_oil(b, model):
     other = copy.deepcopy(b)
     other.heat.law = None
     other.heat.model = model
+    # An oil that does not thin makes ever the same heat, which bodies may not be able to pass on.
+    for wall in ("shell", "journal"):
+        if getattr(other.heat, wall)[0] == "node":
+            setattr(other.heat, wall, ("given", other.heat.T_air))
+    other.heat.paths = {}
     return other
+
+
+def connect(heat, b, speed):
+    """Makes some walls, and what the oil comes from and drains to, bodies that air cools. Drawn from the bearing's own numbers: what
+    else is drawn stays what it was."""
+    rng = random.Random(repr((b.R, b.L, b.c, heat.T, speed)))
+    if heat.model != "film" or rng.random() < 0.6:
+        return
+    heat.T_air = round(heat.T - rng.uniform(0, 30), 1)
+    area = 2 * math.pi * b.R * b.L
+    through = 850 * 2000 * 0.5 * abs(speed) * b.R * b.c * b.L  # what the journal carries along [W/K]
+    if rng.random() < 0.6:
+        heat.shell, heat.paths["block"] = ("node", "block"), round(area * 10 ** rng.uniform(1.5, 3.5), 4)
+    if rng.random() < 0.3:
+        heat.journal, heat.paths["shaft"] = ("node", "shaft"), round(area * 10 ** rng.uniform(1.5, 3.5), 4)
+    if rng.random() < 0.5 and through > 0:
+        heat.paths["sump"] = round(through * 10 ** rng.uniform(-0.5, 1), 4)
+    if not heat.paths:
+        heat.T_air = None
 
 
 def random_heat(rng, b, models):
@@ -133,6 +173,7 @@ def check_steady(case, a, found):
     film = a["power_film"] + a["power_asperity"]
     found.bound("heat: made = film's power", abs(made - film), 1e-6 * max(film, 1e-12), f"W: made {made:.8g}, power {film:.8g}")
     check_temperatures(heat, a, found)
+    check_network(case, a, scale, found)
     check_oil(case, a, scale, found)
 
 
@@ -151,8 +192,21 @@ def check_temperatures(heat, a, found):
         found.bound("heat: walls given", np.abs(a.temperatures["shell"] - heat.shell[1]).max(), 1e-5, "K at the shell")
     if heat.journal[0] == "given":
         found.bound("heat: walls given", np.abs(a.temperatures["journal"] - heat.journal[1]).max(), 1e-5, "K at the journal")
-    if heat.journal[0] != "given":
+    if heat.journal[0] not in ("given", "node"):
         found.bound("heat: journal takes nothing", abs(a["heat_to_journal"]), BALANCED * max(a["heat_dissipated"], 1e-12), "W")
+
+
+def check_network(case, a, scale, found):
+    """Each body passes on what it takes up: the heat of its wall, or of all the oil where the oil comes from it."""
+    heat = case.bearing.heat
+    taken = {"block": a["heat_to_shell"], "shaft": a["heat_to_journal"]}
+    if heat.T_edges is None and case.bearing.cavitation == "mass_conserving" and not moves(case) and not case.radial_velocity:
+        taken["sump"] = a["heat_to_oil"]
+    for name, G in heat.paths.items():
+        if name in taken:
+            passed = G * (a[f"T_node_{name}"] - heat.T_air)
+            found.bound("heat: bodies pass on what they take up", abs(passed - taken[name]), 1e-6 * scale + 1e-6 * G,
+                        f"W: {name} takes {taken[name]:.8g}, passes on {passed:.8g}")
 
 
 def check_oil(case, a, scale, found):
@@ -168,7 +222,7 @@ def check_oil(case, a, scale, found):
     if case.radial_velocity:
         return
     side = a["side_flow"]
-    oil = 850 * 2000 * (side * a["T_side"] - a["flow_supply"] * heat.T)
+    oil = 850 * 2000 * (side * a["T_side"] - a["flow_supply"] * (a["T_node_sump"] if "sump" in heat.paths else heat.T))
     found.bound("heat: oil by its flows", abs(oil - a["heat_to_oil"]), 1e-5 * scale + 850 * 2000 * 1e-6 * abs(side) * abs(heat.T),
                 f"W: flows {oil:.6g}, told {a['heat_to_oil']:.6g}")
 

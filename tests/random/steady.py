@@ -48,7 +48,8 @@ class Steady:
         if any(self.tilt):
             point |= {"tilt_x": deg(self.tilt[0]), "tilt_y": deg(self.tilt[1])}
         bearing = self.bearing.text() | {"operating_point": point}
-        return note + yaml({"hersey": 1, "lubricants": {"oil": self.bearing.lubricant()}, "bearings": {"main": bearing}})
+        network = self.bearing.heat.network() if self.bearing.heat else {}
+        return note + yaml({"hersey": 1, "lubricants": {"oil": self.bearing.lubricant()}} | network | {"bearings": {"main": bearing}})
 
     # -- symmetries
 
@@ -134,6 +135,8 @@ def random_steady(rng):
         case.journal_angle = rounded(rng.uniform(-PI, PI))
     soften(b, size)
     b.heat = heat.random_heat(rng, b, ["isothermal", "global", "film", "film", "film", "film"])
+    if b.heat:
+        heat.connect(b.heat, b, case.journal_speed - case.shell_speed)
     return case
 
 
