@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <variant>
 
 #include "heat/heat_equations.h"
@@ -54,13 +56,14 @@ void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start
 
 void HeatEquations::add_flows(const CarryingFilm& film) {
   inflow_.assign(static_cast<std::size_t>(model_.grid.size()), 0.0);
-  const auto& faces = film.balance.faces();
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  for (std::size_t f = 0; f < film.balance.faces().size(); ++f) {
+    std::array<std::optional<Upstream>, 2> ways;  // layers may flow either way
     for (int l = 0; l < layers(); ++l) {
       const double q = film.flows.over_face(f, l);
-      if (q > 0) add_flow(faces[f].a, faces[f].b, l, q);
-      if (q < 0) add_flow(faces[f].b, faces[f].a, l, -q);
-      add_second_order(film, f, l, q);
+      if (q == 0) continue;
+      std::optional<Upstream>& way = ways[q > 0 ? 0 : 1];
+      if (!way) way = upstream(film, f, q > 0);
+      add_flow(*way, l, std::abs(q));
     }
   }
 }
@@ -72,27 +75,20 @@ HeatSystem::Side HeatEquations::side_of(int from, int to) const {
   return to / n_z == (from / n_z + 1) % n_phi ? HeatSystem::before : HeatSystem::after;
 }
 
-// Oil comes with the temperature of where it has been (thermal.10).
-void HeatEquations::add_flow(int from, int to, int layer, double q) {
-  system_.diagonal(system_.row(to, layer)) += rc_ * q;
-  system_.beside(to, layer, side_of(from, to)) -= rc_ * q;
-  inflow_[static_cast<std::size_t>(to)] += q;
-}
-
 // On the face oil has the temperature that the last two nodes extrapolate to (thermal.11). Beside a supply, an edge or
 // an empty node it has that of the last node.
-void HeatEquations::add_second_order(const CarryingFilm& film, std::size_t f, int layer, double q) {
-  if (q == 0) return;
+HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::size_t f, bool is_forwards) const {
   const Face& face = film.balance.faces()[f];
   const Grid& grid = model_.grid;
   const GridGeometry& geometry = film.balance.geometry();
-  const int from = q > 0 ? face.a : face.b, to = q > 0 ? face.b : face.a;
+  const int from = is_forwards ? face.a : face.b, to = is_forwards ? face.b : face.a;
+  Upstream way{.from = from, .to = to, .side = side_of(from, to)};
   const int i = from / grid.n_z, j = from % grid.n_z;
   int behind = -1;
   double length = 0;
   if (to / grid.n_z == i) {
     const int beyond = 2 * j - to % grid.n_z;
-    if (beyond < 0 || beyond >= grid.n_z) return;
+    if (beyond < 0 || beyond >= grid.n_z) return way;
     behind = grid.index(i, beyond);
     length = geometry.dz[std::min(j, beyond)];
   } else {
@@ -102,13 +98,21 @@ void HeatEquations::add_second_order(const CarryingFilm& film, std::size_t f, in
     length = geometry.dx[beyond == last ? last : i];
   }
   const FlowBalance& b = film.balance;
-  if (b.is_supplied(from) || b.is_supplied(behind) || b.nodes()[behind].content < 1e-3) return;
-  const double heat = rc_ * std::abs(q) * 0.5 * face.length / length;
-  const HeatSystem::Side side = side_of(from, to);
-  system_.diagonal(system_.row(from, layer)) += heat;
-  system_.beside(from, layer, side) -= heat;
-  system_.beside(to, layer, side) -= heat;
-  system_.beyond(to, layer, side) += heat;
+  if (b.is_supplied(from) || b.is_supplied(behind) || b.nodes()[behind].content < 1e-3) return way;
+  way.slope_share = 0.5 * face.length / length;
+  return way;
+}
+
+// Oil comes with the temperature of where it has been (thermal.10), and with what it rises by from there to the face.
+void HeatEquations::add_flow(const Upstream& way, int layer, double q) {
+  const double heat = rc_ * q, extrapolated = heat * way.slope_share;
+  system_.diagonal(system_.row(way.to, layer)) += heat;
+  system_.beside(way.to, layer, way.side) -= heat + extrapolated;
+  inflow_[static_cast<std::size_t>(way.to)] += q;
+  if (extrapolated == 0) return;
+  system_.diagonal(system_.row(way.from, layer)) += extrapolated;
+  system_.beside(way.from, layer, way.side) -= extrapolated;
+  system_.beyond(way.to, layer, way.side) += extrapolated;
 }
 
 // With the mean temperature of both layers, second order, where conduction between them is not next to nothing beside

@@ -111,8 +111,15 @@ class HeatEquations {
   void assemble(const CarryingFilm& film, const HeatState& start);
   void add_storage(const CarryingFilm& film, const HeatState& start);
   void add_flows(const CarryingFilm& film);
-  void add_flow(int from, int to, int layer, double q);
-  void add_second_order(const CarryingFilm& film, std::size_t f, int layer, double q);
+  /// Where oil that flows over a face comes from.
+  struct Upstream {
+    int from = 0, to = 0;
+    HeatSystem::Side side = HeatSystem::before;  ///< of `from`, seen from `to`
+    double slope_share =
+        0;  ///< by which the face is warmer than `from`, of what that is warmer than the node behind it
+  };
+  [[nodiscard]] Upstream upstream(const CarryingFilm& film, std::size_t f, bool is_forwards) const;
+  void add_flow(const Upstream& way, int layer, double q);
   [[nodiscard]] HeatSystem::Side side_of(int from, int to) const;
   void add_flow_upwards(const CarryingFilm& film);
   void add_edges(const CarryingFilm& film);
