@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include <utility>
+#include <variant>
 
 #include "bindings.h"
 #include "model_binding.h"
@@ -19,11 +20,9 @@ void for_each_function(model::Model& model, Do act) {
   };
   for (model::Drive& drive : model.drives) act(drive.motion);
   for (model::Force& force : model.forces) {
-    for (model::Function& function : force.load.functions) act(function);
-    for (model::Function& function : force.surface_load.functions) act(function);
-    maybe(force.spring_damper.tension);
-    maybe(force.coordinate_spring.restoring);
-    act(force.speed_control.speed);
+    for (const auto& followed : functions_of(force)) act(*followed.function);
+    if (auto* spring = std::get_if<model::SpringDamper>(&force.data)) maybe(spring->tension);
+    if (auto* spring = std::get_if<model::CoordinateSpring>(&force.data)) maybe(spring->restoring);
   }
   for (model::CoordinateCoupling& coupling : model.couplings)
     for (model::CoordinateCoupling::Term& term : coupling.terms) maybe(term.function);
