@@ -95,9 +95,8 @@ FAULTS = [
           "(c * omega / W);", "(c / W);"),
     # -- mbd
     Fault("mbd: gyroscopic term", "mbd/src/tree/inertia.cpp", "F_[l] = IA + Vh;", "F_[l] = IA;"),
-    Fault("mbd: row of a universal joint", "mbd/src/tree/constraint_row.cpp",
-          "return {position(t1), position(t2), position(n), orientation(t1, t2)};",
-          "return {position(t1), position(t2), position(n), orientation(t1, n)};"),
+    Fault("mbd: row of a universal joint", "mbd/src/tree/joint_kind.cpp",
+          ".rows = {{t1}, {t2}, {axis}, {t1, t2}}},", ".rows = {{t1}, {t2}, {axis}, {t1, axis}}},"),
     Fault("mbd: lever of a reaction", "mbd/src/tree/observe.cpp",
           "(through[j].head<3>() - X_WI.r.cross(f));", "through[j].head<3>();"),
     Fault("mbd: Coriolis force of a deforming body", "mbd/src/elastic/modal_body.cpp",
