@@ -79,28 +79,28 @@ Line measure(const fs::path& folder, int links, int steps) {
 int main() {
   const fs::path folder = fs::temp_directory_path() / fmt::format("hersey-chain-{}", ::getpid());
   fs::create_directories(folder);
-  fmt::print("{:>8} {:>10} {:>12} {:>12} {:>14} {:>10} {:>12} {:>12}\n", "links", "check [s]", "start-up [s]",
-             "step [ms]", "us/link/step", "/iteration", "recording", "report [s]");
+  fmt::print("{:>8} {:>6} {:>10} {:>12} {:>12} {:>14} {:>10} {:>12} {:>12}\n", "links", "steps", "check [s]",
+             "start-up [s]", "step [ms]", "us/link/step", "/iteration", "recording", "report [s]");
   bool met = true;
   double of_a_thousand = 0;
-  for (const auto& [links, steps] : {std::pair{100, 2000}, {200, 1000}, {1000, 1500}, {5000, 600}}) {
+  // Of the same number of steps: to open and close a file costs the same per link, however many steps are in it.
+  for (const auto& [links, steps] : {std::pair{100, 2000}, {200, 1000}, {1000, 1500}, {1000, 600}, {5000, 600}}) {
     const Line line = measure(folder, links, steps);
     const double per_link = line.step / links, per_iteration = per_link / line.iterations;
-    fmt::print("{:8} {:10.2f} {:12.2f} {:12.2f} {:14.2f} {:10.2f} {:11.1f}% {:12.2f}\n", links, line.check,
+    fmt::print("{:8} {:6} {:10.2f} {:12.2f} {:12.2f} {:14.2f} {:10.2f} {:11.1f}% {:12.2f}\n", links, steps, line.check,
                line.start_up, 1e3 * line.step, 1e6 * per_link, 1e6 * per_iteration, 100 * line.recording, line.report);
     std::fflush(stdout);
     met &= line.completed;
     if (links == 200) met &= line.report <= 2;
-    if (links == 1000) {
-      of_a_thousand = per_iteration;
+    if (links == 1000 && steps == 600) of_a_thousand = per_iteration;
+    if (links == 1000 && steps == 1500)
       met &= line.step <= 6e-3 && line.recording <= 0.1 && line.start_up <= 2 && line.check <= 1;
-    }
     if (links == 5000) met &= per_iteration <= 1.3 * of_a_thousand;
   }
   fs::remove_all(folder);
   fmt::print(
       "1000 links: a step in 6 ms, a tenth of it recording, start-up in 2 s, check in 1 s; 200: report in 2 s;\n"
-      "5000: at most 1.3 times the cost per link and iteration   {}\n",
+      "5000: at most 1.3 times the cost per link and iteration of 1000 with as many steps   {}\n",
       met ? "met" : "MISSED");
   return met ? 0 : 1;
 }

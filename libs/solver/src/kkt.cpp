@@ -5,6 +5,7 @@
 #include <Eigen/SparseQR>
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "hersey/solver/sparse_lu.h"
@@ -20,6 +21,10 @@ using Eigen::VectorXd;
 constexpr double kRankThreshold = 1e-10;
 // Inertia of a motion relative to those of the coordinates in it: below, it has none.
 constexpr double kNoInertia = 1e-12;
+// Elimination whose pivots stay above this has met no such motion.
+constexpr double kSoundCondition = 1e-11;
+// Motions of more inertia than this have some, by an estimate that is right to a factor of a few.
+constexpr double kLeastInertia = 100 * kNoInertia;
 
 MatrixXd normalised_rows(const MatrixXd& G) {
   MatrixXd scaled = G;
@@ -129,15 +134,33 @@ class SparseKkt {
     Equations::SparseMatrix scaled = scale_.asDiagonal() * S * scale_.asDiagonal();
     scaled.makeCompressed();
     lu_.analyse(scaled);
-    sound_ = lu_.factorise({scaled.valuePtr(), static_cast<std::size_t>(scaled.nonZeros())}) &&
-             lu_.reciprocal_condition() > 1e-11;
+    factorised_ = lu_.factorise({scaled.valuePtr(), static_cast<std::size_t>(scaled.nonZeros())});
   }
 
-  [[nodiscard]] bool sound() const { return sound_; }
+  [[nodiscard]] bool sound() const { return factorised_ && lu_.reciprocal_condition() > kSoundCondition; }
+
+  /// Whether every motion that the rows allow has inertia. The condition of a chain falls with its length, and says no
+  /// more then: the least inertia in the null space, 1/|A|, by a few powers of A: y -> x,  M x + G^T l = y,  G x = 0.
+  [[nodiscard]] bool all_motions_have_inertia(Index nv) const {
+    if (!factorised_ || sound()) return factorised_;
+    VectorXd y = VectorXd::Zero(scale_.size());
+    std::minstd_rand random;  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same start each time
+    std::uniform_real_distribution<double> part(-1, 1);
+    for (Index k = 0; k < nv; ++k) y[k] = part(random);
+    double largest = 0;
+    for (int power = 0; power < 8; ++power) {
+      y.head(nv).normalize();
+      y.tail(y.size() - nv).setZero();
+      lu_.solve({y.data(), static_cast<std::size_t>(y.size())});
+      largest = std::max(largest, y.head(nv).norm());
+      if (!y.allFinite() || largest * kLeastInertia > 1) return false;
+    }
+    return true;
+  }
 
   /// Solves S x = b, refined; false where that leaves more than round-off.
   [[nodiscard]] bool solve(const VectorXd& b, VectorXd& x) const {
-    if (!sound_) return false;
+    if (!factorised_) return false;
     x = VectorXd::Zero(b.size());
     VectorXd r = b;
     for (int pass = 0; pass < 3; ++pass) {
@@ -154,7 +177,7 @@ class SparseKkt {
   const Equations::SparseMatrix& S_;
   VectorXd scale_;
   SparseLu lu_;
-  bool sound_ = false;
+  bool factorised_ = false;
 };
 
 }  // namespace
@@ -236,7 +259,7 @@ VectorXd smallest_increment(const Equations::SparseMatrix& G, const VectorXd& re
   const Equations::SparseMatrix S = bordered_identity(G * weight.asDiagonal());
   VectorXd x, b = VectorXd::Zero(S.rows());
   b.tail(G.rows()) = -residual;
-  if (SparseKkt(S, G.cols()).solve(b, x)) return weight.cwiseProduct(x.head(G.cols()));
+  if (const SparseKkt kkt(S, G.cols()); kkt.sound() && kkt.solve(b, x)) return weight.cwiseProduct(x.head(G.cols()));
   // With (G W)^T = Q R P^T the smallest z with G W z = b is Q R^-T P^T b.
   Equations::SparseMatrix columns = Equations::SparseMatrix(G * weight.asDiagonal()).transpose();
   columns.makeCompressed();
@@ -255,7 +278,7 @@ AccelerationSolution solve_kkt(const Equations::SparseMatrix& S, Index nv, const
   AccelerationSolution solution;
   VectorXd x, b(S.rows());
   b << -h, -gamma;
-  if (SparseKkt(S, nv).solve(b, x)) {
+  if (const SparseKkt kkt(S, nv); kkt.all_motions_have_inertia(nv) && kkt.solve(b, x)) {
     solution.vdot = x.head(nv);
     solution.lambda = x.tail(S.rows() - nv);
     return solution;
@@ -309,7 +332,8 @@ AccelerationSolution solve_kkt_but_massless(const Equations::SparseMatrix& S, In
 }
 
 bool solve_bordered(const Equations::SparseMatrix& S, Index nv, const VectorXd& b, VectorXd& x) {
-  return SparseKkt(S, nv).solve(b, x);
+  const SparseKkt kkt(S, nv);
+  return kkt.sound() && kkt.solve(b, x);
 }
 
 Outcome assemble_forces(Equations& equations, const State& state, double dt, VectorXd& h, Equations::SparseMatrix& S) {

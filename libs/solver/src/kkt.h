@@ -25,7 +25,7 @@ struct AccelerationSolution {
                                              const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
 
 /// The same, sparse, for square S = [M G^T; G D], D diagonal with entries only in rows that are switched off. Falls
-/// back to the dense solution where the sparse one is not sound, so that it is exact or names what is undetermined.
+/// back to the dense solution, @cost O(n^3), only where a motion may have no inertia: it is exact or names that motion.
 [[nodiscard]] AccelerationSolution solve_kkt(const Equations::SparseMatrix& S, Eigen::Index nv,
                                              const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
 

@@ -94,5 +94,56 @@ TEST_CASE("Kkt_SolvesBothEquationsWithInertiasFarApart") {
   CHECK((G * s.vdot + gamma).cwiseQuotient(motions).cwiseAbs().maxCoeff() < 1e-9);
 }
 
+/// `units` of three coordinates each, held by two rows that nearly depend on each other: elimination's smallest pivot
+/// is the square of `apart`. The free coordinates of the first two have `inertia` where they move against each other.
+Equations::SparseMatrix nearly_dependent_rows(int units, double apart, double inertia) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const int nv = 3 * units;
+  for (int unit = 0; unit < units; ++unit) {
+    const int x = 3 * unit, row = nv + 2 * unit;
+    for (int k = 0; k < 3; ++k) entries.emplace_back(x + k, x + k, 1.0);
+    const std::vector<Eigen::Triplet<double>> rows{
+        {row, x, 1}, {row, x + 1, 1}, {row + 1, x, 1}, {row + 1, x + 1, 1 + apart}};
+    for (const auto& entry : rows) {
+      entries.push_back(entry);
+      entries.emplace_back(entry.col(), entry.row(), entry.value());
+    }
+  }
+  for (int unit = 1; unit < units; unit += 2) {
+    const double shared = unit == 1 ? 1 - inertia : 0.4;
+    entries.emplace_back(3 * unit + 2, 3 * unit - 1, shared);
+    entries.emplace_back(3 * unit - 1, 3 * unit + 2, shared);
+  }
+  Equations::SparseMatrix S(5 * units, 5 * units);
+  S.setFromTriplets(entries.begin(), entries.end());
+  return S;
+}
+
+// In a dense decomposition of 20,000 unknowns this would not end.
+TEST_CASE("LongChain_NeedsNoDenseDecompositionWhereItsConditionIsPoor") {
+  const int units = 4000, nv = 3 * units;
+  const Equations::SparseMatrix S = nearly_dependent_rows(units, 1e-6, 1);
+  const VectorXd vdot = VectorXd::LinSpaced(nv, -1, 2), lambda = VectorXd::LinSpaced(2 * units, 3, 1);
+  VectorXd exact(5 * units);
+  exact << vdot, lambda;
+  const VectorXd b = S * exact;
+  const AccelerationSolution s = solve_kkt(S, nv, -b.head(nv), -b.tail(2 * units));
+  REQUIRE(s.undetermined.empty());
+  VectorXd found(5 * units);
+  found << s.vdot, s.lambda;
+  CHECK((S * found - b).norm() < 1e-13 * b.norm());
+  // Round-off times the condition of two rows 1e-6 apart, once for motions and squared for multipliers.
+  CHECK((s.vdot - vdot).norm() < 1e-8 * vdot.norm());
+}
+
+TEST_CASE("MotionWithoutInertia_IsNamedAmongRowsOfPoorConditionToo") {
+  const int units = 20, nv = 3 * units;
+  for (const double inertia : {0.0, 1e-14}) {
+    const Equations::SparseMatrix S = nearly_dependent_rows(units, 1e-6, inertia);
+    const AccelerationSolution s = solve_kkt(S, nv, VectorXd::Ones(nv), VectorXd::Zero(2 * units));
+    CHECK(s.undetermined == std::vector<Eigen::Index>{2, 5});
+  }
+}
+
 }  // namespace initialise_test
 }  // namespace hersey::solver
