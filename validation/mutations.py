@@ -117,7 +117,7 @@ FAULTS = [
     # -- fem
     Fault("fem: averaging frames beside rigid ones", "fem/src/reduction/frame_interface.cpp",
           "interface.motion - interface.C * interface.prescribed;", "interface.motion;"),
-    Fault("fem: slope of a quadratic shape function", "fem/src/element/shape_functions.cpp",
+    Fault("fem: slope of a quadratic shape function", "fem/src/element/interpolation.cpp",
           "s.dN.row(a) = (4 * b.L[a] - 1) * b.dL.row(a);", "s.dN.row(a) = (4 * b.L[a] - 2) * b.dL.row(a);"),
     Fault("fem: mass without the element's size", "fem/src/element/solid_element.cpp",
           "m.noalias() += weight * J.determinant() * shape.N", "m.noalias() += weight * shape.N"),

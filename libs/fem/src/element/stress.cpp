@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "element/elastic_strain.h"
+#include "element/element_kind.h"
 #include "hersey/core/contract.h"
 #include "hersey/fem/finite_strain.h"
 
@@ -14,25 +15,10 @@ namespace {
 
 using Continuation = Eigen::MatrixXd;  // (nodes, points)
 
-/// Terms of the polynomial that continues a stress: constant, linear or trilinear, as many as the points determine.
-Eigen::VectorXd terms(ElementType type, const Vector3& xi) {
-  const double x = xi[0], y = xi[1], z = xi[2];
-  switch (type) {
-    case ElementType::tet4:
-      return Eigen::VectorXd::Ones(1);
-    case ElementType::tet10:
-      return Eigen::Vector4d(1, x, y, z);
-    case ElementType::wedge6:
-    case ElementType::wedge15:
-      return (Vector6() << 1, x, y, z, x * z, y * z).finished();
-    default:
-      return (Eigen::Matrix<double, 8, 1>() << 1, x, y, z, x * y, y * z, x * z, x * y * z).finished();
-  }
-}
-
 Eigen::MatrixXd terms_at(ElementType type, const Eigen::Matrix3Xd& xi) {
-  Eigen::MatrixXd rows(xi.cols(), terms(type, Vector3::Zero()).size());
-  for (Eigen::Index p = 0; p < xi.cols(); ++p) rows.row(p) = terms(type, xi.col(p)).transpose();
+  const auto terms = kind_of(type).stress_terms;
+  Eigen::MatrixXd rows(xi.cols(), terms(Vector3::Zero()).size());
+  for (Eigen::Index p = 0; p < xi.cols(); ++p) rows.row(p) = terms(xi.col(p)).transpose();
   return rows;
 }
 

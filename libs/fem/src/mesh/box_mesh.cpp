@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "element/element_kind.h"
 #include "hersey/core/contract.h"
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/shape_functions.h"
@@ -17,11 +18,14 @@ using Cell = std::array<int, 3>;
 // A hexahedron's corners cut into wedges along the diagonal 0-2, and into six tetrahedra around the diagonal 0-6.
 const std::vector<std::vector<int>>& pieces(ElementType type) {
   static const std::vector<std::vector<int>> whole = {{0, 1, 2, 3, 4, 5, 6, 7}};
-  static const std::vector<std::vector<int>> wedges = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
+  static const std::vector<std::vector<int>> halves = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
   static const std::vector<std::vector<int>> tets = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
                                                      {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
-  if (type == ElementType::hex8 || type == ElementType::hex20) return whole;
-  return type == ElementType::wedge6 || type == ElementType::wedge15 ? wedges : tets;
+  const int corners = kind_of(type).corners;
+  if (corners == 8) return whole;
+  if (corners == 6) return halves;
+  HERSEY_REQUIRE(corners == 4, "a shape that fills a box");
+  return tets;
 }
 
 /// Makes nodes on a lattice twice as fine as the cells, each when first asked for.

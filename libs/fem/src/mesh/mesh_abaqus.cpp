@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "element/element_kind.h"
 #include "mesh/abaqus_keywords.h"
 #include "mesh/mesh_readers.h"
 #include "mesh/mesh_text.h"
@@ -24,32 +25,32 @@ struct AbaqusType {
 };
 
 // Element types without their variants: C3D8R, C3D8I and C3D8H have the shape of C3D8.
-const std::map<std::string_view, AbaqusType>& abaqus_types() {
-  static const std::map<std::string_view, AbaqusType> types = {
-      {"C3D4", {Role::solid, 4, 4, ElementType::tet4}},   {"C3D10", {Role::solid, 10, 4, ElementType::tet10}},
-      {"C3D6", {Role::solid, 6, 6, ElementType::wedge6}}, {"C3D15", {Role::solid, 15, 6, ElementType::wedge15}},
-      {"C3D8", {Role::solid, 8, 8, ElementType::hex8}},   {"C3D20", {Role::solid, 20, 8, ElementType::hex20}},
-      {"B31", {Role::beam, 2, 2, ElementType::beam2}},    {"B33", {Role::beam, 2, 2, ElementType::beam2}},
-      {"B32", {Role::beam, 3, 2, ElementType::beam2}},    {"T3D2", {Role::mark, 2, 2, ElementType::beam2}},
-      {"T3D3", {Role::mark, 3, 2, ElementType::beam2}},   {"CPS3", {Role::mark, 3, 3, ElementType::tet4}},
-      {"CPS4", {Role::mark, 4, 4, ElementType::tet4}},    {"CPS6", {Role::mark, 6, 3, ElementType::tet4}},
-      {"CPS8", {Role::mark, 8, 4, ElementType::tet4}},    {"CPE3", {Role::mark, 3, 3, ElementType::tet4}},
-      {"CPE4", {Role::mark, 4, 4, ElementType::tet4}},    {"CPE6", {Role::mark, 6, 3, ElementType::tet4}},
-      {"CPE8", {Role::mark, 8, 4, ElementType::tet4}},    {"S3", {Role::mark, 3, 3, ElementType::tet4}},
-      {"S4", {Role::mark, 4, 4, ElementType::tet4}},      {"S6", {Role::mark, 6, 3, ElementType::tet4}},
-      {"S8", {Role::mark, 8, 4, ElementType::tet4}},      {"STRI65", {Role::mark, 6, 3, ElementType::tet4}},
-      {"M3D3", {Role::mark, 3, 3, ElementType::tet4}},    {"M3D4", {Role::mark, 4, 4, ElementType::tet4}},
-      {"M3D6", {Role::mark, 6, 3, ElementType::tet4}},    {"M3D8", {Role::mark, 8, 4, ElementType::tet4}},
-      {"SFM3D3", {Role::mark, 3, 3, ElementType::tet4}},  {"SFM3D4", {Role::mark, 4, 4, ElementType::tet4}},
-      {"SFM3D6", {Role::mark, 6, 3, ElementType::tet4}},  {"SFM3D8", {Role::mark, 8, 4, ElementType::tet4}},
+std::map<std::string_view, AbaqusType> beams_and_marks() {
+  return {
+      {"B31", {Role::beam, 2, 2, ElementType::beam2}},   {"B33", {Role::beam, 2, 2, ElementType::beam2}},
+      {"B32", {Role::beam, 3, 2, ElementType::beam2}},   {"T3D2", {Role::mark, 2, 2, ElementType::beam2}},
+      {"T3D3", {Role::mark, 3, 2, ElementType::beam2}},  {"CPS3", {Role::mark, 3, 3, ElementType::tet4}},
+      {"CPS4", {Role::mark, 4, 4, ElementType::tet4}},   {"CPS6", {Role::mark, 6, 3, ElementType::tet4}},
+      {"CPS8", {Role::mark, 8, 4, ElementType::tet4}},   {"CPE3", {Role::mark, 3, 3, ElementType::tet4}},
+      {"CPE4", {Role::mark, 4, 4, ElementType::tet4}},   {"CPE6", {Role::mark, 6, 3, ElementType::tet4}},
+      {"CPE8", {Role::mark, 8, 4, ElementType::tet4}},   {"S3", {Role::mark, 3, 3, ElementType::tet4}},
+      {"S4", {Role::mark, 4, 4, ElementType::tet4}},     {"S6", {Role::mark, 6, 3, ElementType::tet4}},
+      {"S8", {Role::mark, 8, 4, ElementType::tet4}},     {"STRI65", {Role::mark, 6, 3, ElementType::tet4}},
+      {"M3D3", {Role::mark, 3, 3, ElementType::tet4}},   {"M3D4", {Role::mark, 4, 4, ElementType::tet4}},
+      {"M3D6", {Role::mark, 6, 3, ElementType::tet4}},   {"M3D8", {Role::mark, 8, 4, ElementType::tet4}},
+      {"SFM3D3", {Role::mark, 3, 3, ElementType::tet4}}, {"SFM3D4", {Role::mark, 4, 4, ElementType::tet4}},
+      {"SFM3D6", {Role::mark, 6, 3, ElementType::tet4}}, {"SFM3D8", {Role::mark, 8, 4, ElementType::tet4}},
   };
-  return types;
 }
 
-std::string upper(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::toupper(c); });
-  return result;
+const std::map<std::string_view, AbaqusType>& abaqus_types() {
+  static const std::map<std::string_view, AbaqusType> types = [] {
+    std::map<std::string_view, AbaqusType> all = beams_and_marks();
+    for (const ElementKind& kind : element_kinds())
+      if (kind.shape) all[kind.files.abaqus] = {Role::solid, kind.nodes, kind.corners, kind.type};
+    return all;
+  }();
+  return types;
 }
 
 class AbaqusReader {

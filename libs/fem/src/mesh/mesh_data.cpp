@@ -8,6 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "element/element_kind.h"
+
 namespace hersey::fem {
 namespace {
 
@@ -58,8 +60,7 @@ Integers read_within(const Hdf5File& file, const std::string& name, long long lo
 }
 
 void read_elements(const Hdf5File& file, Mesh& mesh) {
-  constexpr std::size_t solids = static_cast<std::size_t>(ElementType::beam2);
-  const Integers types = read_within(file, "mesh/element_types", 0, solids);
+  const Integers types = read_within(file, "mesh/element_types", 0, element_kinds().size());
   const Integers labels = file.read_integers("mesh/element_labels");
   const Integers materials = read_within(file, "mesh/element_materials", -1, std::numeric_limits<int>::max());
   const Integers nodes = read_within(file, "mesh/connectivity", 0, mesh.nodes.size());
@@ -68,6 +69,7 @@ void read_elements(const Hdf5File& file, Mesh& mesh) {
   std::size_t first = 0;
   for (std::size_t e = 0; e < types.size(); ++e) {
     const auto type = static_cast<ElementType>(types[e]);
+    require(kind_of(type).shape, "data set 'mesh/element_types' has a beam");
     mesh.elements.push_back(
         {type, static_cast<long>(labels[e]), static_cast<int>(first), static_cast<int>(materials[e])});
     first += static_cast<std::size_t>(node_count(type));

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <unordered_map>
 
-#include "mesh/gmsh_types.h"
+#include "element/element_kind.h"
 #include "mesh/mesh_readers.h"
 #include "mesh/mesh_text.h"
 
@@ -21,7 +21,7 @@ struct GmshType {
   int nodes = 0;
   int corners = 0;                   ///< of a surface
   std::optional<ElementType> solid;  ///< none: serves to mark a surface, curve or point
-  std::vector<int> order;            ///< place in Gmsh's numbering of each node in Abaqus' order; empty: the same
+  std::vector<std::size_t> order;    ///< place in Gmsh's numbering of each node in Abaqus' order; empty: the same
 };
 
 const std::map<long, GmshType>& gmsh_types() {
@@ -30,8 +30,8 @@ const std::map<long, GmshType>& gmsh_types() {
         {1, {1, 2, 2, {}, {}}}, {2, {2, 3, 3, {}, {}}},  {3, {2, 4, 4, {}, {}}},  {8, {1, 3, 2, {}, {}}},
         {9, {2, 6, 3, {}, {}}}, {10, {2, 9, 4, {}, {}}}, {15, {0, 1, 1, {}, {}}}, {16, {2, 8, 4, {}, {}}},
     };
-    for (const GmshSolid& solid : gmsh_solids())
-      all[solid.number] = {3, node_count(solid.type), 0, solid.type, solid.order};
+    for (const ElementKind& kind : element_kinds())
+      if (kind.files.gmsh) all[kind.files.gmsh] = {3, kind.nodes, 0, kind.type, kind.files.gmsh_order};
     return all;
   }();
   return types;
@@ -268,7 +268,7 @@ class GmshReader {
     std::array<long, 20> nodes{}, ordered{};
     for (int k = 0; k < type.nodes; ++k) nodes[static_cast<std::size_t>(k)] = integer();
     for (std::size_t k = 0; k < static_cast<std::size_t>(type.nodes); ++k)
-      ordered[k] = nodes[type.order.empty() ? k : static_cast<std::size_t>(type.order[k])];
+      ordered[k] = nodes[type.order.empty() ? k : type.order[k]];
     const std::span<const long> used(ordered.data(), static_cast<std::size_t>(type.nodes));
     if (type.solid)
       label = add_solid(*type.solid, label, used, groups);

@@ -1,14 +1,16 @@
 // Entries as in the quick reference guide of MSC Nastran (2012): GRID, CTETRA, CHEXA, CPENTA, CBAR, CBEAM, MAT1,
 // PSOLID, PBAR, PBARL, PBEAM, PBEAML, GRDSET, PARAM, SET1, SET3, and SET of the case control section.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "element/element_kind.h"
 #include "mesh/mesh_readers.h"
+#include "mesh/mesh_text.h"
 #include "mesh/nastran_cards.h"
 #include "mesh/nastran_entries.h"
 
@@ -19,32 +21,29 @@ constexpr double kSameModulus = 0.01;  // of G and E / (2 (1 + nu)), from which 
 constexpr const char* kBasicSystem = "the basic system, 0 or empty";
 constexpr const char* kWriteBasic = "let the program that made the file write all points in basic coordinates";
 
-/// A solid's entry: its shapes of first and second order, and the place in Nastran's numbering of each node in ours.
-struct NastranSolid {
-  ElementType linear, quadratic;
-  std::vector<std::size_t> order;
-};
+/// Of each entry the solids it may be, by their nodes.
+using NastranSolids = std::map<int, const ElementKind*>;
 
-const std::map<std::string_view, NastranSolid>& solids() {
-  static const std::map<std::string_view, NastranSolid> all = {
-      {"CTETRA", {ElementType::tet4, ElementType::tet10, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}},
-      {"CPENTA", {ElementType::wedge6, ElementType::wedge15, {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11}}},
-      {"CHEXA",
-       {ElementType::hex8, ElementType::hex20, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15}}},
-  };
+const std::map<std::string_view, NastranSolids>& solids() {
+  static const std::map<std::string_view, NastranSolids> all = [] {
+    std::map<std::string_view, NastranSolids> found;
+    for (const ElementKind& kind : element_kinds())
+      if (*kind.files.nastran) found[kind.files.nastran][kind.nodes] = &kind;
+    return found;
+  }();
   return all;
+}
+
+std::vector<int> node_counts(const NastranSolids& shapes) {
+  std::vector<int> counts;
+  for (const auto& [nodes, kind] : shapes) counts.push_back(nodes);
+  return counts;
 }
 
 int face_corners(const std::string& name) {
   if (name == "CTRIA3" || name == "CTRIA6" || name == "CTRIAR") return 3;
   if (name == "CQUAD4" || name == "CQUAD8" || name == "CQUADR") return 4;
   return 0;
-}
-
-std::string upper(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::toupper(c); });
-  return result;
 }
 
 class NastranReader {
@@ -242,17 +241,18 @@ class NastranReader {
   }
 
   void read_solid(const NastranCard& card) {
-    const NastranSolid& solid = solids().at(card.name);
-    const int linear = node_count(solid.linear), quadratic = node_count(solid.quadratic);
+    const NastranSolids& shapes = solids().at(card.name);
     const int given = static_cast<int>(used_fields(card, 2));
-    if (given != linear && given != quadratic)
+    const auto found = shapes.find(given);
+    if (found == shapes.end())
       fail(card, fmt::format("{} {} with {} nodes", card.name, card.field(0), given),
-           fmt::format("{} or {} nodes", linear, quadratic));
-    std::array<long, 20> nodes{};
+           fmt::format("{} nodes", fmt::join(node_counts(shapes), " or ")));
+    const ElementKind& kind = *found->second;
+    const std::vector<std::size_t>& order = kind.files.nastran_order;
+    std::array<long, most_nodes> nodes{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(given); ++k)
-      nodes[k] = integer(card, card.field(2 + solid.order[k]));
-    add_element(card, given == linear ? solid.linear : solid.quadratic,
-                std::span<const long>(nodes.data(), static_cast<std::size_t>(given)));
+      nodes[k] = integer(card, card.field(2 + (order.empty() ? k : order[k])));
+    add_element(card, kind.type, std::span<const long>(nodes.data(), static_cast<std::size_t>(given)));
   }
 
   void read_beam(const NastranCard& card) {

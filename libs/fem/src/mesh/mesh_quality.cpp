@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "element/element_kind.h"
 #include "hersey/fem/quadrature.h"
 #include "hersey/fem/shape_functions.h"
 #include "hersey/fem/skin.h"
@@ -21,42 +22,6 @@ constexpr double kLargeBody = 10;            // [m]
 constexpr double kSmallBody = 1e-4;          // [m]
 constexpr double kHeavyBody = 1000;          // [kg]
 constexpr std::size_t kMostLabelsTold = 10;  // told in one message
-
-/// Corners of a shape, and of each corner its three neighbours in right-handed order.
-using Corners = std::vector<std::array<int, 4>>;
-
-const Corners& corners_of(ElementType type) {
-  static const Corners tet = {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 0, 2, 1}};
-  static const Corners wedge = {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}};
-  static const Corners hex = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},
-                              {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}};
-  static const Corners none;
-  switch (type) {
-    case ElementType::tet4:
-    case ElementType::tet10:
-      return tet;
-    case ElementType::wedge6:
-    case ElementType::wedge15:
-      return wedge;
-    case ElementType::hex8:
-    case ElementType::hex20:
-      return hex;
-    case ElementType::beam2:
-      break;
-  }
-  return none;
-}
-
-/// Edges of the ideal corner as columns.
-Matrix3 ideal_edges(ElementType type) {
-  const double half = 0.5, root = std::sqrt(0.75);
-  Matrix3 edges = Matrix3::Identity();
-  if (type == ElementType::hex8 || type == ElementType::hex20) return edges;
-  edges.col(1) = Vector3(half, root, 0);
-  const bool is_tetrahedron = type == ElementType::tet4 || type == ElementType::tet10;
-  if (is_tetrahedron) edges.col(2) = Vector3(half, root / 3, std::sqrt(2.0 / 3));
-  return edges;
-}
 
 NodeColumns positions_of(const Mesh& mesh, const Element& element) {
   const int count = node_count(element.type);
@@ -74,7 +39,7 @@ double volume_of(ElementType type, const NodeColumns& x) {
 
 void add_shape(const Element& element, const NodeColumns& x, ElementQuality& quality) {
   double worst = 1, longest = 0, shortest = 1e300;
-  for (const std::array<int, 4>& corner : corners_of(element.type)) {
+  for (const std::array<int, 4>& corner : kind_of(element.type).judged_corners) {
     Matrix3 edges;
     for (int k = 0; k < 3; ++k) {
       edges.col(k) = x.col(corner[static_cast<std::size_t>(k) + 1]) - x.col(corner[0]);
@@ -116,11 +81,11 @@ void find_repeated(const Mesh& mesh, MeshQuality& quality) {
   std::vector<std::pair<std::array<int, 8>, long>> corners;
   corners.reserve(mesh.elements.size());
   for (const Element& element : mesh.elements) {
-    const std::size_t count = element.type == ElementType::beam2 ? 2 : corners_of(element.type).size();
+    const int count = kind_of(element.type).corners;
     std::array<int, 8> key{};
     key.fill(-1);
     std::copy_n(mesh.nodes_of(element), count, key.begin());
-    std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(count));
+    std::sort(key.begin(), key.begin() + count);
     corners.emplace_back(key, element.label);
   }
   std::sort(corners.begin(), corners.end());
@@ -129,15 +94,11 @@ void find_repeated(const Mesh& mesh, MeshQuality& quality) {
       quality.repeated.emplace_back(corners[k - 1].second, corners[k].second);
 }
 
-bool is_quadratic(ElementType type) {
-  return type == ElementType::tet10 || type == ElementType::wedge15 || type == ElementType::hex20;
-}
-
 /// A face's midside nodes, ascending; -1 where it has none.
 std::array<int, 4> midside_nodes(const Mesh& mesh, ElementFace face) {
   const std::vector<int> nodes = nodes_of(mesh, face);
   std::array<int, 4> midside{-1, -1, -1, -1};
-  if (is_quadratic(mesh.elements[static_cast<std::size_t>(face.element)].type))
+  if (has_midside_nodes(mesh.elements[static_cast<std::size_t>(face.element)].type))
     std::copy(nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2), nodes.end(), midside.begin());
   std::sort(midside.begin(), midside.end());
   return midside;
@@ -145,7 +106,7 @@ std::array<int, 4> midside_nodes(const Mesh& mesh, ElementFace face) {
 
 // Elements that share a face's corners but not its midside nodes come apart, or into each other, between the corners.
 void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
-  const auto curves = [](const Element& element) { return is_quadratic(element.type); };
+  const auto curves = [](const Element& element) { return has_midside_nodes(element.type); };
   if (std::none_of(mesh.elements.begin(), mesh.elements.end(), curves)) return;
   struct Side {
     FaceKey corners;
@@ -228,7 +189,7 @@ Fault fault(const std::string& file, std::string found, std::string expected, st
 }  // namespace
 
 double corner_shape(ElementType type, const Matrix3& edges) {
-  const Matrix3 A = edges * ideal_edges(type).inverse();
+  const Matrix3 A = edges * kind_of(type).ideal_edges.inverse();
   const double det = A.determinant();
   return det > 0 ? 3 * std::cbrt(det * det) / A.squaredNorm() : 0;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,6 +28,9 @@ class LineScanner {
 
 /// Without blanks and tabs at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// In capitals.
+[[nodiscard]] std::string upper(std::string_view text);
 
 /// Parts between commas, trimmed; an empty last part (a trailing comma) is left out. Reuses `parts`.
 void split_at_commas(std::string_view text, std::vector<std::string_view>& parts);

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <tuple>
 
+#include "element/element_kind.h"
+
 namespace hersey::fem {
 namespace {
 
 using Triangle = std::array<int, 3>;
-
-bool has_midside_nodes(ElementType type) {
-  return type == ElementType::tet10 || type == ElementType::wedge15 || type == ElementType::hex20;
-}
 
 int corner_count(ElementType type, int face) {
   const int nodes = static_cast<int>(face_nodes(type, face).size());

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "element/element_kind.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/write_file.h"
 
@@ -14,28 +15,6 @@ namespace hersey::fem {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
-
-// VTK's numbers of cells; the nodes of all of them are in Abaqus' order.
-std::uint8_t vtk_type(ElementType type) {
-  switch (type) {
-    case ElementType::tet4:
-      return 10;
-    case ElementType::tet10:
-      return 24;
-    case ElementType::wedge6:
-      return 13;
-    case ElementType::wedge15:
-      return 26;
-    case ElementType::hex8:
-      return 12;
-    case ElementType::hex20:
-      return 25;
-    case ElementType::beam2:
-      return 3;
-  }
-  HERSEY_REQUIRE(false, "a type of the enumeration");
-  return 0;
-}
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -113,7 +92,7 @@ void add_cells(const Mesh& mesh, VtuText& text) {
   for (const Element& element : mesh.elements) {
     connectivity.insert(connectivity.end(), mesh.nodes_of(element), mesh.nodes_of(element) + node_count(element.type));
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-    types.push_back(vtk_type(element.type));
+    types.push_back(kind_of(element.type).files.vtk);
   }
   text.line("<Cells>");
   text.array("connectivity", "Int64", 1, connectivity);

@@ -5,21 +5,14 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "element/element_kind.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/write_file.h"
 #include "hersey/fem/gmsh_file.h"
 #include "hersey/fem/skin.h"
-#include "mesh/gmsh_types.h"
 
 namespace hersey::fem {
 namespace {
-
-const GmshSolid& gmsh_solid(ElementType type) {
-  const std::vector<GmshSolid>& solids = gmsh_solids();
-  const auto solid = std::find_if(solids.begin(), solids.end(), [&](const GmshSolid& s) { return s.type == type; });
-  HERSEY_REQUIRE(solid != solids.end(), "a solid");
-  return *solid;
-}
 
 long gmsh_number_of_face(std::size_t nodes) {
   switch (nodes) {
@@ -97,13 +90,12 @@ class GmshWriter {
     for (const Element& element : mesh_.elements) next_ = std::max(next_, element.label + 1);
     for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
       const Element& element = mesh_.elements[e];
-      const GmshSolid& solid = gmsh_solid(element.type);
+      const ElementInFiles& solid = kind_of(element.type).files;
+      HERSEY_REQUIRE(solid.gmsh, "a solid");
       std::vector<int> nodes(mesh_.nodes_of(element), mesh_.nodes_of(element) + node_count(element.type));
-      for (std::size_t k = 0; k < solid.order.size(); ++k)
-        nodes[static_cast<std::size_t>(solid.order[k])] = mesh_.nodes_of(element)[k];
-      add_element(element.label, solid.number, groups_of_[e].empty() ? 0 : groups_of_[e].front(), nodes);
-      for (std::size_t g = 1; g < groups_of_[e].size(); ++g)
-        add_element(next_++, solid.number, groups_of_[e][g], nodes);
+      for (std::size_t k = 0; k < solid.gmsh_order.size(); ++k) nodes[solid.gmsh_order[k]] = mesh_.nodes_of(element)[k];
+      add_element(element.label, solid.gmsh, groups_of_[e].empty() ? 0 : groups_of_[e].front(), nodes);
+      for (std::size_t g = 1; g < groups_of_[e].size(); ++g) add_element(next_++, solid.gmsh, groups_of_[e][g], nodes);
     }
   }
 

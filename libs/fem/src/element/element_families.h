@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+
+#include "element/element_kind.h"
+
+namespace hersey::fem {
+
+std::vector<ElementKind> tetrahedra();
+std::vector<ElementKind> wedges();
+std::vector<ElementKind> hexahedra();
+std::vector<ElementKind> beams();
+
+/// All that there are.
+inline constexpr std::array element_families = {tetrahedra, wedges, hexahedra, beams};
+
+}  // namespace hersey::fem
