@@ -59,6 +59,9 @@ class Extending(unittest.TestCase):
     def test_change_for_a_force_compiles(self):
         self.compiles("A force", 3)
 
+    def test_change_for_an_element_compiles(self):
+        self.compiles("An element", 3)
+
     def test_change_for_an_output_quantity_compiles(self):
         self.compiles("An output quantity", 3)
 
