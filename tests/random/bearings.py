@@ -457,6 +457,28 @@ def corner_power(b, pumped):
     return 0.5 * abs(pumped) if reservoirs_touch(b) else 0.0
 
 
+def land_power(b, mu, h, phi, z, turn=0.0):
+    """What the oil of fed grooves dissipates on land narrower than a cell before an edge, beside what the nodes' cell of it shows [W].
+
+    Over the land flows h^3 dp/(12 mu l) per length; between the nodes of a cell dz the sum over cells sees l = dz.
+    """
+    extra, dphi = 0.0, 2 * PI / len(phi)
+    for f in b.features:
+        if f.pressure is None or f.kind in ("hole", "oval_hole"):
+            continue
+        around, _ = f.distances(phi, f.z, turn)
+        for pressure, side, is_wall in zip(b.p_edge, (-1, 1), b.walls):
+            dz = z[1] - z[0] if side < 0 else z[-1] - z[-2]
+            land = 0.5 * b.L - side * f.z - 0.5 * f.length
+            if is_wall or not 0 < land < dz:
+                continue
+            at = (slice(None), 0 if side < 0 else -1)
+            of_groove = np.abs(around) < 1
+            each = (h[at] ** 3 / (12 * mu[at]) * (f.pressure - pressure) ** 2 * b.R * dphi * (1 / land - 1 / dz))[of_groove]
+            extra += float(each.sum())
+    return extra
+
+
 def is_starved(b):
     """Nothing presses oil in: such a film has only the empty answer."""
     is_fed = b.supply or any(f.pressure is not None for f in b.features)

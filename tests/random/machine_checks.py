@@ -296,7 +296,8 @@ class Powers:
         fed = b.is_fed(f.phi[:, None], f.z[None, :], motion.turn[row])
         couette = film.couette_power(film_laws.shear_shares(b, p, theta, fed), mu, h, slip, *at)
         poiseuille = film.poiseuille_power(p, mu, h, *at)
-        self.own = couette.value + poiseuille.value
+        over_land = bearings.land_power(b, mu, h, f.phi, f.z, motion.turn[row])
+        self.own = couette.value + poiseuille.value + over_land
         # Pressure has kinks within cells at lines and fed features, which both grids miss: more than their difference.
         self.error = (1.5 * couette.error + 2 * poiseuille.error) + 1e-3 * self.own
         if k > 0:
@@ -311,7 +312,7 @@ class Powers:
         velocity = motion.e_rate[row] + motion.speed[row] * np.array([e[1], -e[0]])
         self.mechanical = float(force[:2] @ velocity + moment[2] * motion.speed[row])
         self.pumped = pumped(b, r, row)
-        self.error += bearings.corner_power(b, self.pumped)
+        self.error += bearings.corner_power(b, self.pumped) + 0.3 * over_land  # ends between nodes around
         self.stored, self.stored_error = storage(b, results, f, k, row, motion)
 
 

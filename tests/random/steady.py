@@ -359,10 +359,12 @@ def check_power(case, a, found):
     fed = b.is_fed(a.phi[:, None], a.z[None, :], case.journal_angle)
     couette = film.couette_power(film_laws.shear_shares(b, a.p, a.theta, fed), mu, a.h, slip, b.R, a.phi, a.z)
     poiseuille = film.poiseuille_power(a.p, mu, a.h, b.R, a.phi, a.z)
-    own, told = couette.value + poiseuille.value, a["power_film"]
+    over_land = bearings.land_power(b, mu, a.h, a.phi, a.z, case.journal_angle)
+    own, told = couette.value + poiseuille.value + over_land, a["power_film"]
     # The edge of a cavitated region is resolved to a cell: the estimate sees that. A step of depth lies somewhere in a cell.
     pumped = pumping(b, a)
     error = 1.5 * (couette.error + poiseuille.error) + 1e-3 * own + border_power(b, a, mu, slip) + bearings.corner_power(b, pumped)
+    error += 0.3 * over_land  # ends between nodes around
     found.bound("power: film by own integral", 0.0 if thins else abs(own - told), error, f"W: own {own:.6g}, told {told:.6g}")
     turned = -(case.journal_speed * a["torque_journal"] + case.shell_speed * a["torque_shell"])
     # the film pushes the shell away from the journal, and this back

@@ -56,6 +56,27 @@ TEST_CASE("LandBeforeAnEdge_IsAsLongAsItIs") {
   }
 }
 
+// Of grooves that overlap the oil takes the shorter land, whichever of them is written first.
+TEST_CASE("LandOfOverlappingGrooves_IsThatOfTheNearer") {
+  const SurfaceFeature whole{.name = "whole", .arc = 2 * pi, .length = 0.02 - 2 * 2.1e-3, .pressure = 3e5};
+  const SurfaceFeature near{.name = "near", .phi = 1, .arc = 2.3, .length = 0.02 - 2 * 0.7e-3, .pressure = 3e5};
+  const SurfaceFeature between{.name = "between", .phi = 1.9, .arc = 2, .length = 0.02 - 2 * 1.2e-3, .pressure = 3e5};
+  std::vector<SurfaceFeature> order{whole, near, between};
+  const double alone = 0.9 + 1 - 0.5 * 2.3;  // of the third beyond the second [rad]
+  const double by_land = 2.3 / 0.7e-3 + alone / 1.2e-3 + (2 * pi - 2.3 - alone) / 2.1e-3;
+  for (int turned = 0; turned < 3; ++turned) {
+    std::rotate(order.begin(), order.begin() + 1, order.end());
+    FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {24, 9}};
+    m.features = order;
+    const SolvedFilm film = solve_cold(m, Journal{});
+    REQUIRE(film.summary.solved());
+    const double side = m.c * m.c * m.c / (12 * m.lubricant.mu0) * m.R * 3e5 * by_land;
+    CHECK(film.observed.flow_left == relative(side).epsilon(kSolved));
+    CHECK(film.observed.flow_right == relative(side).epsilon(kSolved));
+    CHECK(film.observed.power_oil == relative(-2 * side * 3e5).epsilon(kSolved));
+  }
+}
+
 // A short groove of a turning journal's shell, whose end lies between lines of the grid or on one: without its land the
 // coarse grids would have 5 % too little.
 TEST_CASE("SideFlowOfAGroove_DoesNotDependOnWhereLinesLie") {

@@ -183,11 +183,19 @@ class FlowBalance {
     double way = 0;                       ///< line: to it, as a share of the tube [-]
     double way_line = 0;                  ///< with phi_supply [1/rad]
   };
+  static constexpr double as_written = 1e-9;  ///< of a length that a model's author has written
   /// A node of an edge within a cell of which a feature ends.
   struct Land {
     int node = 0, inside = 0, feature = 0;
     double conductance = 0;  ///< of the land beyond that of the tube, per 1/12 of h^3/mu [-]
     double u = 0;            ///< of the feature [Pa]
+  };
+  /// A part of a feature's end before such a node, around from it [m].
+  struct LandStrip {
+    int node = 0, inside = 0, feature = 0;
+    double from = 0, to = 0;
+    double gain = 0;  ///< 1/land - 1/tube [1/m]
+    double u = 0;
   };
   /// What ties a held node to its u [m^3/(Pa s)], with derivatives.
   struct Tie {
@@ -227,7 +235,9 @@ class FlowBalance {
   void lay_pattern();
   void find_supply(const SurfaceMotion& motion);
   void hold_line(double phi);
-  void find_land(int feature, double phi, double u);
+  void find_strips(int feature, double phi, double u);
+  void unite_lands();
+  void forget_lands();
   [[nodiscard]] const Land* land_at(int node) const;
   [[nodiscard]] static bool gives_way(const HeldNode& held, const HeldNode& to);
   void hold(const HeldNode& held, bool only_oil = false);
@@ -332,6 +342,7 @@ class FlowBalance {
   std::vector<HeldNode> held_at_edges_;  ///< would be held if their edges had no pressure of their own
   std::vector<int> edge_index_;          ///< likewise
   std::vector<Land> lands_;
+  std::vector<LandStrip> strips_;
   std::vector<int> land_index_;  ///< of every node its place there, -1 for none
   std::vector<CoveredNode> covered_;
   bool liner_rests_ = false;  ///< the step starts with the deformation it ends with

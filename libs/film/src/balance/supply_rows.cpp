@@ -6,11 +6,6 @@
 
 // Rows of the residual that supply line and features have a part in (film.21, film.22).
 namespace hersey::film {
-namespace {
-
-constexpr double as_written = 1e-9;  // of a length that a model's author has written
-
-}  // namespace
 
 const FlowBalance::HeldNode* FlowBalance::held_at(int node) const {
   const int index = held_index_[node];
@@ -78,32 +73,6 @@ int FlowBalance::feature_at(int node) const {
   if (const HeldNode* held = held_at(node); held != nullptr) return held->feature;
   const Land* land = land_at(node);
   return land == nullptr ? -1 : land->feature;
-}
-
-const FlowBalance::Land* FlowBalance::land_at(int node) const {
-  const int index = land_index_[node];
-  return index < 0 ? nullptr : &lands_[index];
-}
-
-double FlowBalance::drop_over_land(int node) const {
-  const Land* land = land_at(node);
-  const int j = node % model_.grid.n_z;
-  return land == nullptr ? 0 : land->u - (open_row(j) ? 0 : edge_unknown(j));
-}
-
-double FlowBalance::over_land(int node) const {
-  const Land* land = land_at(node);
-  if (land == nullptr) return 0;
-  const Node &edge = nodes_[node], &inside = nodes_[land->inside];
-  const auto mean = [&](double a, double b) { return 0.5 * (a + b); };
-  const double h = mean(edge.h, inside.h), fluidity = mean(edge.flow[1].value, inside.flow[1].value);
-  const double rough = mean(rough_[node].pressure[1], rough_[land->inside].pressure[1]);
-  const double k = land->conductance / 12 * h * h * h * fluidity * rough * mean(edge.density, inside.density);
-  return k * drop_over_land(node);
-}
-
-double FlowBalance::power_over_land(int node) const {
-  return over_land(node) * drop_over_land(node) / nodes_[node].density;
 }
 
 // The film's own conductance: what lies between node and line, or node and edge of the feature, is film.
@@ -206,43 +175,10 @@ void FlowBalance::hold_line(double phi) {
   }
 }
 
-// On an edge no pressure can follow the shorter way from where a feature ends within the last cell: the flow over that
-// land is known from both pressures, and no row sees it.
-void FlowBalance::find_land(int f, double phi, double u) {
-  const SurfaceFeature& feature = model_.features[static_cast<std::size_t>(f)];
-  if (feature.shape != FeatureShape::rectangle) return;
-  const Grid& grid = model_.grid;
-  const double half = 0.5 * feature.length;
-  for (const int j : {0, grid.n_z - 1}) {
-    if (!edge_row(j) && !open_row(j)) continue;
-    const int next = j == 0 ? 1 : j - 1;
-    const double tube = std::abs(geometry_.z[next] - geometry_.z[j]);
-    const double land = std::abs(geometry_.z[j] - feature.z) - half;
-    if (land <= as_written * feature.length || land >= tube || std::abs(geometry_.z[next] - feature.z) > half) continue;
-    for (int i = 0; i < grid.n_phi; ++i) {
-      const double back = 0.5 * geometry_.dx[(i + grid.n_phi - 1) % grid.n_phi], ahead = 0.5 * geometry_.dx[i];
-      const double at = model_.R * std::remainder(geometry_.phi[i] - phi, turn), reach = 0.5 * model_.R * feature.arc;
-      double width = 0;
-      for (const double image : {-turn * model_.R, 0.0, turn * model_.R})
-        width += std::max(0.0, std::min(at + ahead, image + reach) - std::max(at - back, image - reach));
-      if (width == 0) continue;
-      const int node = grid.index(i, j);
-      int& index = land_index_[node];
-      if (index < 0) {
-        index = static_cast<int>(lands_.size());
-        lands_.emplace_back();
-      }
-      lands_[index] = {node, grid.index(i, next), f, std::min(width, back + ahead) * (1 / land - 1 / tube), u};
-      hold({.node = node, .feature = f, .u = u}, true);
-    }
-  }
-}
-
 void FlowBalance::find_supply(const SurfaceMotion& motion) {
   for (const HeldNode& held : held_) held_index_[held.node] = -1;
   for (const HeldNode& held : held_at_edges_) edge_index_[held.node] = -1;
-  for (const Land& land : lands_) land_index_[land.node] = -1;
-  held_.clear(), held_at_edges_.clear(), lands_.clear();
+  held_.clear(), held_at_edges_.clear(), forget_lands();
   line_ = {};
   if (model_.supply.kind != SupplyKind::none) hold_line(motion.phi_supply);
   for (std::size_t f = 0; f < model_.features.size(); ++f) {
@@ -264,8 +200,9 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
             .inwards = node.inwards});
     }
     const bool travels = feature.surface == Surface::journal;
-    find_land(static_cast<int>(f), feature.phi + (travels ? motion.phi_journal : 0.0), u);
+    find_strips(static_cast<int>(f), feature.phi + (travels ? motion.phi_journal : 0.0), u);
   }
+  unite_lands();
 }
 
 bool FlowBalance::is_cut(std::size_t f) const {

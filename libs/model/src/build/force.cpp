@@ -5,8 +5,6 @@
 namespace hersey::model {
 namespace {
 
-std::string speed_unit(const CoordinateName& on) { return on.coordinate == "rotation" ? "rad/s" : "m/s"; }
-
 /// What follows time in a force's data, a T or a const T.
 template <class T, class Take>
 void visit_functions(T& data, const std::string& name, Take take) {
@@ -18,7 +16,7 @@ void visit_functions(T& data, const std::string& name, Take take) {
     for (auto& function : data.functions)
       take(function, data.is_pressure ? "Pa" : "N", (data.is_pressure ? "pressure " : "force ") + name);
   } else if constexpr (std::is_same_v<Data, SpeedControl>) {
-    take(data.speed, speed_unit(data.on), "wanted speed of " + name);
+    take(data.speed, speed_unit(data.on.coordinate), "wanted speed of " + name);
   }
 }
 

@@ -12,10 +12,6 @@
 namespace hersey::run {
 namespace {
 
-bool is_rotation(const std::string& coordinate) { return coordinate == "rotation"; }
-
-std::string speed_unit(const std::string& coordinate) { return is_rotation(coordinate) ? "rad/s" : "m/s"; }
-
 /// "forces.load.force.0" is the component x.
 std::string name_of(const std::string& path) {
   const std::array<const char*, 3> axes{"x", "y", "z"};
@@ -48,7 +44,7 @@ Inputs::Inputs(model::Model& model) : plan_(model.simulation) {
   for (model::Drive& drive : model.drives) {
     if (drive.prescribes == model::Drive::Prescribes::position) continue;  // a jump of it is no motion
     const bool is_speed = drive.prescribes == model::Drive::Prescribes::speed;
-    std::string unit = speed_unit(drive.coordinate);
+    std::string unit = model::speed_unit(drive.coordinate);
     if (!is_speed) unit += "^2";
     add(drive.motion, unit, fmt::format("{} of drive {}", is_speed ? "speed" : "acceleration", drive.name),
         is_speed ? Jump::of_speed : Jump::of_force);

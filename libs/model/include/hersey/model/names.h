@@ -19,6 +19,14 @@ struct CoordinateName {
   std::string joint, coordinate;
 };
 
+/// Whether a joint coordinate of this name is an angle.
+[[nodiscard]] inline bool is_rotation(const std::string& coordinate) { return coordinate == "rotation"; }
+
+/// Unit of its rate.
+[[nodiscard]] inline std::string speed_unit(const std::string& coordinate) {
+  return is_rotation(coordinate) ? "rad/s" : "m/s";
+}
+
 /// Of a load's components or direction.
 enum class Axes { ground, body };
 

@@ -1,0 +1,97 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "command_line.h"
+#include "commands.h"
+
+namespace hersey::cli {
+namespace {
+
+void add_oil(CLI::App& app, Commands& commands) {
+  const auto oil = std::make_shared<OilArguments>();
+  CLI::App* command =
+      app.add_subcommand("oil", "Tell viscosity and density of an oil over temperature, pressure and shear rate");
+  command
+      ->add_option("oil", oil->oil,
+                   "A grade such as iso_vg_46 or sae_5w30, or a model file, of several lubricants with the name of one")
+      ->required()
+      ->type_name("GRADE|MODEL[:OIL]");
+  add_overrides(*command, oil->overrides);
+  command->add_option("--lubricant", oil->lubricant, "Which, of a model with several")->type_name("NAME");
+  command->add_option("--at", oil->at, "Temperatures (default: 0 to 160 degC)")->type_name("100degC ...");
+  command
+      ->add_option("--pressure", oil->pressures,
+                   "Above the cavitation pressure (default: 0, and 100 MPa where the viscosity depends on it)")
+      ->type_name("100MPa ...");
+  command
+      ->add_option("--shear-rate", oil->shear_rates,
+                   "Shear rates (default: 0, and up to 1e7 1/s where the oil thins by shear)")
+      ->type_name("\"1e6 1/s\" ...");
+  command->add_option("--report", oil->report, "Write an HTML page with curves")->type_name("FILE");
+  command->add_flag("--json", oil->json, "Print it as JSON");
+  commands.push_back({command, [oil] { return oil_command(*oil); }});
+}
+
+void add_export(CLI::App& app, Commands& commands) {
+  const auto exported = std::make_shared<ExportArguments>();
+  CLI::App* command = app.add_subcommand("export", "Write a model as an FMU, for co-simulation in other programs");
+  command->add_option("MODEL", exported->model, "Model file")->required();
+  command->add_option("--fmu", exported->fmu, "The FMU to write")->type_name("FILE.fmu")->required();
+  command->add_option("--fmi", exported->fmi, "Version of the standard: 2 or 3 (default: 2)")
+      ->type_name("2|3")
+      ->check(CLI::IsMember({2, 3}).description(""));
+  add_overrides(*command, exported->overrides);
+  command->add_flag("--force", exported->force, "Replace the FMU if it exists");
+  commands.push_back({command, [exported] { return export_command(*exported); }});
+}
+
+void add_convert(CLI::App& app, Commands& commands) {
+  const auto convert = std::make_shared<ConvertArguments>();
+  CLI::App* command =
+      app.add_subcommand("convert", "Bring a model file of an earlier version up to date; comments and layout stay");
+  command->add_option("MODEL", convert->model, "Model file")->required();
+  CLI::Option* output = command->add_option("--output", convert->output, "File to write (default: standard output)");
+  output->type_name("FILE");
+  command->add_flag("--in-place", convert->in_place, "Write it over the model file")->excludes(output);
+  commands.push_back({command, [convert] { return convert_command(*convert); }});
+}
+
+void add_init(CLI::App& app, Commands& commands) {
+  const auto init = std::make_shared<InitArguments>();
+  CLI::App* command = app.add_subcommand("init", "Write a commented model to begin with; alone: tell which there are");
+  command->add_option("TEMPLATE", init->model, "bearing, rotor, big_end, engine, turbocharger or flexible_rod");
+  command->add_option("NAME", init->name, "Name of the file to write (default: as the template)");
+  commands.push_back({command, [init] { return init_command(*init); }});
+}
+
+void add_explain(CLI::App& app, Commands& commands) {
+  const auto key = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("explain", "Print what a key of the model file is; alone: the sections of a model");
+  command->add_option("KEY", *key, "Key path, such as bearings.main.supply");
+  commands.push_back({command, [key] { return explain_command(*key); }});
+}
+
+void add_schema(CLI::App& app, Commands& commands) {
+  struct What {
+    bool of_results = false, markdown = false;
+  };
+  const auto what = std::make_shared<What>();
+  CLI::App* command = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
+  command->add_flag("--results", what->of_results, "Print what results files hold, as JSON for programs, instead");
+  command->add_flag("--markdown", what->markdown, "Print it as the reference page of the documentation instead");
+  commands.push_back({command, [what] { return schema_command(what->of_results, what->markdown); }});
+}
+
+}  // namespace
+
+void add_file_commands(CLI::App& app, Commands& commands) {
+  add_oil(app, commands);
+  add_export(app, commands);
+  add_init(app, commands);
+  add_convert(app, commands);
+  add_explain(app, commands);
+  add_schema(app, commands);
+}
+
+}  // namespace hersey::cli

@@ -1,0 +1,142 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "command_line.h"
+#include "commands.h"
+#include "hersey/core/task_pool.h"
+
+namespace hersey::cli {
+namespace {
+
+void use_threads(int threads) {
+  if (threads > 0) TaskPool::shared().set_threads(threads);
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command
+      .add_option("--threads", threads,
+                  "Threads at work at the same time, which change no result (default: one per processor it may use)")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_run(CLI::App& app, Commands& commands) {
+  const auto run = std::make_shared<RunArguments>();
+  CLI::App* command =
+      app.add_subcommand("run", "Simulate a model, or every run of its study; write results and report");
+  command->add_option("MODEL", run->model, "Model file")->required();
+  add_overrides(*command, run->overrides);
+  command->add_option("--output", run->output, "Folder for results and report (default: results/<model>)")
+      ->type_name("DIR");
+  CLI::Option* force = command->add_flag("--force", run->force, "Replace results that exist already");
+  CLI::Option* resume =
+      command
+          ->add_flag("--resume", run->resume,
+                     "Go on where a run was interrupted, from its last checkpoint; of a study, finish what is missing")
+          ->excludes(force);
+  command
+      ->add_flag("--step-error", run->step_error,
+                 "Estimate what the time step does to each bearing's figures, by a run with steps twice as long")
+      ->excludes(resume);
+  command->add_flag("--json", run->json, "Print the closing table as JSON");
+  command->add_flag("--all", run->all, "Print every figure of every bearing, however many");
+  command->add_option("--jobs", run->jobs, "Runs of a study at the same time (default: one per processor)")
+      ->check(CLI::PositiveNumber);
+  add_threads(*command, run->threads);
+  commands.push_back({command, [run] {
+                        use_threads(run->threads);
+                        return run_command(*run);
+                      }});
+}
+
+void add_check(CLI::App& app, Commands& commands) {
+  const auto check = std::make_shared<CheckArguments>();
+  CLI::App* command = app.add_subcommand("check", "Report everything that can be found wrong without simulating");
+  command->add_option("MODEL", check->model, "Model file")->required();
+  add_overrides(*command, check->overrides);
+  command->add_flag("--json", check->json, "Print the faults as JSON");
+  command->add_flag("--expanded", check->expanded,
+                    "Print the model with templates, aliases, overrides and parameters put in, instead");
+  commands.push_back({command, [check] { return check_command(*check); }});
+}
+
+void add_report(CLI::App& app, Commands& commands) {
+  const auto report = std::make_shared<ReportArguments>();
+  CLI::App* command =
+      app.add_subcommand("report", "Write the HTML report of results: of one run, or of several as a study");
+  command->add_option("RESULTS", report->results, "Results files (.h5)")->required();
+  command->add_option("--output", report->output, "The page to write (default: report.html beside the results)")
+      ->type_name("FILE");
+  command->add_option("--names", report->names, "Names of the runs, in the order of the files: --names before,after")
+      ->delimiter(',')
+      ->type_name("A,B");
+  command->add_flag("--json", report->json, "Print the summary as JSON");
+  command->add_flag("--all", report->all, "Print every figure of every bearing, however many");
+  commands.push_back({command, [report] { return report_command(*report); }});
+}
+
+void add_bearing(CLI::App& app, Commands& commands) {
+  const auto bearing = std::make_shared<BearingArguments>();
+  CLI::App* command = app.add_subcommand(
+      "bearing",
+      "Solve one bearing by itself: position under a load, coefficients, friction, flows; once or in sweeps");
+  command->add_option("MODEL", bearing->model, "Model file; bodies and a simulation are not needed")->required();
+  add_overrides(*command, bearing->overrides);
+  command->add_option("--bearing", bearing->bearing, "Which bearing, if the model has several")->type_name("NAME");
+  const auto value = [&](const char* option, std::string& text, const char* description, const char* type) {
+    command->add_option(option, text, description)->type_name(type);
+  };
+  value("--speed", bearing->speed, "Angular velocity of the journal", "3000rpm");
+  value("--shell-speed", bearing->shell_speed, "Angular velocity of the shell", "0rpm");
+  value("--load", bearing->load, "Load on the journal: its position is sought", "2500N");
+  value("--load-angle", bearing->load_angle, "Direction of the load, from x towards y", "-90deg");
+  value("--eccentricity-ratio", bearing->eccentricity_ratio, "Position of the journal: its load is sought", "0.6");
+  value("--eccentricity-angle", bearing->eccentricity_angle, "Direction of that position", "-60deg");
+  repeatable(
+      command
+          ->add_option(
+              "--sweep", bearing->sweeps,
+              "Solve at several values of load, speed, clearance, viscosity, eccentricity_ratio, any parameter or "
+              "key path: load=100N:2500N:10, speed=1rpm:3000rpm:20:log or load=100N,500N; several sweeps combine")
+          ->type_name("NAME=VALUES"));
+  command->add_option("--csv", bearing->csv, "Write every figure of every solution as a table")->type_name("FILE");
+  command->add_option("--fields", bearing->fields, "Write pressure, film thickness and fill fraction of a solution")
+      ->type_name("FILE");
+  command
+      ->add_option("--vtu", bearing->vtu,
+                   "Write the temperatures of the body that the shell, or the journal, is in for ParaView")
+      ->type_name("FILE");
+  command->add_option("--report", bearing->report, "Write a page with figures, maps and curves of all solutions")
+      ->type_name("FILE");
+  command->add_flag("--json", bearing->json, "Print every figure as JSON");
+  command->add_flag("--no-grid-error", bearing->no_grid_error, "Leave out the estimate of the grid's error");
+  command->add_flag("--sensitivity", bearing->sensitivity,
+                    "Tell how every figure follows load, speed, size, clearance, viscosity and supplies");
+  repeatable(command
+                 ->add_option("--sensitivity-to", bearing->sensitivity_to,
+                              "Tell how every figure follows a key of the file: bearings.main.asperities.roughness")
+                 ->type_name("KEY"));
+  command
+      ->add_option("--thermal-coefficients", bearing->thermal_coefficients,
+                   "Stiffness and damping with temperatures as they are (frozen, the default) or as they follow the "
+                   "motion (total)")
+      ->check(CLI::IsMember({"frozen", "total"}).description(""))
+      ->type_name("frozen|total");
+  command->add_option("--jobs", bearing->jobs, "Solutions at the same time (default: one per processor)")
+      ->check(CLI::PositiveNumber);
+  add_threads(*command, bearing->threads);
+  commands.push_back({command, [bearing] {
+                        use_threads(bearing->threads);
+                        return bearing_command(*bearing);
+                      }});
+}
+
+}  // namespace
+
+void add_run_commands(CLI::App& app, Commands& commands) {
+  add_run(app, commands);
+  add_check(app, commands);
+  add_report(app, commands);
+  add_bearing(app, commands);
+}
+
+}  // namespace hersey::cli

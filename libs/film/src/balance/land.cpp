@@ -1,0 +1,96 @@
+// What flows from a feature over the land to an edge within the same cell (film.22).
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "balance/flow_balance.h"
+#include "hersey/core/turn.h"
+
+namespace hersey::film {
+
+// On an edge no pressure can follow the shorter way from where a feature ends within the last cell: the flow over that
+// land is known from both pressures, and no row sees it.
+void FlowBalance::find_strips(int f, double phi, double u) {
+  const SurfaceFeature& feature = model_.features[static_cast<std::size_t>(f)];
+  if (feature.shape != FeatureShape::rectangle) return;
+  const Grid& grid = model_.grid;
+  const double half = 0.5 * feature.length;
+  for (const int j : {0, grid.n_z - 1}) {
+    if (!edge_row(j) && !open_row(j)) continue;
+    const int next = j == 0 ? 1 : j - 1;
+    const double tube = std::abs(geometry_.z[next] - geometry_.z[j]);
+    const double land = std::abs(geometry_.z[j] - feature.z) - half;
+    if (land <= as_written * feature.length || land >= tube || std::abs(geometry_.z[next] - feature.z) > half) continue;
+    for (int i = 0; i < grid.n_phi; ++i) {
+      const double back = 0.5 * geometry_.dx[(i + grid.n_phi - 1) % grid.n_phi], ahead = 0.5 * geometry_.dx[i];
+      const double middle = model_.R * std::remainder(phi - geometry_.phi[i], turn),
+                   reach = 0.5 * model_.R * feature.arc;
+      const int node = grid.index(i, j);
+      bool touches = false;
+      for (const double image : {-turn * model_.R, 0.0, turn * model_.R}) {
+        const double from = std::max(-back, middle + image - reach), to = std::min(ahead, middle + image + reach);
+        if (from >= to) continue;
+        strips_.push_back({node, grid.index(i, next), f, from, to, 1 / land - 1 / tube, u});
+        touches = true;
+      }
+      if (touches) hold({.node = node, .feature = f, .u = u, .inwards = -land / half}, true);
+    }
+  }
+}
+
+// Where features overlap the oil takes the shortest land: their order is no matter.
+void FlowBalance::unite_lands() {
+  std::stable_sort(strips_.begin(), strips_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  for (auto first = strips_.begin(); first != strips_.end();) {
+    const auto last = std::find_if(first, strips_.end(), [&](const LandStrip& s) { return s.node != first->node; });
+    const auto flow = [](const LandStrip& s) { return (s.to - s.from) * s.gain; };
+    const auto main = std::max_element(first, last, [&](const auto& a, const auto& b) { return flow(a) < flow(b); });
+    std::vector<double> borders;
+    for (auto strip = first; strip != last; ++strip) borders.insert(borders.end(), {strip->from, strip->to});
+    std::sort(borders.begin(), borders.end());
+    double conductance = 0;
+    for (std::size_t k = 1; k < borders.size(); ++k) {
+      const double middle = 0.5 * (borders[k - 1] + borders[k]);
+      double gain = 0;
+      for (auto strip = first; strip != last; ++strip)
+        if (strip->u == main->u && strip->from < middle && middle < strip->to) gain = std::max(gain, strip->gain);
+      conductance += gain * (borders[k] - borders[k - 1]);
+    }
+    land_index_[main->node] = static_cast<int>(lands_.size());
+    lands_.push_back({main->node, main->inside, main->feature, conductance, main->u});
+    first = last;
+  }
+}
+
+void FlowBalance::forget_lands() {
+  for (const Land& land : lands_) land_index_[land.node] = -1;
+  lands_.clear(), strips_.clear();
+}
+
+const FlowBalance::Land* FlowBalance::land_at(int node) const {
+  const int index = land_index_[node];
+  return index < 0 ? nullptr : &lands_[index];
+}
+
+double FlowBalance::drop_over_land(int node) const {
+  const Land* land = land_at(node);
+  const int j = node % model_.grid.n_z;
+  return land == nullptr ? 0 : land->u - (open_row(j) ? 0 : edge_unknown(j));
+}
+
+double FlowBalance::over_land(int node) const {
+  const Land* land = land_at(node);
+  if (land == nullptr) return 0;
+  const Node &edge = nodes_[node], &inside = nodes_[land->inside];
+  const auto mean = [&](double a, double b) { return 0.5 * (a + b); };
+  const double h = mean(edge.h, inside.h), fluidity = mean(edge.flow[1].value, inside.flow[1].value);
+  const double rough = mean(rough_[node].pressure[1], rough_[land->inside].pressure[1]);
+  const double k = land->conductance / 12 * h * h * h * fluidity * rough * mean(edge.density, inside.density);
+  return k * drop_over_land(node);
+}
+
+double FlowBalance::power_over_land(int node) const {
+  return over_land(node) * drop_over_land(node) / nodes_[node].density;
+}
+
+}  // namespace hersey::film
