@@ -25,6 +25,9 @@ constexpr double kCurvature = 3;
 constexpr int kMostOnChord = 3;
 constexpr double kFarOnChord = 0.01;
 
+// Of the tolerance, what they may leave: they leave it, where Newton's method arrives far below.
+constexpr double kShareOnChord = 0.1;
+
 // A step of the journal over the smallest gap that needs no care.
 constexpr double kSmallStep = 0.05;
 
@@ -106,7 +109,7 @@ bool SteadySearch::on_chord(const Eigen::Vector2d& target) {
     x_ += film_.increment() + dx_de_ * de;
     if (((x.array() < 0) != (x_.array() < 0)).any()) break;
     *changed_ += off;
-    if (kCurvature * off * *changed_ <= rtol_) return true;
+    if (kCurvature * off * *changed_ <= kShareOnChord * rtol_) return true;
   }
   e_ = e, x_ = x;
   changed_.reset();
