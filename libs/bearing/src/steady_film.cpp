@@ -296,6 +296,14 @@ film::FilmDomain SteadyFilm::linearise(const Eigen::Vector2d& e, const VectorXd&
   return domain;
 }
 
+film::FilmDomain SteadyFilm::chord_about(const Eigen::Vector2d& e, const VectorXd& x) {
+  const film::FilmDomain domain = reynolds_.chord_increment(surfaces(e, x), history_, x, dx_);
+  if (!domain.is_inside()) return domain;
+  wrench_ = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(dx_);
+  force_ = wrench_.segment<2>(3);
+  return domain;
+}
+
 /// The shell's body takes its wrench in its own axes, in which a frame of it may turn.
 VectorXd SteadyFilm::answer(const VectorXd& Q, const Vector6& W) const {
   return C_ * Q + C_W_now_ * (about_z(turn_in_body_) * W);

@@ -65,6 +65,15 @@ class SteadyFilm {
   /// The same, the film found first at this deformation where a step has moved its fronts far: else Newton runs after
   /// them. @return linearisations, 0 where there is no film
   [[nodiscard]] int linearise_near(const Eigen::Vector2d& e, Eigen::VectorXd& x);
+  /// After a step of Newton's method from the last linearisation, of a film between surfaces that do not deform: fronts
+  /// it has moved go all the way.
+  void let_fronts_follow(Eigen::VectorXd& x) const {
+    if (!deforms()) reynolds_.let_fronts_follow(x);
+  }
+  /// Whether the last linearisation has a factor for chord_about().
+  [[nodiscard]] bool has_factor() const { return !deforms() && reynolds_.has_factor(); }
+  /// Residual, increment and force at a state nearby, with the derivatives of the last linearisation. @pre has_factor()
+  [[nodiscard]] film::FilmDomain chord_about(const Eigen::Vector2d& e, const Eigen::VectorXd& x);
   /// Of the film, and of the deformation as the largest error of the gap over the clearance.
   [[nodiscard]] double relative_residual() const;
   /// Newton's increment of x at a fixed journal, and the force on the shell after it, in the bearing's axes as they

@@ -65,6 +65,13 @@ void tell_runaway(const film::HeatObservables& seen, bool has_lost_film, SteadyS
   }
 }
 
+// Of the film in the next turn: all that was asked for where that may be the last, as a turn brings temperatures nearer
+// by a factor of ten or so.
+double film_tolerance(const SteadyOptions& options, double nearness) {
+  const double near = kShareOfNearness * nearness;
+  return near <= 10 * kHeatTolerance ? options.rtol : std::max(options.rtol, std::min(kCoarsest, near));
+}
+
 // Film and temperature in turn until the film's temperatures, and the clearance with those of its walls, stay.
 // @param network  of walls that are nodes; null: none is
 SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& options, double nearness,
@@ -80,7 +87,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     summary.set_solved(false);
     if (is_open) {
       search.set_growth(path.growth());
-      search.set_tolerance(std::max(options.rtol, std::min(kCoarsest, kShareOfNearness * path.nearness())));
+      search.set_tolerance(film_tolerance(options, path.nearness()));
       search.set_viscosity(path.heat().viscosity());
       search.set_thermal_shapes(std::move(shell), std::move(journal));
       summary = search.has_film() ? search.once_more() : search.solve();
@@ -133,7 +140,7 @@ void begin_on_half_grid(const film::FilmModel& model, const OperatingPoint& poin
   const double fill = film::fill_scale(model) / film::fill_scale(half);
   search.begin_at(search_there.position(),
                   transfer(search_there.film().unaryExpr([fill](double u) { return u < 0 ? fill * u : u; })));
-  path.begin_at(transfer(path_there.heat().state().film, thermal.layers));
+  path.begin_at(path_there, transfer);
 }
 
 }  // namespace

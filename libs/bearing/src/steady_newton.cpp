@@ -21,6 +21,13 @@ constexpr double kForceFloor = 1e-6;
 // What Newton's method leaves of a small residual is this many times its square.
 constexpr double kCurvature = 3;
 
+// Steps of the chord method in one turn at most, and what may be missing for a first one.
+constexpr int kMostOnChord = 3;
+constexpr double kFarOnChord = 0.01;
+
+// Of the tolerance, what they may leave: they leave it, where Newton's method arrives far below.
+constexpr double kShareOnChord = 0.1;
+
 // A step of the journal over the smallest gap that needs no care.
 constexpr double kSmallStep = 0.05;
 
@@ -80,11 +87,33 @@ bool SteadySearch::one_step(const Eigen::Vector2d& target) {
   if (kCurvature * off * off > rtol_) return false;
   Columns dW;
   respond(2, dx_de_, dW);
-  const Eigen::Vector2d de = film_.change_of_force(dx_de_, dW).fullPivLu().solve(target - force_);
+  K_ = film_.change_of_force(dx_de_, dW);
+  const Eigen::Vector2d de = K_.fullPivLu().solve(target - force_);
   if (!(de.norm() < kSmallStep * gap_at(e_))) return false;
   e_ += de;
   x_ += film_.increment() + dx_de_ * de;
+  if (film_.has_factor()) changed_ = off;
   return true;
+}
+
+bool SteadySearch::on_chord(const Eigen::Vector2d& target) {
+  if (!changed_) return false;
+  const Eigen::Vector2d e = e_;
+  const Eigen::VectorXd x = x_;
+  for (int k = 0; k < kMostOnChord && film_.chord_about(e_, x_).is_inside(); ++k) {
+    force_ = film_.force();
+    const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());
+    const Eigen::Vector2d de = K_.fullPivLu().solve(target - force_);
+    if (!(off < kFarOnChord && de.norm() < kSmallStep * gap_at(e))) break;
+    e_ += de;
+    x_ += film_.increment() + dx_de_ * de;
+    if (((x.array() < 0) != (x_.array() < 0)).any()) break;
+    *changed_ += off;
+    if (kCurvature * off * *changed_ <= kShareOnChord * rtol_) return true;
+  }
+  e_ = e, x_ = x;
+  changed_.reset();
+  return false;
 }
 
 bool SteadySearch::together(const Eigen::Vector2d& target) {
@@ -101,6 +130,7 @@ bool SteadySearch::together(const Eigen::Vector2d& target) {
     e_ += step.de;
     const Eigen::VectorXd film = x_;
     x_ += step.dx;
+    film_.let_fronts_follow(x_);
     if (stands_inside() && !turns_far(from, e_) && linearise()) continue;
     x_ = film;
     if (!film_at(e_)) return false;

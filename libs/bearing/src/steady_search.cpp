@@ -98,7 +98,7 @@ SteadySummary SteadySearch::once_more() {
   budget_ = summary_.iterations + options_.max_linearisations;
   const Eigen::Vector2d e = e_;
   const Eigen::VectorXd x = x_;
-  summary_.set_solved(linearise() && (one_step(*point_.load) || together(*point_.load)));
+  summary_.set_solved(on_chord(*point_.load) || (linearise() && (one_step(*point_.load) || together(*point_.load))));
   if (!summary_.solved()) {
     x_ = x;
     summary_.set_solved(film_at(e) && together(*point_.load));
@@ -175,6 +175,7 @@ bool SteadySearch::bears_nothing() {
 }
 
 bool SteadySearch::linearise() {
+  changed_.reset();
   const int linearisations = film_.linearise_near(e_, x_);
   force_ = film_.force();
   summary_.iterations += linearisations;

@@ -148,6 +148,10 @@ class SteadySearch {
   /// Near the answer one step of Newton's method from the present linearisation is enough, and known to be.
   [[nodiscard]] bool one_step(const Eigen::Vector2d& target);
 
+  /// Likewise by steps of the chord method, from where the last such step has led, with its linearisation: what they
+  /// leave is what is missing times all that has changed since. Not where nodes fill or empty.
+  [[nodiscard]] bool on_chord(const Eigen::Vector2d& target);
+
   /// Newton on film and position at once: one linearisation per iteration.
   [[nodiscard]] bool together(const Eigen::Vector2d& target);
 
@@ -202,6 +206,8 @@ class SteadySearch {
   Eigen::Vector2d e_ = Eigen::Vector2d::Zero(), force_ = Eigen::Vector2d::Zero();
   Eigen::VectorXd x_;  // film and deformation
   Eigen::MatrixXd dx_de_;
+  Eigen::Matrix2d K_ = Eigen::Matrix2d::Zero();  // change of the force with the position in the last one_step()
+  std::optional<double> changed_;                // by how much of itself the film has since; unset: there is none
   SteadySummary summary_;
   Limit limit_;
   double rtol_ = options_.rtol;

@@ -78,11 +78,22 @@ void TemperaturePath::try_next(const Eigen::VectorXd& x) {
   try_next(std::move(next), per_metre_ > 0 ? x[x.size() - 1] / per_metre_ : 0);
 }
 
-void TemperaturePath::begin_at(Eigen::VectorXd film) {
+void TemperaturePath::begin_at(const TemperaturePath& other, const film::GridTransfer& transfer) {
   T_oil_.reset();
   film::HeatState state = heat_.state();
-  state.film = std::move(film);
+  state.film = transfer(other.heat_.state().film, thermal_.layers);
+  const Eigen::Index film = state.film.size(), thinning = state.thinning.size();
+  const Eigen::Index film_there = other.heat_.state().film.size(), thinning_there = other.heat_.state().thinning.size();
   try_next(std::move(state), growth_);
+  mixing_.learn_from(other.mixing_, [&](const Eigen::VectorXd& x) {
+    Eigen::VectorXd here(film + thinning);
+    here.head(film) = transfer(x.head(film_there), thermal_.layers);
+    if (thinning == 0) return here;
+    // Of the layers' viscosities, then of each node's two factors of flow.
+    here.segment(film, film) = transfer(x.segment(film_there, film_there), thermal_.layers);
+    here.tail(thinning - film) = transfer(x.tail(thinning_there - film_there), 2);
+    return here;
+  });
 }
 
 void TemperaturePath::try_next(film::HeatState next, double growth) {

@@ -5,6 +5,7 @@
 
 #include "hersey/bearing/operating_point.h"
 #include "hersey/film/film_heat.h"
+#include "hersey/film/grid_transfer.h"
 #include "hersey/solver/fixed_point_iteration.h"
 
 namespace hersey::bearing {
@@ -24,8 +25,9 @@ class TemperaturePath {
   TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal, const OperatingPoint& point,
                   const std::optional<film::HeatState>& start);
 
-  /// Begins with these temperatures of the layers [K] instead.
-  void begin_at(Eigen::VectorXd film);
+  /// Begins instead with the temperatures of the layers of the same film on another grid, and with what the way there
+  /// has shown of how film and temperatures follow each other. For walls whose heat moves nothing.
+  void begin_at(const TemperaturePath& other, const film::GridTransfer& transfer);
 
   /// At the temperatures to be tried; once their film has been found, whoever found it advances it.
   [[nodiscard]] film::FilmHeat& heat() { return heat_; }

@@ -47,6 +47,54 @@ TEST_CASE("OneWall_IsTheMiddleOfABearingOfTwiceTheWidth") {
   }
 }
 
+// The factor of a film nearby leaves of a residual its own size times how far the film has moved since.
+TEST_CASE("ChordIncrement_LeavesWhatHasChangedTimesWhatIsMissing") {
+  const FilmModel m = big_end(Cavitation::mass_conserving);
+  SolvedFilm film = solve_cold(m, turning(m, 0.7, omega));
+  REQUIRE(film.summary.solved());
+  Reynolds reynolds(m);
+  Eigen::VectorXd du;
+  REQUIRE(reynolds.linearise(surfaces(m, turning(m, 0.7, omega)), {}, film.u).is_inside());
+  CHECK_FALSE(reynolds.has_factor());
+  reynolds.newton_increment(du);
+  REQUIRE(reynolds.has_factor());
+  const double moved = 1e-4;
+  const SurfaceMotion nearby = surfaces(m, turning(m, 0.7 + moved, omega));
+  REQUIRE(reynolds.chord_increment(nearby, {}, film.u, du).is_inside());
+  const double missing = reynolds.relative_residual();
+  const Vector6 wrench = reynolds.wrench_on_shell();
+  Reynolds anew(m);
+  REQUIRE(anew.linearise(nearby, {}, film.u).is_inside());
+  CHECK(anew.relative_residual() == missing);
+  CHECK(anew.wrench_on_shell() == wrench);
+  REQUIRE(anew.linearise(nearby, {}, film.u + du).is_inside());
+  // h^3 in a gap of 0.3 c: a relative change of 3 moved/0.3.
+  CHECK(anew.relative_residual() < 10 * moved * missing);
+}
+
+// Oil that a groove gives an edge at the cavitation pressure runs along it; where there is none of it, all nodes
+// downstream empty at once.
+TEST_CASE("FrontAlongAnEdge_TakesFewIterations") {
+  FilmModel m{.R = 0.05, .L = 0.06, .c = 60e-6, .grid = {60, 13}};
+  m.features = {{.phi = pi / 2, .arc = pi / 9, .length = 0.045, .pressure = 1e5}};
+  const SurfaceMotion motion = surfaces(m, {.e = {0.4 * m.c, -0.5 * m.c}, .omega_journal = 314});
+  SolvedFilm film = solve_cold(m, motion, {0, 0});
+  REQUIRE(film.summary.solved());
+  Eigen::VectorXd u = film.u;
+  int emptied = 0;
+  for (int i = 0; i < m.grid.n_phi; ++i) {
+    for (const int j : {0, m.grid.n_z - 1}) {
+      if (double& at = u[m.grid.index(i, j)]; at < 0) at = 0.1 * film.fields.p.maxCoeff(), ++emptied;
+    }
+  }
+  REQUIRE(emptied > 20);
+  Reynolds reynolds(m);
+  const FilmSolveSummary again = solve_film(reynolds, motion, {}, {}, u);
+  CHECK(again.solved());
+  CHECK(again.iterations <= 5);
+  CHECK((u - film.u).norm() < solved * film.u.norm());
+}
+
 TEST_CASE("Sor_MeetsNewton") {
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
     for (const bool laws : {false, true}) {

@@ -95,6 +95,13 @@ Eigen::VectorXd FixedPointIteration::quasi_newton(const Eigen::VectorXd& image, 
   return image - C.leftCols(count) * (Q.leftCols(count).transpose() * residual);
 }
 
+void FixedPointIteration::learn_from(const FixedPointIteration& other,
+                                     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& transfer) {
+  residual_changes_.clear(), image_changes_.clear();
+  for (const Eigen::VectorXd& change : other.residual_changes_) residual_changes_.push_back(transfer(change));
+  for (const Eigen::VectorXd& change : other.image_changes_) image_changes_.push_back(transfer(change));
+}
+
 void FixedPointIteration::persist(Archive& archive) {
   const auto vector = [](Archive& a, Eigen::VectorXd& item) { a.io("change", item); };
   archive.io("omega", omega_);

@@ -50,6 +50,19 @@ TEST_CASE("Aitken_ConvergesWhereTheFullStepDiverges") {
   CHECK(iterations_to(1e-6, Acceleration::aitken, 1.0, 500) < 500);
 }
 
+TEST_CASE("WhatALikeExchangeHasShown_IsKnownFromTheStart") {
+  const StiffExchange F;
+  FixedPointIteration other(Acceleration::quasi_newton, 0.05), iteration(Acceleration::quasi_newton, 0.05);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
+  for (int k = 0; k < 8; ++k) x = other.next(x, F(x));
+  // The same exchange in other units.
+  const double unit = 7;
+  iteration.learn_from(other, [&](const Eigen::VectorXd& change) { return Eigen::VectorXd(unit * change); });
+  const Eigen::VectorXd start = Eigen::VectorXd::Zero(4);
+  const Eigen::VectorXd next = iteration.next(start, unit * F(start / unit));
+  CHECK((next - unit * F.solution()).norm() < 1e-6 * unit * F.solution().norm());  // its Jacobian is known to 1e-7
+}
+
 TEST_CASE("Memory_CarriesOverToTheNextStep") {
   const StiffExchange F;
   FixedPointIteration iteration(Acceleration::quasi_newton, 0.05);

@@ -53,7 +53,8 @@ class Fronts {
 
   void relax(int i, int j) {
     const int node = grid_.index(i, j);
-    if (balance_.edge_row(j) || balance_.open_row(j) || balance_.is_held(node)) return;
+    if (balance_.edge_row(j) || balance_.is_held(node)) return;
+    if (balance_.open_row(j) && ambient_fill(balance_.model(), j) > 0) return;  // oil comes in there
     const double storage_slope = balance_.nodes()[node].density * balance_.storage_by_content(node);
     Balance sum{balance_.storage(node) + storage_slope * (1 - balance_.nodes()[node].theta), storage_slope};
     add_face(node, balance_.face_after(i, j), sum);

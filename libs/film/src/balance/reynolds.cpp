@@ -218,6 +218,24 @@ void Reynolds::cautious_increment(Eigen::VectorXd& du) {
   m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
 }
 
+bool Reynolds::has_factor() const { return impl_->linearised && impl_->factorised; }
+
+FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
+                                     Eigen::VectorXd& du) {
+  Impl& m = *impl_;
+  HERSEY_REQUIRE(has_factor(), "a linearisation with a factor");
+  (void)m.summed_wrench();
+  const FilmDomain domain = m.balance.evaluate(motion, history, u);
+  if (!domain.is_inside()) {
+    m.linearised = m.summed = m.factorised = m.set_up = false;
+    return domain;
+  }
+  m.wrench.evaluate(m.balance, m.speeds, false);
+  du = -m.balance.residual();
+  m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
+  return {};
+}
+
 void Reynolds::let_fronts_follow(Eigen::VectorXd& u) const { film::let_fronts_follow(impl_->balance, u); }
 
 void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial) {

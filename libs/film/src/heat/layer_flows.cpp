@@ -132,15 +132,18 @@ void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench,
   whole.flow_features.setZero(static_cast<Eigen::Index>(model_.features.size()));
   add_powers(balance, motion, wrench, whole);
   double sum = 0;
+  std::vector<double> by_sliding(shares_.size());
   for (int k = 0; k < nodes; ++k) {
-    along_pressure[static_cast<std::size_t>(k)] += balance.power_of_tie(k) + balance.power_over_land(k);
-    sum += along_pressure[static_cast<std::size_t>(k)] + balance.area(k) * sliding_power(balance, wrench, motion, k);
+    const auto at_node = static_cast<std::size_t>(k);
+    along_pressure[at_node] += balance.power_of_tie(k) + balance.power_over_land(k);
+    by_sliding[at_node] = balance.area(k) * sliding_power(balance, wrench, motion, k);
+    sum += along_pressure[at_node] + by_sliding[at_node];
   }
   const double scale = sum > 0 ? whole.power_film / sum : 1;
   for (int k = 0; k < nodes; ++k) {
     const Node& node = balance.nodes()[k];
     const double mixed = node.share * balance.area(k) * node.h * balance.slip().dot(pressure_gradient(balance, k));
-    const double sliding = balance.area(k) * sliding_power(balance, wrench, motion, k);
+    const double sliding = by_sliding[static_cast<std::size_t>(k)];
     const LayerShares& of = shares_[static_cast<std::size_t>(k)];
     for (std::size_t l = 0; l < layers_; ++l) {
       heat_[at(static_cast<std::size_t>(k), static_cast<int>(l))] =

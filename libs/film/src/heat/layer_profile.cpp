@@ -1,8 +1,10 @@
 #include "heat/layer_profile.h"
 
 #include <algorithm>
+#include <array>
 
 #include "heat/layering.h"
+#include "hersey/film/thermal_model.h"
 
 namespace hersey::film {
 namespace {
@@ -13,26 +15,27 @@ constexpr double steepest = 0.9;
 /// Fluidities 1/mu across the film, in each layer f + s (eta - middle).
 class Fluidities {
  public:
-  Fluidities(std::span<const double> mu, WithinLayers within)
-      : mu_(mu), across_(layering_of(mu.size())), within_(within) {}
+  Fluidities(std::span<const double> mu, WithinLayers within) : across_(layering_of(mu.size())) {
+    const std::size_t n = mu.size();
+    for (std::size_t l = 0; l < n; ++l) lines_[l] = {1 / mu[l], 0};
+    if (n == 1 || within == WithinLayers::constant) return;
+    for (std::size_t l = 0; l < n; ++l) {
+      const double bound = steepest * lines_[l].f / (0.5 * across_.width(l));
+      lines_[l].s = std::clamp(slope(l, n), -bound, bound);
+    }
+  }
 
   /// That of a layer and its slope.
   struct Line {
-    double f = 0, s = 0;
+    double f, s;
   };
-  [[nodiscard]] Line operator()(std::size_t l) const {
-    const double f = 1 / mu_[l];
-    if (mu_.size() == 1 || within_ == WithinLayers::constant) return {f, 0};
-    const double bound = steepest * f / (0.5 * across_.width(l));
-    return {f, std::clamp(slope(l), -bound, bound)};
-  }
+  [[nodiscard]] const Line& operator()(std::size_t l) const { return lines_[l]; }
 
  private:
-  [[nodiscard]] double step(std::size_t l) const { return (1 / mu_[l + 1] - 1 / mu_[l]) / across_.to_next(l); }
+  [[nodiscard]] double step(std::size_t l) const { return (lines_[l + 1].f - lines_[l].f) / across_.to_next(l); }
 
   /// Of the parabola through a layer and both beside it; beside a wall through it and the next two.
-  [[nodiscard]] double slope(std::size_t l) const {
-    const std::size_t n = mu_.size();
+  [[nodiscard]] double slope(std::size_t l, std::size_t n) const {
     if (n == 2) return step(0);
     const std::size_t k = std::clamp<std::size_t>(l, 1, n - 2);
     const double a = across_.to_next(k - 1), b = across_.to_next(k), before = step(k - 1), after = step(k);
@@ -40,9 +43,8 @@ class Fluidities {
     return middle + 2 * bend * (across_.middle(l) - across_.middle(k));
   }
 
-  std::span<const double> mu_;
   const Layering& across_;
-  WithinLayers within_;
+  std::array<Line, most_layers> lines_;  // as many as there are layers
 };
 
 /// Integrals over the whole film of 1, y/h and (y/h)^2, over mu.
@@ -54,7 +56,7 @@ Moments moments_of(std::size_t n, const Fluidities& fluidity) {
   const Layering& layers = layering_of(n);
   Moments m;
   for (std::size_t l = 0; l < n; ++l) {
-    const auto [f, s] = fluidity(l);
+    const auto& [f, s] = fluidity(l);
     const double width = layers.width(l), middle = layers.middle(l), bent = width * width * width / 12;
     m.I0 += width * f;
     m.I1 += width * f * middle + bent * s;
@@ -66,7 +68,7 @@ Moments moments_of(std::size_t n, const Fluidities& fluidity) {
 }  // namespace
 
 LayerProfile profile_of(std::span<const double> mu, WithinLayers within) {
-  const auto [I0, I1, I2] = moments_of(mu.size(), {mu, within});
+  const auto [I0, I1, I2] = moments_of(mu.size(), Fluidities(mu, within));
   return {12 * (I2 - I1 * I1 / I0), I0, 2 * I1 / I0 - 1};
 }
 
@@ -83,7 +85,7 @@ void find_shares(std::span<const double> mu, WithinLayers within, LayerShares& s
   const double centre = I1 / I0, F2 = I2 - I1 * I1 / I0;
   double G0 = 0, G1 = 0;
   for (std::size_t l = 0; l < n; ++l) {
-    const auto [f, s] = fluidity(l);
+    const auto& [f, s] = fluidity(l);
     const double width = layers.width(l), middle = layers.middle(l), bent = width * width * width / 12;
     const double int_G0 = width * (G0 + 0.5 * width * f) - bent * s;
     const double int_G1 = width * (G1 + 0.5 * width * middle * f) - bent * (f + middle * s) + 0.5 * width * bent * s;

@@ -81,6 +81,14 @@ class Reynolds {
   /// Jacobian is all but singular and its own increment runs away.
   void cautious_increment(Eigen::VectorXd& du);
 
+  /// A step of the chord method: du = -J^{-1} residual(u) with the factor that the last linearisation has. Residual and
+  /// wrench are then those at `u`, all derivatives still those of that linearisation. Says where `u` lies outside the
+  /// domain, and is then without a linearisation. @pre has_factor()
+  FilmDomain chord_increment(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
+                             Eigen::VectorXd& du);
+  /// Whether the last linearisation has been factorised.
+  [[nodiscard]] bool has_factor() const;
+
   /// Empties the nodes downstream of those that the step to `u` from the last linearisation has emptied, as far as they
   /// live on their oil: fronts then follow in one iteration instead of one per node.
   void let_fronts_follow(Eigen::VectorXd& u) const;

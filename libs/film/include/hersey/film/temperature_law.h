@@ -68,6 +68,8 @@ struct WaltherViscosity {
   [[nodiscard]] ValueAndSlope kinematic(double T) const;
   /// Of the dynamic viscosity.
   [[nodiscard]] ValueAndSlope log_viscosity(double T) const;
+  /// Itself [Pa s], at two thirds of what its logarithm takes.
+  [[nodiscard]] double viscosity(double T) const { return kinematic(T).value * density(T); }
   /// Density [kg/m^3].
   [[nodiscard]] double density(double T) const { return density_at(T, rho15, expansion); }
 };
@@ -85,7 +87,11 @@ using TemperatureLaw =
 
 /// Viscosity at the cavitation pressure [Pa s].
 [[nodiscard]] inline double viscosity_at(const TemperatureLaw& law, double T) {
-  return std::exp(std::visit([T](const auto& l) { return l.log_viscosity(T).value; }, law));
+  const auto at = [T](const auto& l) {
+    if constexpr (requires { l.viscosity(T); }) return l.viscosity(T);
+    return std::exp(l.log_viscosity(T).value);
+  };
+  return std::visit(at, law);
 }
 
 /// Whether the viscosity knows temperatures.

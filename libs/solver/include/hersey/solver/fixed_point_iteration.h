@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <vector>
 
 #include "hersey/core/archive.h"
@@ -25,6 +26,10 @@ class FixedPointIteration {
 
   /// The next x after F(x) came out as `image`. All entries should be of comparable size.
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image);
+
+  /// Begins with the changes that a like system has shown, such as one on another grid, carried over by `transfer`.
+  void learn_from(const FixedPointIteration& other,
+                  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& transfer);
 
   /// What it remembers.
   void persist(Archive& archive);
