@@ -20,8 +20,13 @@ namespace hersey::bearing {
 namespace {
 
 // Turns of film and temperature, and the change of temperatures over the largest rise (plus 1 K) at which they end.
-constexpr int kMostHeatIterations = 150;
+constexpr int kMostHeatIterations = 300;
 constexpr double kHeatTolerance = 1e-8;
+
+// Where more heat passes through the film than is made in it, the balance asks for more: for this error of it, if so
+// many further turns come to it.
+constexpr double kBalanceTolerance = 5e-8;
+constexpr int kTurnsForTheBalance = 40;
 
 // On half the grid they come as near as its films are to those on the whole one.
 constexpr double kHalfGridTolerance = 0.1;
@@ -78,6 +83,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
                             SteadySearch& search, TemperaturePath& path, film::ThermalNetwork* network) {
   SteadySummary summary;
   double clearance_before = 0;
+  int turns_near = 0;
   for (int k = 0; k < kMostHeatIterations; ++k) {
     Eigen::VectorXd shell = path.heat().shell_opening();
     Eigen::VectorXd journal = film::around(model.grid, path.heat().journal_growth());
@@ -105,7 +111,11 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     search.heat(path.heat());
     if (network != nullptr) balance(*network, path.heat());
     path.take();
-    if (path.nearness() <= nearness && (nearness > kHeatTolerance || search.is_settled())) {
+    const bool is_near = path.nearness() <= nearness, is_only_begun = nearness > kHeatTolerance;
+    const auto is_balanced = [&] {
+      return path.heat().observables().balance.error() <= kBalanceTolerance || ++turns_near > kTurnsForTheBalance;
+    };
+    if (is_near && (is_only_begun || (search.is_settled() && is_balanced()))) {
       tell_runaway(path.heat().observables(), false, summary);
       return summary;
     }

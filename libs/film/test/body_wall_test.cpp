@@ -61,8 +61,8 @@ TEST_CASE("RingAsABody_IsTheRing") {
   CHECK((by_ring.temperatures.hottest - by_body.temperatures.hottest).cwiseAbs().maxCoeff() < solved);
   CHECK(by_body.heat.balance.to_shell == relative(by_ring.heat.balance.to_shell).epsilon(1e-7));  // by that
   CHECK(by_body.heat.balance.to_shell > 50);
-  CHECK(by_body.heat.balance.error() < 1e-8);           // the film's residual
-  CHECK(by_body.iterations <= by_ring.iterations + 3);  // of 11: all angles of a body answer heat at once
+  CHECK(by_body.heat.balance.error() < 1e-8);  // the film's residual
+  CHECK(by_body.iterations <= 14);             // the ring, a part of the film's equations, takes 11
 }
 
 TEST_CASE("HeatIntoABody_IsThatOfTheBalance_AndItsTemperaturesFollow") {
