@@ -6,7 +6,7 @@
 
 namespace hersey::bearing {
 
-/// How the clearance moves with the temperatures of its walls from step to step (theory manual, thermal.42).
+/// How the clearance moves with the temperatures of its walls from step to step (theory manual, thermal.43).
 class ClearanceGrowth {
  public:
   /// Where a run starts. @param growth  [m]

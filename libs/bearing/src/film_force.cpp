@@ -72,7 +72,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
 
 FilmForce::~FilmForce() = default;
 
-// By the walls as they are now (thermal.41).
+// By the walls as they are now (thermal.42).
 double FilmForce::growth_by_temperature() const {
   if (!heat_) return options_.growth;
   const std::optional<film::ThermalExpansion>& walls = heat_->thermal().expansion;
@@ -80,7 +80,7 @@ double FilmForce::growth_by_temperature() const {
   return walls ? walls->growth(model().R, seen.T_shell_wall, seen.T_journal_wall) : 0;
 }
 
-// Of a journal in a body, at the nodes (thermal.60, thermal.61).
+// Of a journal in a body, at the nodes (thermal.61, thermal.62).
 Eigen::VectorXd FilmForce::journal_shape_by_temperature() const {
   return film::around(model().grid, heat_->journal_growth_in_time());
 }
@@ -425,7 +425,7 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   seen.power_into_bodies = -seen.wrench_on_shell.dot(motion.V_AB_A);
   if (deforming_->deform())
     seen.power_into_bodies += (deforming_->openings().transpose() * seen.film.normal_forces).dot(motion.s_rate);
-  // Walls that grow apart are pushed on as shapes that open the gap everywhere are (thermal.43).
+  // Walls that grow apart are pushed on as shapes that open the gap everywhere are (thermal.44).
   seen.power_of_growth = growth_->rate() * seen.film.normal_forces.sum();
   if (thermal_shape_->moves()) seen.power_of_growth += thermal_shape_->rate().dot(seen.film.normal_forces);
   if (journal_shape_->moves()) seen.power_of_growth -= journal_shape_->rate().dot(seen.film.normal_forces);

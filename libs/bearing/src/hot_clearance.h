@@ -8,14 +8,14 @@
 
 namespace hersey::bearing {
 
-/// Radial clearance at temperature where a bearing is tightest along its axis (theory manual, thermal.63).
+/// Radial clearance at temperature where a bearing is tightest along its axis (theory manual, thermal.64).
 struct HotClearance {
   double smallest = 0;     ///< mean around, there [m]
   double z = 0;            ///< where along the axis [m]
   bool has_shape = false;  ///< it differs along the axis
 };
 
-/// @param growth  of the clearance by the walls' coefficients [m] (thermal.41)
+/// @param growth  of the clearance by the walls' coefficients [m] (thermal.42)
 /// @param shell, journal  how far these lie outside their cylinders at the nodes by temperature [m]; empty: nowhere
 [[nodiscard]] HotClearance hot_clearance(const film::FilmModel& model, double growth, const Eigen::VectorXd& shell,
                                          const Eigen::VectorXd& journal);

@@ -39,8 +39,8 @@ class SteadyFilm {
 
   /// Viscosities by the oil's temperatures from now on.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
-  /// How far shell and journal lie outside their cylinders at the nodes by temperature from now on [m] (thermal.35,
-  /// thermal.60); empty: nowhere.
+  /// How far shell and journal lie outside their cylinders at the nodes by temperature from now on [m] (thermal.36,
+  /// thermal.61); empty: nowhere.
   void set_thermal_shapes(Eigen::VectorXd shell, Eigen::VectorXd journal) {
     thermal_shape_ = std::move(shell), journal_shape_ = std::move(journal);
   }

@@ -41,7 +41,7 @@ constexpr double kLeastLeft = 0.4;
 // No film is solved less well than this: none at all would do.
 constexpr double kCoarsest = 1e-3;
 
-// Bodies of a network in balance with the film's heat, and the film with their temperatures (thermal.47).
+// Bodies of a network in balance with the film's heat, and the film with their temperatures (thermal.48).
 void balance(film::ThermalNetwork& network, film::FilmHeat& heat) {
   const film::FilmTerminals at = film::terminals_of(heat.thermal());
   network.advance(0, {{at, heat.exchange()}});

@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "hersey/film/film_solver.h"
 #include "steady_search.h"
 
 // Newton's method on film and position (bearing.18).
@@ -77,7 +78,9 @@ bool SteadySearch::turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d&
 bool SteadySearch::settled(const Eigen::Vector2d& target) {
   summary_.force_error = (force_ - target).norm() / target.norm();
   if (summary_.force_error > rtol_ || film_.relative_residual() > rtol_) return false;
-  x_ += film_.increment();
+  const Eigen::VectorXd x = x_ + film_.increment();
+  if (film::emptiest_node(model_, film_.film_of(x)) >= 0) return false;
+  x_ = x;
   return true;
 }
 
@@ -96,6 +99,7 @@ bool SteadySearch::one_step(const Eigen::Vector2d& target) {
   return true;
 }
 
+// (thermal.31)
 bool SteadySearch::on_chord(const Eigen::Vector2d& target) {
   if (!changed_) return false;
   const Eigen::Vector2d e = e_;
@@ -122,6 +126,8 @@ bool SteadySearch::together(const Eigen::Vector2d& target) {
   int idle = 0;
   for (int k = 0; k < options_.max_iterations && idle < kPatience; ++k) {
     if (settled(target)) return true;
+    // Where the equations hold with less than no oil somewhere, the film's own way out of there.
+    if (film::emptiest_node(model_, film_.film_of(x_)) >= 0 && !film_at(e_)) return false;
     const double now = distance_to(target) + film_.relative_residual();
     idle = now < 0.5 * best ? 0 : idle + 1;
     best = std::min(best, now);

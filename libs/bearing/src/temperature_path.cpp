@@ -40,7 +40,7 @@ TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::Therm
   }
 }
 
-// By the walls as they are now (thermal.41).
+// By the walls as they are now (thermal.42).
 double TemperaturePath::called_for() const {
   if (per_metre_ == 0) return 0;
   const film::HeatObservables& seen = heat_.observables();

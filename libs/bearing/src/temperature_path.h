@@ -61,7 +61,7 @@ class TemperaturePath {
   const film::ThermalModel& thermal_;
   film::FilmHeat heat_;
   solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
-  /// (thermal.37): heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
+  /// (thermal.38): heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
   double per_watt_ = 0;
   double journal_per_watt_ = 0;  ///< likewise all of the heat into the journal's body
   double per_metre_ = 0;         ///< a growth of the clearance as a temperature [K/m]; 0: walls keep their size

@@ -9,7 +9,7 @@
 namespace hersey::bearing {
 
 /// How the shape that heat gives a shell moves with the cycles at whose ends its body settles (theory manual,
-/// thermal.57): as ClearanceGrowth does, node by node.
+/// thermal.58): as ClearanceGrowth does, node by node.
 class ThermalShape {
  public:
   /// Where a run starts. @param shape  outwards, at the nodes [m]; empty: the shell keeps its shape

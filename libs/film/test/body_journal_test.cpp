@@ -148,7 +148,7 @@ TEST_CASE("JournalOverCycles_IsThatOfTheSteadyFilm") {
       CHECK(machine.heat.observables().balance.error() < 1e-7);  // the film's residual
       last = machine.settle();
       const HeatState& now = machine.heat.state();
-      CHECK(std::abs(now.journal - (T_air + g * now.journal_heat)) < 1e-9);  // K, round-off of 300 by (thermal.62)
+      CHECK(std::abs(now.journal - (T_air + g * now.journal_heat)) < 1e-9);  // K, round-off of 300 by (thermal.63)
     }
     constexpr double settled = 1e-3;  // K, what the last corrections amount to
     CHECK(last < settled);

@@ -59,7 +59,7 @@ TEST_CASE("BodyOverCycles_IsThatOfTheSteadyFilm") {
     CHECK(machine.heat.observables().balance.error() < 1e-7);  // the film's residual
     last = machine.settle().largest;
     const HeatState& now = machine.heat.state();
-    // Temperatures and heat are those of one state of the body: of (thermal.56), which is solved exactly.
+    // Temperatures and heat are those of one state of the body: of (thermal.57), which is solved exactly.
     CHECK((now.shell - wall.temperatures(now.wall_heat)).cwiseAbs().maxCoeff() < 1e-9);  // K, round-off of 300
   }
   constexpr double settled = 1e-3;  // K, what the last corrections amount to

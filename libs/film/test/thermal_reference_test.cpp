@@ -75,7 +75,7 @@ TEST_CASE("CopesBearingThatLosesOil_IsThatOfAnIndependentProgram") {
 }
 
 // Between walls at 60 degC. The program takes the temperature across the film for a parabola through its mean and both
-// walls, which gives each of these 6 k (T - T_wall)/h; one layer gives it 2 k (T - T_wall)/h (thermal.52), so that a
+// walls, which gives each of these 6 k (T - T_wall)/h; one layer gives it 2 k (T - T_wall)/h (thermal.53), so that a
 // layer of oil of three times the conductivity is that parabola.
 TEST_CASE("ParabolaAcrossTheFilm_IsALayerOfThreeTimesTheConductivity") {
   Case c = cope("P1", 0.1, 0.6, {55287.1, 52.5018, 1.31518e7, 46.9333, 59.2843, 2405.26, 3.76819e-5});

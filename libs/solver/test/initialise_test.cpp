@@ -131,7 +131,7 @@ TEST_CASE("LongChain_NeedsNoDenseDecompositionWhereItsConditionIsPoor") {
   REQUIRE(s.undetermined.empty());
   VectorXd found(5 * units);
   found << s.vdot, s.lambda;
-  CHECK((S * found - b).norm() < 1e-13 * b.norm());
+  CHECK((S * found - b).norm() < 1e-13 * b.norm());  // refined until it is round-off
   // Round-off times the condition of two rows 1e-6 apart, once for motions and squared for multipliers.
   CHECK((s.vdot - vdot).norm() < 1e-8 * vdot.norm());
 }

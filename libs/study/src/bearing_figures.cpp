@@ -320,7 +320,7 @@ double journal_distortion(const Solution& s) {
   return (s.state.journal_shape.array() - journal_growth(s)).abs().maxCoeff();
 }
 
-/// With both (thermal.63), the mean along.
+/// With both (thermal.64), the mean along.
 double clearance_of_bodies(const Solution& s) {
   double c = bearing::clearance(s.model, s.state.point);
   if (has_thermal_shape(s)) c += growth(s);

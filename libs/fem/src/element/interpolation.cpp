@@ -1,5 +1,7 @@
 #include "element/interpolation.h"
 
+#include "hersey/core/contract.h"
+
 namespace hersey::fem {
 namespace {
 
@@ -106,6 +108,19 @@ Eigen::Matrix3Xd with_middles(const Eigen::Matrix3Xd& corners, std::span<const E
   Eigen::Index a = corners.cols();
   for (const auto& [i, j] : edges) xi.col(a++) = (corners.col(i) + corners.col(j)) / 2;
   return xi;
+}
+
+FaceShape face_shape(int nodes, double xi, double eta) {
+  HERSEY_REQUIRE(nodes == 3 || nodes == 4 || nodes == 6 || nodes == 8, "faces are triangles or squares");
+  constexpr std::array<Edge, 3> triangle_edges = {{{0, 1}, {1, 2}, {2, 0}}};
+  constexpr std::array<Edge, 4> square_edges = {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+  constexpr std::array<Signs, 4> square_corners = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
+  const Vector3 at(xi, eta, 0);
+  const ShapeFunctions s = nodes == 3   ? linear_simplex(Barycentric(at, 2), 3)
+                           : nodes == 6 ? quadratic_simplex(Barycentric(at, 2), 3, triangle_edges)
+                           : nodes == 4 ? multilinear(2, square_corners, at)
+                                        : serendipity(2, square_corners, square_edges, at);
+  return {s.N, s.dN.leftCols<2>()};
 }
 
 }  // namespace hersey::fem

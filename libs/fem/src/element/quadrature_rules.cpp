@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hersey/core/contract.h"
+
 namespace hersey::fem {
 namespace {
 
@@ -84,5 +86,11 @@ QuadratureRule tetrahedron_degree_5() {
 }
 
 QuadratureRule tetrahedron_centre() { return {{{0.25, 0.25, 0.25}, 1.0 / 6}}; }
+
+const std::vector<QuadraturePoint>& face_points(int nodes) {
+  static const QuadratureRule triangle = triangle_degree_5(), square = square_rule(gauss_3());
+  HERSEY_REQUIRE(nodes == 3 || nodes == 4 || nodes == 6 || nodes == 8, "faces are triangles or squares");
+  return nodes == 3 || nodes == 6 ? triangle : square;
+}
 
 }  // namespace hersey::fem

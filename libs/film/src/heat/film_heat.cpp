@@ -253,7 +253,7 @@ Eigen::VectorXd FilmHeat::shell_opening() const {
   return wall == nullptr || !wall->deforms() ? Eigen::VectorXd() : wall->shape(impl_->state.wall_heat);
 }
 
-// Before it has settled the body is as warm everywhere (thermal.38).
+// Before it has settled the body is as warm everywhere (thermal.39).
 Eigen::VectorXd FilmHeat::shell_opening_in_time() const {
   const WallConduction* wall = conduction_of(impl_->thermal.shell);
   if (wall == nullptr || !wall->deforms() || impl_->has_settled) return shell_opening();
@@ -265,7 +265,7 @@ Eigen::VectorXd FilmHeat::journal_growth() const {
   return journal == nullptr || !journal->deforms() ? Eigen::VectorXd() : journal->shape(impl_->state.journal_heat);
 }
 
-// Likewise (thermal.61).
+// Likewise (thermal.62).
 Eigen::VectorXd FilmHeat::journal_growth_in_time() const {
   const JournalConduction* journal = conduction_of(impl_->thermal.journal);
   if (journal == nullptr || !journal->deforms() || impl_->has_settled) return journal_growth();
@@ -327,7 +327,7 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   if (terminals_of(m.thermal).has_any() && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
 }
 
-// What walls that are nodes take up, and by how much more of a film that follows them (thermal.45).
+// What walls that are nodes take up, and by how much more of a film that follows them (thermal.46).
 void FilmHeat::Impl::find_exchange() {
   const CarryingFilm film = carrying();
   const Eigen::Index outside = state.outside.size(), n = 2 + outside;

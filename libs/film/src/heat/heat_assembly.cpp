@@ -116,7 +116,7 @@ void HeatEquations::add_flow(const Upstream& way, int layer, double q) {
 }
 
 // With the mean temperature of both layers, second order, where conduction between them is not next to nothing beside
-// what flows; beyond, towards that upstream (thermal.51).
+// what flows; beyond, towards that upstream (thermal.52).
 void HeatEquations::add_flow_upwards(const CarryingFilm& film) {
   for (int node = 0; node < model_.grid.size(); ++node) {
     for (int l = 0; l + 1 < layers(); ++l) {
@@ -158,7 +158,7 @@ void HeatEquations::add_conduction(const CarryingFilm& film) {
   }
 }
 
-// A wall without heat leaves its share of what asperities dissipate to the oil (thermal.53).
+// A wall without heat leaves its share of what asperities dissipate to the oil (thermal.54).
 void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) {
   const bool is_insulated = !conducts(thermal_.shell);
   const bool has_rows = has_own_temperatures(thermal_.shell);
@@ -187,7 +187,7 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
   if (const WallConduction* body = conduction_of(thermal_.shell)) add_body(*body, film, start);
 }
 
-// A steady body answers all of the heat at once (thermal.36); over a step it keeps its temperatures. Where these are
+// A steady body answers all of the heat at once (thermal.37); over a step it keeps its temperatures. Where these are
 // held for a cycle the rows are first balances of heat, of which the mean is taken.
 void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start) {
   const int n = model_.grid.n_phi, first = system_.ring_row(0);
@@ -298,7 +298,7 @@ void HeatEquations::renew(const CarryingFilm& film) {
 }
 
 // The balance of a free journal (thermal.13). One in a body passes all of its heat on through the body's resistance,
-// (thermal.59) over that: as to a lumped body of the temperature T_0 with the conductance 1/g.
+// (thermal.60) over that: as to a lumped body of the temperature T_0 with the conductance 1/g.
 void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& start) {
   const int journal = system_.size();
   const auto* free = std::get_if<FreeJournal>(&thermal_.journal);

@@ -46,7 +46,7 @@ double HeatEquations::at_ring(const Eigen::VectorXd& outside) const {
   return at_.ambient ? outside[at_.place_of_ambient()] : std::get<RingWall>(thermal_.shell).T_ambient;
 }
 
-// Oil of a node's temperature, of its own, or the film's (thermal.39).
+// Oil of a node's temperature, of its own, or the film's (thermal.40).
 double HeatEquations::fresh(int supply, const Eigen::VectorXd& outside) const {
   if (const Eigen::Index place = oil_of(supply); place >= 0) return outside[place];
   const int feature = supply - (has_line() ? 1 : 0);
@@ -62,7 +62,7 @@ double HeatEquations::asperity_power(const CarryingFilm& film, int node) const {
   return area * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact();
 }
 
-// Shared by the surfaces' effusivities (thermal.53).
+// Shared by the surfaces' effusivities (thermal.54).
 double HeatEquations::shell_friction(const CarryingFilm& film, int node) const {
   return shell_share_ * asperity_power(film, node);
 }

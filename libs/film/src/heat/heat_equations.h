@@ -48,8 +48,8 @@ class HeatEquations {
   [[nodiscard]] HeatState response_to_journal();
   /// Likewise one of the nodes that are no walls (FilmTerminals).
   [[nodiscard]] HeatState response_to_outside(Eigen::Index place);
-  /// Heat into those [W], of temperatures or, as it is linear in them, of a change (theory manual, thermal.54,
-  /// thermal.55).
+  /// Heat into those [W], of temperatures or, as it is linear in them, of a change (theory manual, thermal.55,
+  /// thermal.56).
   [[nodiscard]] Eigen::VectorXd into_outside(const CarryingFilm& film, const HeatState& state) const;
 
   /// Each term by its own integral over a step from `start` to `end` (thermal.17).

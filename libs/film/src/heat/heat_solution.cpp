@@ -104,7 +104,7 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   return A;
 }
 
-// Linear in what is known: the system stays, and no heat is made (thermal.45).
+// Linear in what is known: the system stays, and no heat is made (thermal.46).
 HeatState HeatEquations::response(const Eigen::VectorXd& known) {
   const int rows = system_.size(), film = model_.grid.size() * layers();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(known.size());
@@ -145,7 +145,7 @@ std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& f
 }
 
 // A node that oil comes from gives it at its own temperature and grows no colder; what comes back warms it
-// (thermal.54).
+// (thermal.55).
 Eigen::VectorXd HeatEquations::into_outside(const CarryingFilm& film, const HeatState& state) const {
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(at_.outside());
   for (int i = 0; at_.ambient && i < model_.grid.n_phi; ++i)

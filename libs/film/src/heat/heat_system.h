@@ -31,7 +31,7 @@ class HeatSystem {
   [[nodiscard]] int ring_row(int i) const { return film_rows() + i; }
 
   void set_zero();
-  /// The ring's rows, written as balances of heat, stand for a wall that answers heat by temperatures (thermal.36):
+  /// The ring's rows, written as balances of heat, stand for a wall that answers heat by temperatures (thermal.37):
   /// then row i is scale (T_i + sum_j rise_ij (balance of j)). Null: for a ring. Kept until it is set anew.
   void set_answer(const Eigen::MatrixXd* rise, double scale) { answer_.set(rise, scale); }
   [[nodiscard]] double& diagonal(int row) {

@@ -5,7 +5,7 @@
 
 namespace hersey::film {
 
-/// What is made of the fluidity 1/mu within a layer (theory manual, thermal.50): a straight line through its mean, with
+/// What is made of the fluidity 1/mu within a layer (theory manual, thermal.51): a straight line through its mean, with
 /// the slope that those beside it give it; or one value, as of layers whose shear is known (thermal.26).
 enum class WithinLayers { linear, constant };
 

@@ -6,7 +6,7 @@
 namespace hersey::film {
 
 /// Where the layers of a film lie across its thickness, as shares of it from the shell (0) to the journal (1): thinner
-/// beside the walls, where temperatures change fastest (theory manual, thermal.49).
+/// beside the walls, where temperatures change fastest (theory manual, thermal.50).
 class Layering {
  public:
   explicit Layering(std::size_t layers);

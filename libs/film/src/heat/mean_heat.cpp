@@ -62,11 +62,11 @@ void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vec
 }
 
 // What the film has stored since the beginning, it has taken from walls. A body lacks what its temperatures differ from
-// those that the mean heat would give it (thermal.56).
+// those that the mean heat would give it (thermal.57).
 Eigen::VectorXd MeanHeat::missing(const Eigen::VectorXd& shell, double journal) const {
   Eigen::VectorXd missing = into_;
   missing.head(capacity_.size()) += capacity_.cwiseProduct(end_ - begin_) / time_;
-  if (const JournalConduction* body = walls_.journal_body; body != nullptr)  // (thermal.62)
+  if (const JournalConduction* body = walls_.journal_body; body != nullptr)  // (thermal.63)
     missing[system_.size()] = journal_scale() * (time_ * (body->T0 - journal) + body->rise * into_[system_.size()]);
   if (walls_.body == nullptr) return missing;
   const Eigen::Index first = capacity_.size(), n = grid_.n_phi;
@@ -179,7 +179,7 @@ Eigen::SparseMatrix<double> MeanHeat::matrix() const {
     add(row, rows, -by_journal_[row]);
   }
   const JournalConduction* body = walls_.journal_body;
-  const double by_heat = body != nullptr ? journal_scale() * body->rise : 1;  // (thermal.62), or a balance by itself
+  const double by_heat = body != nullptr ? journal_scale() * body->rise : 1;  // (thermal.63), or a balance by itself
   double journal_self = walls_.own_journal ? by_heat * to_journal_.sum() : 0;
   if (body != nullptr) journal_self += journal_scale() * time_;
   add(rows, rows, journal_self != 0 ? journal_self : 1);

@@ -51,7 +51,7 @@ ThermalNetwork::ThermalNetwork(ThermalNetworkModel model) : model_(std::move(mod
   for (std::size_t i = 0; i < n; ++i) seen_.T[static_cast<Index>(i)] = model_.nodes[i].T;
 }
 
-// (thermal.44) by (thermal.46), or (thermal.47): conductances, films and capacities at the end of the step, so that
+// (thermal.45) by (thermal.47), or (thermal.48): conductances, films and capacities at the end of the step, so that
 // none of them limits it. Solved for the change, which short steps of large bodies would lose in the temperature's
 // digits.
 void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {

@@ -6,7 +6,7 @@ namespace hersey::film {
 
 /// Rows of a wall whose temperatures follow the heat into each of its angles, all by all:
 ///
-///     scale (T + rise (C T - from film)) = known,                                                  (thermal.36)
+///     scale (T + rise (C T - from film)) = known,                                                  (thermal.37)
 ///
 /// C the conductances between film and wall.
 class WallAnswer {

@@ -5,7 +5,7 @@
 namespace hersey::film {
 
 /// Heat from a film into a wall at one node, by the temperatures of the two layers beside the wall and of the wall
-/// (theory manual, thermal.52): beside T_1 - next T_2 - wall() T_wall.
+/// (theory manual, thermal.53): beside T_1 - next T_2 - wall() T_wall.
 struct WallFlux {
   double beside = 0;  ///< by the layer beside the wall [W/K]
   double next = 0;    ///< by the one after it [W/K]

@@ -13,6 +13,18 @@
 #include "solve/sor.h"
 
 namespace hersey::film {
+
+int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
+  if (!cavitation_law(model).has_fill()) return -1;
+  int emptiest = -1;
+  double least = -fill_scale(model) * (1 + 1e-9);
+  for (int node = 0; node < model.grid.size(); ++node) {
+    // An edge that lets oil in has no fill fraction below that of its surroundings.
+    if (u[node] < least && ambient_fill(model, node % model.grid.n_z) == 0) emptiest = node, least = u[node];
+  }
+  return emptiest;
+}
+
 namespace {
 
 // What one Newton step may change where the law is strongly curved: the logarithm of the viscosity and the film
@@ -70,18 +82,6 @@ bool starved(const FilmModel& model, const Eigen::VectorXd& u) {
     if (u[node] > 1e-9 * fill_scale(model) && !open_edge(model, node % model.grid.n_z)) return false;
   }
   return true;
-}
-
-// A fill fraction below zero is no film: it says that more oil leaves a node than comes in.
-int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
-  if (!cavitation_law(model).has_fill()) return -1;
-  int emptiest = -1;
-  double least = -fill_scale(model) * (1 + 1e-9);
-  for (int node = 0; node < model.grid.size(); ++node) {
-    // An edge that lets oil in has no fill fraction below that of its surroundings.
-    if (u[node] < least && ambient_fill(model, node % model.grid.n_z) == 0) emptiest = node, least = u[node];
-  }
-  return emptiest;
 }
 
 // A steady film that lacks oil somewhere lacks a supply; one in a step has been asked for more than its gap holds.

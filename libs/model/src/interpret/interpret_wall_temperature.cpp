@@ -74,7 +74,7 @@ bool is_usable(Context& context, const Value& at, const Around& table) {
   return true;
 }
 
-/// Straight lines from row to row, and from the last to the first (theory manual, thermal.40).
+/// Straight lines from row to row, and from the last to the first (theory manual, thermal.41).
 double value_at(const Around& table, double phi) {
   const double first = table.phi.front();
   phi -= turn * std::floor((phi - first) / turn);

@@ -7,7 +7,7 @@
 namespace hersey::run {
 
 /// After a step of length dt [s] has been accepted: the lumped bodies of the thermal network take up what all films
-/// give them over it, and the films' walls have their temperatures (theory manual, thermal.46). Nothing where there is
+/// give them over it, and the films' walls have their temperatures (theory manual, thermal.47). Nothing where there is
 /// no network.
 void warm_bodies(model::Machine& machine, double dt);
 

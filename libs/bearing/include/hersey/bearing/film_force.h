@@ -58,7 +58,7 @@ struct BearingObservation {
   double power_of_growth = 0;    ///< its part on walls that grow with their temperature [W]
   double clearance = 0;          ///< radial, at the temperatures of the walls [m]
   /// How far walls in bodies have grown outwards by temperature, their means over the nodes [m]; and the clearance with
-  /// them (theory manual, thermal.63).
+  /// them (theory manual, thermal.64).
   double bore_growth = 0, journal_growth = 0, clearance_of_bodies = 0;
   film::FilmObservables film;
   std::optional<film::HeatObservables> heat;  ///< of a film with temperatures

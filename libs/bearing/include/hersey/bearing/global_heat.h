@@ -15,7 +15,7 @@ struct WallExpansion {
   std::optional<double> T_shell = {}, T_journal = {};  ///< means of the walls [K]; unset: that of the oil
 
   /// By how much the radial clearance of a bearing of radius R [m] has grown with oil of temperature T [K]
-  /// (theory manual, thermal.41).
+  /// (theory manual, thermal.42).
   [[nodiscard]] double growth(double R, double T) const {
     return material.growth(R, T_shell.value_or(T), T_journal.value_or(T));
   }

@@ -49,7 +49,7 @@ struct SteadyState {
   Eigen::VectorXd d_shell, d_journal;  ///< radial displacement at the nodes, away from the axis [m]; empty where rigid
   /// By how much the shell's body puts it further out at the nodes by its temperature [m]; empty: not at all.
   Eigen::VectorXd thermal_shape;
-  /// And the journal's body the journal's surface, the mean around (thermal.60), at the nodes as well [m].
+  /// And the journal's body the journal's surface, the mean around (thermal.61), at the nodes as well [m].
   Eigen::VectorXd journal_shape;
   film::FilmObservables film;
   DynamicCoefficients coefficients;               ///< with the temperatures, and so the viscosities, as they are

@@ -8,7 +8,7 @@
 #include "hersey/fem/film_surface.h"
 #include "hersey/fem/heat_conduction.h"
 
-/// What the heat of a film does to the body on whose mesh it lies (theory manual, thermal.34, thermal.35, thermal.58).
+/// What the heat of a film does to the body on whose mesh it lies (theory manual, thermal.35, thermal.36, thermal.59).
 namespace hersey::fem {
 
 struct HeatedSurfaceOptions {
@@ -41,7 +41,7 @@ struct [[nodiscard]] HeatedSurface : Outcome {
                                            const ThermalSurroundings& surroundings, const FilmSurface& surface,
                                            const HeatedSurfaceOptions& options);
 
-/// The mean around, along the axis, of shapes in the functions of a surface (theory manual, thermal.60): what the film
+/// The mean around, along the axis, of shapes in the functions of a surface (theory manual, thermal.61): what the film
 /// of a journal that turns sees of them. @param shapes  (functions, ...) @param z  [m] @returns (z.size(), ...)
 [[nodiscard]] Eigen::MatrixXd mean_around(const SurfaceFunctions& functions, const Eigen::MatrixXd& shapes,
                                           const std::vector<double>& z);

@@ -9,7 +9,7 @@
 namespace hersey::film {
 
 /// What heat from a film does to the body that the journal is part of, which conducts it steadily (theory manual,
-/// thermal.58, thermal.60): it turns in the film, so that the heat comes to it evenly, and its one temperature and its
+/// thermal.59, thermal.61): it turns in the film, so that the heat comes to it evenly, and its one temperature and its
 /// mean shape around are linear in all of that heat.
 struct JournalConduction {
   double T0 = 293.15;  ///< mean of its surface where the film gives no heat [K]
@@ -40,7 +40,7 @@ struct JournalConduction {
 [[nodiscard]] Eigen::VectorXd around(const Grid& grid, const Eigen::VectorXd& along);
 
 /// A journal in a body that conducts heat. A steady film is in balance with it; over a time step it keeps its
-/// temperature, and over cycles it settles at that of their mean heat (WallMotion::held, theory manual, thermal.62).
+/// temperature, and over cycles it settles at that of their mean heat (WallMotion::held, theory manual, thermal.63).
 struct BodyJournal {
   std::shared_ptr<const JournalConduction> conduction;  ///< never null
   std::optional<double> T_start = {};                   ///< with which a simulation begins [K]; unset: the supply's

@@ -9,7 +9,7 @@
 namespace hersey::film {
 
 /// What heat from a film does to the body whose surface it lies on, which conducts it steadily (theory manual,
-/// thermal.34, thermal.35): temperatures and shape of that surface are linear in the heat, angle by angle.
+/// thermal.35, thermal.36): temperatures and shape of that surface are linear in the heat, angle by angle.
 struct WallConduction {
   Eigen::VectorXd T0;    ///< of the surface where the film gives no heat, mean over its width, shape (n_phi) [K]
   Eigen::MatrixXd rise;  ///< by the heat into each angle, shape (n_phi, n_phi) [K/W]
@@ -37,7 +37,7 @@ struct WallConduction {
 [[nodiscard]] WallConduction on_grid(const WallConduction& wall, const Grid& from, const Grid& to);
 
 /// A shell in a body that conducts heat. A steady film is in balance with it; over a time step it keeps its
-/// temperature, and over cycles it settles at that of their mean heat (WallMotion::held, theory manual, thermal.56).
+/// temperature, and over cycles it settles at that of their mean heat (WallMotion::held, theory manual, thermal.57).
 struct BodyWall {
   std::shared_ptr<const WallConduction> conduction;  ///< never null
   std::optional<double> T_start = {};                ///< with which a simulation begins [K]; unset: the supply's

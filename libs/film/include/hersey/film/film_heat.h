@@ -58,7 +58,7 @@ class FilmHeat {
   /// thermal.19). Returns how far off they were.
   WallCorrection settle_walls(const Eigen::VectorXd& T_nodes);
 
-  /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.35); empty:
+  /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.36); empty:
   /// it does not.
   [[nodiscard]] Eigen::VectorXd shell_opening() const;
   /// The same in a simulation, in which a body keeps its temperatures, settle_walls() apart.
@@ -66,7 +66,7 @@ class FilmHeat {
   /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.
   [[nodiscard]] Eigen::VectorXd body_temperatures() const;
   /// How far a journal in a body lies outside its cylinder by temperature, the mean around [m], shape (n_z)
-  /// (thermal.60); empty: it does not.
+  /// (thermal.61); empty: it does not.
   [[nodiscard]] Eigen::VectorXd journal_growth() const;
   /// Likewise in a simulation.
   [[nodiscard]] Eigen::VectorXd journal_growth_in_time() const;

@@ -66,7 +66,7 @@ struct HeatObservables {
   HeatBalance balance;
 };
 
-/// What nodes of a network have taken up, and how that follows their temperatures (theory manual, thermal.45): shell,
+/// What nodes of a network have taken up, and how that follows their temperatures (theory manual, thermal.46): shell,
 /// journal, zero for a wall that is no node, and the others in the order of FilmTerminals.
 struct WallExchange {
   Eigen::VectorXd T = Eigen::Vector2d::Zero();     ///< of these [K]

@@ -52,10 +52,10 @@ struct FreeJournal {
 };
 
 /// A wall that is a lumped body, node of a ThermalNetwork: it has one temperature, which moves with the network
-/// (theory manual, thermal.44).
+/// (theory manual, thermal.45).
 using NodeWall = NetworkNode;
 
-/// Nodes that oil comes from, in place of temperatures that are given, and goes to (theory manual, thermal.54).
+/// Nodes that oil comes from, in place of temperatures that are given, and goes to (theory manual, thermal.55).
 struct OilNodes {
   std::optional<NetworkNode> line = {}, edges = {};
   std::vector<std::optional<NetworkNode>> features = {};  ///< empty: none of them
@@ -71,7 +71,7 @@ struct ThermalExpansion {
   double T_reference = 293.15;    ///< of both walls, at which the clearance is as given [K]
 
   /// By how much the radial clearance of a bearing of radius R [m] is larger between walls at these temperatures [K]
-  /// (theory manual, thermal.41).
+  /// (theory manual, thermal.42).
   [[nodiscard]] double growth(double R, double T_shell, double T_journal) const {
     return R * (shell * (T_shell - T_reference) - journal * (T_journal - T_reference));
   }
@@ -86,7 +86,7 @@ struct SurfaceMaterial {
   [[nodiscard]] double effusivity() const { return std::sqrt(conductivity * heat_capacity); }
 };
 
-/// Share of the friction's heat that goes into the first of two surfaces that rub (theory manual, thermal.53).
+/// Share of the friction's heat that goes into the first of two surfaces that rub (theory manual, thermal.54).
 [[nodiscard]] inline double friction_share(const SurfaceMaterial& first, const SurfaceMaterial& second) {
   return first.effusivity() / (first.effusivity() + second.effusivity());
 }

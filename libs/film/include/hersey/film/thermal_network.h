@@ -43,15 +43,15 @@ struct NetworkObservables {
   Eigen::VectorXd heat;  ///< from films into each node
   double to_fixed = 0;   ///< into surroundings
   double stored = 0;     ///< rate of the bodies' heat
-  /// What is missing in (thermal.48), over the largest of these [-].
+  /// What is missing in (thermal.49), over the largest of these [-].
   [[nodiscard]] double error() const;
 };
 
 /// Whether heat of the node can reach surroundings along paths.
 [[nodiscard]] bool reaches_surroundings(const ThermalNetworkModel& model, std::size_t node);
 
-/// Lumped bodies and surroundings, connected by conductances and warmed by films (theory manual, thermal.44 to
-/// thermal.48).
+/// Lumped bodies and surroundings, connected by conductances and warmed by films (theory manual, thermal.45 to
+/// thermal.49).
 class ThermalNetwork {
  public:
   /// Bodies at the temperatures of their start. @throws ContractError on nodes that are not there, or bodies without

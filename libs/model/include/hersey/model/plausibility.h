@@ -11,7 +11,7 @@ namespace hersey::model {
 /// smallest gap h_min [m] below the roughness of the surfaces; each with what to do. Empty: nothing.
 [[nodiscard]] std::vector<std::string> doubts_of_surfaces(const Bearing& bearing, double p_max, double h_min);
 
-/// Of a journal in a body (film::BodyJournal), to which heat comes evenly only as it turns (theory manual, thermal.58).
+/// Of a journal in a body (film::BodyJournal), to which heat comes evenly only as it turns (theory manual, thermal.59).
 /// @param turned  by which it has turned in its shell [rad] @param travelled  the same, to and fro counted alike [rad]
 [[nodiscard]] std::vector<std::string> doubts_of_turning(const Bearing& bearing, double turned, double travelled);
 

@@ -10,13 +10,13 @@
 namespace hersey::model {
 
 /// What the heat of a bearing's film does to the body its shell is in, null where the shell is none (theory manual,
-/// thermal.34, thermal.35). Films of other bearings on that body give it no heat.
+/// thermal.35, thermal.36). Films of other bearings on that body give it no heat.
 /// @throws InputError where the body has no steady temperature, or what keeps it in place leaves it a motion
 /// @cost a factorisation of the mesh for temperatures and, where it expands, one for displacements; a solution of each
 ///   per angle of the film's grid
 [[nodiscard]] std::shared_ptr<const film::WallConduction> wall_conduction(const Model& model, const Bearing& bearing);
 
-/// Likewise to the body its journal is in, evenly around (theory manual, thermal.58, thermal.60).
+/// Likewise to the body its journal is in, evenly around (theory manual, thermal.59, thermal.61).
 /// @throws InputError as wall_conduction() @cost a factorisation each, and two or three solutions
 [[nodiscard]] std::shared_ptr<const film::JournalConduction> journal_conduction(const Model& model,
                                                                                 const Bearing& bearing);
