@@ -112,10 +112,10 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     if (network != nullptr) balance(*network, path.heat());
     path.take();
     const bool is_near = path.nearness() <= nearness, is_only_begun = nearness > kHeatTolerance;
-    const auto is_balanced = [&] {
-      return path.heat().observables().balance.error() <= kBalanceTolerance || ++turns_near > kTurnsForTheBalance;
-    };
-    if (is_near && (is_only_begun || (search.is_settled() && is_balanced()))) {
+    if (is_near) ++turns_near;
+    const bool is_balanced =
+        path.heat().observables().balance.error() <= kBalanceTolerance || turns_near > kTurnsForTheBalance;
+    if (is_near && (is_only_begun || (is_balanced && search.is_settled()))) {
       tell_runaway(path.heat().observables(), false, summary);
       return summary;
     }

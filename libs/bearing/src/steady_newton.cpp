@@ -75,9 +75,12 @@ bool SteadySearch::turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d&
   return std::abs(turn) > kLargestTurn;
 }
 
-bool SteadySearch::settled(const Eigen::Vector2d& target) {
+bool SteadySearch::holds(const Eigen::Vector2d& target) {
   summary_.force_error = (force_ - target).norm() / target.norm();
-  if (summary_.force_error > rtol_ || film_.relative_residual() > rtol_) return false;
+  return summary_.force_error <= rtol_ && film_.relative_residual() <= rtol_;
+}
+
+bool SteadySearch::settle() {
   const Eigen::VectorXd x = x_ + film_.increment();
   if (film::emptiest_node(model_, film_.film_of(x)) >= 0) return false;
   x_ = x;
@@ -125,9 +128,10 @@ bool SteadySearch::together(const Eigen::Vector2d& target) {
   double best = std::numeric_limits<double>::infinity();
   int idle = 0;
   for (int k = 0; k < options_.max_iterations && idle < kPatience; ++k) {
-    if (settled(target)) return true;
-    // Where the equations hold with less than no oil somewhere, the film's own way out of there.
-    if (film::emptiest_node(model_, film_.film_of(x_)) >= 0 && !film_at(e_)) return false;
+    if (holds(target)) {
+      if (settle()) return true;
+      if (!film_at(e_)) return false;  // which knows a way out
+    }
     const double now = distance_to(target) + film_.relative_residual();
     idle = now < 0.5 * best ? 0 : idle + 1;
     best = std::min(best, now);
@@ -146,7 +150,7 @@ bool SteadySearch::together(const Eigen::Vector2d& target) {
 
 bool SteadySearch::in_turn(const Eigen::Vector2d& target) {
   for (int k = 0; k < options_.max_iterations && !is_tired(); ++k) {
-    if (settled(target)) return true;
+    if (holds(target) && settle()) return true;
     const Eigen::Vector2d e = e_;
     const Eigen::VectorXd x = x_;
     const double distance = distance_to(target);

@@ -143,7 +143,10 @@ class SteadySearch {
   /// A supply at the widest gap turns with the position: after a large turn the film is another one.
   [[nodiscard]] bool turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
 
-  [[nodiscard]] bool settled(const Eigen::Vector2d& target);
+  /// Whether film and force are within their tolerance.
+  [[nodiscard]] bool holds(const Eigen::Vector2d& target);
+  /// The last increment, unless it leaves less than no oil somewhere: the equations hold there, but that is no film.
+  [[nodiscard]] bool settle();
 
   /// Near the answer one step of Newton's method from the present linearisation is enough, and known to be.
   [[nodiscard]] bool one_step(const Eigen::Vector2d& target);

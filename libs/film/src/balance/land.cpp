@@ -41,11 +41,12 @@ void FlowBalance::find_strips(int f, double phi, double u) {
 // Where features overlap the oil takes the shortest land: their order is no matter.
 void FlowBalance::unite_lands() {
   std::stable_sort(strips_.begin(), strips_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  std::vector<double> borders;
   for (auto first = strips_.begin(); first != strips_.end();) {
     const auto last = std::find_if(first, strips_.end(), [&](const LandStrip& s) { return s.node != first->node; });
     const auto flow = [](const LandStrip& s) { return (s.to - s.from) * s.gain; };
     const auto main = std::max_element(first, last, [&](const auto& a, const auto& b) { return flow(a) < flow(b); });
-    std::vector<double> borders;
+    borders.clear();
     for (auto strip = first; strip != last; ++strip) borders.insert(borders.end(), {strip->from, strip->to});
     std::sort(borders.begin(), borders.end());
     double conductance = 0;
