@@ -229,10 +229,15 @@ class Defects(unittest.TestCase):
                     self.assertRegex(done.stderr, r"bearing \w+: ")
 
     def test_solver_that_does_not_arrive_tells_no_limit_of_the_film(self):
-        for solver in ("newton", "multigrid", "sor"):
+        for solver in ("newton", "multigrid"):
             with self.subTest(solver=solver):
                 figures, _ = self.bearing("assertion_shown_multigrid", "--set", "bearings.main.solver=" + solver)
                 self.assertAlmostEqual(figures["load"], 1137.74, delta=0.01)
+        # Sweeps go round in circles between a spot's pressure and its density; on few nodes they soon do.
+        done = hersey("bearing", os.path.join(HERE, "assertion_shown_multigrid.yaml"), "--no-grid-error", "--set",
+                      "bearings.main.solver=sor", "--set", "bearings.main.grid={circumferential: 16, axial: 7}")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "and perhaps more; further out the solver does not find it .* `solver: newton` may")
 
 
     # -- cases that ended without an answer

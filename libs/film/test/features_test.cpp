@@ -33,6 +33,29 @@ TEST_CASE("GrooveEdges_LieWhereTheyAre") {
   }
 }
 
+// A broken film comes to a groove at p_s > p_cav, which fills it back to where the pressure has fallen:
+// l = h^2 p_s/[6 mu U (1 - theta)], a sixth of a cell here. Its nodes lie beyond, so that theta h stays what it was,
+// and what P0 is has no part in it.
+TEST_CASE("FilmBeforeAGroove_IsFilledAsFarAsItsPressureCan") {
+  FilmModel m{.R = 0.05, .L = 0.04, .c = 100e-6, .grid = {60, 3}};
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
+  m.features = {{.name = "groove", .phi = 0, .arc = 0.1 * pi, .length = m.L, .pressure = 2e4}};
+  const double phi_e = 230 * pi / 180;
+  const Journal journal{.e = 0.6 * m.c * Eigen::Vector2d(std::cos(phi_e), std::sin(phi_e)), .omega_journal = 200};
+  for (const double fill_speed : {200.0, 20000.0}) {
+    CAPTURE(fill_speed);
+    m.fill_speed = fill_speed;
+    const SolvedFilm film = solve_cold(m, journal);
+    REQUIRE(film.summary.solved());
+    const auto at = [&](const Eigen::VectorXd& field, int i) { return field[m.grid.index(i, 1)]; };
+    const double before = at(film.fields.theta, 55) * at(film.fields.h, 55), h = at(film.fields.h, 58);
+    // The flow back over the rim, half a cell from the node, is what the node has beyond that: its strip, spread out.
+    const double back = h * h * h * 2e4 / (12 * m.lubricant.mu0 * m.R * pi / 60), U = 0.5 * 200 * m.R;
+    CHECK(at(film.fields.theta, 58) * h == relative(before + back / U).epsilon(0.01));  // the gap of rim and node
+    CHECK(at(film.fields.theta, 58) < 0.8);
+  }
+}
+
 // Likewise along the axis: from a groove all around to an edge the flow is that of the land between, however little of
 // the last cell it is. The edge's pressure is given, so that no row sees how near the groove is.
 TEST_CASE("LandBeforeAnEdge_IsAsLongAsItIs") {

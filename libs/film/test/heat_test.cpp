@@ -260,9 +260,7 @@ TEST_CASE("CopesBearing_IsThatOfAnIndependentProgram") {
 }
 
 // The fast case of the design (R 50, L 80 mm, c 145 um, 4000 rpm, epsilon 0.8 in a ring of steel), on which few layers
-// err most, with the usual grid against layers and nodes that leave little. Asked were 1.5 %, 0.3 K and 1 %, which
-// these nodes meet but for a hair: 60 nodes around leave 1.2 % of the load and 0.3 K (18817, 18621 and 18602 N on 60,
-// 120 and 240). What layers leave is far less.
+// err most, with the usual grid against layers and nodes that leave little. Asked were 1.5 %, 0.3 K and 1 %.
 TEST_CASE("FiveLayers_AreNearSixteenOnTwiceTheNodes") {
   const auto solved = [](int layers, int n_phi, int n_z) {
     FilmModel model = bearing(0.05, 0.08, 145e-6, n_phi, n_z);
@@ -279,9 +277,9 @@ TEST_CASE("FiveLayers_AreNearSixteenOnTwiceTheNodes") {
   CHECK(few.film.force_pressure.norm() == relative(many.film.force_pressure.norm()).epsilon(0.005));
   CHECK(std::abs(few.heat.T_shell_max - many.heat.T_shell_max) < 0.1);
   CHECK(few.heat.balance.power == relative(many.heat.balance.power).epsilon(0.007));
-  CHECK(few.film.force_pressure.norm() == relative(finer.film.force_pressure.norm()).epsilon(0.017));
-  CHECK(std::abs(few.heat.T_shell_max - finer.heat.T_shell_max) < 0.33);
-  CHECK(few.heat.balance.power == relative(finer.heat.balance.power).epsilon(0.013));
+  CHECK(few.film.force_pressure.norm() == relative(finer.film.force_pressure.norm()).epsilon(0.01));
+  CHECK(std::abs(few.heat.T_shell_max - finer.heat.T_shell_max) < 0.2);
+  CHECK(few.heat.balance.power == relative(finer.heat.balance.power).epsilon(0.008));
   CHECK(few.heat.balance.error() < 1e-8);  // the film's residual
 }
 

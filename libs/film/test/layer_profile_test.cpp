@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -117,24 +118,28 @@ TEST_CASE("SharesOfLayers_AreIntegralsOfTheVelocity") {
     }
     const auto velocity = [&, I0 = I0, I1 = I1](double slope, double top) {
       const double tau_0 = (top - slope * I1) / I0;
-      std::array<double, n> flow{}, heat{};
+      std::array<double, n> flow{}, lead{}, heat{};
       double u = 0;
       for (const Strip& at : across) {
         const double tau = tau_0 + slope * at.eta, rate = tau * at.fluidity;
         flow[at.layer] += (u + 0.5 * rate * at.width) * at.width;
+        lead[at.layer] += (u + 0.5 * rate * at.width) * at.width * (at.eta - layers.middle(at.layer));
         heat[at.layer] += tau * rate * at.width;
         u += rate * at.width;
       }
-      return std::pair(flow, heat);
+      return std::tuple(flow, lead, heat);
     };
-    const auto [by_pressure, heat_by_pressure] = velocity(1, 0);
-    const auto [by_sliding, heat_by_sliding] = velocity(0, 1);
-    const auto [by_both, heat_by_both] = velocity(1, 1);
+    const auto [by_pressure, lead_by_pressure, heat_by_pressure] = velocity(1, 0);
+    const auto [by_sliding, lead_by_sliding, heat_by_sliding] = velocity(0, 1);
+    const auto [by_both, lead_by_both, heat_by_both] = velocity(1, 1);
     constexpr double strip = 1e-7;  // second order in 1/strips
     for (std::size_t l = 0; l < n; ++l) {
       CHECK(by_pressure[l] ==
             doctest::Approx(-shares.pressure_flow[l] * profile.fluidity / 12).epsilon(strip).scale(1));
       CHECK(by_sliding[l] == doctest::Approx(shares.sliding_flow[l]).epsilon(strip));
+      CHECK(lead_by_pressure[l] ==
+            doctest::Approx(-shares.pressure_lead[l] * profile.fluidity / 12).epsilon(strip).scale(1));
+      CHECK(lead_by_sliding[l] == doctest::Approx(shares.sliding_lead[l]).epsilon(strip).scale(1));
       CHECK(heat_by_pressure[l] ==
             doctest::Approx(shares.pressure_heat[l] * profile.fluidity / 12).epsilon(strip).scale(1));
       CHECK(heat_by_sliding[l] == doctest::Approx(shares.sliding_heat[l] / profile.shear_fluidity).epsilon(strip));

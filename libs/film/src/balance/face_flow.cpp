@@ -10,15 +10,27 @@ namespace {
 // As for the control volumes: interpolation leaves a face at least this share of the gap at its nodes.
 constexpr double least_face_share = 0.25;
 
+// Where the gap half a cell on differs by more than this factor from that at the node, the law of little oil takes it
+// to differ by this: nothing is resolved there, and the law would be too steep for Newton's method.
+constexpr double most_widening = 1.25;
+
+double fourth(double x) { return x * x * x * x; }
+
 }  // namespace
 
 // As long as a node is nearly empty its whole content is carried on; when it is full, as much as the gap behind lets
-// through. Between both the smooth monotone law with these limits; without pockets both are one.
+// through. Between both the smooth monotone law with these limits (film.28).
 Carried FaceFlow::carried(double theta) const {
   if (little == couette) return {theta * couette, couette, theta, 0};
   if (theta < 0) return {theta * little, little, 0, theta};
-  const double sum = couette * (1 - theta) + theta * little, part = theta * little / sum, rest = couette / sum;
-  return {part * couette, little * rest * rest, part * part, theta * (1 - theta) * rest * rest};
+  const double y = theta * little / couette;
+  if (is_deep) {
+    const double s = 1 + y - theta, by_little = 1 / (s * s);
+    return {theta * little / s, little * by_little, y * y * by_little, theta * (1 - theta) * by_little};
+  }
+  const double theta4 = fourth(theta), y4 = fourth(y), s = 1 + y4 - theta4, root = std::sqrt(std::sqrt(s));
+  const double by_little = 1 / (s * root);
+  return {theta * little / root, little * by_little, y4 * y * by_little, theta * (1 - theta4) * by_little};
 }
 
 bool FlowBalance::is_limited(std::size_t f) const {
@@ -71,17 +83,10 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) 
   gap.cube_journal = factor * deep.cube.journal;
 
   // Past a step the oil is carried at the surfaces' mean speed relative to the step.
-  const double past = entrainment(f) - step_speed(f, tube), thin = gap.full;
+  const double past = entrainment(f) - step_speed(f, tube);
   gap.full += past * (deep.carry.value - h) + tube.swept / face.width;
   gap.full_h += past * (deep.carry.h - 1);
   gap.full_journal = past * deep.carry.journal + tube.swept_journal / face.width;
-  const int from = gap.full >= 0 ? face.a : face.b;
-  const double speed = entrainment(f), little = thin + speed * cells_[from].depth;
-  gap.little = gap.full, gap.little_h = gap.full_h, gap.little_journal = gap.full_journal;
-  if (little * gap.full > 0 && std::abs(little) > std::abs(gap.full)) {
-    gap.little = little, gap.little_h = speed;
-    gap.little_journal = speed * relief_.depth_by_journal()[from];
-  }
   const double mu = 2 / (flow_of(face.a, f).value + flow_of(face.b, f).value), volume = face.width * face.length;
   const double drop = nodes_[face.b].wall - nodes_[face.a].wall, drag = 12 * mu * volume;
   flow.recirculation = drag * past * past * deep.excess.value;
@@ -94,6 +99,30 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) 
   m.journal = drag * past * deep.excess.journal + face.width * deep.carry.journal * drop;
 }
 
+// The oil of the node upstream, whole as it is (film.28): what its control volume holds goes on at the surfaces' mean
+// speed.
+void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
+  gap.little = gap.full;
+  gap.from = gap.full >= 0 ? faces_[f].a : faces_[f].b;
+  if (gap.full == 0 || (nodes_[gap.from].theta == 1 && !expects_any_fill_)) return;
+  const double speed = entrainment(f), half_slip = axial(f) ? half_slip_z_ : half_slip_phi_;
+  const RoughGap& rough = rough_[gap.from];
+  const int k = axial(f) ? 1 : 0;
+  const double little = speed * oil_gap(gap.from) + half_slip * rough.drag[k];
+  const bool is_deep = tube_of_[f] >= 0;
+  if (little * gap.full <= 0 || (is_deep && std::abs(little) <= std::abs(gap.full))) return;
+  const double ratio = little / gap.full;
+  if (!is_deep && (ratio > most_widening || ratio * most_widening < 1)) {
+    gap.little_by_full = ratio > 1 ? most_widening : 1 / most_widening;
+    gap.little = gap.little_by_full * gap.full;
+    return;
+  }
+  gap.little = little;
+  gap.little_h = speed * cells_[gap.from].gap_h + half_slip * rough.drag_h[k];
+  gap.little_excess = speed * cells_[gap.from].gap_excess;
+  if (is_deep) gap.little_journal = speed * relief_.depth_by_journal()[gap.from];
+}
+
 std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
   if (is_limited(f)) return {0.5 * least_face_share, 0};
   return {0.5, axial(f) ? 0.0 : 1.0};
@@ -101,6 +130,24 @@ std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
 
 double FlowBalance::step_speed(std::size_t f, const PocketTube& tube) const {
   return axial(f) ? 0 : step_of(tube, speed_phi_, speeds_.u_journal);
+}
+
+// The line's rows count so much of what comes half-way to it.
+void FlowBalance::find_carried_share(std::size_t f, const FaceGap& gap, const Carried& carried) {
+  const FaceFlow& flow = flows_[f];
+  CarriedShare& share = line_shares_[f % static_cast<std::size_t>(model_.grid.n_z)];
+  share = {};
+  if (flow.couette == 0) return;
+  share.value = carried.value / flow.couette, share.theta = carried.theta / flow.couette;
+  const double by_full = (carried.full + gap.little_by_full * carried.little - share.value) / gap.full;
+  const double by_little = carried.little / gap.full;
+  const auto [half, by_bend] = thickness_shares(f);
+  share.h_a = by_full * (half * gap.full_h + gap.full_at[0]);
+  share.h_b = by_full * (half * gap.full_h + gap.full_at[1]);
+  (gap.from == faces_[f].a ? share.h_a : share.h_b) += by_little * gap.little_h;
+  share.bend = by_full * by_bend * gap.full_h;
+  share.excess = by_little * gap.little_excess;
+  share.journal = by_full * gap.full_journal + by_little * gap.little_journal;
 }
 
 void FlowBalance::add_face(std::size_t f) {
@@ -115,30 +162,33 @@ void FlowBalance::add_face(std::size_t f) {
   const double fluidity = is_cut(f) ? 0 : 0.5 * (at_a.value + at_b.value);
   FaceGap gap = smooth_gap(f, h);
   roughen(f, gap);
-  gap.little = gap.full, gap.little_h = gap.full_h;
-  if (tube_of_[f] >= 0) deepen(f, h, gap, flow);
+  flow.is_deep = tube_of_[f] >= 0;
+  if (flow.is_deep) deepen(f, h, gap, flow);
+  carry_little(f, gap);
 
   // Flow (film.16): q = rho [h^3/(12 mu) b/l (p_a - p_b) + what the surfaces carry].
   const double unit = face.width / (12 * face.length);
   flow.K = flow.density * unit * gap.cube * fluidity;
   flow.couette = flow.density * face.width * gap.full;
   flow.little = flow.density * face.width * gap.little;
+  flow.little_by_couette = gap.little_by_full;
   flow.q_fluidity = is_cut(f) ? 0 : flow.density * unit * gap.cube * drop;
   const Carried carried = flow.carried(upstream(f).theta);
+  flow.q_theta = carried.theta;
   flow.q_density = unit * gap.cube * fluidity * drop + carried.value / flow.density;
   const double by_cube = flow.density * unit * fluidity * drop;
-  const double by_full = flow.density * face.width * carried.full,
+  const double by_full = flow.density * face.width * (carried.full + gap.little_by_full * carried.little),
                by_little = flow.density * face.width * carried.little;
-  const bool single = flow.little == flow.couette;
-  const double by_h = by_cube * gap.cube_h + by_full * gap.full_h + (single ? 0 : by_little * gap.little_h);
+  const double by_h = by_cube * gap.cube_h + by_full * gap.full_h;
   const auto [share, by_bend] = thickness_shares(f);
-  const double both = by_full + (single ? 0 : by_little);
-  flow.q_h_a = share * by_h + by_cube * gap.cube_at[0] + both * gap.full_at[0] + 0.5 * flow.q_fluidity * at_a.h;
-  flow.q_h_b = share * by_h + by_cube * gap.cube_at[1] + both * gap.full_at[1] + 0.5 * flow.q_fluidity * at_b.h;
+  flow.q_h_a = share * by_h + by_cube * gap.cube_at[0] + by_full * gap.full_at[0] + 0.5 * flow.q_fluidity * at_a.h;
+  flow.q_h_b = share * by_h + by_cube * gap.cube_at[1] + by_full * gap.full_at[1] + 0.5 * flow.q_fluidity * at_b.h;
+  (gap.from == face.a ? flow.q_h_a : flow.q_h_b) += by_little * gap.little_h;
+  flow.q_excess = by_little * gap.little_excess;
   flow.q_bend = by_bend * by_h;
-  flow.q_journal =
-      by_cube * gap.cube_journal + by_full * gap.full_journal + (single ? 0 : by_little * gap.little_journal);
-  const double poiseuille = flow.K * (a.p - b.p), entrained = flow.carried(upstream(f).theta).value;
+  flow.q_journal = by_cube * gap.cube_journal + by_full * gap.full_journal + by_little * gap.little_journal;
+  if (is_cut(f)) find_carried_share(f, gap, carried);
+  const double poiseuille = flow.K * (a.p - b.p), entrained = carried.value;
   balance_[face.a] += poiseuille + entrained;
   balance_[face.b] -= poiseuille + entrained;
   const double passing = 0.5 * (std::abs(poiseuille) + std::abs(entrained));
@@ -151,13 +201,12 @@ std::array<double, 2> FlowBalance::flow_by_u(std::size_t f) const {
   const FaceFlow& flow = flows_[f];
   const Node &a = nodes_[face.a], &b = nodes_[face.b];
   const bool from_a = flow.couette >= 0;
-  const double by_theta = flow.carried(upstream(f).theta).theta;
   const auto by_laws = [&](const Node& node, double q_h) {
     const double fluidity_u = node.flow[axial(f) ? 1 : 0].u;
     return q_h * node.h_u + 0.5 * (flow.q_fluidity * fluidity_u + flow.q_density * node.density_u);
   };
-  return {flow.K * a.p_u + by_laws(a, flow.q_h_a) + (from_a ? by_theta * a.theta_u : 0),
-          -flow.K * b.p_u + by_laws(b, flow.q_h_b) + (from_a ? 0 : by_theta * b.theta_u)};
+  return {flow.K * a.p_u + by_laws(a, flow.q_h_a) + (from_a ? flow.q_theta * a.theta_u : 0),
+          -flow.K * b.p_u + by_laws(b, flow.q_h_b) + (from_a ? 0 : flow.q_theta * b.theta_u)};
 }
 
 /// Of a full gap and of little oil, both without density; swept volumes apart, which the step has fixed.
@@ -168,25 +217,33 @@ std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speed
   const int k = axial(f) ? 1 : 0;
   double full = speeds.mean * h + 0.5 * (speeds.mean * (a.mean - nodes_[face.a].h + b.mean - nodes_[face.b].h) +
                                          speeds.half_slip * (a.drag[k] + b.drag[k]));
-  double little = full;
   if (tube_of_[f] >= 0) {
     const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
     const double step = axial(f) ? 0 : step_of(tube, speeds.mean, speeds.journal);
-    little += speeds.mean * cells_[flows_[f].couette >= 0 ? face.a : face.b].depth;
     full +=
         (speeds.mean - step) * (relief_.gap(tube, h).carry.value - h) + tube.swept_speed * speeds.journal / face.width;
-    if (flows_[f].little == flows_[f].couette) little = full;
   }
+  const FaceFlow& flow = flows_[f];
+  const int from = flow.couette >= 0 ? face.a : face.b;
+  const double own = speeds.mean * oil_gap(from) + speeds.half_slip * rough_[from].drag[k];
+  const double limited = flow.little_by_couette * full;
+  const double little = flow.little == flow.couette ? full : flow.little_by_couette > 0 ? limited : own;
   return {face.width * full, face.width * little};
+}
+
+FlowBalance::Speeds FlowBalance::speeds_along(std::size_t f, const MotionDirection& direction) const {
+  if (axial(f))
+    return {0.5 * (direction.w_shell + direction.w_journal), 0.5 * (direction.w_shell - direction.w_journal),
+            direction.w_journal};
+  return {0.5 * (direction.u_shell + direction.u_journal), 0.5 * (direction.u_shell - direction.u_journal),
+          direction.u_journal};
 }
 
 double FlowBalance::flow_along(std::size_t f, const MotionDirection& direction) const {
   const Face& face = faces_[f];
   const FaceFlow& flow = flows_[f];
   const bool z = axial(f);
-  const Speeds speeds{0.5 * (z ? direction.w_shell + direction.w_journal : direction.u_shell + direction.u_journal),
-                      0.5 * (z ? direction.w_shell - direction.w_journal : direction.u_shell - direction.u_journal),
-                      z ? direction.w_journal : direction.u_journal};
+  const Speeds speeds = speeds_along(f, direction);
   double q = 0;
   if (speeds.mean != 0 || speeds.half_slip != 0) {
     const auto [full, little] = carried_at(f, speeds);
@@ -197,6 +254,7 @@ double FlowBalance::flow_along(std::size_t f, const MotionDirection& direction) 
   if (gap) {
     q += flow.q_h_a * nodes_[face.a].h_g * direction.g[face.a] + flow.q_h_b * nodes_[face.b].h_g * direction.g[face.b];
     if (!z) q += flow.q_bend * direction_bends_[static_cast<Eigen::Index>(f)];
+    q += flow.q_excess * direction_excesses_[flow.couette >= 0 ? face.a : face.b];
   }
   return q + flow.q_journal * direction.phi_journal;
 }

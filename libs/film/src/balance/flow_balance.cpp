@@ -52,6 +52,7 @@ FlowBalance::FlowBalance(const FilmModel& model)
   content_start_.setOnes(n);
   cells_.resize(static_cast<std::size_t>(n));
   tube_of_.assign(faces_.size(), -1);
+  line_shares_.resize(static_cast<std::size_t>(grid.n_z));
   held_index_.assign(n, -1);
   edge_index_.assign(n, -1);
   land_index_.assign(n, -1);
@@ -369,7 +370,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
       if (held.other >= 0) k += t.k_g_other * direction.g[held.other] + t.k_bend * direction_bends_[line_face(held)];
     }
     dr[i] += k * above;
-    if (held.other >= 0) dr[i] += t.k * draws_along(held, direction);
+    dr[i] += t.k * draws_along(held, direction);
   }
   for (int j = 0; j < grid.n_z; ++j) {
     if (!edge_row(j)) continue;

@@ -33,19 +33,23 @@ struct Carried {
 };
 
 /// The flow over a face, linearised (film.16): dq = K d(p_a - p_b) + q_h_a dh_a + q_h_b dh_b + q_bend d bend +
-/// q_fluidity d(1/mu) + q_density d density + carried.theta d theta_upwind. Flows are of mass over rho0.
+/// q_fluidity d(1/mu) + q_density d density + q_theta d theta_upwind. Flows are of mass over rho0.
 struct FaceFlow {
-  double K = 0;           ///< conductance [m^3/(Pa s)]
-  double density = 1;     ///< rho/rho0 on the face [-]
-  double q_density = 0;   ///< with it: the volume that flows [m^3/s]
-  double q_h_a = 0;       ///< with the film thickness at a [m^2/s]
-  double q_h_b = 0;       ///< with that at b [m^2/s]
-  double q_bend = 0;      ///< with what the gap on the face has over the mean of both nodes [m^2/s]
-  double q_journal = 0;   ///< with phi_journal [m^3/(s rad)]
-  double q_fluidity = 0;  ///< with the face's 1/mu
-  double couette = 0;     ///< entrained flow of a full gap [m^3/s]
-  double little = 0;      ///< entrained flow per fill fraction where there is little oil: pockets hold it back [m^3/s]
-  double recirculation = 0;  ///< power of the oil that turns in pockets under the tube [W]
+  double K = 0;                  ///< conductance [m^3/(Pa s)]
+  double density = 1;            ///< rho/rho0 on the face [-]
+  double q_density = 0;          ///< with it: the volume that flows [m^3/s]
+  double q_h_a = 0;              ///< with the film thickness at a [m^2/s]
+  double q_h_b = 0;              ///< with that at b [m^2/s]
+  double q_bend = 0;             ///< with what the gap on the face has over the mean of both nodes [m^2/s]
+  double q_excess = 0;           ///< with what the control volume upstream has over the gap at its node [m^2/s]
+  double q_journal = 0;          ///< with phi_journal [m^3/(s rad)]
+  double q_theta = 0;            ///< with the fill fraction upstream [m^3/s]
+  double q_fluidity = 0;         ///< with the face's 1/mu
+  double couette = 0;            ///< entrained flow of a full gap [m^3/s]
+  double little = 0;             ///< entrained flow per fill fraction where there is little oil [m^3/s]
+  double little_by_couette = 0;  ///< where the first is a given multiple of the second; else 0 [-]
+  bool is_deep = false;          ///< over a pocket, which holds oil back
+  double recirculation = 0;      ///< power of the oil that turns in pockets under the tube [W]
   /// What pockets add to the integral of h dp over the tube and its width [N], with derivatives by the thickness on the
   /// face, the mean of 1/mu, the drop of the walls' pressure, the speed past the pockets' steps and phi_journal.
   struct Moment {
@@ -69,6 +73,9 @@ class FlowBalance {
 
   [[nodiscard]] const FilmModel& model() const { return model_; }
   [[nodiscard]] int size() const { return model_.grid.size(); }
+
+  /// Flows tell what full nodes would carry if they were not: for sweeps that change fill fractions between evaluations.
+  void expect_any_fill() { expects_any_fill_ = true; }
 
   /// Nodes, flows and residual at `u`. Outside the domain nothing of them is to be used.
   FilmDomain evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
@@ -169,13 +176,17 @@ class FlowBalance {
   /// way.
   struct HeldNode {
     int node = 0;
-    double chi = 0;          ///< share that the node's own balance loses [-]
-    double chi_line = 0;     ///< with phi_supply [1/rad]
-    double chi_journal = 0;  ///< with phi_journal [1/rad]
-    int feature = -1;        ///< -1: the line
-    double u = 0;            ///< given [Pa]
-    double inwards = 0;      ///< feature: how near to its middle (CoveredNode)
-    int other = -1;          ///< line: the node on its other side
+    double chi = 0;            ///< share that the node's own balance loses [-]
+    double chi_line = 0;       ///< with phi_supply [1/rad]
+    double chi_journal = 0;    ///< with phi_journal [1/rad]
+    double stirred = 0;        ///< share of its oil [-]
+    double draws = 1;          ///< of the oil it lacks [-]
+    double draws_line = 0;     ///< with phi_supply [1/rad]
+    double draws_journal = 0;  ///< with phi_journal [1/rad]
+    int feature = -1;          ///< -1: the line
+    double u = 0;              ///< given [Pa]
+    double inwards = 0;        ///< feature: how near to its middle (CoveredNode)
+    int other = -1;            ///< line: the node on its other side
     double near = 1, far = 0,
            bend = 0;  ///< line: weights by which h on the way to it follows from here, there and bend
     double near_line = 0, bend_line = 0;  ///< line: with phi_supply [1/rad]
@@ -223,12 +234,20 @@ class FlowBalance {
     std::array<double, 2> cube_at{};
     double full = 0, full_h = 0, full_journal = 0;
     std::array<double, 2> full_at{};
-    double little = 0, little_h = 0, little_journal = 0;
+    double little = 0, little_h = 0, little_excess = 0, little_journal = 0;  ///< by h and excess of the node `from`
+    double little_by_full = 0;  ///< where it is no more than a factor times that; else 0
+    int from = 0;               ///< upstream
   };
 
   /// Speeds across a face: mean of both surfaces, half their difference, the journal's [m/s].
   struct Speeds {
     double mean = 0, half_slip = 0, journal = 0;
+  };
+
+  /// Share of a full gap's flow that the surfaces carry over a face that the line cuts, with derivatives: by the fill
+  /// fraction upstream, by thickness at both nodes, by bend, excess upstream and phi_journal.
+  struct CarriedShare {
+    double value = 1, theta = 0, h_a = 0, h_b = 0, bend = 0, excess = 0, journal = 0;
   };
 
   void lay_faces();
@@ -244,6 +263,9 @@ class FlowBalance {
   [[nodiscard]] std::size_t line_face(const HeldNode& held) const;
   [[nodiscard]] bool has_line_row(int node) const;
   [[nodiscard]] double line_balance(int node) const;
+  void find_carried_share(std::size_t f, const FaceGap& gap, const Carried& carried);
+  [[nodiscard]] CarriedShare share_towards_line(int node, const TowardsLine& t) const;
+  [[nodiscard]] double share_along(std::size_t f, const CarriedShare& share, const MotionDirection& direction) const;
   [[nodiscard]] double thickness_towards_line(const HeldNode& held) const;
   [[nodiscard]] TubeGap gap_towards_line(const HeldNode& held, double h) const;
   [[nodiscard]] ByGap carried_in_pockets(const HeldNode& held) const;
@@ -282,6 +304,7 @@ class FlowBalance {
   [[nodiscard]] FaceGap smooth_gap(std::size_t f, double h) const;
   void roughen(std::size_t f, FaceGap& gap) const;
   void deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) const;
+  void carry_little(std::size_t f, FaceGap& gap) const;
   [[nodiscard]] double thickness_on(std::size_t f) const;
   [[nodiscard]] bool is_limited(std::size_t f) const;
   void replace_boundary_rows();
@@ -306,6 +329,8 @@ class FlowBalance {
   [[nodiscard]] const Fluidity& flow_of(int node, std::size_t f) const { return nodes_[node].flow[axial(f) ? 1 : 0]; }
   /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
   [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : speed_phi_; }
+  /// Changes of the speeds across face f.
+  [[nodiscard]] Speeds speeds_along(std::size_t f, const MotionDirection& direction) const;
   /// Flows over face f, of a full gap and of little oil, that belong to a set of speeds.
   [[nodiscard]] std::array<double, 2> carried_at(std::size_t f, const Speeds& speeds) const;
 
@@ -335,6 +360,7 @@ class FlowBalance {
   std::vector<Cell> cells_;
   std::vector<int> tube_of_;  ///< of every face its pocket tube, -1 for none
   Line line_;
+  std::vector<CarriedShare> line_shares_;  ///< of the faces that it cuts, by their axial row
   SurfaceMotion speeds_;
   Sliding sliding_;
   std::vector<HeldNode> held_;
@@ -347,7 +373,7 @@ class FlowBalance {
   std::vector<CoveredNode> covered_;
   bool liner_rests_ = false;  ///< the step starts with the deformation it ends with
   double phi_start_ = 0;
-  bool knows_gap_ = false, follows_gap_ = false;
+  bool knows_gap_ = false, follows_gap_ = false, expects_any_fill_ = false;
   double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, half_slip_phi_ = 0, half_slip_z_ = 0, largest_throughput_ = 0;
 };
 

@@ -20,7 +20,7 @@ const FlowBalance::HeldNode* FlowBalance::supplied_at(int node) const {
 
 double FlowBalance::supplied_share(int node) const {
   const HeldNode* supplied = supplied_at(node);
-  return supplied == nullptr ? 0 : supplied->chi;
+  return supplied == nullptr ? 0 : supplied->stirred;
 }
 
 int FlowBalance::supplied_by(int node) const {
@@ -45,11 +45,10 @@ double FlowBalance::supply_conductance(int node) const {
 
 double FlowBalance::draws(int node) const {
   const HeldNode* held = held_at(node);
-  if (held == nullptr || held->other < 0 || cavitation_.has_tension()) return 1;
-  return (1 - held->way) * (1 - held->way);
+  return held == nullptr || cavitation_.has_tension() ? 1 : held->draws;
 }
 
-// Between line and next node only pressure drives oil. On the line itself the gap is full, whatever comes.
+// Between supply and next node only pressure drives oil. On the supply itself the gap is full, whatever comes.
 ValueAndSlope FlowBalance::excess(const HeldNode& held) const {
   const double u = u_[held.node], share = u < 0 ? draws(held.node) : 1;
   if (u > 0 && only_fills(held.node)) return {0, 0};
@@ -158,6 +157,9 @@ void FlowBalance::hold_line(double phi) {
     hold({.node = grid.index(here, j),
           .chi = 1 - way,
           .chi_line = -by_phi,
+          .stirred = 1 - way,
+          .draws = (1 - way) * (1 - way),
+          .draws_line = -2 * (1 - way) * by_phi,
           .u = u,
           .other = grid.index(there, j),
           .near = 1 - 0.5 * way,
@@ -195,6 +197,9 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
       hold({.node = node.node,
             .chi = node.share,
             .chi_journal = node.share_phi,
+            .stirred = node.stirred,
+            .draws = node.draws,
+            .draws_journal = node.draws_phi,
             .feature = static_cast<int>(f),
             .u = u,
             .inwards = node.inwards});
@@ -273,7 +278,16 @@ double FlowBalance::line_balance(int node) const {
   const std::size_t f = line_face(*held_at(node));
   const double carried = flows_[f].carried(upstream(f).theta).value;
   const double conserved = node == faces_[f].a ? carried : -carried;
-  return balance_[node] - conserved + t.full * (t.from_node ? nodes_[node].theta : 1) - t.strip;
+  return balance_[node] - conserved + t.full * share_towards_line(node, t).value - t.strip;
+}
+
+/// Of a full gap what the surfaces carry from a node to the line; all of it, where they carry it away from there.
+FlowBalance::CarriedShare FlowBalance::share_towards_line(int node, const TowardsLine& t) const {
+  if (!t.from_node) return {};
+  const std::size_t f = line_face(*held_at(node));
+  if (node == (flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b))
+    return line_shares_[f % static_cast<std::size_t>(model_.grid.n_z)];
+  return {.value = nodes_[node].theta, .theta = 1};
 }
 
 void FlowBalance::add_line_by_u(const HeldNode& held) {
@@ -282,15 +296,38 @@ void FlowBalance::add_line_by_u(const HeldNode& held) {
   const TowardsLine t = towards_line(held.node);
   const Node &node = nodes_[held.node], &other = nodes_[held.other];
   const double sign = held.node == face.a ? 1 : -1, density = flows_[f].density;
-  const double theta = t.from_node ? node.theta : 1, scale = sign * theta * density * face.width;
+  const CarriedShare share = share_towards_line(held.node, t);
+  const bool is_a = held.node == face.a;
+  const double scale = sign * share.value * density * face.width;
   const double deeper = carried_in_pockets(held).h;
   const auto by_h = [&](int k) {
     return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0] + deeper;
   };
-  const double by_density = 0.5 * (theta * t.full - t.strip) / density;
-  values_[diagonal_slot_[held.node]] += scale * held.near * by_h(held.node) * node.h_u + by_density * node.density_u +
-                                        (t.from_node ? t.full * node.theta_u : 0);
-  values_[slot_to_other(held)] += scale * held.far * by_h(held.other) * other.h_u + by_density * other.density_u;
+  const double by_density = 0.5 * (share.value * t.full - t.strip) / density;
+  values_[diagonal_slot_[held.node]] +=
+      scale * held.near * by_h(held.node) * node.h_u + by_density * node.density_u +
+      t.full * (share.theta * node.theta_u + (is_a ? share.h_a : share.h_b) * node.h_u);
+  values_[slot_to_other(held)] += scale * held.far * by_h(held.other) * other.h_u + by_density * other.density_u +
+                                  t.full * (is_a ? share.h_b : share.h_a) * other.h_u;
+}
+
+/// Change of a share of that with the surfaces.
+double FlowBalance::share_along(std::size_t f, const CarriedShare& share, const MotionDirection& direction) const {
+  if (share.theta == 0) return 0;
+  const Face& face = faces_[f];
+  const FaceFlow& flow = flows_[f];
+  const Speeds speeds = speeds_along(f, direction);
+  double change = share.journal * direction.phi_journal;
+  if ((speeds.mean != 0 || speeds.half_slip != 0)) {
+    const auto [full, little] = carried_at(f, speeds);
+    const Carried carried = flow.carried(upstream(f).theta);
+    change += flow.density * ((carried.full - share.value) * full + carried.little * little) / flow.couette;
+  }
+  if (direction.g.size() == 0) return change;
+  return change + share.h_a * nodes_[face.a].h_g * direction.g[face.a] +
+         share.h_b * nodes_[face.b].h_g * direction.g[face.b] +
+         share.bend * direction_bends_[static_cast<Eigen::Index>(f)] +
+         share.excess * direction_excesses_[flow.couette >= 0 ? face.a : face.b];
 }
 
 /// Change of what towards_line() tells with the surfaces.
@@ -300,7 +337,8 @@ double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& 
   const auto bend = static_cast<Eigen::Index>(f);
   const TowardsLine t = towards_line(held.node);
   const double sign = held.node == face.a ? 1 : -1, density = flows_[f].density;
-  const double scale = sign * density * face.width * (t.from_node ? nodes_[held.node].theta : 1);
+  const CarriedShare share = share_towards_line(held.node, t);
+  const double scale = sign * density * face.width * share.value;
   const double speed = 0.5 * (direction.u_shell + direction.u_journal),
                half_slip = 0.5 * (direction.u_shell - direction.u_journal);
   const auto carried = [&](int k, double mean, double half) {
@@ -328,16 +366,16 @@ double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& 
     const double h = thickness_towards_line(held), step = step_of(tube, speed, direction.u_journal);
     q += (speed - step) * (gap_towards_line(held, h).carry.value - h) + deeper.journal * direction.phi_journal;
   }
-  double row = scale * q;
+  double row = scale * q + t.full * share_along(f, share, direction);
   if (direction.g_rate.size() != 0) row -= density * strip_area(held) * direction.g_rate[held.node];
   return row + 0.5 * held.way_line * turn * density * face.length * face.width * g_rate_[held.node];
 }
 
-/// Change of excess() as the line moves [Pa].
+/// Change of excess() as line and journal move [Pa].
 double FlowBalance::draws_along(const HeldNode& held, const MotionDirection& direction) const {
   const double u = u_[held.node];
   if (u >= 0 || cavitation_.has_tension()) return 0;
-  return -2 * (1 - held.way) * held.way_line * direction.phi_supply * u;
+  return (held.draws_line * direction.phi_supply + held.draws_journal * direction.phi_journal) * u;
 }
 
 int FlowBalance::slot_to_other(const HeldNode& held) const {

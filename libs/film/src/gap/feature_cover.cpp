@@ -22,7 +22,9 @@ struct Surroundings {
   double to_phi = 0, to_z = 0;        ///< distance of the neighbours towards the feature [m]
   double width_phi = 0, width_z = 0;  ///< of the control volume [m]
   double back = 0, ahead = 0;         ///< half-way to the neighbours around the bearing [rad]
-  double below = 0, above = 0;        ///< likewise along it [m]; mirrored at an edge
+  double below = 0, above = 0;        ///< likewise along it [m]; mirrored at an edge unless within_film()
+
+  [[nodiscard]] bool is_on_edge() const { return below == 0 || above == 0; }
 };
 
 Surroundings surroundings(const GridGeometry& g, double R, int i, int j, double d, double z) {
@@ -36,6 +38,13 @@ Surroundings surroundings(const GridGeometry& g, double R, int i, int j, double 
   s.width_phi = g.width_phi[i], s.width_z = g.width_z[j];
   s.back = 0.5 * behind / R, s.ahead = 0.5 * before / R;
   s.below = 0.5 * under, s.above = 0.5 * over;
+  return s;
+}
+
+/// Those of a node on an edge end there.
+Surroundings within_film(Surroundings s, int j, int n_z) {
+  if (j == 0) s.below = 0;
+  if (j == n_z - 1) s.above = 0;
   return s;
 }
 
@@ -121,6 +130,39 @@ Share covered_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
   return {around.value * along, around.phi * along};
 }
 
+/// Of a control volume that a feature covers in part, or, where the feature is the smaller around the bearing, of what
+/// goes around there.
+Share stirred_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
+  if (feature.arc >= turn) return {1, 0};
+  const double smaller = std::min(s.back + s.ahead, feature.arc);
+  const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
+  return {around.value / smaller, around.phi / smaller};
+}
+
+/// What is there of oil that passes a node's control volume, and of oil that it lacks (film.22, thermal.14).
+void stir(const SurfaceFeature& feature, const Surroundings& s, bool is_ellipse, CoveredNode& node) {
+  const auto drawn = [&](double share, double share_phi) {
+    const double half = std::min(2 * share, 1.0);
+    return Share{half * half, share < 0.5 ? 4 * half * share_phi : 0};
+  };
+  if (is_ellipse) {
+    const double wider = std::max(1.0, (s.back + s.ahead) / feature.arc);
+    const Share covered = ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length);
+    const double higher = std::max(1.0, (s.below + s.above) / feature.length);
+    const Share draws =
+        s.is_on_edge() ? Share{1, 0} : drawn(wider * higher * covered.value, wider * higher * covered.phi);
+    node.stirred = std::min(1.0, wider * covered.value);
+    node.draws = draws.value, node.draws_phi = draws.phi;
+    return;
+  }
+  const Share around = stirred_rectangle(feature, s);
+  const double along = overlap_along(feature, s), higher = std::max(1.0, (s.below + s.above) / feature.length);
+  const Share draws = drawn(around.value, around.phi);
+  const double draws_along = s.is_on_edge() ? 1 : drawn(higher * along, 0).value;
+  node.stirred = around.value * along;
+  node.draws = draws.value * draws_along, node.draws_phi = draws.phi * draws_along;
+}
+
 }  // namespace
 
 double unit_conductance(const GridGeometry& geometry) {
@@ -143,7 +185,11 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
           feature.shape == FeatureShape::ellipse ? held_ellipse(feature, s) : held_rectangle(feature, s, model.R, unit);
       const double inwards =
           1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
-      if (held.value > 0) nodes.push_back({grid.index(i, j), held.value, travels ? held.phi : 0, inwards});
+      if (held.value == 0) continue;
+      CoveredNode& node = nodes.emplace_back();
+      node = {.node = grid.index(i, j), .share = held.value, .share_phi = held.phi, .inwards = inwards};
+      stir(feature, within_film(s, j, grid.n_z), feature.shape == FeatureShape::ellipse, node);
+      if (!travels) node.share_phi = node.draws_phi = 0;
     }
   }
 }
@@ -156,13 +202,13 @@ void cover_cells(const FilmModel& model, const GridGeometry& geometry, const Sur
   for (int i = 0; i < grid.n_phi; ++i) {
     const double d = std::remainder(geometry.phi[i] - middle, turn);
     for (int j = 0; j < grid.n_z; ++j) {
-      Surroundings s = surroundings(geometry, model.R, i, j, d, geometry.z[j] - feature.z);
-      if (j == 0) s.below = 0;
-      if (j == grid.n_z - 1) s.above = 0;
+      const Surroundings s =
+          within_film(surroundings(geometry, model.R, i, j, d, geometry.z[j] - feature.z), j, grid.n_z);
       const Share covered = feature.shape == FeatureShape::ellipse
                                 ? ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length)
                                 : covered_rectangle(feature, s);
-      if (covered.value > 0) nodes.push_back({grid.index(i, j), covered.value, travels ? covered.phi : 0});
+      if (covered.value > 0)
+        nodes.push_back({.node = grid.index(i, j), .share = covered.value, .share_phi = travels ? covered.phi : 0});
     }
   }
 }

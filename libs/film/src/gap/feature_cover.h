@@ -13,12 +13,16 @@ struct CoveredNode {
   double share = 0;
   double share_phi = 0;
   double inwards = 0;  ///< how near to the feature's middle, 1, from its border, 0 [-]; below 0 outside
+  double stirred = 0;  ///< share of the oil passing the node's control volume that passes the feature in it [-]
+  double draws = 0;    ///< of the oil that is missing there, what the feature gives [-], and its derivative
+  double draws_phi = 0;
 };
 
 /// Conductance of a mean cell to its four neighbours, per h^3/(12 mu): what shares refer to [-].
 [[nodiscard]] double unit_conductance(const GridGeometry& geometry);
 
-/// Appends the nodes of whose rows a feature holds a share (film.22), with the journal turned by `phi_journal` [rad].
+/// Appends the nodes of whose rows a feature holds a share (film.22), with the journal turned by `phi_journal`
+/// [rad].
 void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFeature& feature, double phi_journal,
            std::vector<CoveredNode>& nodes);
 

@@ -26,14 +26,14 @@ void HeatEquations::assemble(const CarryingFilm& film, const HeatState& start) {
   outside_ = start.outside;
   by_supply_.assign(static_cast<std::size_t>(start.film.size()), 0.0);
   add_storage(film, start);
-  add_flows(film);
+  add_flows(film, start);
   add_flow_upwards(film);
   add_edges(film);
   add_conduction(film);
   add_shell(film, start);
   add_journal(film);
   if (holds_walls(film)) add_equations_to_mean(film, start);
-  add_supplies(film);
+  add_supplies(film, start);
   renew(film);
   add_remainder(film, start);
   if (holds_walls(film)) hold_walls(start);
@@ -54,8 +54,20 @@ void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start
   }
 }
 
-void HeatEquations::add_flows(const CarryingFilm& film) {
-  inflow_.assign(static_cast<std::size_t>(model_.grid.size()), 0.0);
+/// Slope of the temperature across a layer of a node [K], of its mean and those of the layers beside it.
+double HeatEquations::slope_across(const Eigen::VectorXd& T, int node, int layer) const {
+  const int n = layers();
+  if (n < 3) return n < 2 ? 0 : (T[system_.row(node, 1)] - T[system_.row(node, 0)]) / across_.to_next(0);
+  const int k = std::clamp(layer, 1, n - 2);
+  const double a = across_.to_next(k - 1), b = across_.to_next(k);
+  const double before = (T[system_.row(node, k)] - T[system_.row(node, k - 1)]) / a,
+               after = (T[system_.row(node, k + 1)] - T[system_.row(node, k)]) / b;
+  const double bend = (after - before) / (a + b);
+  return before + a * bend + 2 * bend * (across_.middle(layer) - across_.middle(k));
+}
+
+void HeatEquations::add_flows(const CarryingFilm& film, const HeatState& start) {
+  inflow_.setZero(system_.size());
   for (std::size_t f = 0; f < film.balance.faces().size(); ++f) {
     std::array<std::optional<Upstream>, 2> ways;  // layers may flow either way
     for (int l = 0; l < layers(); ++l) {
@@ -64,6 +76,10 @@ void HeatEquations::add_flows(const CarryingFilm& film) {
       std::optional<Upstream>& way = ways[q > 0 ? 0 : 1];
       if (!way) way = upstream(film, f, q > 0);
       add_flow(*way, l, std::abs(q));
+      const Face& face = film.balance.faces()[f];
+      const double lead = rc_ * film.flows.lead_over_face(f, l) * slope_across(start.film, way->from, l);
+      known_[system_.row(face.a, l)] -= lead;
+      known_[system_.row(face.b, l)] += lead;
     }
   }
 }
@@ -98,7 +114,7 @@ HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::s
     length = geometry.dx[beyond == last ? last : i];
   }
   const FlowBalance& b = film.balance;
-  if (b.is_supplied(from) || b.is_supplied(behind) || b.nodes()[behind].content < 1e-3) return way;
+  if (b.supplied_share(from) > 0 || b.supplied_share(behind) > 0 || b.nodes()[behind].content < 1e-3) return way;
   way.slope_share = 0.5 * face.length / length;
   return way;
 }
@@ -108,7 +124,7 @@ void HeatEquations::add_flow(const Upstream& way, int layer, double q) {
   const double heat = rc_ * q, extrapolated = heat * way.slope_share;
   system_.diagonal(system_.row(way.to, layer)) += heat;
   system_.beside(way.to, layer, way.side) -= heat + extrapolated;
-  inflow_[static_cast<std::size_t>(way.to)] += q;
+  inflow_[system_.row(way.to, layer)] += q;
   if (extrapolated == 0) return;
   system_.diagonal(system_.row(way.from, layer)) += extrapolated;
   system_.beside(way.from, layer, way.side) -= extrapolated;
@@ -135,9 +151,9 @@ void HeatEquations::add_edges(const CarryingFilm& film) {
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double in = -film.balance.outflow(node);
     if (in <= 0) continue;
-    inflow_[static_cast<std::size_t>(node)] += in;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
+      inflow_[row] += in * width(l);
       system_.diagonal(row) += rc_ * in * width(l);
       known_[row] += rc_ * in * width(l) * at_edges(outside_);
       if (const Eigen::Index place = at_.place_of_oil(thermal_.oil.edges); place >= 0)
@@ -241,9 +257,31 @@ void HeatEquations::add_journal(const CarryingFilm& film) {
   }
 }
 
+// What a node's film gives its walls is already that of its share of the area: it is not to be scaled by it once more.
+void HeatEquations::add_walls_of_film(const CarryingFilm& film, const HeatState& start, int node, double chi) {
+  if (conducts(thermal_.shell)) {
+    const WallFlux flux = to_shell(film, node);
+    const int row = system_.row(node, 0);
+    system_.diagonal(row) += chi * flux.beside;
+    if (layers() > 1) system_.above(node, 0) -= chi * flux.next;
+    if (has_own_temperatures(thermal_.shell)) {
+      system_.to_ring(node) -= chi * flux.wall();
+    } else {
+      known_[row] += chi * flux.wall() * start.shell[node / model_.grid.n_z];
+      by_shell_[row] += chi * flux.wall();
+    }
+  }
+  if (!conducts(thermal_.journal)) return;
+  const WallFlux flux = to_journal(film, node);
+  const int row = system_.row(node, top());
+  system_.diagonal(row) += chi * flux.beside;
+  if (layers() > 1) system_.below(node, top()) -= chi * flux.next;
+  by_journal_[row] += chi * flux.wall();
+}
+
 // Oil comes out of a supply with the temperature there; of what passes a node, the supply's share takes it on
 // (thermal.14).
-void HeatEquations::add_supplies(const CarryingFilm& film) {
+void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& start) {
   held_.clear();
   supply_of_.assign(static_cast<std::size_t>(model_.grid.size()), -1);
   for (int node = 0; node < model_.grid.size(); ++node) {
@@ -253,15 +291,15 @@ void HeatEquations::add_supplies(const CarryingFilm& film) {
               .chi = film.balance.supplied_share(node),
               .flow = film.balance.supply(node)};
     supply_of_[node] = held.supply;
-    const double passing = std::max(inflow_[static_cast<std::size_t>(node)] + std::max(held.flow, 0.0),
-                                    least_fill_ * film.balance.largest_throughput());
+    const double thread = least_fill_ * film.balance.largest_throughput();
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double share = held.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
+      const double in = rc_ * std::max(held.flow, 0.0) * share, passing = rc_ * inflow_[row];
       held.rows.push_back(
           {system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row], by_outside_.row(row)});
       held.rows.back().entries.front().second += rc_ * held.flow * share;
-      const double in = rc_ * std::max(held.flow, 0.0) * share, taken_on = held.chi * rc_ * passing * width(l);
+      const double taken_on = held.chi * std::max(passing + in, rc_ * thread * width(l));
       system_.diagonal(row) += in;
       system_.scale(row, 1 - held.chi);
       known_[row] *= 1 - held.chi, by_shell_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
@@ -269,17 +307,47 @@ void HeatEquations::add_supplies(const CarryingFilm& film) {
       system_.diagonal(row) += taken_on;
       by_supply_[row] = (1 - held.chi) * in + taken_on;
     }
+    add_walls_of_film(film, start, node, held.chi);
     held_.push_back(std::move(held));
   }
 }
 
-// Of the film's oil that comes to a supply, a share is not carried over but replaced. A node in which the supply has
-// the part chi is as warm as (1 - chi) T_film + chi T_g: the film's heat in what comes from there lies above chi T_g.
+// Of a node's oil the supply has stirred what it gives, its share of what passes, and what has been stirred before:
+// beside nodes that it has wholly two passes find all of it.
+void HeatEquations::find_stirred(const CarryingFilm& film) {
+  const auto& faces = film.balance.faces();
+  stirred_.setZero(system_.size());
+  Eigen::VectorXd came(system_.size());
+  for (int pass = 0; pass < 2; ++pass) {
+    came.setZero();
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      for (int l = 0; l < layers(); ++l) {
+        const double q = film.flows.over_face(f, l);
+        const int from = q > 0 ? faces[f].a : faces[f].b, to = q > 0 ? faces[f].b : faces[f].a;
+        if (supply_of_[to] == supply_of_[from])
+          came[system_.row(to, l)] += std::abs(q) * stirred_[system_.row(from, l)];
+      }
+    }
+    for (const Held& held : held_) {
+      for (int l = 0; l < layers(); ++l) {
+        const int row = system_.row(held.node, l);
+        const double given = std::max(held.flow, 0.0) * width(l), passing = inflow_[row];
+        const double own = given + held.chi * passing + (1 - held.chi) * came[row];
+        stirred_[row] = passing + given > 0 ? std::min(1.0, own / (passing + given)) : 1;
+      }
+    }
+  }
+}
+
+// Of the film's oil that comes to a supply, a share is not carried over but replaced: of what comes to a node, what the
+// supply stirs there and takes away. Of a node's oil a part may be the supply's own: the film's heat lies above that.
 void HeatEquations::renew(const CarryingFilm& film) {
   renewals_.clear();
   if (thermal_.carry_over == 1) return;
+  find_stirred(film);
   std::vector<const Held*> held_at(static_cast<std::size_t>(model_.grid.size()), nullptr);
   for (const Held& held : held_) held_at[static_cast<std::size_t>(held.node)] = &held;
+  const double replaced = (1 - thermal_.carry_over) * rc_;
   const auto& faces = film.balance.faces();
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (int l = 0; l < layers(); ++l) {
@@ -287,8 +355,11 @@ void HeatEquations::renew(const CarryingFilm& film) {
       const int from = q > 0 ? faces[f].a : faces[f].b;
       const Held* held = held_at[static_cast<std::size_t>(q > 0 ? faces[f].b : faces[f].a)];
       if (held == nullptr || q == 0) continue;
-      const double heat = (1 - thermal_.carry_over) * held->chi * rc_ * std::abs(q);
-      const double stirred = film.balance.supplied_share(from);
+      const int to = system_.row(held->node, l);
+      const double taken =
+          std::min(1.0, std::max(-held->flow, 0.0) * film.flows.leaving_share(held->node, l) / inflow_[to]);
+      const double heat = replaced * (held->chi + (1 - held->chi) * taken) * std::abs(q);
+      const double stirred = stirred_[system_.row(from, l)];
       // What another supply has stirred is its own matter.
       const bool is_same = supply_of_[from] == held->supply;
       renewals_.push_back(

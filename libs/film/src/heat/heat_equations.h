@@ -110,7 +110,8 @@ class HeatEquations {
 
   void assemble(const CarryingFilm& film, const HeatState& start);
   void add_storage(const CarryingFilm& film, const HeatState& start);
-  void add_flows(const CarryingFilm& film);
+  [[nodiscard]] double slope_across(const Eigen::VectorXd& T, int node, int layer) const;
+  void add_flows(const CarryingFilm& film, const HeatState& start);
   /// Where oil that flows over a face comes from.
   struct Upstream {
     int from = 0, to = 0;
@@ -130,7 +131,9 @@ class HeatEquations {
   [[nodiscard]] Eigen::VectorXd heat_into_shell(const CarryingFilm& film, const HeatState& state) const;
   [[nodiscard]] double heat_into_journal(const CarryingFilm& film, const HeatState& state) const;
   void add_journal(const CarryingFilm& film);
-  void add_supplies(const CarryingFilm& film);
+  void add_walls_of_film(const CarryingFilm& film, const HeatState& start, int node, double chi);
+  void add_supplies(const CarryingFilm& film, const HeatState& start);
+  void find_stirred(const CarryingFilm& film);
   void renew(const CarryingFilm& film);
   [[nodiscard]] double renewed(const HeatState& state, int supply) const;
   void add_journal_row(const CarryingFilm& film, const HeatState& start);
@@ -190,7 +193,8 @@ class HeatEquations {
   solver::Gmres gmres_;
   int most_iterations_ = 120;
   std::vector<Held> held_;
-  std::vector<double> inflow_;  ///< of each node over its faces and edges [m^3/s]
+  Eigen::VectorXd inflow_;   ///< of each layer over its faces and edges [m^3/s]
+  Eigen::VectorXd stirred_;  ///< share of each layer's oil that the supply of its node has stirred [-]
 };
 
 }  // namespace hersey::film

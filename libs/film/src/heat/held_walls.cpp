@@ -57,18 +57,16 @@ OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std
     const bool is_held = film.balance.is_supplied(node);
     const int supply = is_held ? film.balance.supplied_by(node) + (has_line() ? 1 : 0) : -1;
     const double share = is_held ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
-    const double replaced = is_held ? (1 - thermal_.carry_over) * film.balance.supplied_share(node) *
-                                          inflow_[static_cast<std::size_t>(node)]
-                                    : 0;
+    const double replaced = is_held ? (1 - thermal_.carry_over) * film.balance.supplied_share(node) : 0;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       if (edges >= 0 && out < 0) mean.by(row, edges) -= rc_ * out * width(l);
       if (const Eigen::Index oil = is_held ? oil_of(supply) : -1; oil >= 0)
-        mean.by(row, oil) += rc_ * (share + replaced) * width(l);
+        mean.by(row, oil) += rc_ * (share * width(l) + replaced * inflow_[row]);
       if (drain < 0) continue;
       if (out > 0) take(drain, row, rc_ * out * film.flows.leaving_share(node, l));
       if (is_held && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_share(node, l));
-      if (is_held) take(drain, row, rc_ * replaced * width(l));
+      if (is_held) take(drain, row, rc_ * replaced * inflow_[row]);
     }
   }
   return mean;
@@ -84,19 +82,18 @@ void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatSt
   for (int node = 0; node < model_.grid.size(); ++node) {
     into_shell[static_cast<std::size_t>(node)] = to_shell(film, node);
     into_journal[static_cast<std::size_t>(node)] = to_journal(film, node);
-    double renewed = 0;
+    double fresh_oil = 0, replaced = 0;
     if (film.balance.is_supplied(node)) {
       const auto supply = static_cast<std::size_t>(film.balance.supplied_by(node) + (has_line() ? 1 : 0));
-      const double replaced = (1 - thermal_.carry_over) * film.balance.supplied_share(node);
-      renewed = rc_ * (fresh[supply] * std::max(film.balance.supply(node), 0.0) +
-                       replaced * inflow_[static_cast<std::size_t>(node)]);
+      fresh_oil = fresh[supply] * std::max(film.balance.supply(node), 0.0);
+      replaced = (1 - thermal_.carry_over) * film.balance.supplied_share(node);
     }
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double T = start.film[row];
       const double thinning =
           -std::visit([T](const auto& law) { return law.log_viscosity(T).slope; }, model_.lubricant.temperature_law);
-      added[row] += film.flows.dissipation(node, l) * thinning + renewed * width(l);
+      added[row] += film.flows.dissipation(node, l) * thinning + rc_ * (fresh_oil * width(l) + replaced * inflow_[row]);
     }
   }
   mean_.add_equations(film.dt, {.system = system_,

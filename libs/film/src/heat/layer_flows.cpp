@@ -66,6 +66,7 @@ void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, 
 // the gap add to the flow carried is shared by all layers.
 void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion& motion) {
   faces_.resize(balance.faces().size() * layers_);
+  leads_.resize(faces_.size());
   const auto first_axial = static_cast<std::size_t>(model_.grid.size());
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
     const Face& face = balance.faces()[f];
@@ -73,15 +74,18 @@ void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion
     const Node &a = balance.nodes()[face.a], &b = balance.nodes()[face.b];
     const LayerShares &at_a = shares_[face.a], &at_b = shares_[face.b];
     const double along_pressure = flow.K * (a.p - b.p);
-    const double theta = (flow.couette >= 0 ? a : b).theta, carried = flow.carried(theta).value;
+    const double carried = flow.carried((flow.couette >= 0 ? a : b).theta).value;
     const double u_shell = f < first_axial ? motion.u_shell : motion.w_shell;
     const double slip = (f < first_axial ? motion.u_journal : motion.w_journal) - u_shell;
-    const double full = theta * flow.density * face.width * 0.5 * (a.h + b.h);
+    const double share = flow.couette != 0 ? carried / flow.couette : 0;
+    const double full = share * flow.density * face.width * 0.5 * (a.h + b.h);
     double rest = carried;
     for (std::size_t l = 0; l < layers_; ++l) {
       const double own =
           full * (u_shell * across_.width(l) + 0.5 * slip * (at_a.sliding_flow[l] + at_b.sliding_flow[l]));
       faces_[f * layers_ + l] = 0.5 * along_pressure * (at_a.pressure_flow[l] + at_b.pressure_flow[l]) + own;
+      leads_[f * layers_ + l] = 0.5 * along_pressure * (at_a.pressure_lead[l] + at_b.pressure_lead[l]) +
+                                0.5 * full * slip * (at_a.sliding_lead[l] + at_b.sliding_lead[l]);
       rest -= own;
     }
     for (std::size_t l = 0; l < layers_; ++l) faces_[f * layers_ + l] += rest * across_.width(l);

@@ -33,6 +33,8 @@ class LayerFlows {
   [[nodiscard]] int layers() const { return layers_; }
   /// Over a face, from a to b [m^3/s]; of oil at rho0, as all flows here.
   [[nodiscard]] double over_face(std::size_t f, int layer) const { return faces_[at(f, layer)]; }
+  /// First moment of that flow about the layer's middle, over the thickness [m^3/s].
+  [[nodiscard]] double lead_over_face(std::size_t f, int layer) const { return leads_[at(f, layer)]; }
   /// Towards the journal, from a layer of a node into the next [m^3/s].
   [[nodiscard]] double upwards(int node, int layer) const {
     return upwards_[at(static_cast<std::size_t>(node), layer)];
@@ -59,7 +61,7 @@ class LayerFlows {
   const Layering& across_;
   WithinLayers within_;
   std::vector<LayerShares> shares_;  ///< of each node
-  std::vector<double> faces_, upwards_, heat_, lost_;
+  std::vector<double> faces_, leads_, upwards_, heat_, lost_;
 };
 
 }  // namespace hersey::film

@@ -76,8 +76,8 @@ LayerProfile profile_of(std::span<const double> mu, WithinLayers within) {
 // u_shell + U G0/I0 + h^2 p' (G1 - (I1/I0) G0). In a layer 1/mu is linear, G0 a parabola and G1 a cubic.
 void find_shares(std::span<const double> mu, WithinLayers within, LayerShares& shares) {
   const std::size_t n = mu.size();
-  for (auto* share :
-       {&shares.pressure_flow, &shares.sliding_flow, &shares.sliding_heat, &shares.pressure_heat, &shares.mixed_heat})
+  for (auto* share : {&shares.pressure_flow, &shares.sliding_flow, &shares.pressure_lead, &shares.sliding_lead,
+                      &shares.sliding_heat, &shares.pressure_heat, &shares.mixed_heat})
     share->resize(n);
   const Layering& layers = layering_of(n);
   const Fluidities fluidity(mu, within);
@@ -92,6 +92,8 @@ void find_shares(std::span<const double> mu, WithinLayers within, LayerShares& s
     const double off = middle - centre;
     shares.sliding_flow[l] = int_G0 / I0;
     shares.pressure_flow[l] = (centre * int_G0 - int_G1) / F2;
+    shares.sliding_lead[l] = bent * f / I0;
+    shares.pressure_lead[l] = -(bent * off * f + width * width * bent * s / 20) / F2;
     shares.sliding_heat[l] = width * f / I0;
     shares.pressure_heat[l] = (f * (width * off * off + bent) + 2 * bent * s * off) / F2;
     shares.mixed_heat[l] = 2 * (width * f * off + bent * s) / I0;

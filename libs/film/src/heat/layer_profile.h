@@ -24,7 +24,10 @@ struct LayerProfile {
 struct LayerShares {
   std::vector<double> pressure_flow;  ///< of the flow along pressure; sum 1
   std::vector<double> sliding_flow;  ///< of U h, which the journal's speed U over the shell's carries; sum (1 - skew)/2
-  std::vector<double> sliding_heat;  ///< of the dissipation by sliding; sum 1
+  /// First moments of both about each layer's middle: how much faster than its mean a layer flows on the journal's
+  /// side.
+  std::vector<double> pressure_lead, sliding_lead;
+  std::vector<double> sliding_heat;   ///< of the dissipation by sliding; sum 1
   std::vector<double> pressure_heat;  ///< of that by flow along pressure; sum 1
   std::vector<double> mixed_heat;     ///< by both at once, over h U dp/dx; sum 0
 };

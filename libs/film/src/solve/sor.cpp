@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "balance/flow_balance.h"
@@ -12,10 +14,18 @@ namespace {
 
 constexpr int sweeps_per_update = 20;
 
+// Updates in which the residual does not halve: sweeps that go round in circles are none.
+constexpr int most_without_progress = 50;
+
+// Newton's iterations for the fill fraction of one node, and the change of it with which they end.
+constexpr int most_of_a_node = 10;
+constexpr double near_enough = 1e-13;
+
 // 2^-30 of the way is where the sweeps began.
 constexpr int most_shortenings = 30;
 
-/// A node's row with everything but its own unknown known: K p + transport theta + known = 0 [m^3/s].
+/// A node's row with everything but its own unknown known: K p + transport theta + known = 0 [m^3/s], linearised in the
+/// fill fraction.
 struct NodeRow {
   double K = 0;
   double transport = 0;
@@ -31,6 +41,7 @@ class Sor {
         cavitation_(cavitation_law(model)),
         scales_(cavitation_scales(model)),
         around_(balance_.size()) {
+    balance_.expect_any_fill();
     for (std::size_t f = 0; f < balance_.faces().size(); ++f) {
       around_[balance_.faces()[f].a].push_back(static_cast<int>(f));
       around_[balance_.faces()[f].b].push_back(static_cast<int>(f));
@@ -46,7 +57,7 @@ class Sor {
   [[nodiscard]] FilmDomain enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u);
   void sweep();
   void relax(int i, int j);
-  [[nodiscard]] NodeRow row(int node) const;
+  [[nodiscard]] NodeRow row(int node, double theta) const;
   [[nodiscard]] double over_relaxation() const;
   [[nodiscard]] double following() const;
 
@@ -123,8 +134,13 @@ FilmDomain Sor::enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u) 
   return domain;
 }
 
-NodeRow Sor::row(int node) const {
+NodeRow Sor::row(int node, double theta) const {
   NodeRow r{0, storage_theta_[node], storage_known_[node]};
+  const auto leaves = [&](double of_full, const FaceFlow& flow) {
+    const Carried carried = flow.carried(theta);
+    r.transport += of_full * carried.theta / flow.couette;
+    r.known += of_full * (carried.value - carried.theta * theta) / flow.couette;
+  };
   for (int f : around_[node]) {
     const Face& face = balance_.faces()[f];
     const FaceFlow& flow = balance_.flows()[f];
@@ -137,17 +153,17 @@ NodeRow Sor::row(int node) const {
       const FlowBalance::TowardsLine line = balance_.towards_line(node);
       if (line.counts) {
         r.known -= line.strip;
-        (line.from_node ? r.transport : r.known) += line.full;
+        if (line.from_node && couette > 0)
+          leaves(line.full, flow);
+        else
+          (line.from_node ? r.transport : r.known) += line.full;
         continue;
       }
     }
-    if (couette >= 0) {
-      // Over pockets what leaves is not proportional to the fill: its share follows from the last sweep.
-      const double theta = std::max(theta_[node], 1e-6);
-      r.transport += (is_a ? 1 : -1) * flow.carried(theta).value / theta;
-    } else {
+    if (couette > 0)
+      leaves(couette, flow);
+    else
       r.known += (is_a ? 1 : -1) * flow.carried(theta_[other]).value;
-    }
   }
   return r;
 }
@@ -157,24 +173,36 @@ void Sor::relax(int i, int j) {
   if (balance_.edge_row(j)) return place(node, balance_.edge_unknown(j), j);
 
   // Beside line and features the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
-  const NodeRow r = row(node);
+  NodeRow r = row(node, 1);
   const bool open = balance_.open_row(j);
   const double own = balance_.balance_share(node), tie = balance_.supply_conductance(node);
-  const double full = own * (r.known + r.transport) - tie * balance_.supply_unknown(node);
+  const auto full = [&] { return own * (r.known + r.transport) - tie * balance_.supply_unknown(node); };
   const double conductance = own * (open ? balance_.conductance_scale() : r.K) + (balance_.only_fills(node) ? 0 : tie);
-  const double target = -full / conductance;
+  const double target = -full() / conductance;
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
   if (u >= 0 || cavitation_.has_tension()) return place(node, u, j);
 
-  const BrokenRow broken{.full = full,
-                         .transport = own * r.transport,
-                         .slack = own * balance_.conductance_scale(),
-                         .drawn = tie * balance_.draws(node)};
-  const double filling = cavitation_.broken_unknown(broken, scales_), ambient = balance_.ambient_unknown(j);
+  const auto broken = [&] {
+    return BrokenRow{.full = full(),
+                     .transport = own * r.transport,
+                     .slack = own * balance_.conductance_scale(),
+                     .drawn = tie * balance_.draws(node)};
+  };
+  // Newton's method for the fill fraction, from that of the last sweep (film.28).
+  double theta = theta_[node], filling = 0;
+  for (int k = 0; k < most_of_a_node; ++k) {
+    r = row(node, theta);
+    filling = cavitation_.broken_unknown(broken(), scales_);
+    const double last = std::exchange(theta, std::max(0.0, cavitation_.phase(filling, scales_).theta.value));
+    if (std::abs(theta - last) <= near_enough) break;
+  }
+  const double ambient = balance_.ambient_unknown(j);
   if (!open || filling >= ambient) return place(node, filling, j);
   // Emptier than what lies outside: u is the inflow that keeps it as full (film.19).
-  const double lack = full + (broken.transport / scales_.fill + broken.drawn) * ambient;
-  place(node, std::min(ambient, ambient - lack / (broken.slack + broken.drawn)), j);
+  r = row(node, cavitation_.phase(ambient, scales_).theta.value);
+  const BrokenRow drawing = broken();
+  const double lack = drawing.full + (drawing.transport / scales_.fill + drawing.drawn) * ambient;
+  place(node, std::min(ambient, ambient - lack / (drawing.slack + drawing.drawn)), j);
 }
 
 // With the flow, so that the fill fraction is carried around in one sweep.
@@ -193,13 +221,17 @@ FilmSolveSummary Sor::solve(const FilmSolveOptions& options, Eigen::VectorXd& u)
   omega_ = over_relaxation();
   Eigen::VectorXd followed = u;  // where thickness and viscosity are taken
   start(u);
+  double least = std::numeric_limits<double>::infinity();
+  int since = 0;
   for (;; summary.iterations += sweeps_per_update) {
     summary.domain = enter_domain(followed, u);
     if (!summary.domain.is_inside()) return summary;
     summary.relative_residual = balance_.relative_residual();
     summary.worst_node = balance_.worst_node();
     summary.set_solved(summary.relative_residual <= options.rtol);
-    if (summary.solved() || summary.iterations >= most) return summary;
+    since = summary.relative_residual < 0.5 * least ? 0 : since + 1;
+    if (since == 0) least = summary.relative_residual;
+    if (summary.solved() || summary.iterations >= most || since > most_without_progress) return summary;
     followed += following() * (u - followed);
     if (followed != u) summary.domain = update_coefficients(followed);
     if (!summary.domain.is_inside()) return summary;
