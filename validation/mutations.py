@@ -92,7 +92,7 @@ FAULTS = [
     Fault("bearing: a journal's shape turns backwards", "bearing/src/rigid_surfaces.cpp",
           "motion.g_rate += omega * first_;", "motion.g_rate -= omega * first_;"),
     Fault("bearing: damping over the load without the speed", "bearing/src/bearing_numbers.cpp",
-          "(c * omega / W);", "(c / W);"),
+          "(c * omega / W);", "(c * (omega / omega) / W);"),
     # -- mbd
     Fault("mbd: gyroscopic term", "mbd/src/tree/inertia.cpp", "F_[l] = IA + Vh;", "F_[l] = IA;"),
     Fault("mbd: row of a universal joint", "mbd/src/tree/joint_kind.cpp",
@@ -120,7 +120,7 @@ FAULTS = [
     Fault("fem: slope of a quadratic shape function", "fem/src/element/interpolation.cpp",
           "s.dN.row(a) = (4 * b.L[a] - 1) * b.dL.row(a);", "s.dN.row(a) = (4 * b.L[a] - 2) * b.dL.row(a);"),
     Fault("fem: mass without the element's size", "fem/src/element/solid_element.cpp",
-          "m.noalias() += weight * J.determinant() * shape.N", "m.noalias() += weight * shape.N"),
+          "m.noalias() += weight * J.determinant() * shape.N", "m.noalias() += weight * (J.determinant() / J.determinant()) * shape.N"),
     Fault("fem: shift of the natural modes", "fem/src/reduction/vibration.cpp",
           "const double omega_squared = shift + 1 / lanczos.theta[k];",
           "const double omega_squared = 1 / lanczos.theta[k];"),
