@@ -25,7 +25,7 @@ constexpr double kMostPassedOn = 0.02;
 constexpr int kStepsAsOne = 16;
 
 // Linearisations of a step from which on nodes that empty do so as their oil says: one that the linear film empties far
-// too much and the next one fills again would do so for ever.
+// too much and the next one fills again would do so for ever. Between surfaces that deform the gap would not follow.
 constexpr int kMostByItself = 4;
 
 // Films at the start of a run whose layers thin by their shear, and the change of viscosity with which they end.
@@ -196,7 +196,8 @@ void FilmForce::follow_surfaces() {
     if (gap_->is_angle(k)) parameter_change_[k] = std::remainder(parameter_change_[k], 2 * std::numbers::pi);
   reynolds_.follow(parameter_change_, du_);
   u_ = u_linearised_ + du_;
-  if (iterations_ > kMostByItself) reynolds_.let_fronts_follow(u_);
+  const bool is_rigid = deforming_->amplitudes() == 0 && model().compliance == 0;
+  if (is_rigid && iterations_ > kMostByItself) reynolds_.let_fronts_follow(u_);
 }
 
 // Pressures from a linear prediction may lie beyond any film: then the film stays as it was while the surfaces move.
