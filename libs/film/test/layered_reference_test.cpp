@@ -55,8 +55,8 @@ TEST_CASE("FilmBetweenWarmWalls_IsThatOfAnIndependentProgram") {
   c.model.grid = {.n_phi = 300, .n_z = 25};
   const HotFilm hot = compare(c);
   CHECK(std::abs(hot.heat.T_max - zero_celsius - 50.6718) < c.bars.T);
-  // Walls warm the fresh oil behind the groove at a rate that has no bound there: of first order, to the oil 8.9 W of 702
-  // more than in the program here, and 17 W on 60 nodes around.
+  // Walls warm the fresh oil behind the groove at a rate that has no bound there: of first order, to the oil 8.9 W of
+  // 702 more than in the program here, and 17 W on 60 nodes around.
   const double rim = 0.015 * 702.481;
   CHECK(std::abs(hot.heat.balance.to_oil - 702.481) < rim);
   CHECK(std::abs(hot.heat.balance.to_shell + 144.211) < rim);

@@ -74,7 +74,8 @@ class FlowBalance {
   [[nodiscard]] const FilmModel& model() const { return model_; }
   [[nodiscard]] int size() const { return model_.grid.size(); }
 
-  /// Flows tell what full nodes would carry if they were not: for sweeps that change fill fractions between evaluations.
+  /// Flows tell what full nodes would carry if they were not: for sweeps that change fill fractions between
+  /// evaluations.
   void expect_any_fill() { expects_any_fill_ = true; }
 
   /// Nodes, flows and residual at `u`. Outside the domain nothing of them is to be used.

@@ -77,7 +77,9 @@ void HeatEquations::add_flows(const CarryingFilm& film, const HeatState& start) 
       if (!way) way = upstream(film, f, q > 0);
       add_flow(*way, l, std::abs(q));
       const Face& face = film.balance.faces()[f];
-      const double lead = rc_ * film.flows.lead_over_face(f, l) * slope_across(start.film, way->from, l);
+      const double most = std::abs(q) * width(l) / 6;  // of oil that flows one way
+      const double lead =
+          rc_ * std::clamp(film.flows.lead_over_face(f, l), -most, most) * slope_across(start.film, way->from, l);
       known_[system_.row(face.a, l)] -= lead;
       known_[system_.row(face.b, l)] += lead;
     }
