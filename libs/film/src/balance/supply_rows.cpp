@@ -318,7 +318,7 @@ double FlowBalance::share_along(std::size_t f, const CarriedShare& share, const 
   const FaceFlow& flow = flows_[f];
   const Speeds speeds = speeds_along(f, direction);
   double change = share.journal * direction.phi_journal;
-  if ((speeds.mean != 0 || speeds.half_slip != 0)) {
+  if (speeds.mean != 0 || speeds.half_slip != 0) {
     const auto [full, little] = carried_at(f, speeds);
     const Carried carried = flow.carried(upstream(f).theta);
     change += flow.density * ((carried.full - share.value) * full + carried.little * little) / flow.couette;

@@ -54,16 +54,9 @@ void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start
   }
 }
 
-/// Slope of the temperature across a layer of a node [K], of its mean and those of the layers beside it.
 double HeatEquations::slope_across(const Eigen::VectorXd& T, int node, int layer) const {
-  const int n = layers();
-  if (n < 3) return n < 2 ? 0 : (T[system_.row(node, 1)] - T[system_.row(node, 0)]) / across_.to_next(0);
-  const int k = std::clamp(layer, 1, n - 2);
-  const double a = across_.to_next(k - 1), b = across_.to_next(k);
-  const double before = (T[system_.row(node, k)] - T[system_.row(node, k - 1)]) / a,
-               after = (T[system_.row(node, k + 1)] - T[system_.row(node, k)]) / b;
-  const double bend = (after - before) / (a + b);
-  return before + a * bend + 2 * bend * (across_.middle(layer) - across_.middle(k));
+  return across_.slope(static_cast<std::size_t>(layer),
+                       [&](std::size_t l) { return T[system_.row(node, static_cast<int>(l))]; });
 }
 
 void HeatEquations::add_flows(const CarryingFilm& film, const HeatState& start) {

@@ -110,6 +110,7 @@ class HeatEquations {
 
   void assemble(const CarryingFilm& film, const HeatState& start);
   void add_storage(const CarryingFilm& film, const HeatState& start);
+  /// Of the temperature across a layer of a node [K].
   [[nodiscard]] double slope_across(const Eigen::VectorXd& T, int node, int layer) const;
   void add_flows(const CarryingFilm& film, const HeatState& start);
   /// Where oil that flows over a face comes from.

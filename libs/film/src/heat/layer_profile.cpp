@@ -21,7 +21,7 @@ class Fluidities {
     if (n == 1 || within == WithinLayers::constant) return;
     for (std::size_t l = 0; l < n; ++l) {
       const double bound = steepest * lines_[l].f / (0.5 * across_.width(l));
-      lines_[l].s = std::clamp(slope(l, n), -bound, bound);
+      lines_[l].s = std::clamp(across_.slope(l, [&](std::size_t k) { return lines_[k].f; }), -bound, bound);
     }
   }
 
@@ -32,17 +32,6 @@ class Fluidities {
   [[nodiscard]] const Line& operator()(std::size_t l) const { return lines_[l]; }
 
  private:
-  [[nodiscard]] double step(std::size_t l) const { return (lines_[l + 1].f - lines_[l].f) / across_.to_next(l); }
-
-  /// Of the parabola through a layer and both beside it; beside a wall through it and the next two.
-  [[nodiscard]] double slope(std::size_t l, std::size_t n) const {
-    if (n == 2) return step(0);
-    const std::size_t k = std::clamp<std::size_t>(l, 1, n - 2);
-    const double a = across_.to_next(k - 1), b = across_.to_next(k), before = step(k - 1), after = step(k);
-    const double bend = (after - before) / (a + b), middle = before + a * bend;
-    return middle + 2 * bend * (across_.middle(l) - across_.middle(k));
-  }
-
   const Layering& across_;
   std::array<Line, most_layers> lines_;  // as many as there are layers
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -24,6 +25,17 @@ class Layering {
   [[nodiscard]] Slope slope_at_wall(std::size_t layer) const;
   /// From the middle of a layer to that of the next.
   [[nodiscard]] double to_next(std::size_t layer) const { return middles_[layer + 1] - middles_[layer]; }
+  /// Slope in the middle of a layer of the parabola through the means of it and of both beside it; beside a wall, of it
+  /// and of the next two. @param value  of a layer
+  template <class Values>
+  [[nodiscard]] double slope(std::size_t layer, Values&& value) const {
+    const auto step = [&](std::size_t l) { return (value(l + 1) - value(l)) / to_next(l); };
+    if (size() < 3) return size() < 2 ? 0 : step(0);
+    const std::size_t k = std::clamp<std::size_t>(layer, 1, size() - 2);
+    const double a = to_next(k - 1), b = to_next(k), before = step(k - 1), after = step(k);
+    const double bend = (after - before) / (a + b), in_middle = before + a * bend;
+    return in_middle + 2 * bend * (middle(layer) - middle(k));
+  }
 
  private:
   std::vector<double> widths_, middles_;
