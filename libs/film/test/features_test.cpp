@@ -149,13 +149,16 @@ TEST_CASE("HeldShares_HaveTheirDerivative") {
     REQUIRE(here.size() > 8);
     REQUIRE(here.size() == before.size());
     REQUIRE(here.size() == after.size());
-    double largest = 0;
+    double largest = 0, largest_drawn = 0;
     for (std::size_t k = 0; k < here.size(); ++k) {
       // Differences of step 1e-7: round-off over it.
       CHECK(std::abs(here[k].share_phi - (after[k].share - before[k].share) / (2 * d)) < 1e-6);
+      CHECK(std::abs(here[k].draws_phi - (after[k].draws - before[k].draws) / (2 * d)) < 1e-6);  // likewise
       largest = std::max(largest, std::abs(here[k].share_phi));
+      largest_drawn = std::max(largest_drawn, std::abs(here[k].draws_phi));
     }
     CHECK(largest > 0.5);
+    CHECK(largest_drawn > 0.5);
   }
 }
 
