@@ -13,6 +13,7 @@
 #include "heat/layer_profile.h"
 #include "heat/layer_shear.h"
 #include "heat/layering.h"
+#include "heat/wall_pace.h"
 #include "hersey/core/contract.h"
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
@@ -107,6 +108,9 @@ struct FilmHeat::Impl {
   void average_walls();
   [[nodiscard]] CarryingFilm carrying() const { return {flow, wrench, flows, dt}; }
   void find_exchange();
+  [[nodiscard]] Eigen::VectorXd missing_by_mean() const;
+  [[nodiscard]] Eigen::VectorXd missing_per_kelvin() const;
+  void foretell(const Eigen::Vector2d& by_nodes);
   [[nodiscard]] Eigen::VectorXd nodes_now() const;
 
   ThermalModel thermal;
@@ -116,6 +120,7 @@ struct FilmHeat::Impl {
   HeatEquations equations;
   HeatState state;
   MeanHeat::Answer mean;
+  WallPace pace;
   bool has_settled = false;  // walls that are held
   HeatState start_of_step, end_of_step;
   bool is_observed = true;
@@ -415,7 +420,35 @@ const WallExchange& FilmHeat::mean_exchange() {
   HERSEY_REQUIRE(m.holds_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
   m.mean = m.equations.mean().answer(m.state.shell, m.state.journal);
   m.mean.exchange.T = m.nodes_now();
+  m.pace.learn(m.missing_by_mean(), m.missing_per_kelvin());
+  m.mean.exchange.by_T.topLeftCorner<2, 2>() *= m.pace.share();
   return m.mean.exchange;
+}
+
+// Ring [K], journal [K], and of walls that are nodes the heat they take up [W] (thermal.65).
+Eigen::VectorXd FilmHeat::Impl::missing_by_mean() const {
+  Eigen::VectorXd missing(mean.without.ring.size() + 3);
+  missing << mean.without.ring, mean.without.journal, 0, 0;
+  for (Eigen::Index wall = 0; wall < 2; ++wall)
+    if (mean.exchange.by_T(wall, wall) < 0) missing.tail<2>()[wall] = mean.exchange.heat[wall];
+  return missing;
+}
+
+// A ring's angles count together as one wall.
+Eigen::VectorXd FilmHeat::Impl::missing_per_kelvin() const {
+  const Eigen::Index n = mean.without.ring.size();
+  Eigen::VectorXd per_kelvin = Eigen::VectorXd::Ones(n + 3);
+  per_kelvin.head(n).setConstant(std::sqrt(static_cast<double>(n)));
+  for (Eigen::Index wall = 0; wall < 2; ++wall)
+    if (const double by_itself = -mean.exchange.by_T(wall, wall); by_itself > 0) per_kelvin[n + 1 + wall] = by_itself;
+  return per_kelvin;
+}
+
+void FilmHeat::Impl::foretell(const Eigen::Vector2d& by_nodes) {
+  const double share = pace.share();
+  Eigen::VectorXd fall = missing_by_mean() / share;
+  fall.tail<2>() = -mean.exchange.by_T.topLeftCorner<2, 2>() * by_nodes / share;
+  pace.foretell(fall);
 }
 
 WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
@@ -434,15 +467,17 @@ WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
   const Eigen::VectorXd before = m.held_walls();
   if (before.size() > 0) {
     Eigen::VectorXd after = before;
-    if (m.mean.heat.size() > 0) m.state.wall_heat = m.mean.heat;
-    m.state.journal_heat = m.mean.journal_heat;
+    // From what the bodies have to what would settle them, by so much as they follow.
+    const double pace = 1 / m.pace.share();
+    if (m.mean.heat.size() > 0) m.state.wall_heat += pace * (m.mean.heat - m.state.wall_heat);
+    m.state.journal_heat += pace * (m.mean.journal_heat - m.state.journal_heat);
     const auto follow = [&](const MeanHeat::Change& change, double share) {
       if (has_own_temperatures(m.thermal.shell)) after.head(change.ring.size()) += share * change.ring;
       if (change.heat.size() > 0) m.state.wall_heat += share * change.heat;
       if (has_own_temperature(m.thermal.journal)) after.tail(1)[0] += share * change.journal;
       m.state.journal_heat += share * change.journal_heat;
     };
-    follow(m.mean.without, 1);
+    follow(m.mean.without, pace);
     if (is_shell) follow(m.mean.by_shell, by[0]);
     if (is_journal) follow(m.mean.by_journal, by[1]);
     for (std::size_t place = 0; place < m.mean.by_outside.size(); ++place)
@@ -450,6 +485,7 @@ WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
     note((after - before).cwiseAbs().maxCoeff(), after.maxCoeff());
     m.set_held_walls(after);
   }
+  m.foretell(by.head<2>());
   m.state.outside = T_nodes.tail(m.state.outside.size());
   m.has_settled = true;
   if (!std::isfinite(correction.rise)) correction.rise = 0;
@@ -557,6 +593,7 @@ void FilmHeat::persist(Archive& archive) {
   if (!impl_->holds_walls()) return;
   archive.io("has_settled", impl_->has_settled);
   impl_->equations.mean().persist(archive);
+  impl_->pace.persist(archive);
 }
 
 }  // namespace hersey::film
