@@ -28,6 +28,9 @@ constexpr int kStepsAsOne = 16;
 // too much and the next one fills again would do so for ever. Between surfaces that deform the gap would not follow.
 constexpr int kMostByItself = 4;
 
+// And from which on only half of the nodes that would break or fill do so: by then they go round.
+constexpr int kMostAtOnce = 6;
+
 // Films at the start of a run whose layers thin by their shear, and the change of viscosity with which they end.
 constexpr int kMostFirstFilms = 20;
 constexpr double kAsThin = 1e-6;
@@ -198,6 +201,7 @@ void FilmForce::follow_surfaces() {
   u_ = u_linearised_ + du_;
   const bool is_rigid = deforming_->amplitudes() == 0 && model().compliance == 0;
   if (is_rigid && iterations_ > kMostByItself) reynolds_.let_fronts_follow(u_);
+  if (iterations_ > kMostAtOnce) reynolds_.let_half_change(u_linearised_, iterations_, u_);
 }
 
 // Pressures from a linear prediction may lie beyond any film: then the film stays as it was while the surfaces move.

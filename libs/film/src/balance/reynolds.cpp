@@ -8,6 +8,7 @@
 
 #include "balance/flow_balance.h"
 #include "balance/fronts.h"
+#include "balance/halves.h"
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
 #include "observe/film_wrench.h"
@@ -237,6 +238,10 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
 }
 
 void Reynolds::let_fronts_follow(Eigen::VectorXd& u) const { film::let_fronts_follow(impl_->balance, u); }
+
+void Reynolds::let_half_change(const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) const {
+  film::let_half_change(impl_->balance.model(), before, turn, u);
+}
 
 void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial) {
   impl_->balance.derivative(direction, impl_->rhs);

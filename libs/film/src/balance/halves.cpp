@@ -1,0 +1,32 @@
+#include "balance/halves.h"
+
+#include <cstdint>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::film {
+namespace {
+
+/// Heads or tails, the same on every machine: the finaliser of Murmur3 (Appleby 2011, public domain).
+bool is_heads(std::uint32_t node, std::uint32_t turn) {
+  std::uint32_t x = node * 0x9e3779b9U + turn * 0x85ebca77U;
+  x = (x ^ (x >> 16)) * 0x85ebca6bU;
+  x = (x ^ (x >> 13)) * 0xc2b2ae35U;
+  return ((x ^ (x >> 16)) & 1U) != 0;
+}
+
+}  // namespace
+
+void let_half_change(const FilmModel& model, const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) {
+  HERSEY_REQUIRE(before.size() == u.size(), "two states of one film");
+  if (!cavitation_law(model).has_fill()) return;
+  constexpr double all_but_full = 1e-9;  // on its side of the border, however round-off falls
+  for (Eigen::Index node = 0; node < u.size(); ++node) {
+    const bool was_broken = before[node] < 0;
+    if (was_broken == (u[node] < 0)) continue;
+    if (is_heads(static_cast<std::uint32_t>(node), static_cast<std::uint32_t>(turn)))
+      u[node] = was_broken ? -all_but_full * fill_scale(model) : 0;
+  }
+}
+
+}  // namespace hersey::film

@@ -1,0 +1,76 @@
+#include "balance/halves.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+// Nodes that break and fill in groups, of which only a part may do so at once.
+namespace hersey::film {
+namespace halves_test {
+
+/// A film of which every second node would break and every other one fill.
+struct Groups {
+  explicit Groups(Cavitation cavitation) : model{.cavitation = cavitation} {
+    before.resize(model.grid.size());
+    for (Eigen::Index node = 0; node < before.size(); ++node) before[node] = node % 2 == 0 ? 1e6 : -1e6;
+    after = -before;
+    after.tail(before.size() / 4) = before.tail(before.size() / 4);  // these stay
+  }
+
+  /// Nodes that have changed sides, and all unknowns after the turn.
+  struct Turn {
+    std::vector<bool> changed;
+    Eigen::VectorXd u;
+  };
+  [[nodiscard]] Turn at(int turn) const {
+    Turn seen{.u = after};
+    let_half_change(model, before, turn, seen.u);
+    for (Eigen::Index node = 0; node < seen.u.size(); ++node)
+      seen.changed.push_back((seen.u[node] < 0) != (before[node] < 0));
+    return seen;
+  }
+
+  FilmModel model;
+  Eigen::VectorXd before, after;
+};
+
+TEST_CASE("OfNodesThatGoRound_AboutHalfChangeInEachTurn") {
+  const Groups groups(Cavitation::mass_conserving);
+  const auto would = 3 * groups.before.size() / 4;
+  std::vector<bool> ever(static_cast<std::size_t>(groups.before.size()), false), always(ever.size(), true);
+  constexpr int turns = 24;
+  for (int turn = 7; turn < 7 + turns; ++turn) {
+    const Groups::Turn seen = groups.at(turn);
+    const auto changed = std::count(seen.changed.begin(), seen.changed.end(), true);
+    CHECK(std::abs(static_cast<double>(changed) / static_cast<double>(would) - 0.5) < 0.1);  // four standard deviations
+    for (std::size_t node = 0; node < ever.size(); ++node) {
+      ever[node] = ever[node] || seen.changed[node];
+      always[node] = always[node] && seen.changed[node];
+    }
+    CHECK(seen.u == groups.at(turn).u);  // the same whenever it is asked for
+  }
+  CHECK(std::count(ever.begin(), ever.end(), true) == would);
+  CHECK(std::count(always.begin(), always.end(), true) == 0);
+}
+
+TEST_CASE("NodesThatStayBehind_AreAtTheBorder") {
+  const Groups groups(Cavitation::mass_conserving);
+  const Groups::Turn seen = groups.at(7);
+  for (Eigen::Index node = 0; node < seen.u.size(); ++node) {
+    const bool would = (groups.after[node] < 0) != (groups.before[node] < 0);
+    if (would && !seen.changed[static_cast<std::size_t>(node)])
+      CHECK(std::abs(seen.u[node]) <= 1e-9 * fill_scale(groups.model));  // what keeps it on its side
+    else
+      CHECK(seen.u[node] == groups.after[node]);
+  }
+}
+
+TEST_CASE("FilmsThatHoldNoOilBack_ChangeAtOnce") {
+  const Groups groups(Cavitation::guembel);
+  CHECK(groups.at(7).u == groups.after);
+}
+
+}  // namespace halves_test
+}  // namespace hersey::film
