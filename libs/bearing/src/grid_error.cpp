@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "hersey/bearing/bearing_numbers.h"
-#include "hersey/core/turn.h"
+#include "hersey/film/grid_transfer.h"
 
 namespace hersey::bearing {
 namespace {
@@ -39,16 +39,7 @@ void take_to(const film::Grid& coarse, const film::Grid& fine, film::ThermalMode
     body->conduction = std::make_shared<const film::JournalConduction>(film::on_grid(*body->conduction, fine, coarse));
   auto* wall = std::get_if<film::WallAtTemperature>(&thermal.shell);
   if (wall == nullptr || wall->around.size() == 0) return;
-  const Eigen::VectorXd T = wall->around;
-  const auto phi = [&](int k) { return fine.phi(k % fine.n_phi) + (k < fine.n_phi ? 0 : turn); };
-  wall->around.resize(coarse.n_phi);
-  for (int i = 0, k = 0; i < coarse.n_phi; ++i) {
-    double at = coarse.phi(i);
-    if (at < phi(0)) at += turn;
-    for (k = 0; k + 1 < fine.n_phi && phi(k + 1) <= at;) ++k;
-    const double share = (at - phi(k)) / (phi(k + 1) - phi(k));
-    wall->around[i] = (1 - share) * T[k] + share * T[(k + 1) % fine.n_phi];
-  }
+  wall->around = film::GridTransfer::by_place(fine, coarse).around(wall->around);
 }
 
 bool is_fine_enough(const film::Grid& grid) {

@@ -126,14 +126,17 @@ TEST_CASE("WorkOnWallsThatGrow_IsAccountedFor") {
   CHECK(std::abs(missing[1] - missing[0]) < 0.2 * work);  // of films whose clearances differ by a percent at the end
 }
 
+/// The warm rig with a second film of the same kind beside the first.
+std::string two_films(const std::string& thermal) {
+  std::string text = warm_rig(thermal);
+  const std::size_t from = text.find("  big_end:\n"), to = text.find("thermal:\n  nodes:");
+  return text.insert(to, edited(text.substr(from, to - from), "  big_end:", "  other_end:"));
+}
+
 // Two bearings on one block, as one and as two bodies of half its heat each: the first is the sum of both.
 TEST_CASE("BearingsShareABody") {
   const TemporaryDirectory scratch;
-  std::string text = warm_rig(nodes);
-  // A second film of the same kind beside the first.
-  const std::size_t from = text.find("  big_end:\n"), to = text.find("thermal:\n  nodes:");
-  std::string second = edited(text.substr(from, to - from), "  big_end:", "  other_end:");
-  text.insert(to, second);
+  const std::string text = two_films(nodes);
   const Summary both = simulate(rig(text), {.results = scratch / "both.h5"});
   CAPTURE(both.message);
   REQUIRE(both.status == Status::completed);
@@ -173,6 +176,27 @@ TEST_CASE("SumpAndBlock_TakeWhatOilAndRingGive") {
     CHECK(largest(series(file, "/thermal/heat_balance_error")) < 1e-9);   // round-off
     if (!cycles) CHECK(series(file, "/thermal/heat_from_films_shaft").back() > 0);
   }
+}
+
+// Whatever two films dissipate in a cycle leaves through the sump and the block that they share, once all temperatures
+// are found: powers by integrals over the films, what leaves by the network's temperatures.
+TEST_CASE("FilmsInOneSump_WarmItByAllTheirPower") {
+  const TemporaryDirectory scratch;
+  const std::string text = edited(two_films(sump_and_block), "  duration: \"${duration}\"\n",
+                                  "  cycle: {period: 20 ms, most: 8, until_converged: 0}\n");
+  const Summary summary = simulate(rig(text), {.results = scratch / "sump.h5"});
+  CAPTURE(summary.message);
+  REQUIRE(summary.status == Status::completed);
+  const results::Reader file(scratch / "sump.h5");
+  double power = 0;
+  for (const char* name : {"big_end", "other_end"})
+    power += series(file, std::string("/bearings/") + name + "/cycles/fields/power_film").back();
+  const double room = 25, sump = series(file, "/thermal/T_shaft").back(),
+               block = series(file, "/thermal/T_block").back();
+  CHECK(power > 20);
+  CHECK(1.0 * (sump - room) + 4.0 * (block - room) ==
+        relative(power).epsilon(1e-3));  // what is left of the last cycles
+  CHECK(std::abs(sump - series(file, "/thermal/T_shaft").front()) > 1);
 }
 
 // A wall of next to no capacity takes the temperature at which it passes on what it gets, in steps of any length.

@@ -13,7 +13,7 @@
 #include "heat/layer_profile.h"
 #include "heat/layer_shear.h"
 #include "heat/layering.h"
-#include "heat/wall_pace.h"
+#include "heat/walls_over_cycles.h"
 #include "hersey/core/contract.h"
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
@@ -95,9 +95,6 @@ struct FilmHeat::Impl {
   [[nodiscard]] Eigen::VectorXd viscosities();
   void thin();
   [[nodiscard]] bool holds_walls() const { return thermal.walls == WallMotion::held; }
-  /// Those that are held, as one vector: ring, or shell in a body, and journal [K].
-  [[nodiscard]] Eigen::VectorXd held_walls() const;
-  void set_held_walls(const Eigen::VectorXd& T);
   void show_rest();
   /// What is to be seen of the last answer, worked out when it is asked for: turns of film and heat do not look.
   void observe();
@@ -108,10 +105,6 @@ struct FilmHeat::Impl {
   void average_walls();
   [[nodiscard]] CarryingFilm carrying() const { return {flow, wrench, flows, dt}; }
   void find_exchange();
-  [[nodiscard]] Eigen::VectorXd missing_by_mean() const;
-  [[nodiscard]] Eigen::VectorXd missing_per_kelvin() const;
-  void foretell(const Eigen::Vector2d& by_nodes);
-  [[nodiscard]] Eigen::VectorXd nodes_now() const;
 
   ThermalModel thermal;
   FlowBalance flow;
@@ -119,9 +112,7 @@ struct FilmHeat::Impl {
   LayerFlows flows;
   HeatEquations equations;
   HeatState state;
-  MeanHeat::Answer mean;
-  WallPace pace;
-  bool has_settled = false;  // walls that are held
+  WallsOverCycles held_walls{thermal};
   HeatState start_of_step, end_of_step;
   bool is_observed = true;
   double dt = 0;                   // of the last step [s]
@@ -159,13 +150,6 @@ HeatState FilmHeat::Impl::start() const {
   for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k, first.outside);
   if (shears_layers()) first.thinning.setOnes(first.film.size() + 2 * grid.size());
   return first;
-}
-
-/// Temperatures at the film's terminals, in the order of WallExchange [K].
-Eigen::VectorXd FilmHeat::Impl::nodes_now() const {
-  Eigen::VectorXd T(2 + state.outside.size());
-  T << (state.shell.size() > 0 ? state.shell[0] : 0), state.journal, state.outside;
-  return T;
 }
 
 /// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them in turn: they are worked out once.
@@ -261,7 +245,7 @@ Eigen::VectorXd FilmHeat::shell_opening() const {
 // Before it has settled the body is as warm everywhere (thermal.39).
 Eigen::VectorXd FilmHeat::shell_opening_in_time() const {
   const WallConduction* wall = conduction_of(impl_->thermal.shell);
-  if (wall == nullptr || !wall->deforms() || impl_->has_settled) return shell_opening();
+  if (wall == nullptr || !wall->deforms() || impl_->held_walls.have_settled()) return shell_opening();
   return wall->shape_by_rise * (impl_->state.shell.mean() - wall->T_reference);
 }
 
@@ -273,7 +257,7 @@ Eigen::VectorXd FilmHeat::journal_growth() const {
 // Likewise (thermal.62).
 Eigen::VectorXd FilmHeat::journal_growth_in_time() const {
   const JournalConduction* journal = conduction_of(impl_->thermal.journal);
-  if (journal == nullptr || !journal->deforms() || impl_->has_settled) return journal_growth();
+  if (journal == nullptr || !journal->deforms() || impl_->held_walls.have_settled()) return journal_growth();
   return journal->shape_by_rise * (impl_->state.journal - journal->T_reference);
 }
 
@@ -336,7 +320,7 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
 void FilmHeat::Impl::find_exchange() {
   const CarryingFilm film = carrying();
   const Eigen::Index outside = state.outside.size(), n = 2 + outside;
-  exchange.T = nodes_now();
+  exchange.T = at_terminals(state);
   exchange.heat.setZero(n), exchange.by_T.setZero(n, n);
   exchange.heat.tail(outside) = equations.into_outside(film, state);
   const auto into_walls = [&](const HeatState& change) {
@@ -401,94 +385,16 @@ double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, c
   return (m.state.thinning.array() / before.array()).log().abs().maxCoeff();
 }
 
-Eigen::VectorXd FilmHeat::Impl::held_walls() const {
-  const bool has_ring = has_own_temperatures(thermal.shell);
-  const bool has_journal = has_own_temperature(thermal.journal);
-  Eigen::VectorXd T((has_ring ? state.shell.size() : 0) + (has_journal ? 1 : 0));
-  if (has_ring) T.head(state.shell.size()) = state.shell;
-  if (has_journal) T.tail(1)[0] = state.journal;
-  return T;
-}
-
-void FilmHeat::Impl::set_held_walls(const Eigen::VectorXd& T) {
-  if (has_own_temperatures(thermal.shell)) state.shell = T.head(state.shell.size());
-  if (has_own_temperature(thermal.journal)) state.journal = T.tail(1)[0];
-}
-
 const WallExchange& FilmHeat::mean_exchange() {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.holds_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
-  m.mean = m.equations.mean().answer(m.state.shell, m.state.journal);
-  m.mean.exchange.T = m.nodes_now();
-  m.pace.learn(m.missing_by_mean(), m.missing_per_kelvin());
-  m.mean.exchange.by_T.topLeftCorner<2, 2>() *= m.pace.share();
-  return m.mean.exchange;
-}
-
-// Ring [K], journal [K], and of walls that are nodes the heat they take up [W] (thermal.65).
-Eigen::VectorXd FilmHeat::Impl::missing_by_mean() const {
-  Eigen::VectorXd missing(mean.without.ring.size() + 3);
-  missing << mean.without.ring, mean.without.journal, 0, 0;
-  for (Eigen::Index wall = 0; wall < 2; ++wall)
-    if (mean.exchange.by_T(wall, wall) < 0) missing.tail<2>()[wall] = mean.exchange.heat[wall];
-  return missing;
-}
-
-// A ring's angles count together as one wall.
-Eigen::VectorXd FilmHeat::Impl::missing_per_kelvin() const {
-  const Eigen::Index n = mean.without.ring.size();
-  Eigen::VectorXd per_kelvin = Eigen::VectorXd::Ones(n + 3);
-  per_kelvin.head(n).setConstant(std::sqrt(static_cast<double>(n)));
-  for (Eigen::Index wall = 0; wall < 2; ++wall)
-    if (const double by_itself = -mean.exchange.by_T(wall, wall); by_itself > 0) per_kelvin[n + 1 + wall] = by_itself;
-  return per_kelvin;
-}
-
-void FilmHeat::Impl::foretell(const Eigen::Vector2d& by_nodes) {
-  const double share = pace.share();
-  Eigen::VectorXd fall = missing_by_mean() / share;
-  fall.tail<2>() = -mean.exchange.by_T.topLeftCorner<2, 2>() * by_nodes / share;
-  pace.foretell(fall);
+  return m.held_walls.end_cycle(m.equations.mean(), m.state);
 }
 
 WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
   Impl& m = *impl_;
   (void)m.look();  // of the step before
-  const Eigen::VectorXd by = T_nodes - m.mean.exchange.T;
-  const bool is_shell = std::holds_alternative<NodeWall>(m.thermal.shell);
-  const bool is_journal = std::holds_alternative<NodeWall>(m.thermal.journal);
-  WallCorrection correction{.rise = -std::numeric_limits<double>::infinity()};
-  const auto note = [&](double change, double T) {
-    correction.largest = std::max(correction.largest, std::abs(change));
-    correction.rise = std::max(correction.rise, T - m.thermal.T_supply);
-  };
-  if (is_shell) note(by[0], T_nodes[0]), m.state.shell.setConstant(T_nodes[0]);
-  if (is_journal) note(by[1], T_nodes[1]), m.state.journal = T_nodes[1];
-  const Eigen::VectorXd before = m.held_walls();
-  if (before.size() > 0) {
-    Eigen::VectorXd after = before;
-    // From what the bodies have to what would settle them, by so much as they follow.
-    const double pace = 1 / m.pace.share();
-    if (m.mean.heat.size() > 0) m.state.wall_heat += pace * (m.mean.heat - m.state.wall_heat);
-    m.state.journal_heat += pace * (m.mean.journal_heat - m.state.journal_heat);
-    const auto follow = [&](const MeanHeat::Change& change, double share) {
-      if (has_own_temperatures(m.thermal.shell)) after.head(change.ring.size()) += share * change.ring;
-      if (change.heat.size() > 0) m.state.wall_heat += share * change.heat;
-      if (has_own_temperature(m.thermal.journal)) after.tail(1)[0] += share * change.journal;
-      m.state.journal_heat += share * change.journal_heat;
-    };
-    follow(m.mean.without, pace);
-    if (is_shell) follow(m.mean.by_shell, by[0]);
-    if (is_journal) follow(m.mean.by_journal, by[1]);
-    for (std::size_t place = 0; place < m.mean.by_outside.size(); ++place)
-      follow(m.mean.by_outside[place], by[2 + static_cast<Eigen::Index>(place)]);
-    note((after - before).cwiseAbs().maxCoeff(), after.maxCoeff());
-    m.set_held_walls(after);
-  }
-  m.foretell(by.head<2>());
-  m.state.outside = T_nodes.tail(m.state.outside.size());
-  m.has_settled = true;
-  if (!std::isfinite(correction.rise)) correction.rise = 0;
+  const WallCorrection correction = m.held_walls.settle(T_nodes, m.state);
   m.average_walls();
   return correction;
 }
@@ -505,11 +411,11 @@ void FilmHeat::Impl::observe() {
   seen.balance = equations.balance(film, start_of_step, end_of_step);
   seen.T_supplies = end_of_step.supplies;
   if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
-    seen.T_body_max =
-        dt > 0 && !has_settled ? end_of_step.shell.maxCoeff() : wall->body(end_of_step.wall_heat).maxCoeff();
+    seen.T_body_max = dt > 0 && !held_walls.have_settled() ? end_of_step.shell.maxCoeff()
+                                                           : wall->body(end_of_step.wall_heat).maxCoeff();
   if (const JournalConduction* body = conduction_of(thermal.journal); body != nullptr && body->T_body0.size() > 0)
     seen.T_journal_body_max =
-        dt > 0 && !has_settled ? end_of_step.journal : body->body(end_of_step.journal_heat).maxCoeff();
+        dt > 0 && !held_walls.have_settled() ? end_of_step.journal : body->body(end_of_step.journal_heat).maxCoeff();
   show_surfaces(film);
   find_hottest();
   average(film);
@@ -591,9 +497,8 @@ void FilmHeat::persist(Archive& archive) {
   if (impl_->state.outside.size() > 0) archive.io("T_outside", impl_->state.outside);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
   if (!impl_->holds_walls()) return;
-  archive.io("has_settled", impl_->has_settled);
   impl_->equations.mean().persist(archive);
-  impl_->pace.persist(archive);
+  impl_->held_walls.persist(archive);
 }
 
 }  // namespace hersey::film

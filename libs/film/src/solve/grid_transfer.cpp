@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hersey/core/turn.h"
+
 namespace hersey::film {
 namespace {
 
@@ -31,6 +33,24 @@ GridTransfer::GridTransfer(const Grid& from, const Grid& to) : n_z_(from.n_z) {
   }
 }
 
+GridTransfer GridTransfer::by_place(const Grid& from, const Grid& to) {
+  GridTransfer transfer(from.n_z);
+  const auto phi = [&](int k) { return from.phi(k % from.n_phi) + (k < from.n_phi ? 0 : turn); };
+  for (int i = 0; i < to.n_phi; ++i) {
+    const double at = to.phi(i) < phi(0) ? to.phi(i) + turn : to.phi(i);
+    int k = 0;
+    while (k + 1 < from.n_phi && phi(k + 1) <= at) ++k;
+    transfer.around_.push_back({k, (k + 1) % from.n_phi, (at - phi(k)) / (phi(k + 1) - phi(k))});
+  }
+  for (int j = 0, k = 0; j < to.n_z; ++j) {
+    const double at = to.z_over_L(j);
+    while (k + 2 < from.n_z && from.z_over_L(k + 1) <= at) ++k;
+    const double before = from.z_over_L(k), after = from.z_over_L(k + 1);
+    transfer.along_.push_back({k, k + 1, (at - before) / (after - before)});
+  }
+  return transfer;
+}
+
 Eigen::VectorXd GridTransfer::operator()(const Eigen::VectorXd& field, int per_node) const {
   Eigen::VectorXd result(static_cast<Eigen::Index>(around_.size() * along_.size()) * per_node);
   Eigen::Index place = 0;
@@ -46,11 +66,16 @@ Eigen::VectorXd GridTransfer::operator()(const Eigen::VectorXd& field, int per_n
   return result;
 }
 
-Eigen::VectorXd GridTransfer::around(const Eigen::VectorXd& values) const {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(around_.size()));
-  Eigen::Index place = 0;
-  for (const Between& i : around_) result[place++] = (1 - i.share) * values[i.first] + i.share * values[i.second];
+Eigen::MatrixXd GridTransfer::between(const std::vector<Between>& places, const Eigen::MatrixXd& values) {
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(places.size()), values.cols());
+  Eigen::Index row = 0;
+  for (const Between& at : places)
+    result.row(row++) = (1 - at.share) * values.row(at.first) + at.share * values.row(at.second);
   return result;
 }
+
+Eigen::MatrixXd GridTransfer::around(const Eigen::MatrixXd& values) const { return between(around_, values); }
+
+Eigen::MatrixXd GridTransfer::along(const Eigen::MatrixXd& values) const { return between(along_, values); }
 
 }  // namespace hersey::film

@@ -13,23 +13,30 @@ namespace hersey::film {
 /// Whether a film is left with a shape on half the nodes.
 [[nodiscard]] bool can_be_coarsened(const Grid& grid);
 
-/// Fields on one grid from those on another of the same pattern of spacing, linearly between the nodes. Both are taken
-/// as functions of the share of the way around the bearing and across it, counted in nodes: on the places of
-/// resampled().
+/// Fields on one grid from those on another, linearly between the nodes.
 class GridTransfer {
  public:
-  /// Between these grids.
+  /// Between grids of one pattern of spacing: fields are functions of the share of the way around the bearing and
+  /// across it, counted in nodes, as on the places of resampled().
   GridTransfer(const Grid& from, const Grid& to);
+  /// Between any grids: fields are functions of the place.
+  [[nodiscard]] static GridTransfer by_place(const Grid& from, const Grid& to);
+
   /// @param field  shape (from.size() per_node), `per_node` values of each node side by side
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& field, int per_node = 1) const;
-  /// Of what has one value at each angle. @param values  shape (from.n_phi)
-  [[nodiscard]] Eigen::VectorXd around(const Eigen::VectorXd& values) const;
+  /// Of what has one value at each angle. @param values  shape (from.n_phi, any)
+  [[nodiscard]] Eigen::MatrixXd around(const Eigen::MatrixXd& values) const;
+  /// Of what has one value at each place along the axis. @param values  shape (from.n_z, any)
+  [[nodiscard]] Eigen::MatrixXd along(const Eigen::MatrixXd& values) const;
 
  private:
   struct Between {
     int first = 0, second = 0;
     double share = 0;  ///< of the second
   };
+  explicit GridTransfer(int n_z) : n_z_(n_z) {}
+  [[nodiscard]] static Eigen::MatrixXd between(const std::vector<Between>& places, const Eigen::MatrixXd& values);
+
   int n_z_;
   std::vector<Between> around_, along_;
 };

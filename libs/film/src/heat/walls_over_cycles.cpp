@@ -1,0 +1,114 @@
+#include "heat/walls_over_cycles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "heat/heat_walls.h"
+
+namespace hersey::film {
+namespace {
+
+/// Ring, or shell in a body, and journal of their own temperatures, as one vector [K].
+Eigen::VectorXd own_walls(const ThermalModel& thermal, const HeatState& state) {
+  const Eigen::Index ring = has_own_temperatures(thermal.shell) ? state.shell.size() : 0;
+  Eigen::VectorXd T(ring + (has_own_temperature(thermal.journal) ? 1 : 0));
+  T.head(ring) = state.shell.head(ring);
+  if (T.size() > ring) T[ring] = state.journal;
+  return T;
+}
+
+}  // namespace
+
+Eigen::VectorXd at_terminals(const HeatState& state) {
+  Eigen::VectorXd T(2 + state.outside.size());
+  T << (state.shell.size() > 0 ? state.shell[0] : 0), state.journal, state.outside;
+  return T;
+}
+
+const WallExchange& WallsOverCycles::end_cycle(MeanHeat& mean, const HeatState& state) {
+  mean_ = mean.answer(state.shell, state.journal);
+  mean_.exchange.T = at_terminals(state);
+  pace_.learn(missing(), per_kelvin());
+  mean_.exchange.by_T.topLeftCorner<2, 2>() *= pace_.share();
+  return mean_.exchange;
+}
+
+// Ring [K], journal [K], and of walls that are nodes the heat they take up [W] (thermal.65).
+Eigen::VectorXd WallsOverCycles::missing() const {
+  Eigen::VectorXd missing(mean_.without.ring.size() + 3);
+  missing << mean_.without.ring, mean_.without.journal, 0, 0;
+  for (Eigen::Index wall = 0; wall < 2; ++wall)
+    if (mean_.exchange.by_T(wall, wall) < 0) missing.tail<2>()[wall] = mean_.exchange.heat[wall];
+  return missing;
+}
+
+// A ring's angles count together as one wall.
+Eigen::VectorXd WallsOverCycles::per_kelvin() const {
+  const Eigen::Index n = mean_.without.ring.size();
+  Eigen::VectorXd per_kelvin = Eigen::VectorXd::Ones(n + 3);
+  per_kelvin.head(n).setConstant(std::sqrt(static_cast<double>(n)));
+  for (Eigen::Index wall = 0; wall < 2; ++wall)
+    if (const double by_itself = -mean_.exchange.by_T(wall, wall); by_itself > 0) per_kelvin[n + 1 + wall] = by_itself;
+  return per_kelvin;
+}
+
+void WallsOverCycles::foretell(const Eigen::VectorXd& by_nodes) {
+  Eigen::VectorXd fall = missing() / pace_.share();
+  fall.tail<2>() = -mean_.exchange.by_T.topLeftCorner<2, 2>() * by_nodes.head<2>() / pace_.share();
+  pace_.foretell(fall);
+}
+
+// From what bodies have to what would settle them, by so much as they follow; and all by what nodes do to them.
+void WallsOverCycles::move_own_walls(const Eigen::VectorXd& by_nodes, HeatState& state) const {
+  const double pace = 1 / pace_.share();
+  if (mean_.heat.size() > 0) state.wall_heat += pace * (mean_.heat - state.wall_heat);
+  state.journal_heat += pace * (mean_.journal_heat - state.journal_heat);
+  const auto follow = [&](const MeanHeat::Change& change, double share) {
+    if (has_own_temperatures(thermal_->shell)) state.shell += share * change.ring;
+    if (change.heat.size() > 0) state.wall_heat += share * change.heat;
+    if (has_own_temperature(thermal_->journal)) state.journal += share * change.journal;
+    state.journal_heat += share * change.journal_heat;
+  };
+  follow(mean_.without, pace);
+  if (std::holds_alternative<NodeWall>(thermal_->shell)) follow(mean_.by_shell, by_nodes[0]);
+  if (std::holds_alternative<NodeWall>(thermal_->journal)) follow(mean_.by_journal, by_nodes[1]);
+  for (std::size_t place = 0; place < mean_.by_outside.size(); ++place)
+    follow(mean_.by_outside[place], by_nodes[2 + static_cast<Eigen::Index>(place)]);
+}
+
+WallCorrection WallsOverCycles::settle(const Eigen::VectorXd& T_nodes, HeatState& state) {
+  const Eigen::VectorXd by_nodes = T_nodes - mean_.exchange.T;
+  WallCorrection correction{.rise = -std::numeric_limits<double>::infinity()};
+  const auto note = [&](double change, double T) {
+    correction.largest = std::max(correction.largest, std::abs(change));
+    correction.rise = std::max(correction.rise, T - thermal_->T_supply);
+  };
+  const Eigen::VectorXd before = own_walls(*thermal_, state);
+  if (before.size() > 0) {
+    move_own_walls(by_nodes, state);
+    const Eigen::VectorXd after = own_walls(*thermal_, state);
+    note((after - before).cwiseAbs().maxCoeff(), after.maxCoeff());
+  }
+  if (std::holds_alternative<NodeWall>(thermal_->shell)) {
+    note(by_nodes[0], T_nodes[0]);
+    state.shell.setConstant(T_nodes[0]);
+  }
+  if (std::holds_alternative<NodeWall>(thermal_->journal)) {
+    note(by_nodes[1], T_nodes[1]);
+    state.journal = T_nodes[1];
+  }
+  state.outside = T_nodes.tail(state.outside.size());
+  foretell(by_nodes);
+  have_settled_ = true;
+  if (!std::isfinite(correction.rise)) correction.rise = 0;
+  return correction;
+}
+
+void WallsOverCycles::persist(Archive& archive) {
+  archive.io("has_settled", have_settled_);
+  pace_.persist(archive);
+}
+
+}  // namespace hersey::film
