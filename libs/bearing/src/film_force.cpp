@@ -173,7 +173,8 @@ void FilmForce::fill_gap() {
   is_thinned_ = true;
 }
 
-void FilmForce::begin_step(const mbd::RelativeMotion& /*start*/, double dt) {
+void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {
+  gap_->begin_step(start);
   // A trial of this step has exchanged wrenches without end, as where the film damps more than inertia holds.
   if (exchanges_ > 0 && !exchange_has_ended_) steps_as_one_left_ = kStepsAsOne;
   exchange_has_ended_ = false;
@@ -262,6 +263,15 @@ void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, m
   } else {
     evaluate_partitioned(response);
   }
+  if (domain_error_.empty()) response.summed = summed_forces();
+}
+
+// Of the pressures, and of those that the flows would build up which balance in a film without any.
+double FilmForce::summed_forces() const {
+  const film::FilmModel& film = model();
+  const double slope = film.R / film.c, area = 2 * std::numbers::pi * film.R * film.L;
+  const double sliding = std::abs(surfaces_.u_shell + surfaces_.u_journal) / film.R;
+  return reynolds_.normal_forces().value.lpNorm<1>() + 6 * film.lubricant.mu0 * sliding * slope * slope * area;
 }
 
 // The film's rows of (bearing.8): with them condensed the bodies' Newton iteration is that of both together

@@ -16,6 +16,10 @@ namespace {
 // Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
 constexpr double direction_floor = 1e-6;
 
+// Eccentricity over the clearance from which a step that begins there can follow the widest gap: nearer to the centre
+// it goes round by half a turn for next to no motion.
+constexpr double all_but_centred = 1e-2;
+
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
 // How many of the parameters act. The angles come last: that of the widest gap matters only where the supply follows
@@ -36,12 +40,23 @@ JournalGap::JournalGap(const film::FilmModel& model, bool journal_deforms)
   d_dX_ = d_dV_ = Jacobian::Zero(parameters_.size(), 6);
 }
 
+void JournalGap::begin_step(const mbd::RelativeMotion& start) {
+  held_supply_.reset();
+  if (!is_aligned(start.X_AB)) return;
+  const JournalKinematics k = journal_kinematics(start.X_AB, start.V_AB_A, R_, direction_floor * c_);
+  if (k.e().norm() < all_but_centred * (c_ + growth_)) held_supply_ = k.value[kSupplyAngle];
+}
+
 std::string JournalGap::place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) {
   if (!is_aligned(motion.X_AB)) {
     return fmt::format("the surfaces do not face each other: the journal's z-axis stands at {:.0f} deg to the shell's",
                        std::acos(std::abs(motion.X_AB.R(2, 2))) * degrees_per_radian);
   }
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, R_, direction_floor * c_);
+  if (held_supply_ && motion.dt > 0) {
+    kinematics_.value[kSupplyAngle] = *held_supply_;
+    kinematics_.d_dX.row(kSupplyAngle).setZero();
+  }
   surfaces_.open_by(growth_, growth_rate_);
   surfaces_.place(kinematics_.value, surfaces);
   parameters_ = kinematics_.value.head(parameters_.size());

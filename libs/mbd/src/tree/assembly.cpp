@@ -1,6 +1,20 @@
 #include "tree/assembly.h"
 
 namespace hersey::mbd {
+namespace {
+
+// The share of forces of which a wrench is the rest, counted as a magnitude too: their sum has a round-off of 1e-15.
+constexpr double kSummedShare = 1e-6;
+
+/// Of a wrench about the ground's origin whose forces act about a point there.
+Vector6 sizes(const Vector6& W, double summed, const Vector3& at) {
+  Vector6 size = W.cwiseAbs();
+  size.head<3>().array() += kSummedShare * summed * at.norm();
+  size.tail<3>().array() += kSummedShare * summed;
+  return size;
+}
+
+}  // namespace
 
 void compute_directions(const Tree& tree, const TreeMotion& motion, const solver::Stage& stage,
                         std::vector<Direction>& directions) {
@@ -29,10 +43,10 @@ void compute_directions(const Tree& tree, const TreeMotion& motion, const solver
 void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& response) {
   const TreeMotion& motion = assembly.motion;
   const Pose X_WA = motion.pose(pair.a);
-  const Vector6 W = moved_force(X_WA, response.W_B_A);
+  const Vector6 W = moved_force(X_WA, response.W_B_A), size = sizes(W, response.summed, X_WA.r);
   for (const SignedColumn& row : pair.columns) {
     const Vector6& J = motion.J(row.column);
-    assembly.add_residual(row.column, -row.sign * J.dot(W), magnitude(J, W));
+    assembly.add_residual(row.column, -row.sign * J.dot(W), magnitude(J, size));
   }
   if (!assembly.tangent) return;
 

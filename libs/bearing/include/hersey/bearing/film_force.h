@@ -152,6 +152,7 @@ class FilmForce : public mbd::TwoBodyForce {
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
   void evaluate_partitioned(mbd::ForceResponse& response);
   void condense_film(mbd::ForceResponse& response);
+  [[nodiscard]] double summed_forces() const;
   void increment_film(mbd::ForceResponse& response);  // forces after the film's increment at fixed surfaces
 
   std::string name_;

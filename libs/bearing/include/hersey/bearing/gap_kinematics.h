@@ -35,6 +35,9 @@ class GapKinematics {
   /// next has it, and positions are over the gap as it then is.
   void open_by(double growth, double rate) { growth_ = growth, growth_rate_ = rate; }
 
+  /// A step begins at this motion: what it cannot follow within a step stays as it is here until the next call.
+  virtual void begin_step(const mbd::RelativeMotion& /*start*/) {}
+
   /// Writes the surfaces at a motion of B relative to A into `surfaces`: gap, rate, speeds, angles. What follows refers
   /// to this motion. Not empty: why the surfaces are none, for the user; they are then not placed.
   [[nodiscard]] virtual std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/bearing/journal_kinematics.h"
 #include "hersey/bearing/rigid_surfaces.h"
@@ -12,6 +14,8 @@ class JournalGap final : public GapKinematics {
   /// @param journal_deforms  its shape turns with it, as features and profiles of the journal do
   JournalGap(const film::FilmModel& model, bool journal_deforms);
 
+  /// Near the centre the widest gap, and with it a supply there, stays where it is.
+  void begin_step(const mbd::RelativeMotion& start) override;
   [[nodiscard]] std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
   [[nodiscard]] const film::MotionDirection& direction(Index parameter) const override;
   [[nodiscard]] bool is_angle(Index parameter) const override;
@@ -25,6 +29,7 @@ class JournalGap final : public GapKinematics {
   double R_, L_, c_;
   RigidSurfaces surfaces_;
   JournalKinematics kinematics_;
+  std::optional<double> held_supply_;  ///< angle of the widest gap over the step [rad]
 };
 
 }  // namespace hersey::bearing

@@ -48,7 +48,7 @@ struct JournalKinematics {
 
 /// @param X_AB,V_AB_A  journal relative to bearing, as in mbd::RelativeMotion.
 /// @param R            bearing radius [m].
-/// @param e_floor      eccentricity below which the angle of the widest gap is frozen at its last direction [m].
+/// @param e_floor      eccentricity below which the angle of the widest gap is taken not to change [m].
 /// @throws ContractError unless the journal is aligned.
 /// @verified_by journal_kinematics_test.cpp: Derivatives_MatchFiniteDifferences, Rates_AreTimeDerivatives
 [[nodiscard]] JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, double R, double e_floor);

@@ -26,6 +26,9 @@ struct ForceResponse {
   Matrix6 dW_dX = Matrix6::Zero();
   Matrix6 dW_dV = Matrix6::Zero();
 
+  /// Sum of the magnitudes of the forces that the wrench is the rest of, whose round-off it has [N]; 0: it is no rest.
+  double summed = 0;
+
   Eigen::VectorXd Q;                                      ///< shape (amplitudes) [N m; N]
   Eigen::Matrix<double, 6, Eigen::Dynamic> dW_ds, dW_dr;  ///< by amplitudes and by their rates
   Eigen::Matrix<double, Eigen::Dynamic, 6> dQ_dX, dQ_dV;
