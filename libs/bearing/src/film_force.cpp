@@ -263,7 +263,8 @@ void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, m
   } else {
     evaluate_partitioned(response);
   }
-  if (domain_error_.empty()) response.summed = summed_forces();
+  // A prediction of a step that exchanges forces has no film yet.
+  if (domain_error_.empty() && (motion.dt == 0 || is_one_system_ || exchanges_ > 0)) response.summed = summed_forces();
 }
 
 // Of the pressures, and of those that the flows would build up which balance in a film without any.
@@ -351,6 +352,7 @@ void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   observed_history_ = history_;
   observed_iterations_ = iterations_;
   observed_exchanges_ = exchanges_;
+  if (started_) gap_->end_step(end);
   close_step();
   linearised_ = false;
   u_start_ = u_;
@@ -496,6 +498,7 @@ void FilmForce::persist(Archive& archive) {
     archive.io("is_one_system", is_one_system_);
     archive.io("answered", answered_);
     archive.io("exchange_has_ended", exchange_has_ended_);
+    gap_->persist(archive);
   }
   archive.io("oil_volume", oil_of_run_.volume);
   archive.io("oil_through_flow", oil_of_run_.through_flow);

@@ -16,8 +16,8 @@ namespace {
 // Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
 constexpr double direction_floor = 1e-6;
 
-// Eccentricity over the clearance from which a step that begins there can follow the widest gap: nearer to the centre
-// it goes round by half a turn for next to no motion.
+// Eccentricity over the clearance from which a step can follow the widest gap: nearer to the centre it goes round by
+// half a turn for next to no motion. A journal that leaves the centre at its start is followed.
 constexpr double all_but_centred = 1e-2;
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
@@ -42,9 +42,16 @@ JournalGap::JournalGap(const film::FilmModel& model, bool journal_deforms)
 
 void JournalGap::begin_step(const mbd::RelativeMotion& start) {
   held_supply_.reset();
-  if (!is_aligned(start.X_AB)) return;
-  const JournalKinematics k = journal_kinematics(start.X_AB, start.V_AB_A, R_, direction_floor * c_);
-  if (k.e().norm() < all_but_centred * (c_ + growth_)) held_supply_ = k.value[kSupplyAngle];
+  if (is_near_centre_ && is_aligned(start.X_AB))
+    held_supply_ = journal_kinematics(start.X_AB, start.V_AB_A, R_, direction_floor * c_).value[kSupplyAngle];
+}
+
+void JournalGap::end_step(const mbd::RelativeMotion& end) {
+  is_near_centre_ = is_aligned(end.X_AB) && position(end).ratio() < all_but_centred;
+}
+
+void JournalGap::persist(Archive& archive) {
+  archive.io("is_near_centre", is_near_centre_), archive.io("held_supply", held_supply_);
 }
 
 std::string JournalGap::place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) {

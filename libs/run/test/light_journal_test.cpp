@@ -79,7 +79,7 @@ TEST_CASE("JournalWithoutALoad_IsHeldByNoRoundOffAndNoSupply") {
                                          {.results = scratch / "run.h5", .overwrite = true});
         CAPTURE(summary.message);
         CHECK(summary.status == Status::completed);
-        CHECK(summary.rejected_steps <= 2);
+        CHECK(summary.rejected_steps <= 5);  // where it begins to move
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <string>
 
+#include "hersey/core/archive.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/reynolds.h"
 #include "hersey/mbd/two_body_force.h"
@@ -37,6 +38,10 @@ class GapKinematics {
 
   /// A step begins at this motion: what it cannot follow within a step stays as it is here until the next call.
   virtual void begin_step(const mbd::RelativeMotion& /*start*/) {}
+  /// And has ended at this one.
+  virtual void end_step(const mbd::RelativeMotion& /*end*/) {}
+  /// What both keep.
+  virtual void persist(Archive& /*archive*/) {}
 
   /// Writes the surfaces at a motion of B relative to A into `surfaces`: gap, rate, speeds, angles. What follows refers
   /// to this motion. Not empty: why the surfaces are none, for the user; they are then not placed.

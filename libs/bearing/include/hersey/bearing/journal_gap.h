@@ -14,8 +14,10 @@ class JournalGap final : public GapKinematics {
   /// @param journal_deforms  its shape turns with it, as features and profiles of the journal do
   JournalGap(const film::FilmModel& model, bool journal_deforms);
 
-  /// Near the centre the widest gap, and with it a supply there, stays where it is.
+  /// After a step that ended near the centre the widest gap, and with it a supply there, stays where it is.
   void begin_step(const mbd::RelativeMotion& start) override;
+  void end_step(const mbd::RelativeMotion& end) override;
+  void persist(Archive& archive) override;
   [[nodiscard]] std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
   [[nodiscard]] const film::MotionDirection& direction(Index parameter) const override;
   [[nodiscard]] bool is_angle(Index parameter) const override;
@@ -29,6 +31,7 @@ class JournalGap final : public GapKinematics {
   double R_, L_, c_;
   RigidSurfaces surfaces_;
   JournalKinematics kinematics_;
+  bool is_near_centre_ = false;        ///< as the last step ended
   std::optional<double> held_supply_;  ///< angle of the widest gap over the step [rad]
 };
 
