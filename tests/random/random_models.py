@@ -119,8 +119,12 @@ def table(results):
     row("failing", lambda r: r.fails())
     for invariant in sorted({i for r in results for i, _ in r.findings}):
         row(f"  {invariant}", lambda r, invariant=invariant: any(i == invariant for i, _ in r.findings))
-    messages = collections.Counter(re.sub(r"-?\d[\d.e+-]*", "#", r.text)[:150] for r in results if r.ending != "answer")
-    lines += [f"{count:5} x {text}" for text, count in messages.most_common(12)]
+    messages = collections.defaultdict(list)
+    for r in results:
+        if r.ending != "answer":
+            messages[re.sub(r"-?\d[\d.e+-]*", "#", r.text)[:150]].append(r.name)
+    for text, of in sorted(messages.items(), key=lambda item: -len(item[1]))[:12]:
+        lines.append(f"{len(of):5} x {text} ({', '.join(of[:3])}{', ...' if len(of) > 3 else ''})")
     lines.append(f"slowest: {max(results, key=lambda r: r.seconds).name}, {max(r.seconds for r in results):.1f} s")
     return "\n".join(lines)
 
