@@ -90,7 +90,7 @@ TEST_CASE("Defaults_AreThoseOfTheReference") {
   CHECK(model.bearings[0].coupling.scheme == CouplingScheme::monolithic);
   CHECK(model.gravity == Vector3::Zero());
   CHECK(model.simulation.spectral_radius == 0.8);
-  CHECK(model.simulation.max_iterations == 30);
+  CHECK(model.simulation.max_iterations == 50);
   CHECK(model.simulation.smallest_step == 1e-9);
   CHECK_FALSE(model.simulation.settle.has_value());
   CHECK(model.output.every == 1);

@@ -79,7 +79,7 @@ TypePtr simulation_format() {
                     "Damping of the fastest vibrations by generalized-alpha: 1 none, 0 all within a step."),
           defaulted("tolerance", number("1e-8", fraction), "1e-8",
                     "Relative residual at which a step counts as solved."),
-          defaulted("max_iterations", integer(30, {.low = 1, .high = 10000}), "30", "Newton iterations per step."),
+          defaulted("max_iterations", integer(50, {.low = 1, .high = 10000}), "50", "Newton iterations per step."),
           defaulted("smallest_step", quantity("s", "1e-9 s", Range::positive()), "1e-9 s",
                     "A step that still fails at this length ends the run."),
           optional(

@@ -309,7 +309,7 @@ struct Simulation {
   InitialDeformation initial_deformation = InitialDeformation::none;
   double spectral_radius = 0.8;  ///< of generalized-alpha, 0..1
   double tolerance = 1e-8;       ///< relative, of Newton
-  int max_iterations = 30;       ///< of Newton, per step
+  int max_iterations = 50;       ///< of Newton, per step
   double smallest_step = 1e-9;   ///< [s]
   std::optional<Settle> settle;
   std::optional<Cycle> cycle;  ///< then `duration` is at most that of all cycles

@@ -14,7 +14,7 @@ namespace hersey::solver {
 struct GeneralizedAlphaOptions {
   double spectral_radius = 0.8;  ///< amplification of the highest frequencies per step [-], 0..1; 1 dissipates nothing
   double rtol = 1e-8;            ///< residual of every row, relative to the terms it balances
-  int max_iterations = 30;       ///< Newton iterations per step
+  int max_iterations = 50;       ///< Newton iterations per step
   int max_halvings = 12;         ///< halvings of one increment that leaves the domain of the equations
   /// Of condensed equations where it is larger than `rtol`: what steps chosen by their error may leave of a film.
   double condensed_rtol = 0;
