@@ -387,7 +387,7 @@ void FilmForce::close_step() {
   history_start_.gap = oil_.gap;
   history_start_.phi_journal = surfaces_.phi_journal;
   if (is_step) {
-    const double dt = history_.dt, in = oil_.flow_supply, out = oil_.flow_left + oil_.flow_right;
+    const double dt = history_.dt, in = oil_.flow_supply, out = oil_.flow_out();
     oil_of_run_.step_error = oil_.volume - oil_of_run_.volume - dt * (in - out);
     oil_of_run_.unexplained += oil_of_run_.step_error;
     oil_of_run_.through_flow += dt * std::max(std::abs(in), std::abs(out));
@@ -465,10 +465,9 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
 void FilmForce::show_oil(film::FilmObservables& film) const {
   film.oil_volume = oil_of_run_.volume;
   if (oil_.flow_features.size() != film.flow_features.size() || observed_history_.dt == 0) return;
-  film.flow_left = oil_.flow_left, film.flow_right = oil_.flow_right;
+  film.flow_left = oil_.flow_left, film.flow_right = oil_.flow_right, film.flow_ends = oil_.flow_ends;
   film.flow_supply = oil_.flow_supply, film.flow_features = oil_.flow_features;
-  film.storage_rate =
-      oil_.flow_supply - oil_.flow_left - oil_.flow_right + oil_of_run_.step_error / observed_history_.dt;
+  film.storage_rate = oil_.flow_supply - oil_.flow_out() + oil_of_run_.step_error / observed_history_.dt;
   double scale =
       std::max({std::abs(oil_.flow_left), std::abs(oil_.flow_right), std::abs(oil_.flow_supply),
                 std::abs(film.storage_rate), std::abs(observed_surfaces_.u_journal) * model().c * model().L});

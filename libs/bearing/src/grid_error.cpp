@@ -17,13 +17,8 @@ struct Figures {
 
 Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
   const BearingNumbers n = bearing_numbers(model, state);
-  return {state.film.h_min,
-          state.film.p_max,
-          n.eccentricity_ratio,
-          n.attitude,
-          n.load,
-          n.friction_journal,
-          state.film.flow_left + state.film.flow_right};
+  return {state.film.h_min, state.film.p_max,   n.eccentricity_ratio, n.attitude,
+          n.load,           n.friction_journal, state.film.flow_out()};
 }
 
 film::FilmModel with_half_grid(film::FilmModel model) {

@@ -195,8 +195,47 @@ std::vector<State> states_with_pockets() {
   return states;
 }
 
+// Pads of a bore, with an edge in air among their ends; an annulus, on which speeds grow with the radius; and a plane.
+std::vector<State> states_on_surfaces() {
+  std::vector<State> states;
+  for (const bool transient : {false, true}) {
+    const Grid pads = patch_grid({{.from = 0.3, .to = 2.5, .lines = 7}, {.from = 2.6, .to = 5.8, .lines = 8}}, 6);
+    State s = rough_state(Cavitation::mass_conserving, true, transient, pads);
+    s.model.supply.kind = SupplyKind::none;
+    s.model.ends = {{.first = {.pressure = 4e5}, .last = {.pressure = 1e4, .ambient_fill = 0.7}},
+                    {.first = {.kind = EdgeKind::closed}, .last = {.pressure = 2e5}}};
+    s.name = "pads";
+    states.push_back(s);
+    for (State pockets : states_with_pockets()) {
+      if ((pockets.history.dt > 0) != transient || pockets.motion.phi_supply != 1.3) continue;
+      pockets.model.surface = Annulus{};
+      pockets.motion.shell_opening.resize(0);
+      pockets.name += ", annulus";
+      states.push_back(pockets);
+    }
+    s = rough_state(Cavitation::mass_conserving, true, transient);
+    s.model.surface = Annulus{};
+    s.model.lubricant.shear_thinning = {Cross{.limit = 0.3, .exponent = 0.8}, 3e5, 0};
+    s.motion.shell_opening.resize(0);
+    s.motion.phi_supply = 1.5, s.motion.w_journal = 4;
+    s.name = "annulus, sheared";
+    states.push_back(s);
+    s = rough_state(Cavitation::mass_conserving, true, transient, pads);
+    s.model.surface = Plane{};
+    s.model.supply.kind = SupplyKind::none;
+    s.model.ends.resize(2);
+    for (PatchEnds& ends : s.model.ends) ends.first.pressure = ends.last.pressure = s.model.p_cav;
+    s.motion.shell_opening.resize(0);
+    s.name = "plane";
+    states.push_back(s);
+  }
+  for (State& s : states) s.name += s.history.dt > 0 ? ", transient" : ", steady";
+  return states;
+}
+
 std::vector<State> all_states() {
   std::vector<State> states = rough_states();
+  for (const State& s : states_on_surfaces()) states.push_back(s);
   for (const State& s : states_with_pockets()) states.push_back(s);
   for (const State& s : sheared_states()) states.push_back(s);
   return states;
@@ -225,15 +264,19 @@ SurfaceMotion moved(const SurfaceMotion& motion, const MotionDirection& directio
 std::vector<std::pair<std::string, MotionDirection>> directions(const State& s) {
   const Eigen::VectorXd random = seeded_random(s.model.grid.size(), 1, 3);
   const double speed = s.model.R * 300;
-  return {{"gap", {.g = 1e-6 * random, .g_rate = {}}},
-          {"gap by the shell's surface", {.g = 1e-6 * random, .g_rate = {}, .shell_share = 1}},
-          {"gap rate", {.g = {}, .g_rate = 0.02 * random}},
-          {"u_shell", {.g = {}, .g_rate = {}, .u_shell = speed}},
-          {"u_journal", {.g = {}, .g_rate = {}, .u_journal = speed}},
-          {"w_shell", {.g = {}, .g_rate = {}, .w_shell = speed}},
-          {"w_journal", {.g = {}, .g_rate = {}, .w_journal = speed}},
-          {"phi_supply", {.g = {}, .g_rate = {}, .phi_supply = 0.1}},
-          {"phi_journal", {.g = {}, .g_rate = {}, .phi_journal = 0.1}}};
+  std::vector<std::pair<std::string, MotionDirection>> all{
+      {"gap", {.g = 1e-6 * random, .g_rate = {}}},
+      {"gap rate", {.g = {}, .g_rate = 0.02 * random}},
+      {"u_shell", {.g = {}, .g_rate = {}, .u_shell = speed}},
+      {"u_journal", {.g = {}, .g_rate = {}, .u_journal = speed}},
+      {"w_shell", {.g = {}, .g_rate = {}, .w_shell = speed}},
+      {"w_journal", {.g = {}, .g_rate = {}, .w_journal = speed}},
+      {"phi_journal", {.g = {}, .g_rate = {}, .phi_journal = 0.1}}};
+  if (s.motion.shell_opening.size() != 0)
+    all.push_back({"gap by the shell's surface", {.g = 1e-6 * random, .g_rate = {}, .shell_share = 1}});
+  if (s.model.supply.kind != SupplyKind::none)
+    all.push_back({"phi_supply", {.g = {}, .g_rate = {}, .phi_supply = 0.1}});
+  return all;
 }
 
 Eigen::VectorXd sparse_times(const FlowBalance& balance, const Eigen::VectorXd& x) {

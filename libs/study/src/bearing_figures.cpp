@@ -269,7 +269,7 @@ Group oil() {
       {{"side_flow",
         "side flow",
         kFlow,
-        [](const Solution& s) { return s.state.film.flow_left + s.state.film.flow_right; },
+        [](const Solution& s) { return s.state.film.flow_out(); },
         {.grid_error = error_of(&bearing::GridError::side_flow)}},
        {"flow_left", "flow over the edge z < 0", kFlow, film(&Film::flow_left)},
        {"flow_right", "flow over the edge z > 0", kFlow, film(&Film::flow_right)},

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hersey/core/turn.h"
-
 namespace hersey::film {
 namespace {
 
@@ -21,15 +19,17 @@ class MiddleRow {
 
   [[nodiscard]] int size() const { return n_; }
   [[nodiscard]] bool is_cavity(int i) const { return value(i) < -1e-9 * fill_scale(balance_.model()); }
+  /// Whether an edge lies between node i and the next one.
+  [[nodiscard]] bool ends(int i) const { return balance_.model().grid.next(wrapped(i)) < 0; }
   /// From node i on to the next one [rad].
-  [[nodiscard]] double step(int i) const { return at_.dx[wrapped(i)] / balance_.model().R; }
+  [[nodiscard]] double step(int i) const { return at_.dphi(wrapped(i)); }
   [[nodiscard]] double angle(int i) const { return at_.phi[wrapped(i)]; }
 
   /// Distance from the last node i of the film to its end, which lies before the next one in the direction of `sense`
   /// [rad]. The pressure goes to zero there: with no slope where the film ruptures, straight where it re-forms or is
   /// merely cut off. A node that holds a pressure ends the film itself.
   [[nodiscard]] double reach(int i, int sense, bool is_rupture) const {
-    if (balance_.is_held(node(i))) return 0;
+    if (balance_.is_held(node(i)) || ends(sense > 0 ? i - 1 : i)) return 0;
     const double gap = step(sense > 0 ? i : i - 1), back = step(sense > 0 ? i - 1 : i);
     const double last = std::max(value(i), 0.0), before = std::max(value(i - sense), 0.0);
     if (cavitation_law(balance_.model()).has_tension()) return gap * last / (last - value(i + sense));
@@ -56,17 +56,20 @@ Cavity widest_cavity(const FlowBalance& balance, const Eigen::VectorXd& u, bool 
   double widest = 0;
   Cavity cavity;
   for (int first = 0; first < row.size(); ++first) {
-    if (!row.is_cavity(first) || row.is_cavity(first - 1)) continue;  // a cavity begins here, or the film is nowhere
+    // A cavity begins here, or the film is nowhere.
+    if (!row.is_cavity(first) || (!row.ends(first - 1) && row.is_cavity(first - 1))) continue;
     int last = first;
     double width = row.step(first - 1);
-    for (; row.is_cavity(last + 1); ++last) width += row.step(last);
+    for (; !row.ends(last) && row.is_cavity(last + 1); ++last) width += row.step(last);
     width += row.step(last);
     if (width <= widest) continue;
     widest = width;
-    const double low = row.angle(first - 1) + row.reach(first - 1, +1, !backwards);
-    const double high = row.angle(last + 1) - row.reach(last + 1, -1, backwards);
-    cavity.rupture = std::fmod((backwards ? high : low) + turn, turn);
-    cavity.reformation = std::fmod((backwards ? low : high) + turn, turn);
+    // At the end of a patch it ends itself.
+    const double low =
+        row.ends(first - 1) ? row.angle(first) : row.angle(first - 1) + row.reach(first - 1, +1, !backwards);
+    const double high = row.ends(last) ? row.angle(last) : row.angle(last + 1) - row.reach(last + 1, -1, backwards);
+    cavity.rupture = balance.geometry().told(backwards ? high : low);
+    cavity.reformation = balance.geometry().told(backwards ? low : high);
   }
   return cavity;
 }

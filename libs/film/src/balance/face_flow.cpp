@@ -63,7 +63,7 @@ void FlowBalance::roughen(std::size_t f, FaceGap& gap) const {
   gap.cube_at = {0.5 * gap.cube * a.pressure_h[k], 0.5 * gap.cube * b.pressure_h[k]};
   gap.cube *= factor, gap.cube_h *= factor;
   // The surfaces carry the mean gap, and drag more or less of it as they slide.
-  const double speed = entrainment(f), half_slip = axial(f) ? half_slip_z_ : half_slip_phi_;
+  const double speed = entrainment(f), half_slip = this->half_slip(f);
   const double beyond = speed * (0.5 * (a.mean + b.mean) - 0.5 * (nodes_[face.a].h + nodes_[face.b].h));
   gap.full += beyond + 0.5 * (a.drag[k] + b.drag[k]) * half_slip;
   gap.full_at = {0.5 * (speed * (a.mean_h - 1) + half_slip * a.drag_h[k]),
@@ -105,7 +105,7 @@ void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
   gap.little = gap.full;
   gap.from = gap.full >= 0 ? faces_[f].a : faces_[f].b;
   if (gap.full == 0 || (nodes_[gap.from].theta == 1 && !expects_any_fill_)) return;
-  const double speed = entrainment(f), half_slip = axial(f) ? half_slip_z_ : half_slip_phi_;
+  const double speed = entrainment(f), half_slip = this->half_slip(f);
   const RoughGap& rough = rough_[gap.from];
   const int k = axial(f) ? 1 : 0;
   const double little = speed * oil_gap(gap.from) + half_slip * rough.drag[k];
@@ -129,7 +129,7 @@ std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
 }
 
 double FlowBalance::step_speed(std::size_t f, const PocketTube& tube) const {
-  return axial(f) ? 0 : step_of(tube, speed_phi_, speeds_.u_journal);
+  return axial(f) ? 0 : step_of(tube, entrainment(f), stretch(f) * speeds_.u_journal);
 }
 
 // The line's rows count so much of what comes half-way to it.
@@ -235,8 +235,9 @@ FlowBalance::Speeds FlowBalance::speeds_along(std::size_t f, const MotionDirecti
   if (axial(f))
     return {0.5 * (direction.w_shell + direction.w_journal), 0.5 * (direction.w_shell - direction.w_journal),
             direction.w_journal};
-  return {0.5 * (direction.u_shell + direction.u_journal), 0.5 * (direction.u_shell - direction.u_journal),
-          direction.u_journal};
+  return Speeds{0.5 * (direction.u_shell + direction.u_journal), 0.5 * (direction.u_shell - direction.u_journal),
+                direction.u_journal} *
+         stretch(f);
 }
 
 double FlowBalance::flow_along(std::size_t f, const MotionDirection& direction) const {

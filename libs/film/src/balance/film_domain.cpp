@@ -15,7 +15,7 @@ FilmDomain judge_unknowns(const FilmModel& model, const Eigen::VectorXd& u) {
   for (int node = 0; node < u.size(); ++node) {
     if (!std::isfinite(u[node])) return {FilmDomain::Trouble::not_finite, node};
     // On an edge at p_cav, u > 0 is oil that leaves, not pressure.
-    if (u[node] > most && !open_edge(model, node % model.grid.n_z)) most = u[node], highest = node;
+    if (u[node] > most && !open_edge(model, node)) most = u[node], highest = node;
   }
   const bool is_meant =
       most < largest_pressure && log_viscosity_ratio(model.lubricant, most).value <= largest_log_viscosity;
@@ -24,8 +24,10 @@ FilmDomain judge_unknowns(const FilmModel& model, const Eigen::VectorXd& u) {
 
 std::string place_of_node(const FilmModel& model, int node) {
   const Grid& grid = model.grid;
-  const double phi = grid.phi(node / grid.n_z) * 180 / std::numbers::pi;
-  return fmt::format("{:.1f} deg, z = {:.3g} mm", phi, 1e3 * model.L * grid.z_over_L(node % grid.n_z));
+  const double phi = grid.phi(node / grid.n_z);
+  const std::string along = is_round(model.surface) ? fmt::format("{:.1f} deg", phi * 180 / std::numbers::pi)
+                                                    : fmt::format("{:.3g} mm", 1e3 * model.R * phi);
+  return along + fmt::format(", z = {:.3g} mm", 1e3 * model.L * grid.z_over_L(node % grid.n_z));
 }
 
 std::string text(const FilmModel& model, const FilmDomain& domain) {

@@ -13,11 +13,14 @@ void check(const FilmModel& m) {
   HERSEY_REQUIRE(m.R > 0 && m.L > 0 && m.c > 0, "a bearing has radius, width and clearance");
   HERSEY_REQUIRE(m.lubricant.mu0 > 0, "viscosity is positive");
   HERSEY_REQUIRE(m.compliance >= 0, "compliance is not negative");
-  for (const Edge& edge : {m.edge_left, m.edge_right}) {
+  std::vector<Edge> edges{m.edge_left, m.edge_right};
+  for (const PatchEnds& ends : m.ends) edges.insert(edges.end(), {ends.first, ends.last});
+  for (const Edge& edge : edges) {
     HERSEY_REQUIRE(edge.kind == EdgeKind::closed || edge.pressure >= m.p_cav, "edges lie at or above p_cav");
     HERSEY_REQUIRE(0 <= edge.ambient_fill && edge.ambient_fill <= 1, "fill lies between 0 and 1");
   }
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.supply.pressure >= m.p_cav, "supply lies at or above p_cav");
+  HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.grid.closes(), "a supply line has film on both sides");
   HERSEY_REQUIRE(m.asperities.model == AsperityModel::none || m.asperities.sigma > 0, "roughness is positive");
 }
 
@@ -37,14 +40,10 @@ FlowBalance::FlowBalance(const FilmModel& model)
   D0_ = model_.c * model_.c * model_.c / (12 * model_.lubricant.mu0) * unit_conductance_;
   area_.resize(grid.size());
   for (int k = 0; k < grid.size(); ++k) area_[k] = geometry_.area(k / grid.n_z, k % grid.n_z);
+  lay_edges();
   lay_faces();
   lay_pattern();
   const int n = grid.size();
-  const auto ambient_unknown_at = [&](int j) {
-    const double fill = ambient_fill(model_, j);
-    return fill > 0 ? (fill - 1) * fill_scale(model_) : -std::numeric_limits<double>::infinity();
-  };
-  ambient_left_ = ambient_unknown_at(0), ambient_right_ = ambient_unknown_at(grid.n_z - 1);
   nodes_.resize(n);
   rough_.resize(n);
   flows_.resize(faces_.size());
@@ -58,18 +57,48 @@ FlowBalance::FlowBalance(const FilmModel& model)
   land_index_.assign(n, -1);
 }
 
+void FlowBalance::lay_edges() {
+  const Grid& grid = model_.grid;
+  edges_.resize(static_cast<std::size_t>(grid.size()));
+  for (int node = 0; node < grid.size(); ++node) {
+    const Edge* edge = edge_of_node(model_, node);
+    if (edge == nullptr) continue;
+    const int i = node / grid.n_z, j = node % grid.n_z;
+    EdgeNode& at = edges_[node];
+    at.of_patch = edge != edge_of_row(model_, j);
+    if (at.of_patch)
+      at.inside = grid.index(grid.before(i) < 0 ? grid.next(i) : grid.before(i), j);
+    else
+      at.inside = j == 0 ? node + 1 : node - 1;
+    const double fill = ambient_fill(model_, node);
+    at.ambient = fill > 0 ? (fill - 1) * fill_scale(model_) : -std::numeric_limits<double>::infinity();
+    at.kind = EdgeNode::Kind::wall;
+    if (edge->kind == EdgeKind::closed) continue;
+    at.kind = open_edge(model_, node) ? EdgeNode::Kind::open : EdgeNode::Kind::given;
+    at.u = edge->pressure - model_.p_cav;
+    if (at.kind == EdgeNode::Kind::given) given_.push_back(node);
+  }
+}
+
 void FlowBalance::lay_faces() {
   const Grid& grid = model_.grid;
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
-      const int next = grid.index((i + 1) % grid.n_phi, j);
-      faces_.push_back({grid.index(i, j), next, geometry_.width_z[j], geometry_.dx[i], {}});
+      const int node = grid.index(i, j), next = grid.next(i);
+      if (next < 0)
+        faces_.push_back({node, node, 0, geometry_.mean_dx, {}});
+      else
+        faces_.push_back({node, grid.index(next, j), geometry_.width_z[j], geometry_.step(i, j), {}});
     }
   }
   first_axial_face_ = faces_.size();
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j + 1 < grid.n_z; ++j) {
-      faces_.push_back({grid.index(i, j), grid.index(i, j + 1), geometry_.width_phi[i], geometry_.dz[j], {}});
+      faces_.push_back({grid.index(i, j),
+                        grid.index(i, j + 1),
+                        geometry_.width_phi[i] * geometry_.stretch_between[j],
+                        geometry_.dz[j],
+                        {}});
     }
   }
 }
@@ -77,14 +106,15 @@ void FlowBalance::lay_faces() {
 void FlowBalance::lay_pattern() {
   const Grid& grid = model_.grid;
   const int n = size(), n_z = grid.n_z;
-  const auto balanced = [&](int node) { return !edge_row(node % n_z); };
+  const auto balanced = [&](int node) { return !is_given(node); };
+  const auto around = [&](int line, int j, int none) { return line < 0 ? none : grid.index(line, j); };
   column_start_.reserve(static_cast<std::size_t>(n) + 1);
   row_index_.reserve(5 * static_cast<std::size_t>(n));
   column_start_.assign(1, 0);
   for (int column = 0; column < n; ++column) {
     const int i = column / n_z, j = column % n_z;
-    std::array<int, 5> rows{grid.index((i + grid.n_phi - 1) % grid.n_phi, j), j > 0 ? column - 1 : column, column,
-                            j + 1 < n_z ? column + 1 : column, grid.index((i + 1) % grid.n_phi, j)};
+    std::array<int, 5> rows{around(grid.before(i), j, column), j > 0 ? column - 1 : column, column,
+                            j + 1 < n_z ? column + 1 : column, around(grid.next(i), j, column)};
     std::sort(rows.begin(), rows.end());
     const auto end = std::unique(rows.begin(), rows.end());
     for (auto row = rows.begin(); row != end; ++row) {
@@ -105,19 +135,12 @@ void FlowBalance::lay_pattern() {
   for (int row = 0; row < n; ++row) {
     if (!balanced(row)) continue;
     const int i = row / n_z, j = row % n_z;
-    row_slots_[row] = {find(row, grid.index((i + grid.n_phi - 1) % grid.n_phi, j)),
-                       j > 0 ? find(row, row - 1) : nowhere, diagonal_slot_[row],
-                       j + 1 < n_z ? find(row, row + 1) : nowhere, find(row, grid.index((i + 1) % grid.n_phi, j))};
+    const auto slot_of = [&](int line) { return line < 0 ? nowhere : find(row, grid.index(line, j)); };
+    row_slots_[row] = {slot_of(grid.before(i)), j > 0 ? find(row, row - 1) : nowhere, diagonal_slot_[row],
+                       j + 1 < n_z ? find(row, row + 1) : nowhere, slot_of(grid.next(i))};
   }
   values_.resize(row_index_.size() + 1);
 }
-
-bool FlowBalance::edge_row(int j) const {
-  const Edge* edge = edge_of_row(model_, j);
-  return edge != nullptr && edge->kind == EdgeKind::pressure && !open_row(j);
-}
-
-double FlowBalance::edge_unknown(int j) const { return edge_of_row(model_, j)->pressure - model_.p_cav; }
 
 void FlowBalance::take_history(const FilmHistory& history) {
   HERSEY_REQUIRE(history.dt >= 0, "time runs forwards");
@@ -161,21 +184,22 @@ void FlowBalance::take_motion(const SurfaceMotion& motion) {
   half_slip_z_ = 0.5 * (motion.w_shell - motion.w_journal);
   speeds_.u_shell = motion.u_shell, speeds_.u_journal = motion.u_journal;
   speeds_.w_shell = motion.w_shell, speeds_.w_journal = motion.w_journal;
-  sliding_ = sliding_of(slip().x(), slip().y());
+  sliding_.clear();
+  for (int j = 0; j < model_.grid.n_z; ++j) sliding_.push_back(sliding_of(slip(j).x(), slip(j).y()));
   if (relief_.is_empty()) return;
   relief_.place(motion.phi_journal, phi_start_, dt_, motion.u_journal);
   std::fill(tube_of_.begin(), tube_of_.end(), -1);
   for (std::size_t t = 0; t < relief_.tubes().size(); ++t) tube_of_[relief_.tubes()[t].face] = static_cast<int>(t);
 }
 
-Eigen::Vector2d FlowBalance::slip() const {
-  return {speeds_.u_journal - speeds_.u_shell, speeds_.w_journal - speeds_.w_shell};
+Eigen::Vector2d FlowBalance::slip(int j) const {
+  return {geometry_.stretch[j] * (speeds_.u_journal - speeds_.u_shell), speeds_.w_journal - speeds_.w_shell};
 }
 
-SlidingChange FlowBalance::change_of_sliding(const MotionDirection& direction) const {
+SlidingChange FlowBalance::change_of_sliding(const MotionDirection& direction, int j) const {
   if (model_.lubricant.shear_thinning.is_newtonian()) return {};
-  return film::change_of_sliding(slip(),
-                                 {direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell});
+  return film::change_of_sliding(slip(j), {geometry_.stretch[j] * (direction.u_journal - direction.u_shell),
+                                           direction.w_journal - direction.w_shell});
 }
 
 FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
@@ -219,9 +243,9 @@ NodeViscosity FlowBalance::viscosity_of(int node) const {
 FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
   if (const FilmDomain domain = judge_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
-    const int j = i % model_.grid.n_z;
-    nodes_[i] = is_layered() ? law_.state(motion.g[i], u[i], j, sliding_, viscosity_of(i))
-                             : law_.state(motion.g[i], u[i], j, sliding_);
+    const Sliding& sliding = sliding_[static_cast<std::size_t>(i % model_.grid.n_z)];
+    nodes_[i] = is_layered() ? law_.state(motion.g[i], u[i], i, sliding, viscosity_of(i))
+                             : law_.state(motion.g[i], u[i], i, sliding);
     if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
     if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;
@@ -233,29 +257,25 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
 
 // What a row carries beside its balance: the slack of p >= p_cav, on an open edge the outflow or inflow.
 double FlowBalance::slack(int node) const {
-  const int j = node % model_.grid.n_z;
-  if (!open_row(j)) return D0_ * cavitation_.slack(u_[node]).value;
-  return D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(j), 0.0));
+  if (!is_open(node)) return D0_ * cavitation_.slack(u_[node]).value;
+  return D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(node), 0.0));
 }
 
 double FlowBalance::slack_u(int node) const {
-  const int j = node % model_.grid.n_z;
-  if (!open_row(j)) return D0_ * cavitation_.slack(u_[node]).slope;
-  return u_[node] >= 0 || u_[node] < ambient_unknown(j) ? D0_ : 0;
+  if (!is_open(node)) return D0_ * cavitation_.slack(u_[node]).slope;
+  return u_[node] >= 0 || u_[node] < ambient_unknown(node) ? D0_ : 0;
 }
 
 // A film that does not conserve oil lacks some wherever it is broken: the half volumes on an edge do not draw it in.
 bool FlowBalance::lets_nothing_in(int node) const {
-  const int j = node % model_.grid.n_z, inside = j == 0 ? node + 1 : node - 1;
   // A groove at p_cav holds u = 0 to round-off, of either sign.
   const double round_off = 1e-9 * fill_scale(model_);
-  return cavitation_.loses_oil() && edge_unknown(j) == 0 && u_[inside] < round_off;
+  return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off;
 }
 
 double FlowBalance::outflow_of_row(int node) const {
-  const int j = node % model_.grid.n_z;
-  if (open_row(j)) return slack(node);
-  if (!edge_row(j)) return 0;
+  if (is_open(node)) return slack(node);
+  if (!is_given(node)) return 0;
   return lets_nothing_in(node) ? 0 : -balance_[node];
 }
 
@@ -266,7 +286,6 @@ double FlowBalance::supply(int node) const {
 }
 
 void FlowBalance::replace_boundary_rows() {
-  const Grid& grid = model_.grid;
   for (int i = 0; i < size(); ++i) residual_[i] = balance_[i] + slack(i);
   for (const HeldNode& held : held_) {
     const int i = held.node;
@@ -274,13 +293,9 @@ void FlowBalance::replace_boundary_rows() {
     residual_[i] = (1 - held.chi) * (line_balance(i) + slack(i)) + given;
     throughput_[i] = std::max(throughput_[i], D0_ * std::abs(held.u));
   }
-  for (int j = 0; j < grid.n_z; ++j) {
-    if (!edge_row(j)) continue;
-    for (int i = 0; i < grid.n_phi; ++i) {
-      const int node = grid.index(i, j);
-      residual_[node] = D0_ * (u_[node] - edge_unknown(j));
-      throughput_[node] = std::max(throughput_[node], D0_ * std::abs(edge_unknown(j)));
-    }
+  for (const int node : given_) {
+    residual_[node] = D0_ * (u_[node] - edge_unknown(node));
+    throughput_[node] = std::max(throughput_[node], D0_ * std::abs(edge_unknown(node)));
   }
 }
 
@@ -296,7 +311,6 @@ int FlowBalance::worst_node() const {
 }
 
 void FlowBalance::assemble_jacobian() {
-  const Grid& grid = model_.grid;
   std::fill(values_.begin(), values_.end(), 0.0);
   for (int i = 0; i < size(); ++i) values_[diagonal_slot_[i]] = storage_u(i) + slack_u(i);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -320,14 +334,10 @@ void FlowBalance::assemble_jacobian() {
     values_[diagonal_slot_[i]] += t.k * slope + t.k_u * above;
     if (held.other >= 0) values_[slot_to_other(held)] += t.k_u_other * above;
   }
-  for (int j = 0; j < grid.n_z; ++j) {
-    if (!edge_row(j)) continue;
-    for (int i = 0; i < grid.n_phi; ++i) values_[diagonal_slot_[grid.index(i, j)]] = D0_;
-  }
+  for (const int node : given_) values_[diagonal_slot_[node]] = D0_;
 }
 
 void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
-  const Grid& grid = model_.grid;
   const int n = size();
   const bool gap = direction.g.size() != 0, rate = direction.g_rate.size() != 0;
   HERSEY_REQUIRE(!gap || direction.g.size() == n, "direction of shape (grid.size()) or empty");
@@ -346,12 +356,15 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   const bool speeds =
       direction.u_shell != 0 || direction.u_journal != 0 || direction.w_shell != 0 || direction.w_journal != 0;
   const bool turns = direction.phi_journal != 0 && relief_.has_pockets();
-  const SlidingChange sliding = speeds ? change_of_sliding(direction) : SlidingChange{};
+  const auto sliding_at = [&](int node) {
+    return speeds ? change_of_sliding(direction, node % model_.grid.n_z) : SlidingChange{};
+  };
   for (std::size_t f = 0; (gap || speeds || turns) && f < faces_.size(); ++f) {
     double q = flow_along(f, direction);
-    if (speeds)
-      q += 0.5 * flows_[f].q_fluidity *
-           (flow_of(faces_[f].a, f).along(sliding) + flow_of(faces_[f].b, f).along(sliding));
+    if (speeds) {
+      const auto along = [&](int node) { return flow_of(node, f).along(sliding_at(node)); };
+      q += 0.5 * flows_[f].q_fluidity * (along(faces_[f].a) + along(faces_[f].b));
+    }
     const bool cut = is_cut(f);
     if (!cut || !has_line_row(faces_[f].a)) dr[faces_[f].a] += q;
     if (!cut || !has_line_row(faces_[f].b)) dr[faces_[f].b] -= q;
@@ -361,6 +374,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     const Tie t = tie(held);
     const auto [above, slope] = excess(held);
     if (held.other >= 0) dr[i] += line_row_along(held, direction);
+    const SlidingChange sliding = sliding_at(i);
     const double chi = held.chi_line * direction.phi_supply + held.chi_journal * direction.phi_journal;
     dr[i] = (1 - held.chi) * dr[i] - chi * (line_balance(i) + slack(i));
     double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal + t.k_rate * sliding.rate +
@@ -372,10 +386,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     dr[i] += k * above;
     dr[i] += t.k * draws_along(held, direction);
   }
-  for (int j = 0; j < grid.n_z; ++j) {
-    if (!edge_row(j)) continue;
-    for (int i = 0; i < grid.n_phi; ++i) dr[grid.index(i, j)] = 0;
-  }
+  for (const int node : given_) dr[node] = 0;
 }
 
 }  // namespace hersey::film

@@ -101,7 +101,8 @@ class FlowBalance {
   [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
   /// Outflow plus storage of every control volume, boundary nodes included: there it is the oil fed from outside.
   [[nodiscard]] const Eigen::VectorXd& balance() const { return balance_; }
-  /// The face from node (i, j) to the next around the bearing, and to the next along the axis.
+  /// The face from node (i, j) to the next along phi, and to the next along z. From the last line of a patch no face
+  /// leads on: one of no width stands in its place, from the node to itself.
   [[nodiscard]] std::size_t face_after(int i, int j) const { return static_cast<std::size_t>(model_.grid.index(i, j)); }
   [[nodiscard]] std::size_t face_above(int i, int j) const {
     return first_axial_face_ + static_cast<std::size_t>(i * (model_.grid.n_z - 1) + j);
@@ -114,17 +115,25 @@ class FlowBalance {
   [[nodiscard]] std::array<double, 2> thickness_shares(std::size_t f) const;
   [[nodiscard]] const PocketRelief& relief() const { return relief_; }
   [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }  ///< without fields
-  [[nodiscard]] Eigen::Vector2d slip() const;  ///< of the journal's surface past the shell's [m/s]
+  /// Of the journal's surface past the shell's in a row of the grid [m/s].
+  [[nodiscard]] Eigen::Vector2d slip(int j) const;
   [[nodiscard]] double largest_throughput() const { return largest_throughput_; }  ///< of a control volume [m^3/s]
   [[nodiscard]] double relative_residual() const;
   [[nodiscard]] int worst_node() const;
   [[nodiscard]] double area(int node) const { return area_[node]; }  ///< of the control volume [m^2]
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] double speed_phi() const { return speed_phi_; }
-  [[nodiscard]] bool edge_row(int j) const;  ///< an edge whose pressure is given: no balance there
-  [[nodiscard]] bool open_row(int j) const { return open_edge(model_, j); }  ///< an edge at p_cav
+  /// Whether a node lies on an edge whose pressure is given: it has no balance.
+  [[nodiscard]] bool is_given(int node) const { return edges_[node].kind == EdgeNode::Kind::given; }
+  /// Whether it lies on an edge at p_cav.
+  [[nodiscard]] bool is_open(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
   /// u at which an edge at p_cav is as full as what lies outside; -infinity where nothing comes in [Pa].
-  [[nodiscard]] double ambient_unknown(int j) const { return j == 0 ? ambient_left_ : ambient_right_; }
+  [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
+  /// Among those that tell them, the flow over the edge on which a node lies.
+  template <class Flows>
+  [[nodiscard]] double& flow_over_edge(Flows& flows, int node) const {
+    return edges_[node].of_patch ? flows.flow_ends : node % model_.grid.n_z == 0 ? flows.flow_left : flows.flow_right;
+  }
   [[nodiscard]] double outflow(int node) const;       ///< oil leaving over the edge at this node [m^3/s]
   [[nodiscard]] double supply(int node) const;        ///< oil entering from line or feature at this node [m^3/s]
   [[nodiscard]] double power_of_tie(int node) const;  ///< dissipated between the node and what holds it [W]
@@ -159,8 +168,8 @@ class FlowBalance {
     double strip = 0;        ///< squeezed beyond the middle of the way: the line's, not the node's [m^3/s]
   };
   [[nodiscard]] TowardsLine towards_line(int node) const;
-  [[nodiscard]] bool is_cut(std::size_t f) const;  ///< by the supply line
-  [[nodiscard]] double edge_unknown(int j) const;  ///< u on an edge [Pa]
+  [[nodiscard]] bool is_cut(std::size_t f) const;                               ///< by the supply line
+  [[nodiscard]] double edge_unknown(int node) const { return edges_[node].u; }  ///< u on an edge [Pa]
 
   [[nodiscard]] const std::vector<int>& column_start() const { return column_start_; }
   [[nodiscard]] const std::vector<int>& row_index() const { return row_index_; }
@@ -243,6 +252,19 @@ class FlowBalance {
   /// Speeds across a face: mean of both surfaces, half their difference, the journal's [m/s].
   struct Speeds {
     double mean = 0, half_slip = 0, journal = 0;
+    [[nodiscard]] Speeds operator*(double factor) const {
+      return {factor * mean, factor * half_slip, factor * journal};
+    }
+  };
+
+  /// What the edge on which it lies says of a node.
+  struct EdgeNode {
+    enum class Kind { none, wall, given, open };
+    Kind kind = Kind::none;
+    bool of_patch = false;  ///< that of a patch's end
+    int inside = 0;         ///< the next node from the edge
+    double u = 0;           ///< given [Pa]
+    double ambient = 0;     ///< [Pa]
   };
 
   /// Share of a full gap's flow that the surfaces carry over a face that the line cuts, with derivatives: by the fill
@@ -251,6 +273,7 @@ class FlowBalance {
     double value = 1, theta = 0, h_a = 0, h_b = 0, bend = 0, excess = 0, journal = 0;
   };
 
+  void lay_edges();
   void lay_faces();
   void lay_pattern();
   void find_supply(const SurfaceMotion& motion);
@@ -287,8 +310,8 @@ class FlowBalance {
   [[nodiscard]] const Node& upstream(std::size_t f) const {
     return nodes_[flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b];
   }
-  /// Change of slip_ and its direction with the surfaces' speeds.
-  [[nodiscard]] SlidingChange change_of_sliding(const MotionDirection& direction) const;
+  /// Change of a row's sliding with the surfaces' speeds.
+  [[nodiscard]] SlidingChange change_of_sliding(const MotionDirection& direction, int j) const;
   /// Change of the flow over face f with the surfaces.
   [[nodiscard]] double flow_along(std::size_t f, const MotionDirection& direction) const;
   [[nodiscard]] const HeldNode* held_at(int node) const;
@@ -320,6 +343,7 @@ class FlowBalance {
   [[nodiscard]] double storage_g_rate(int node) const;
   [[nodiscard]] double storage_excess_rate(int node) const;
   void pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const;
+  void leave(double rest, int node, const std::vector<char>& takes_what_comes, OilOfStep& oil) const;
   double pass_along(int j, double carry, const std::vector<char>& takes_what_comes, OilOfStep& oil,
                     bool for_good) const;
   [[nodiscard]] double start_of(int node) const;  ///< film's gap at the start of the step, pockets apart [m]
@@ -328,8 +352,12 @@ class FlowBalance {
   [[nodiscard]] bool axial(std::size_t f) const { return f >= first_axial_face_; }
   /// 1/mu of flow along pressure at a node of face f, across it.
   [[nodiscard]] const Fluidity& flow_of(int node, std::size_t f) const { return nodes_[node].flow[axial(f) ? 1 : 0]; }
+  /// Of the row of a face along phi, by which speeds count there [-].
+  [[nodiscard]] double stretch(std::size_t f) const { return geometry_.stretch[row_of_face(f)]; }
+  [[nodiscard]] int row_of_face(std::size_t f) const { return static_cast<int>(f) % model_.grid.n_z; }
   /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
-  [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : speed_phi_; }
+  [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : stretch(f) * speed_phi_; }
+  [[nodiscard]] double half_slip(std::size_t f) const { return axial(f) ? half_slip_z_ : stretch(f) * half_slip_phi_; }
   /// Changes of the speeds across face f.
   [[nodiscard]] Speeds speeds_along(std::size_t f, const MotionDirection& direction) const;
   /// Flows over face f, of a full gap and of little oil, that belong to a set of speeds.
@@ -341,8 +369,9 @@ class FlowBalance {
   RoughGapLaw rough_law_;
   GridGeometry geometry_;
   double D0_ = 0, unit_conductance_ = 0;
-  double ambient_left_ = 0, ambient_right_ = 0;
-  std::vector<double> area_;  ///< of the control volumes [m^2]
+  std::vector<EdgeNode> edges_;  ///< of every node
+  std::vector<int> given_;       ///< nodes on edges whose pressure is given
+  std::vector<double> area_;     ///< of the control volumes [m^2]
   std::vector<Face> faces_;
   std::size_t first_axial_face_ = 0;
   std::vector<int> column_start_, row_index_, diagonal_slot_;
@@ -363,7 +392,7 @@ class FlowBalance {
   Line line_;
   std::vector<CarriedShare> line_shares_;  ///< of the faces that it cuts, by their axial row
   SurfaceMotion speeds_;
-  Sliding sliding_;
+  std::vector<Sliding> sliding_;  ///< of the rows
   std::vector<HeldNode> held_;
   std::vector<int> held_index_;          ///< of every node its place in held_, -1 for none
   std::vector<HeldNode> held_at_edges_;  ///< would be held if their edges had no pressure of their own

@@ -26,19 +26,17 @@ class Fronts {
     const int n = grid_.n_phi;
     // Twice around: a front may pass the line where the sweep began.
     for (int k = 0; k < 2 * n; ++k) {
-      const int i = ascending ? k % n : n - 1 - k % n, upstream = (ascending ? i + n - 1 : i + 1) % n;
+      const int i = ascending ? k % n : n - 1 - k % n, upstream = ascending ? grid_.before(i) : grid_.next(i);
       for (int j = 0; j < grid_.n_z; ++j) {
         const int node = grid_.index(i, j);
         const bool emptied = u_[node] < 0 && balance_.nodes()[node].theta == 1;
-        if (emptied || moved_[grid_.index(upstream, j)]) relax(i, j);
+        if (emptied || (upstream >= 0 && moved_[grid_.index(upstream, j)])) relax(i, j);
       }
     }
   }
 
  private:
-  [[nodiscard]] double pressure(int node) const {
-    return balance_.open_row(node % grid_.n_z) ? 0 : std::max(u_[node], 0.0);
-  }
+  [[nodiscard]] double pressure(int node) const { return balance_.is_open(node) ? 0 : std::max(u_[node], 0.0); }
   [[nodiscard]] double fill(int node) const { return 1 + std::min(u_[node], 0.0) / fill_; }
 
   void add_face(int node, std::size_t f, Balance& sum) const {
@@ -53,12 +51,12 @@ class Fronts {
 
   void relax(int i, int j) {
     const int node = grid_.index(i, j);
-    if (balance_.edge_row(j) || balance_.is_held(node)) return;
-    if (balance_.open_row(j) && ambient_fill(balance_.model(), j) > 0) return;  // oil comes in there
+    if (balance_.is_given(node) || balance_.is_held(node)) return;
+    if (balance_.is_open(node) && ambient_fill(balance_.model(), node) > 0) return;  // oil comes in there
     const double storage_slope = balance_.nodes()[node].density * balance_.storage_by_content(node);
     Balance sum{balance_.storage(node) + storage_slope * (1 - balance_.nodes()[node].theta), storage_slope};
     add_face(node, balance_.face_after(i, j), sum);
-    add_face(node, balance_.face_after((i + grid_.n_phi - 1) % grid_.n_phi, j), sum);
+    if (const int before = grid_.before(i); before >= 0) add_face(node, balance_.face_after(before, j), sum);
     if (j > 0) add_face(node, balance_.face_above(i, j - 1), sum);
     if (j + 1 < grid_.n_z) add_face(node, balance_.face_above(i, j), sum);
     if (sum.lack <= 0 || sum.slope <= 0) return;

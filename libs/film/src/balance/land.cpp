@@ -16,18 +16,18 @@ void FlowBalance::find_strips(int f, double phi, double u) {
   const Grid& grid = model_.grid;
   const double half = 0.5 * feature.length;
   for (const int j : {0, grid.n_z - 1}) {
-    if (!edge_row(j) && !open_row(j)) continue;
     const int next = j == 0 ? 1 : j - 1;
     const double tube = std::abs(geometry_.z[next] - geometry_.z[j]);
     const double land = std::abs(geometry_.z[j] - feature.z) - half;
     if (land <= as_written * feature.length || land >= tube || std::abs(geometry_.z[next] - feature.z) > half) continue;
+    const double R = model_.R * geometry_.stretch[j];
     for (int i = 0; i < grid.n_phi; ++i) {
-      const double back = 0.5 * geometry_.dx[(i + grid.n_phi - 1) % grid.n_phi], ahead = 0.5 * geometry_.dx[i];
-      const double middle = model_.R * std::remainder(phi - geometry_.phi[i], turn),
-                   reach = 0.5 * model_.R * feature.arc;
-      const int node = grid.index(i, j);
+      const int node = grid.index(i, j), before = grid.before(i);
+      if (edges_[node].kind == EdgeNode::Kind::wall || edges_[node].of_patch) continue;
+      const double back = before < 0 ? 0 : 0.5 * geometry_.step(before, j), ahead = 0.5 * geometry_.step(i, j);
+      const double middle = R * geometry_.from_to(geometry_.phi[i], phi), reach = 0.5 * R * feature.arc;
       bool touches = false;
-      for (const double image : {-turn * model_.R, 0.0, turn * model_.R}) {
+      for (const double image : {-turn * R, 0.0, turn * R}) {
         const double from = std::max(-back, middle + image - reach), to = std::min(ahead, middle + image + reach);
         if (from >= to) continue;
         strips_.push_back({node, grid.index(i, next), f, from, to, 1 / land - 1 / tube, u});
@@ -75,8 +75,7 @@ const FlowBalance::Land* FlowBalance::land_at(int node) const {
 
 double FlowBalance::drop_over_land(int node) const {
   const Land* land = land_at(node);
-  const int j = node % model_.grid.n_z;
-  return land == nullptr ? 0 : land->u - (open_row(j) ? 0 : edge_unknown(j));
+  return land == nullptr ? 0 : land->u - (is_open(node) ? 0 : edge_unknown(node));
 }
 
 double FlowBalance::over_land(int node) const {

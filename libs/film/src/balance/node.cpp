@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "hersey/film/greenwood_tripp.h"
 
@@ -16,7 +15,7 @@ constexpr double standing = 1e-4;
 
 double fill_scale(const FilmModel& model) {
   const double slope = model.R / model.c;
-  return 6 * model.lubricant.mu0 * model.fill_speed * slope * slope * (2 * std::numbers::pi / model.grid.n_phi);
+  return 6 * model.lubricant.mu0 * model.fill_speed * slope * slope * mean_step(model.grid);
 }
 
 Sliding sliding_of(double slip_phi, double slip_z) {
@@ -31,20 +30,20 @@ SlidingChange change_of_sliding(const Eigen::Vector2d& slip, const Eigen::Vector
 }
 
 CavitationScales cavitation_scales(const FilmModel& model) {
-  const double dphi = 2 * std::numbers::pi / model.grid.n_phi;
+  const double dphi = mean_step(model.grid);
   const double slenderness = model.R * dphi * (model.grid.n_z - 1) / model.L;
   const double fill = fill_scale(model);
   return {.fill = fill, .slack = fill * dphi / (1 + slenderness * slenderness)};
 }
 
-bool open_edge(const FilmModel& model, int j) {
-  const Edge* edge = edge_of_row(model, j);
+bool open_edge(const FilmModel& model, int node) {
+  const Edge* edge = edge_of_node(model, node);
   return edge != nullptr && edge->kind == EdgeKind::pressure && edge->pressure == model.p_cav &&
          cavitation_law(model).has_fill();
 }
 
-double ambient_fill(const FilmModel& model, int j) {
-  return open_edge(model, j) ? edge_of_row(model, j)->ambient_fill : 0;
+double ambient_fill(const FilmModel& model, int node) {
+  return open_edge(model, node) ? edge_of_node(model, node)->ambient_fill : 0;
 }
 
 NodeLaw::NodeLaw(const FilmModel& model)
@@ -54,21 +53,21 @@ NodeLaw::NodeLaw(const FilmModel& model)
       contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus),
       uniform_{model.lubricant.mu0, model.lubricant.mu0, 1, model.lubricant.mu0} {}
 
-Node NodeLaw::state(double g, double u, int j, const Sliding& sliding, const NodeViscosity& viscosity) const {
+Node NodeLaw::state(double g, double u, int at, const Sliding& sliding, const NodeViscosity& viscosity) const {
   Node node;
-  pressure_and_fill(u, j, node);
+  pressure_and_fill(u, at, node);
   film_thickness(g, node);
   rheology(viscosity, sliding, node);
   return node;
 }
 
-void NodeLaw::pressure_and_fill(double u, int j, Node& node) const {
+void NodeLaw::pressure_and_fill(double u, int at, Node& node) const {
   FilmPhase phase = cavitation_.phase(u, scales_);
-  const bool open = open_edge(model_, j);
+  const bool open = open_edge(model_, at);
   node.wall = model_.p_cav;
   if (open) {
     phase.p = {};
-    const double least = ambient_fill(model_, j);
+    const double least = ambient_fill(model_, at);
     if (least > 0 && phase.theta.value < least) phase.theta = {least, 0};
   } else if (u >= 0) {
     node.wall += u, node.wall_u = 1;

@@ -56,11 +56,11 @@ struct Node {
 
 /// An edge at the cavitation pressure of a film that conserves oil lies in air: oil may leave over it but none comes
 /// in. There p = p_cav whatever u is; u >= 0 stands for the outflow, u < 0 for the fill fraction (film.18).
-[[nodiscard]] bool open_edge(const FilmModel& model, int j);
+[[nodiscard]] bool open_edge(const FilmModel& model, int node);
 
-/// Fill fraction of what an open edge lets in; 0 in all other rows. Where the film would be emptier than that, it draws
-/// in what it lacks: u then stands for the inflow (film.19).
-[[nodiscard]] double ambient_fill(const FilmModel& model, int j);
+/// Fill fraction of what an open edge lets in; 0 at all other nodes. Where the film would be emptier than that, it
+/// draws in what it lacks: u then stands for the inflow (film.19).
+[[nodiscard]] double ambient_fill(const FilmModel& model, int node);
 
 /// Viscosities at one node at the cavitation pressure, of flow along pressure and of sliding; LayeredViscosity.
 struct NodeViscosity {
@@ -75,16 +75,15 @@ class NodeLaw {
  public:
   explicit NodeLaw(const FilmModel& model);
 
-  /// State of a node in axial row j with undeformed gap g [m] and unknown u [Pa]. h <= 0 is left to the caller to
-  /// judge.
-  [[nodiscard]] Node state(double g, double u, int j, const Sliding& sliding = {}) const {
-    return state(g, u, j, sliding, uniform_);
+  /// State of a node with undeformed gap g [m] and unknown u [Pa]. h <= 0 is left to the caller to judge.
+  [[nodiscard]] Node state(double g, double u, int node, const Sliding& sliding = {}) const {
+    return state(g, u, node, sliding, uniform_);
   }
   /// The same where the oil has a viscosity of its own.
-  [[nodiscard]] Node state(double g, double u, int j, const Sliding& sliding, const NodeViscosity& viscosity) const;
+  [[nodiscard]] Node state(double g, double u, int node, const Sliding& sliding, const NodeViscosity& viscosity) const;
 
  private:
-  void pressure_and_fill(double u, int j, Node& node) const;
+  void pressure_and_fill(double u, int at, Node& node) const;
   void rheology(const NodeViscosity& viscosity, const Sliding& sliding, Node& node) const;
   void thin(const Sliding& sliding, double log_slope, Node& node) const;
   void film_thickness(double g, Node& node) const;

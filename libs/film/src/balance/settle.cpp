@@ -16,13 +16,12 @@ double FlowBalance::start_of(int i) const { return !knows_gap_ ? cells_[i].start
 
 void FlowBalance::subtract_defect(Eigen::VectorXd& rhs) const {
   for (int i = 0; i < size(); ++i) {
-    if (edge_row(i % model_.grid.n_z)) continue;
+    if (is_given(i)) continue;
     rhs[i] -= balance_share(i) * area_[i] * content_start_[i] * (cells_[i].start - start_of(i)) / dt_;
   }
 }
 
 void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
-  const Grid& grid = model_.grid;
   Eigen::VectorXd leaving = Eigen::VectorXd::Zero(size());
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
@@ -37,18 +36,17 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
   const bool conserves = cavitation_.has_fill();
   std::vector<char> takes_what_comes(static_cast<std::size_t>(size()), 0);
   for (int i = 0; i < size(); ++i) {
-    const int j = i % grid.n_z;
     const double start = area_[i] * content_start_[i] * (start_of(i) + cells_[i].depth_start);
     const double whole = area_[i] * oil_gap(i);
-    double out = open_row(j) ? slack(i) + slack_u(i) * du[i] : 0;
+    double out = is_open(i) ? slack(i) + slack_u(i) * du[i] : 0;
     // Held rows take what their state needs; the others have what is left to them.
-    const bool given = is_held(i) || edge_row(j) || !conserves;
+    const bool given = is_held(i) || is_given(i) || !conserves;
     takes_what_comes[static_cast<std::size_t>(i)] = given ? 1 : 0;
     const double end = given ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
     const double coming = (end - start) / dt_ + leaving[i];
-    if (edge_row(j)) out = lets_nothing_in(i) ? 0 : -coming;
+    if (is_given(i)) out = lets_nothing_in(i) ? 0 : -coming;
     const double land = over_land(i), fed = (is_held(i) ? coming + out : 0) + land;
-    (j == 0 ? oil.flow_left : oil.flow_right) += out + land;
+    flow_over_edge(oil, i) += out + land;
     oil.flow_supply += fed;
     if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] += fed;
     oil.content[i] = end / whole;
@@ -63,13 +61,19 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
 // arrives where the rows begin, so that no place around the bearing is the first.
 void FlowBalance::pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const {
   for (int j = 0; j < model_.grid.n_z; ++j) {
-    const double arriving = pass_along(j, 0, takes_what_comes, oil, false);
+    const bool closes = model_.grid.closes();
+    const double arriving = closes ? pass_along(j, 0, takes_what_comes, oil, false) : 0;
     const double left = pass_along(j, arriving, takes_what_comes, oil, true) - arriving;
-    const int last = model_.grid.index(0, j);
-    const double homeless = left / (area_[last] * oil_gap(last));
-    if (takes_what_comes[static_cast<std::size_t>(last)] == 0) oil.content[last] += homeless;
-    if (std::abs(homeless) > round_off) oil.passed_on = 1;
+    const int last = closes || speed_phi_ < 0 ? 0 : model_.grid.n_phi - 1;
+    leave(left, model_.grid.index(last, j), takes_what_comes, oil);
   }
+}
+
+// At a node from where no flow carries it on.
+void FlowBalance::leave(double rest, int node, const std::vector<char>& takes_what_comes, OilOfStep& oil) const {
+  const double homeless = rest / (area_[node] * oil_gap(node));
+  if (takes_what_comes[static_cast<std::size_t>(node)] == 0) oil.content[node] += homeless;
+  if (std::abs(homeless) > round_off) oil.passed_on = 1;
 }
 
 // Once around with the flow; what is carried on at the end [m^3]. It is handed out where it is meant `for_good`.
@@ -78,10 +82,15 @@ double FlowBalance::pass_along(int j, double carry, const std::vector<char>& tak
   const Grid& grid = model_.grid;
   const bool forwards = speed_phi_ >= 0;
   for (int step = 0; step < grid.n_phi; ++step) {
-    const int i = grid.index(forwards ? step : grid.n_phi - 1 - step, j);
+    const int line = forwards ? step : grid.n_phi - 1 - step, i = grid.index(line, j);
+    if ((forwards ? grid.before(line) : grid.next(line)) < 0) {
+      // A patch begins: what another one before it had left stays there.
+      if (for_good && step > 0) leave(carry, forwards ? i - grid.n_z : i + grid.n_z, takes_what_comes, oil);
+      carry = 0;
+    }
     if (takes_what_comes[static_cast<std::size_t>(i)] != 0) {
       const double flow = for_good ? carry / dt_ : 0;
-      if (!is_held(i)) (j == 0 ? oil.flow_left : oil.flow_right) += flow;
+      if (!is_held(i)) flow_over_edge(oil, i) += flow;
       if (is_held(i)) oil.flow_supply -= flow;
       if (const int feature = feature_at(i); is_held(i) && feature >= 0) oil.flow_features[feature] -= flow;
       carry = 0;

@@ -58,7 +58,7 @@ ValueAndSlope FlowBalance::excess(const HeldNode& held) const {
 // On an edge in air u > 0 is an outflow, which no feature beside it takes.
 bool FlowBalance::only_fills(int node) const {
   const HeldNode* held = held_at(node);
-  return held != nullptr && held->feature >= 0 && held->chi < 1 && open_row(node % model_.grid.n_z);
+  return held != nullptr && held->feature >= 0 && held->chi < 1 && is_open(node);
 }
 
 double FlowBalance::power_of_tie(int node) const {
@@ -130,8 +130,7 @@ bool FlowBalance::gives_way(const HeldNode& held, const HeldNode& to) {
 // Edges win where they meet a line or a feature, but for the oil, which is the supply's. One in air is filled there,
 // but its pressure cannot rise.
 void FlowBalance::hold(const HeldNode& held, bool only_oil) {
-  const int j = held.node % model_.grid.n_z;
-  only_oil = only_oil || edge_row(j);
+  only_oil = only_oil || is_given(held.node);
   std::vector<HeldNode>& nodes = only_oil ? held_at_edges_ : held_;
   int& index = (only_oil ? edge_index_ : held_index_)[held.node];
   if (index >= 0 && !gives_way(nodes[index], held)) return;
@@ -140,7 +139,7 @@ void FlowBalance::hold(const HeldNode& held, bool only_oil) {
     nodes.emplace_back();
   }
   nodes[index] = held;
-  if (open_row(j)) nodes[index].u = 0;
+  if (is_open(held.node)) nodes[index].u = 0;
 }
 
 // The line cuts the tubes between two columns of nodes. Each side is tied to it by what of the tube lies on its side,
@@ -150,7 +149,7 @@ void FlowBalance::hold_line(double phi) {
   const auto place = geometry_.place_of(phi);
   const int i = place.node;
   const double t = place.share;
-  const int next = (i + 1) % grid.n_phi;
+  const int next = grid.next(i);
   line_ = {true, i, t, model_.R / geometry_.dx[i]};
   const double u = model_.supply.pressure - model_.p_cav;
   const auto side = [&](int here, int there, int j, double way, double by_phi) {
@@ -167,7 +166,7 @@ void FlowBalance::hold_line(double phi) {
           .bend = way * (2 - way),
           .near_line = -0.5 * by_phi,
           .bend_line = 2 * (1 - way) * by_phi,
-          .conductance = geometry_.width_z[j] / (12 * geometry_.dx[i]),
+          .conductance = geometry_.width_z[j] / (12 * geometry_.step(i, j)),
           .way = way,
           .way_line = by_phi});
   };
@@ -193,7 +192,9 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
     cover(model_, geometry_, feature, motion.phi_journal, covered_);
     for (const CoveredNode& node : covered_) {
       const int j = node.node % model_.grid.n_z;
-      if (edge_row(j) && std::abs(geometry_.z[j] - feature.z) > (0.5 + as_written) * feature.length) continue;
+      if (is_given(node.node) && !edges_[node.node].of_patch &&
+          std::abs(geometry_.z[j] - feature.z) > (0.5 + as_written) * feature.length)
+        continue;
       hold({.node = node.node,
             .chi = node.share,
             .chi_journal = node.share_phi,
@@ -253,13 +254,13 @@ FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
   const HeldNode& held = *held_at(node);
   const std::size_t f = line_face(held);
   const Face& face = faces_[f];
-  const auto at = [&](int k) { return speed_phi_ * rough_[k].mean + half_slip_phi_ * rough_[k].drag[0]; };
+  const auto at = [&](int k) { return entrainment(f) * rough_[k].mean + half_slip(f) * rough_[k].drag[0]; };
   const double sign = node == face.a ? 1 : -1, density = flows_[f].density;
   TowardsLine t;
   t.counts = true;
   t.full = sign * density * face.width *
            (held.near * at(node) + held.far * at(held.other) +
-            held.bend * speed_phi_ * bends_[static_cast<Eigen::Index>(f)] + carried_in_pockets(held).value);
+            held.bend * entrainment(f) * bends_[static_cast<Eigen::Index>(f)] + carried_in_pockets(held).value);
   if (tube_of_[f] >= 0) t.full += sign * density * relief_.tubes()[static_cast<std::size_t>(tube_of_[f])].swept;
   t.from_node = t.full >= 0;
   t.strip = density * strip_area(held) * g_rate_[node];
@@ -301,7 +302,7 @@ void FlowBalance::add_line_by_u(const HeldNode& held) {
   const double scale = sign * share.value * density * face.width;
   const double deeper = carried_in_pockets(held).h;
   const auto by_h = [&](int k) {
-    return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0] + deeper;
+    return entrainment(f) * rough_[k].mean_h + half_slip(f) * rough_[k].drag_h[0] + deeper;
   };
   const double by_density = 0.5 * (share.value * t.full - t.strip) / density;
   values_[diagonal_slot_[held.node]] +=
@@ -339,31 +340,30 @@ double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& 
   const double sign = held.node == face.a ? 1 : -1, density = flows_[f].density;
   const CarriedShare share = share_towards_line(held.node, t);
   const double scale = sign * density * face.width * share.value;
-  const double speed = 0.5 * (direction.u_shell + direction.u_journal),
-               half_slip = 0.5 * (direction.u_shell - direction.u_journal);
+  const auto [speed, half_slip_change, journal] = speeds_along(f, direction);
   const auto carried = [&](int k, double mean, double half) {
     return mean * rough_[k].mean + half * rough_[k].drag[0];
   };
   const ByGap deeper = carried_in_pockets(held);
   const auto by_h = [&](int k) {
-    return speed_phi_ * rough_[k].mean_h + half_slip_phi_ * rough_[k].drag_h[0] + deeper.h;
+    return entrainment(f) * rough_[k].mean_h + half_slip(f) * rough_[k].drag_h[0] + deeper.h;
   };
-  double q = held.near * carried(held.node, speed, half_slip) + held.far * carried(held.other, speed, half_slip) +
-             held.bend * speed * bends_[bend];
+  double q = held.near * carried(held.node, speed, half_slip_change) +
+             held.far * carried(held.other, speed, half_slip_change) + held.bend * speed * bends_[bend];
   if (direction.g.size() != 0) {
     q += held.near * by_h(held.node) * nodes_[held.node].h_g * direction.g[held.node] +
          held.far * by_h(held.other) * nodes_[held.other].h_g * direction.g[held.other] +
-         held.bend * (speed_phi_ + deeper.h) * direction_bends_[bend];
+         held.bend * (entrainment(f) + deeper.h) * direction_bends_[bend];
   }
   const double turn = direction.phi_supply;
-  q += turn * (held.near_line *
-                   (carried(held.node, speed_phi_, half_slip_phi_) - carried(held.other, speed_phi_, half_slip_phi_) +
-                    deeper.h * (nodes_[held.node].h - nodes_[held.other].h)) +
-               held.bend_line * (speed_phi_ + deeper.h) * bends_[bend]);
+  q += turn * (held.near_line * (carried(held.node, entrainment(f), half_slip(f)) -
+                                 carried(held.other, entrainment(f), half_slip(f)) +
+                                 deeper.h * (nodes_[held.node].h - nodes_[held.other].h)) +
+               held.bend_line * (entrainment(f) + deeper.h) * bends_[bend]);
   if (tube_of_[f] >= 0) {
     const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
-    q += (tube.swept_journal * direction.phi_journal + tube.swept_speed * direction.u_journal) / face.width;
-    const double h = thickness_towards_line(held), step = step_of(tube, speed, direction.u_journal);
+    q += (tube.swept_journal * direction.phi_journal + tube.swept_speed * journal) / face.width;
+    const double h = thickness_towards_line(held), step = step_of(tube, speed, journal);
     q += (speed - step) * (gap_towards_line(held, h).carry.value - h) + deeper.journal * direction.phi_journal;
   }
   double row = scale * q + t.full * share_along(f, share, direction);

@@ -19,32 +19,36 @@ struct Share {
 /// middle lies at a distance `d` around the bearing [rad] and `z` along it [m] behind the node.
 struct Surroundings {
   double d = 0, z = 0;
+  double R = 1;                       ///< length per unit of phi [m]
   double to_phi = 0, to_z = 0;        ///< distance of the neighbours towards the feature [m]
   double width_phi = 0, width_z = 0;  ///< of the control volume [m]
   double back = 0, ahead = 0;         ///< half-way to the neighbours around the bearing [rad]
-  double below = 0, above = 0;        ///< likewise along it [m]; mirrored at an edge unless within_film()
+  double below = 0, above = 0;        ///< likewise along it [m]; both mirrored at an edge unless within_film()
 
   [[nodiscard]] bool is_on_edge() const { return below == 0 || above == 0; }
 };
 
-Surroundings surroundings(const GridGeometry& g, double R, int i, int j, double d, double z) {
-  const auto n_phi = static_cast<int>(g.dx.size()), last = static_cast<int>(g.dz.size());
-  const double behind = g.dx[(i + n_phi - 1) % n_phi], before = g.dx[i];
+Surroundings surroundings(const Grid& grid, const GridGeometry& g, int i, int j, double d, double z) {
+  const int last = grid.n_z - 1, previous = grid.before(i);
+  const double behind = g.step(previous < 0 ? i : previous, j), before = grid.next(i) < 0 ? behind : g.step(i, j);
   const double under = g.dz[std::max(j - 1, 0)], over = g.dz[std::min(j, last - 1)];
   Surroundings s;
   s.d = d, s.z = z;
   s.to_phi = d > 0 ? behind : before;
   s.to_z = z > 0 ? under : over;
-  s.width_phi = g.width_phi[i], s.width_z = g.width_z[j];
-  s.back = 0.5 * behind / R, s.ahead = 0.5 * before / R;
+  s.R = g.R * g.stretch[j];
+  s.width_phi = g.width_phi[i] * g.stretch[j], s.width_z = g.width_z[j];
+  s.back = 0.5 * behind / s.R, s.ahead = 0.5 * before / s.R;
   s.below = 0.5 * under, s.above = 0.5 * over;
   return s;
 }
 
 /// Those of a node on an edge end there.
-Surroundings within_film(Surroundings s, int j, int n_z) {
+Surroundings within_film(Surroundings s, const Grid& grid, int i, int j) {
   if (j == 0) s.below = 0;
-  if (j == n_z - 1) s.above = 0;
+  if (j == grid.n_z - 1) s.above = 0;
+  if (grid.before(i) < 0) s.back = 0;
+  if (grid.next(i) < 0) s.ahead = 0;
   return s;
 }
 
@@ -57,8 +61,8 @@ Share ramp(double d, double half, double step) {
 }
 
 /// Row shares (film.22): the conductance from a node to the feature's edge where that is a share of one cell away.
-Share held_rectangle(const SurfaceFeature& feature, const Surroundings& s, double R, double unit) {
-  const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / R);
+Share held_rectangle(const SurfaceFeature& feature, const Surroundings& s, double unit) {
+  const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / s.R);
   const double along = ramp(s.z, 0.5 * feature.length, s.to_z).value;
   const double covered = around.value * along;
   if (covered == 0) return {};
@@ -176,19 +180,19 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
   const bool travels = feature.surface == Surface::journal;
   const double middle = feature.phi + (travels ? phi_journal : 0.0);
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double d = std::remainder(geometry.phi[i] - middle, turn);
+    const double d = geometry.from_to(middle, geometry.phi[i]);
     for (int j = 0; j < grid.n_z; ++j) {
-      const Surroundings s = surroundings(geometry, model.R, i, j, d, geometry.z[j] - feature.z);
-      if (std::abs(d) >= 0.5 * feature.arc + s.to_phi / model.R) break;
+      const Surroundings s = surroundings(grid, geometry, i, j, d, geometry.z[j] - feature.z);
+      if (std::abs(d) >= 0.5 * feature.arc + s.to_phi / s.R) break;
       if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
       const Share held =
-          feature.shape == FeatureShape::ellipse ? held_ellipse(feature, s) : held_rectangle(feature, s, model.R, unit);
+          feature.shape == FeatureShape::ellipse ? held_ellipse(feature, s) : held_rectangle(feature, s, unit);
       const double inwards =
           1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
       if (held.value == 0) continue;
       CoveredNode& node = nodes.emplace_back();
       node = {.node = grid.index(i, j), .share = held.value, .share_phi = held.phi, .inwards = inwards};
-      stir(feature, within_film(s, j, grid.n_z), feature.shape == FeatureShape::ellipse, node);
+      stir(feature, within_film(s, grid, i, j), feature.shape == FeatureShape::ellipse, node);
       if (!travels) node.share_phi = node.draws_phi = 0;
     }
   }
@@ -200,10 +204,9 @@ void cover_cells(const FilmModel& model, const GridGeometry& geometry, const Sur
   const bool travels = feature.surface == Surface::journal;
   const double middle = feature.phi + (travels ? phi_journal : 0.0);
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double d = std::remainder(geometry.phi[i] - middle, turn);
+    const double d = geometry.from_to(middle, geometry.phi[i]);
     for (int j = 0; j < grid.n_z; ++j) {
-      const Surroundings s =
-          within_film(surroundings(geometry, model.R, i, j, d, geometry.z[j] - feature.z), j, grid.n_z);
+      const Surroundings s = within_film(surroundings(grid, geometry, i, j, d, geometry.z[j] - feature.z), grid, i, j);
       const Share covered = feature.shape == FeatureShape::ellipse
                                 ? ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length)
                                 : covered_rectangle(feature, s);

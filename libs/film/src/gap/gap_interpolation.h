@@ -12,8 +12,9 @@ namespace hersey::film {
 /// Gap and motion of surfaces between the nodes of a grid (theory manual, film.13 and film.14): values on the faces
 /// around the bearing and means over the control volumes, from nodal values. Both are exact for a round journal
 /// anywhere in a round bore, whatever the grid: a gap that travels around the bearing then takes as much oil out of
-/// every control volume by its rate as it brings in over the faces. Along z, where gaps are straight or nearly so,
-/// nodal values and their means do.
+/// every control volume by its rate as it brings in over the faces. On a plane they are exact for the powers of phi
+/// instead. Beside the end of a patch they follow from the nodes there are. Along z, where gaps are straight or nearly
+/// so, nodal values and their means do.
 class GapInterpolation {
  public:
   GapInterpolation(const Grid& grid, const GridGeometry& geometry);
@@ -29,9 +30,18 @@ class GapInterpolation {
   void excesses(const Eigen::VectorXd& field, Eigen::VectorXd& excesses) const;
 
  private:
-  int n_phi_, n_z_;
-  std::vector<std::array<double, 4>> face_;  ///< weights of nodes i - 1 to i + 2 on the face after node i
-  std::vector<std::array<double, 3>> cell_;  ///< weights of nodes i - 1 to i + 1 in the mean over volume i
+  /// Weights of some lines.
+  template <std::size_t N>
+  struct Lines {
+    std::array<int, N> line{};
+    std::array<double, N> weight{};
+  };
+  template <std::size_t N>
+  void sum(const std::vector<Lines<N>>& of, const Eigen::VectorXd& field, Eigen::VectorXd& sums) const;
+
+  int n_z_;
+  std::vector<Lines<4>> face_;  ///< bend on the face after each line; without weights where there is none
+  std::vector<Lines<3>> cell_;  ///< excess over each line's volumes
 };
 
 }  // namespace hersey::film

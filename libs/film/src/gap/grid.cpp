@@ -51,6 +51,14 @@ void check(const std::vector<Refinement>& places) {
 
 }  // namespace
 
+double mean_step(const Grid& grid) {
+  if (grid.closes()) return turn / grid.n_phi;
+  double sum = 0;
+  for (int i = 0; i < grid.n_phi; ++i)
+    if (grid.next(i) >= 0) sum += grid.phi(i + 1) - grid.phi(i);
+  return sum / (grid.n_phi - static_cast<int>(grid.patches.size()));
+}
+
 Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, const std::vector<Refinement>& along) {
   check(around), check(along);
   Grid grid{.n_phi = n_phi, .n_z = n_z};
@@ -74,9 +82,25 @@ Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, cons
   return grid;
 }
 
+Grid patch_grid(const std::vector<Patch>& patches, int n_z) {
+  Grid grid{.n_phi = 0, .n_z = n_z};
+  for (const Patch& patch : patches) {
+    HERSEY_REQUIRE(patch.lines >= 4 && patch.from < patch.to, "a patch has four lines and a length");
+    grid.patches.push_back(grid.n_phi);
+    for (int k = 0; k < patch.lines; ++k)
+      grid.angles.push_back(patch.from + (patch.to - patch.from) * k / (patch.lines - 1));
+    grid.n_phi += patch.lines;
+  }
+  return grid;
+}
+
 Grid resampled(const Grid& grid, int n_phi, int n_z) {
+  HERSEY_REQUIRE(grid.closes() || n_phi == grid.n_phi, "a ring: patches keep their lines");
   Grid other{.n_phi = n_phi, .n_z = n_z};
-  if (!grid.angles.empty()) {
+  other.patches = grid.patches;
+  if (!grid.closes()) {
+    other.angles = grid.angles;
+  } else if (!grid.angles.empty()) {
     std::vector<double> whole_turn = grid.angles;
     whole_turn.push_back(grid.angles.front() + turn);
     other.angles.resize(n_phi);

@@ -41,48 +41,96 @@ Eigen::VectorXd parabolic_weights(int n, bool periodic, Length&& length) {
   return weights;
 }
 
-void check(const Grid& grid) {
+/// Weights of all lines: a ring's, or each patch its own.
+template <class Length>
+Eigen::VectorXd weights_of_lines(const Grid& grid, Length&& length) {
+  if (grid.closes()) return parabolic_weights(grid.n_phi, true, length);
+  Eigen::VectorXd weights(grid.n_phi);
+  for (std::size_t p = 0; p < grid.patches.size(); ++p) {
+    const int first = grid.patches[p], end = p + 1 < grid.patches.size() ? grid.patches[p + 1] : grid.n_phi;
+    weights.segment(first, end - first) =
+        parabolic_weights(end - first, false, [&](int k) { return length(first + k); });
+  }
+  return weights;
+}
+
+void check_patches(const FilmModel& model) {
+  const Grid& grid = model.grid;
+  HERSEY_REQUIRE(grid.closes() ? closes(model.surface) : grid.patches.front() == 0,
+                 "a surface that does not close carries patches, the first from the first line");
+  HERSEY_REQUIRE(grid.closes() || !grid.angles.empty(), "patches have angles");
+  HERSEY_REQUIRE(model.ends.size() == grid.patches.size(), "two ends for every patch");
+  for (std::size_t p = 0; p < grid.patches.size(); ++p) {
+    const int end = p + 1 < grid.patches.size() ? grid.patches[p + 1] : grid.n_phi;
+    HERSEY_REQUIRE(end - grid.patches[p] >= 4, "a patch has four lines at least");
+  }
+}
+
+void check(const FilmModel& model) {
+  const Grid& grid = model.grid;
   HERSEY_REQUIRE(grid.n_phi >= 4 && grid.n_z >= 3, "the grid needs 4 x 3 nodes at least");
   HERSEY_REQUIRE(grid.angles.empty() || static_cast<int>(grid.angles.size()) == grid.n_phi, "an angle for every node");
   HERSEY_REQUIRE(grid.heights.empty() || static_cast<int>(grid.heights.size()) == grid.n_z, "a height for every node");
+  check_patches(model);
 }
 
 }  // namespace
 
-GridGeometry::GridGeometry(const FilmModel& model) {
+GridGeometry::GridGeometry(const FilmModel& model) : R(model.R), surface(model.surface) {
   const Grid& grid = model.grid;
-  check(grid);
+  check(model);
   const int n_phi = grid.n_phi, n_z = grid.n_z;
-  phi.resize(n_phi), dx.resize(n_phi), width_phi.resize(n_phi);
+  phi.resize(n_phi), dx.setZero(n_phi), width_phi.setZero(n_phi);
   z.resize(n_z), dz.resize(n_z - 1), width_z.setZero(n_z);
   for (int i = 0; i < n_phi; ++i) phi[i] = grid.phi(i);
   for (int j = 0; j < n_z; ++j) z[j] = model.L * grid.z_over_L(j);
-  mean_dx = turn * model.R / n_phi;
-  mean_dz = model.L / (n_z - 1);
   const bool even_phi = grid.angles.empty(), even_z = grid.heights.empty();
+  int intervals = 0;
   for (int i = 0; i < n_phi; ++i) {
+    if (grid.next(i) < 0) continue;
     const double next = i + 1 < n_phi ? phi[i + 1] : phi[0] + turn;
-    dx[i] = even_phi ? mean_dx : model.R * (next - phi[i]);
+    dx[i] = even_phi ? turn * R / n_phi : R * (next - phi[i]);
+    HERSEY_REQUIRE(dx[i] > 0, "the grid's nodes ascend");
+    ++intervals;
   }
-  for (int i = 0; i < n_phi; ++i) width_phi[i] = 0.5 * (dx[i] + dx[(i + n_phi - 1) % n_phi]);
+  mean_dx = grid.closes() ? turn * R / n_phi : dx.sum() / intervals;
+  mean_dz = model.L / (n_z - 1);
+  for (int i = 0; i < n_phi; ++i) width_phi[i] = 0.5 * (dx[i] + (grid.before(i) < 0 ? 0 : dx[grid.before(i)]));
   for (int j = 0; j + 1 < n_z; ++j) {
     dz[j] = even_z ? mean_dz : z[j + 1] - z[j];
     width_z[j] += 0.5 * dz[j];
     width_z[j + 1] += 0.5 * dz[j];
   }
-  HERSEY_REQUIRE(dx.minCoeff() > 0 && dz.minCoeff() > 0, "the grid's nodes ascend");
-  weight_phi = parabolic_weights(n_phi, true, [&](int k) { return dx[k]; });
+  HERSEY_REQUIRE(dz.minCoeff() > 0, "the grid's nodes ascend");
+  weight_phi = weights_of_lines(grid, [&](int k) { return dx[k]; });
   weight_z = parabolic_weights(n_z, false, [&](int k) { return dz[k]; });
+  stretch.resize(n_z), stretch_over.resize(n_z), stretch_between.resize(n_z - 1);
+  const auto stretch_at = [&](double place) { return film::stretch(surface, R, place); };
+  for (int j = 0; j < n_z; ++j) {
+    const double below = j > 0 ? 0.5 * dz[j - 1] : 0, above = j + 1 < n_z ? 0.5 * dz[j] : 0;
+    stretch[j] = stretch_at(z[j]);
+    stretch_over[j] = stretch_at(z[j] + 0.5 * (above - below));
+    if (j + 1 < n_z) stretch_between[j] = stretch_at(z[j] + above);
+  }
+  HERSEY_REQUIRE(stretch.minCoeff() > 0, "an annulus has an inner radius");
 }
+
+double GridGeometry::from_to(double from, double to) const {
+  return closes(surface) ? std::remainder(to - from, turn) : to - from;
+}
+
+double GridGeometry::told(double angle) const { return closes(surface) ? std::fmod(angle + turn, turn) : angle; }
 
 GridGeometry::Place GridGeometry::place_of(double angle) const {
   const auto n = static_cast<int>(phi.size());
   // Just below a node counts as on it: round-off decides nothing.
   const double sliver = 1e-9 * turn / n;
-  double along = std::fmod(angle + sliver - phi[0], turn);
-  if (along < 0) along += turn;
+  double along = angle + sliver - phi[0];
+  if (closes(surface)) along = std::fmod(along, turn);
+  if (closes(surface) && along < 0) along += turn;
   const double at = phi[0] + along;
-  const int node = static_cast<int>(std::upper_bound(phi.begin(), phi.end(), at) - phi.begin()) - 1;
+  const int node = std::max(static_cast<int>(std::upper_bound(phi.begin(), phi.end(), at) - phi.begin()) - 1, 0);
+  if (dx[node] == 0) return {node - 1, 1};
   const double next = node + 1 < n ? phi[node + 1] : phi[0] + turn;
   return {node, std::max(0.0, at - sliver - phi[node]) / (next - phi[node])};
 }

@@ -6,25 +6,43 @@
 
 namespace hersey::film {
 
-/// Lengths and areas of a film's grid.
+/// The places of a film's nodes, and lengths and areas between them on the surface it lies on. Lengths along phi are
+/// those at R; at another z they count stretch times.
 struct GridGeometry {
   explicit GridGeometry(const FilmModel& model);
 
-  Eigen::VectorXd phi;         ///< of the nodes [rad], shape (n_phi)
-  Eigen::VectorXd z;           ///< of the nodes [m], shape (n_z)
-  Eigen::VectorXd dx;          ///< from node i to node i + 1 around the bearing [m], shape (n_phi)
-  Eigen::VectorXd dz;          ///< from node j to node j + 1 along the axis [m], shape (n_z - 1)
-  Eigen::VectorXd width_phi;   ///< of the control volumes: half-way to both neighbours [m], shape (n_phi)
-  Eigen::VectorXd width_z;     ///< likewise; those on the edges end there [m], shape (n_z)
-  Eigen::VectorXd weight_phi;  ///< by which nodal values count in an integral around the bearing [m], shape (n_phi)
-  Eigen::VectorXd weight_z;    ///< in one along the axis [m], shape (n_z)
-  double mean_dx = 0;          ///< [m]
-  double mean_dz = 0;          ///< [m]
+  double R = 1;  ///< [m]
+  FilmSurface surface;
+
+  Eigen::VectorXd phi;           ///< of the nodes [rad], shape (n_phi)
+  Eigen::VectorXd z;             ///< of the nodes [m], shape (n_z)
+  Eigen::VectorXd dx;            ///< from line i to the next [m], shape (n_phi); 0 from the last of a patch
+  Eigen::VectorXd dz;            ///< from node j to node j + 1 along the axis [m], shape (n_z - 1)
+  Eigen::VectorXd width_phi;     ///< of the control volumes: half-way to both neighbours [m], shape (n_phi)
+  Eigen::VectorXd width_z;       ///< likewise; those on the edges end there [m], shape (n_z)
+  Eigen::VectorXd weight_phi;    ///< by which nodal values count in an integral around the bearing [m], shape (n_phi)
+  Eigen::VectorXd weight_z;      ///< in one along the axis [m], shape (n_z)
+  Eigen::VectorXd stretch;       ///< of the rows [-], shape (n_z)
+  Eigen::VectorXd stretch_over;  ///< mean over their control volumes [-], shape (n_z)
+  Eigen::VectorXd stretch_between;  ///< half-way to the next row [-], shape (n_z - 1)
+  double mean_dx = 0;               ///< [m]
+  double mean_dz = 0;               ///< [m]
 
   /// Of a control volume [m^2].
-  [[nodiscard]] double area(int i, int j) const { return width_phi[i] * width_z[j]; }
+  [[nodiscard]] double area(int i, int j) const { return width_phi[i] * width_z[j] * stretch_over[j]; }
+  /// By which a nodal value counts in an integral over the film [m^2].
+  [[nodiscard]] double weight(int i, int j) const { return weight_phi[i] * weight_z[j] * stretch[j]; }
+  /// From node (i, j) to the next along phi [m].
+  [[nodiscard]] double step(int i, int j) const { return dx[i] * stretch[j]; }
+  /// From line i to the next [rad].
+  [[nodiscard]] double dphi(int i) const { return dx[i] / R; }
+  /// The way from one angle to another, the shorter one around a surface that closes [rad].
+  [[nodiscard]] double from_to(double from, double to) const;
+  /// An angle as one tells it: on a surface that closes from 0 to 2 pi [rad].
+  [[nodiscard]] double told(double phi) const;
 
-  /// The node before `angle` in the direction of growing phi, and the share of the way to the next, in [0, 1).
+  /// The node before `angle` in the direction of growing phi, and the share of the way to the next, in [0, 1). Beside
+  /// patches, that nearest to it.
   struct Place {
     int node = 0;
     double share = 0;

@@ -113,11 +113,12 @@ void PocketRelief::place(double phi_journal, double phi_start, double dt, double
 void PocketRelief::place_tubes(double phi_journal) {
   tubes_.clear(), strips_.clear(), segments_.clear();
   const Grid& grid = model_.grid;
-  const auto half_turn_from = [](double middle, double phi) { return middle + std::remainder(phi - middle, turn); };
+  const auto half_turn_from = [this](double middle, double phi) { return middle + geometry_.from_to(middle, phi); };
   std::vector<Extent> around, along;
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double phi = geometry_.phi[i], step = geometry_.dx[i] / model_.R;
-    const double back = 0.5 * geometry_.dx[(i + grid.n_phi - 1) % grid.n_phi] / model_.R, ahead = 0.5 * step;
+    const double phi = geometry_.phi[i], step = geometry_.dphi(i);
+    const int before = grid.before(i), next = grid.next(i);
+    const double back = before < 0 ? 0 : 0.5 * geometry_.dphi(before), ahead = 0.5 * step;
     around.clear(), along.clear();
     for (const SurfaceFeature& pocket : pockets_) {
       const bool turns = pocket.surface == Surface::journal, all_around = pocket.arc >= turn;
@@ -136,7 +137,7 @@ void PocketRelief::place_tubes(double phi_journal) {
     if (around.empty()) continue;
     for (int j = 0; j < grid.n_z; ++j) {
       const double z = geometry_.z[j], low = j > 0 ? z - 0.5 * geometry_.dz[j - 1] : z;
-      add_tube(static_cast<std::size_t>(grid.index(i, j)), around, low, geometry_.width_z[j], phi, step);
+      if (next >= 0) add_tube(static_cast<std::size_t>(grid.index(i, j)), around, low, geometry_.width_z[j], phi, step);
       if (j + 1 == grid.n_z) continue;
       const auto face = static_cast<std::size_t>(grid.size() + i * (grid.n_z - 1) + j);
       add_tube(face, along, phi - back, back + ahead, z, geometry_.dz[j]);
@@ -267,8 +268,9 @@ void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double
     if (tubes_[t].face < tube_of.size()) tube_of[tubes_[t].face] = static_cast<int>(t);
   }
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double face = geometry_.phi[i] + 0.5 * geometry_.dx[i] / model_.R;
-    for (int j = 0; j < grid.n_z; ++j) {
+    const double face = geometry_.phi[i] + 0.5 * geometry_.dphi(i);
+    for (int j = 0; j < grid.n_z && grid.next(i) >= 0; ++j) {
+      const double R = geometry_.R * geometry_.stretch[j];
       const double z = geometry_.z[j], low = j > 0 ? z - 0.5 * geometry_.dz[j - 1] : z;
       const double high = low + geometry_.width_z[j];
       double swept = 0, swept_journal = 0, swept_speed = 0;
@@ -277,13 +279,13 @@ void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double
         if (low >= pocket.z + 0.5 * pocket.length || high <= pocket.z - 0.5 * pocket.length) continue;
         // Its rate at the present angle: what covers the face, from a step too small to pass anything.
         const double sliver = 1e-9;
-        const double cover = swept_area(pocket, model_.R, face, low, high, phi_journal - sliver, phi_journal) / sliver;
+        const double cover = swept_area(pocket, R, face, low, high, phi_journal - sliver, phi_journal) / sliver;
         if (dt > 0) {
-          swept += pocket.depth * swept_area(pocket, model_.R, face, low, high, phi_start, phi_journal) / dt;
+          swept += pocket.depth * swept_area(pocket, R, face, low, high, phi_start, phi_journal) / dt;
           swept_journal += pocket.depth * cover / dt;
         } else {
           swept += pocket.depth * cover * speed / model_.R;
-          swept_speed += pocket.depth * cover / model_.R;
+          swept_speed += pocket.depth * cover / R;
         }
       }
       if (swept == 0 && swept_journal == 0) continue;

@@ -65,6 +65,10 @@ class Search {
   }
 
   [[nodiscard]] int wrapped(int i) const { return (i % grid_.n_phi + grid_.n_phi) % grid_.n_phi; }
+  /// Whether the line k further on belongs to the same patch.
+  [[nodiscard]] bool is_patch_of(int i, int k) const {
+    return grid_.closes() || (i + k >= 0 && i + k < grid_.n_phi && grid_.patch_of(i) == grid_.patch_of(i + k));
+  }
   [[nodiscard]] double value(int i, int j) const { return h_[grid_.index(wrapped(i), j)]; }
   [[nodiscard]] bool outside(int i, int j) const {
     return outside_[static_cast<std::size_t>(grid_.index(wrapped(i), j))] != 0;
@@ -77,8 +81,8 @@ class Search {
     }
     if (lowest_node < 0) return;
     const Low around = between_nodes([&](int k) { return value(lowest_node + k, j); },
-                                     [&](int k) { return at_.dx[wrapped(lowest_node + (k < 0 ? k : k - 1))]; },
-                                     [&](int k) { return outside(lowest_node + k, j); });
+                                     [&](int k) { return at_.step(wrapped(lowest_node + (k < 0 ? k : k - 1)), j); },
+                                     [&](int k) { return is_patch_of(lowest_node, k) && outside(lowest_node + k, j); });
     const auto in_row = [&](int k) { return j + k >= 0 && j + k < grid_.n_z && outside(lowest_node, j + k); };
     const Low along = between_nodes([&](int k) { return value(lowest_node, j + k); },
                                     [&](int k) { return at_.dz[k < 0 ? j + k : j + k - 1]; }, in_row);
@@ -86,7 +90,7 @@ class Search {
     const double found = both > 0 ? both : here;
     if (found >= best.value) return;
     best.value = found, best.z = at_.z[j] + along.place;
-    best.phi = std::fmod(at_.phi[lowest_node] + around.place / model_.R + turn, turn);
+    best.phi = at_.told(at_.phi[lowest_node] + around.place / (at_.R * at_.stretch[j]));
   }
 
   // Two parabolas reach between two nodes, one from either side. Where the film is smooth they agree; where it has a
@@ -124,7 +128,7 @@ class Search {
     if (lowest_node < 0) return in_features();  // a groove all around
     return between_nodes([&](int k) { return middle(lowest_node + k); },
                          [&](int k) { return at_.dx[wrapped(lowest_node + (k < 0 ? k : k - 1))]; },
-                         [&](int k) { return counts(lowest_node + k); })
+                         [&](int k) { return is_patch_of(lowest_node, k) && counts(lowest_node + k); })
         .value;
   }
 
@@ -149,7 +153,7 @@ class Search {
     if (std::abs(z) > 0.5 * model_.L * (1 + sliver) || !is_on_land(phi, z)) return;
     const double value = between(phi, std::clamp(z, at_.z[0], at_.z[grid_.n_z - 1]));
     if (value >= best.value) return;
-    best.value = value, best.phi = std::fmod(std::fmod(phi, turn) + turn, turn), best.z = z;
+    best.value = value, best.phi = at_.told(closes(at_.surface) ? std::fmod(phi, turn) : phi), best.z = z;
   }
 
   [[nodiscard]] bool is_on_land(double phi, double z) const {

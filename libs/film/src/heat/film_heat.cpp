@@ -31,6 +31,8 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
                  "a node for each feature or none");
   for (const SurfaceMaterial& surface : {thermal.shell_surface, thermal.journal_surface})
     HERSEY_REQUIRE(surface.conductivity > 0 && surface.heat_capacity > 0, "surfaces that conduct and hold heat");
+  const bool is_bore = std::holds_alternative<Cylinder>(model.surface) && model.grid.closes();
+  HERSEY_REQUIRE(is_bore || !has_own_temperatures(thermal.shell), "a ring or a body around the film");
   if (const auto* ring = std::get_if<RingWall>(&thermal.shell)) {
     HERSEY_REQUIRE(ring->outer_radius > model.R && ring->conductivity > 0 && ring->heat_capacity > 0,
                    "a ring around the film that conducts and holds heat");
@@ -184,7 +186,7 @@ void FilmHeat::Impl::thin() {
     const double at_rest = 1 / profile_of(at, WithinLayers::constant).shear_fluidity;
     const double by_pressure = std::exp(log_viscosity_ratio(oil, film.p, at_rest).value);
     for (double& one : at) one *= by_pressure;
-    shear.thin(at, {flow.slip() / film.h, film.h * one_sided_gradient(flow, node)}, left);
+    shear.thin(at, {flow.slip(node % flow.model().grid.n_z) / film.h, film.h * one_sided_gradient(flow, node)}, left);
     state.thinning.segment<2>(mu.size() + 2 * node) = shear.flow_factors();
   }
 }

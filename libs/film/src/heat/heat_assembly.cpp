@@ -81,9 +81,9 @@ void HeatEquations::add_flows(const CarryingFilm& film, const HeatState& start) 
 
 // On which side of a node the other lies.
 HeatSystem::Side HeatEquations::side_of(int from, int to) const {
-  const int n_z = model_.grid.n_z, n_phi = model_.grid.n_phi;
+  const int n_z = model_.grid.n_z;
   if (to / n_z == from / n_z) return to > from ? HeatSystem::left : HeatSystem::right;
-  return to / n_z == (from / n_z + 1) % n_phi ? HeatSystem::before : HeatSystem::after;
+  return to / n_z == model_.grid.next(from / n_z) ? HeatSystem::before : HeatSystem::after;
 }
 
 // On the face oil has the temperature that the last two nodes extrapolate to (thermal.11). Beside a supply, an edge or
@@ -103,10 +103,11 @@ HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::s
     behind = grid.index(i, beyond);
     length = geometry.dz[std::min(j, beyond)];
   } else {
-    const int last = (i + grid.n_phi - 1) % grid.n_phi, next = (i + 1) % grid.n_phi;
+    const int last = grid.before(i), next = grid.next(i);
     const int beyond = to / grid.n_z == next ? last : next;
+    if (beyond < 0) return way;
     behind = grid.index(beyond, j);
-    length = geometry.dx[beyond == last ? last : i];
+    length = geometry.step(beyond == last ? last : i, j);
   }
   const FlowBalance& b = film.balance;
   if (b.supplied_share(from) > 0 || b.supplied_share(behind) > 0 || b.nodes()[behind].content < 1e-3) return way;

@@ -58,8 +58,8 @@ double HeatEquations::fresh(int supply, const Eigen::VectorXd& outside) const {
 // With the weights of the film's own power (film.53), so that what warms is what rubs.
 double HeatEquations::asperity_power(const CarryingFilm& film, int node) const {
   const GridGeometry& geometry = film.balance.geometry();
-  const double area = geometry.weight_phi[node / model_.grid.n_z] * geometry.weight_z[node % model_.grid.n_z];
-  return area * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact();
+  const double area = geometry.weight(node / model_.grid.n_z, node % model_.grid.n_z);
+  return area * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact(node % model_.grid.n_z);
 }
 
 // Shared by the surfaces' effusivities (thermal.54).

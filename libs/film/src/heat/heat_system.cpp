@@ -8,17 +8,18 @@
 namespace hersey::film {
 
 HeatSystem::HeatSystem(const Grid& grid, int layers, bool has_ring) : grid_(grid), layers_(layers) {
-  const int n_phi = grid.n_phi, n_z = grid.n_z;
+  const int n_z = grid.n_z;
   layer_.resize(static_cast<std::size_t>(grid.size() * layers));
   from_places_.resize(8 * layer_.size());
   is_linked_.resize(static_cast<std::size_t>(8 * grid.size()));
   pivots_.resize(layer_.size());
-  if (has_ring) ring_.resize(static_cast<std::size_t>(n_phi));
+  if (has_ring) ring_.resize(static_cast<std::size_t>(grid.n_phi));
   from_film_.resize(static_cast<std::size_t>(2 * grid.size()));
   for (int node = 0; node < grid.size(); ++node) {
     const int i = node / n_z, j = node % n_z;
-    neighbours_.push_back({grid.index((i + n_phi - 1) % n_phi, j), grid.index((i + 1) % n_phi, j),
-                           j > 0 ? node - 1 : node, j + 1 < n_z ? node + 1 : node});
+    const auto on = [&](int line) { return line < 0 ? node : grid.index(line, j); };
+    neighbours_.push_back(
+        {on(grid.before(i)), on(grid.next(i)), j > 0 ? node - 1 : node, j + 1 < n_z ? node + 1 : node});
   }
 }
 

@@ -13,9 +13,10 @@ Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node) {
   const auto slope = [&](int from, int to, double length) {
     return (balance.nodes()[to].p - balance.nodes()[from].p) / length;
   };
-  const int i = node / grid.n_z, j = node % grid.n_z, last = (i + grid.n_phi - 1) % grid.n_phi;
+  const int i = node / grid.n_z, j = node % grid.n_z, last = grid.before(i), next = grid.next(i);
+  const double back = last < 0 ? 0 : geometry.step(last, j), ahead = next < 0 ? 0 : geometry.step(i, j);
   const double around =
-      slope(grid.index(last, j), grid.index((i + 1) % grid.n_phi, j), geometry.dx[last] + geometry.dx[i]);
+      slope(last < 0 ? node : grid.index(last, j), next < 0 ? node : grid.index(next, j), back + ahead);
   const int below = std::max(j - 1, 0), above = std::min(j + 1, grid.n_z - 1);
   return {around, slope(grid.index(i, below), grid.index(i, above), geometry.z[above] - geometry.z[below])};
 }
@@ -24,7 +25,7 @@ Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
   if (!balance.is_held(node)) return pressure_gradient(balance, node);
   const Grid& grid = balance.model().grid;
   const GridGeometry& geometry = balance.geometry();
-  const int i = node / grid.n_z, j = node % grid.n_z, last = (i + grid.n_phi - 1) % grid.n_phi;
+  const int i = node / grid.n_z, j = node % grid.n_z, last = grid.before(i), next = grid.next(i);
   const auto slope = [&](int from, int to, double length) {
     return (balance.nodes()[to].p - balance.nodes()[from].p) / length;
   };
@@ -32,8 +33,8 @@ Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
     const double size = std::abs(a) + std::abs(b);
     return size > 0 ? (a * std::abs(a) + b * std::abs(b)) / size : 0;
   };
-  const double before = slope(grid.index(last, j), node, geometry.dx[last]),
-               after = slope(node, grid.index((i + 1) % grid.n_phi, j), geometry.dx[i]);
+  const double before = last < 0 ? 0 : slope(grid.index(last, j), node, geometry.step(last, j)),
+               after = next < 0 ? 0 : slope(node, grid.index(next, j), geometry.step(i, j));
   const double below = j > 0 ? slope(node - 1, node, geometry.dz[j - 1]) : 0,
                above = j + 1 < grid.n_z ? slope(node, node + 1, geometry.dz[j]) : 0;
   return {weighted(before, after), weighted(below, above)};
@@ -75,8 +76,9 @@ void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion
     const LayerShares &at_a = shares_[face.a], &at_b = shares_[face.b];
     const double along_pressure = flow.K * (a.p - b.p);
     const double carried = flow.carried((flow.couette >= 0 ? a : b).theta).value;
-    const double u_shell = f < first_axial ? motion.u_shell : motion.w_shell;
-    const double slip = (f < first_axial ? motion.u_journal : motion.w_journal) - u_shell;
+    const double stretch = f < first_axial ? balance.geometry().stretch[face.a % model_.grid.n_z] : 1;
+    const double u_shell = stretch * (f < first_axial ? motion.u_shell : motion.w_shell);
+    const double slip = stretch * (f < first_axial ? motion.u_journal : motion.w_journal) - u_shell;
     const double share = flow.couette != 0 ? carried / flow.couette : 0;
     const double full = share * flow.density * face.width * 0.5 * (a.h + b.h);
     double rest = carried;
@@ -146,7 +148,8 @@ void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench,
   const double scale = sum > 0 ? whole.power_film / sum : 1;
   for (int k = 0; k < nodes; ++k) {
     const Node& node = balance.nodes()[k];
-    const double mixed = node.share * balance.area(k) * node.h * balance.slip().dot(pressure_gradient(balance, k));
+    const double mixed =
+        node.share * balance.area(k) * node.h * balance.slip(k % model_.grid.n_z).dot(pressure_gradient(balance, k));
     const double sliding = by_sliding[static_cast<std::size_t>(k)];
     const LayerShares& of = shares_[static_cast<std::size_t>(k)];
     for (std::size_t l = 0; l < layers_; ++l) {

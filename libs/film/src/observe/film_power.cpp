@@ -26,8 +26,7 @@ Eigen::VectorXd parabolic_shares(const Eigen::VectorXd& length) {
 /// Work that oil brings along which a feature feeds over the land before an edge, beyond what a held node says of it.
 double oil_over_land(const FlowBalance& balance, int node) {
   if (balance.over_land(node) == 0) return 0;
-  const int j = node % balance.model().grid.n_z;
-  const double edge = balance.open_row(j) ? 0 : balance.edge_unknown(j);
+  const double edge = balance.is_open(node) ? 0 : balance.edge_unknown(node);
   const double counted = balance.is_held(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
   return (oil_work(balance.model().lubricant, edge + balance.drop_over_land(node)) - counted) * balance.over_land(node);
 }
@@ -36,7 +35,8 @@ double oil_over_land(const FlowBalance& balance, int node) {
 
 // Sliding shears the oil: share mu slip^2/h, more of it between rough surfaces.
 double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion, int node) {
-  const double slip2_phi = std::pow(motion.u_journal - motion.u_shell, 2);
+  const double stretch = balance.geometry().stretch[node % balance.model().grid.n_z];
+  const double slip2_phi = std::pow(stretch * (motion.u_journal - motion.u_shell), 2);
   const double slip2_z = std::pow(motion.w_journal - motion.w_shell, 2);
   const Node& at = balance.nodes()[node];
   const RoughGap& rough = balance.rough_gaps()[node];
@@ -54,7 +54,6 @@ double pressure_power(const FlowBalance& balance, std::size_t f) {
 }
 
 void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench, FilmObservables& o) {
-  const double friction = wrench.friction_power_per_contact();
   const FilmModel& model = balance.model();
   const Grid& grid = model.grid;
   const GridGeometry& geometry = balance.geometry();
@@ -66,13 +65,13 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
     for (int j = 0; j < grid.n_z; ++j) {
       const int k = grid.index(i, j);
       const Node& node = balance.nodes()[k];
-      const double area = geometry.weight_phi[i] * geometry.weight_z[j];
+      const double area = geometry.weight(i, j);
       const double work = oil_work(model.lubricant, node.wall - model.p_cav);
       o.power_film += area * sliding_power(balance, wrench, motion, k) +
                       around[j] * (pressure_power(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
       if (j + 1 < grid.n_z) o.power_film += axial[j] * pressure_power(balance, balance.face_above(i, j));
       o.power_film += balance.power_over_land(k);
-      o.power_asperity += area * node.asperity * friction;
+      o.power_asperity += area * node.asperity * wrench.friction_power_per_contact(j);
       // What the supply feeds comes at its own pressure: the way to the node dissipates (FlowBalance::power_of_tie).
       if (balance.is_held(k)) o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
       o.power_oil += work * balance.outflow(k) - oil_over_land(balance, k);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hersey/core/turn.h"
+#include "hersey/core/contract.h"
 
 namespace hersey::film {
 namespace {
@@ -25,9 +25,16 @@ Stencil slope_at(int k, int first, double a, int second, double b) {
   return {{k, first, second}, parabola_slope(a, b)};
 }
 
+// One-sided at the ends of a patch.
 Stencil slope_phi(const Grid& grid, const GridGeometry& geometry, int i, int j) {
-  const int before = (i + grid.n_phi - 1) % grid.n_phi, after = (i + 1) % grid.n_phi;
-  return slope_at(grid.index(i, j), grid.index(before, j), -geometry.dx[before], grid.index(after, j), geometry.dx[i]);
+  const int before = grid.before(i), after = grid.next(i), k = grid.index(i, j), n_z = grid.n_z;
+  if (before < 0) {
+    const double first = geometry.step(i, j);
+    return slope_at(k, k + n_z, first, k + 2 * n_z, first + geometry.step(i + 1, j));
+  }
+  const double back = geometry.step(before, j);
+  if (after < 0) return slope_at(k, k - n_z, -back, k - 2 * n_z, -back - geometry.step(i - 2, j));
+  return slope_at(k, grid.index(before, j), -back, grid.index(after, j), geometry.step(i, j));
 }
 
 // Second order up to the edges, where the difference is one-sided.
@@ -49,33 +56,32 @@ double slope(const Stencil& stencil, const std::vector<Node>& nodes) {
 
 FilmWrench::FilmWrench(const FilmModel& model)
     : model_(model), geometry_(model_), interpolation_(model_.grid, geometry_) {
-  cosine_ = geometry_.phi.array().cos();
-  sine_ = geometry_.phi.array().sin();
+  for (const double phi : geometry_.phi) lines_.push_back({phi, std::cos(phi), std::sin(phi)});
+  rows_.resize(static_cast<std::size_t>(model_.grid.n_z));
 }
 
 FilmWrench::Basis FilmWrench::basis(int i, int j) const {
-  const double R = model_.R, z = geometry_.z[j], c = cosine_[i], s = sine_[i];
-  // Moments r x f about the origin with r = R e_r + z e_z.
-  Basis b;
-  b.radial << -z * s, z * c, 0, c, s, 0;
-  b.tangential << -z * c, -z * s, R, -s, c, 0;
-  b.axial << R * s, -R * c, 0, 0, 0, 1;
-  b.shear_tangential = b.tangential;
-  b.shear_axial = b.axial;
+  Basis b{tractions(model_.surface, model_.R, lines_[static_cast<std::size_t>(i)], geometry_.z[j]), {}, {}};
+  b.shear_along = b.along;
+  b.shear_across = b.across;
   if (model_.shear_force == ShearForce::torque_only) {
-    b.shear_tangential.tail<3>().setZero();
-    b.shear_axial.tail<3>().setZero();
+    b.shear_along.tail<3>().setZero();
+    b.shear_across.tail<3>().setZero();
   }
   return b;
 }
 
 void FilmWrench::set_speeds(const SurfaceMotion& motion) {
-  slip_ << motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell;
-  const double square = slip_.squaredNorm() + friction_speed * friction_speed, speed = std::sqrt(square);
   const double mu_friction = model_.asperities.mu_friction;
-  for (const int k : {0, 1}) rate_slip_[k] = change_of_sliding(slip_, Eigen::Vector2d::Unit(k)).rate;
-  friction_ = mu_friction / speed * slip_;
-  friction_slip_ = mu_friction / speed * (Eigen::Matrix2d::Identity() - slip_ * slip_.transpose() / square);
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    Row& row = rows_[j];
+    row.stretch = geometry_.stretch[static_cast<Eigen::Index>(j)];
+    row.slip << row.stretch * (motion.u_journal - motion.u_shell), motion.w_journal - motion.w_shell;
+    const double square = row.slip.squaredNorm() + friction_speed * friction_speed, speed = std::sqrt(square);
+    for (const int k : {0, 1}) row.rate_slip[k] = change_of_sliding(row.slip, Eigen::Vector2d::Unit(k)).rate;
+    row.friction = mu_friction / speed * row.slip;
+    row.friction_slip = mu_friction / speed * (Eigen::Matrix2d::Identity() - row.slip * row.slip.transpose() / square);
+  }
 }
 
 void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motion, bool want_gradient) {
@@ -133,11 +139,16 @@ void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_grad
     const double sign = tube.in_shell ? 1 : -1;
     const Vector6 direction =
         0.25 * sign *
-        (axial ? Vector6(at_a.shear_axial + at_b.shear_axial) : Vector6(at_a.shear_tangential + at_b.shear_tangential));
+        (axial ? Vector6(at_a.shear_across + at_b.shear_across) : Vector6(at_a.shear_along + at_b.shear_along));
     shear_ += moment.value * direction;
     if (!want_gradient) continue;
     const auto [by_node, by_bend] = balance.thickness_shares(tube.face);
-    WallPush push{tube.face, direction, by_bend * moment.h, moment.past, 0, 0, tube.in_journal};
+    WallPush push{.face = tube.face,
+                  .row = face.a % grid.n_z,
+                  .direction = direction,
+                  .by_bend = by_bend * moment.h,
+                  .by_past = moment.past,
+                  .in_journal = tube.in_journal};
     for (const int k : {face.a, face.b}) {
       const Node& node = balance.nodes()[k];
       const double drop = k == face.a ? -moment.drop : moment.drop;
@@ -157,16 +168,17 @@ void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_grad
 Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
   Vector6 sum = Vector6::Zero();
   const Grid& grid = model_.grid;
-  const SlidingChange sliding =
-      change_of_sliding(slip_, {direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell});
   for (const WallPush& push : pushes_) {
     const bool axial = push.face >= static_cast<std::size_t>(grid.size());
     const auto node = static_cast<int>(push.face);
+    const Row& row = rows_[static_cast<std::size_t>(push.row)];
+    const SlidingChange sliding = change_of_sliding(
+        row.slip, {row.stretch * (direction.u_journal - direction.u_shell), direction.w_journal - direction.w_shell});
     double change = push.by_rate * sliding.rate + push.by_turn * sliding.turn;
     if (axial) {
       change += push.by_past * 0.5 * (direction.w_shell + direction.w_journal);
     } else {
-      change += push.by_past *
+      change += push.by_past * row.stretch *
                 (0.5 * (direction.u_shell + direction.u_journal) - (push.in_journal ? direction.u_journal : 0));
       if (direction.g.size() != 0)
         change += push.by_bend * interpolation_.bend(direction.g, node / grid.n_z, node % grid.n_z);
@@ -200,20 +212,19 @@ FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap& rough, 
 void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
   const Grid& grid = model_.grid;
   for (int i = 0; i < grid.n_phi; ++i) {
-    const int next = (i + 1) % grid.n_phi;
-    const double length = model_.R * std::fmod(grid.phi(next) - grid.phi(i) + turn, turn);
-    for (int j = 0; j < grid.n_z; ++j) {
+    const int next = grid.next(i);
+    for (int j = 0; j < grid.n_z && next >= 0; ++j) {
       const bool falls = nodes[grid.index(i, j)].p > 0 && nodes[grid.index(next, j)].p < 0;
       const bool rises = nodes[grid.index(i, j)].p < 0 && nodes[grid.index(next, j)].p > 0;
       if (!falls && !rises) continue;
       const int a = falls ? i : next, b = falls ? next : i;
       const int full = grid.index(a, j), cut = grid.index(b, j);
-      const double p = nodes[full].p, t = p / (p - nodes[cut].p), area = length * geometry_.weight_z[j];
-      const Vector6 radial = basis(a, j).radial;
-      pressure_ -= 0.5 * area * (1 - t) * p * radial;
+      const double p = nodes[full].p, t = p / (p - nodes[cut].p), area = geometry_.step(i, j) * geometry_.weight_z[j];
+      const Vector6 normal = basis(a, j).normal;
+      pressure_ -= 0.5 * area * (1 - t) * p * normal;
       if (!want_gradient) continue;
-      by_u_.col(full) += area * (t - 0.5 * t * t - 0.5) * radial;
-      by_u_.col(cut) += 0.5 * area * t * t * radial;
+      by_u_.col(full) += area * (t - 0.5 * t * t - 0.5) * normal;
+      by_u_.col(cut) += 0.5 * area * t * t * normal;
     }
   }
 }
@@ -223,6 +234,7 @@ void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
 // uniform pressure. Contact ends at the edges. Sums over the intervals between nodes give exactly nothing where p or d
 // is the same everywhere.
 void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradient) {
+  HERSEY_REQUIRE(std::holds_alternative<Cylinder>(model_.surface), "openings of a shell around an axis");
   const Grid& grid = model_.grid;
   // Adds to the entry `row` of the wrench what the interval from node a to node b gives, `arm` its width and lever.
   const auto add = [&](int row, int a, int b, double arm) {
@@ -242,8 +254,8 @@ void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradie
   constexpr int moment_z = 2, force_z = 5;
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
-      const int node = grid.index(i, j), next = grid.index((i + 1) % grid.n_phi, j);
-      add(moment_z, node, next, model_.R * geometry_.weight_z[j]);
+      const int node = grid.index(i, j), next = grid.next(i);
+      if (next >= 0) add(moment_z, node, grid.index(next, j), model_.R * geometry_.weight_z[j]);
       if (j + 1 < grid.n_z) add(force_z, node, node + 1, geometry_.weight_phi[i]);
     }
   }
@@ -253,44 +265,49 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap& rough,
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j);
   const Node& node = nodes[k];
-  const double area = geometry_.weight_phi[i] * geometry_.weight_z[j];
+  const double area = geometry_.weight(i, j);
+  const Row& row = rows_[static_cast<std::size_t>(j)];
+  const Eigen::Vector2d& slip = row.slip;
   const Basis b = basis(i, j);
   const Stencil by_phi = slope_phi(grid, geometry_, i, j), by_z = slope_z(grid, geometry_, i, j);
   const double p_phi = slope(by_phi, nodes), p_z = slope(by_z, nodes);
   const Shear s = shear_of(node, rough, relief_.empty() ? ValueAndSlope{1, 0} : relief_[k]);
   const auto sheared = [&](double along_phi, double along_z) -> Vector6 {
-    return along_phi * b.shear_tangential + along_z * b.shear_axial;
+    return along_phi * b.shear_along + along_z * b.shear_across;
   };
-  pressure_ += area * node.wall * b.radial;
+  pressure_ += area * node.wall * b.normal;
   normal_.value[k] = area * (node.wall + node.asperity);
   normal_.by_u[k] = area * (node.wall_u + node.asperity_h * node.h_u);
   normal_.by_g[k] = area * node.asperity_h * node.h_g;
   shear_ +=
-      area * sheared(s.couette[0] * slip_[0] - s.half_gap[0] * p_phi, s.couette[1] * slip_[1] - s.half_gap[1] * p_z);
-  const Vector6 contact = b.radial + friction_[0] * b.tangential + friction_[1] * b.axial;
+      area * sheared(s.couette[0] * slip[0] - s.half_gap[0] * p_phi, s.couette[1] * slip[1] - s.half_gap[1] * p_z);
+  const Vector6 contact = b.normal + row.friction[0] * b.along + row.friction[1] * b.across;
   if (node.asperity != 0) asperity_ += area * node.asperity * contact;
   if (!want_gradient) return;
 
-  const Vector6 by_h = area * (sheared(s.couette_h[0] * slip_[0] - s.half_gap_h[0] * p_phi,
-                                       s.couette_h[1] * slip_[1] - s.half_gap_h[1] * p_z) +
+  const Vector6 by_h = area * (sheared(s.couette_h[0] * slip[0] - s.half_gap_h[0] * p_phi,
+                                       s.couette_h[1] * slip[1] - s.half_gap_h[1] * p_z) +
                                node.asperity_h * contact);
   by_u_.col(k) +=
-      node.h_u * by_h + area * (node.wall_u * b.radial + sheared(s.couette_u[0] * slip_[0], s.couette_u[1] * slip_[1]));
+      node.h_u * by_h + area * (node.wall_u * b.normal + sheared(s.couette_u[0] * slip[0], s.couette_u[1] * slip[1]));
   by_g_.col(k) += node.h_g * by_h;
   for (int n = 0; n < 3; ++n) {
     const double wall_phi = nodes[by_phi.node[n]].wall_u, wall_z = nodes[by_z.node[n]].wall_u;
-    by_u_.col(by_phi.node[n]) -= area * s.half_gap[0] * by_phi.weight[n] * wall_phi * b.shear_tangential;
-    by_u_.col(by_z.node[n]) -= area * s.half_gap[1] * by_z.weight[n] * wall_z * b.shear_axial;
+    by_u_.col(by_phi.node[n]) -= area * s.half_gap[0] * by_phi.weight[n] * wall_phi * b.shear_along;
+    by_u_.col(by_z.node[n]) -= area * s.half_gap[1] * by_z.weight[n] * wall_z * b.shear_across;
   }
   if (!relief_journal_.empty() && relief_journal_[k] != 0) {
     by_journal_ +=
-        area * relief_journal_[k] / relief_[k].value * sheared(s.couette[0] * slip_[0], s.couette[1] * slip_[1]);
+        area * relief_journal_[k] / relief_[k].value * sheared(s.couette[0] * slip[0], s.couette[1] * slip[1]);
   }
-  by_slip_.col(0) += area * s.couette[0] * b.shear_tangential;
-  by_slip_.col(1) += area * s.couette[1] * b.shear_axial;
-  by_slip_ += area * sheared(s.couette_rate[0] * slip_[0], s.couette_rate[1] * slip_[1]) * rate_slip_.transpose();
-  if (node.asperity == 0) return;
-  by_slip_ += area * node.asperity * (b.tangential * friction_slip_.row(0) + b.axial * friction_slip_.row(1));
+  Eigen::Matrix<double, 6, 2> by_slip;
+  by_slip.col(0) = s.couette[0] * b.shear_along;
+  by_slip.col(1) = s.couette[1] * b.shear_across;
+  by_slip += sheared(s.couette_rate[0] * slip[0], s.couette_rate[1] * slip[1]) * row.rate_slip.transpose();
+  if (node.asperity != 0)
+    by_slip += node.asperity * (b.along * row.friction_slip.row(0) + b.across * row.friction_slip.row(1));
+  by_slip_.col(0) += area * row.stretch * by_slip.col(0);
+  by_slip_.col(1) += area * by_slip.col(1);
 }
 
 Vector6 FilmWrench::along(const MotionDirection& direction) const {

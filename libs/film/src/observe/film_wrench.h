@@ -28,8 +28,11 @@ class FilmWrench {
   [[nodiscard]] const Vector6& shear() const { return shear_; }        ///< of the film; its force is 0 for torque_only
   [[nodiscard]] const Vector6& asperity() const { return asperity_; }  ///< contact pressure and boundary friction
 
-  /// Boundary friction's power per contact pressure and area [m/s].
-  [[nodiscard]] double friction_power_per_contact() const { return friction_.dot(slip_); }
+  /// Boundary friction's power per contact pressure and area in a row of the grid [m/s].
+  [[nodiscard]] double friction_power_per_contact(int j) const {
+    const Row& row = rows_[static_cast<std::size_t>(j)];
+    return row.friction.dot(row.slip);
+  }
 
   /// Factor of Couette shear at a node, below 1 where features have depth [-].
   [[nodiscard]] double relief_factor(int node) const { return relief_.empty() ? 1 : relief_[node].value; }
@@ -43,10 +46,9 @@ class FilmWrench {
   [[nodiscard]] const NormalForces& normal() const { return normal_; }
 
  private:
-  /// Wrenches of unit tractions at one node: outwards, along phi and along z; the last two also as the film's shear
-  /// counts them.
-  struct Basis {
-    Vector6 radial, tangential, axial, shear_tangential, shear_axial;
+  /// Wrenches of unit tractions at one node; the last two also as the film's shear counts them.
+  struct Basis : UnitTractions {
+    Vector6 shear_along, shear_across;
   };
   [[nodiscard]] Basis basis(int i, int j) const;
   /// Shear on the shell at one node (film.49, film.46): couette . slip - half_gap . grad p, index 0 along phi, 1 along
@@ -68,12 +70,13 @@ class FilmWrench {
   FilmModel model_;
   GridGeometry geometry_;
   GapInterpolation interpolation_;
-  Eigen::VectorXd cosine_, sine_;
+  std::vector<GridLine> lines_;
   Vector6 total_, pressure_, shear_, asperity_;
   NormalForces normal_;
   /// What the walls of the pockets in a tube do as surfaces move.
   struct WallPush {
     std::size_t face = 0;
+    int row = 0;        ///< of the grid
     Vector6 direction;  ///< of a unit of FaceFlow::Moment
     double by_bend = 0, by_past = 0;
     double by_rate = 0, by_turn = 0;  ///< with what SlidingChange tells
@@ -85,11 +88,16 @@ class FilmWrench {
   std::vector<ValueAndSlope> relief_;   ///< factor of Couette shear where features have depth [-, 1/m]; empty: 1
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_, by_opening_;
   Eigen::VectorXd opening_;              ///< how far the shell lies outside its cylinder [m]; empty: nowhere
-  Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi and along z
-  Eigen::Vector2d slip_;                 ///< that speed [m/s]
-  Eigen::Vector2d rate_slip_;            ///< derivative of its logarithm [s/m]
-  Eigen::Vector2d friction_;             ///< boundary friction per contact pressure on the shell [-]
-  Eigen::Matrix2d friction_slip_;        ///< its derivative with slip [s/m]
+  Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi at R and along z
+  /// What a row of the grid, on which all of the surface has one speed, has of its own.
+  struct Row {
+    double stretch = 1;             ///< of that speed along phi [-]
+    Eigen::Vector2d slip;           ///< that speed [m/s]
+    Eigen::Vector2d rate_slip;      ///< derivative of its logarithm [s/m]
+    Eigen::Vector2d friction;       ///< boundary friction per contact pressure on the shell [-]
+    Eigen::Matrix2d friction_slip;  ///< its derivative with slip [s/m]
+  };
+  std::vector<Row> rows_;
 };
 
 }  // namespace hersey::film

@@ -38,7 +38,7 @@ Vertex vertex(double left, double middle, double right, double before, double af
 /// Peaks of fields between the nodes of one grid.
 class PeakFinder {
  public:
-  PeakFinder(const FilmModel& model, const GridGeometry& geometry) : R_(model.R), grid_(model.grid), at_(geometry) {}
+  PeakFinder(const FilmModel& model, const GridGeometry& geometry) : grid_(model.grid), at_(geometry) {}
 
   /// The field's largest value, by parabolas where it is smooth from the node to all its neighbours; else the node's
   /// own. @param is_smooth whether the field has no kink between two nodes
@@ -46,8 +46,10 @@ class PeakFinder {
   [[nodiscard]] Peak largest(const Eigen::VectorXd& field, IsSmooth&& is_smooth) const {
     int node = 0;
     field.maxCoeff(&node);
-    const int i = node / grid_.n_z, j = node % grid_.n_z, n = grid_.n_phi;
-    bool smooth = is_smooth(node, grid_.index((i + 1) % n, j)) && is_smooth(node, grid_.index((i + n - 1) % n, j));
+    const int i = node / grid_.n_z, j = node % grid_.n_z;
+    bool smooth = true;
+    for (const int line : {grid_.next(i), grid_.before(i)})
+      smooth = smooth && (line < 0 || is_smooth(node, grid_.index(line, j)));
     if (j > 0) smooth = smooth && is_smooth(node, node - 1);
     if (j + 1 < grid_.n_z) smooth = smooth && is_smooth(node, node + 1);
     return smooth ? refine(field, i, j) : Peak{field[node], at_.phi[i], at_.z[j]};
@@ -56,7 +58,8 @@ class PeakFinder {
  private:
   template <class Value>
   [[nodiscard]] Vertex around(int i, Value&& value) const {
-    const int before = (i + grid_.n_phi - 1) % grid_.n_phi, after = (i + 1) % grid_.n_phi;
+    const int before = grid_.before(i), after = grid_.next(i);
+    if (before < 0 || after < 0) return {};
     return vertex(value(before), value(i), value(after), at_.dx[before], at_.dx[i]);
   }
 
@@ -67,11 +70,10 @@ class PeakFinder {
     const Vertex along = around(i, [&](int k) { return at(k, j); });
     const bool inside = j > 0 && j < grid_.n_z - 1;
     const Vertex across = inside ? vertex(at(i, j - 1), at(i, j), at(i, j + 1), at_.dz[j - 1], at_.dz[j]) : Vertex{};
-    const double phi = std::fmod(at_.phi[i] + along.offset / R_ + turn, turn);
+    const double phi = at_.told(at_.phi[i] + along.offset / at_.R);
     return {at(i, j) + along.rise + across.rise, phi, at_.z[j] + across.offset};
   }
 
-  double R_;
   const Grid& grid_;
   const GridGeometry& at_;
 };
@@ -109,17 +111,17 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
       o.oil_volume += area * node.content * balance.oil_gap(k);
       total += area;
       if (u[k] < -round_off) cavitated += area;
-      (j == 0 ? o.flow_left : o.flow_right) += balance.outflow(k);
+      balance.flow_over_edge(o, k) += balance.outflow(k);
       o.flow_supply += balance.supply(k);
       if (const int feature = balance.feature_at(k); feature >= 0) o.flow_features[feature] += balance.supply(k);
     }
   }
   o.cavitated_share = cavitated / total;
   const double fastest = std::max(std::abs(motion.u_journal), std::abs(motion.u_shell));
-  double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_supply),
-                           std::abs(o.storage_rate), fastest * model.c * model.L});
+  double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_ends),
+                           std::abs(o.flow_supply), std::abs(o.storage_rate), fastest * model.c * model.L});
   if (o.flow_features.size() > 0) scale = std::max(scale, o.flow_features.cwiseAbs().maxCoeff());
-  const double error = o.flow_supply - o.flow_left - o.flow_right - o.storage_rate;
+  const double error = o.flow_supply - o.flow_out() - o.storage_rate;
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
@@ -157,8 +159,7 @@ FilmFields fields_of(const std::vector<Node>& nodes) {
 FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u) {
   const NodeLaw law(model);
   std::vector<Node> nodes(u.size());
-  for (Eigen::Index i = 0; i < u.size(); ++i)
-    nodes[i] = law.state(motion.g[i], u[i], static_cast<int>(i % model.grid.n_z));
+  for (Eigen::Index i = 0; i < u.size(); ++i) nodes[i] = law.state(motion.g[i], u[i], static_cast<int>(i));
   return fields_of(nodes);
 }
 

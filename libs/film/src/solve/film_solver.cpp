@@ -20,7 +20,7 @@ int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
   double least = -fill_scale(model) * (1 + 1e-9);
   for (int node = 0; node < model.grid.size(); ++node) {
     // An edge that lets oil in has no fill fraction below that of its surroundings.
-    if (u[node] < least && ambient_fill(model, node % model.grid.n_z) == 0) emptiest = node, least = u[node];
+    if (u[node] < least && ambient_fill(model, node) == 0) emptiest = node, least = u[node];
   }
   return emptiest;
 }
@@ -60,8 +60,8 @@ double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eig
   const NodeLaw law(model);
   double share = 1;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
-    const int j = static_cast<int>(i % model.grid.n_z);
-    const Node before = law.state(motion.g[i], u[i], j), after = law.state(motion.g[i], u[i] + du[i], j);
+    const int node = static_cast<int>(i);
+    const Node before = law.state(motion.g[i], u[i], node), after = law.state(motion.g[i], u[i] + du[i], node);
     const double exponent = log_viscosity_ratio(oil, after.p).value - log_viscosity_ratio(oil, before.p).value;
     const double relative = std::max(std::abs(exponent), C * std::abs(after.p - before.p) / before.h);
     if (relative > largest_change) share = std::min(share, largest_change / relative);
@@ -79,7 +79,7 @@ bool starved(const FilmModel& model, const Eigen::VectorXd& u) {
   if (!cavitation_law(model).has_fill()) return false;
   for (int node = 0; node < model.grid.size(); ++node) {
     // On an edge at p_cav, u > 0 is oil that leaves, not pressure.
-    if (u[node] > 1e-9 * fill_scale(model) && !open_edge(model, node % model.grid.n_z)) return false;
+    if (u[node] > 1e-9 * fill_scale(model) && !open_edge(model, node)) return false;
   }
   return true;
 }

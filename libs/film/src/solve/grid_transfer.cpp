@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hersey/core/contract.h"
 #include "hersey/core/turn.h"
 
 namespace hersey::film {
@@ -16,9 +17,10 @@ Grid half_of(const Grid& grid) {
   return resampled(grid, (grid.n_phi + 1) / 2, grid.n_z < fewest_across ? grid.n_z : grid.n_z / 2 + 1);
 }
 
-bool can_be_coarsened(const Grid& grid) { return half_of(grid).n_phi >= fewest_around; }
+bool can_be_coarsened(const Grid& grid) { return grid.closes() && half_of(grid).n_phi >= fewest_around; }
 
 GridTransfer::GridTransfer(const Grid& from, const Grid& to) : n_z_(from.n_z) {
+  HERSEY_REQUIRE(from.closes() && to.closes(), "between rings");
   around_.reserve(static_cast<std::size_t>(to.n_phi));
   along_.reserve(static_cast<std::size_t>(to.n_z));
   for (int i = 0; i < to.n_phi; ++i) {
@@ -34,6 +36,7 @@ GridTransfer::GridTransfer(const Grid& from, const Grid& to) : n_z_(from.n_z) {
 }
 
 GridTransfer GridTransfer::by_place(const Grid& from, const Grid& to) {
+  HERSEY_REQUIRE(from.closes() && to.closes(), "between rings");
   GridTransfer transfer(from.n_z);
   const auto phi = [&](int k) { return from.phi(k % from.n_phi) + (k < from.n_phi ? 0 : turn); };
   for (int i = 0; i < to.n_phi; ++i) {

@@ -52,7 +52,7 @@ class Sor {
 
  private:
   void start(const Eigen::VectorXd& u);
-  void place(int node, double u, int j);
+  void place(int node, double u);
   [[nodiscard]] FilmDomain update_coefficients(const Eigen::VectorXd& u);
   [[nodiscard]] FilmDomain enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u);
   void sweep();
@@ -76,7 +76,7 @@ class Sor {
 // of twice the width, and with two only the periodic direction bounds it.
 double Sor::over_relaxation() const {
   const Grid& grid = balance_.model().grid;
-  const double dphi = 2 * std::numbers::pi / grid.n_phi;
+  const double dphi = mean_step(grid);
   const double across = std::pow(balance_.model().R * dphi * (grid.n_z - 1) / balance_.model().L, 2);
   const FilmModel& model = balance_.model();
   const bool one_wall = (model.edge_left.kind == EdgeKind::closed) != (model.edge_right.kind == EdgeKind::closed);
@@ -100,15 +100,14 @@ double Sor::following() const {
 
 void Sor::start(const Eigen::VectorXd& u) {
   u_ = p_ = theta_ = u;
-  const int n_z = balance_.model().grid.n_z;
-  for (int node = 0; node < balance_.size(); ++node) place(node, u[node], node % n_z);
+  for (int node = 0; node < balance_.size(); ++node) place(node, u[node]);
 }
 
-void Sor::place(int node, double u, int j) {
+void Sor::place(int node, double u) {
   u_[node] = u;
-  const bool open = balance_.open_row(j);
+  const bool open = balance_.is_open(node);
   p_[node] = open ? 0 : cavitation_.phase(u, scales_).p.value;
-  theta_[node] = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(j)) : u, scales_).theta.value;
+  theta_[node] = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(node)) : u, scales_).theta.value;
 }
 
 FilmDomain Sor::update_coefficients(const Eigen::VectorXd& u) {
@@ -170,17 +169,17 @@ NodeRow Sor::row(int node, double theta) const {
 
 void Sor::relax(int i, int j) {
   const int node = balance_.model().grid.index(i, j);
-  if (balance_.edge_row(j)) return place(node, balance_.edge_unknown(j), j);
+  if (balance_.is_given(node)) return place(node, balance_.edge_unknown(node));
 
   // Beside line and features the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
   NodeRow r = row(node, 1);
-  const bool open = balance_.open_row(j);
+  const bool open = balance_.is_open(node);
   const double own = balance_.balance_share(node), tie = balance_.supply_conductance(node);
   const auto full = [&] { return own * (r.known + r.transport) - tie * balance_.supply_unknown(node); };
   const double conductance = own * (open ? balance_.conductance_scale() : r.K) + (balance_.only_fills(node) ? 0 : tie);
   const double target = -full() / conductance;
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
-  if (u >= 0 || cavitation_.has_tension()) return place(node, u, j);
+  if (u >= 0 || cavitation_.has_tension()) return place(node, u);
 
   const auto broken = [&] {
     return BrokenRow{.full = full(),
@@ -196,13 +195,13 @@ void Sor::relax(int i, int j) {
     const double last = std::exchange(theta, std::max(0.0, cavitation_.phase(filling, scales_).theta.value));
     if (std::abs(theta - last) <= near_enough) break;
   }
-  const double ambient = balance_.ambient_unknown(j);
-  if (!open || filling >= ambient) return place(node, filling, j);
+  const double ambient = balance_.ambient_unknown(node);
+  if (!open || filling >= ambient) return place(node, filling);
   // Emptier than what lies outside: u is the inflow that keeps it as full (film.19).
   r = row(node, cavitation_.phase(ambient, scales_).theta.value);
   const BrokenRow drawing = broken();
   const double lack = drawing.full + (drawing.transport / scales_.fill + drawing.drawn) * ambient;
-  place(node, std::min(ambient, ambient - lack / (drawing.slack + drawing.drawn)), j);
+  place(node, std::min(ambient, ambient - lack / (drawing.slack + drawing.drawn)));
 }
 
 // With the flow, so that the fill fraction is carried around in one sweep.

@@ -39,7 +39,7 @@ void BearingExtremes::take(double t, double dt, const bearing::BearingObservatio
   last_put_in_ = put_in, last_taken_ = taken;
   time_ += dt;
   energy_ += dt * (film.power_film + film.power_asperity);
-  volume_ += dt * (film.flow_left + film.flow_right);
+  volume_ += dt * film.flow_out();
 }
 
 BearingSummary BearingExtremes::summary() const {

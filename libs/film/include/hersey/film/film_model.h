@@ -5,6 +5,7 @@
 
 #include "hersey/film/cavitation_law.h"
 #include "hersey/film/density_law.h"
+#include "hersey/film/film_surface.h"
 #include "hersey/film/gap_profile.h"
 #include "hersey/film/grid.h"
 #include "hersey/film/roughness.h"
@@ -92,7 +93,7 @@ enum class FilmSolver { newton, sor, multigrid };
 /// symmetry or a cap.
 enum class EdgeKind { pressure, closed };
 
-/// An edge of the bearing, z = -L/2 or +L/2.
+/// An edge of the film, z = -L/2 or +L/2, or an end of a patch.
 struct Edge {
   EdgeKind kind = EdgeKind::pressure;
   double pressure = 0;  ///< [Pa], >= p_cav; without meaning at a wall
@@ -100,12 +101,18 @@ struct Edge {
   double ambient_fill = 0;
 };
 
+/// The edges on the first and on the last line of a patch.
+struct PatchEnds {
+  Edge first, last;
+};
+
 /// What the pressure 0 is: the atmosphere or a vacuum. The equations do not ask.
 enum class PressureScale { gauge, absolute };
 
 /// Everything constant about one film. All its pressures are on one scale.
 struct FilmModel {
-  double R = 0.0225;  ///< bearing radius [m], > 0
+  FilmSurface surface = Cylinder{};
+  double R = 0.0225;  ///< bearing radius [m], > 0: the length per unit of phi at which speeds are meant
   double L = 0.0156;  ///< bearing width [m], > 0
   double c = 34e-6;   ///< radial clearance: scales unknowns and supply, the gap itself comes with the motion [m], > 0
   Grid grid;
@@ -114,6 +121,7 @@ struct FilmModel {
   PressureScale pressures = PressureScale::gauge;
   double p_cav = 0;  ///< cavitation pressure [Pa]
   Edge edge_left, edge_right;
+  std::vector<PatchEnds> ends = {};  ///< of each patch of the grid
   SupplyLine supply;
   Asperities asperities;
   Roughness roughness;
@@ -130,6 +138,17 @@ struct FilmModel {
 [[nodiscard]] inline const Edge* edge_of_row(const FilmModel& model, int j) {
   if (j == 0) return &model.edge_left;
   return j == model.grid.n_z - 1 ? &model.edge_right : nullptr;
+}
+
+/// The edge on which a node lies; null between them. Where two meet, one with a pressure counts before a wall, and that
+/// of the row before that of the line.
+[[nodiscard]] inline const Edge* edge_of_node(const FilmModel& model, int node) {
+  const Grid& grid = model.grid;
+  const Edge* of_row = edge_of_row(model, node % grid.n_z);
+  const int line = node / grid.n_z;
+  if (grid.closes() || !grid.is_end(line) || (of_row != nullptr && of_row->kind == EdgeKind::pressure)) return of_row;
+  const PatchEnds& ends = model.ends[static_cast<std::size_t>(grid.patch_of(line))];
+  return grid.begins_patch(line) ? &ends.first : &ends.last;
 }
 
 /// Whether walls close the film on both sides.
@@ -155,10 +174,10 @@ struct SurfaceMotion {
   /// How far the shell's surface lies outside its cylinder [m], same shape; empty: nowhere. Its share of what g differs
   /// from a gap of two cylinders; the pressure on its slopes turns and pushes the shell (film.52).
   Eigen::VectorXd shell_opening = {};
-  double u_shell = 0;      ///< circumferential speed of the shell surface (y = 0) [m/s]
-  double u_journal = 0;    ///< circumferential speed of the journal surface (y = h) [m/s]
-  double w_shell = 0;      ///< axial speed of the shell surface [m/s]
-  double w_journal = 0;    ///< axial speed of the journal surface [m/s]
+  double u_shell = 0;      ///< speed of the shell surface (y = 0) along phi at R [m/s]
+  double u_journal = 0;    ///< speed of the journal surface (y = h) along phi at R [m/s]
+  double w_shell = 0;      ///< speed along z of the shell surface [m/s]
+  double w_journal = 0;    ///< speed along z of the journal surface [m/s]
   double phi_supply = 0;   ///< where the supply line is now [rad]; ignored without one
   double phi_journal = 0;  ///< by which the journal has turned over the grid [rad]; moves the journal's features
   Eigen::VectorXd feature_pressure = {};  ///< of each feature now [Pa], below p_cav counts as p_cav; empty: the model's

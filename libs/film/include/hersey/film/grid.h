@@ -1,18 +1,40 @@
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 #include <vector>
 
 namespace hersey::film {
 
-/// Circumferential x axial grid of nodes, periodic in phi; the first and last rows in z lie on the bearing's edges. The
-/// index of node (i, j) is i n_z + j. Without places of its own it is equally spaced: phi_i = 2 pi i/n_phi and
-/// z_j = -L/2 + L j/(n_z - 1).
+/// Nodes on lines phi = const and rows z = const; the first and last rows lie on the film's edges. The index of node
+/// (i, j) is i n_z + j. Without places of its own it is equally spaced: phi_i = 2 pi i/n_phi and
+/// z_j = -L/2 + L j/(n_z - 1). Without patches it closes to a ring: after the last line comes the first.
 struct Grid {
   int n_phi = 60;                    ///< >= 4
   int n_z = 13;                      ///< >= 3
   std::vector<double> angles = {};   ///< ascending within one turn [rad], n_phi of them; empty: equally spaced
   std::vector<double> heights = {};  ///< z/L, ascending from -1/2 to 1/2, n_z of them; empty: equally spaced
+  /// Lines with which patches of film begin, ascending from 0; each ends with the line before the next one, on which,
+  /// as on its first, an edge lies. They need angles. Empty: a ring.
+  std::vector<int> patches = {};
+
+  /// Whether it is a ring.
+  [[nodiscard]] bool closes() const { return patches.empty(); }
+  /// The line after line i in the direction of growing phi; -1: an edge lies there.
+  [[nodiscard]] int next(int i) const {
+    const int after = i + 1 < n_phi ? i + 1 : 0;
+    return begins_patch(after) ? -1 : after;
+  }
+  /// And that before it.
+  [[nodiscard]] int before(int i) const { return begins_patch(i) ? -1 : i > 0 ? i - 1 : n_phi - 1; }
+  /// Whether a patch begins with line i.
+  [[nodiscard]] bool begins_patch(int i) const { return std::find(patches.begin(), patches.end(), i) != patches.end(); }
+  /// Whether line i is the first or the last of a patch.
+  [[nodiscard]] bool is_end(int i) const { return next(i) < 0 || before(i) < 0; }
+  /// The patch with line i.
+  [[nodiscard]] int patch_of(int i) const {
+    return static_cast<int>(std::upper_bound(patches.begin(), patches.end(), i) - patches.begin()) - 1;
+  }
 
   /// Nodes.
   [[nodiscard]] int size() const { return n_phi * n_z; }
@@ -29,12 +51,24 @@ struct Grid {
   [[nodiscard]] bool is_uniform() const { return angles.empty() && heights.empty(); }
 };
 
+/// The mean distance of its lines [rad].
+[[nodiscard]] double mean_step(const Grid& grid);
+
 /// A place towards which cells get smaller.
 struct Refinement {
   double place = 0;   ///< in the unit of the direction
   double reach = 1;   ///< distance at which half of it has gone, same unit, > 0
   double factor = 1;  ///< by which the cells at the place are smaller than far away, >= 1
 };
+
+/// A patch of film from one angle to another [rad].
+struct Patch {
+  double from = 0, to = 1;
+  int lines = 30;  ///< >= 4, equally spaced, those on its edges included
+};
+
+/// Patches one after the other, in ascending order.
+[[nodiscard]] Grid patch_grid(const std::vector<Patch>& patches, int n_z);
 
 /// A grid with cells that shrink smoothly towards the places given: the density of nodes is 1 + sum of
 /// (factor - 1)/(1 + (distance/reach)^2). Refining it keeps its pattern, so that errors fall with their order.
