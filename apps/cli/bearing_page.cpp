@@ -35,7 +35,8 @@ void add_features(const BearingSolution& solution, PageSolution& page) {
   const film::FilmModel& model = solution.model;
   for (const film::SurfaceFeature& f : model.features) {
     const double turned = f.surface == film::Surface::journal ? solution.state.point.journal_angle : 0;
-    page.features.push_back({f.name, f.shape == film::FeatureShape::ellipse, f.phi + turned, f.z, f.arc, f.length});
+    page.features.push_back(
+        {f.name, std::holds_alternative<film::Ellipse>(f.shape), f.phi + turned, f.z, f.arc, f.length});
   }
   if (model.supply.kind == film::SupplyKind::none) return;
   const film::SurfaceMotion motion = bearing::steady_surfaces(model, solution.state.point, solution.state.e);

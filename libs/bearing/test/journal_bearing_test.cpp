@@ -22,7 +22,7 @@ film::FilmModel rough_elastic_film() {
   model.profiles = {
       {film::Ovality{3e-6, 0.4}}, {film::Barrel{2e-6}}, {film::Lobes{3, 4e-6, 0.1}, film::Surface::journal}};
   model.features = {{.name = "hole",
-                     .shape = film::FeatureShape::ellipse,
+                     .shape = film::Ellipse{},
                      .surface = film::Surface::journal,
                      .phi = 2,
                      .arc = 0.9,

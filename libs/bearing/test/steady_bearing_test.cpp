@@ -298,7 +298,7 @@ TEST_CASE("HoleInTheJournal_MovesTheFilmWithItsAngle") {
   // Turning journal, hole and load together turns the answer with them.
   film::FilmModel model = flooded_film(60, 13);
   model.supply.kind = film::SupplyKind::none;
-  film::SurfaceFeature hole{.name = "hole", .shape = film::FeatureShape::ellipse, .surface = film::Surface::journal};
+  film::SurfaceFeature hole{.name = "hole", .shape = film::Ellipse{}, .surface = film::Surface::journal};
   hole.arc = 0.5;
   hole.length = 0.02;
   hole.pressure = 3e5;
@@ -381,7 +381,7 @@ TEST_CASE("TrialsThroughAbsurdPressures_EndInAnEquilibrium") {
 TEST_CASE("LoadBeyondTheForceOfASupply_IsFoundFurtherOut") {
   film::FilmModel model{.R = 0.0130955, .L = 0.03887, .c = 2.5039e-5, .grid = {60, 25}};
   model.lubricant = {.mu0 = 0.0049463, .viscosity_law = film::Barus{3e-8}};
-  model.features.push_back({.shape = film::FeatureShape::ellipse,
+  model.features.push_back({.shape = film::Ellipse{},
                             .phi = -102.4 * pi / 180,
                             .arc = 0.0029384 / model.R,
                             .length = 0.0058769,

@@ -32,7 +32,7 @@ State rough_state(Cavitation cavitation, bool all_laws, bool transient, const Gr
   s.model.supply = {SupplyKind::widest_gap, 0, 4e5};
   s.model.features = {{.name = "groove", .phi = 4, .arc = 0.7, .length = 0.009, .pressure = 5e5},
                       {.name = "hole",
-                       .shape = FeatureShape::ellipse,
+                       .shape = Ellipse{},
                        .surface = Surface::journal,
                        .phi = 2.9,
                        .z = 1e-3,
@@ -156,7 +156,7 @@ std::vector<State> states_with_pockets() {
       s.model.features = {
           {.name = "shell's", .phi = 1.1, .z = 2e-3, .arc = 1.3, .length = 0.008, .is_fed = false, .depth = 3e-5},
           {.name = "journal's",
-           .shape = FeatureShape::ellipse,
+           .shape = Ellipse{},
            .surface = Surface::journal,
            .phi = 2.1,
            .z = -1e-3,

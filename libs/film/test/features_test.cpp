@@ -138,7 +138,7 @@ TEST_CASE("HeldShares_HaveTheirDerivative") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
   m.grid = graded_grid(40, 9, {{.place = 0.2, .reach = 0.5, .factor = 3}}, {{.place = 0.1, .reach = 0.2, .factor = 2}});
   const GridGeometry geometry(m);
-  for (const auto shape : {FeatureShape::rectangle, FeatureShape::ellipse}) {
+  for (const FeatureShape& shape : std::vector<FeatureShape>{Rectangle{}, Ellipse{}}) {
     const SurfaceFeature feature{
         .name = "a", .shape = shape, .surface = Surface::journal, .phi = 6.2, .z = 1e-3, .arc = 0.5, .length = 8e-3};
     const double d = 1e-7;
@@ -191,8 +191,8 @@ Sweep sweep(FeatureShape shape, double pressure, double omega) {
 }
 
 TEST_CASE("HoleSweptOverAUniformFilm_GivesASmoothForce") {
-  for (const auto shape : {FeatureShape::rectangle, FeatureShape::ellipse}) {
-    CAPTURE(static_cast<int>(shape));
+  for (const FeatureShape& shape : std::vector<FeatureShape>{Rectangle{}, Ellipse{}}) {
+    CAPTURE(shape.index());
     const Sweep s = sweep(shape, 5e5, 0);
     CAPTURE(s.jump / s.largest);
     CAPTURE(s.bend / s.largest);
@@ -201,7 +201,7 @@ TEST_CASE("HoleSweptOverAUniformFilm_GivesASmoothForce") {
     // edge passes a whole row of nodes at once, where the slope of the force may change, an ellipse one after the
     // other.
     CHECK(s.jump < 2e-3 * s.largest);
-    CHECK(s.bend < (shape == FeatureShape::ellipse ? 2e-4 : 1e-3) * s.largest);  // 250 steps to a cell
+    CHECK(s.bend < (std::holds_alternative<Ellipse>(shape) ? 2e-4 : 1e-3) * s.largest);  // 250 steps to a cell
   }
 }
 
@@ -310,9 +310,8 @@ TEST_CASE("GroovesAtTheCavitationPressure_HaveOneSideFlow") {
 TEST_CASE("FeatureFlows_AddUp") {
   for (const auto solver : {FilmSolver::newton, FilmSolver::sor}) {
     FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 13}};
-    m.features = {
-        {.name = "hole", .shape = FeatureShape::ellipse, .phi = 4.5, .arc = 0.3, .length = 6e-3, .pressure = 3e5},
-        {.name = "groove", .phi = 0.4, .arc = 0.3, .length = 12e-3, .pressure = 1e5}};
+    m.features = {{.name = "hole", .shape = Ellipse{}, .phi = 4.5, .arc = 0.3, .length = 6e-3, .pressure = 3e5},
+                  {.name = "groove", .phi = 0.4, .arc = 0.3, .length = 12e-3, .pressure = 1e5}};
     const SolvedFilm film = solve_cold(m, turning(m, 0.6, 300), {.solver = solver, .rtol = 1e-9});
     CAPTURE(film.summary.message);
     REQUIRE(film.summary.solved());

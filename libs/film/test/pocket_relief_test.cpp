@@ -34,15 +34,15 @@ SurfaceFeature pocket(FeatureShape shape, Surface surface) {
           .depth = 50e-6};
 }
 
-constexpr std::array shapes{FeatureShape::rectangle, FeatureShape::ellipse};
+const std::array<FeatureShape, 2> shapes{Rectangle{}, Ellipse{}};
 
 // A pocket on its way over the grid keeps its volume, whatever cells its borders cut.
 TEST_CASE("TurningPocket_KeepsItsVolume") {
   FilmModel m = graded();
   const GridGeometry geometry(m);
-  for (const auto shape : shapes) {
+  for (const FeatureShape& shape : shapes) {
     m.features = {pocket(shape, Surface::journal)};
-    const double share = shape == FeatureShape::ellipse ? pi / 4 : 1;
+    const double share = std::holds_alternative<Ellipse>(shape) ? pi / 4 : 1;
     for (const double turned : {0.0, 0.013, 1.0, 2.5, 5.0, -3.0}) {
       const Eigen::VectorXd depth = mean_depth(m, turned);
       double volume = 0;
@@ -69,8 +69,8 @@ TEST_CASE("PocketToTheEdge_IsDeepThere") {
 TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
   FilmModel m = graded();
   m.edge_left.pressure = m.edge_right.pressure = 1e5;
-  for (const auto shape : shapes) {
-    CAPTURE(static_cast<int>(shape));
+  for (const FeatureShape& shape : shapes) {
+    CAPTURE(shape.index());
     m.features = {pocket(shape, Surface::journal)};
     SurfaceMotion motion = surfaces(m, {.omega_shell = 200, .omega_journal = 200});
     motion.phi_journal = 2.9;
@@ -116,8 +116,8 @@ TEST_CASE("FedGrooveWithDepth_DoesNotLeakOntoTheLand") {
 // A hydrostatic channel: pressure drives oil through lands and a pocket between, of any shape; nothing moves. Its flow
 // converges with the grid wherever the borders lie.
 TEST_CASE("FlowThroughPockets_ConvergesWithTheGrid") {
-  for (const auto shape : shapes) {
-    CAPTURE(static_cast<int>(shape));
+  for (const FeatureShape& shape : shapes) {
+    CAPTURE(shape.index());
     for (const double depth : {20e-6, 1e-3}) {
       CAPTURE(depth);
       std::array<double, 3> flow{};
@@ -205,7 +205,7 @@ TEST_CASE("GapThatTravels_TakesInWhatItGivesAway") {
 // Newton, multigrid and the sweeps of SOR see the same pockets, full and cavitated.
 TEST_CASE("AllSolvers_AgreeOnPockets") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 13}};
-  m.features = {pocket(FeatureShape::rectangle, Surface::shell), pocket(FeatureShape::ellipse, Surface::journal)};
+  m.features = {pocket(Rectangle{}, Surface::shell), pocket(Ellipse{}, Surface::journal)};
   m.features[0].phi = 3.6, m.features[1].phi = 2.2;
   m.supply = {SupplyKind::fixed_angle, 0.3, 1e5};
   const Journal journal = turning(m, 0.5, 300);
@@ -319,7 +319,7 @@ TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {
 TEST_CASE("Oil_IsConservedAtAnyStep") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {48, 9}};
   m.supply = {SupplyKind::widest_gap, 0, 2e5};
-  m.features = {pocket(FeatureShape::rectangle, Surface::shell), pocket(FeatureShape::ellipse, Surface::journal)};
+  m.features = {pocket(Rectangle{}, Surface::shell), pocket(Ellipse{}, Surface::journal)};
   m.features[1].phi = 4;
   for (const double dt : {1e-5, 1e-3, 3e-3}) {
     CAPTURE(dt);

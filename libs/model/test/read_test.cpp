@@ -333,7 +333,7 @@ TEST_CASE("Features_AreHolesAndGrooves") {
   const std::vector<film::SurfaceFeature>& features = model.bearings[0].film.features;
   REQUIRE(features.size() == 5);
   CHECK(features[0].surface == film::Surface::journal);
-  CHECK(features[0].shape == film::FeatureShape::ellipse);
+  CHECK(std::holds_alternative<film::Ellipse>(features[0].shape));
   CHECK(features[0].arc == near(5.0 / 22.5));
   CHECK(features[0].z == near(1e-3));
   CHECK(model.bearings[0].feature_pressures[0].variables.size() == 1);

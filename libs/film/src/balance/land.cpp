@@ -12,7 +12,7 @@ namespace hersey::film {
 // land is known from both pressures, and no row sees it.
 void FlowBalance::find_strips(int f, double phi, double u) {
   const SurfaceFeature& feature = model_.features[static_cast<std::size_t>(f)];
-  if (feature.shape != FeatureShape::rectangle) return;
+  if (!has_straight_ends(feature)) return;
   const Grid& grid = model_.grid;
   const double half = 0.5 * feature.length;
   for (const int j : {0, grid.n_z - 1}) {

@@ -61,7 +61,7 @@ Share ramp(double d, double half, double step) {
 }
 
 /// Row shares (film.22): the conductance from a node to the feature's edge where that is a share of one cell away.
-Share held_rectangle(const SurfaceFeature& feature, const Surroundings& s, double unit) {
+Share held(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double unit) {
   const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / s.R);
   const double along = ramp(s.z, 0.5 * feature.length, s.to_z).value;
   const double covered = around.value * along;
@@ -98,7 +98,7 @@ Share ellipse_share(const Surroundings& s, double half_arc, double half_length) 
   return share;
 }
 
-Share held_ellipse(const SurfaceFeature& feature, const Surroundings& s) {
+Share held(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double /*unit*/) {
   // Grown by half a cell all around, as the ramps of a rectangle are: its edge then lies where the ellipse's does.
   const Share covered =
       ellipse_share(s, 0.5 * (feature.arc + s.back + s.ahead), 0.5 * (feature.length + s.below + s.above));
@@ -127,11 +127,16 @@ double overlap_along(const SurfaceFeature& feature, const Surroundings& s) {
   return std::max(0.0, std::min(s.z + s.above, half) - std::max(s.z - s.below, -half)) / (s.below + s.above);
 }
 
-Share covered_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
+/// Of a control volume.
+Share covered(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s) {
   if (feature.arc >= turn) return {overlap_along(feature, s), 0};
   const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
   const double along = overlap_along(feature, s) / (s.back + s.ahead);
   return {around.value * along, around.phi * along};
+}
+
+Share covered(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s) {
+  return ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length);
 }
 
 /// Of a control volume that a feature covers in part, or, where the feature is the smaller around the bearing, of what
@@ -143,28 +148,31 @@ Share stirred_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
   return {around.value / smaller, around.phi / smaller};
 }
 
-/// What is there of oil that passes a node's control volume, and of oil that it lacks (film.22, thermal.14).
-void stir(const SurfaceFeature& feature, const Surroundings& s, bool is_ellipse, CoveredNode& node) {
-  const auto drawn = [&](double share, double share_phi) {
-    const double half = std::min(2 * share, 1.0);
-    return Share{half * half, share < 0.5 ? 4 * half * share_phi : 0};
-  };
-  if (is_ellipse) {
-    const double wider = std::max(1.0, (s.back + s.ahead) / feature.arc);
-    const Share covered = ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length);
-    const double higher = std::max(1.0, (s.below + s.above) / feature.length);
-    const Share draws =
-        s.is_on_edge() ? Share{1, 0} : drawn(wider * higher * covered.value, wider * higher * covered.phi);
-    node.stirred = std::min(1.0, wider * covered.value);
-    node.draws = draws.value, node.draws_phi = draws.phi;
-    return;
-  }
+/// Of a share of the oil that passes, what of missing oil is drawn.
+Share drawn(double share, double share_phi) {
+  const double half = std::min(2 * share, 1.0);
+  return {half * half, share < 0.5 ? 4 * half * share_phi : 0};
+}
+
+// What is there of oil that passes a node's control volume, and of oil that it lacks (film.22, thermal.14).
+
+void stir(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
   const Share around = stirred_rectangle(feature, s);
   const double along = overlap_along(feature, s), higher = std::max(1.0, (s.below + s.above) / feature.length);
   const Share draws = drawn(around.value, around.phi);
   const double draws_along = s.is_on_edge() ? 1 : drawn(higher * along, 0).value;
   node.stirred = around.value * along;
   node.draws = draws.value * draws_along, node.draws_phi = draws.phi * draws_along;
+}
+
+void stir(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
+  const double wider = std::max(1.0, (s.back + s.ahead) / feature.arc);
+  const Share covered = ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length);
+  const double higher = std::max(1.0, (s.below + s.above) / feature.length);
+  const Share draws =
+      s.is_on_edge() ? Share{1, 0} : drawn(wider * higher * covered.value, wider * higher * covered.phi);
+  node.stirred = std::min(1.0, wider * covered.value);
+  node.draws = draws.value, node.draws_phi = draws.phi;
 }
 
 }  // namespace
@@ -185,14 +193,14 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
       const Surroundings s = surroundings(grid, geometry, i, j, d, geometry.z[j] - feature.z);
       if (std::abs(d) >= 0.5 * feature.arc + s.to_phi / s.R) break;
       if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
-      const Share held =
-          feature.shape == FeatureShape::ellipse ? held_ellipse(feature, s) : held_rectangle(feature, s, unit);
+      const Share share = std::visit([&](const auto& shape) { return held(shape, feature, s, unit); }, feature.shape);
       const double inwards =
           1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
-      if (held.value == 0) continue;
+      if (share.value == 0) continue;
       CoveredNode& node = nodes.emplace_back();
-      node = {.node = grid.index(i, j), .share = held.value, .share_phi = held.phi, .inwards = inwards};
-      stir(feature, within_film(s, grid, i, j), feature.shape == FeatureShape::ellipse, node);
+      node = {.node = grid.index(i, j), .share = share.value, .share_phi = share.phi, .inwards = inwards};
+      const Surroundings inside = within_film(s, grid, i, j);
+      std::visit([&](const auto& shape) { stir(shape, feature, inside, node); }, feature.shape);
       if (!travels) node.share_phi = node.draws_phi = 0;
     }
   }
@@ -207,11 +215,9 @@ void cover_cells(const FilmModel& model, const GridGeometry& geometry, const Sur
     const double d = geometry.from_to(middle, geometry.phi[i]);
     for (int j = 0; j < grid.n_z; ++j) {
       const Surroundings s = within_film(surroundings(grid, geometry, i, j, d, geometry.z[j] - feature.z), grid, i, j);
-      const Share covered = feature.shape == FeatureShape::ellipse
-                                ? ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length)
-                                : covered_rectangle(feature, s);
-      if (covered.value > 0)
-        nodes.push_back({.node = grid.index(i, j), .share = covered.value, .share_phi = travels ? covered.phi : 0});
+      const Share share = std::visit([&](const auto& shape) { return covered(shape, feature, s); }, feature.shape);
+      if (share.value > 0)
+        nodes.push_back({.node = grid.index(i, j), .share = share.value, .share_phi = travels ? share.phi : 0});
     }
   }
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <variant>
 
 #include "hersey/core/turn.h"
 
@@ -46,7 +48,8 @@ struct PocketRelief::Extent {
   double across = 0, along = 0;  ///< middle
   double half_across = 0, half_along = 0;
   double across_rate = 0, along_rate = 0;  ///< by which the middle moves with phi_journal
-  bool is_ellipse = false, in_journal = false;
+  FeatureShape shape;
+  bool in_journal = false;
   double depth = 0;
 };
 
@@ -56,14 +59,16 @@ double swept_area(const SurfaceFeature& pocket, double R, double phi, double low
   const double turned = std::remainder(end - start, turn), from = std::remainder(phi - pocket.phi - start, turn);
   const double first = std::min(from, from - turned), last = std::max(from, from - turned);
   const double sign = turned < 0 ? -1 : 1, half = 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
-  if (pocket.shape == FeatureShape::rectangle) {
+  if (std::holds_alternative<Rectangle>(pocket.shape)) {
     const double height = std::max(0.0, std::min(high, pocket.z + half_length) - std::max(low, pocket.z - half_length));
     return sign * R * height * overlap(first, last, half);
   }
   double sum = 0;
   over_gauss_points([&](double share, double place) {
     const double y = (low + place * (high - low) - pocket.z) / half_length;
-    if (std::abs(y) < 1) sum += share * overlap(first, last, half * std::sqrt(1 - y * y));
+    if (std::abs(y) >= 1) return;
+    const double reach = std::visit([y](const auto& shape) { return shape.reach(y); }, pocket.shape);
+    sum += share * overlap(first, last, half * reach);
   });
   return sign * R * (high - low) * sum;
 }
@@ -129,9 +134,8 @@ void PocketRelief::place_tubes(double phi_journal) {
         if (all_around && image != 0) continue;
         const double at = middle + image;
         if (at + half_arc <= phi - back || at - half_arc >= phi + step) continue;
-        const bool is_ellipse = pocket.shape == FeatureShape::ellipse;
-        around.push_back({pocket.z, at, half_length, half_arc, 0, rate, is_ellipse, turns, pocket.depth});
-        along.push_back({at, pocket.z, half_arc, half_length, rate, 0, is_ellipse, turns, pocket.depth});
+        around.push_back({pocket.z, at, half_length, half_arc, 0, rate, pocket.shape, turns, pocket.depth});
+        along.push_back({at, pocket.z, half_arc, half_length, rate, 0, pocket.shape, turns, pocket.depth});
       }
     }
     if (around.empty()) continue;
@@ -156,11 +160,12 @@ void PocketRelief::add_tube(std::size_t face, const std::vector<Extent>& extents
   if (near.empty()) return;
   PocketTube tube{.face = face, .first_strip = static_cast<int>(strips_.size())};
   std::vector<Border> borders{{across, 0}, {across + width, 0}};
-  bool has_ellipse = false;
+  bool all_straight = true;
   for (const Extent& e : near) {
     (e.in_journal ? tube.in_journal : tube.in_shell) = true;
-    has_ellipse = has_ellipse || e.is_ellipse;
-    if (e.is_ellipse) continue;
+    const bool is_straight = std::visit([](const auto& shape) { return shape.has_straight_ends; }, e.shape);
+    all_straight = all_straight && is_straight;
+    if (!is_straight) continue;
     for (const double at : {e.across - e.half_across, e.across + e.half_across}) {
       if (at > across && at < across + width) borders.push_back({at, e.across_rate});
     }
@@ -173,10 +178,10 @@ void PocketRelief::add_tube(std::size_t face, const std::vector<Extent>& extents
       add_strip(near, low.at + place * (high.at - low.at), low.rate + place * (high.rate - low.rate), part * share,
                 part * share_rate, along, length);
     };
-    if (has_ellipse) {
-      over_gauss_points(strip);
-    } else {
+    if (all_straight) {
       strip(1, 0.5);
+    } else {
+      over_gauss_points(strip);
     }
   }
   tube.strips = static_cast<int>(strips_.size()) - tube.first_strip;
@@ -194,12 +199,10 @@ void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, doubl
   for (const Extent& e : extents) {
     const double off = (y - e.across) / e.half_across;
     if (std::abs(off) >= 1) continue;
-    double reach = e.half_along, reach_rate = 0;
-    if (e.is_ellipse) {
-      const double root = std::sqrt(1 - off * off);
-      reach_rate = -e.half_along * off / root * (y_rate - e.across_rate) / e.half_across;
-      reach *= root;
-    }
+    const auto [share_of, slope] =
+        std::visit([off](const auto& shape) { return std::pair(shape.reach(off), shape.reach_slope(off)); }, e.shape);
+    const double reach = e.half_along * share_of;
+    const double reach_rate = e.half_along * slope * (y_rate - e.across_rate) / e.half_across;
     const auto clipped = [&](double at, double rate) {
       if (at <= along) return Border{along, 0};
       if (at >= along + length) return Border{along + length, 0};

@@ -13,7 +13,7 @@ constexpr int samples = 50;
 bool contains(const SurfaceFeature& feature, double phi, double z) {
   const double x = std::remainder(phi - feature.phi, 2 * std::numbers::pi) / (0.5 * feature.arc);
   const double y = (z - feature.z) / (0.5 * feature.length);
-  return feature.shape == FeatureShape::ellipse ? x * x + y * y < 1 : std::abs(x) < 1 && std::abs(y) < 1;
+  return std::visit([&](const auto& shape) { return shape.contains(x, y); }, feature.shape);
 }
 
 bool overlap(const SurfaceFeature& a, const SurfaceFeature& b) {

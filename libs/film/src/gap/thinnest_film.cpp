@@ -133,19 +133,24 @@ class Search {
   }
 
   void search_border(const SurfaceFeature& f, Thinnest& best) const {
-    const double half_arc = 0.5 * f.arc, half_length = 0.5 * f.length;
     for (int k = 0; k < border_places; ++k) {
       const double s = (k + 0.5) / border_places * 2 - 1;
-      if (f.shape == FeatureShape::ellipse) {
-        const double angle = std::numbers::pi * s;
-        try_place(f.phi + half_arc * std::cos(angle), f.z + half_length * std::sin(angle), best);
-        continue;
-      }
-      for (const double side : {-1.0, 1.0}) {
-        try_place(f.phi + s * half_arc, f.z + side * half_length, best);
-        if (f.arc < turn) try_place(f.phi + side * half_arc, f.z + s * half_length, best);
-      }
+      std::visit([&](const auto& shape) { try_border(shape, f, s, best); }, f.shape);
     }
+  }
+
+  /// Places on a border, s from -1 to 1.
+  void try_border(const Rectangle& /*shape*/, const SurfaceFeature& f, double s, Thinnest& best) const {
+    const double half_arc = 0.5 * f.arc, half_length = 0.5 * f.length;
+    for (const double side : {-1.0, 1.0}) {
+      try_place(f.phi + s * half_arc, f.z + side * half_length, best);
+      if (f.arc < turn) try_place(f.phi + side * half_arc, f.z + s * half_length, best);
+    }
+  }
+
+  void try_border(const Ellipse& /*shape*/, const SurfaceFeature& f, double s, Thinnest& best) const {
+    const double angle = std::numbers::pi * s;
+    try_place(f.phi + 0.5 * f.arc * std::cos(angle), f.z + 0.5 * f.length * std::sin(angle), best);
   }
 
   void try_place(double phi, double z, Thinnest& best) const {

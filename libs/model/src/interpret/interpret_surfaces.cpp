@@ -107,8 +107,8 @@ class SurfaceReader {
     feature.z = number_of(value, "z");
     feature.depth = number_of(value, "depth");
     const bool is_round = value.text == "hole", is_oval = value.text == "oval_hole";
-    feature.shape = is_round || is_oval ? film::FeatureShape::ellipse : film::FeatureShape::rectangle;
     if (is_round || is_oval) {
+      feature.shape = film::Ellipse{};
       feature.arc = number_of(value, is_round ? "diameter" : "around") / std::max(film_.R, 1e-12);
       feature.length = number_of(value, is_round ? "diameter" : "along");
     } else {

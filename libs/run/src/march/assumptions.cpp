@@ -54,13 +54,17 @@ std::string supply(const film::FilmModel& film) {
   return {};
 }
 
+/// What a feature is called. An outline without words here does not compile.
+struct WordsOfShape {
+  bool is_fed;
+  const char* operator()(const film::Rectangle& /*shape*/) const { return is_fed ? "groove" : "pocket"; }
+  const char* operator()(const film::Ellipse& /*shape*/) const { return "hole"; }
+};
+
 std::string described(const film::SurfaceFeature& feature) {
-  const bool is_hole = feature.shape == film::FeatureShape::ellipse;
   const std::string depth = feature.depth > 0 ? fmt::format(", {:.4g} um deep", 1e6 * feature.depth) : "";
   return fmt::format("{} in the {} at {:.4g} deg, z = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
-                     is_hole          ? "hole"
-                     : feature.is_fed ? "groove"
-                                      : "pocket",
+                     std::visit(WordsOfShape{feature.is_fed}, feature.shape),
                      feature.surface == film::Surface::shell ? "shell" : "journal",
                      feature.phi * 180 / std::numbers::pi, 1e3 * feature.z, feature.arc * 180 / std::numbers::pi,
                      1e3 * feature.length, depth, feature.is_fed ? "" : ", not fed");

@@ -1,20 +1,47 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 #include <string>
+#include <variant>
 
 namespace hersey::film {
 
 enum class Surface { shell, journal };
-enum class FeatureShape { rectangle, ellipse };
 
-/// A hole, groove or pocket in one of the surfaces: a rectangle or an ellipse in phi x z, seen in the frame of that
-/// surface. One in the journal travels over the grid with SurfaceMotion::phi_journal. Where it is fed the film has its
-/// pressure. Its depth steps down from the surface and is no part of the gap: without a feed it is film like any other,
-/// only thicker, with one it holds the pressure of the supply and only thins the shear.
+// Outlines of features in phi x z. Places x, y are relative: 0 in the middle, 1 at the end of half the extent. A new
+// outline is a struct like these and an alternative of FeatureShape; shares of control volumes that it covers
+// (feature_cover.cpp) and words for it (assumptions.cpp) do not compile without it.
+
+struct Rectangle {
+  static constexpr bool has_straight_ends = true;
+  /// Half its extent one way at a place `across` the other way, |across| < 1, over half of the whole.
+  [[nodiscard]] static double reach(double /*across*/) { return 1; }
+  /// Derivative of that.
+  [[nodiscard]] static double reach_slope(double /*across*/) { return 0; }
+  /// Whether a place lies within.
+  [[nodiscard]] static bool contains(double x, double y) { return std::abs(x) < 1 && std::abs(y) < 1; }
+};
+
+struct Ellipse {
+  static constexpr bool has_straight_ends = false;
+  /// As a rectangle's.
+  [[nodiscard]] static double reach(double across) { return std::sqrt(1 - across * across); }
+  /// Derivative of that.
+  [[nodiscard]] static double reach_slope(double across) { return -across / reach(across); }
+  /// Whether a place lies within.
+  [[nodiscard]] static bool contains(double x, double y) { return x * x + y * y < 1; }
+};
+
+using FeatureShape = std::variant<Rectangle, Ellipse>;
+
+/// A hole, groove or pocket in one of the surfaces: an outline in phi x z, seen in the frame of that surface. One in
+/// the journal travels over the grid with SurfaceMotion::phi_journal. Where it is fed the film has its pressure. Its
+/// depth steps down from the surface and is no part of the gap: without a feed it is film like any other, only thicker,
+/// with one it holds the pressure of the supply and only thins the shear.
 struct SurfaceFeature {
   std::string name;
-  FeatureShape shape = FeatureShape::rectangle;
+  FeatureShape shape = Rectangle{};
   Surface surface = Surface::shell;
   double phi = 0;                          ///< its middle [rad]
   double z = 0;                            ///< its middle [m]
@@ -24,6 +51,11 @@ struct SurfaceFeature {
   bool is_fed = true;                      ///< without it the pressure means nothing
   double depth = 0;                        ///< [m], >= 0
 };
+
+/// Whether its outline ends with straight borders.
+[[nodiscard]] inline bool has_straight_ends(const SurfaceFeature& feature) {
+  return std::visit([](const auto& shape) { return shape.has_straight_ends; }, feature.shape);
+}
 
 /// Whether a place seen in the frame of its surface [rad, m] lies within a feature.
 [[nodiscard]] bool contains(const SurfaceFeature& feature, double phi, double z);
