@@ -137,7 +137,7 @@ void FilmForce::report_contact() {
   const HotClearance hot = hot_clearance(model(), growth_->now(), thermal_shape_->now(), journal_shape_->now());
   if (hot.has_shape || growth_->now() != 0)
     domain_error_ += fmt::format("; its clearance of {:.4g} um is {:.4g} um at the temperatures of its walls",
-                                 1e6 * model().c, 1e6 * hot.smallest);
+                                 1e6 * clearance(model()), 1e6 * hot.smallest);
   if (model().asperities.model != film::AsperityModel::none) return;
   domain_error_ += model().compliance > 0 ? "; where no film pressure parts them, as at the edges, only `asperities` do"
                                           : "; smooth surfaces have nothing but the film between them: `asperities` "
@@ -270,7 +270,7 @@ void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, m
 // Of the pressures, and of those that the flows would build up which balance in a film without any.
 double FilmForce::summed_forces() const {
   const film::FilmModel& film = model();
-  const double slope = film.R / film.c, area = 2 * std::numbers::pi * film.R * film.L;
+  const double slope = film.R / clearance(film), area = 2 * std::numbers::pi * film.R * film.L;
   const double sliding = std::abs(surfaces_.u_shell + surfaces_.u_journal) / film.R;
   return reynolds_.normal_forces().value.lpNorm<1>() + 6 * film.lubricant.mu0 * sliding * slope * slope * area;
 }
@@ -420,7 +420,7 @@ std::string FilmForce::thermal_trouble(double closed) const {
   const auto celsius = [](double T) { return T - film::zero_celsius; };
   const HotClearance hot =
       hot_clearance(model(), growth_->target(), heat_->shell_opening_in_time(), journal_shape_by_temperature());
-  if (hot.smallest <= closed * model().c) return seizure_text(model(), hot, seen, gap_->position_text());
+  if (hot.smallest <= closed * clearance(model())) return seizure_text(model(), hot, seen, gap_->position_text());
   if (seen.T_max < hottest_trial) return {};
   return fmt::format("a thermal runaway: the hottest oil has {:.0f} degC, at {:.0f} deg, z = {:.3g} mm",
                      celsius(seen.T_max), seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
@@ -453,9 +453,9 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   if (journal_shape_->moves()) seen.power_of_growth -= journal_shape_->rate().dot(seen.film.normal_forces);
   if (thermal_shape_->now().size() > 0) seen.bore_growth = thermal_shape_->now().mean();
   if (journal_shape_->now().size() > 0) seen.journal_growth = journal_shape_->now().mean();
-  seen.clearance_of_bodies = model().c + growth_->now() + seen.bore_growth - seen.journal_growth;
+  seen.clearance_of_bodies = clearance(model(), growth_->now()) + seen.bore_growth - seen.journal_growth;
   seen.power_into_bodies += seen.power_of_growth;
-  seen.clearance = model().c + growth_->now();
+  seen.clearance = clearance(model(), growth_->now());
   seen.film_iterations = observed_iterations_;
   seen.exchanges = observed_exchanges_;
   return seen;
@@ -470,7 +470,7 @@ void FilmForce::show_oil(film::FilmObservables& film) const {
   film.storage_rate = oil_.flow_supply - oil_.flow_out() + oil_of_run_.step_error / observed_history_.dt;
   double scale =
       std::max({std::abs(oil_.flow_left), std::abs(oil_.flow_right), std::abs(oil_.flow_supply),
-                std::abs(film.storage_rate), std::abs(observed_surfaces_.u_journal) * model().c * model().L});
+                std::abs(film.storage_rate), std::abs(observed_surfaces_.u_journal) * clearance(model()) * model().L});
   if (oil_.flow_features.size() > 0) scale = std::max(scale, oil_.flow_features.cwiseAbs().maxCoeff());
   film.mass_balance_error = scale > 0 ? std::abs(oil_of_run_.step_error) / (scale * observed_history_.dt) : 0;
 }

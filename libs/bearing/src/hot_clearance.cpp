@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/core/turn.h"
 
 namespace hersey::bearing {
@@ -24,7 +25,7 @@ Eigen::VectorXd shares(const film::Grid& grid) {
 
 HotClearance hot_clearance(const film::FilmModel& model, double growth, const Eigen::VectorXd& shell,
                            const Eigen::VectorXd& journal) {
-  const double even = model.c + growth;
+  const double even = clearance(model, growth);
   if (shell.size() == 0 && journal.size() == 0) return {even, 0, false};
   const film::Grid& grid = model.grid;
   const Eigen::VectorXd share = shares(grid);
@@ -46,7 +47,7 @@ std::string seizure_text(const film::FilmModel& model, const HotClearance& hot, 
   return fmt::format(
       "a seizure: the clearance of {:.4g} um closes to {:.4g} um{} with the shell at {:.0f} degC and the journal at "
       "{:.0f} degC{}",
-      1e6 * model.c, 1e6 * hot.smallest, hot.has_shape ? fmt::format(" at z = {:.3g} mm", 1e3 * hot.z) : "",
+      1e6 * clearance(model), 1e6 * hot.smallest, hot.has_shape ? fmt::format(" at z = {:.3g} mm", 1e3 * hot.z) : "",
       celsius(seen.T_shell_wall), celsius(seen.T_journal_wall), place.empty() ? "" : " (" + place + ")");
 }
 

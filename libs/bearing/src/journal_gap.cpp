@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/bearing/journal_bearing.h"
 
 namespace hersey::bearing {
@@ -35,7 +36,7 @@ Eigen::Index acting_parameters(const film::FilmModel& model, bool journal_deform
 }  // namespace
 
 JournalGap::JournalGap(const film::FilmModel& model, bool journal_deforms)
-    : R_(model.R), L_(model.L), c_(model.c), surfaces_(model) {
+    : R_(model.R), L_(model.L), c_(clearance(model)), surfaces_(model) {
   parameters_ = Eigen::VectorXd::Zero(acting_parameters(model, journal_deforms));
   d_dX_ = d_dV_ = Jacobian::Zero(parameters_.size(), 6);
 }

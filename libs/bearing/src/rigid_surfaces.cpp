@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hersey/bearing/clearance.h"
+
 namespace hersey::bearing {
 
 RigidSurfaces::RigidSurfaces(const film::FilmModel& model) : model_(model), shape_(model) {
@@ -34,7 +36,7 @@ void RigidSurfaces::lay_directions() {
 }
 
 void RigidSurfaces::place(const ParameterVector& p, film::SurfaceMotion& motion) {
-  const double c = model_.c + growth_;
+  const double c = clearance(model_, growth_);
   motion.g = shape_.still().array() + c - (p[kEx] + p[kTx] * z_.array()) * cosine_.array() -
              (p[kEy] + p[kTy] * z_.array()) * sine_.array();
   motion.g_rate = growth_rate_ - (p[kExRate] + p[kTxRate] * z_.array()) * cosine_.array() -

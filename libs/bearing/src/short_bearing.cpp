@@ -48,7 +48,7 @@ double likely_temperature(const film::FilmModel& model, double T_supply, const O
   const film::Lubricant& oil = model.lubricant;
   if (!film::depends_on_temperature(oil.temperature_law)) return T_supply;
   const double U = model.R * std::abs(point.journal_speed - point.shell_speed);
-  const double carried = model.R * std::abs(point.entraining_speed()) * model.c * model.L;
+  const double carried = model.R * std::abs(point.entraining_speed()) * clearance(model) * model.L;
   const double mu_supply = film::viscosity_at(oil.temperature_law, T_supply);
   film::FilmModel at = model;
   double T = T_supply;
@@ -58,7 +58,7 @@ double likely_temperature(const film::FilmModel& model, double T_supply, const O
     const double e = point.load ? ocvirk_position(at, point).norm() : point.e.norm();
     const double epsilon = std::clamp(e / clearance(model, point), 0.1, 0.95);
     const double power =
-        at.lubricant.mu0 * U * U * turn * model.R * model.L / (model.c * std::sqrt(1 - epsilon * epsilon));
+        at.lubricant.mu0 * U * U * turn * model.R * model.L / (clearance(model) * std::sqrt(1 - epsilon * epsilon));
     const double rise = power / (2 * oil.density * oil.specific_heat * epsilon * carried);
     T += 0.5 * (T_supply + rise - T);
   }

@@ -32,7 +32,7 @@ EffectiveTemperature balance(const film::Lubricant& oil, const GlobalHeat& heat,
 SteadySummary seizure(const film::FilmModel& model, const OperatingPoint& at, double T) {
   SteadySummary summary;
   summary.message = fmt::format("a seizure: the clearance of {:.4g} um closes to {:.4g} um with oil of {:.0f} degC",
-                                1e6 * model.c, 1e6 * clearance(model, at), T - film::zero_celsius);
+                                1e6 * clearance(model), 1e6 * clearance(model, at), T - film::zero_celsius);
   return summary;
 }
 
@@ -69,7 +69,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     const OperatingPoint at =
         heat.expansion ? with_growth(point, model, heat.expansion->growth(model.R, from + rise)) : point;
     const ParameterVector place = parameters_of(model, at, at.load ? Eigen::Vector2d::Zero() : at.e);
-    if (clearance(model, at) <= seized * model.c || smallest_gap(model, place, at.growth) <= 0)
+    if (clearance(model, at) <= seized * clearance(model) || smallest_gap(model, place, at.growth) <= 0)
       return seizure(model, at, from + rise);
     summary = solve_steady(model, at, next, state);
     linearisations += summary.iterations;

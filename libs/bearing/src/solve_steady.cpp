@@ -9,7 +9,7 @@ namespace hersey::bearing {
 SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
                            SteadyState& state) {
   HERSEY_REQUIRE(!point.load || point.load->norm() > 0, "a load that is not zero");
-  HERSEY_REQUIRE(point.film_speed(model.c) > 0 || model.asperities.model != film::AsperityModel::none,
+  HERSEY_REQUIRE(point.film_speed(clearance(model)) > 0 || model.asperities.model != film::AsperityModel::none,
                  "speeds that move oil in the gap, or asperities");
   const ParameterVector first = parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e);
   const double gap = smallest_gap(model, first, point.growth);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 
@@ -82,7 +83,7 @@ std::vector<film::MotionDirection> SteadyDerivative::directions(const RigidSurfa
   std::vector<film::MotionDirection> result;
   result.reserve(kDirections.size());
   for (const int parameter : kDirections) result.push_back(surfaces.direction(parameter));
-  if (model.supply.kind == film::SupplyKind::widest_gap && e.norm() > kCentred * model.c) {
+  if (model.supply.kind == film::SupplyKind::widest_gap && e.norm() > kCentred * clearance(model)) {
     result[0].phi_supply = -e.y() / e.squaredNorm();
     result[1].phi_supply = e.x() / e.squaredNorm();
   }

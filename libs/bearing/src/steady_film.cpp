@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 #include "hersey/film/observables.h"
@@ -352,7 +353,7 @@ int SteadyFilm::linearise_near(const Eigen::Vector2d& e, VectorXd& x) {
 
 double SteadyFilm::relative_residual() const {
   if (!deforms()) return reynolds_.relative_residual();
-  const double off = (all_openings_ * r_s_).cwiseAbs().maxCoeff() / model_.c;
+  const double off = (all_openings_ * r_s_).cwiseAbs().maxCoeff() / clearance(model_);
   return std::max(reynolds_.relative_residual(), off);
 }
 

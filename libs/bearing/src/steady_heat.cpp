@@ -88,7 +88,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     Eigen::VectorXd shell = path.heat().shell_opening();
     Eigen::VectorXd journal = film::around(model.grid, path.heat().journal_growth());
     const HotClearance hot = hot_clearance(model, path.growth(), shell, journal);
-    const bool is_open = hot.smallest > seized * model.c;
+    const bool is_open = hot.smallest > seized * clearance(model);
     if (is_open && hot.has_shape && hot.smallest < kLeastLeft * clearance_before && path.step_back()) continue;
     summary.set_solved(false);
     if (is_open) {

@@ -119,7 +119,7 @@ bool SteadySearch::is_settled() {
 }
 
 void SteadySearch::set_growth(double growth) {
-  e_ *= (model_.c + growth) / clearance();
+  e_ *= bearing::clearance(model_, growth) / clearance();
   point_ = with_growth(point_, model_, growth);
 }
 
@@ -169,7 +169,8 @@ SteadyState SteadySearch::state() {
 
 bool SteadySearch::bears_nothing() {
   const film::FilmFields fields = film::film_fields(model_, film_.surfaces(e_, x_), film_.film_of(x_));
-  const double scale = model_.lubricant.mu0 * point_.film_speed(model_.c) * std::pow(model_.R / model_.c, 2);
+  const double scale = model_.lubricant.mu0 * point_.film_speed(bearing::clearance(model_)) *
+                       std::pow(model_.R / bearing::clearance(model_), 2);
   return fields.p.maxCoeff() - fields.p.minCoeff() <= 1e-9 * scale &&
          model_.asperities.model == film::AsperityModel::none;
 }

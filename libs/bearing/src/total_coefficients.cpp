@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hersey/bearing/clearance.h"
+
 namespace hersey::bearing {
 namespace {
 
@@ -23,8 +25,8 @@ SteadySummary find_total_coefficients(const film::FilmModel& model, const Steady
   OperatingPoint here = state.point;
   here.load.reset();
   here.e = state.e;
-  const double step = kStep * std::max(state.film.h_min, 0.01 * model.c);
-  const double frequency = here.film_speed(model.c);
+  const double step = kStep * std::max(state.film.h_min, 0.01 * clearance(model));
+  const double frequency = here.film_speed(clearance(model));
   DynamicCoefficients found;
   SteadySummary summary;
   const auto slope = [&](double& varied, OperatingPoint& point, double by) -> Eigen::Vector4d {

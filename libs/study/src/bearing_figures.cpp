@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/study/bearing_study.h"
 
 namespace hersey::study {
@@ -127,7 +128,7 @@ Group operating_point() {
            {"clearance_cold",
             "radial clearance as given, cold",
             kMicrometre,
-            [](const Solution& s) { return s.model.c; },
+            [](const Solution& s) { return bearing::clearance(s.model); },
             {.only = [](const Solution& s) { return s.expands; }}},
            {"clearance_hot",
             "radial clearance at temperature, hot",

@@ -17,6 +17,7 @@
 #include <utility>
 #include <variant>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/bearing/total_coefficients.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
@@ -387,7 +388,8 @@ bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
   if (given.load) {
     point.load = polar(*given.load, given.load_angle);
   } else {
-    point.e = polar(*given.eccentricity_ratio * bearing.film.c, given.eccentricity_angle);  // of the given clearance
+    point.e = polar(*given.eccentricity_ratio * bearing::clearance(bearing.film),
+                    given.eccentricity_angle);  // of the given clearance
     point.e_rate = polar(given.radial_velocity, given.eccentricity_angle);
   }
   return with_growth(point, bearing.film, bearing.growth);

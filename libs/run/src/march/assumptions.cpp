@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/film/gap_shape.h"
 
 namespace hersey::run {
@@ -264,7 +265,8 @@ std::string expansion(const model::Bearing& bearing) {
   const film::ThermalExpansion& walls = bearing.expansion->material;
   std::string text = fmt::format(" at {:.4g} degC; shell {:.4g}/K, journal {:.4g}/K", celsius(walls.T_reference),
                                  walls.shell, walls.journal);
-  if (bearing.growth != 0) text += fmt::format(": {:.4g} um hot", 1e6 * (bearing.film.c + bearing.growth));
+  if (bearing.growth != 0)
+    text += fmt::format(": {:.4g} um hot", 1e6 * bearing::clearance(bearing.film, bearing.growth));
   return text + "; ratios are over the hot clearance";
 }
 
@@ -314,8 +316,8 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   row("supply", supply(film));
   for (const film::SurfaceFeature& feature : film.features)
     row(("feature " + feature.name).c_str(), described(feature));
-  row("clearance",
-      fmt::format("{:.4g} um radial ({:.4g} um diametral){}", 1e6 * film.c, 2e6 * film.c, expansion(bearing)));
+  row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral){}", 1e6 * bearing::clearance(film),
+                               2e6 * bearing::clearance(film), expansion(bearing)));
   if (!film.profiles.empty()) {
     const Eigen::VectorXd opening = film::gap_opening(film);
     row("shape", fmt::format("{} profile(s): the gap differs from that of cylinders by {:.4g} to {:.4g} um",

@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "hersey/bearing/clearance.h"
+
 namespace hersey::run {
 namespace {
 
@@ -51,7 +53,7 @@ class AxisCheck {
   void look_at(const model::Bearing& bearing, const mbd::MechanismSpec::Force& force, std::vector<Fault>& warnings) {
     const std::size_t shell = RigidGroups::body_of(spec_, force.a), journal = RigidGroups::body_of(spec_, force.b);
     const Vector3 axis = in_ground(force.a, Vector3::UnitZ());
-    const double most = 2 * bearing.film.c / bearing.film.L;  // the tilt by which the surfaces touch
+    const double most = 2 * bearing::clearance(bearing.film) / bearing.film.L;  // the tilt by which the surfaces touch
     for (const mbd::JointSpec& joint : spec_.joints) {
       if (!mbd::turns_about_one_axis(joint.type) || !joins(joint, shell, journal)) continue;
       const double angle = std::acos(std::min(1.0, std::abs(in_ground(joint.inboard, joint.axis).dot(axis))));

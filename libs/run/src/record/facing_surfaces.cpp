@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/fem/surface_radii.h"
 
 namespace hersey::run {
@@ -68,7 +69,7 @@ LeastClearance least_clearance(const model::Bearing& bearing, const std::optiona
       const double phi = SurfaceRadii::phi_of(i), z = ((k + 0.5) / SurfaceRadii::along - 0.5) * film.L;
       const double of_shell = shell ? shell->at(phi, z) : 0;
       // The mesh of a journal has its own radius, less than the bore's by the clearance.
-      const double of_journal = journal ? journal->at(phi - turned, z - X_AB.r.z()) + film.c : 0;
+      const double of_journal = journal ? journal->at(phi - turned, z - X_AB.r.z()) + bearing::clearance(film) : 0;
       const double clearance = interpolated(gap, film, phi, z) + of_shell - of_journal;
       if (clearance < 0) least.negative += 1.0 / (SurfaceRadii::around * SurfaceRadii::along);
       if (clearance < least.value) least = {clearance, phi, z, of_shell, of_journal, least.negative};
@@ -91,7 +92,7 @@ Fault fault_of(const model::Model& model, const model::Bearing& bearing, const L
   found += fmt::format(" (negative on {:.2g} % of the film): ", 100 * least.negative);
   if (bearing.shell_surface) found += side_text("shell", R, least.shell);
   if (bearing.shell_surface && bearing.journal_surface) found += ", ";
-  if (bearing.journal_surface) found += side_text("journal", R - bearing.film.c, least.journal);
+  if (bearing.journal_surface) found += side_text("journal", R - bearing::clearance(bearing.film), least.journal);
   const bool blames_shell = bearing.shell_surface && (!bearing.journal_surface || -least.shell > least.journal);
   const std::string path = "bearings." + bearing.name + (blames_shell ? ".shell_surface" : ".journal_surface");
   return {model.position_of(path), path, std::move(found), "meshes with a gap between them everywhere at the start",
@@ -124,7 +125,7 @@ std::string SurfaceOffset::text() const {
 }
 
 SurfaceOffset offset_of(const model::Model& model, const model::Bearing& bearing, bool shell) {
-  const double c = bearing.film.c;
+  const double c = bearing::clearance(bearing.film);
   SurfaceOffset offset{.nominal = shell ? bearing.film.R : bearing.film.R - c};
   if (const auto radii = radii_of(model, bearing, shell)) offset.mean = bearing.film.R + radii->mean - offset.nominal;
   offset.share = std::abs(offset.mean) / c;
@@ -141,7 +142,7 @@ void require_clearance(const model::Model& model, model::Machine& machine, const
     require_facing_widths(model, bearing, X_AB.r.z());
     if (bearing.film.compliance > 0) continue;  // a liner may be pushed in
     const LeastClearance least = least_clearance(bearing, shell, journal, built.bearing->fields().h, X_AB);
-    if (least.value < -round_off * bearing.film.c) throw InputError(fault_of(model, bearing, least));
+    if (least.value < -round_off * bearing::clearance(bearing.film)) throw InputError(fault_of(model, bearing, least));
   }
 }
 

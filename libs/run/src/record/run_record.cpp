@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/model/plausibility.h"
 #include "march/coarser_run.h"
 
@@ -68,7 +69,7 @@ std::string RunRecord::thin_films() const {
   for (std::size_t i = 0; i < extremes_.size(); ++i) {
     const film::FilmModel& film = model_.bearings[i].film;
     const double h = extremes_[i].last_thickness();
-    if (h > thin * film.c || film.asperities.model != film::AsperityModel::none) continue;
+    if (h > thin * bearing::clearance(film) || film.asperities.model != film::AsperityModel::none) continue;
     text += fmt::format(
         "; the film of bearing {} is {:.3g} um at its thinnest (eccentricity ratio {:.3f}), and nothing else parts its "
         "smooth surfaces: `asperities` let them touch{}",

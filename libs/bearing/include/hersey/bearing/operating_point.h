@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_heat.h"
@@ -38,7 +39,7 @@ struct OperatingPoint {
 
 /// The radial clearance that is there, at the temperatures of its walls [m].
 [[nodiscard]] inline double clearance(const film::FilmModel& model, const OperatingPoint& point) {
-  return model.c + point.growth;
+  return clearance(model, point.growth);
 }
 
 /// The same point between walls that have grown otherwise: a position that is given keeps its eccentricity ratio.
