@@ -37,7 +37,7 @@ endif()
 # neighbours along, so that who works on the code builds one by one.
 if(HERSEY_UNITY)
   set(CMAKE_UNITY_BUILD ON)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 24)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(hersey_options INTERFACE -Wno-subobject-linkage)  # what is in no header has one user still
   endif()

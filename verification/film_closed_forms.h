@@ -58,4 +58,39 @@ inline double squeeze_plates(double L_over_B) {
   return 1 - 192 / (std::pow(pi, 5) * L_over_B) * series;
 }
 
+/// A plane slider of infinite width, gap h2 (1 + K (1 - x/B)), the flat surface sliding towards the narrow end with
+/// oil at one pressure at both (Reynolds 1886; Lamb, Hydrodynamics, 6th ed., art. 330a).
+struct LongSlider {
+  double K = 0;  ///< [-], > 0
+
+  /// Load over 6 mu U (B/h2)^2, per width.
+  [[nodiscard]] double load() const { return (std::log1p(K) - 2 * K / (2 + K)) / (K * K); }
+  /// Friction on the surface that slides, over mu U B/h2, per width.
+  [[nodiscard]] double friction() const { return 4 * std::log1p(K) / K - 6 / (2 + K); }
+  /// Of pressure from the wide end, over B.
+  [[nodiscard]] double centre() const {
+    const double a = 1 + K, log_a = std::log1p(K);
+    return (a * (2 + a) * log_a - 2.5 * K * K - 3 * K) / (K * ((2 + K) * log_a - 2 * K));
+  }
+};
+
+/// A parallel gap between discs, from the radius r1 to r2 (texts on hydrostatic bearings; Hamrock, Schmid and Jacobson,
+/// Fundamentals of Fluid Film Lubrication).
+struct ParallelAnnulus {
+  double r1 = 0, r2 = 0;  ///< [m]
+
+  [[nodiscard]] double log_ratio() const { return std::log(r2 / r1); }
+  /// Flow from the inner to the outer radius over h^3 p/mu, p the inner pressure.
+  [[nodiscard]] double flow() const { return pi / (6 * log_ratio()); }
+  /// Load of that pressure, over itself [m^2].
+  [[nodiscard]] double area() const { return pi * ((r2 * r2 - r1 * r1) / (2 * log_ratio()) - r1 * r1); }
+  /// Torque of one that turns over mu omega/h [m^4].
+  [[nodiscard]] double torque() const { return pi * (std::pow(r2, 4) - std::pow(r1, 4)) / 2; }
+  /// Load of two that approach at the speed V, over mu V/h^3 [m^4].
+  [[nodiscard]] double squeeze() const {
+    const double outer = r2 * r2, inner = r1 * r1;
+    return 1.5 * pi * (outer * outer - inner * inner - std::pow(outer - inner, 2) / log_ratio());
+  }
+};
+
 }  // namespace hersey::verification

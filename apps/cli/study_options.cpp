@@ -57,10 +57,10 @@ void add_study_task(CLI::App& app, Commands& commands) {
 }
 
 void add_study_page(CLI::App& app, Commands& commands) {
-  struct Paths {
+  struct StudyPaths {
     std::filesystem::path data, page;
   };
-  const auto paths = std::make_shared<Paths>();
+  const auto paths = std::make_shared<StudyPaths>();
   CLI::App* command = app.add_subcommand("study-page", "Write the page of a study from its data")->group("");
   command->add_option("DATA", paths->data, "JSON")->required();
   command->add_option("PAGE", paths->page, "HTML file to write")->required();

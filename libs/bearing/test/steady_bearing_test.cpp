@@ -394,7 +394,7 @@ TEST_CASE("LoadBeyondTheForceOfASupply_IsFoundFurtherOut") {
 
 // Weibull: Barus' oil between rigid surfaces has no film where alpha times the isoviscous pressure reaches 1.
 TEST_CASE("LoadBeyondWeibullsLimit_IsToldWithWhatTheFilmBears") {
-  film::FilmModel model = flooded_film(60, 13);
+  film::FilmModel model = flooded_film(36, 9);
   model.lubricant.viscosity_law = film::Barus{1e-7};
   SteadyState state;
   const SteadySummary summary = solve_steady(model, under_load(1e5, 0.3, 100), {}, state);

@@ -9,7 +9,7 @@
 namespace hersey {
 namespace {
 
-constexpr int kDeepest = 100;  // parentheses and signs inside each other
+constexpr int kDeepestFormula = 100;  // parentheses and signs inside each other
 constexpr const char* kExpected = "numbers with units, + - * / ^ and parentheses";
 
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
@@ -172,7 +172,7 @@ class Formula {
   class Level {
    public:
     explicit Level(Formula& formula) : depth_(formula.depth_) {
-      if (++depth_ > kDeepest) {
+      if (++depth_ > kDeepestFormula) {
         --depth_;
         formula.fail();
       }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "film_cases.h"
+#include "film_closed_forms.h"
 #include "hersey/film/film_heat.h"
 #include "relative.h"
 
@@ -45,23 +46,21 @@ SurfaceMotion sliding(const FilmModel& m, Gap&& gap) {
 
 // Reynolds' slider at its optimum inclination, Lamb's closed forms: load, friction on the pad, centre of pressure.
 TEST_CASE("PlanePad_MeetsTheClosedFormsWithOrderTwo") {
-  const double K = 1.18870, a = 1 + K, log_a = std::log(a);
-  const double load =
-      6 * viscosity * speed * std::pow(length / outlet, 2) * (log_a - 2 * K / (2 + K)) / (K * K) * width;
-  // The runner's, and along the plane, where no slope bears a part of the load.
-  const double on_runner = viscosity * speed * length / outlet * width * (4 * log_a / K - 6 / (2 + K));
-  const double friction = on_runner - load * K * outlet / length;
-  const double centre = (a * (2 + a) * log_a - 2.5 * K * K - 3 * K) / (K * ((2 + K) * log_a - 2 * K));
+  const verification::LongSlider exact{.K = 1.18870};
+  const double load = 6 * viscosity * speed * std::pow(length / outlet, 2) * exact.load() * width;
+  const double on_runner = viscosity * speed * length / outlet * width * exact.friction();
+  // Along the plane, where no slope bears a part of the load.
+  const double friction = on_runner - load * exact.K * outlet / length;
   std::array<double, 2> load_error{}, friction_error{}, centre_error{};
   for (int k = 0; k < 2; ++k) {
     const FilmModel m = pad(k == 0 ? 41 : 81);
-    const SurfaceMotion motion = sliding(m, [&](double y, double) { return outlet * (1 + K * (1 - y)); });
+    const SurfaceMotion motion = sliding(m, [&](double y, double) { return outlet * (1 + exact.K * (1 - y)); });
     const SolvedFilm film = solve_cold(m, motion, {0, 0});
     REQUIRE(film.summary.solved());
     CHECK(film.observed.mass_balance_error < 1e-10);  // the solver's
     load_error[k] = film.wrench[3] / load - 1;
     friction_error[k] = film.wrench[4] / friction - 1;
-    centre_error[k] = -film.wrench[2] / film.wrench[3] / length / centre - 1;
+    centre_error[k] = -film.wrench[2] / film.wrench[3] / length / exact.centre() - 1;
     // What it takes to pull the runner goes into the film.
     CHECK(film.observed.power_taken() == relative(speed * on_runner).epsilon(2e-3));
   }
@@ -77,13 +76,11 @@ FilmModel ring(int n_phi, int n_z) {
   return m;
 }
 
-constexpr double inner = 0.03, outer = 0.07;
+constexpr verification::ParallelAnnulus discs{.r1 = 0.03, .r2 = 0.07};
 
 // Oil from the middle of a hydrostatic bearing: Q = pi h^3 dp/(6 mu ln(r2/r1)), and what pushes the runner up.
 TEST_CASE("HydrostaticAnnulus_MeetsTheClosedFormWithOrderTwo") {
-  const double p = 2e6, log_ratio = std::log(outer / inner);
-  const double flow = pi * std::pow(outlet, 3) * p / (6 * viscosity * log_ratio);
-  const double load = pi * p * ((outer * outer - inner * inner) / (2 * log_ratio) - inner * inner);
+  const double p = 2e6, flow = discs.flow() * std::pow(outlet, 3) * p / viscosity, load = discs.area() * p;
   std::array<double, 2> flow_error{}, load_error{};
   for (int k = 0; k < 2; ++k) {
     FilmModel m = ring(24, k == 0 ? 11 : 21);
@@ -108,7 +105,7 @@ TEST_CASE("TurningAnnulus_DragsWithTheRadius") {
   const double omega = speed / m.R;
   const SolvedFilm film = solve_cold(m, sliding(m, [](double, double) { return outlet; }), {0, 0});
   REQUIRE(film.summary.solved());
-  const double torque = pi * viscosity * omega * (std::pow(outer, 4) - std::pow(inner, 4)) / (2 * outlet);
+  const double torque = discs.torque() * viscosity * omega / outlet;
   // Weights are exact for parabolas; r^3 costs their error of fourth order.
   CHECK(film.wrench[2] == relative(torque).epsilon(2e-5));
   CHECK(film.observed.torque_journal == relative(-torque).epsilon(2e-5));
@@ -117,9 +114,7 @@ TEST_CASE("TurningAnnulus_DragsWithTheRadius") {
 
 // Two discs approach: W = (3 pi mu V/(2 h^3)) (r2^4 - r1^4 - (r2^2 - r1^2)^2/ln(r2/r1)).
 TEST_CASE("SqueezedAnnulus_MeetsTheClosedFormWithOrderTwo") {
-  const double V = 0.01, r2 = outer * outer, r1 = inner * inner;
-  const double load = 1.5 * pi * viscosity * V / std::pow(outlet, 3) *
-                      (r2 * r2 - r1 * r1 - std::pow(r2 - r1, 2) / std::log(outer / inner));
+  const double V = 0.01, load = discs.squeeze() * viscosity * V / std::pow(outlet, 3);
   std::array<double, 2> error{};
   for (int k = 0; k < 2; ++k) {
     const FilmModel m = ring(24, k == 0 ? 11 : 21);

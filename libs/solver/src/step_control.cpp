@@ -11,12 +11,12 @@ namespace {
 constexpr double kAim = 0.5;            // share of the tolerance aimed at
 constexpr double kLargestGrowth = 1.3;  // per step
 constexpr double kLargestCut = 0.2;
-constexpr double kOrder = 3;             // of the local error
-constexpr double kReach = 8;             // steps over which an error's present change counts as an error
-constexpr double kLargestTrend = 2;      // by which a step's error factor may be thought to change to the next
-constexpr double kFinestCut = 64;        // an instant this many parts of a step away from its end is reached in parts
-constexpr double kRoundOff = 1e-9;       // of times
-constexpr double kSmallestError = 1e-6;  // a step without error says nothing about the next
+constexpr double kOrder = 3;              // of the local error
+constexpr double kReach = 8;              // steps over which an error's present change counts as an error
+constexpr double kLargestTrend = 2;       // by which a step's error factor may be thought to change to the next
+constexpr double kFinestCut = 64;         // an instant this many parts of a step away from its end is reached in parts
+constexpr double kRoundOffOfTime = 1e-9;  // of times
+constexpr double kSmallestError = 1e-6;   // a step without error says nothing about the next
 
 /// A change that goes on as the one before it did: nothing where they are of opposite signs, as those of noise are.
 double lasting(double before, double now) {
@@ -33,16 +33,16 @@ StepControl::StepControl(const StepControlOptions& options, double first)
 
 /// The largest unit/2^k that is not above `most`.
 double StepControl::part_of_unit(double most) const {
-  return options_.unit * std::exp2(std::floor(std::log2(most / options_.unit * (1 + kRoundOff))));
+  return options_.unit * std::exp2(std::floor(std::log2(most / options_.unit * (1 + kRoundOffOfTime))));
 }
 
 double StepControl::proposed(double remaining) const {
   if (options_.unit > 0) {
     const double part = part_of_unit(std::min(dt_, remaining));
     const double parts = remaining / part * kFinestCut;
-    if (part >= options_.smallest && std::abs(parts - std::round(parts)) < kRoundOff * parts) return part;
+    if (part >= options_.smallest && std::abs(parts - std::round(parts)) < kRoundOffOfTime * parts) return part;
   }
-  return remaining / std::max(1.0, std::ceil(remaining / dt_ * (1 - kRoundOff)));
+  return remaining / std::max(1.0, std::ceil(remaining / dt_ * (1 - kRoundOffOfTime)));
 }
 
 /// Theory manual eq. (integrator.14): the step with which the next error would be the one aimed at.
@@ -63,7 +63,7 @@ double StepControl::wanted(double dt, const Eigen::VectorXd& errors) {
 
 /// To double a step only where the doubled one would still meet the aim.
 void StepControl::accept_part(double dt, double wanted) {
-  const bool was_cut = dt < part_of_unit(dt_) * (1 - kRoundOff);
+  const bool was_cut = dt < part_of_unit(dt_) * (1 - kRoundOffOfTime);
   if (wanted < dt)
     dt_ = std::max(wanted, kLargestCut * dt);
   else if (!was_cut)

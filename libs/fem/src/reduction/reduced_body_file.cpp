@@ -54,17 +54,18 @@ Eigen::MatrixXd positions(const std::vector<Vector3>& nodes) {
   return result;
 }
 
-void require(bool condition, const std::string& what) {
+void require_content(bool condition, const std::string& what) {
   if (!condition) throw std::runtime_error(what);
 }
 
 Eigen::MatrixXd symmetric(const Hdf5File& file, const char* name, Eigen::Index size) {
   Eigen::MatrixXd values = file.read_matrix(name);
-  require(values.rows() == size && values.cols() == size,
-          fmt::format("data set '{}' is {} x {}, but Phi has {} columns", name, values.rows(), values.cols(), size));
-  require(values.allFinite(), fmt::format("data set '{}' has a number that is not finite", name));
-  require((values - values.transpose()).cwiseAbs().maxCoeff() <= kSymmetric * values.cwiseAbs().maxCoeff(),
-          fmt::format("data set '{}' is not symmetric", name));
+  require_content(
+      values.rows() == size && values.cols() == size,
+      fmt::format("data set '{}' is {} x {}, but Phi has {} columns", name, values.rows(), values.cols(), size));
+  require_content(values.allFinite(), fmt::format("data set '{}' has a number that is not finite", name));
+  require_content((values - values.transpose()).cwiseAbs().maxCoeff() <= kSymmetric * values.cwiseAbs().maxCoeff(),
+                  fmt::format("data set '{}' is not symmetric", name));
   return values;
 }
 
@@ -72,38 +73,38 @@ Eigen::MatrixXd symmetric(const Hdf5File& file, const char* name, Eigen::Index s
 void require_no_negative_energy(const Eigen::MatrixXd& values, const char* name) {
   const Eigen::VectorXd diagonal = values.diagonal();
   const double largest = diagonal.maxCoeff();
-  require(diagonal.minCoeff() >= -kDefinite * largest && largest > 0,
-          fmt::format("data set '{}' has a diagonal that is negative or nothing at all", name));
+  require_content(diagonal.minCoeff() >= -kDefinite * largest && largest > 0,
+                  fmt::format("data set '{}' has a diagonal that is negative or nothing at all", name));
   const Eigen::VectorXd scale = diagonal.cwiseMax(kDefinite * largest).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * (0.5 * (values + values.transpose())) * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
   const bool is_definite = solver.info() == Eigen::Success &&
                            solver.eigenvalues()[0] >= -kDefinite * solver.eigenvalues()[values.rows() - 1];
-  require(is_definite, fmt::format("data set '{}' gives some motion a negative energy", name));
+  require_content(is_definite, fmt::format("data set '{}' gives some motion a negative energy", name));
 }
 
 void require_finite(const std::vector<double>& values, const std::string& what) {
   const bool all = std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-  require(all, fmt::format("{} has a number that is not finite", what));
+  require_content(all, fmt::format("{} has a number that is not finite", what));
 }
 
 Eigen::SparseMatrix<double> read_mass(const Hdf5File& file, Eigen::Index nodes) {
   const std::vector<long long> rows = file.read_integers("mass/rows"), columns = file.read_integers("mass/columns");
   const std::vector<double> values = file.read_numbers("mass/values");
-  require(rows.size() == values.size() && columns.size() == values.size(),
-          "data sets 'mass/rows', 'mass/columns' and 'mass/values' differ in length");
+  require_content(rows.size() == values.size() && columns.size() == values.size(),
+                  "data sets 'mass/rows', 'mass/columns' and 'mass/values' differ in length");
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     const bool is_inside = rows[k] >= 0 && rows[k] < nodes && columns[k] >= 0 && columns[k] < nodes;
-    require(is_inside && std::isfinite(values[k]), fmt::format("'mass' has an impossible entry, place {}", k));
+    require_content(is_inside && std::isfinite(values[k]), fmt::format("'mass' has an impossible entry, place {}", k));
     entries.emplace_back(static_cast<int>(rows[k]), static_cast<int>(columns[k]), values[k]);
   }
   Eigen::SparseMatrix<double> m(nodes, nodes);
   m.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SparseMatrix<double> transposed = m.transpose();
-  require((m - transposed).norm() <= kSymmetric * m.norm(), "'mass' is not symmetric");
-  require(m.sum() > 0, "'mass' adds up to nothing");
+  require_content((m - transposed).norm() <= kSymmetric * m.norm(), "'mass' is not symmetric");
+  require_content(m.sum() > 0, "'mass' adds up to nothing");
   return m;
 }
 
@@ -111,21 +112,23 @@ InterfaceFrame read_frame(const Hdf5File& file, std::size_t place, std::size_t n
   InterfaceFrame frame;
   frame.name = file.read_text(frame_path(place, "name"));
   const std::string connection = file.read_text(frame_path(place, "connection"));
-  require(connection == "rigid" || connection == "average",
-          fmt::format("frame '{}' has the connection '{}': rigid or average is allowed", frame.name, connection));
+  require_content(
+      connection == "rigid" || connection == "average",
+      fmt::format("frame '{}' has the connection '{}': rigid or average is allowed", frame.name, connection));
   frame.connection = connection == "rigid" ? Connection::rigid : Connection::average;
   const std::vector<double> origin = file.read_numbers(frame_path(place, "origin"));
-  require(origin.size() == 3, fmt::format("the origin of frame '{}' has no three numbers", frame.name));
+  require_content(origin.size() == 3, fmt::format("the origin of frame '{}' has no three numbers", frame.name));
   require_finite(origin, fmt::format("the origin of frame '{}'", frame.name));
   frame.origin = Vector3(origin[0], origin[1], origin[2]);
   for (const long long node : file.read_integers(frame_path(place, "nodes"))) {
-    require(node >= 0 && static_cast<std::size_t>(node) < nodes,
-            fmt::format("frame '{}' has node {}, but there are {}, counted from 0", frame.name, node, nodes));
+    require_content(node >= 0 && static_cast<std::size_t>(node) < nodes,
+                    fmt::format("frame '{}' has node {}, but there are {}, counted from 0", frame.name, node, nodes));
     frame.nodes.push_back(static_cast<int>(node));
   }
   if (file.has(frame_path(place, "weights"))) frame.weights = file.read_numbers(frame_path(place, "weights"));
-  require(frame.weights.empty() || frame.weights.size() == frame.nodes.size(),
-          fmt::format("frame '{}' has {} weights for {} nodes", frame.name, frame.weights.size(), frame.nodes.size()));
+  require_content(
+      frame.weights.empty() || frame.weights.size() == frame.nodes.size(),
+      fmt::format("frame '{}' has {} weights for {} nodes", frame.name, frame.weights.size(), frame.nodes.size()));
   require_finite(frame.weights, fmt::format("a weight of frame '{}'", frame.name));
   return frame;
 }
@@ -137,33 +140,35 @@ Eigen::VectorXd read_vector(const Hdf5File& file, const char* name) {
 }
 
 ReducedBody read_body(const Hdf5File& file) {
-  require(file.has("format") && file.read_text("format") == kFormat,
-          fmt::format("data set 'format' is not '{}'", kFormat));
+  require_content(file.has("format") && file.read_text("format") == kFormat,
+                  fmt::format("data set 'format' is not '{}'", kFormat));
   ReducedBody body;
   const Eigen::MatrixXd nodes = file.read_matrix("nodes");
-  require(nodes.cols() == 3 && nodes.rows() > 0 && nodes.allFinite(),
-          "data set 'nodes' is not (nodes, 3) finite numbers");
+  require_content(nodes.cols() == 3 && nodes.rows() > 0 && nodes.allFinite(),
+                  "data set 'nodes' is not (nodes, 3) finite numbers");
   for (Eigen::Index n = 0; n < nodes.rows(); ++n) body.nodes.emplace_back(nodes.row(n).transpose());
   body.Phi = file.read_matrix("Phi");
-  require(body.Phi.rows() == 3 * nodes.rows() && body.Phi.cols() > 0 && body.Phi.allFinite(),
-          fmt::format("data set 'Phi' is not {} rows of finite numbers, three for each node", 3 * nodes.rows()));
+  require_content(
+      body.Phi.rows() == 3 * nodes.rows() && body.Phi.cols() > 0 && body.Phi.allFinite(),
+      fmt::format("data set 'Phi' is not {} rows of finite numbers, three for each node", 3 * nodes.rows()));
   body.K = symmetric(file, "K", body.size());
   body.M = symmetric(file, "M", body.size());
   require_no_negative_energy(body.M, "M");
   body.m = read_mass(file, nodes.rows());
   for (std::size_t f = 0; file.has(fmt::format("frames/{}", f)); ++f)
     body.frames.push_back(read_frame(file, f, body.nodes.size()));
-  require(body.internal_first() <= body.size(), fmt::format("{} frames need {} columns of Phi, which has {}",
-                                                            body.frames.size(), body.internal_first(), body.size()));
+  require_content(body.internal_first() <= body.size(),
+                  fmt::format("{} frames need {} columns of Phi, which has {}", body.frames.size(),
+                              body.internal_first(), body.size()));
   // With all frames held: rigid motions store nothing but round-off, which may be negative.
   const Eigen::Index internal = body.size() - body.internal_first();
   if (internal > 0) require_no_negative_energy(body.K.bottomRightCorner(internal, internal), "K");
   body.internal_omega = read_vector(file, "internal_omega");
-  require(body.internal_omega.size() == body.size() - body.internal_first(),
-          fmt::format("data set 'internal_omega' has {} numbers for {} internal coordinates",
-                      body.internal_omega.size(), body.size() - body.internal_first()));
-  require(body.internal_omega.size() == 0 || body.internal_omega.minCoeff() > 0,
-          "data set 'internal_omega' has a frequency that is not > 0");
+  require_content(body.internal_omega.size() == body.size() - body.internal_first(),
+                  fmt::format("data set 'internal_omega' has {} numbers for {} internal coordinates",
+                              body.internal_omega.size(), body.size() - body.internal_first()));
+  require_content(body.internal_omega.size() == 0 || body.internal_omega.minCoeff() > 0,
+                  "data set 'internal_omega' has a frequency that is not > 0");
   if (file.has("energy_missed")) body.energy_missed = read_vector(file, "energy_missed");
   read_mesh_data(file, body);
   return body;
@@ -199,7 +204,7 @@ ReducedBody read_reduced_body(const std::filesystem::path& path) {
   try {
     // Before HDF5 sees it: the library trusts what it reads of a file's structure.
     const Seal seal = check_seal(path);
-    require(seal != Seal::broken, "has changed since it was written: its checksum is another");
+    require_content(seal != Seal::broken, "has changed since it was written: its checksum is another");
     const DoubtfulFile doubtful(seal == Seal::intact ? nullptr : path.c_str());
     return read_body(Hdf5File::open(path));
   } catch (const std::runtime_error& error) {

@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index at_once = 48;  // displacements kept: all of them would take a gigabyte on a large mesh
+constexpr Index sources_at_once = 48;  // displacements kept: all of them would take a gigabyte on a large mesh
 
 /// The two angles between which one lies, and the share of the way from the first to the second.
 struct Between {
@@ -160,8 +160,8 @@ HeatedSurface heated_surface(const ElasticBody& body, const std::vector<ThermalM
     return no_answer<HeatedSurface>("what holds the body as it expands leaves it a motion");
   if (!summary.solved()) return no_answer<HeatedSurface>(summary.message);
   MatrixXd shapes(surface.functions.count(), rises.cols());
-  for (Index first = 0; first < rises.cols(); first += at_once) {
-    const Index columns = std::min(at_once, rises.cols() - first);
+  for (Index first = 0; first < rises.cols(); first += sources_at_once) {
+    const Index columns = std::min(sources_at_once, rises.cols() - first);
     shapes.middleCols(first, columns) =
         surface.coefficients(stiffness.solve(expansion_load(body, thermal, rises.middleCols(first, columns))));
   }

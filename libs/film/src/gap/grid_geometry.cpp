@@ -66,7 +66,7 @@ void check_patches(const FilmModel& model) {
   }
 }
 
-void check(const FilmModel& model) {
+void check_grid(const FilmModel& model) {
   const Grid& grid = model.grid;
   HERSEY_REQUIRE(grid.n_phi >= 4 && grid.n_z >= 3, "the grid needs 4 x 3 nodes at least");
   HERSEY_REQUIRE(grid.angles.empty() || static_cast<int>(grid.angles.size()) == grid.n_phi, "an angle for every node");
@@ -78,7 +78,7 @@ void check(const FilmModel& model) {
 
 GridGeometry::GridGeometry(const FilmModel& model) : R(model.R), surface(model.surface) {
   const Grid& grid = model.grid;
-  check(model);
+  check_grid(model);
   const int n_phi = grid.n_phi, n_z = grid.n_z;
   phi.resize(n_phi), dx.setZero(n_phi), width_phi.setZero(n_phi);
   z.resize(n_z), dz.resize(n_z - 1), width_z.setZero(n_z);

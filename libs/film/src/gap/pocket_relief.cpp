@@ -33,7 +33,7 @@ struct Border {
 };
 
 /// Length of the interval from `first` to `last` that lies within +-half or a turn away from there.
-double overlap(double first, double last, double half) {
+double length_within(double first, double last, double half) {
   if (half >= 0.5 * turn) return last - first;
   double sum = 0;
   for (const double image : {-turn, 0.0, turn, 2 * turn}) {
@@ -61,14 +61,14 @@ double swept_area(const SurfaceFeature& pocket, double R, double phi, double low
   const double sign = turned < 0 ? -1 : 1, half = 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
   if (std::holds_alternative<Rectangle>(pocket.shape)) {
     const double height = std::max(0.0, std::min(high, pocket.z + half_length) - std::max(low, pocket.z - half_length));
-    return sign * R * height * overlap(first, last, half);
+    return sign * R * height * length_within(first, last, half);
   }
   double sum = 0;
   over_gauss_points([&](double share, double place) {
     const double y = (low + place * (high - low) - pocket.z) / half_length;
     if (std::abs(y) >= 1) return;
     const double reach = std::visit([y](const auto& shape) { return shape.reach(y); }, pocket.shape);
-    sum += share * overlap(first, last, half * reach);
+    sum += share * length_within(first, last, half * reach);
   });
   return sign * R * (high - low) * sum;
 }

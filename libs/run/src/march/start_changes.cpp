@@ -11,7 +11,7 @@
 namespace hersey::run {
 namespace {
 
-constexpr double kLargestShare = 1e-3;
+constexpr double kLargestStartShare = 1e-3;
 
 using Changes = std::vector<mbd::ChangedStart>;
 
@@ -87,7 +87,7 @@ void require_given_start(const model::Model& model, mbd::Mechanism& mechanism, c
                          const solver::InitialiseSummary& summary) {
   if (!keeps_start(model.simulation)) return;
   Changes changes = mechanism.changed_values(start);
-  std::erase_if(changes, [](const mbd::ChangedStart& change) { return change.share <= kLargestShare; });
+  std::erase_if(changes, [](const mbd::ChangedStart& change) { return change.share <= kLargestStartShare; });
   // Rates follow positions: where these do not fit, they are not the trouble.
   const auto is_position = [](const mbd::ChangedStart& change) { return !change.is_rate; };
   if (std::any_of(changes.begin(), changes.end(), is_position)) std::erase_if(changes, std::not_fn(is_position));

@@ -10,7 +10,7 @@ double seconds_since(std::chrono::steady_clock::time_point then) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double total_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 std::string scheme_of(const model::Coupling& coupling) {
   if (coupling.scheme == model::CouplingScheme::monolithic) return "monolithic";
@@ -80,7 +80,7 @@ void WorkRecord::take(const StepRecord& step) {
 
 std::vector<double> WorkRecord::spent() const {
   const mbd::MechanismTiming& timing = machine_.mechanism->timing();
-  const double own = sum(timing.force), elastic = sum(timing.elastic);
+  const double own = total_of(timing.force), elastic = total_of(timing.elastic);
   const double share = own > 0 ? timing.forces / own : 0;
   std::vector<double> seconds;
   double films = 0;
@@ -103,7 +103,7 @@ std::vector<double> WorkRecord::stepping() const {
   seconds.push_back(0);
   if (is_begun_) {
     for (std::size_t i = 0; i < spent_at_begin_.size(); ++i) seconds[i] -= spent_at_begin_[i];
-    seconds.back() = seconds_since(began_) - sum(seconds);
+    seconds.back() = seconds_since(began_) - total_of(seconds);
   } else {
     std::fill(seconds.begin(), seconds.end(), 0.0);
   }
@@ -114,7 +114,7 @@ std::vector<double> WorkRecord::stepping() const {
 Work WorkRecord::work() const {
   Work work{.start_up = start_up(), .newton_iterations = newton_iterations_.per_step()};
   const std::vector<double> seconds = stepping();
-  work.stepping = sum(seconds);
+  work.stepping = total_of(seconds);
   std::vector<std::string> names;
   for (const model::Bearing& bearing : model_.bearings) names.push_back("film " + bearing.name);
   names.insert(names.end(), {"elastic bodies", "other bodies and forces", "linear solve", "recording", "rest"});

@@ -1,4 +1,4 @@
-#include "hot_clearance.h"
+#include "gap/hot_clearance.h"
 
 #include <fmt/format.h>
 

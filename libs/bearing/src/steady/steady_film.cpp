@@ -1,4 +1,4 @@
-#include "steady_film.h"
+#include "steady/steady_film.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/film/film_heat.h"
-#include "steady_film.h"
+#include "steady/steady_film.h"
 
 namespace hersey::bearing {
 

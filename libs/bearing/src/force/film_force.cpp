@@ -7,13 +7,13 @@
 #include <numbers>
 #include <utility>
 
-#include "clearance_growth.h"
-#include "deforming_surfaces.h"
+#include "force/deforming_surfaces.h"
+#include "gap/clearance_growth.h"
+#include "gap/hot_clearance.h"
+#include "gap/thermal_shape.h"
 #include "hersey/bearing/operating_point.h"
 #include "hersey/core/contract.h"
-#include "hot_clearance.h"
-#include "temperature_path.h"
-#include "thermal_shape.h"
+#include "steady/temperature_path.h"
 
 namespace hersey::bearing {
 namespace {

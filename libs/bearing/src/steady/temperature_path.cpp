@@ -1,10 +1,10 @@
-#include "temperature_path.h"
+#include "steady/temperature_path.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "short_bearing.h"
+#include "steady/short_bearing.h"
 
 namespace hersey::bearing {
 namespace {

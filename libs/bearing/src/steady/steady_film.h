@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "deforming_surfaces.h"
+#include "force/deforming_surfaces.h"
 #include "hersey/bearing/operating_point.h"
 #include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_solver.h"

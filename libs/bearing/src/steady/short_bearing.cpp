@@ -1,4 +1,4 @@
-#include "short_bearing.h"
+#include "steady/short_bearing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "deforming_surfaces.h"
+#include "force/deforming_surfaces.h"
 
 #include <limits>
 #include <utility>

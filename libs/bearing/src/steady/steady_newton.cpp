@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "hersey/film/film_solver.h"
-#include "steady_search.h"
+#include "steady/steady_search.h"
 
 // Newton's method on film and position (bearing.18).
 namespace hersey::bearing {

@@ -1,8 +1,8 @@
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/core/contract.h"
-#include "steady_heat.h"
-#include "steady_search.h"
+#include "steady/steady_heat.h"
+#include "steady/steady_search.h"
 
 namespace hersey::bearing {
 

@@ -1,11 +1,11 @@
-#include "steady_search.h"
+#include "steady/steady_search.h"
 
 #include <cmath>
 #include <variant>
 
 #include "hersey/film/observables.h"
 #include "hersey/film/reynolds.h"
-#include "short_bearing.h"
+#include "steady/short_bearing.h"
 
 // What is asked of a film and its position, and what they are once found.
 namespace hersey::bearing {

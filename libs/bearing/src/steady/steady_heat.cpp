@@ -1,4 +1,4 @@
-#include "steady_heat.h"
+#include "steady/steady_heat.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <utility>
 #include <variant>
 
-#include "clearance_growth.h"
+#include "gap/clearance_growth.h"
+#include "gap/hot_clearance.h"
 #include "hersey/film/grid_transfer.h"
 #include "hersey/film/thermal_network.h"
-#include "hot_clearance.h"
-#include "steady_search.h"
-#include "temperature_path.h"
+#include "steady/steady_search.h"
+#include "steady/temperature_path.h"
 
 // Film and temperature in turn (thermal.16).
 namespace hersey::bearing {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "short_bearing.h"
-#include "steady_search.h"
+#include "steady/short_bearing.h"
+#include "steady/steady_search.h"
 
 // Ways to the load where Newton's method does not arrive from the start (bearing.19, bearing.20), and what they have
 // seen.

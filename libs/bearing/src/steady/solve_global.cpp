@@ -6,7 +6,7 @@
 #include "hersey/bearing/global_heat.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/solver/fixed_point_iteration.h"
-#include "temperature_path.h"
+#include "steady/temperature_path.h"
 
 namespace hersey::bearing {
 namespace {
