@@ -129,7 +129,7 @@ std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
 }
 
 double FlowBalance::step_speed(std::size_t f, const PocketTube& tube) const {
-  return axial(f) ? 0 : step_of(tube, entrainment(f), stretch(f) * speeds_.u_journal);
+  return axial(f) ? 0 : step_of(tube, entrainment(f), faces_[f].stretch * speeds_.u_journal);
 }
 
 // The line's rows count so much of what comes half-way to it.
@@ -237,7 +237,7 @@ FlowBalance::Speeds FlowBalance::speeds_along(std::size_t f, const MotionDirecti
             direction.w_journal};
   return Speeds{0.5 * (direction.u_shell + direction.u_journal), 0.5 * (direction.u_shell - direction.u_journal),
                 direction.u_journal} *
-         stretch(f);
+         faces_[f].stretch;
 }
 
 double FlowBalance::flow_along(std::size_t f, const MotionDirection& direction) const {

@@ -86,9 +86,10 @@ void FlowBalance::lay_faces() {
     for (int j = 0; j < grid.n_z; ++j) {
       const int node = grid.index(i, j), next = grid.next(i);
       if (next < 0)
-        faces_.push_back({node, node, 0, geometry_.mean_dx, {}});
+        faces_.push_back({node, node, 0, geometry_.mean_dx, geometry_.stretch[j], {}});
       else
-        faces_.push_back({node, grid.index(next, j), geometry_.width_z[j], geometry_.step(i, j), {}});
+        faces_.push_back(
+            {node, grid.index(next, j), geometry_.width_z[j], geometry_.step(i, j), geometry_.stretch[j], {}});
     }
   }
   first_axial_face_ = faces_.size();
@@ -98,6 +99,7 @@ void FlowBalance::lay_faces() {
                         grid.index(i, j + 1),
                         geometry_.width_phi[i] * geometry_.stretch_between[j],
                         geometry_.dz[j],
+                        1,
                         {}});
     }
   }
@@ -356,8 +358,11 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   const bool speeds =
       direction.u_shell != 0 || direction.u_journal != 0 || direction.w_shell != 0 || direction.w_journal != 0;
   const bool turns = direction.phi_journal != 0 && relief_.has_pockets();
-  const auto sliding_at = [&](int node) {
-    return speeds ? change_of_sliding(direction, node % model_.grid.n_z) : SlidingChange{};
+  direction_sliding_.assign(static_cast<std::size_t>(model_.grid.n_z), {});
+  for (int j = 0; speeds && j < model_.grid.n_z; ++j)
+    direction_sliding_[static_cast<std::size_t>(j)] = change_of_sliding(direction, j);
+  const auto sliding_at = [this](int node) -> const SlidingChange& {
+    return direction_sliding_[static_cast<std::size_t>(node % model_.grid.n_z)];
   };
   for (std::size_t f = 0; (gap || speeds || turns) && f < faces_.size(); ++f) {
     double q = flow_along(f, direction);
@@ -374,7 +379,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     const Tie t = tie(held);
     const auto [above, slope] = excess(held);
     if (held.other >= 0) dr[i] += line_row_along(held, direction);
-    const SlidingChange sliding = sliding_at(i);
+    const SlidingChange& sliding = sliding_at(i);
     const double chi = held.chi_line * direction.phi_supply + held.chi_journal * direction.phi_journal;
     dr[i] = (1 - held.chi) * dr[i] - chi * (line_balance(i) + slack(i));
     double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal + t.k_rate * sliding.rate +

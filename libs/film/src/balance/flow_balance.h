@@ -21,6 +21,7 @@ struct Face {
   int a = 0, b = 0;
   double width = 0;            ///< across the flow [m]
   double length = 0;           ///< from a to b [m]
+  double stretch = 1;          ///< by which speeds along phi count there [-]
   std::array<int, 4> slots{};  ///< where (a,a), (a,b), (b,a), (b,b) stand among the Jacobian's values
 };
 
@@ -352,12 +353,11 @@ class FlowBalance {
   [[nodiscard]] bool axial(std::size_t f) const { return f >= first_axial_face_; }
   /// 1/mu of flow along pressure at a node of face f, across it.
   [[nodiscard]] const Fluidity& flow_of(int node, std::size_t f) const { return nodes_[node].flow[axial(f) ? 1 : 0]; }
-  /// Of the row of a face along phi, by which speeds count there [-].
-  [[nodiscard]] double stretch(std::size_t f) const { return geometry_.stretch[row_of_face(f)]; }
-  [[nodiscard]] int row_of_face(std::size_t f) const { return static_cast<int>(f) % model_.grid.n_z; }
   /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
-  [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : stretch(f) * speed_phi_; }
-  [[nodiscard]] double half_slip(std::size_t f) const { return axial(f) ? half_slip_z_ : stretch(f) * half_slip_phi_; }
+  [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : faces_[f].stretch * speed_phi_; }
+  [[nodiscard]] double half_slip(std::size_t f) const {
+    return axial(f) ? half_slip_z_ : faces_[f].stretch * half_slip_phi_;
+  }
   /// Changes of the speeds across face f.
   [[nodiscard]] Speeds speeds_along(std::size_t f, const MotionDirection& direction) const;
   /// Flows over face f, of a full gap and of little oil, that belong to a set of speeds.
@@ -387,6 +387,7 @@ class FlowBalance {
   PocketRelief relief_;
   Eigen::VectorXd bends_, excesses_, rate_excesses_;  ///< of gap, gap and its rate
   mutable Eigen::VectorXd direction_bends_, direction_excesses_, direction_rate_excesses_;
+  mutable std::vector<SlidingChange> direction_sliding_;  ///< of the rows
   std::vector<Cell> cells_;
   std::vector<int> tube_of_;  ///< of every face its pocket tube, -1 for none
   Line line_;

@@ -42,11 +42,8 @@ struct Exact {
 /// The first of `count` lines in a row about line i, `before` of them before it where its patch has so many.
 int first_of(const Grid& grid, int i, int before, int count) {
   if (grid.closes()) return i - before;
-  const int patch = grid.patch_of(i);
-  const int begin = grid.patches[static_cast<std::size_t>(patch)];
-  const int end = patch + 1 < static_cast<int>(grid.patches.size()) ? grid.patches[static_cast<std::size_t>(patch) + 1]
-                                                                    : grid.n_phi;
-  return std::clamp(i - before, begin, end - count);
+  const auto patch = static_cast<std::size_t>(grid.patch_of(i));
+  return std::clamp(i - before, grid.patches[patch], end_of_patch(grid, patch) - count);
 }
 
 }  // namespace

@@ -7,6 +7,11 @@
 #include "hersey/core/turn.h"
 
 namespace hersey::film {
+
+int end_of_patch(const Grid& grid, std::size_t patch) {
+  return patch + 1 < grid.patches.size() ? grid.patches[patch + 1] : grid.n_phi;
+}
+
 namespace {
 
 /// Integrals over [b, c] of the three parabolas through values at 0, b, c that are 1 at one of them, per length.
@@ -47,7 +52,7 @@ Eigen::VectorXd weights_of_lines(const Grid& grid, Length&& length) {
   if (grid.closes()) return parabolic_weights(grid.n_phi, true, length);
   Eigen::VectorXd weights(grid.n_phi);
   for (std::size_t p = 0; p < grid.patches.size(); ++p) {
-    const int first = grid.patches[p], end = p + 1 < grid.patches.size() ? grid.patches[p + 1] : grid.n_phi;
+    const int first = grid.patches[p], end = end_of_patch(grid, p);
     weights.segment(first, end - first) =
         parabolic_weights(end - first, false, [&](int k) { return length(first + k); });
   }
@@ -61,8 +66,7 @@ void check_patches(const FilmModel& model) {
   HERSEY_REQUIRE(grid.closes() || !grid.angles.empty(), "patches have angles");
   HERSEY_REQUIRE(model.ends.size() == grid.patches.size(), "two ends for every patch");
   for (std::size_t p = 0; p < grid.patches.size(); ++p) {
-    const int end = p + 1 < grid.patches.size() ? grid.patches[p + 1] : grid.n_phi;
-    HERSEY_REQUIRE(end - grid.patches[p] >= 4, "a patch has four lines at least");
+    HERSEY_REQUIRE(end_of_patch(grid, p) - grid.patches[p] >= 4, "a patch has four lines at least");
   }
 }
 
@@ -119,7 +123,9 @@ double GridGeometry::from_to(double from, double to) const {
   return closes(surface) ? std::remainder(to - from, turn) : to - from;
 }
 
-double GridGeometry::told(double angle) const { return closes(surface) ? std::fmod(angle + turn, turn) : angle; }
+double GridGeometry::told(double angle) const {
+  return closes(surface) ? std::fmod(std::fmod(angle, turn) + turn, turn) : angle;
+}
 
 GridGeometry::Place GridGeometry::place_of(double angle) const {
   const auto n = static_cast<int>(phi.size());

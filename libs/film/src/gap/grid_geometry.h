@@ -6,6 +6,9 @@
 
 namespace hersey::film {
 
+/// The line after the last of a patch.
+[[nodiscard]] int end_of_patch(const Grid& grid, std::size_t patch);
+
 /// The places of a film's nodes, and lengths and areas between them on the surface it lies on. Lengths along phi are
 /// those at R; at another z they count stretch times.
 struct GridGeometry {

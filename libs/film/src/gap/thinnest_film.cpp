@@ -158,7 +158,7 @@ class Search {
     if (std::abs(z) > 0.5 * model_.L * (1 + sliver) || !is_on_land(phi, z)) return;
     const double value = between(phi, std::clamp(z, at_.z[0], at_.z[grid_.n_z - 1]));
     if (value >= best.value) return;
-    best.value = value, best.phi = at_.told(closes(at_.surface) ? std::fmod(phi, turn) : phi), best.z = z;
+    best.value = value, best.phi = at_.told(phi), best.z = z;
   }
 
   [[nodiscard]] bool is_on_land(double phi, double z) const {
