@@ -1,14 +1,22 @@
-# hersey_module(name [DEPENDS modules] [LINK public libraries] [PRIVATE libraries])
+# hersey_module(name [ONCE] [DEPENDS modules] [LINK public libraries] [PRIVATE libraries])
 #
 # A module is libs/<name>: one static library with its own include root. It sees the headers of the modules it names
 # and of those below them, and no others, so an include that runs up or sideways does not compile.
 # Its tests, libs/<name>/test/*_test.cpp, become one executable, each case one test of ctest. With HERSEY_FUZZ each of
 # libs/<name>/fuzz/*_fuzz.cpp becomes the fuzzer <name>_<file>; the target `fuzzers` builds all of them.
+#
+# ONCE says that what the module does is done once a run, not once a step: reading, writing, telling. It is then compiled
+# for size, in two thirds of the time (docs/decisions/0019-compilers.md); so are all tests.
 
-# One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers.
+# One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers. What is
+# compiled for size has one of its own, since compilers take none that other settings made.
 add_library(hersey_pch OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
-target_link_libraries(hersey_pch PUBLIC $<BUILD_INTERFACE:hersey_options> Eigen3::Eigen)
-target_precompile_headers(hersey_pch PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.h)
+add_library(hersey_pch_once OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
+foreach(pch hersey_pch hersey_pch_once)
+  target_link_libraries(${pch} PUBLIC $<BUILD_INTERFACE:hersey_options> Eigen3::Eigen)
+  target_precompile_headers(${pch} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.h)
+endforeach()
+target_compile_options(hersey_pch_once PRIVATE ${HERSEY_FOR_SIZE})
 
 if(BUILD_TESTING)
   find_package(doctest REQUIRED)
@@ -19,6 +27,8 @@ if(BUILD_TESTING)
                               COMPILE_DEFINITIONS HERSEY_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
                               SKIP_UNITY_BUILD_INCLUSION ON)
   target_include_directories(hersey_test_main PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/support)
+  # What is thrown is asked of expressions whose value nobody wants.
+  target_compile_definitions(hersey_test_main PUBLIC DOCTEST_CONFIG_VOID_CAST_EXPRESSIONS)
   target_link_libraries(hersey_test_main PUBLIC doctest::doctest $<BUILD_INTERFACE:hersey_options>)
 endif()
 
@@ -29,7 +39,7 @@ endif()
 set_property(GLOBAL PROPERTY HERSEY_MODULES "")
 
 function(hersey_module name)
-  cmake_parse_arguments(M "" "" "DEPENDS;LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(M "ONCE" "" "DEPENDS;LINK;PRIVATE" ${ARGN})
   set(dir ${CMAKE_CURRENT_SOURCE_DIR}/libs/${name})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${dir}/src/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${dir}/include/hersey/${name}/*.h)
@@ -51,7 +61,12 @@ function(hersey_module name)
     target_link_libraries(hersey_${name} PUBLIC hersey_${below})
   endforeach()
   target_link_libraries(hersey_${name} PUBLIC ${M_LINK} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:hersey_options>)
-  target_precompile_headers(hersey_${name} REUSE_FROM hersey_pch)
+  if(M_ONCE)
+    target_compile_options(hersey_${name} PRIVATE ${HERSEY_FOR_SIZE})
+    target_precompile_headers(hersey_${name} REUSE_FROM hersey_pch_once)
+  else()
+    target_precompile_headers(hersey_${name} REUSE_FROM hersey_pch)
+  endif()
   include(${dir}/module.cmake OPTIONAL)  # what only this module needs, such as generated sources
   install(TARGETS hersey_${name} EXPORT herseyTargets ARCHIVE COMPONENT dev FILE_SET HEADERS COMPONENT dev)
   set_property(GLOBAL APPEND PROPERTY HERSEY_MODULES ${name})
@@ -80,7 +95,8 @@ function(hersey_module name)
       # GCC 12 takes strings that are put together for copies into their short form.
       target_compile_options(${name}_test PRIVATE -Wno-stringop-overflow)
     endif()
-    target_precompile_headers(${name}_test REUSE_FROM hersey_pch)
+    target_compile_options(${name}_test PRIVATE ${HERSEY_FOR_SIZE})
+    target_precompile_headers(${name}_test REUSE_FROM hersey_pch_once)
     # Each case is a test of its own, `<module>.<case>`; a filter that selects no case must not pass.
     doctest_discover_tests(${name}_test TEST_PREFIX "${name}." PROPERTIES FAIL_REGULAR_EXPRESSION "test cases: +0 [|]")
   endif()

@@ -62,7 +62,7 @@ endif()
 
 if(DEFINED sample_0)
   try_include(${sample_0})
-  if(found OR NOT message MATCHES "No such file or directory")
+  if(found OR NOT message MATCHES "No such file or directory|file not found")
     message(FATAL_ERROR "${MODULE} including ${sample_0} must not compile for want of the header; got:\n${message}")
   endif()
 endif()

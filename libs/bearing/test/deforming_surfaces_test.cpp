@@ -88,7 +88,8 @@ VectorXd converged_forces(const mbd::RelativeMotion& start, const mbd::RelativeM
 /// A column of the tangent against differences between two motions, relative to its own size.
 void compare(const VectorXd& column, const VectorXd& difference, double least) {
   for (const auto& [first, count] : {std::pair<Index, Index>{0, 3}, {3, 3}, {6, kShell + kJournal}}) {
-    CAPTURE(first);
+    const Index begin = first;  // clang 14 captures no structured binding
+    CAPTURE(begin);
     const double scale = std::max(column.segment(first, count).norm(), least);
     CHECK((column.segment(first, count) - difference.segment(first, count)).norm() <= 2e-4 * scale);
   }

@@ -93,7 +93,8 @@ TEST_CASE("ShortBearing_WhirlsAtOcvirksThreshold") {
   // omega sqrt(c/g) of a rigid rotor on short bearings with half film, from the closed forms of the coefficients.
   const std::vector<std::pair<double, double>> closed{{0.1, 2.741}, {0.4, 2.545}, {0.5, 2.542}, {0.7, 3.628}};
   for (const auto& [epsilon, number] : closed) {
-    CAPTURE(epsilon);
+    const double eccentricity_ratio = epsilon;  // clang 14 captures no structured binding
+    CAPTURE(eccentricity_ratio);
     film::FilmModel model{.R = 0.05, .L = 0.002, .c = 50e-6, .grid = {360, 13}};
     model.cavitation = film::Cavitation::guembel;
     model.shear_force = film::ShearForce::torque_only;

@@ -64,7 +64,8 @@ TEST_CASE("Inertia_HasEachElementWhereItsNameSays") {
   const std::string axes = "xyz";
   for (const auto& [name, value] :
        std::map<std::string, double>{{"xx", 5}, {"yy", 6}, {"zz", 7}, {"xy", 0.1}, {"yz", 0.2}, {"zx", 0.3}}) {
-    CAPTURE(name);
+    const std::string key = name;  // clang 14 captures no structured binding
+    CAPTURE(key);
     const auto row = static_cast<Eigen::Index>(axes.find(name[0])),
                column = static_cast<Eigen::Index>(axes.find(name[1]));
     CHECK(inertia(row, column) == value);

@@ -122,8 +122,8 @@ TEST_CASE("MassBalance_IsRecordedOfFilmsThatConserveOil") {
   const TemporaryDirectory scratch;
   for (const auto& [cavitation, is_recorded] :
        {std::pair{"mass_conserving", true}, std::pair{"guembel", true}, std::pair{"reynolds", false}}) {
-    CAPTURE(cavitation);
     const std::string file = std::string(cavitation) + ".h5";
+    CAPTURE(file);
     const auto overrides = {std::string("bearings.big_end.cavitation=") + cavitation, std::string("duration=0.5 ms")};
     REQUIRE(simulate(rig(kSmallRig, overrides), {.results = scratch / file}).status == Status::completed);
     CHECK(results::Reader(scratch / file).has("/bearings/big_end/mass_balance_error") == is_recorded);
