@@ -61,7 +61,7 @@ class SchemaWriter {
       case Kind::scale:
         return {{"type", {"string", "number", "boolean"}}};
       case Kind::integer:
-        return or_parameter({integer_schema(type)});
+        return or_parameter(Json::array({integer_schema(type)}));
       case Kind::quantity:
         return or_parameter(quantity_schemas(type));
       case Kind::choice:
