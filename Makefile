@@ -120,4 +120,4 @@ random-models: program  ## tries as many random models as TIME=60 allows, every 
 # Configured once; afterwards the build itself notices changed CMake files.
 $(BUILD)/build.ninja: CMakePresets.json
 	@scripts/setup build
-	@$(PHASE) configure build/log/configure.log scripts/compiler cmake --preset $(PRESET) -DHERSEY_UNITY=$(UNITY)
+	@$(PHASE) configure build/log/configure.log cmake --preset $(PRESET) -DHERSEY_UNITY=$(UNITY)

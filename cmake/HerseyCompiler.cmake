@@ -12,7 +12,10 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 # Contracts stay on in release: a wrong answer costs more than a comparison.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 # For what runs once rather than at every step (hersey_module's ONCE).
-set(HERSEY_FOR_SIZE $<$<CONFIG:Release>:$<IF:$<CXX_COMPILER_ID:Clang>,-Oz,-Os>>)
+set(HERSEY_FOR_SIZE "")
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+  set(HERSEY_FOR_SIZE -Oz)
+endif()
 
 find_program(HERSEY_CCACHE ccache)
 if(HERSEY_CCACHE)
@@ -28,9 +31,10 @@ target_compile_options(hersey_options INTERFACE -fmacro-prefix-map=${CMAKE_SOURC
 target_compile_options(hersey_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                                                 -Woverloaded-virtual -Wcast-qual
                                                 # Designated initialisers leave the rest to the members' own defaults.
-                                                -Wno-missing-field-initializers
-                                                # The report's page is one string.
-                                                -Wno-overlength-strings)
+                                                -Wno-missing-field-initializers)
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  target_compile_options(hersey_options INTERFACE -Wno-overlength-strings)  # the report's page is one string
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(hersey_options INTERFACE -fpch-preprocess)
   # GCC 12 reports false positives inside Eigen's and the standard library's inlined code.

@@ -5,18 +5,23 @@
 # Its tests, libs/<name>/test/*_test.cpp, become one executable, each case one test of ctest. With HERSEY_FUZZ each of
 # libs/<name>/fuzz/*_fuzz.cpp becomes the fuzzer <name>_<file>; the target `fuzzers` builds all of them.
 #
-# ONCE says that what the module does is done once a run, not once a step: reading, writing, telling. It is then compiled
-# for size, in two thirds of the time (docs/decisions/0019-compilers.md); so are all tests.
+# ONCE says that what the module does is done once a run, not once a step: reading, writing, telling. clang then
+# compiles it for size, in two thirds of the time (docs/decisions/0019-compilers.md); so are all tests.
 
 # One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers. What is
 # compiled for size has one of its own, since compilers take none that other settings made.
-add_library(hersey_pch OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
-add_library(hersey_pch_once OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
-foreach(pch hersey_pch hersey_pch_once)
-  target_link_libraries(${pch} PUBLIC $<BUILD_INTERFACE:hersey_options> Eigen3::Eigen)
-  target_precompile_headers(${pch} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.h)
-endforeach()
-target_compile_options(hersey_pch_once PRIVATE ${HERSEY_FOR_SIZE})
+function(hersey_precompiled_header target)
+  add_library(${target} OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
+  target_link_libraries(${target} PUBLIC $<BUILD_INTERFACE:hersey_options> Eigen3::Eigen)
+  target_precompile_headers(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.h)
+  target_compile_options(${target} PRIVATE ${ARGN})
+endfunction()
+hersey_precompiled_header(hersey_pch)
+set(HERSEY_PCH_ONCE hersey_pch)
+if(HERSEY_FOR_SIZE)
+  hersey_precompiled_header(hersey_pch_once ${HERSEY_FOR_SIZE})
+  set(HERSEY_PCH_ONCE hersey_pch_once)
+endif()
 
 if(BUILD_TESTING)
   find_package(doctest REQUIRED)
@@ -27,8 +32,10 @@ if(BUILD_TESTING)
                               COMPILE_DEFINITIONS HERSEY_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
                               SKIP_UNITY_BUILD_INCLUSION ON)
   target_include_directories(hersey_test_main PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/tests/support)
-  # What is thrown is asked of expressions whose value nobody wants.
-  target_compile_definitions(hersey_test_main PUBLIC DOCTEST_CONFIG_VOID_CAST_EXPRESSIONS)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # What is thrown is asked of expressions whose value nobody wants.
+    target_compile_definitions(hersey_test_main PUBLIC DOCTEST_CONFIG_VOID_CAST_EXPRESSIONS)
+  endif()
   target_link_libraries(hersey_test_main PUBLIC doctest::doctest $<BUILD_INTERFACE:hersey_options>)
 endif()
 
@@ -63,7 +70,7 @@ function(hersey_module name)
   target_link_libraries(hersey_${name} PUBLIC ${M_LINK} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:hersey_options>)
   if(M_ONCE)
     target_compile_options(hersey_${name} PRIVATE ${HERSEY_FOR_SIZE})
-    target_precompile_headers(hersey_${name} REUSE_FROM hersey_pch_once)
+    target_precompile_headers(hersey_${name} REUSE_FROM ${HERSEY_PCH_ONCE})
   else()
     target_precompile_headers(hersey_${name} REUSE_FROM hersey_pch)
   endif()
@@ -96,7 +103,7 @@ function(hersey_module name)
       target_compile_options(${name}_test PRIVATE -Wno-stringop-overflow)
     endif()
     target_compile_options(${name}_test PRIVATE ${HERSEY_FOR_SIZE})
-    target_precompile_headers(${name}_test REUSE_FROM hersey_pch_once)
+    target_precompile_headers(${name}_test REUSE_FROM ${HERSEY_PCH_ONCE})
     # Each case is a test of its own, `<module>.<case>`; a filter that selects no case must not pass.
     doctest_discover_tests(${name}_test TEST_PREFIX "${name}." PROPERTIES FAIL_REGULAR_EXPRESSION "test cases: +0 [|]")
   endif()
