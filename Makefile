@@ -1,5 +1,5 @@
 # Everything from a bare checkout: each target installs what it needs (scripts/setup), configures, builds and runs.
-# Logs: build/log/. Settings: JOBS=n, PRESET=release|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test, fuzz), TIME=n (fuzz),
+# Logs: build/log/. Settings: JOBS=n, PRESET=release|gcc|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test, fuzz), TIME=n (fuzz),
 # ONLY=regex (mutations), UNITY=OFF (the first time: each source by itself, for who works on the code).
 JOBS ?= $(shell nproc)
 PRESET ?= release
@@ -120,4 +120,4 @@ random-models: program  ## tries as many random models as TIME=60 allows, every 
 # Configured once; afterwards the build itself notices changed CMake files.
 $(BUILD)/build.ninja: CMakePresets.json
 	@scripts/setup build
-	@$(PHASE) configure build/log/configure.log cmake --preset $(PRESET) -DHERSEY_UNITY=$(UNITY)
+	@$(PHASE) configure build/log/configure.log scripts/compiler cmake --preset $(PRESET) -DHERSEY_UNITY=$(UNITY)

@@ -21,8 +21,14 @@ find_program(HERSEY_CCACHE ccache)
 if(HERSEY_CCACHE)
   # Relative paths below the source directory, so that a second clone finds what the first has compiled.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1
-      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${HERSEY_CCACHE})
+      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime CCACHE_PCH_EXTSUM=1 ${HERSEY_CCACHE})
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # The driver's own option instead of the compiler's inner one that CMake passes: the cache knows it for a path.
+  set(CMAKE_CXX_COMPILE_OPTIONS_USE_PCH -include-pch <PCH_FILE>)
+endif()
+# A module's sources wait for nothing that the modules below it are linked to.
+set(CMAKE_OPTIMIZE_DEPENDENCIES ON)
 
 add_library(hersey_options INTERFACE)
 # Files are named from the source directory on, whatever it is: messages tell no one's folders, and objects are the same
@@ -45,7 +51,7 @@ endif()
 # neighbours along, so that who works on the code builds one by one.
 if(HERSEY_UNITY)
   set(CMAKE_UNITY_BUILD ON)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 24)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 50)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(hersey_options INTERFACE -Wno-subobject-linkage)  # what is in no header has one user still
   endif()

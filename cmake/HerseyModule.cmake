@@ -1,12 +1,13 @@
-# hersey_module(name [ONCE] [DEPENDS modules] [LINK public libraries] [PRIVATE libraries])
+# hersey_module(name [ONCE ALL|folders] [DEPENDS modules] [LINK public libraries] [PRIVATE libraries])
 #
 # A module is libs/<name>: one static library with its own include root. It sees the headers of the modules it names
 # and of those below them, and no others, so an include that runs up or sideways does not compile.
 # Its tests, libs/<name>/test/*_test.cpp, become one executable, each case one test of ctest. With HERSEY_FUZZ each of
 # libs/<name>/fuzz/*_fuzz.cpp becomes the fuzzer <name>_<file>; the target `fuzzers` builds all of them.
 #
-# ONCE says that what the module does is done once a run, not once a step: reading, writing, telling. clang then
-# compiles it for size, in two thirds of the time (docs/decisions/0019-compilers.md); so are all tests.
+# ONCE says that what the module does, or what lies in these folders of its src, is done once a run and not once a step:
+# reading, writing, telling. clang then compiles it for size, in two thirds of the time
+# (docs/decisions/0019-compilers.md); so are all tests.
 
 # One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers. What is
 # compiled for size has one of its own, since compilers take none that other settings made.
@@ -15,6 +16,10 @@ function(hersey_precompiled_header target)
   target_link_libraries(${target} PUBLIC $<BUILD_INTERFACE:hersey_options> Eigen3::Eigen)
   target_precompile_headers(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.h)
   target_compile_options(${target} PRIVATE ${ARGN})
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # clang's holds names of this clone's folders: the cache of compiled sources asks what it was made of instead.
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${CMAKE_CURRENT_SOURCE_DIR}/cmake/precompile)
+  endif()
 endfunction()
 hersey_precompiled_header(hersey_pch)
 set(HERSEY_PCH_ONCE hersey_pch)
@@ -22,6 +27,18 @@ if(HERSEY_FOR_SIZE)
   hersey_precompiled_header(hersey_pch_once ${HERSEY_FOR_SIZE})
   set(HERSEY_PCH_ONCE hersey_pch_once)
 endif()
+
+# What `target` does is done once a run: compiled for size, with the header precompiled so.
+function(hersey_for_size target)
+  target_compile_options(${target} PRIVATE ${HERSEY_FOR_SIZE})
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "EXECUTABLE")
+    # As position-independent as the modules, so that their precompiled header serves.
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE -fPIC)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${HERSEY_PCH_ONCE})
+endfunction()
 
 if(BUILD_TESTING)
   find_package(doctest REQUIRED)
@@ -46,7 +63,7 @@ endif()
 set_property(GLOBAL PROPERTY HERSEY_MODULES "")
 
 function(hersey_module name)
-  cmake_parse_arguments(M "ONCE" "" "DEPENDS;LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(M "" "" "ONCE;DEPENDS;LINK;PRIVATE" ${ARGN})
   set(dir ${CMAKE_CURRENT_SOURCE_DIR}/libs/${name})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${dir}/src/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${dir}/include/hersey/${name}/*.h)
@@ -54,6 +71,13 @@ function(hersey_module name)
   if(NOT sources)
     file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/empty_${name}.cpp "")
     set(sources ${CMAKE_CURRENT_BINARY_DIR}/empty_${name}.cpp)
+  endif()
+  set(once "")
+  if(HERSEY_FOR_SIZE AND M_ONCE AND NOT M_ONCE STREQUAL "ALL")
+    list(JOIN M_ONCE "|" folders)
+    set(once ${sources})
+    list(FILTER once INCLUDE REGEX "^${dir}/src/(${folders})/")
+    list(REMOVE_ITEM sources ${once})
   endif()
   add_library(hersey_${name} STATIC ${sources})
   add_library(hersey::${name} ALIAS hersey_${name})
@@ -68,9 +92,15 @@ function(hersey_module name)
     target_link_libraries(hersey_${name} PUBLIC hersey_${below})
   endforeach()
   target_link_libraries(hersey_${name} PUBLIC ${M_LINK} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:hersey_options>)
-  if(M_ONCE)
-    target_compile_options(hersey_${name} PRIVATE ${HERSEY_FOR_SIZE})
-    target_precompile_headers(hersey_${name} REUSE_FROM ${HERSEY_PCH_ONCE})
+  if(once)
+    add_library(hersey_${name}_once OBJECT ${once})
+    target_include_directories(hersey_${name}_once PRIVATE ${dir}/src ${dir}/include)
+    target_link_libraries(hersey_${name}_once PRIVATE $<TARGET_PROPERTY:hersey_${name},LINK_LIBRARIES>)
+    hersey_for_size(hersey_${name}_once)
+    target_sources(hersey_${name} PRIVATE $<TARGET_OBJECTS:hersey_${name}_once>)
+  endif()
+  if(M_ONCE STREQUAL "ALL")
+    hersey_for_size(hersey_${name})
   else()
     target_precompile_headers(hersey_${name} REUSE_FROM hersey_pch)
   endif()
@@ -95,15 +125,11 @@ function(hersey_module name)
     file(GLOB verification CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/verification/*.h)
     target_include_directories(${name}_test PRIVATE ${dir}/src ${CMAKE_CURRENT_SOURCE_DIR}/verification)
     target_link_libraries(${name}_test PRIVATE hersey_${name} hersey_test_main ${M_PRIVATE})
-    # As position-independent as the modules, so that their precompiled header serves.
-    set_target_properties(${name}_test PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-    target_compile_options(${name}_test PRIVATE -fPIC)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       # GCC 12 takes strings that are put together for copies into their short form.
       target_compile_options(${name}_test PRIVATE -Wno-stringop-overflow)
     endif()
-    target_compile_options(${name}_test PRIVATE ${HERSEY_FOR_SIZE})
-    target_precompile_headers(${name}_test REUSE_FROM ${HERSEY_PCH_ONCE})
+    hersey_for_size(${name}_test)
     # Each case is a test of its own, `<module>.<case>`; a filter that selects no case must not pass.
     doctest_discover_tests(${name}_test TEST_PREFIX "${name}." PROPERTIES FAIL_REGULAR_EXPRESSION "test cases: +0 [|]")
   endif()

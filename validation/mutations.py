@@ -227,7 +227,7 @@ class Trial:
         self.jobs = str(jobs)
 
     def configure(self):
-        run = logged("configure", ["cmake", "--preset", "release", "-DHERSEY_UNITY=ON"])
+        run = logged("configure", ["scripts/compiler", "cmake", "--preset", "release", "-DHERSEY_UNITY=ON"])
         if run.returncode:
             raise Trouble(f"the copy cannot be configured, see {LOG}:\n{run.stdout[-2000:]}")
 

@@ -30,7 +30,7 @@ std::string value_text(const BearingFigure& figure) {
   return fmt::format("{:.{}f}", figure.value, decimals_of(figure.grid_error));
 }
 
-std::string error_text(const BearingFigure& figure) {
+std::string grid_error_text(const BearingFigure& figure) {
   if (figure.grid_error < 0) return "";
   if (figure.grid_error < 1e-3) return fmt::format("+- {:.2g} (grid)", figure.grid_error);
   return fmt::format("+- {:.{}f} (grid)", figure.grid_error, decimals_of(figure.grid_error));
@@ -124,7 +124,7 @@ std::string bearing_text(const BearingSolution& solution) {
   std::vector<std::vector<std::string>> lines;
   for (const BearingFigure& f : study::figures_of(solution)) {
     if (f.words.empty())
-      lines.push_back({f.name, value_text(f), f.unit, error_text(f)});
+      lines.push_back({f.name, value_text(f), f.unit, grid_error_text(f)});
     else
       lines.push_back({f.name, "-", "", f.words});
   }

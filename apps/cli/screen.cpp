@@ -17,19 +17,19 @@ constexpr std::size_t kMostBearings = 10;  // told line by line
 constexpr std::size_t kMostOthers = 10;
 
 /// A figure of bearings of which the smallest or the largest is the worst.
-struct Kind {
+struct FigureKind {
   const char* name;     // of the row
   const char* heading;  // of its column; empty: not in the table of bearings
   bool is_least_worst = false;
 };
 
-constexpr std::array<Kind, 7> kKinds{{{"minimum film thickness (MOFT)", "MOFT", true},
-                                      {"peak film pressure (POFP)", "POFP"},
-                                      {"largest load", "load"},
-                                      {"hottest oil", "hottest"},
-                                      {"mean power loss in the film", "film loss"},
-                                      {"mean power loss in asperity contact", "contact loss"},
-                                      {"worst mass-balance error of the film", ""}}};
+constexpr std::array<FigureKind, 7> kKinds{{{"minimum film thickness (MOFT)", "MOFT", true},
+                                            {"peak film pressure (POFP)", "POFP"},
+                                            {"largest load", "load"},
+                                            {"hottest oil", "hottest"},
+                                            {"mean power loss in the film", "film loss"},
+                                            {"mean power loss in asperity contact", "contact loss"},
+                                            {"worst mass-balance error of the film", ""}}};
 
 std::string figure_text(double value) { return fmt::format("{:.4g}", value); }
 
@@ -44,7 +44,7 @@ const SummaryRow* find(const std::vector<SummaryRow>& rows, const std::string& g
   return found == rows.end() ? nullptr : &*found;
 }
 
-const SummaryRow* worst(const std::vector<SummaryRow>& rows, const Kind& kind) {
+const SummaryRow* worst(const std::vector<SummaryRow>& rows, const FigureKind& kind) {
   const SummaryRow* worst = nullptr;
   for (const SummaryRow& row : rows) {
     if (row.name != kind.name || !std::isfinite(row.value)) continue;
@@ -69,7 +69,7 @@ std::vector<std::string> bearings_of(const std::vector<SummaryRow>& rows) {
 
 std::string worst_text(const std::vector<SummaryRow>& rows) {
   Lines lines;
-  for (const Kind& kind : kKinds) {
+  for (const FigureKind& kind : kKinds) {
     const SummaryRow* row = worst(rows, kind);
     // A loss in contact that no bearing has is none to tell.
     if (row == nullptr || (row->value == 0 && !kind.is_least_worst)) continue;
@@ -81,8 +81,8 @@ std::string worst_text(const std::vector<SummaryRow>& rows) {
 std::string bearings_text(const std::vector<SummaryRow>& rows) {
   const std::vector<std::string> names = bearings_of(rows);
   Lines lines{{"bearing"}};
-  std::vector<const Kind*> columns;
-  for (const Kind& kind : kKinds) {
+  std::vector<const FigureKind*> columns;
+  for (const FigureKind& kind : kKinds) {
     const SummaryRow* any = worst(rows, kind);
     if (any == nullptr || std::string(kind.heading).empty()) continue;
     columns.push_back(&kind);
@@ -90,7 +90,7 @@ std::string bearings_text(const std::vector<SummaryRow>& rows) {
   }
   for (std::size_t i = 0; i < std::min(names.size(), kMostBearings); ++i) {
     std::vector<std::string> line{names[i]};
-    for (const Kind* kind : columns) {
+    for (const FigureKind* kind : columns) {
       const SummaryRow* row = find(rows, names[i], kind->name);
       line.push_back(row == nullptr ? "-" : figure_text(row->value));
     }

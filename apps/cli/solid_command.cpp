@@ -10,6 +10,7 @@
 #include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/vibration.h"
 #include "hersey/fem/vtu_file.h"
+#include "hersey/film/temperature_law.h"
 #include "output_file.h"
 #include "solid_heat.h"
 #include "solid_setup.h"
@@ -86,10 +87,9 @@ void write_stress(const SolidArguments& arguments, const fem::ElasticBody& body,
 
 /// Temperatures and where the heat goes.
 void print_heat(const fem::ElasticBody& body, const SolidHeat& heat) {
-  constexpr double zero_celsius = 273.15;
   const Peak hottest = peak_of(body.mesh, heat.T), coldest = peak_of(body.mesh, -heat.T);
-  fmt::print("hottest               {:.4f} degC at node {}\n", hottest.value - zero_celsius, hottest.node);
-  fmt::print("coldest               {:.4f} degC at node {}\n", -coldest.value - zero_celsius, coldest.node);
+  fmt::print("hottest               {:.4f} degC at node {}\n", hottest.value - film::zero_celsius, hottest.node);
+  fmt::print("coldest               {:.4f} degC at node {}\n", -coldest.value - film::zero_celsius, coldest.node);
   for (const SolidHeat::Leaving& out : heat.leaving) fmt::print("{:<22}{:.6g} W leave\n", out.name, out.power);
 }
 

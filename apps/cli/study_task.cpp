@@ -144,7 +144,7 @@ class Task {
       add(figure.key, figure.value, figure.text, display_unit(figure.si_unit), figure.si_unit,
           display_size(figure.si_unit));
     if (request.contains("report")) {
-      report::write_html({options.results}, request.at("report").get<std::string>());
+      report::write_html(std::vector{options.results}, request.at("report").get<std::string>());
       reply["report"] = request.at("report");
     }
     const std::string keep = request.value("keep", "results");

@@ -54,7 +54,7 @@ def compile_module():
     """Builds the extension module and returns its path."""
     for file in (BUILD / "python" / NAME).glob("_core*.so"):
         file.unlink()
-    call("cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF",
+    call(os.path.join(ROOT, "scripts/compiler"), "cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF",
          "-DHERSEY_WERROR=ON", "-DHERSEY_UNITY=ON", "-DHERSEY_PYTHON_PACKAGE=ON", f"-DPython3_EXECUTABLE={sys.executable}")
     call("cmake", "--build", BUILD, "--target", "hersey_python", "-j", os.environ.get("JOBS", str(os.cpu_count() or 1)))
     return next((BUILD / "python" / NAME).glob("_core*.so"))

@@ -12,26 +12,24 @@ using Eigen::MatrixXd;
 
 constexpr Index at_once = 48;  // solutions kept: all of them would take a gigabyte on a large mesh
 
-/// T^T K^-1 T.
-MatrixXd compliance_of(const HeldStiffness& stiffness, const SurfaceMap& surface) {
-  const Index count = surface.T.cols();
-  MatrixXd C(count, count);
-  for (Index first = 0; first < count; first += at_once) {
-    const Index columns = std::min(at_once, count - first);
-    C.middleCols(first, columns) =
-        surface.T.transpose() * stiffness.solve(MatrixXd(surface.T.middleCols(first, columns)));
-  }
-  return (C + C.transpose()) / 2;
-}
-
 }  // namespace
 
 MatrixXd SurfaceMap::coefficients(const MatrixXd& U) const { return G.llt().solve(T.transpose() * U); }
 
+MatrixXd SurfaceMap::compliance(const HeldStiffness& stiffness) const {
+  const Index count = T.cols();
+  MatrixXd C(count, count);
+  for (Index first = 0; first < count; first += at_once) {
+    const Index columns = std::min(at_once, count - first);
+    C.middleCols(first, columns) = T.transpose() * stiffness.solve(MatrixXd(T.middleCols(first, columns)));
+  }
+  return (C + C.transpose()) / 2;
+}
+
 FilmModes film_modes(const HeldStiffness& stiffness, const SurfaceMap& surface, int most, double tolerance) {
   HERSEY_REQUIRE(most >= 0 && tolerance > 0 && tolerance < 1, "a number of modes and a share of the largest");
   HERSEY_REQUIRE(stiffness.size() == surface.T.rows(), "the surface is one of this body");
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(compliance_of(stiffness, surface), surface.G);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(surface.compliance(stiffness), surface.G);
   const Eigen::VectorXd lambda = eigen.eigenvalues().reverse();
   FilmModes modes;
   const double largest = lambda[0];

@@ -12,19 +12,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index at_once = 48;  // solutions kept, as of film modes
-
 /// G^-1 T^T K^-1 T G^-1.
 MatrixXd compliance_of(const HeldStiffness& stiffness, const SurfaceMap& surface) {
-  const Index count = surface.T.cols();
-  MatrixXd C(count, count);
-  for (Index first = 0; first < count; first += at_once) {
-    const Index columns = std::min(at_once, count - first);
-    C.middleCols(first, columns) =
-        surface.T.transpose() * stiffness.solve(MatrixXd(surface.T.middleCols(first, columns)));
-  }
   const Eigen::LDLT<MatrixXd> G(surface.G);
-  C = G.solve(C).eval();
+  MatrixXd C = G.solve(surface.compliance(stiffness));
   C = G.solve(C.transpose()).eval();
   return 0.5 * (C + C.transpose());
 }

@@ -11,16 +11,16 @@ namespace hersey::fem {
 namespace {
 
 using Eigen::Vector2d;
-using Triangle = std::array<Vector2d, 3>;
+using NaturalTriangle = std::array<Vector2d, 3>;
 
-void add_square(std::vector<Triangle>& triangles, const Vector2d& corner, const Vector2d& a, const Vector2d& b) {
+void add_square(std::vector<NaturalTriangle>& triangles, const Vector2d& corner, const Vector2d& a, const Vector2d& b) {
   triangles.push_back({corner, corner + a, corner + a + b});
   triangles.push_back({corner, corner + a + b, corner + b});
 }
 
 /// The natural domain of a face with `nodes` nodes, divided.
-std::vector<Triangle> natural_triangles(std::size_t nodes, int parts) {
-  std::vector<Triangle> triangles;
+std::vector<NaturalTriangle> natural_triangles(std::size_t nodes, int parts) {
+  std::vector<NaturalTriangle> triangles;
   triangles.reserve(static_cast<std::size_t>(2 * parts * parts));
   const bool is_triangle = nodes == 3 || nodes == 6;
   const double h = (is_triangle ? 1.0 : 2.0) / parts;
@@ -62,7 +62,7 @@ std::vector<FilmCorner> cut(const std::vector<FilmCorner>& polygon, double side,
 }
 
 /// The points of one natural triangle.
-void visit_triangle(const Triangle& corners, const std::vector<int>& nodes, const NodeColumns& x,
+void visit_triangle(const NaturalTriangle& corners, const std::vector<int>& nodes, const NodeColumns& x,
                     const FilmCylinder& cylinder, const std::function<void(const FilmPoint&)>& see) {
   const Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
   const double stretch = a.x() * b.y() - a.y() * b.x();
@@ -86,7 +86,7 @@ std::vector<std::array<FilmCorner, 3>> film_triangles(const Mesh& mesh, ElementF
   const NodeColumns x = positions(mesh, nodes, cylinder.X.inverse());
   const double phi_first = cylinder_point(x.col(0)).phi;
   std::vector<std::array<FilmCorner, 3>> triangles;
-  for (const Triangle& natural : natural_triangles(nodes.size(), parts)) {
+  for (const NaturalTriangle& natural : natural_triangles(nodes.size(), parts)) {
     std::array<FilmCorner, 3>& corners = triangles.emplace_back();
     for (std::size_t c = 0; c < 3; ++c) {
       const Vector3 at = x * face_shape(static_cast<int>(nodes.size()), natural[c].x(), natural[c].y()).N;

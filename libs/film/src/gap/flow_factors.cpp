@@ -20,23 +20,23 @@ struct ShearFit {
 struct StressFit {
   double A3, a4, a5, a6;  ///< A3 H^a4 exp(-a5 H + a6 H^2) up to H = 7, 0 above
 };
-constexpr int rows = 7, isotropic = 3;
-constexpr std::array<double, rows> gammas{1.0 / 9, 1.0 / 6, 1.0 / 3, 1, 3, 6, 9};
-constexpr std::array<PressureFit, rows> pressure_fits{{{1.48, 0.42, 1.0},
+constexpr int fits = 7, isotropic = 3;
+constexpr std::array<double, fits> gammas{1.0 / 9, 1.0 / 6, 1.0 / 3, 1, 3, 6, 9};
+constexpr std::array<PressureFit, fits> pressure_fits{{{1.48, 0.42, 1.0},
                                                        {1.38, 0.42, 1.0},
                                                        {1.18, 0.42, 0.75},
                                                        {0.90, 0.56, 0.5},
                                                        {0.225, 1.5, 0.5},
                                                        {0.520, 1.5, 0.5},
                                                        {0.870, 1.5, 0.5}}};
-constexpr std::array<ShearFit, rows> shear_fits{{{2.046, 1.12, 0.78, 0.03, 1.856},
+constexpr std::array<ShearFit, fits> shear_fits{{{2.046, 1.12, 0.78, 0.03, 1.856},
                                                  {1.962, 1.08, 0.77, 0.03, 1.754},
                                                  {1.858, 1.01, 0.76, 0.03, 1.561},
                                                  {1.899, 0.98, 0.92, 0.05, 1.126},
                                                  {1.560, 0.85, 1.13, 0.08, 0.556},
                                                  {1.290, 0.62, 1.09, 0.08, 0.388},
                                                  {1.011, 0.54, 1.07, 0.08, 0.295}}};
-constexpr std::array<StressFit, rows> stress_fits{{{14.1, 2.45, 2.30, 0.10},
+constexpr std::array<StressFit, fits> stress_fits{{{14.1, 2.45, 2.30, 0.10},
                                                    {13.4, 2.42, 2.30, 0.10},
                                                    {12.3, 2.32, 2.30, 0.10},
                                                    {11.1, 2.31, 2.38, 0.11},
@@ -111,7 +111,7 @@ ValueAndSlope stress_row(int row, double H) {
 PatirCheng::PatirCheng(double gamma) {
   HERSEY_REQUIRE(0.11 - 1e-9 <= gamma && gamma <= 1 / 0.11 + 1e-9,
                  "flow factors are known for Peklenik ratios from 1/9 to 9");
-  while (row_ + 2 < rows && gamma >= gammas[row_ + 1]) ++row_;
+  while (row_ + 2 < fits && gamma >= gammas[row_ + 1]) ++row_;
   weight_ = std::clamp(std::log(gamma / gammas[row_]) / std::log(gammas[row_ + 1] / gammas[row_]), 0.0, 1.0);
 }
 

@@ -100,7 +100,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
                  FilmObservables& o) {
   const FilmModel& model = balance.model();
   const Grid& grid = model.grid;
-  const double round_off = 1e-9 * fill_scale(model);
+  const double u_round_off = 1e-9 * fill_scale(model);
   double cavitated = 0, total = 0;
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
@@ -110,7 +110,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
       o.storage_rate += balance.storage(k);
       o.oil_volume += area * node.content * balance.oil_gap(k);
       total += area;
-      if (u[k] < -round_off) cavitated += area;
+      if (u[k] < -u_round_off) cavitated += area;
       balance.flow_over_edge(o, k) += balance.outflow(k);
       o.flow_supply += balance.supply(k);
       if (const int feature = balance.feature_at(k); feature >= 0) o.flow_features[feature] += balance.supply(k);

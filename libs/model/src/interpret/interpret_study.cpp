@@ -146,25 +146,25 @@ std::vector<const Value*> texts_of(const Value& parent, const std::string& key) 
 }
 
 // Figures go by the kind of thing, "bearings", and its name in a section of the model.
-struct Kind {
+struct FigureOwner {
   const char* prefix;
   const char* section;
   const char* singular;
 };
-constexpr std::array<Kind, 8> kKinds{{{"bearings.", "bearings", "bearing"},
-                                      {"bodies.", "bodies", "body"},
-                                      {"joints.", "joints", "joint"},
-                                      {"drives.", "drives", "drive"},
-                                      {"couplings.", "couplings", "coupling"},
-                                      {"contacts.", "contacts", "contact"},
-                                      {"forces.", "forces", "force"},
-                                      {"surface_loads.", "forces", "force"}}};
+constexpr std::array<FigureOwner, 8> kOwners{{{"bearings.", "bearings", "bearing"},
+                                              {"bodies.", "bodies", "body"},
+                                              {"joints.", "joints", "joint"},
+                                              {"drives.", "drives", "drive"},
+                                              {"couplings.", "couplings", "coupling"},
+                                              {"contacts.", "contacts", "contact"},
+                                              {"forces.", "forces", "force"},
+                                              {"surface_loads.", "forces", "force"}}};
 
 // A figure names a thing that there is; what it is called is checked where figures are made.
 void require_thing(Context& context, const Value& at, const std::string& name) {
-  const auto kind =
-      std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& known) { return name.starts_with(known.prefix); });
-  if (kind == kKinds.end()) return;
+  const auto kind = std::find_if(kOwners.begin(), kOwners.end(),
+                                 [&](const FigureOwner& known) { return name.starts_with(known.prefix); });
+  if (kind == kOwners.end()) return;
   const std::string prefix = kind->prefix;
   const std::string thing = name.substr(prefix.size(), name.find('.', prefix.size()) - prefix.size());
   const std::vector<std::string> names = names_in(context.root, kind->section);

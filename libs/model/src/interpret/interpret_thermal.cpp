@@ -11,7 +11,7 @@ namespace hersey::model {
 namespace {
 
 /// Of the walls of the bearing; `heat` is its `thermal`.
-std::optional<bearing::WallExpansion> expansion_of(const Value& heat) {
+std::optional<bearing::WallExpansion> wall_expansion_of(const Value& heat) {
   const Value* given = heat.find("expansion");
   if (given == nullptr || given->broken) return std::nullopt;
   const bool is_of_film = heat.text == "film";
@@ -167,7 +167,7 @@ film::ThermalModel film_heat(Context& context, const Value& value, const film::F
     free->heat_capacity = heat_of_steel * std::numbers::pi * film.R * film.R * film.L;
   complete_walls(context, thermal, film.grid, heat);
   read_supplies(context, value, film, heat);
-  if (const auto walls = expansion_of(thermal)) heat.expansion = walls->material;
+  if (const auto walls = wall_expansion_of(thermal)) heat.expansion = walls->material;
   if (heat.expansion && heat.expansion->shell != 0 && std::holds_alternative<film::BodyWall>(heat.shell)) {
     context.fault(*thermal.find("expansion"), "a shell that grows by its body's mesh and by a coefficient as well",
                   "'shell: 0 1/K' beside 'shell: {wall: body}'", "the body's `heat.expansion` says how the bore grows");
@@ -188,7 +188,7 @@ void read_thermal(Context& context, const Value& value, const Lubricant* lubrica
   if (thermal == nullptr || thermal->broken || context.has_fault_in(thermal->path)) return;
   film::Lubricant& oil = bearing.film.lubricant;
   std::optional<double> T = lubricant != nullptr ? lubricant->temperature : std::nullopt;
-  bearing.expansion = expansion_of(*thermal);
+  bearing.expansion = wall_expansion_of(*thermal);
   if (thermal->text != "film") warn_of_unused_temperatures(context, value);
   if (thermal->text == "isothermal") {
     if (const Value* given = thermal->find("temperature")) T = given->number;

@@ -16,6 +16,8 @@ struct SurfaceMap {
 
   /// Radial displacement outward, G^-1 T^T U (functions, columns), of nodal displacements U (3 n, columns).
   [[nodiscard]] Eigen::MatrixXd coefficients(const Eigen::MatrixXd& U) const;
+  /// T^T K^-1 T, symmetric, shape (functions, functions) [m^3/Pa]: what pressures do to G d.
+  [[nodiscard]] Eigen::MatrixXd compliance(const HeldStiffness& stiffness) const;
 };
 
 /// Static answers of a body to film pressures, the most compliant ones first: pressures p_k and displacements
