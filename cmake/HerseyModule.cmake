@@ -11,20 +11,20 @@
 
 # One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers. What is
 # compiled for size has one of its own, since compilers take none that other settings made.
-function(hersey_precompiled_header target)
+function(hersey_precompiled_header target header)
   add_library(${target} OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.cpp)
   target_link_libraries(${target} PUBLIC $<BUILD_INTERFACE:hersey_options> Eigen3::Eigen)
-  target_precompile_headers(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/pch.h)
+  target_precompile_headers(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/${header})
   target_compile_options(${target} PRIVATE ${ARGN})
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     # clang's holds names of this clone's folders: the cache of compiled sources asks what it was made of instead.
     set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${CMAKE_CURRENT_SOURCE_DIR}/cmake/precompile)
   endif()
 endfunction()
-hersey_precompiled_header(hersey_pch)
+hersey_precompiled_header(hersey_pch pch.h)
 set(HERSEY_PCH_ONCE hersey_pch)
 if(HERSEY_FOR_SIZE)
-  hersey_precompiled_header(hersey_pch_once ${HERSEY_FOR_SIZE})
+  hersey_precompiled_header(hersey_pch_once pch_for_size.h ${HERSEY_FOR_SIZE})
   set(HERSEY_PCH_ONCE hersey_pch_once)
 endif()
 

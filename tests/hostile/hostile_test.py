@@ -25,6 +25,7 @@ ROD = os.path.join(HERE, "../../examples/meshes/conrod.msh")
 
 OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 PATIENCE = 2  # s
+SEALED = 50  # bits of a file whose seal vouches for all of it alike
 MEMORY = 2 << 30  # bytes of address space: far more than small models take, far less than the files ask for
 MATERIAL = ("--length-unit", "mm", "--youngs-modulus", "210 GPa", "--poisson-ratio", "0.3", "--density", "7850 kg/m^3")
 
@@ -300,7 +301,7 @@ class Hostile(unittest.TestCase):
             content[place] ^= 1 << bit
 
     def test_a_bit_of_results_is_told(self):
-        for place, path in self.flipped(self.results(), 200, 1):
+        for place, path in self.flipped(self.results(), SEALED, 1):
             with self.subTest(byte=place):
                 self.told("flipped.h5", "report", path, "--output", self.path("page.html"))
 
@@ -318,7 +319,7 @@ class Hostile(unittest.TestCase):
     def test_a_bit_of_a_reduced_body_is_told(self):
         good = self.reduced()
         model = self.model_of("flipped.h5")
-        for place, _ in self.flipped(good, 200, 3):
+        for place, _ in self.flipped(good, SEALED, 3):
             with self.subTest(byte=place):
                 self.told("flipped.h5", "check", model)
 
@@ -331,7 +332,7 @@ class Hostile(unittest.TestCase):
             run.wait(timeout=60)
         good = self.path("good.checkpoint")
         shutil.copy(os.path.join(out, "results.checkpoint"), good)
-        for place, path in self.flipped(good, 200, 4):
+        for place, path in self.flipped(good, SEALED, 4):
             shutil.copy(path, os.path.join(out, "results.checkpoint"))
             with self.subTest(byte=place):
                 self.told("results.checkpoint", "run", MODEL, "--output", out, "--set", "duration=1000 s", "--resume")
