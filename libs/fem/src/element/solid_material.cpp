@@ -8,15 +8,15 @@
 namespace hersey::fem {
 namespace {
 
-constexpr std::array<std::array<int, 2>, 6> components = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+constexpr std::array<std::array<int, 2>, 6> entries_of_row = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
 /// T with sigma_body = T sigma_material for axes R: sigma_ij = R_ia R_jb sigma_ab.
 Matrix6 stress_rotation(const Matrix3& R) {
   Matrix6 T;
   for (int row = 0; row < 6; ++row) {
-    const auto [i, j] = components[static_cast<std::size_t>(row)];
+    const auto [i, j] = entries_of_row[static_cast<std::size_t>(row)];
     for (int column = 0; column < 6; ++column) {
-      const auto [a, b] = components[static_cast<std::size_t>(column)];
+      const auto [a, b] = entries_of_row[static_cast<std::size_t>(column)];
       T(row, column) = R(i, a) * R(j, b) + (a != b ? R(i, b) * R(j, a) : 0);
     }
   }

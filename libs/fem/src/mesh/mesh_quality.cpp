@@ -129,11 +129,11 @@ void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
 void find_touching(const Mesh& mesh, MeshQuality& quality) {
   const double cell = kTouching * quality.size();
   if (!(cell > 0)) return;
-  using Cell = std::array<long long, 3>;
-  std::vector<std::pair<Cell, long>> cells;
+  using Voxel = std::array<long long, 3>;
+  std::vector<std::pair<Voxel, long>> cells;
   cells.reserve(mesh.nodes.size());
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    Cell place{};
+    Voxel place{};
     for (std::size_t i = 0; i < 3; ++i)
       place[i] = std::llround((mesh.nodes[n] - quality.lower)[static_cast<Eigen::Index>(i)] / cell);
     cells.emplace_back(place, mesh.node_labels[n]);
