@@ -119,5 +119,5 @@ random-models: program  ## tries as many random models as TIME=60 allows, every 
 
 # Configured once; afterwards the build itself notices changed CMake files.
 $(BUILD)/build.ninja: CMakePresets.json
-	@scripts/setup build
+	@scripts/setup build $(if $(filter gcc,$(PRESET)),gcc) $(if $(filter asan,$(PRESET)),fuzz)
 	@$(PHASE) configure build/log/configure.log scripts/compiler cmake --preset $(PRESET) -DHERSEY_UNITY=$(UNITY)

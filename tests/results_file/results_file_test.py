@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The results file as other programs see it: units, names, dimensions, xarray, the reference page, equal bits."""
 
+import fcntl
 import glob
 import hashlib
 import json
@@ -68,15 +69,17 @@ def results(example):
     if example not in _files:
         folder = os.path.join(KEPT, content_of_runs())
         kept = os.path.join(folder, os.path.basename(example) + ".h5")
-        if not os.path.exists(kept):
-            made = run(example, os.path.basename(example), *RUNS[example])
-            for old in glob.glob(os.path.join(KEPT, "*")):
-                if old != folder:
-                    shutil.rmtree(old, ignore_errors=True)
-            os.makedirs(folder, exist_ok=True)
-            half = tempfile.mktemp(dir=folder)  # another process may be doing the same: whole files only
-            shutil.copy(made, half)
-            os.replace(half, kept)
+        os.makedirs(folder, exist_ok=True)
+        with open(kept + ".lock", "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)  # who comes second waits for what the first is making
+            if not os.path.exists(kept):
+                made = run(example, os.path.basename(example), *RUNS[example])
+                for old in glob.glob(os.path.join(KEPT, "*")):
+                    if old != folder:
+                        shutil.rmtree(old, ignore_errors=True)
+                half = kept + ".half"  # whole files only, whatever ends this process
+                shutil.copy(made, half)
+                os.replace(half, kept)
         _files[example] = kept
     return _files[example]
 
