@@ -1,6 +1,6 @@
 // What pch.h is to the rest, for what is compiled for size: there Eigen's functions are each object's own. Of an inline
-// function the linker keeps one copy for all, and the products of matrices of every step must not end in one that is small
-// and slow (docs/decisions/0019-compilers.md).
+// function the linker keeps one copy for all, and the products of matrices of every step must not end in one that is
+// small and slow (docs/decisions/0019-compilers.md).
 #pragma once
 
 // What Eigen includes, outside of the pragma.
