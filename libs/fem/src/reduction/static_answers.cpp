@@ -1,7 +1,5 @@
 #include "hersey/fem/static_answers.h"
 
-#include <algorithm>
-
 #include "hersey/fem/held_stiffness.h"
 #include "reduction/frame_interface.h"
 
