@@ -17,6 +17,13 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND CMAKE_BUILD_TYPE STREQUAL "Release"
   set(HERSEY_FOR_SIZE -Oz)
 endif()
 
+# How what fuzzers try is compiled: they see which branches their input reaches, and every access is checked.
+set(HERSEY_INSTRUMENTED "")
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+  set(HERSEY_INSTRUMENTED -O1 -gline-tables-only -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined
+                          -fno-sanitize-recover=undefined)
+endif()
+
 find_program(HERSEY_CCACHE ccache)
 if(HERSEY_CCACHE)
   # Relative paths below the source directory, so that a second clone finds what the first has compiled.
@@ -60,9 +67,3 @@ if(HERSEY_WERROR)
   target_compile_options(hersey_options INTERFACE -Werror)
 endif()
 target_compile_features(hersey_options INTERFACE cxx_std_20)
-if(HERSEY_FUZZ)
-  # Everything is instrumented, so that the fuzzer sees which branches its input reaches.
-  target_compile_options(hersey_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-omit-frame-pointer
-                                                  -fno-sanitize-recover=undefined)
-  target_link_options(hersey_options INTERFACE -fsanitize=address,undefined)
-endif()

@@ -1,13 +1,16 @@
-# hersey_module(name [ONCE ALL|folders] [DEPENDS modules] [LINK public libraries] [PRIVATE libraries])
+# hersey_module(name [ONCE ALL|folders] [FUZZED ALL|paths] [DEPENDS modules] [LINK public libraries] [PRIVATE libraries])
 #
 # A module is libs/<name>: one static library with its own include root. It sees the headers of the modules it names
 # and of those below them, and no others, so an include that runs up or sideways does not compile.
-# Its tests, libs/<name>/test/*_test.cpp, become one executable, each case one test of ctest. With HERSEY_FUZZ each of
+# Its tests, libs/<name>/test/*_test.cpp, become one executable, each case one test of ctest. Each of
 # libs/<name>/fuzz/*_fuzz.cpp becomes the fuzzer <name>_<file>; the target `fuzzers` builds all of them.
 #
 # ONCE says that what the module does, or what lies in these folders of its src, is done once a run and not once a step:
 # reading, writing, telling. clang then compiles it for size, in two thirds of the time
 # (docs/decisions/0019-compilers.md); so are all tests.
+#
+# FUZZED says what fuzzers try of the module, or which files of its src, by how their paths begin. It is compiled once
+# more for them, instrumented; the rest of a fuzzer is the program's own code.
 
 # One precompiled header shared by all modules: standard library and Eigen only, never a module's own headers. What is
 # compiled for size has one of its own, since compilers take none that other settings made.
@@ -26,6 +29,11 @@ set(HERSEY_PCH_ONCE hersey_pch)
 if(HERSEY_FOR_SIZE)
   hersey_precompiled_header(hersey_pch_once pch_for_size.h ${HERSEY_FOR_SIZE})
   set(HERSEY_PCH_ONCE hersey_pch_once)
+endif()
+
+if(HERSEY_INSTRUMENTED)
+  hersey_precompiled_header(hersey_pch_fuzzed pch.h ${HERSEY_INSTRUMENTED})
+  set_target_properties(hersey_pch_fuzzed PROPERTIES EXCLUDE_FROM_ALL ON)
 endif()
 
 # What `target` does is done once a run: compiled for size, with the header precompiled so.
@@ -56,14 +64,54 @@ if(BUILD_TESTING)
   target_link_libraries(hersey_test_main PUBLIC doctest::doctest $<BUILD_INTERFACE:hersey_options>)
 endif()
 
-if(HERSEY_FUZZ)
+if(HERSEY_INSTRUMENTED)
   add_custom_target(fuzzers)
+else()
+  add_custom_target(fuzzers COMMAND ${CMAKE_COMMAND} -E echo "fuzzers are built by clang, in the preset release" COMMAND false)
 endif()
+
+# What fuzzers try of the module `name`, compiled for them, and its fuzzers: M_FUZZED, M_DEPENDS and M_PRIVATE are those
+# of hersey_module.
+function(hersey_fuzzers name)
+  set(dir ${CMAKE_CURRENT_SOURCE_DIR}/libs/${name})
+  set(instrumented "")
+  foreach(below ${M_DEPENDS})
+    get_target_property(theirs hersey_${below} HERSEY_FUZZED)
+    list(APPEND instrumented ${theirs})
+  endforeach()
+  if(M_FUZZED)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${dir}/src/*.cpp)
+    if(NOT M_FUZZED STREQUAL "ALL")
+      list(JOIN M_FUZZED "|" paths)
+      list(FILTER sources INCLUDE REGEX "^${dir}/src/(${paths})")
+    endif()
+    add_library(hersey_${name}_fuzzed OBJECT EXCLUDE_FROM_ALL ${sources})
+    target_include_directories(hersey_${name}_fuzzed PRIVATE ${dir}/src ${dir}/include)
+    target_link_libraries(hersey_${name}_fuzzed PRIVATE $<TARGET_PROPERTY:hersey_${name},LINK_LIBRARIES>)
+    target_compile_options(hersey_${name}_fuzzed PRIVATE ${HERSEY_INSTRUMENTED})
+    target_precompile_headers(hersey_${name}_fuzzed REUSE_FROM hersey_pch_fuzzed)
+    list(APPEND instrumented $<TARGET_OBJECTS:hersey_${name}_fuzzed>)
+  endif()
+  list(REMOVE_DUPLICATES instrumented)
+  set_target_properties(hersey_${name} PROPERTIES HERSEY_FUZZED "${instrumented}")
+
+  file(GLOB fuzzers CONFIGURE_DEPENDS ${dir}/fuzz/*_fuzz.cpp)
+  foreach(source ${fuzzers})
+    cmake_path(GET source STEM fuzzer)
+    add_executable(${name}_${fuzzer} EXCLUDE_FROM_ALL ${source} ${instrumented})
+    target_include_directories(${name}_${fuzzer} PRIVATE ${dir}/src)
+    target_link_libraries(${name}_${fuzzer} PRIVATE hersey_${name} ${M_PRIVATE} $<BUILD_INTERFACE:hersey_options>)
+    target_compile_options(${name}_${fuzzer} PRIVATE ${HERSEY_INSTRUMENTED})
+    # Of what is there twice, the linker keeps the first: the instrumented.
+    target_link_options(${name}_${fuzzer} PRIVATE -fsanitize=fuzzer,address,undefined LINKER:-z,muldefs)
+    add_dependencies(fuzzers ${name}_${fuzzer})
+  endforeach()
+endfunction()
 
 set_property(GLOBAL PROPERTY HERSEY_MODULES "")
 
 function(hersey_module name)
-  cmake_parse_arguments(M "" "" "ONCE;DEPENDS;LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(M "" "" "ONCE;FUZZED;DEPENDS;LINK;PRIVATE" ${ARGN})
   set(dir ${CMAKE_CURRENT_SOURCE_DIR}/libs/${name})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${dir}/src/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${dir}/include/hersey/${name}/*.h)
@@ -108,16 +156,8 @@ function(hersey_module name)
   install(TARGETS hersey_${name} EXPORT herseyTargets ARCHIVE COMPONENT dev FILE_SET HEADERS COMPONENT dev)
   set_property(GLOBAL APPEND PROPERTY HERSEY_MODULES ${name})
 
-  if(HERSEY_FUZZ)
-    file(GLOB fuzzers CONFIGURE_DEPENDS ${dir}/fuzz/*_fuzz.cpp)
-    foreach(source ${fuzzers})
-      cmake_path(GET source STEM fuzzer)
-      add_executable(${name}_${fuzzer} ${source})
-      target_include_directories(${name}_${fuzzer} PRIVATE ${dir}/src)
-      target_link_libraries(${name}_${fuzzer} PRIVATE hersey_${name} hersey_options ${M_PRIVATE})
-      target_link_options(${name}_${fuzzer} PRIVATE -fsanitize=fuzzer)
-      add_dependencies(fuzzers ${name}_${fuzzer})
-    endforeach()
+  if(HERSEY_INSTRUMENTED)
+    hersey_fuzzers(${name})
   endif()
 
   if(BUILD_TESTING AND tests)
