@@ -11,15 +11,14 @@ endif()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 # Contracts stay on in release: a wrong answer costs more than a comparison.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
-# For what runs once rather than at every step (hersey_module's ONCE).
+# How clang compiles what runs once rather than at every step (hersey_module's ONCE), what tests hold of their own, and
+# what fuzzers try: these see which branches their input reaches, and every access is checked.
 set(HERSEY_FOR_SIZE "")
-if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND CMAKE_BUILD_TYPE STREQUAL "Release")
-  set(HERSEY_FOR_SIZE -Oz)
-endif()
-
-# How what fuzzers try is compiled: they see which branches their input reaches, and every access is checked.
+set(HERSEY_FOR_TESTS "")
 set(HERSEY_INSTRUMENTED "")
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+  set(HERSEY_FOR_SIZE -Oz)
+  set(HERSEY_FOR_TESTS -O0)
   set(HERSEY_INSTRUMENTED -O1 -gline-tables-only -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined
                           -fno-sanitize-recover=undefined)
 endif()

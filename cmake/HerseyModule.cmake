@@ -7,7 +7,7 @@
 #
 # ONCE says that what the module does, or what lies in these folders of its src, is done once a run and not once a step:
 # reading, writing, telling. clang then compiles it for size, in two thirds of the time
-# (docs/decisions/0019-compilers.md); so are all tests.
+# (docs/decisions/0019-compilers.md).
 #
 # FUZZED says what fuzzers try of the module, or which files of its src, by how their paths begin. It is compiled once
 # more for them, instrumented; the rest of a fuzzer is the program's own code.
@@ -26,11 +26,15 @@ function(hersey_precompiled_header target header)
 endfunction()
 hersey_precompiled_header(hersey_pch pch.h)
 set(HERSEY_PCH_ONCE hersey_pch)
+set(HERSEY_PCH_TEST hersey_pch)
 if(HERSEY_FOR_SIZE)
   hersey_precompiled_header(hersey_pch_once pch_for_size.h ${HERSEY_FOR_SIZE})
   set(HERSEY_PCH_ONCE hersey_pch_once)
 endif()
-
+if(HERSEY_FOR_TESTS AND BUILD_TESTING)
+  hersey_precompiled_header(hersey_pch_test pch.h ${HERSEY_FOR_TESTS})
+  set(HERSEY_PCH_TEST hersey_pch_test)
+endif()
 if(HERSEY_INSTRUMENTED)
   hersey_precompiled_header(hersey_pch_fuzzed pch.h ${HERSEY_INSTRUMENTED})
   set_target_properties(hersey_pch_fuzzed PROPERTIES EXCLUDE_FROM_ALL ON)
@@ -38,14 +42,17 @@ endif()
 
 # What `target` does is done once a run: compiled for size, with the header precompiled so.
 function(hersey_for_size target)
-  target_compile_options(${target} PRIVATE ${HERSEY_FOR_SIZE})
+  hersey_settings(${target} ${HERSEY_PCH_ONCE} "${HERSEY_FOR_SIZE}")
+endfunction()
+function(hersey_settings target header options)
+  target_compile_options(${target} PRIVATE ${options})
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "EXECUTABLE")
     # As position-independent as the modules, so that their precompiled header serves.
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
     target_compile_options(${target} PRIVATE -fPIC)
   endif()
-  target_precompile_headers(${target} REUSE_FROM ${HERSEY_PCH_ONCE})
+  target_precompile_headers(${target} REUSE_FROM ${header})
 endfunction()
 
 if(BUILD_TESTING)
@@ -133,12 +140,17 @@ function(hersey_module name)
   set_target_properties(hersey_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
   target_sources(hersey_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${dir}/include FILES ${headers})
   target_include_directories(hersey_${name} PRIVATE ${dir}/src)
+  set(modules ${name})  # this one and all below
   foreach(below ${M_DEPENDS})
     if(NOT TARGET hersey_${below})
       message(FATAL_ERROR "module ${name} depends on ${below}, which is not below it (docs/architecture.md)")
     endif()
     target_link_libraries(hersey_${name} PUBLIC hersey_${below})
+    get_target_property(theirs hersey_${below} HERSEY_MODULES)
+    list(APPEND modules ${theirs})
   endforeach()
+  list(REMOVE_DUPLICATES modules)
+  set_target_properties(hersey_${name} PROPERTIES HERSEY_MODULES "${modules}")
   target_link_libraries(hersey_${name} PUBLIC ${M_LINK} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:hersey_options>)
   if(once)
     add_library(hersey_${name}_once OBJECT ${once})
@@ -169,7 +181,11 @@ function(hersey_module name)
       # GCC 12 takes strings that are put together for copies into their short form.
       target_compile_options(${name}_test PRIVATE -Wno-stringop-overflow)
     endif()
-    hersey_for_size(${name}_test)
+    hersey_settings(${name}_test ${HERSEY_PCH_TEST} "${HERSEY_FOR_TESTS}")
+    # Of a function that tests and modules both hold, the linker keeps the first copy: tests are to run what the program runs.
+    get_target_property(modules hersey_${name} HERSEY_MODULES)
+    list(TRANSFORM modules REPLACE "(.+)" "$<TARGET_FILE:hersey_\\1>")
+    target_link_options(${name}_test PRIVATE LINKER:--whole-archive ${modules} LINKER:--no-whole-archive)
     # Each case is a test of its own, `<module>.<case>`; a filter that selects no case must not pass.
     doctest_discover_tests(${name}_test TEST_PREFIX "${name}." PROPERTIES FAIL_REGULAR_EXPRESSION "test cases: +0 [|]")
   endif()

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -10,6 +12,19 @@
 namespace hersey::mbd::test {
 
 inline Pose pose_at(const Vector3& phi, const Vector3& r) { return {rotation_exp(phi).toRotationMatrix(), r}; }
+
+/// Corners of a mesh, those at one place (but for round-off) once.
+struct UniqueCorners {
+  std::vector<Vector3> corners;
+  std::map<std::array<long, 3>, int> number_at;  // by nanometres
+
+  int add(const Vector3& p) {
+    const std::array place{std::lround(1e9 * p.x()), std::lround(1e9 * p.y()), std::lround(1e9 * p.z())};
+    const auto [entry, is_new] = number_at.try_emplace(place, static_cast<int>(corners.size()));
+    if (is_new) corners.push_back(p);
+    return entry->second;
+  }
+};
 
 /// A box's surface in twelve triangles, seen from outside counter-clockwise, each face cut `cuts` times each way.
 inline std::shared_ptr<const TriangleMesh> box_mesh(const Box& box, int cuts = 1) {
@@ -38,15 +53,10 @@ inline std::shared_ptr<const TriangleMesh> box_mesh(const Box& box, int cuts = 1
         }
     }
   // Corners at the same place are one corner, as the STL reader leaves them.
-  std::vector<Vector3> unique;
+  UniqueCorners unique;
   std::vector<int> place;
-  for (const Vector3& corner : mesh->corners) {
-    int at = 0;
-    while (at < static_cast<int>(unique.size()) && (unique[at] - corner).norm() > 1e-12) ++at;
-    if (at == static_cast<int>(unique.size())) unique.push_back(corner);
-    place.push_back(at);
-  }
-  mesh->corners = unique;
+  for (const Vector3& corner : mesh->corners) place.push_back(unique.add(corner));
+  mesh->corners = unique.corners;
   for (auto& triangle : mesh->triangles)
     for (int& corner : triangle) corner = place[corner];
   return mesh;
@@ -56,16 +66,10 @@ inline std::shared_ptr<const TriangleMesh> box_mesh(const Box& box, int cuts = 1
 inline std::shared_ptr<const TriangleMesh> ball_mesh(double radius, int levels) {
   struct Builder {
     TriangleMesh mesh;
-    int add(const Vector3& p) {
-      // The same corner but for round-off.
-      for (std::size_t i = 0; i < mesh.corners.size(); ++i)
-        if ((mesh.corners[i] - p).norm() < 1e-12) return static_cast<int>(i);
-      mesh.corners.push_back(p);
-      return static_cast<int>(mesh.corners.size()) - 1;
-    }
+    UniqueCorners unique;
     void split(const Vector3& a, const Vector3& b, const Vector3& c, int levels) {
       if (levels == 0) {
-        const int i = add(a), j = add(b), k = add(c);
+        const int i = unique.add(a), j = unique.add(b), k = unique.add(c);
         mesh.triangles.push_back({i, j, k});
         return;
       }
@@ -86,6 +90,7 @@ inline std::shared_ptr<const TriangleMesh> ball_mesh(double radius, int levels) 
           builder.split(a, c, b, levels);
         }
       }
+  builder.mesh.corners = builder.unique.corners;
   for (Vector3& corner : builder.mesh.corners) corner *= radius;
   return std::make_shared<TriangleMesh>(std::move(builder.mesh));
 }
