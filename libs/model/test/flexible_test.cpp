@@ -1,6 +1,11 @@
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "build/known_reductions.h"
 #include "hersey/fem/reduced_body_file.h"
 #include "hersey/model/build.h"
 #include "model_text.h"
@@ -306,6 +311,51 @@ TEST_CASE("OrthotropicMaterial_WithEqualConstantsIsTheIsotropicOne") {
   CHECK(contains(told("208 208 208", "208 -1 208"), "constants of no material"));
   CHECK(contains(told("[0.3, 0.3, 0.3]", "[0.3, 0.3]"), "poisson_ratios"));
   CHECK(contains(faults_of(edited(kMachine, "youngs_modulus: 210 GPa, ", "")), "material"));
+}
+
+TEST_CASE("ABodyReducedBefore_IsReducedAnewWhereAnythingHasChanged") {
+  const auto built = [](const std::string& text) { return build(read_text(text, "m.yaml")).flexibles[0]; };
+  const std::string text = edited(kMachine, "modes: 0", "modes: 4");
+  const MeshFile file;
+  const BuiltFlexible first = built(text);
+  const auto is_the_first = [&](const BuiltFlexible& other) {
+    return other.shapes.rows() == first.shapes.rows() && other.shapes.cols() == first.shapes.cols() &&
+           (other.shapes - first.shapes).norm() == 0 && other.frequencies == first.frequencies &&
+           other.static_errors.size() == first.static_errors.size() &&
+           (other.body->data().stiffness - first.body->data().stiffness).norm() == 0;
+  };
+  CHECK(is_the_first(built(text)));
+  CHECK(is_the_first(built(edited(text, "duration: 1 ms", "duration: 2 ms"))));
+  using Change = std::pair<std::string, std::string>;
+  for (const Change& change :
+       {Change{"modes: 4", "modes: 3"}, Change{"modes: 4", "modes: 4\n      highest_frequency: 150 kHz"},
+        Change{"modes: 4", "modes: 4\n      form: nodal"}, Change{"modes: 4", "modes: 4\n      load_surfaces: [right]"},
+        Change{"210 GPa", "211 GPa"}, Change{"0.3,", "0.29,"}, Change{"7850", "7851"},
+        Change{"connection: average", "connection: rigid"},
+        Change{"{nodes: right, ", "{nodes: right, origin: 10 5 4 mm, "}, Change{"unit: 1 mm", "unit: 1.01 mm"}}) {
+    CAPTURE(change.second);
+    CHECK(!is_the_first(built(edited(text, change.first, change.second))));
+  }
+  std::ofstream("flexible_test_bar.inp") << edited(kMesh, "7, 10, 10, 10", "7, 10, 10, 11");
+  CHECK(!is_the_first(built(text)));
+}
+
+TEST_CASE("KnownReductions_KeepWhatWasAskedForLast") {
+  const auto of_size = [](Eigen::Index n) {
+    auto body = std::make_shared<fem::ReducedBody>();
+    body->Phi.setZero(n, 1);
+    return body;
+  };
+  KnownReductions known(3000);
+  for (const char* name : {"a", "b", "c"}) known.keep(name, of_size(100));
+  REQUIRE(known.find("a"));
+  known.keep("d", of_size(100));
+  CHECK(known.find("a"));
+  CHECK(!known.find("b"));
+  CHECK(known.find("c"));
+  CHECK(known.find("d")->Phi.size() == 100);
+  known.keep("too large", of_size(1000));
+  CHECK(!known.find("too large"));
 }
 
 }  // namespace flexible_test

@@ -23,6 +23,11 @@ namespace {
 constexpr int kMostHeatIterations = 300;
 constexpr double kHeatTolerance = 1e-8;
 
+// Temperatures that still change by more than this share of their rise after so many turns, and have at each of them, go
+// round for ever: where oil stands in a cell, its heat, and with that its viscosity, may be anything.
+constexpr int kTurnsToComeNear = 80;
+constexpr double kFarApart = 0.5;
+
 // Where more heat passes through the film than is made in it, the balance asks for more: for this error of it, if so
 // many further turns come to it.
 constexpr double kBalanceTolerance = 5e-8;
@@ -84,7 +89,8 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
   SteadySummary summary;
   double clearance_before = 0;
   int turns_near = 0;
-  for (int k = 0; k < kMostHeatIterations; ++k) {
+  double nearest = 1;
+  for (int k = 0; k < kMostHeatIterations && (k < kTurnsToComeNear || nearest <= kFarApart); ++k) {
     Eigen::VectorXd shell = path.heat().shell_opening();
     Eigen::VectorXd journal = film::around(model.grid, path.heat().journal_growth());
     const HotClearance hot = hot_clearance(model, path.growth(), shell, journal);
@@ -111,6 +117,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     search.heat(path.heat());
     if (network != nullptr) balance(*network, path.heat());
     path.take();
+    nearest = std::min(nearest, path.nearness());
     const bool is_near = path.nearness() <= nearness, is_only_begun = nearness > kHeatTolerance;
     if (is_near) ++turns_near;
     const bool is_balanced =
@@ -123,7 +130,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
   }
   summary.set_solved(false);
   summary.message = fmt::format("film and temperature do not come together in {} turns; hottest oil {}",
-                                kMostHeatIterations, hottest_of(path.heat().observables()));
+                                summary.heat_iterations, hottest_of(path.heat().observables()));
   tell_runaway(path.heat().observables(), false, summary);
   return summary;
 }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "build/known_reductions.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
 #include "hersey/mbd/nodal_body.h"
@@ -32,12 +35,28 @@ fem::ReductionOptions options_of(const Flexible& flexible, const std::vector<con
   return options;
 }
 
-/// `mesh` is null where the body comes reduced from a file.
-fem::ReducedBody reduced(const Body& body, const fem::ElasticBody* mesh, const fem::ReductionOptions& options) {
-  if (mesh == nullptr) return *body.flexible->reduced;
-  fem::Reduction reduction = fem::reduce(*mesh, interface_frames(body), options);
+// Rods and cranks of an engine fit; meshes of a hundred thousand nodes with a hundred shapes, two of them.
+constexpr std::size_t kBytesKept = 500'000'000;
+
+KnownReductions& known_reductions() {
+  static KnownReductions known(kBytesKept);
+  return known;
+}
+
+// @param mesh  receives the assembled mesh where the body had to be reduced for this
+std::shared_ptr<const fem::ReducedBody> reduced(const Body& body, const std::vector<const DeformingSurface*>& surfaces,
+                                                std::optional<fem::ElasticBody>& mesh) {
+  if (body.flexible->reduced) return body.flexible->reduced;
+  Fingerprint print;
+  add_reduction(body, surfaces, print);
+  std::string fingerprint = print.take();
+  if (auto known = known_reductions().find(fingerprint)) return known;
+  mesh = assembled(body);
+  fem::Reduction reduction = fem::reduce(*mesh, interface_frames(body), options_of(*body.flexible, surfaces));
   if (!reduction.solved()) throw cannot_be_held(body, reduction.message);
-  return std::move(reduction.body);
+  auto shapes = std::make_shared<const fem::ReducedBody>(std::move(reduction.body));
+  known_reductions().keep(std::move(fingerprint), shapes);
+  return shapes;
 }
 
 }  // namespace
@@ -82,8 +101,8 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
   HERSEY_REQUIRE(body.flexible && body.flexible->mesh, "the reader checks meshes");
   const Flexible& flexible = *body.flexible;
   std::optional<fem::ElasticBody> mesh;
-  if (!flexible.reduced) mesh = assembled(body);
-  const fem::ReducedBody shapes = reduced(body, mesh ? &*mesh : nullptr, options_of(flexible, surfaces));
+  const std::shared_ptr<const fem::ReducedBody> known = reduced(body, surfaces, mesh);
+  const fem::ReducedBody& shapes = *known;
   BuiltFlexible built;
   built.name = body.name;
   built.mesh = flexible.mesh;
@@ -95,6 +114,7 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
                     static_cast<int>(shapes.film_modes[i].compliance.size()), shapes.film_modes[i].lost});
   mbd::ModalBodyData data = mbd::modal_data(shapes, flexible.damping, &built.shapes);
   if (flexible.nodal) {
+    if (!mesh) mesh = assembled(body);
     auto nodal = std::make_shared<mbd::NodalBody>(std::move(*mesh), shapes, flexible.damping, flexible.strain);
     if (is_let_go) nodal->start_undeformed();
     built.body = std::move(nodal);
@@ -106,10 +126,30 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
 }
 
 mbd::ModalBodyData modal_shapes(const Body& body, const std::vector<const DeformingSurface*>& surfaces) {
-  const Flexible& flexible = *body.flexible;
   std::optional<fem::ElasticBody> mesh;
-  if (!flexible.reduced) mesh = assembled(body);
-  return mbd::modal_data(reduced(body, mesh ? &*mesh : nullptr, options_of(flexible, surfaces)), flexible.damping);
+  return mbd::modal_data(*reduced(body, surfaces, mesh), body.flexible->damping);
+}
+
+void add_reduction(const Body& body, const std::vector<const DeformingSurface*>& surfaces, Fingerprint& print) {
+  const Flexible& flexible = *body.flexible;
+  add_mesh(*flexible.mesh, print);
+  for (const fem::SolidMaterial& material : flexible.materials) print.add(material.D), print.add(material.density);
+  print.add(flexible.nodal ? -1 : flexible.modes);
+  print.add(flexible.highest);
+  print.add(flexible.static_error);
+  print.add(flexible.load_harmonics);
+  for (const std::string& name : flexible.load_surfaces) print.add(name);
+  for (const auto& faces : flexible.contact_faces) print.add(faces);
+  for (const Frame& frame : body.frames) {
+    print.add(frame.name), print.add(frame.X_BF.R), print.add(frame.X_BF.r), print.add(frame.nodes);
+    print.add(static_cast<int>(frame.connection));
+  }
+  for (const DeformingSurface* surface : surfaces) {
+    const fem::FilmSurface& film = *surface->surface;
+    print.add(film.cylinder.X.R), print.add(film.cylinder.X.r), print.add(film.cylinder.R), print.add(film.cylinder.L);
+    print.add(film.functions.around()), print.add(film.functions.along()), print.add(film.faces);
+    print.add(surface->modes.value_or(-1));
+  }
 }
 
 std::vector<const DeformingSurface*> surfaces_on(const Model& model, const Body& body) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "build/fingerprint.h"
 #include "hersey/core/input_error.h"
 #include "hersey/fem/elastic_body.h"
 #include "hersey/fem/reduction.h"
@@ -7,7 +8,7 @@
 
 namespace hersey::model {
 
-/// Assembles and reduces the mesh of a flexible body.
+/// Assembles and reduces the mesh of a flexible body, or takes it from one reduced before that was the same.
 /// @param surfaces  of bearings that lie on it: it gets their film modes
 /// @param is_let_go whether its nodes start undeformed, not as forces hold them
 /// @param kept      receives what it keeps of each
@@ -24,6 +25,9 @@ namespace hersey::model {
 [[nodiscard]] fem::ElasticBody assembled(const Body& body);
 [[nodiscard]] std::vector<fem::InterfaceFrame> interface_frames(const Body& body);
 [[nodiscard]] InputError cannot_be_held(const Body& body, const std::string& why);
+
+/// Everything that the reduced body depends on.
+void add_reduction(const Body& body, const std::vector<const DeformingSurface*>& surfaces, Fingerprint& print);
 
 /// Surfaces of bearings that lie on the mesh of `body`, in the order of the bearings, the shell's first.
 [[nodiscard]] std::vector<const DeformingSurface*> surfaces_on(const Model& model, const Body& body);

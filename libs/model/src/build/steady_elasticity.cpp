@@ -179,26 +179,8 @@ std::shared_ptr<const bearing::SurfaceFlexibility> flexibility(const Model& mode
 
 void add_body(const Model& model, const Bearing& bearing, const FrameName& on, Fingerprint& print) {
   const Body& body = body_called(model, on.body);
-  const Flexible& flexible = *body.flexible;
   print.add(body.name);
-  add_mesh(*flexible.mesh, print);
-  for (const fem::SolidMaterial& material : flexible.materials) print.add(material.D), print.add(material.density);
-  print.add(flexible.nodal ? -1 : flexible.modes);
-  print.add(flexible.highest);
-  print.add(flexible.static_error);
-  print.add(flexible.load_harmonics);
-  for (const std::string& name : flexible.load_surfaces) print.add(name);
-  for (const auto& faces : flexible.contact_faces) print.add(faces);
-  for (const Frame& frame : body.frames) {
-    print.add(frame.name), print.add(frame.X_BF.R), print.add(frame.X_BF.r), print.add(frame.nodes);
-    print.add(static_cast<int>(frame.connection));
-  }
-  for (const DeformingSurface* surface : surfaces_on(model, body)) {
-    const fem::FilmSurface& film = *surface->surface;
-    print.add(film.cylinder.X.R), print.add(film.cylinder.X.r), print.add(film.cylinder.R), print.add(film.cylinder.L);
-    print.add(film.functions.around()), print.add(film.functions.along()), print.add(film.faces);
-    print.add(surface->modes.value_or(-1));
-  }
+  add_reduction(body, surfaces_on(model, body), print);
   const std::size_t own = place_of(body, on.frame);
   print.add(static_cast<int>(own));
   for (const std::size_t place : holders(model, bearing, body, own)) print.add(static_cast<int>(place));

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "hersey/fem/reduction.h"
+
+namespace hersey::model {
+
+/// The last reduced bodies of this process, by all that went into them: runs of a study, and a run and the check before
+/// it, mostly leave bodies as they are. Threads may share it.
+class KnownReductions {
+ public:
+  /// @param most  bytes that are kept at most
+  explicit KnownReductions(std::size_t most) : most_(most) {}
+
+  /// Null where it is not known.
+  [[nodiscard]] std::shared_ptr<const fem::ReducedBody> find(const std::string& fingerprint);
+  /// Keeps it, and forgets those that were asked for longest ago as far as there is no room for all.
+  void keep(std::string fingerprint, std::shared_ptr<const fem::ReducedBody> body);
+
+ private:
+  struct Known {
+    std::string fingerprint;
+    std::shared_ptr<const fem::ReducedBody> body;
+  };
+  std::size_t most_;
+  std::mutex mutex_;
+  std::list<Known> known_;  ///< asked for last first
+};
+
+/// Bytes of the matrices of a reduced body and of its mesh.
+[[nodiscard]] std::size_t bytes_of(const fem::ReducedBody& body);
+
+}  // namespace hersey::model
