@@ -23,8 +23,8 @@ namespace {
 constexpr int kMostHeatIterations = 300;
 constexpr double kHeatTolerance = 1e-8;
 
-// Temperatures that still change by more than this share of their rise after so many turns, and have at each of them, go
-// round for ever: where oil stands in a cell, its heat, and with that its viscosity, may be anything.
+// Temperatures that still change by more than this share of their rise after so many turns, and have at each of them,
+// go round for ever: where oil stands in a cell, its heat, and with that its viscosity, may be anything.
 constexpr int kTurnsToComeNear = 80;
 constexpr double kFarApart = 0.5;
 
