@@ -37,11 +37,14 @@ const axeSource = axe();
 let passed = 0;
 let failed = 0;
 
+/** Says of what takes longer than a second how long. */
 async function check(name, test) {
+  const start = performance.now();
   try {
     await test();
     passed++;
-    console.log(`  ok    ${name}`);
+    const seconds = (performance.now() - start) / 1000;
+    console.log(`  ok    ${name}${seconds > 1 ? `, ${seconds.toFixed(1)} s` : ""}`);
   } catch (error) {
     failed++;
     console.log(`  FAIL  ${name}\n        ${error.message.split("\n").join("\n        ")}`);
