@@ -336,6 +336,9 @@ TEST_CASE("ABodyReducedBefore_IsReducedAnewWhereAnythingHasChanged") {
     CAPTURE(change.second);
     CHECK(!is_the_first(built(edited(text, change.first, change.second))));
   }
+  const std::string nodal = edited(text, "modes: 4", "modes: 4\n      form: nodal");
+  CHECK(built(nodal).frequencies.size() == 4);
+  CHECK(built(edited(nodal, "modes: 4", "modes: 3")).frequencies.size() == 3);
   std::ofstream("flexible_test_bar.inp") << edited(kMesh, "7, 10, 10, 10", "7, 10, 10, 11");
   CHECK(!is_the_first(built(text)));
 }
@@ -356,6 +359,10 @@ TEST_CASE("KnownReductions_KeepWhatWasAskedForLast") {
   CHECK(known.find("d")->Phi.size() == 100);
   known.keep("too large", of_size(1000));
   CHECK(!known.find("too large"));
+  CHECK(known.find("a"));
+  known.keep("a", of_size(101));
+  CHECK(known.find("a")->Phi.size() == 101);
+  CHECK(known.find("c"));
 }
 
 }  // namespace flexible_test

@@ -19,7 +19,7 @@ class KnownReductions {
 
   /// Null where it is not known.
   [[nodiscard]] std::shared_ptr<const fem::ReducedBody> find(const std::string& fingerprint);
-  /// Keeps it, and forgets those that were asked for longest ago as far as there is no room for all.
+  /// Keeps it, unless it is too large by itself, and forgets those asked for longest ago as far as room lacks for all.
   void keep(std::string fingerprint, std::shared_ptr<const fem::ReducedBody> body);
 
  private:
@@ -27,12 +27,12 @@ class KnownReductions {
     std::string fingerprint;
     std::shared_ptr<const fem::ReducedBody> body;
   };
+  /// Of its matrices and its mesh.
+  [[nodiscard]] static std::size_t bytes_of(const Known& known);
+
   std::size_t most_;
   std::mutex mutex_;
   std::list<Known> known_;  ///< asked for last first
 };
-
-/// Bytes of the matrices of a reduced body and of its mesh.
-[[nodiscard]] std::size_t bytes_of(const fem::ReducedBody& body);
 
 }  // namespace hersey::model
