@@ -1,6 +1,7 @@
 """Runs from Python: the program's numbers, progress, interruptions, failures."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -10,6 +11,7 @@ import threading
 import h5py
 import numpy as np
 import pytest
+from conftest import EXAMPLES
 
 import hersey
 
@@ -24,6 +26,34 @@ def test_run_has_the_bits_of_the_program(machine, tmp_path, program):
         for name in ("h_min", "force", "p_max"):
             assert np.array_equal(results["bearings/main"][name].values, told[f"bearings/main/{name}"][:]), name
     assert results.status == "completed" and results.summary["steps"] == 50
+
+
+def numbers(file):
+    found = {}
+    with h5py.File(file) as content:
+        content.visititems(lambda name, item: found.__setitem__(name, item[()])
+                           if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and "wall" not in name else None)
+    return found
+
+
+def test_bodies_of_earlier_runs_do_not_show_in_later_ones(tmp_path, program):
+    """A process keeps reduced meshes: each run still has the bits of the program, which has reduced nothing before."""
+    file, rod = EXAMPLES / "flexible_slider_crank" / "model.yaml", "bodies.rod.flexible."
+    short = {"simulation.duration": "1 ms"}
+    changes = [{}, {rod + "modes": "3"}, {rod + "form": "nodal"}, {rod + "form": "nodal", rod + "modes": "3"},
+               {rod + "damping.stiffness": "9 us"}, {rod + "length_unit": "1.01 mm"}]
+    for turn, change in enumerate(2 * changes):
+        hersey.Model.load(file).set(short | change).run(tmp_path / f"python-{turn}")
+    for turn, change in enumerate(changes):
+        values = [word for key, value in (short | change).items() for word in ("--set", f"{key}={value}")]
+        subprocess.run([program, "run", file, *values, "--output", tmp_path / "alone"], check=True, capture_output=True)
+        alone = numbers(tmp_path / "alone" / "results.h5")
+        assert len(alone) > 50
+        for again in (turn, turn + len(changes)):
+            here = numbers(tmp_path / f"python-{again}" / "results.h5")
+            off = [name for name in alone if not np.array_equal(alone[name], here.get(name), equal_nan=True)]
+            assert not off, (change, off)
+        shutil.rmtree(tmp_path / "alone")
 
 
 def test_existing_results_are_kept(machine, tmp_path):
