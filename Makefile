@@ -25,6 +25,7 @@ demo: program  ## simulates the paper's big-end bearing and says where the repor
 
 test: $(BUILD)/build.ninja  ## builds everything and runs every test (FILTER=regex: some of them)
 	@scripts/setup build test study
+	@$(PHASE) configure build/log/configure.log cmake $(BUILD)
 	@$(PHASE) compile build/log/compile.log cmake --build $(BUILD) -j $(JOBS)
 	@scripts/run-tests $(BUILD) $(JOBS) '$(FILTER)'
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Oil whirl of the two rotors: growth of the orbit in the run against the linearised prediction.
 
-    threshold.py HERSEY [rigid | flexible] [--cavitation CONDITION] [--within SHARE]
+    threshold.py HERSEY [rigid | flexible] [--cavitation CONDITION] [--settle SECONDS] [--within SHARE]
 
 For each of a few speeds: stiffness and damping of a bearing under its share of the weight (`hersey bearing`) and from them
 the rotor's eigenvalue; a run that comes to the speed, holds it, and is left alone there (`hersey run`), and growth and frequency
@@ -96,7 +96,7 @@ def shaft_matrices(elements=10):
 
 def predicted(rotor, K_film, B_film):
     """Eigenvalue of the rotor on two linear bearings [1/s]."""
-    if rotor is RIGID:
+    if rotor.model == RIGID.model:
         return least_stable(rotor.mass / 2 * np.eye(2), B_film, K_film)
     m, k = shaft_matrices()
     n = len(m)
@@ -157,10 +157,13 @@ def main():
     parser.add_argument("program")
     parser.add_argument("rotor", nargs="?", default="rigid", choices=("rigid", "flexible"))
     parser.add_argument("--cavitation", default="reynolds")
+    parser.add_argument("--settle", type=float, help="before the speed changes; the shorter, the larger is the orbit that grows")
     parser.add_argument("--within", type=float)
     parser.add_argument("--speeds", type=lambda text: tuple(float(part) for part in text.split(",")), help="in rpm")
     arguments = parser.parse_args()
     rotor = RIGID if arguments.rotor == "rigid" else FLEXIBLE
+    if arguments.settle is not None:
+        rotor = dataclasses.replace(rotor, settle=arguments.settle)
     speeds = arguments.speeds or rotor.speeds
     settings = ("--set", f"cavitation={arguments.cavitation}", "--set", f"simulation.step={rotor.step}ms")
 
