@@ -51,7 +51,7 @@ mutations:  ## plants faults one at a time in a copy and tells which no test not
 fuzz: program  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some; SEED=n)
 	@scripts/setup build test fuzz
 	@$(PHASE) compile build/log/fuzz.log cmake --build $(BUILD) --target fuzzers -j $(JOBS)
-	@status=0; scripts/fuzz $(BUILD) $(TIME) '$(FILTER)' $(SEED) || status=1; \
+	@status=0; scripts/fuzz $(BUILD) $(TIME) $(JOBS) '$(FILTER)' $(SEED) || status=1; \
 	  $(MAKE) --no-print-directory random-models || status=1; exit $$status
 
 studies: program  ## tries studies: plans, kills, statistics, optimum

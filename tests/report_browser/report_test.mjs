@@ -1,6 +1,6 @@
-// node report_test.mjs REPORT.html ...: opens reports in headless Chromium and checks that they work.
+// node report_test.mjs REPORT.html ...: opens reports in headless Chromium and checks that they work, two at a time.
 // Needs `npm ci` in web/, a Chromium (CHROMIUM=/path/to/it, default /usr/bin/chromium) and pdftotext (poppler-utils).
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, readFileSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -34,20 +34,25 @@ function axe() {
 }
 
 const axeSource = axe();
-let passed = 0;
-let failed = 0;
 
-/** Says of what takes longer than a second how long. */
-async function check(name, test) {
-  const start = performance.now();
-  try {
-    await test();
-    passed++;
-    const seconds = (performance.now() - start) / 1000;
-    console.log(`  ok    ${name}${seconds > 1 ? `, ${seconds.toFixed(1)} s` : ""}`);
-  } catch (error) {
-    failed++;
-    console.log(`  FAIL  ${name}\n        ${error.message.split("\n").join("\n        ")}`);
+/** What became of one report's checks, told as a whole, since another report is tried at the same time. */
+class Findings {
+  passed = 0;
+  failed = 0;
+  lines = [];
+
+  /** Says of what takes longer than a second how long. */
+  async check(name, test) {
+    const start = performance.now();
+    try {
+      await test();
+      this.passed++;
+      const seconds = (performance.now() - start) / 1000;
+      this.lines.push(`  ok    ${name}${seconds > 1 ? `, ${seconds.toFixed(1)} s` : ""}`);
+    } catch (error) {
+      this.failed++;
+      this.lines.push(`  FAIL  ${name}\n        ${error.message.split("\n").join("\n        ")}`);
+    }
   }
 }
 
@@ -114,7 +119,7 @@ async function keyboardFaults(page) {
   }
 }
 
-async function testAccess(page) {
+async function testAccess(page, findings) {
   const looks = [
     { width: 1366, height: 768, scheme: "light" },
     { width: 1366, height: 768, scheme: "dark" },
@@ -122,23 +127,23 @@ async function testAccess(page) {
     { width: 390, height: 844, scheme: "dark" },
   ];
   for (const look of looks)
-    await check(`axe-core finds nothing serious at ${look.width} x ${look.height}, ${look.scheme}`, async () => {
+    await findings.check(`axe-core finds nothing serious at ${look.width} x ${look.height}, ${look.scheme}`, async () => {
       const faults = await accessibilityFaults(page, look);
       if (faults.length > 0) throw new Error(faults.join("\n"));
     });
-  await check("the keyboard reaches every control", async () => {
+  await findings.check("the keyboard reaches every control", async () => {
     const faults = await keyboardFaults(page);
     if (faults.length > 0) throw new Error(faults.slice(0, 10).join("\n"));
   });
 }
 
 async function testReport(browser, file) {
-  console.log(file);
+  const findings = new Findings();
   let opened;
-  await check("opens", async () => {
+  await findings.check("opens", async () => {
     opened = await open(browser, file);
   });
-  if (!opened) return;
+  if (!opened) return findings;
   const { page, complaints } = opened;
   const isStudy = (await page.locator(".study").count()) > 0;
   const isComparison = isStudy && (await page.locator(".study h2").first().innerText()).includes("compared");
@@ -151,12 +156,13 @@ async function testReport(browser, file) {
   const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : runReport), ...(isStudy && !isComparison ? spectraReport : {}), ...everyReport };
   const ofBearing = { ...(isStudy ? sweepReport : {}), ...bearingReport };
   const tests = isSampling ? samplingReport : isRunUp ? runUpReport : hasMore ? besideReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
-  for (const [name, test] of Object.entries(tests)) await check(name, () => test(page));
-  await testAccess(page);
-  await check("nothing on the console and nothing over the network", async () => {
+  for (const [name, test] of Object.entries(tests)) await findings.check(name, () => test(page));
+  await testAccess(page, findings);
+  await findings.check("nothing on the console and nothing over the network", async () => {
     if (complaints.length > 0) throw new Error(complaints.join("\n"));
   });
   await page.close();
+  return findings;
 }
 
 const files = process.argv.slice(2).map((file) => resolve(file));
@@ -165,8 +171,23 @@ if (files.length === 0) giveUp("usage: node report_test.mjs REPORT.html ...");
 for (const file of files) if (!existsSync(file)) giveUp(`${file}: there is no such report`);
 if (!existsSync(executablePath)) giveUp(`${executablePath}: there is no Chromium; set CHROMIUM to its path`);
 
-const browser = await playwright().chromium.launch({ executablePath, args: flags });
-for (const file of files) await testReport(browser, file);
-await browser.close();
+// A browser needs little more than one core. The largest report first: the last one to be tried is tried alone.
+const waiting = files.sort((a, b) => statSync(b).size - statSync(a).size);
+let passed = 0;
+let failed = 0;
+
+async function testWaiting() {
+  const browser = await playwright().chromium.launch({ executablePath, args: flags });
+  for (let file = waiting.shift(); file; file = waiting.shift()) {
+    const start = performance.now();
+    const findings = await testReport(browser, file);
+    console.log([`${file}, ${((performance.now() - start) / 1000).toFixed(0)} s`, ...findings.lines].join("\n"));
+    passed += findings.passed;
+    failed += findings.failed;
+  }
+  await browser.close();
+}
+
+await Promise.all([testWaiting(), testWaiting()]);
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed > 0 ? 1 : 0);
