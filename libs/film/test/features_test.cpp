@@ -175,8 +175,8 @@ Sweep sweep(FeatureShape shape, double pressure, double omega) {
   Reynolds reynolds(m);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   std::vector<Eigen::Vector2d> force;
-  for (int step = 0; step < 1000; ++step) {
-    motion.phi_journal = 4 * 2 * pi / 60 * step / 1000;
+  for (int step = 0; step < 500; ++step) {
+    motion.phi_journal = 2 * 2 * pi / 60 * step / 500;
     REQUIRE(solve_film(reynolds, motion, {}, {}, u).solved());
     const Eigen::Rotation2Dd back(-motion.phi_journal);  // seen from the hole the force hardly changes
     force.emplace_back(back * reynolds.wrench_on_shell().segment<2>(3));

@@ -20,7 +20,7 @@ ThermalModel walls(WallMotion motion) {
   return thermal;
 }
 
-/// A film whose journal goes to and fro along a line, `swing` about the middle position, in steps of 100 to the period.
+/// A film whose journal goes to and fro along a line, `swing` about the middle position, in steps of 50 to the period.
 class Machine {
  public:
   Machine(const FilmModel& model, const ThermalModel& thermal, double swing)
@@ -46,7 +46,7 @@ class Machine {
   FilmOverTime film;
   double heat_into_journal = 0, temperature_of_journal = 0, worst_balance = 0;
   static constexpr double period = 2 * pi / 300 * 2;
-  static constexpr int steps = 100;
+  static constexpr int steps = 50;
 
  private:
   double c_, swing_, start_;

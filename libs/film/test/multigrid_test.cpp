@@ -37,7 +37,7 @@ Increments increments(const FilmModel& model, const SurfaceMotion& motion, const
 TEST_CASE("MultigridIterations_DoNotGrowWithTheGrid") {
   // A residual of 1e-10 after as many iterations on every grid, in either sense of rotation, in films half cavitated.
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
-    for (const Grid& grid : {Grid{60, 13}, Grid{121, 26}, Grid{240, 52}, Grid{400, 9}, Grid{30, 80}}) {
+    for (const Grid& grid : {Grid{60, 13}, Grid{121, 26}, Grid{180, 39}, Grid{400, 9}, Grid{30, 80}}) {
       for (const double sense : {1.0, -1.0}) {
         CAPTURE(static_cast<int>(cavitation));
         CAPTURE(grid.n_phi);
@@ -63,7 +63,7 @@ TEST_CASE("AllSolvers_ReachTheSameAnswer") {
     for (const double e : {0.3, 0.95}) {
       CAPTURE(static_cast<int>(cavitation));
       CAPTURE(e);
-      FilmModel m = big_end(cavitation, {60, 13});
+      FilmModel m = big_end(cavitation, {48, 11});
       m.compliance = m.R / 57e9;
       m.lubricant.viscosity_law = Barus{1.28e-8};
       m.asperities = {AsperityModel::greenwood_tripp_exact, 1e-6, 3e-3, 57e9, 0.1};
@@ -88,9 +88,9 @@ TEST_CASE("AllSolvers_ReachTheSameAnswer") {
 TEST_CASE("ColdStarts_TakeEightIterationsAtMost") {
   for (const auto solver : {FilmSolver::newton, FilmSolver::multigrid}) {
     for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
-      for (const Grid& grid : {Grid{60, 13}, Grid{61, 12}, Grid{240, 52}, graded_grid(120, 25, {{pi, 0.3, 4}}, {})}) {
-        // A fine grid takes 15 times as long: its corners of the range are enough.
-        const bool is_fine = grid.size() > 5000;
+      for (const Grid& grid : {Grid{60, 13}, Grid{61, 12}, Grid{160, 35}, graded_grid(120, 25, {{pi, 0.3, 4}}, {})}) {
+        // Fine grids take many times as long: their corners of the range are enough.
+        const bool is_fine = grid.size() > 1000;
         for (const double e : is_fine ? std::vector{0.2, 0.98} : std::vector{0.2, 0.6, 0.9, 0.98}) {
           for (const double L_over_D : is_fine ? std::vector{0.25, 2.0} : std::vector{0.25, 1.0, 2.0}) {
             for (const bool flooded : {false, true}) {
@@ -118,7 +118,7 @@ TEST_CASE("ColdStarts_TakeEightIterationsAtMost") {
 TEST_CASE("ColdStartsWithEveryLaw_TakeFifteenIterationsAtMost") {
   for (const auto solver : {FilmSolver::newton, FilmSolver::multigrid}) {
     for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
-      for (const Grid& grid : {Grid{60, 13}, Grid{120, 26}, Grid{180, 21}}) {
+      for (const Grid& grid : {Grid{60, 13}, Grid{120, 26}}) {
         for (const double alpha : {0.0, 2e-8}) {
           for (const double e : {0.5, 0.98, 1.01}) {
             CAPTURE(static_cast<int>(solver));

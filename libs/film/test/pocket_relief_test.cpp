@@ -257,7 +257,7 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
 // grid's own error, as above.
 TEST_CASE("SupplyLineOverAGroove_FillsItsDepth") {
   const auto load = [](int n_phi, double line, Surface surface) {
-    FilmModel m{.R = 0.05, .L = 0.05, .c = 50e-6, .grid = {n_phi, 25}};
+    FilmModel m{.R = 0.05, .L = 0.05, .c = 50e-6, .grid = {n_phi, 17}};
     m.lubricant.mu0 = 0.01;
     m.supply = {SupplyKind::fixed_angle, line, 0};
     m.features = {
