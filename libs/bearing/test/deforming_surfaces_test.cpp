@@ -256,6 +256,7 @@ TEST_CASE("TorqueOnADeformedBore_IsThatOfTheSurface") {
 // Everything moves: what the bodies put in by wrench and forces on shapes is what the film's integrals say.
 TEST_CASE("PowerPutInByBodiesThatDeform_IsWhatTheFilmTakes") {
   film::FilmModel model = fine_film();
+  model.grid = {.n_phi = 120, .n_z = 25};
   model.lubricant.viscosity_law = film::Barus{1.5e-8};
   model.asperities = {.model = film::AsperityModel::greenwood_tripp_exact,
                       .sigma = 5e-6,

@@ -73,7 +73,7 @@ TEST_CASE("RaimondiBoyd_FromLoadToPosition") {
     const double L_over_D = cells[0], epsilon = cells[1], S = cells[2], attitude = cells[3];
     CAPTURE(L_over_D);
     CAPTURE(epsilon);
-    film::FilmModel model = flooded_film(180, 25);
+    film::FilmModel model = flooded_film(120, 17);
     model.L = 2 * model.R * L_over_D;
     model.shear_force = film::ShearForce::torque_only;  // the table's load is that of the pressure
     const double omega = 100, R_c = model.R / model.c;
@@ -130,7 +130,7 @@ TEST_CASE("LundThomsen_StiffnessAndDamping") {
     for (const Row& row : table) {
       CAPTURE(static_cast<int>(cavitation));
       CAPTURE(row.S);
-      film::FilmModel model{.R = 0.025, .L = 0.025, .c = 25e-6, .grid = {288, 49}, .cavitation = cavitation};
+      film::FilmModel model{.R = 0.025, .L = 0.025, .c = 25e-6, .grid = {216, 37}, .cavitation = cavitation};
       model.shear_force = film::ShearForce::torque_only;
       const double arc = pi / 9, omega = 100, R_c = model.R / model.c;
       model.features = {{.name = "right", .phi = 0, .arc = arc, .length = model.L},
@@ -259,15 +259,15 @@ TEST_CASE("DampingAndSpeed_AreTheSameFlow") {
 TEST_CASE("HeavyLoads_AreFoundFromAnywhere") {
   const film::FilmModel model = rough_elastic_film();
   for (const double load : {10.0, 2500.0, 50e3}) {
+    const OperatingPoint point = under_load(load, -pi / 2, 370);
+    const SteadyState again = solved(model, point);
     for (const double epsilon : {0.01, 0.5, 0.99}) {
       CAPTURE(load);
       CAPTURE(epsilon);
       SteadyOptions options;
       options.start = epsilon * model.c * Eigen::Vector2d(0.6, 0.8);
-      const OperatingPoint point = under_load(load, -pi / 2, 370);
       const SteadyState state = solved(model, point, options);
       CHECK((state.load - *point.load).norm() <= kSolved * load);
-      const SteadyState again = solved(model, point);
       CHECK((state.e - again.e).norm() <= kSamePlace * model.c);
     }
   }
@@ -395,7 +395,7 @@ TEST_CASE("LoadBeyondTheForceOfASupply_IsFoundFurtherOut") {
 
 // Weibull: Barus' oil between rigid surfaces has no film where alpha times the isoviscous pressure reaches 1.
 TEST_CASE("LoadBeyondWeibullsLimit_IsToldWithWhatTheFilmBears") {
-  film::FilmModel model = flooded_film(36, 9);
+  film::FilmModel model = flooded_film(24, 7);
   model.lubricant.viscosity_law = film::Barus{1e-7};
   SteadyState state;
   const SteadySummary summary = solve_steady(model, under_load(1e5, 0.3, 100), {}, state);
@@ -414,7 +414,7 @@ TEST_CASE("LoadBeyondWeibullsLimit_IsToldWithWhatTheFilmBears") {
 // No oil anywhere: the journal stands on its asperities, as it does at rest.
 TEST_CASE("StarvedRoughBearing_StandsOnItsAsperities") {
   for (const film::FilmSolver solver : {film::FilmSolver::newton}) {
-    film::FilmModel model{.R = 0.0229425, .L = 0.026871, .c = 2.152e-5, .grid = {48, 25}};
+    film::FilmModel model{.R = 0.0229425, .L = 0.026871, .c = 2.152e-5, .grid = {36, 13}};
     model.lubricant = {.mu0 = 0.061603, .density_law = film::DowsonHigginson{}};
     model.asperities = {film::AsperityModel::greenwood_tripp_exact, 1.3975e-7, 3e-3, 115e9, 0.1};
     model.roughness = {film::FlowFactors::patir_cheng, {1.25e-7, 5}, {6.25e-8, 1}};
@@ -426,7 +426,7 @@ TEST_CASE("StarvedRoughBearing_StandsOnItsAsperities") {
 
 TEST_CASE("GridError_CoversTheErrorOfAFinerGrid") {
   const OperatingPoint point = under_load(5000, -pi / 2, 100);
-  const film::FilmModel model = flooded_film(60, 13), fine = flooded_film(480, 97);
+  const film::FilmModel model = flooded_film(60, 13), fine = flooded_film(240, 49);
   const SteadyState state = solved(model, point), reference = solved(fine, point);
   const GridError error = estimate_grid_error(model, state, {});
   REQUIRE(error.known);
