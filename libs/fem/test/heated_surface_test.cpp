@@ -40,7 +40,7 @@ double closed_form(const Ring& ring, int n) {
 }
 
 TEST_CASE("HeatAroundARing_WarmsItsBoreAsTheClosedForm") {
-  const Ring ring{.inner = 0.05, .outer = 0.1, .width = 0.08, .cells = {8, 64, 2}};
+  const Ring ring{.inner = 0.05, .outer = 0.1, .width = 0.08, .cells = {8, 64, 1}};
   const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});
   const FilmSurface surface = bore_of_ring(body.mesh, ring);
   const int angles = 60;
