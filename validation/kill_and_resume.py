@@ -24,7 +24,7 @@ import time
 import h5py
 
 MODELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "interrupted")
-DURATIONS = {"mechanism": ("300 ms", "60 ms"), "film": ("200 ms", "40 ms"), "flexible_ehd": ("8 ms", "3 ms")}  # long, short
+DURATIONS = {"mechanism": ("300 ms", "60 ms"), "film": ("200 ms", "25 ms"), "flexible_ehd": ("8 ms", "2 ms")}  # long, short
 CHECKPOINTS = "simulation.checkpoint.wall_time=15 ms"
 
 
