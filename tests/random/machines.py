@@ -9,7 +9,17 @@ import heat
 from bearings import PI, log_uniform, rounded
 from model_text import deg, mm, number, rpm, um, yaml
 
-GRIDS = [(24, 5), (30, 7), (36, 7), (40, 7)]
+
+@dataclass
+class Size:
+    """What grids and numbers of steps are drawn from."""
+
+    grids: list
+    steps: list
+
+
+FULL = Size([(24, 5), (30, 7), (36, 7), (40, 7)], [10, 15, 25])
+SMALL = Size([(20, 5), (24, 5), (24, 7), (32, 7)], [5, 8, 12])
 
 
 def newton(value):
@@ -166,17 +176,17 @@ def random_coupling(rng):
     return {"scheme": "partitioned", "acceleration": rng.choice(["quasi_newton"] * 4 + ["aitken"])}
 
 
-def machine_bearing(rng, speed):
-    b = bearings.random_bearing(rng, GRIDS, is_plain=rng.random() < 0.3)
+def machine_bearing(rng, speed, size_drawn):
+    b = bearings.random_bearing(rng, size_drawn.grids, is_plain=rng.random() < 0.3)
     b.solver = rng.choice(["newton", "newton", "multigrid"])
     b.coupling = random_coupling(rng)
     b.heat = heat.random_heat(rng, b, ["isothermal", "film", "film", "film"])
     return b
 
 
-def random_rotor(rng):
+def random_rotor(rng, size_drawn):
     speed = rounded(log_uniform(rng, 30, 600)) * rng.choice([1, 1, -1])
-    films = [machine_bearing(rng, speed) for _ in range(rng.choice([1, 1, 2]))]
+    films = [machine_bearing(rng, speed, size_drawn) for _ in range(rng.choice([1, 1, 2]))]
     width = max(b.L for b in films)
     heights = [0.0] if len(films) == 1 else [-rounded(2 * width), rounded(rng.uniform(1, 3) * width)]
     unit = min(b.mu * abs(speed) * (b.R / b.c) ** 2 * 2 * b.R * b.L * min(1, (b.L / (2 * b.R)) ** 2) for b in films)
@@ -200,7 +210,7 @@ def random_rotor(rng):
     return Rotor(mass, (rounded(mass * (2 * width) ** 2), zz), speed, heights, films, loads, gravity,
                  (rounded(far * math.cos(at)), rounded(far * math.sin(at))),
                  (rounded(rate * rng.uniform(-1, 1)), rounded(rate * rng.uniform(-1, 1))),
-                 rounded(rng.uniform(-PI, PI)), random_numerics(rng, speed, rng.choice([10, 15, 25])))
+                 rounded(rng.uniform(-PI, PI)), random_numerics(rng, speed, rng.choice(size_drawn.steps)))
 
 
 def soften(b, pressure):
@@ -317,12 +327,12 @@ class SliderCrank:
         return m
 
 
-def random_slider_crank(rng):
+def random_slider_crank(rng, size_drawn):
     speed = rounded(log_uniform(rng, 50, 500)) * rng.choice([1, 1, -1])
     radius = rounded(log_uniform(rng, 0.02, 0.08))
     rod = rounded(radius * rng.uniform(3, 5))
-    big_end = machine_bearing(rng, speed)
-    main = machine_bearing(rng, speed) if rng.random() < 0.3 else None
+    big_end = machine_bearing(rng, speed, size_drawn)
+    main = machine_bearing(rng, speed, size_drawn) if rng.random() < 0.3 else None
     unit = big_end.mu * abs(speed) * (big_end.R / big_end.c) ** 2 * 2 * big_end.R * big_end.L * min(1, (big_end.L / (2 * big_end.R)) ** 2)
     size = log_uniform(rng, 0.2, 3) * unit
     moving = rounded(size * rng.uniform(0.1, 0.6) / (radius * speed**2))
@@ -331,7 +341,7 @@ def random_slider_crank(rng):
     for b in (big_end, main):
         if b:
             soften(b, 10 * size / (2 * b.R * b.L))
-    numerics = random_numerics(rng, speed, rng.choice([10, 15, 25]))
+    numerics = random_numerics(rng, speed, rng.choice(size_drawn.steps))
     if not main and numerics.kind == "time" and rng.random() < 0.5:
         numerics.kind = "angle"
     gravity = (0.0, -9.81) if rng.random() < 0.5 else (0.0, 0.0)
@@ -340,5 +350,7 @@ def random_slider_crank(rng):
                        (rounded(size * rng.uniform(-0.3, 1)), rounded(size * rng.uniform(0, 0.5))), big_end, main, gravity, numerics)
 
 
-def random_machine(rng):
-    return random_rotor(rng) if rng.random() < 0.6 else random_slider_crank(rng)
+def random_machine(rng, is_small=False):
+    """`is_small`: drawn alike, on coarser grids and for fewer steps."""
+    size_drawn = SMALL if is_small else FULL
+    return random_rotor(rng, size_drawn) if rng.random() < 0.6 else random_slider_crank(rng, size_drawn)

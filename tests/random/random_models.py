@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs random valid models through hersey and checks what must hold of every answer.
 
-    random_models.py HERSEY [--steady N] [--machines N] [--time SECONDS] [--seed SEED] [--only NAME] [--jobs N] [--output FOLDER]
+    random_models.py HERSEY [--steady N] [--machines N] [--time SECONDS] [--seed SEED] [--only NAME] [--small] [--jobs N] [--output FOLDER]
 
 Each case has a name, such as steady-17, and is made from the seed and its name alone: `--seed 1 --only steady-17` runs it again.
 The model of a case that fails is left in FOLDER, its first lines saying what does not hold and how to repeat it.
@@ -45,27 +45,27 @@ class Result:
         return self.ending in BAD_ENDINGS or bool(self.findings)
 
 
-def examine(program, seed, name, output):
+def examine(program, seed, name, output, is_small=False):
     """One case from its name: `steady-17` of this seed. A failing one leaves its model in `output`."""
     kind = name.split("-")[0]
     begin = time.time()
     folder = tempfile.mkdtemp(prefix="hersey-random-")
     try:
         # A string as seed gives the same numbers on every machine and version of Python.
-        result = Result(name, *KINDS[kind](program, random.Random(f"{seed}/{name}"), folder))
+        result = Result(name, *KINDS[kind](program, random.Random(f"{seed}/{name}"), folder, is_small))
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     result.seconds = time.time() - begin
     if result.fails() and output:
-        save(program, seed, result, output)
+        save(program, seed, result, output, is_small)
     return result
 
 
-def save(program, seed, result, output):
+def save(program, seed, result, output, is_small):
     os.makedirs(output, exist_ok=True)
     lines = [f"{result.ending}: {result.text}"] if result.ending != "answer" else []
     lines += [f"{invariant}: {text}" for invariant, text in result.findings]
-    lines.append(f"repeat: {os.path.relpath(__file__)} {program} --seed {seed} --only {result.name}")
+    lines.append(f"repeat: {os.path.relpath(__file__)} {program} --seed {seed} --only {result.name}{' --small' * is_small}")
     note = "".join(f"# {line}\n" for text in lines for line in text.splitlines())
     for file, text in result.models.items():
         with open(os.path.join(output, f"{result.name}-{file}.yaml"), "w", encoding="utf-8") as model:
@@ -78,7 +78,7 @@ def names(steady, machines):
     return (name for pair in cases for name in pair if name)
 
 
-def run_all(program, seed, cases, jobs, output, seconds=None):
+def run_all(program, seed, cases, jobs, output, seconds=None, is_small=False):
     """Results of all cases, or of as many as `seconds` allow, in their order."""
     results, end = [], time.time() + seconds if seconds else None
     with ProcessPoolExecutor(jobs) as pool:
@@ -88,7 +88,7 @@ def run_all(program, seed, cases, jobs, output, seconds=None):
                 name = next(cases, None)
                 if name is None:
                     break
-                waiting.append(pool.submit(examine, program, seed, name, output))
+                waiting.append(pool.submit(examine, program, seed, name, output, is_small))
             if not waiting:
                 return results
             results.append(waiting.popleft().result())
@@ -137,6 +137,7 @@ def main():
     parser.add_argument("--time", type=float, help="as many cases of both kinds as this many seconds allow")
     parser.add_argument("--seed", default=None, help="default: a new one, which is printed")
     parser.add_argument("--only", action="append", help="a case by its name")
+    parser.add_argument("--small", action="store_true", help="coarser grids and fewer steps, as `make test` has them")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--output", default="build/random", help="where models of failing cases are left")
     arguments = parser.parse_args()
@@ -149,7 +150,7 @@ def main():
     else:
         cases = names(arguments.steady, arguments.machines)
     program = os.path.abspath(arguments.program)
-    results = run_all(program, seed, cases, arguments.jobs, arguments.output, arguments.time)
+    results = run_all(program, seed, cases, arguments.jobs, arguments.output, arguments.time, arguments.small)
     if not results:
         parser.error("no case: give --steady, --machines, --time or --only")
     print(table(results))

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Fifty random models, the same every time: each ends with an answer in which every invariant holds, or says why there is none.
+"""Fifty small random models, the same every time: each ends with an answer in which every invariant holds, or says why there is none.
 
     random_test.py HERSEY [Class.test_name]
 
@@ -21,7 +21,7 @@ SEED = "hersey"
 
 class RandomModels(unittest.TestCase):
     def fulfil(self, kind, first, count):
-        results = [random_models.examine(HERSEY, SEED, f"{kind}-{k}", os.path.abspath("random-models"))
+        results = [random_models.examine(HERSEY, SEED, f"{kind}-{k}", os.path.abspath("random-models"), is_small=True)
                    for k in range(first, first + count)]
         for result in results:
             with self.subTest(result.name):

@@ -15,6 +15,7 @@ from findings import Findings
 from model_text import deg, number, rpm, yaml
 
 GRIDS = [(36, 9), (48, 9), (48, 13), (60, 9)]
+SMALL_GRIDS = [(24, 7), (32, 7), (32, 9), (40, 7)]
 
 # Fields are printed with eight digits.
 DIGITS = 1e-7
@@ -96,8 +97,9 @@ class Steady:
         return self._with(self.bearing.on_grid(factor))
 
 
-def random_steady(rng):
-    b = bearings.random_bearing(rng, GRIDS, is_plain=rng.random() < 0.3)
+def random_steady(rng, is_small=False):
+    """`is_small`: drawn alike, on coarser grids."""
+    b = bearings.random_bearing(rng, SMALL_GRIDS if is_small else GRIDS, is_plain=rng.random() < 0.3)
     speed = rounded(log_uniform(rng, 10, 600)) * rng.choice([1, 1, -1])
     case = Steady(b, speed)
     if rng.random() < 0.25:

@@ -12,6 +12,10 @@ from program import write
 # amplify both by 1/(1 - epsilon)^2.
 SAME = 1e-5
 
+# Of computing time for a finer grid of a small case [s]. Most take less than one; where film and heat turn without coming
+# together, waiting longer ends in no answer either, and then refinement is not looked at.
+FINER_LIMIT = 2
+
 
 class Runs:
     """Solves variants of a case and remembers the model of each."""
@@ -19,13 +23,14 @@ class Runs:
     def __init__(self, program, folder):
         self.program, self.folder, self.models = program, folder, {}
 
-    def solve(self, case, label):
+    def solve(self, case, label, cpu_limit=hersey.CPU_LIMIT):
         """(ending, answer or None)"""
         text = case.text()
         self.models[label] = text
         model, fields = (os.path.join(self.folder, label + end) for end in (".yaml", ".csv"))
         write(model, text)
-        ending = hersey.run(self.program, "bearing", model, "--json", "--no-grid-error", "--jobs", "1", "--fields", fields)
+        ending = hersey.run(self.program, "bearing", model, "--json", "--no-grid-error", "--jobs", "1", "--fields", fields,
+                            cpu_limit=cpu_limit)
         if ending.kind != "answer":
             return ending, None
         document = ending.document
@@ -41,9 +46,9 @@ def tolerance(case, answer):
     return SAME * max(1.0, (0.2 / thin) ** 2)
 
 
-def examine(program, rng, folder):
+def examine(program, rng, folder, is_small=False):
     """(ending, text, findings, models) of one case."""
-    case = steady.random_steady(rng)
+    case = steady.random_steady(rng, is_small)
     runs = Runs(program, folder)
     ending, answer = runs.solve(case, "model")
     if answer is None:
@@ -67,7 +72,7 @@ def examine(program, rng, folder):
         if len(found) > before:
             failed |= {"model", label}
     failed |= compare_constant_oils(case, answer, runs, found)
-    if refine(case, answer, runs, found):
+    if refine(case, answer, runs, found, FINER_LIMIT if is_small else hersey.CPU_LIMIT):
         failed |= {"model", "fine", "finest", "last"}
     return "answer", "", list(found), {k: v for k, v in runs.models.items() if k in failed}
 
@@ -113,7 +118,7 @@ def compare_constant_oils(case, answer, runs, found):
     return {"layers", "isothermal"} if off else set()
 
 
-def refine(case, coarse, runs, found):
+def refine(case, coarse, runs, found, limit):
     """Load and flow converge: from grid to twice as fine grid the difference falls, or is small already.
 
     First order is what a border within a cell leaves; two grids may see a border differently, hence a share of the figure
@@ -121,8 +126,8 @@ def refine(case, coarse, runs, found):
     """
     if case.load or case.bearing.refine:
         return False
-    _, fine = runs.solve(case.on_grid(2), "fine")
-    _, finest = runs.solve(case.on_grid(4), "finest") if fine else (None, None)
+    _, fine = runs.solve(case.on_grid(2), "fine", limit)
+    _, finest = runs.solve(case.on_grid(4), "finest", limit) if fine else (None, None)
     if not finest:
         return False
     bad = not_converging(case, coarse, fine, finest)
