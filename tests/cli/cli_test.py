@@ -806,7 +806,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             deadline = time.monotonic() + 60
             while not self.results() and process.poll() is None and time.monotonic() < deadline:
                 time.sleep(0.05)
-            time.sleep(1)  # some steps
+            time.sleep(0.3)  # some steps
             process.send_signal(signal.SIGINT)
             stdout, stderr = process.communicate(timeout=60)
         self.assertEqual(process.returncode, INTERRUPTED, stdout + stderr)
@@ -852,7 +852,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             deadline = time.monotonic() + 60
             while not self.results() and process.poll() is None and time.monotonic() < deadline:
                 time.sleep(0.05)
-            time.sleep(3)
+            time.sleep(1.5)  # rows go to the file every half second
             process.kill()
             process.wait(timeout=60)
         with h5py.File(self.results()[0]) as file:
@@ -874,7 +874,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         seed = random.randrange(2**32)
         print("seed", seed)
         chance = random.Random(seed)
-        arguments = ["run", MODEL, "--set", "duration=0.3 s", "--set", "simulation.checkpoint.wall_time=20 ms"]
+        arguments = ["run", MODEL, "--set", "duration=0.15 s", "--set", "simulation.checkpoint.wall_time=10 ms"]
         whole, parts = os.path.join(self.out, "whole"), os.path.join(self.out, "parts")
         begun = time.monotonic()
         self.assertEqual(hersey(*arguments, "--output", whole).returncode, OK)
@@ -909,7 +909,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         return path
 
     def test_parallel_study_loses_no_run_and_no_checkpoint(self):
-        path = self.study("30 ms", "1 ms")
+        path = self.study("12 ms", "1 ms")
         for jobs in ("1", "4"):
             run = hersey("run", path, "--output", os.path.join(self.out, jobs), "--jobs", jobs)
             self.assertEqual(run.returncode, OK, run.stderr)
@@ -921,7 +921,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
                          sorted([*map(os.path.basename, together), "report.html"]))
 
     def test_parallel_study_goes_on_after_interrupts_and_kills(self):
-        path = self.study("60 ms", "5 ms")
+        path = self.study("30 ms", "3 ms")
         whole, parts = os.path.join(self.out, "whole"), os.path.join(self.out, "parts")
         self.assertEqual(hersey("run", path, "--output", whole, "--jobs", "1").returncode, OK)
         arguments = ["run", path, "--output", parts, "--jobs", "4"]
@@ -929,7 +929,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             with subprocess.Popen([HERSEY, *arguments, "--resume"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                   stdin=subprocess.DEVNULL, text=True) as process:
                 try:
-                    process.wait(timeout=0.3)
+                    process.wait(timeout=0.15)
                 except subprocess.TimeoutExpired:
                     process.send_signal(stop)
                 _, errors = process.communicate(timeout=60)
@@ -1091,7 +1091,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             deadline = time.monotonic() + 60
             while not self.results() and process.poll() is None and time.monotonic() < deadline:
                 time.sleep(0.05)
-            time.sleep(0.5)
+            time.sleep(0.2)
             process.send_signal(signal.SIGINT)
             _, stderr = process.communicate(timeout=60)
         self.assertIn("--resume", stderr)
@@ -1139,9 +1139,9 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         self.assertRegex(run.stdout, r"cycle 2: change from the one before +[\d.]+ +%")
 
     def test_full_disk_ends_with_the_reason_and_keeps_what_was_written(self):
-        def small_disk():  # writing beyond the limit, some seconds away, fails as on a full disk
+        def small_disk():  # writing beyond the limit, a second away, fails as on a full disk
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (12_000_000, 12_000_000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (3_000_000, 3_000_000))
 
         run = hersey("run", MODEL, "--output", self.out, "--set", "duration=1000 s", preexec_fn=small_disk)
         self.assertEqual(run.returncode, FAILED, run.stdout + run.stderr)
