@@ -28,15 +28,15 @@ class FirstSteps(unittest.TestCase):
     def hersey(self, *arguments):
         return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, cwd=self.folder, check=False)
 
-    def begin_and_run(self, model):
-        """Writes a model and runs the command that init names; its output."""
+    def begin_and_run(self, model, *larger_steps):
+        """Writes a model and runs the command that init names to its end, in fewer steps where they are told; its output."""
         written = self.hersey("init", model, "my_model")
         self.assertEqual(written.returncode, OK, written.stderr)
         check = self.hersey("check", "my_model.yaml")
         self.assertEqual((check.returncode, check.stderr), (OK, ""))
         command = written.stdout.splitlines()[-1].split()
         self.assertEqual(command[0], "hersey")
-        run = self.hersey(*command[1:])
+        run = self.hersey(*command[1:], *(word for step in larger_steps for word in ("--set", "simulation.step=" + step)))
         self.assertEqual(run.returncode, OK, run.stderr)
         self.assertIn("minimum film thickness", run.stdout)
         return run.stdout
@@ -51,19 +51,19 @@ class FirstSteps(unittest.TestCase):
         self.begin_and_run("bearing")
 
     def test_init_rotor_runs(self):
-        self.begin_and_run("rotor")
+        self.begin_and_run("rotor", "0.5 ms")
 
     def test_init_big_end_runs(self):
-        self.begin_and_run("big_end")
+        self.begin_and_run("big_end", "3 deg")
 
     def test_init_engine_runs(self):
-        self.begin_and_run("engine")
+        self.begin_and_run("engine", "5 deg")
 
     def test_init_turbocharger_runs(self):
-        self.begin_and_run("turbocharger")
+        self.begin_and_run("turbocharger", "150 us")
 
     def test_init_flexible_rod_runs(self):
-        self.begin_and_run("flexible_rod")
+        self.begin_and_run("flexible_rod", "1.5 deg")
 
     def test_init_refuses_to_overwrite_and_names_the_nearest_model(self):
         (self.folder / "mine.yaml").write_text("kept")

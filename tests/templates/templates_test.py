@@ -42,7 +42,7 @@ class InlineFour(unittest.TestCase):
                 output = pathlib.Path(folder) / model.stem
                 run = subprocess.run(
                     [HERSEY, "run", str(copy), "--output", str(output), "--threads", "1",
-                     "--set", "simulation={crank: main, duration: 6 deg, step: 0.5 deg, spectral_radius: 0.8}"],
+                     "--set", "simulation={crank: main, duration: 2 deg, step: 0.5 deg, spectral_radius: 0.8}"],
                     capture_output=True, text=True, check=False)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 results.append(datasets(output / "results.h5"))
