@@ -57,7 +57,7 @@ class FirstSteps(unittest.TestCase):
         self.begin_and_run("big_end", "3 deg")
 
     def test_init_engine_runs(self):
-        self.begin_and_run("engine", "5 deg")
+        self.begin_and_run("engine", "2 deg")
 
     def test_init_turbocharger_runs(self):
         self.begin_and_run("turbocharger", "150 us")
