@@ -81,7 +81,7 @@ Eigen::VectorXd after(const char* form, int steps) {
 TEST_CASE("ConrodUnderBorePressure_MovesAlikeByModesAndByNodes") {
   const auto model = model::read(std::filesystem::path(hersey::source_dir()) / "examples/conrod_pressure/model.yaml");
   const fem::Mesh& mesh = *model.bodies[0].flexible->mesh;
-  const Eigen::VectorXd modal = after("modal", 60), nodal = after("nodal", 60);
+  const Eigen::VectorXd modal = after("modal", 20), nodal = after("nodal", 20);
   double error = 0, size = 0;
   for (const int n : fem::nodes_on(mesh, fem::faces_called(mesh, "big_end"))) {
     error = std::max(error, (modal - nodal).segment<3>(3 * n).norm());

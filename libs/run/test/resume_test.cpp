@@ -145,24 +145,22 @@ TEST_CASE("ResumedFilm_IsTheSame") {
 }
 
 TEST_CASE("ResumedFilmWithTemperature_IsTheSame") {
-  for (const char* coupling : {"monolithic", "{scheme: partitioned, acceleration: quasi_newton}"}) {
-    CAPTURE(coupling);
+  // Oil of the second kind thins by the shear in its layers.
+  for (const auto& [coupling, grade] :
+       {std::pair{"monolithic", "grade: iso_vg_22"},
+        std::pair{"{scheme: partitioned, acceleration: quasi_newton}", "grade: sae_5w20"}}) {
+    const std::string oil = grade;  // clang 14 captures no structured binding
+    CAPTURE(oil);
     const std::string line = "    supply: {line: widest_gap, pressure: 1 bar}\n";
     const std::string heat =
         "    thermal: {model: film, supply_temperature: 40 degC, layers: 3, shell: {wall: ring, outer_diameter: 60 mm, "
         "ambient: 30 degC}}\n";
-    std::string text = rig_with(line, line + heat + "    coupling: " + coupling + "\n");
-    const std::string oil = "viscosity: 15 mPa.s";
-    for (const char* grade : {"grade: iso_vg_22", "grade: sae_5w20"}) {  // the second thins by the shear in its layers
-      CAPTURE(grade);
-      std::string with_grade = text;
-      with_grade.replace(with_grade.find(oil), oil.size(), grade);
-      check_resumed(with_grade, 7, 12);
-      // Walls at the mean heat of cycles of eight steps: interrupted within the first and within the second.
-      check_resumed(
-          edited(with_grade, "duration: \"${duration}\"", "cycle: {period: 16 deg, until_converged: 0, most: 4}"), 7,
-          12);
-    }
+    const std::string text =
+        edited(rig_with(line, line + heat + "    coupling: " + coupling + "\n"), "viscosity: 15 mPa.s", grade);
+    check_resumed(text, 7, 12);
+    // Walls at the mean heat of cycles of eight steps: interrupted within the first and within the second.
+    check_resumed(edited(text, "duration: \"${duration}\"", "cycle: {period: 16 deg, until_converged: 0, most: 4}"), 7,
+                  12);
   }
 }
 

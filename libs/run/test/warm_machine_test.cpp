@@ -182,8 +182,9 @@ TEST_CASE("SumpAndBlock_TakeWhatOilAndRingGive") {
 // are found: powers by integrals over the films, what leaves by the network's temperatures.
 TEST_CASE("FilmsInOneSump_WarmItByAllTheirPower") {
   const TemporaryDirectory scratch;
-  const std::string text = edited(two_films(sump_and_block), "  duration: \"${duration}\"\n",
-                                  "  cycle: {period: 20 ms, most: 8, until_converged: 0}\n");
+  const std::string text =
+      edited(edited(two_films(sump_and_block), "step: 2 deg", "step: 4 deg"), "  duration: \"${duration}\"\n",
+             "  cycle: {period: 20 ms, most: 8, until_converged: 0}\n");
   const Summary summary = simulate(rig(text), {.results = scratch / "sump.h5"});
   CAPTURE(summary.message);
   REQUIRE(summary.status == Status::completed);
