@@ -414,7 +414,7 @@ TEST_CASE("LoadBeyondWeibullsLimit_IsToldWithWhatTheFilmBears") {
 // No oil anywhere: the journal stands on its asperities, as it does at rest.
 TEST_CASE("StarvedRoughBearing_StandsOnItsAsperities") {
   for (const film::FilmSolver solver : {film::FilmSolver::newton}) {
-    film::FilmModel model{.R = 0.0229425, .L = 0.026871, .c = 2.152e-5, .grid = {36, 13}};
+    film::FilmModel model{.R = 0.0229425, .L = 0.026871, .c = 2.152e-5, .grid = {48, 25}};
     model.lubricant = {.mu0 = 0.061603, .density_law = film::DowsonHigginson{}};
     model.asperities = {film::AsperityModel::greenwood_tripp_exact, 1.3975e-7, 3e-3, 115e9, 0.1};
     model.roughness = {film::FlowFactors::patir_cheng, {1.25e-7, 5}, {6.25e-8, 1}};
