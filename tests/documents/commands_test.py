@@ -17,7 +17,7 @@ import tempfile
 SOURCE, BUILD, PAGE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3]
 WHOLE = "--whole" in sys.argv[4:]
 
-# What `hersey run` of a page is given besides, of each model whose whole run takes more than a few seconds.
+# What `hersey run` of a page is given besides, by how its arguments begin, where the whole run takes more than a few seconds.
 SHORTENED = {
     "examples/flexible_big_end/model.yaml": "simulation.duration=90deg",
     "examples/flexible_rotor/films.yaml": "simulation.duration=0.06s",
@@ -26,6 +26,7 @@ SHORTENED = {
     "examples/oil_whirl/flexible.yaml": "simulation.duration=0.06s",
     "examples/oil_whirl/model.yaml": "simulation.duration=0.06s",
     "examples/paper_big_end/model.yaml": "study.parameters.load=[2500N]",
+    "examples/slider_crank/model.yaml --output build/slider_crank": "simulation.duration=60deg",
     "examples/slider_crank/pin_hole.yaml": "simulation.duration=60deg",
     "build/tutorial/big_end/model.yaml": "simulation.duration=180deg",
 }
@@ -53,10 +54,10 @@ def stand_in_for_the_repository(folder):
 def shorten_runs(program):
     """In the place of `program`, a link, comes a script that starts it with more settings."""
     real = shlex.quote(os.path.realpath(program))
-    cases = "".join(f"  'run {model}') set -- \"$@\" --set {shlex.quote(setting)} ;;\n" for model, setting in SHORTENED.items())
+    cases = "".join(f"  'run {begin}'*) set -- \"$@\" --set {shlex.quote(setting)} ;;\n" for begin, setting in SHORTENED.items())
     os.unlink(program)
     with open(program, "w", encoding="utf-8") as script:
-        script.write(f'#!/bin/sh\ncase "$1 $2" in\n{cases}esac\nexec {real} "$@"\n')
+        script.write(f'#!/bin/sh\ncase "$*" in\n{cases}esac\nexec {real} "$@"\n')
     os.chmod(program, os.stat(program).st_mode | stat.S_IXUSR)
 
 
