@@ -30,6 +30,20 @@ double largest_value(JointType type, const std::vector<double>& q) {
   return largest;
 }
 
+// The smallest rotation turns about an axis across z, wherever it leads; -z has no smallest one.
+TEST_CASE("JointAxes_AreTheSmallestRotationFromZ") {
+  for (const Vector3& given : {kAxis, Vector3(0.3, -0.5, -0.8), Vector3(1e-9, 0, 1), Vector3(2e-9, -1e-9, -1),
+                               Vector3(1e-4, 3e-4, -1), Vector3(0, 0, 2), Vector3(0, 0, -1)}) {
+    CAPTURE(given.x());
+    CAPTURE(given.z());
+    const Matrix3 R = joint_axes(given);
+    CHECK((R.transpose() * R - Matrix3::Identity()).norm() <= kRounding);
+    CHECK(std::abs(R.determinant() - 1) <= kRounding);
+    CHECK((R.col(2) - given.normalized()).norm() <= kRounding);
+    CHECK(R(0, 1) == R(1, 0));
+  }
+}
+
 TEST_CASE("JointsOfTheTable_HoldWhatTheirChainsLeave") {
   for (const JointKind& kind : joint_kinds()) {
     if (kind.rows.empty()) continue;

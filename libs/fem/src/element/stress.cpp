@@ -28,7 +28,8 @@ Continuation continuation(ElementType type, Integration rule) {
   Eigen::Matrix3Xd xi(3, points.size());
   for (std::size_t p = 0; p < points.size(); ++p) xi.col(static_cast<Eigen::Index>(p)) = points[p].xi;
   const Eigen::MatrixXd fit = terms_at(type, xi);
-  return terms_at(type, natural_nodes(type)) * fit.completeOrthogonalDecomposition().pseudoInverse();
+  return terms_at(type, natural_nodes(type)) *
+         fit.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(fit.rows(), fit.rows()));
 }
 
 /// Stresses of one element at its points of integration, and the volume and energy of each.

@@ -67,6 +67,22 @@ std::optional<Coordinate> find_coordinate(JointType type, std::string_view name)
   return std::nullopt;
 }
 
+namespace {
+
+/// The smallest rotation that takes z to n: the identity for z itself, half a turn about x for -z.
+Matrix3 rotation_from_z(const Vector3& n) {
+  const double across = n.head<2>().squaredNorm();
+  if (across == 0) return Vector3(1, n.z(), n.z()).asDiagonal();
+  const double k = n.z() > 0 ? 1 / (1 + n.z()) : (1 - n.z()) / across;  // the same, and exact near -z as well
+  Matrix3 R;
+  R << 1 - k * n.x() * n.x(), -k * n.x() * n.y(), n.x(),  //
+      -k * n.x() * n.y(), 1 - k * n.y() * n.y(), n.y(),   //
+      -n.x(), -n.y(), n.z();
+  return R;
+}
+
+}  // namespace
+
 Matrix3 joint_axes(const Vector3& axis) {
   HERSEY_REQUIRE(axis.norm() > 0, "a joint's axis has a direction");
   const Vector3 n = axis.normalized();
@@ -76,9 +92,7 @@ Matrix3 joint_axes(const Vector3& axis) {
   } else if (n == Vector3::UnitY()) {
     axes << Vector3::UnitZ(), Vector3::UnitX(), n;
   } else {
-    // The smallest rotation that takes z to the axis: the identity for z itself.
-    axes = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), n).toRotationMatrix();
-    axes.col(2) = n;
+    axes = rotation_from_z(n);
   }
   return axes;
 }

@@ -1,5 +1,5 @@
 // The section `forces`: of each type its keys, how they are read, and its name, in this order.
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <functional>
 #include <limits>
 
@@ -221,9 +221,10 @@ Matrix6 bushing_matrix(Context& context, const Value& value, const std::string& 
   const Value* rows = value.find(quantity + "_matrix");
   const double size = matrix.cwiseAbs().maxCoeff();
   if (rows == nullptr || rows->broken || !matrix.allFinite() || size == 0) return matrix;
-  const bool symmetric = (matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= 1e-6 * size;
-  const double smallest = Eigen::SelfAdjointEigenSolver<Matrix6>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  if (!symmetric || smallest < -1e-6 * size) {
+  constexpr double kFewDigits = 1e-6;  // of numbers that somebody wrote down
+  const bool symmetric = (matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= kFewDigits * size;
+  const Eigen::LLT<Matrix6> raised(matrix + kFewDigits * size * Matrix6::Identity());
+  if (!symmetric || raised.info() != Eigen::Success) {
     context.fault_at_key(*rows,
                          symmetric ? "a matrix that is not positive semidefinite" : "a matrix that is not symmetric",
                          "a symmetric matrix without negative eigenvalues");
