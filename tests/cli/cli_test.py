@@ -17,8 +17,6 @@ import tempfile
 import time
 import unittest
 
-import h5py
-
 HERSEY = os.path.abspath(sys.argv.pop(1))
 HERE = os.path.dirname(os.path.abspath(__file__))
 MODEL = os.path.join(HERE, "bearing.yaml")
@@ -31,6 +29,12 @@ def hersey(*arguments, **options):
     """Runs the program to its end and returns the finished process with its output as text."""
     return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, timeout=600,
                           stdin=subprocess.DEVNULL, **options)
+
+
+def hdf5(path, mode="r"):
+    """The file, opened. Importing h5py takes longer than most tests here, which do without."""
+    import h5py
+    return h5py.File(path, mode)
 
 
 def write_hollow_shaft(path, inner, outer, width, around=48, along=4, through=3):
@@ -318,7 +322,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn("--density", run.stderr)
         run = hersey(*arguments, "--density", "7850 kg/m^3")
         self.assertEqual(run.returncode, OK, run.stderr)
-        with h5py.File(file) as body:
+        with hdf5(file) as body:
             self.assertEqual(bytes(body["format"][:]).decode(), "hersey reduced body 1")
             self.assertEqual(bytes(body["frames/1/name"][:]).decode(), "pin")
             self.assertEqual(body["Phi"].shape, (3 * body["nodes"].shape[0], 15))
@@ -527,7 +531,7 @@ class CommandLine(unittest.TestCase):
         run = hersey("run", MODEL, "--output", self.out)
         self.assertEqual(run.returncode, OK, run.stderr)
         self.assertEqual(len(self.results()), 1)
-        with h5py.File(self.results()[0]) as file:
+        with hdf5(self.results()[0]) as file:
             self.assertEqual(file.attrs["status"], "completed")
             self.assertAlmostEqual(file["time"][-1], 2e-3, delta=1e-9)  # the end is a step, up to round-off
             self.assertGreater(file["bearings/main/h_min"][-1], 0)
@@ -557,7 +561,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         run = hersey("run", MODEL, "--output", self.out, "--set", "load=500 N", "--set",
                      "bearings.main.grid.circumferential=20")
         self.assertEqual(run.returncode, OK, run.stderr)
-        with h5py.File(self.results()[0]) as file:
+        with hdf5(self.results()[0]) as file:
             self.assertEqual(file["bearings/main/fields/pressure"].shape[1:], (20, 5))
             self.assertIn("500", str(file["parameters"].attrs["load"]))
 
@@ -773,7 +777,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             self.assertEqual(file.read(), before, "results were touched without --force")
         forced = hersey("run", MODEL, "--output", self.out, "--set", "duration=1 ms", "--force")
         self.assertEqual(forced.returncode, OK, forced.stderr)
-        with h5py.File(path) as file:
+        with hdf5(path) as file:
             self.assertAlmostEqual(file["time"][-1], 1e-3, delta=1e-9)
 
     def test_json_is_one_document_on_stdout(self):
@@ -784,7 +788,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         document = json.loads(run.stdout)
         self.assertEqual((document["units"]["t_end"], document["units"]["energy"]), ("s", "J"))
         rows = {row["name"]: row for row in document["summary"]}
-        with h5py.File(document["runs"][0]["results"]) as file:
+        with hdf5(document["runs"][0]["results"]) as file:
             smallest = file["bearings/main/h_min"][:].min()
         self.assertEqual(rows["minimum film thickness (MOFT)"]["unit"], "m")
         self.assertAlmostEqual(rows["minimum film thickness (MOFT)"]["value"] / smallest, 1, delta=1e-9)
@@ -811,7 +815,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             stdout, stderr = process.communicate(timeout=60)
         self.assertEqual(process.returncode, INTERRUPTED, stdout + stderr)
         (path,) = self.results()
-        with h5py.File(path) as file:
+        with hdf5(path) as file:
             self.assertEqual(file.attrs["status"], "stopped")
             self.assertGreater(len(file["time"]), 1)
             self.assertEqual(len(file["time"]), len(file["bearings/main/h_min"]))
@@ -855,7 +859,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             time.sleep(1.5)  # rows go to the file every half second
             process.kill()
             process.wait(timeout=60)
-        with h5py.File(self.results()[0]) as file:
+        with hdf5(self.results()[0]) as file:
             self.assertGreater(len(file["time"]), 1)
         report = hersey("report", self.results()[0], "--output", os.path.join(self._folder.name, "killed.html"))
         self.assertEqual(report.returncode, OK, report.stderr)
@@ -863,9 +867,9 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
     def datasets(self, path):
         """Every dataset of a results file, as bytes."""
         found = {}
-        with h5py.File(path) as file:
+        with hdf5(path) as file:
             def keep(name, item):
-                if isinstance(item, h5py.Dataset):
+                if hasattr(item, "shape"):
                     found[name] = item[()].tobytes() if item.dtype.kind == "f" else str(item[()])
             file.visititems(keep)
         return found
@@ -937,7 +941,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             self.assertNotIn("cannot write", errors)
             if process.returncode == INTERRUPTED:  # every run that is not complete can go on
                 for results in glob.glob(os.path.join(parts, "*.h5")):
-                    with h5py.File(results) as file:
+                    with hdf5(results) as file:
                         status = file.attrs["status"]
                     self.assertEqual(os.path.exists(results[:-3] + ".checkpoint"), status == "stopped", results)
         run = hersey(*arguments, "--resume")
@@ -954,14 +958,14 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
                 while not self.results() and process.poll() is None:
                     pass
                 process.kill()
-            with h5py.File(path, "r+" if cut else "r") as file:
+            with hdf5(path, "r+" if cut else "r") as file:
                 self.assertIn("model", file, "results appear with their model")
                 if cut:  # a file that an earlier version was killed over
                     del file["model"]
             run = hersey(*arguments, "--resume")
             self.assertEqual(run.returncode, OK, run.stderr)
             self.assertIn("began anew", run.stderr)
-            with h5py.File(path) as file:
+            with hdf5(path) as file:
                 self.assertAlmostEqual(file["time"][-1], 0.05, delta=1e-9)
             os.remove(path)
 
@@ -990,7 +994,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             os.close(write)
             os.close(read)
             self.assertEqual(process.wait(timeout=60), OK)
-        with h5py.File(os.path.join(self.out, "results.h5")) as file:
+        with hdf5(os.path.join(self.out, "results.h5")) as file:
             self.assertEqual(file.attrs["status"], "completed")
 
     def test_output_that_cannot_be_written_is_told(self):
@@ -1150,7 +1154,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         up_to = re.search(r"results up to t = (\S+) s are in (\S+)", run.stderr)
         self.assertIsNotNone(up_to, run.stderr)
         self.assertEqual(up_to.group(2), path)
-        with h5py.File(path) as file:
+        with hdf5(path) as file:
             self.assertGreater(len(file["time"]), 1)
             self.assertAlmostEqual(file["time"][-1], float(up_to.group(1)), delta=1e-4)  # printed with six digits
 
@@ -1172,7 +1176,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
                      "simulation.smallest_step=0.05 ms")
         self.assertEqual(run.returncode, FAILED, run.stdout + run.stderr)
         self.assertRegex(run.stderr, r"(?s)\bt\b.*=|time")
-        with h5py.File(self.results()[0]) as file:
+        with hdf5(self.results()[0]) as file:
             self.assertEqual(file.attrs["status"], "failed")
 
 
