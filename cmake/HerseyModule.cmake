@@ -83,7 +83,7 @@ function(hersey_part name part)
   set(dir ${CMAKE_CURRENT_SOURCE_DIR}/libs/${name})
   add_library(hersey_${name}_${part} OBJECT ${ARGN})
   target_include_directories(hersey_${name}_${part} PRIVATE ${dir}/src ${dir}/include)
-  target_link_libraries(hersey_${name}_${part} PRIVATE $<TARGET_PROPERTY:hersey_${name},LINK_LIBRARIES>)
+  target_link_libraries(hersey_${name}_${part} PRIVATE $<TARGET_PROPERTY:hersey_${name},LINK_LIBRARIES> hersey_options)
 endfunction()
 
 # What fuzzers try of the module `name`, compiled for them, and its fuzzers: M_FUZZED, M_DEPENDS and M_PRIVATE are those
