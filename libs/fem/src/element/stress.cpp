@@ -22,7 +22,8 @@ Eigen::MatrixXd terms_at(ElementType type, const Eigen::Matrix3Xd& xi) {
   return rows;
 }
 
-/// Values at the nodes of the polynomial fitted to values at the points of integration.
+/// Values at the nodes of the polynomial fitted to values at the points of integration; of every type its terms are
+/// independent at them.
 Continuation continuation(ElementType type, Integration rule) {
   const std::vector<QuadraturePoint>& points = stiffness_points(type, rule);
   Eigen::Matrix3Xd xi(3, points.size());
