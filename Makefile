@@ -24,9 +24,9 @@ demo: program  ## simulates the paper's big-end bearing and says where the repor
 	@scripts/demo $(BUILD) $(QUICK)
 
 test: $(BUILD)/build.ninja  ## builds everything and runs every test (FILTER=regex: some of them)
-	@scripts/setup build test study
+	@scripts/setup build fmu
 	@$(PHASE) configure build/log/configure.log cmake $(BUILD)
-	@$(PHASE) compile build/log/compile.log cmake --build $(BUILD) -j $(JOBS)
+	@scripts/build-tests $(BUILD) $(JOBS)
 	@scripts/run-tests $(BUILD) $(JOBS) '$(FILTER)'
 
 fmu: $(BUILD)/build.ninja  ## builds what `hersey export` needs: build/release/hersey-fmu and hersey_fmu.so
@@ -119,5 +119,5 @@ random-models: program  ## tries as many random models as TIME=60 allows, every 
 
 # Configured once; afterwards the build itself notices changed CMake files.
 $(BUILD)/build.ninja: CMakePresets.json
-	@scripts/setup build $(if $(filter gcc,$(PRESET)),gcc) $(if $(filter asan,$(PRESET)),fuzz)
+	@scripts/setup build $(if $(filter test fmu,$(MAKECMDGOALS)),fmu) $(if $(filter gcc,$(PRESET)),gcc) $(if $(filter asan,$(PRESET)),fuzz)
 	@$(PHASE) configure build/log/configure.log scripts/compiler cmake --preset $(PRESET) -DHERSEY_UNITY=$(UNITY)

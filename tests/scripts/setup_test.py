@@ -73,6 +73,17 @@ class Setup(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertRegex(self.apt_calls(), r"update\n.*install .*--no-install-recommends clang-tidy\n")
 
+    def test_asking_installs_nothing_and_tells_who_cannot(self):
+        os.chmod(self.root, 0o777)
+        self.installed("clang-format", "python3")
+        run = self.setup("--ask", "lint", as_nobody=True)
+        self.assertEqual(run.returncode, 2)
+        self.assertRegex(run.stderr, r"apt-get install .*clang-tidy$")
+        self.program("sudo", 'case $1 in -*) shift ;; esac; exec "$@"')
+        run = self.setup("--ask", "lint", as_nobody=True)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
+        self.assertEqual(self.apt_calls(), "")
+
     def test_apt_failure_is_shown_and_passed_on(self):
         os.chmod(self.root, 0o777)
         self.installed()
