@@ -12,10 +12,10 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help fmu program demo test bench validate mutations fuzz random-models studies test-slurm web web-check web-test python docs docs-test pictures package package-test format lint install clean
+.PHONY: help fmu program demo test bench validate mutations fuzz random-models studies test-slurm web web-check web-test python python-package docs docs-test pictures package package-test format lint install clean
 
 help:  ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 program: $(BUILD)/build.ninja  ## builds the program: build/release/hersey
 	@$(PHASE) program build/log/program.log cmake --build $(BUILD) --target hersey -j $(JOBS)
@@ -71,11 +71,13 @@ web-check:  ## checks the front end's types and that the committed bundle is wha
 web-test: program  ## opens a report in headless Chromium and tries it
 	@scripts/web test $(BUILD)
 
-python: $(BUILD)/build.ninja  ## builds the Python package below build/release/python and runs its tests (FILTER=word: some of them)
+python: python-package  ## builds the Python package and runs its tests (FILTER=word: some of them)
+	@scripts/python-tests $(BUILD) '$(FILTER)'
+
+python-package: $(BUILD)/build.ninja  ## builds the Python package: build/release/python
 	@scripts/setup build test python study
 	@$(PHASE) configure build/log/python-configure.log cmake $(BUILD) -DHERSEY_PYTHON_PACKAGE=ON -DPython3_EXECUTABLE=/usr/bin/python3
 	@$(PHASE) compile build/log/python.log cmake --build $(BUILD) --target hersey_python hersey -j $(JOBS)
-	@scripts/python-tests $(BUILD) '$(FILTER)'
 
 docs:  ## builds the documentation site: build/docs/index.html
 	@scripts/setup docs
