@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Oil whirl of the two rotors: growth of the orbit in the run against the linearised prediction.
 
-    threshold.py HERSEY [rigid | flexible] [--cavitation CONDITION] [--settle SECONDS] [--within SHARE]
+    threshold.py HERSEY [rigid | flexible] [--cavitation CONDITION] [--grid 32x7] [--settle SECONDS] [--within SHARE]
 
 For each of a few speeds: stiffness and damping of a bearing under its share of the weight (`hersey bearing`) and from them
 the rotor's eigenvalue; a run that comes to the speed, holds it, and is left alone there (`hersey run`), and growth and frequency
@@ -157,6 +157,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("rotor", nargs="?", default="rigid", choices=("rigid", "flexible"))
     parser.add_argument("--cavitation", default="reynolds")
+    parser.add_argument("--grid", help="of the films, such as 32x7, in run and prediction; as in the model if not given")
     parser.add_argument("--settle", type=float, help="before the speed changes; the shorter, the larger is the orbit that grows")
     parser.add_argument("--within", type=float)
     parser.add_argument("--speeds", type=lambda text: tuple(float(part) for part in text.split(",")), help="in rpm")
@@ -165,7 +166,12 @@ def main():
     if arguments.settle is not None:
         rotor = dataclasses.replace(rotor, settle=arguments.settle)
     speeds = arguments.speeds or rotor.speeds
-    settings = ("--set", f"cavitation={arguments.cavitation}", "--set", f"simulation.step={rotor.step}ms")
+    film = ["--set", f"cavitation={arguments.cavitation}"]
+    if arguments.grid is not None:
+        circumferential, axial = arguments.grid.split("x")
+        for bearing in ("left", "right"):
+            film += ["--set", f"bearings.{bearing}.grid={{circumferential: {circumferential}, axial: {axial}}}"]
+    settings = [*film, "--set", f"simulation.step={rotor.step}ms"]
 
     print(f"{arguments.rotor} rotor, {arguments.cavitation} condition")
     print("   speed    growth [1/s]          whirl ratio           orbit at the end")
@@ -173,7 +179,7 @@ def main():
     growth = []
     with tempfile.TemporaryDirectory() as folder:
         for speed in speeds:
-            linear = predicted(rotor, *film_coefficients(arguments.program, rotor, speed, settings[:2]))
+            linear = predicted(rotor, *film_coefficients(arguments.program, rotor, speed, film))
             run, orbit = observed(arguments.program, rotor, speed, settings, linear.imag, folder)
             growth.append((linear.real, run.real))
             omega = speed * np.pi / 30
