@@ -25,7 +25,8 @@ inline BenchBearing bench_bearing(const Grid& grid, double L_over_D, double epsi
   b.motion.g_rate.setZero(grid.size());
   b.motion.u_journal = 100 * b.model.R;
   for (int k = 0; k < grid.size(); ++k) {
-    b.motion.g[k] = b.model.c * (1 + epsilon * std::cos(2 * std::numbers::pi * (k / grid.n_z) / grid.n_phi));
+    const int i = k / grid.n_z;
+    b.motion.g[k] = b.model.c * (1 + epsilon * std::cos(2 * std::numbers::pi * i / grid.n_phi));
   }
   return b;
 }

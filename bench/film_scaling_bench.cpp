@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <string>
 
+#include "balance/flow_balance.h"
 #include "film_cases.h"
-#include "flow_balance.h"
 #include "hersey/solver/sparse_lu.h"
-#include "multigrid_solver.h"
+#include "solve/multigrid_solver.h"
 
 namespace {
 

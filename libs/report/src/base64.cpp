@@ -1,5 +1,6 @@
 #include "base64.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -10,13 +11,14 @@ static_assert(std::endian::native == std::endian::little, "the page expects litt
 
 std::string encode(std::span<const unsigned char> bytes) {
   static constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
+  std::string text((bytes.size() + 2) / 3 * 4, '=');
+  char* next = text.data();  // most of a page is written here: a look at the string's end for each letter shows
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t group = 0;
     for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < n ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? alphabet[group >> (18 - 6 * k) & 63] : '=';
+    for (std::size_t k = 0; k <= n; ++k) next[k] = alphabet[group >> (18 - 6 * k) & 63];
+    next += 4;
   }
   return text;
 }
