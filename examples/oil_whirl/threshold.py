@@ -157,7 +157,8 @@ def main():
     parser.add_argument("program")
     parser.add_argument("rotor", nargs="?", default="rigid", choices=("rigid", "flexible"))
     parser.add_argument("--cavitation", default="reynolds")
-    parser.add_argument("--grid", help="of the films, such as 32x7, in run and prediction; as in the model if not given")
+    parser.add_argument("--grid", type=lambda text: "{circumferential: %d, axial: %d}" % tuple(int(n) for n in text.split("x")),
+                        help="of the films, such as 32x7, in run and prediction; as in the model if not given")
     parser.add_argument("--settle", type=float, help="before the speed changes; the shorter, the larger is the orbit that grows")
     parser.add_argument("--within", type=float)
     parser.add_argument("--speeds", type=lambda text: tuple(float(part) for part in text.split(",")), help="in rpm")
@@ -168,9 +169,8 @@ def main():
     speeds = arguments.speeds or rotor.speeds
     film = ["--set", f"cavitation={arguments.cavitation}"]
     if arguments.grid is not None:
-        circumferential, axial = arguments.grid.split("x")
         for bearing in ("left", "right"):
-            film += ["--set", f"bearings.{bearing}.grid={{circumferential: {circumferential}, axial: {axial}}}"]
+            film += ["--set", f"bearings.{bearing}.grid={arguments.grid}"]
     settings = [*film, "--set", f"simulation.step={rotor.step}ms"]
 
     print(f"{arguments.rotor} rotor, {arguments.cavitation} condition")
