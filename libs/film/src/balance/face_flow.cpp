@@ -56,6 +56,7 @@ FlowBalance::FaceGap FlowBalance::smooth_gap(std::size_t f, double h) const {
 
 // Between rough surfaces (film.43): factors are means of those at both nodes.
 void FlowBalance::roughen(std::size_t f, FaceGap& gap) const {
+  if (rough_law_.is_smooth() && !is_layered()) return;  // all of what follows is 1 and 0
   const Face& face = faces_[f];
   const RoughGap &a = rough_[face.a], &b = rough_[face.b];
   const int k = axial(f) ? 1 : 0;
@@ -71,8 +72,9 @@ void FlowBalance::roughen(std::size_t f, FaceGap& gap) const {
 }
 
 // Over pockets (film.26, film.28).
-void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) const {
-  const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
+void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap) {
+  const auto t = static_cast<std::size_t>(tube_of_[f]);
+  const PocketTube& tube = relief_.tubes()[t];
   const Face& face = faces_[f];
   const TubeGap deep = relief_.gap(tube, h);
   const double factor = gap.cube / (h * h * h);
@@ -89,8 +91,8 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) 
   gap.full_journal = past * deep.carry.journal + tube.swept_journal / face.width;
   const double mu = 2 / (flow_of(face.a, f).value + flow_of(face.b, f).value), volume = face.width * face.length;
   const double drop = nodes_[face.b].wall - nodes_[face.a].wall, drag = 12 * mu * volume;
-  flow.recirculation = drag * past * past * deep.excess.value;
-  FaceFlow::Moment& m = flow.moment;
+  pocket_flows_[t].recirculation = drag * past * past * deep.excess.value;
+  PocketFlow::Moment& m = pocket_flows_[t].moment;
   m.drop = face.width * (deep.carry.value - h);
   m.past = drag * deep.excess.value;
   m.value = m.past * past + m.drop * drop;
@@ -163,7 +165,7 @@ void FlowBalance::add_face(std::size_t f) {
   FaceGap gap = smooth_gap(f, h);
   roughen(f, gap);
   flow.is_deep = tube_of_[f] >= 0;
-  if (flow.is_deep) deepen(f, h, gap, flow);
+  if (flow.is_deep) deepen(f, h, gap);
   carry_little(f, gap);
 
   // Flow (film.16): q = rho [h^3/(12 mu) b/l (p_a - p_b) + what the surfaces carry].

@@ -82,6 +82,7 @@ void FlowBalance::lay_edges() {
 
 void FlowBalance::lay_faces() {
   const Grid& grid = model_.grid;
+  faces_.reserve(2 * static_cast<std::size_t>(size()));
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
       const int node = grid.index(i, j), next = grid.next(i);
@@ -191,6 +192,7 @@ void FlowBalance::take_motion(const SurfaceMotion& motion) {
   if (relief_.is_empty()) return;
   relief_.place(motion.phi_journal, phi_start_, dt_, motion.u_journal);
   std::fill(tube_of_.begin(), tube_of_.end(), -1);
+  pocket_flows_.resize(relief_.tubes().size());
   for (std::size_t t = 0; t < relief_.tubes().size(); ++t) tube_of_[relief_.tubes()[t].face] = static_cast<int>(t);
 }
 
@@ -212,11 +214,6 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   find_supply(motion);
   u_ = u;
   if (const FilmDomain domain = evaluate_nodes(motion, u); !domain.is_inside()) return domain;
-  for (int i = 0; i < n; ++i) {
-    evaluate_cell(i, motion);
-    balance_[i] = storage(i);
-    throughput_[i] = std::max(std::abs(balance_[i]), std::abs(storage_g_rate(i) * g_rate_[i]));
-  }
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
   replace_boundary_rows();
   // A film without oil has no throughput to measure by: a thousandth of what its surfaces would carry in a full gap.
@@ -246,13 +243,18 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
   if (const FilmDomain domain = judge_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
     const Sliding& sliding = sliding_[static_cast<std::size_t>(i % model_.grid.n_z)];
-    nodes_[i] = is_layered() ? law_.state(motion.g[i], u[i], i, sliding, viscosity_of(i))
-                             : law_.state(motion.g[i], u[i], i, sliding);
+    if (is_layered())
+      law_.evaluate(motion.g[i], u[i], i, sliding, viscosity_of(i), nodes_[i]);
+    else
+      law_.evaluate(motion.g[i], u[i], i, sliding, nodes_[i]);
     if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
     if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;
     rough_[i] = rough_law_.state(nodes_[i].h);
     if (is_layered()) skew(viscosity_.skew[i], nodes_[i].h, rough_[i]);
+    evaluate_cell(i, motion);
+    balance_[i] = storage(i);
+    throughput_[i] = std::max(std::abs(balance_[i]), std::abs(storage_g_rate(i) * g_rate_[i]));
   }
   return {};
 }

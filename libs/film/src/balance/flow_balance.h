@@ -50,15 +50,19 @@ struct FaceFlow {
   double little = 0;             ///< entrained flow per fill fraction where there is little oil [m^3/s]
   double little_by_couette = 0;  ///< where the first is a given multiple of the second; else 0 [-]
   bool is_deep = false;          ///< over a pocket, which holds oil back
-  double recirculation = 0;      ///< power of the oil that turns in pockets under the tube [W]
-  /// What pockets add to the integral of h dp over the tube and its width [N], with derivatives by the thickness on the
+
+  [[nodiscard]] Carried carried(double theta) const;
+};
+
+/// What pockets under a tube do beside its flow.
+struct PocketFlow {
+  double recirculation = 0;  ///< power of the oil that turns in them [W]
+  /// What they add to the integral of h dp over the tube and its width [N], with derivatives by the thickness on the
   /// face, the mean of 1/mu, the drop of the walls' pressure, the speed past the pockets' steps and phi_journal.
   struct Moment {
     double value = 0, h = 0, fluidity = 0, drop = 0, past = 0, journal = 0;
   };
   Moment moment;
-
-  [[nodiscard]] Carried carried(double theta) const;
 };
 
 /// Balance of oil (film.2) in every control volume, with the flows (film.1) over its faces, its Jacobian in u and its
@@ -99,6 +103,10 @@ class FlowBalance {
   [[nodiscard]] const std::vector<RoughGap>& rough_gaps() const { return rough_; }
   [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
   [[nodiscard]] const std::vector<FaceFlow>& flows() const { return flows_; }
+  [[nodiscard]] const PocketFlow& pocket_flow(std::size_t tube) const { return pocket_flows_[tube]; }
+  [[nodiscard]] double recirculation(std::size_t f) const {  ///< power of the oil that turns in pockets there [W]
+    return tube_of_[f] < 0 ? 0 : pocket_flows_[static_cast<std::size_t>(tube_of_[f])].recirculation;
+  }
   [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
   /// Outflow plus storage of every control volume, boundary nodes included: there it is the oil fed from outside.
   [[nodiscard]] const Eigen::VectorXd& balance() const { return balance_; }
@@ -320,6 +328,7 @@ class FlowBalance {
   [[nodiscard]] Tie tie(const HeldNode& held) const;
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
+  /// States of the nodes, and the storage in their control volumes into the balance.
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
   [[nodiscard]] NodeViscosity viscosity_of(int node) const;
   [[nodiscard]] bool is_layered() const { return viscosity_.fluidity.size() != 0; }
@@ -328,7 +337,7 @@ class FlowBalance {
   void add_face(std::size_t f);
   [[nodiscard]] FaceGap smooth_gap(std::size_t f, double h) const;
   void roughen(std::size_t f, FaceGap& gap) const;
-  void deepen(std::size_t f, double h, FaceGap& gap, FaceFlow& flow) const;
+  void deepen(std::size_t f, double h, FaceGap& gap);
   void carry_little(std::size_t f, FaceGap& gap) const;
   [[nodiscard]] double thickness_on(std::size_t f) const;
   [[nodiscard]] bool is_limited(std::size_t f) const;
@@ -389,7 +398,8 @@ class FlowBalance {
   mutable Eigen::VectorXd direction_bends_, direction_excesses_, direction_rate_excesses_;
   mutable std::vector<SlidingChange> direction_sliding_;  ///< of the rows
   std::vector<Cell> cells_;
-  std::vector<int> tube_of_;  ///< of every face its pocket tube, -1 for none
+  std::vector<int> tube_of_;              ///< of every face its pocket tube, -1 for none
+  std::vector<PocketFlow> pocket_flows_;  ///< of the tubes
   Line line_;
   std::vector<CarriedShare> line_shares_;  ///< of the faces that it cuts, by their axial row
   SurfaceMotion speeds_;

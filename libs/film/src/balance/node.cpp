@@ -53,12 +53,12 @@ NodeLaw::NodeLaw(const FilmModel& model)
       contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus),
       uniform_{model.lubricant.mu0, model.lubricant.mu0, 1, model.lubricant.mu0} {}
 
-Node NodeLaw::state(double g, double u, int at, const Sliding& sliding, const NodeViscosity& viscosity) const {
-  Node node;
+void NodeLaw::evaluate(double g, double u, int at, const Sliding& sliding, const NodeViscosity& viscosity,
+                       Node& node) const {
+  node = {};
   pressure_and_fill(u, at, node);
   film_thickness(g, node);
   rheology(viscosity, sliding, node);
-  return node;
 }
 
 void NodeLaw::pressure_and_fill(double u, int at, Node& node) const {

@@ -75,12 +75,19 @@ class NodeLaw {
  public:
   explicit NodeLaw(const FilmModel& model);
 
-  /// State of a node with undeformed gap g [m] and unknown u [Pa]. h <= 0 is left to the caller to judge.
-  [[nodiscard]] Node state(double g, double u, int node, const Sliding& sliding = {}) const {
-    return state(g, u, node, sliding, uniform_);
+  /// State of a node at rest with undeformed gap g [m] and unknown u [Pa]. h <= 0 is left to the caller to judge.
+  [[nodiscard]] Node state(double g, double u, int node) const {
+    Node state;
+    evaluate(g, u, node, {}, state);
+    return state;
+  }
+  /// The same of one that slides.
+  void evaluate(double g, double u, int node, const Sliding& sliding, Node& state) const {
+    evaluate(g, u, node, sliding, uniform_, state);
   }
   /// The same where the oil has a viscosity of its own.
-  [[nodiscard]] Node state(double g, double u, int node, const Sliding& sliding, const NodeViscosity& viscosity) const;
+  void evaluate(double g, double u, int node, const Sliding& sliding, const NodeViscosity& viscosity,
+                Node& state) const;
 
  private:
   void pressure_and_fill(double u, int at, Node& node) const;

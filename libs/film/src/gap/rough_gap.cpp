@@ -32,7 +32,7 @@ ValueAndSlope RoughGapLaw::mean(double h) const {
 
 RoughGap RoughGapLaw::state(double h) const {
   RoughGap r;
-  if (sigma_ == 0) {
+  if (is_smooth()) {
     r.mean = h;
     return r;
   }

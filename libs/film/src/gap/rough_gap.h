@@ -24,6 +24,7 @@ class RoughGapLaw {
  public:
   explicit RoughGapLaw(const Roughness& roughness);
 
+  [[nodiscard]] bool is_smooth() const { return sigma_ == 0; }
   [[nodiscard]] RoughGap state(double h) const;
   /// Mean gap [m] at a distance h of the mean planes [m], which may be negative, and its slope.
   [[nodiscard]] ValueAndSlope mean(double h) const;

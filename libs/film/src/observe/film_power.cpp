@@ -50,7 +50,7 @@ double pressure_power(const FlowBalance& balance, std::size_t f) {
   const Face& face = balance.faces()[f];
   const Node &a = balance.nodes()[face.a], &b = balance.nodes()[face.b];
   const FaceFlow& flow = balance.flows()[f];
-  return flow.K / flow.density * (a.p - b.p) * (a.wall - b.wall) + flow.recirculation;
+  return flow.K / flow.density * (a.p - b.p) * (a.wall - b.wall) + balance.recirculation(f);
 }
 
 void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench, FilmObservables& o) {

@@ -130,9 +130,10 @@ void FilmWrench::take_relief(const FlowBalance& balance) {
 void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_gradient) {
   const Grid& grid = model_.grid;
   pushes_.clear();
-  for (const PocketTube& tube : balance.relief().tubes()) {
+  for (std::size_t t = 0; t < balance.relief().tubes().size(); ++t) {
+    const PocketTube& tube = balance.relief().tubes()[t];
     const Face& face = balance.faces()[tube.face];
-    const FaceFlow::Moment& moment = balance.flows()[tube.face].moment;
+    const PocketFlow::Moment& moment = balance.pocket_flow(t).moment;
     if (tube.in_shell == tube.in_journal) continue;
     const bool axial = tube.face >= static_cast<std::size_t>(grid.size());
     const Basis at_a = basis(face.a / grid.n_z, face.a % grid.n_z), at_b = basis(face.b / grid.n_z, face.b % grid.n_z);

@@ -77,7 +77,7 @@ class FilmWrench {
   struct WallPush {
     std::size_t face = 0;
     int row = 0;        ///< of the grid
-    Vector6 direction;  ///< of a unit of FaceFlow::Moment
+    Vector6 direction;  ///< of a unit of PocketFlow::Moment
     double by_bend = 0, by_past = 0;
     double by_rate = 0, by_turn = 0;  ///< with what SlidingChange tells
     bool in_journal = false;

@@ -1,9 +1,11 @@
 #include "solve/sor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,19 +19,58 @@ constexpr int sweeps_per_update = 20;
 // Updates in which the residual does not halve: sweeps that go round in circles are none.
 constexpr int most_without_progress = 50;
 
-// Newton's iterations for the fill fraction of one node, and the change of it with which they end.
+// Newton's iterations for the fill fraction of one node, and the change of it with which they end: what is still
+// missing then goes with its square.
 constexpr int most_of_a_node = 10;
-constexpr double near_enough = 1e-13;
+constexpr double near_enough = 1e-7;
 
 // 2^-30 of the way is where the sweeps began.
 constexpr int most_shortenings = 30;
 
-/// A node's row with everything but its own unknown known: K p + transport theta + known = 0 [m^3/s], linearised in the
-/// fill fraction.
-struct NodeRow {
-  double K = 0;
-  double transport = 0;
-  double known = 0;
+constexpr std::size_t most_faces = 4;  // of a node
+
+/// A node's row with everything but its own unknown known: K p + what leaves at its fill fraction + known = 0 [m^3/s].
+class NodeRow {
+ public:
+  double K = 0;      ///< [m^3/(Pa s)]
+  double known = 0;  ///< [m^3/s]
+
+  explicit NodeRow(double storage) : storage_(storage) {}
+  /// What leaves over a face: `of_full` times the share of its flow that there is at a fill fraction.
+  void add_leaving(double of_full, const FaceFlow& flow) {
+    leaving_[static_cast<std::size_t>(count_++)] = {of_full, &flow};
+  }
+  /// What leaves whatever the face carries, per fill fraction.
+  void add_storage(double storage) { storage_ += storage; }
+
+  /// What leaves a full gap.
+  [[nodiscard]] double full() const {
+    double sum = storage_;
+    for (const Leaving& l : leaving()) sum += l.of_full;
+    return sum;
+  }
+
+  /// What leaves at `theta`, with its slope.
+  [[nodiscard]] ValueAndSlope at(double theta) const {
+    ValueAndSlope sum{storage_ * theta, storage_};
+    for (const Leaving& l : leaving()) {
+      const Carried carried = l.flow->carried(theta);
+      sum.value += l.of_full * carried.value / l.flow->couette;
+      sum.slope += l.of_full * carried.theta / l.flow->couette;
+    }
+    return sum;
+  }
+
+ private:
+  struct Leaving {
+    double of_full = 0;
+    const FaceFlow* flow = nullptr;
+  };
+  [[nodiscard]] std::span<const Leaving> leaving() const { return {leaving_.data(), static_cast<std::size_t>(count_)}; }
+
+  double storage_ = 0;
+  std::array<Leaving, most_faces> leaving_;
+  int count_ = 0;
 };
 
 class Sor {
@@ -41,7 +82,7 @@ class Sor {
         cavitation_(cavitation_law(model)),
         scales_(cavitation_scales(model)),
         around_(balance_.size()) {
-    balance_.expect_any_fill();
+    if (cavitation_.has_fill()) balance_.expect_any_fill();
     for (std::size_t f = 0; f < balance_.faces().size(); ++f) {
       around_[balance_.faces()[f].a].push_back(static_cast<int>(f));
       around_[balance_.faces()[f].b].push_back(static_cast<int>(f));
@@ -57,7 +98,7 @@ class Sor {
   [[nodiscard]] FilmDomain enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u);
   void sweep();
   void relax(int i, int j);
-  [[nodiscard]] NodeRow row(int node, double theta) const;
+  [[nodiscard]] NodeRow row(int node) const;
   [[nodiscard]] double over_relaxation() const;
   [[nodiscard]] double following() const;
 
@@ -106,8 +147,9 @@ void Sor::start(const Eigen::VectorXd& u) {
 void Sor::place(int node, double u) {
   u_[node] = u;
   const bool open = balance_.is_open(node);
-  p_[node] = open ? 0 : cavitation_.phase(u, scales_).p.value;
-  theta_[node] = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(node)) : u, scales_).theta.value;
+  const FilmPhase phase = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(node)) : u, scales_);
+  p_[node] = open ? 0 : phase.p.value;
+  theta_[node] = phase.theta.value;
 }
 
 FilmDomain Sor::update_coefficients(const Eigen::VectorXd& u) {
@@ -133,13 +175,9 @@ FilmDomain Sor::enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u) 
   return domain;
 }
 
-NodeRow Sor::row(int node, double theta) const {
-  NodeRow r{0, storage_theta_[node], storage_known_[node]};
-  const auto leaves = [&](double of_full, const FaceFlow& flow) {
-    const Carried carried = flow.carried(theta);
-    r.transport += of_full * carried.theta / flow.couette;
-    r.known += of_full * (carried.value - carried.theta * theta) / flow.couette;
-  };
+NodeRow Sor::row(int node) const {
+  NodeRow r(storage_theta_[node]);
+  r.known = storage_known_[node];
   for (int f : around_[node]) {
     const Face& face = balance_.faces()[f];
     const FaceFlow& flow = balance_.flows()[f];
@@ -152,17 +190,19 @@ NodeRow Sor::row(int node, double theta) const {
       const FlowBalance::TowardsLine line = balance_.towards_line(node);
       if (line.counts) {
         r.known -= line.strip;
-        if (line.from_node && couette > 0)
-          leaves(line.full, flow);
+        if (!line.from_node)
+          r.known += line.full;
+        else if (couette > 0)
+          r.add_leaving(line.full, flow);
         else
-          (line.from_node ? r.transport : r.known) += line.full;
+          r.add_storage(line.full);
         continue;
       }
     }
     if (couette > 0)
-      leaves(couette, flow);
-    else
-      r.known += (is_a ? 1 : -1) * flow.carried(theta_[other]).value;
+      r.add_leaving(couette, flow);
+    else  // the law's value for a full gap, without its roots
+      r.known += (is_a ? 1 : -1) * (theta_[other] == 1 ? flow.couette : flow.carried(theta_[other]).value);
   }
   return r;
 }
@@ -172,34 +212,34 @@ void Sor::relax(int i, int j) {
   if (balance_.is_given(node)) return place(node, balance_.edge_unknown(node));
 
   // Beside line and features the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
-  NodeRow r = row(node, 1);
+  const NodeRow r = row(node);
   const bool open = balance_.is_open(node);
   const double own = balance_.balance_share(node), tie = balance_.supply_conductance(node);
-  const auto full = [&] { return own * (r.known + r.transport) - tie * balance_.supply_unknown(node); };
+  const double supplied = tie * balance_.supply_unknown(node);
+  const double full = own * (r.known + r.full()) - supplied;
   const double conductance = own * (open ? balance_.conductance_scale() : r.K) + (balance_.only_fills(node) ? 0 : tie);
-  const double target = -full() / conductance;
+  const double target = -full / conductance;
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
   if (u >= 0 || cavitation_.has_tension()) return place(node, u);
 
-  const auto broken = [&] {
-    return BrokenRow{.full = full(),
-                     .transport = own * r.transport,
+  const auto broken = [&](double theta) {
+    const ValueAndSlope leaves = r.at(theta);
+    return BrokenRow{.full = own * (r.known + leaves.value + leaves.slope * (1 - theta)) - supplied,
+                     .transport = own * leaves.slope,
                      .slack = own * balance_.conductance_scale(),
                      .drawn = tie * balance_.draws(node)};
   };
   // Newton's method for the fill fraction, from that of the last sweep (film.28).
   double theta = theta_[node], filling = 0;
   for (int k = 0; k < most_of_a_node; ++k) {
-    r = row(node, theta);
-    filling = cavitation_.broken_unknown(broken(), scales_);
+    filling = cavitation_.broken_unknown(broken(theta), scales_);
     const double last = std::exchange(theta, std::max(0.0, cavitation_.phase(filling, scales_).theta.value));
     if (std::abs(theta - last) <= near_enough) break;
   }
   const double ambient = balance_.ambient_unknown(node);
   if (!open || filling >= ambient) return place(node, filling);
   // Emptier than what lies outside: u is the inflow that keeps it as full (film.19).
-  r = row(node, cavitation_.phase(ambient, scales_).theta.value);
-  const BrokenRow drawing = broken();
+  const BrokenRow drawing = broken(cavitation_.phase(ambient, scales_).theta.value);
   const double lack = drawing.full + (drawing.transport / scales_.fill + drawing.drawn) * ambient;
   place(node, std::min(ambient, ambient - lack / (drawing.slack + drawing.drawn)));
 }
