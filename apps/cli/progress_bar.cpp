@@ -24,7 +24,7 @@ std::size_t terminal_width() {
 
 std::string remaining(double share, double elapsed) {
   if (share <= 0.005) return "--:--";
-  const auto seconds = static_cast<long>(std::lround(elapsed * (1 - share) / share));
+  const long seconds = std::lround(elapsed * (1 - share) / share);
   return fmt::format("{:02d}:{:02d}", seconds / 60, seconds % 60);
 }
 

@@ -134,7 +134,7 @@ void write_zip(const std::filesystem::path& path, const std::vector<std::pair<st
     add(file.name, zip_source_file(archive.get(), std::filesystem::canonical(file.from).c_str(), 0, -1));
   if (zip_close(archive.get()) != 0)
     throw std::runtime_error(fmt::format("{}: {}", path.string(), zip_strerror(archive.get())));
-  (void)archive.release();  // closed, and freed with that
+  [[maybe_unused]] const zip_t* closed = archive.release();  // freed with that
 }
 
 }  // namespace hersey::fmu

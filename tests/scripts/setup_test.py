@@ -23,6 +23,7 @@ class Setup(unittest.TestCase):
             shutil.copy(os.path.join(SOURCE, "scripts", name), self.path("scripts", name))
         os.mkdir(self.path("bin"))
         self.program("apt-get", f'echo "$*" >> {self.path("apt.log")}')
+        self.archive_lacks("clang-tidy-22")
         # Programs that the test machine may have or lack must not decide: no npm, no sudo but those made here.
         for name in ("bash", "sh", "env", "sed", "tr", "dirname", "mkdir", "sleep", "tail", "grep", "cut", "true"):
             os.symlink(shutil.which(name), self.path("bin", name))
@@ -40,6 +41,9 @@ class Setup(unittest.TestCase):
         cases = "".join(f"{name}) echo {name}=installed ;; " for name in packages)
         self.program("dpkg-query", 'status=0; for name in "$@"; do case $name in -*) ;; '
                                    f'{cases} *) status=1 ;; esac; done; exit $status')
+
+    def archive_lacks(self, *packages):
+        self.program("apt-cache", f'case $2 in {"|".join(packages) or "-"}) exit 100 ;; esac')
 
     def setup(self, *purposes, as_nobody=False):
         user = {"user": NOBODY} if as_nobody and os.geteuid() == 0 else {}
@@ -72,6 +76,17 @@ class Setup(unittest.TestCase):
         run = self.setup("lint", as_nobody=True)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertRegex(self.apt_calls(), r"update\n.*install .*--no-install-recommends clang-tidy\n")
+
+    def test_the_newer_of_two_packages_is_installed_where_the_archive_has_it(self):
+        os.chmod(self.root, 0o777)
+        self.installed("clang-format", "python3")
+        self.archive_lacks()
+        self.program("sudo", 'case $1 in -*) shift ;; esac; exec "$@"')
+        run = self.setup("lint", as_nobody=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(self.apt_calls(), r"update\n.*install .*--no-install-recommends clang-tidy-22\n")
+        self.installed("clang-format", "python3", "clang-tidy-22")
+        self.assertEqual(self.setup("lint", as_nobody=True).stdout, "")
 
     def test_asking_installs_nothing_and_tells_who_cannot(self):
         os.chmod(self.root, 0o777)

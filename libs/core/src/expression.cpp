@@ -49,7 +49,7 @@ ExpressionError translated(const mu::Parser::exception_type& error, const std::s
   const std::string token = error.GetToken();
   const int length = static_cast<int>(expression.size());
   // muParser points behind the token or beyond the end for some errors; where the token can be found, point at it.
-  int position = static_cast<int>(error.GetPos());
+  int position = error.GetPos();
   if (!token.empty()) {
     const auto last = expression.rfind(token, static_cast<std::size_t>(std::clamp(position, 0, length)));
     if (last != std::string::npos) position = static_cast<int>(last);

@@ -158,9 +158,8 @@ class CylinderFinder {
         return false;
     // A midside node is on the cylinder, or no deeper than a straight edge's middle.
     for (std::size_t k = candidate.corners; k < candidate.nodes.size(); ++k) {
-      const std::size_t c = k - candidate.corners;
-      const Vector3 edge =
-          place_of(mesh_, candidate.nodes[(c + 1) % candidate.corners]) - place_of(mesh_, candidate.nodes[c]);
+      const std::size_t c = k - candidate.corners, next = c + 1 == candidate.corners ? 0 : c + 1;
+      const Vector3 edge = place_of(mesh_, candidate.nodes[next]) - place_of(mesh_, candidate.nodes[c]);
       const double sagitta = edge.squaredNorm() / (8 * region.fit.radius);
       const double deviation = region.fit.deviation(place_of(mesh_, candidate.nodes[k]));
       const double within = kRoundness * region.fit.radius;

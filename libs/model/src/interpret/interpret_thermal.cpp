@@ -134,7 +134,8 @@ void complete_walls(Context& context, const Value& thermal, const film::Grid& gr
   if (std::holds_alternative<film::NodeWall>(heat.shell)) heat.shell = node_wall_of(context, shell);
   if (std::holds_alternative<film::NodeWall>(heat.journal)) heat.journal = node_wall_of(context, journal);
   auto* ring = std::get_if<film::RingWall>(&heat.shell);
-  const auto ambient = ring != nullptr ? own_temperature(context, shell.find("ambient")) : std::nullopt;
+  if (ring == nullptr) return;
+  const auto ambient = own_temperature(context, shell.find("ambient"));
   if (ambient) ring->T_ambient = ambient->T, ring->surroundings = ambient->node;
 }
 

@@ -181,8 +181,8 @@ class Attribute {
              .note = more_.note,
              .kind = QuantityInfo::Kind::attribute,
              .told = more_.told};
-    write_ = [get](const Plan& plan, [[maybe_unused]] std::size_t k, const std::string& object, const std::string& as,
-                   results::Writer& writer) {
+    write_ = [get = std::move(get)](const Plan& plan, [[maybe_unused]] std::size_t k, const std::string& object,
+                                    const std::string& as, results::Writer& writer) {
       if constexpr (std::is_invocable_v<Get, const Plan&, std::size_t>)
         writer.attribute(object, as, std::invoke(get, plan, k));
       else

@@ -156,7 +156,7 @@ struct Cost {
 
 /// The three figures of a number per step.
 template <class Plan>
-void add_per_step(const std::string& name, const char* of, std::function<PerStep(const Plan&)> get,
+void add_per_step(const std::string& name, const char* of, const std::function<PerStep(const Plan&)>& get,
                   std::vector<Attribute<Plan>>& table) {
   table.push_back({name + "_median", "1", std::string(of) + ", median of accepted steps",
                    [get](const Plan& plan) { return get(plan).median; }});
