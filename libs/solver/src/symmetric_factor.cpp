@@ -1,11 +1,13 @@
 #include "hersey/solver/symmetric_factor.h"
 
+#include <dlfcn.h>
 #include <dmumps_c.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <mutex>
 
@@ -13,6 +15,17 @@
 
 namespace hersey::solver {
 namespace {
+
+// MUMPS without METIS, as Debian builds it, orders large patterns by SCOTCH, whose threads find another ordering each
+// time. Set while the program is loaded: later threads may read it.
+[[maybe_unused]] const int orders_in_one_thread = setenv("SCOTCH_PTHREAD_NUMBER", "1", 0);
+
+// One pattern has one ordering, whatever was ordered before it: results are to be the same to the last bit.
+void forget_earlier_orderings() {
+  using Reset = void (*)();
+  // Not by its header: MUMPS may have been built without SCOTCH.
+  if (auto* const reset = reinterpret_cast<Reset>(dlsym(RTLD_DEFAULT, "SCOTCH_randomReset"))) reset();
+}
 
 // Jobs of MUMPS.
 constexpr int job_start = -1, job_end = -2, job_analyse = 1, job_factorise = 2, job_solve = 3;
@@ -58,7 +71,7 @@ struct SymmetricFactor::Impl {
     for (const int stream : {1, 2, 3}) icntl(stream) = -1;
     icntl(4) = 0;          // silent
     icntl(6) = 0;          // no permutation by values: the ordering serves every matrix of the pattern
-    icntl(7) = 5;          // METIS
+    icntl(7) = 5;          // METIS, where MUMPS has it
     icntl(8) = 7;          // scaling of rows and columns: the same decisions in any units
     icntl(12) = 1;         // ordering by pattern alone
     icntl(24) = 1;         // go on past null pivots, and list them
@@ -75,6 +88,7 @@ struct SymmetricFactor::Impl {
 
   void call(int job) {
     const std::scoped_lock lock(turn());
+    if (job == job_analyse) forget_earlier_orderings();
     mumps.job = job;
     dmumps_c(&mumps);
   }
