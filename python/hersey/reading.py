@@ -26,12 +26,12 @@ class SolversLock:
         _core.unlock_hdf5()
 
 
-def _content(dataset: Any) -> np.ndarray:
+def _content(dataset: Any, rows: Any) -> np.ndarray:
     import h5py
 
     if h5py.check_string_dtype(dataset.dtype):
-        return np.asarray(dataset.asstr()[()], dtype=object)
-    return dataset[()]
+        return np.asarray(dataset.asstr()[rows], dtype=object)
+    return dataset[rows]
 
 
 def _lazy(path: Path, name: str, shape: tuple[int, ...], dtype: Any) -> Any:
@@ -49,6 +49,8 @@ def _lazy(path: Path, name: str, shape: tuple[int, ...], dtype: Any) -> Any:
         def _read(self, key: tuple[Any, ...]) -> np.ndarray:
             import h5py
 
+            if shape and isinstance(key[0], slice):  # rows that a kill left behind these do not count
+                key = (slice(*key[0].indices(shape[0])), *key[1:])
             with SolversLock(), h5py.File(path, "r") as file:
                 return file[name][key]
 
@@ -65,6 +67,15 @@ def _dimensions(dataset: Any, scales: dict[Any, str], file: Any) -> tuple[str, .
         scale = file[references[0]]
         names.append(scales.get(scale.id) or scale.name.rpartition("/")[2])
     return tuple(names)
+
+
+def complete_rows(datasets: Any) -> int:
+    """Rows that all of them have: a kill in the middle of a flush leaves some a few rows longer."""
+    return min(dataset.shape[0] for dataset in datasets)
+
+
+def _grows(dataset: Any) -> bool:
+    return bool(dataset.ndim) and dataset.maxshape[0] is None
 
 
 def _text(value: Any) -> Any:
@@ -84,11 +95,14 @@ def read_group(path: Path, group: str):
         place = file[group]
         found = {name: item for name, item in place.items() if isinstance(item, h5py.Dataset)}
         scales = {item.id: name for name, item in found.items() if h5py.h5ds.is_scale(item.id)}
+        growing = [item for item in found.values() if _grows(item)]
+        rows = complete_rows(growing) if growing else 0
         for name, item in found.items():
             attributes = {key: _text(value) for key, value in item.attrs.items() if key not in _HIDDEN}
             is_text = h5py.check_string_dtype(item.dtype) is not None
-            values = (_content(item) if is_text or item.nbytes <= _AT_ONCE
-                      else _lazy(path, item.name, item.shape, item.dtype))
+            shape, part = ((rows, *item.shape[1:]), slice(rows)) if _grows(item) else (item.shape, ())
+            values = (_content(item, part) if is_text or item.nbytes <= _AT_ONCE
+                      else _lazy(path, item.name, shape, item.dtype))
             dimensions = _dimensions(item, scales, file) if item.ndim else ()
             target = coordinates if dimensions == (name,) else data
             target[name] = xarray.Variable(dimensions, values, attributes)

@@ -11,7 +11,7 @@ from typing import Any, Iterator, Optional, Sequence
 import numpy as np
 
 from . import _core
-from .reading import SolversLock, read_group
+from .reading import SolversLock, complete_rows, read_group
 
 
 class Summary(Mapping):
@@ -122,7 +122,8 @@ class Results:
             if "crank_angle" not in file or "time" not in data.dims:
                 return data
             crank = file["crank_angle"]
-            time, angle = file["time"][:], crank[:]
+            rows = complete_rows((file["time"], crank))
+            time, angle = file["time"][:rows], crank[:rows]
             attributes = {key: crank.attrs[key] for key in ("units", "long_name") if key in crank.attrs}
         at = np.interp(data["time"].values, time, angle)
         return data.assign_coords(crank_angle=("time", at, attributes))

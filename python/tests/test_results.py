@@ -1,5 +1,8 @@
 """Results as xarray and pandas, lazily, with everything named."""
 
+import shutil
+
+import h5py
 import numpy as np
 import pytest
 import xarray
@@ -36,6 +39,20 @@ def test_long_fields_are_read_where_they_are_used(results, monkeypatch):
     late = film["pressure"].isel(time=-1, phi=slice(3, 20), z=[1, 5])
     assert not late.variable._in_memory
     assert np.array_equal(late.values, everything["pressure"].values[-1, 3:20][:, [1, 5]])
+
+
+@pytest.mark.parametrize("rows_read_late", [False, True])
+def test_rows_that_a_kill_left_in_some_series_do_not_count(results, tmp_path, monkeypatch, rows_read_late):
+    killed = shutil.copy(results.path, tmp_path / "killed.h5")
+    with h5py.File(killed, "r+") as file:
+        for name in ["time", "crank_angle", "bearings/main/h_min", "bearings/main/fields/pressure"]:
+            if name in file:
+                file[name].resize(len(file[name]) + 2, axis=0)
+    if rows_read_late:
+        monkeypatch.setattr("hersey.reading._AT_ONCE", 0)
+    for whole, cut in [(results.bearing(), hersey.open_results(killed).bearing()),
+                       (results.film(), hersey.open_results(killed).film())]:
+        xarray.testing.assert_identical(whole, cut)
 
 
 def test_groups_are_those_that_xarray_opens_itself(results):

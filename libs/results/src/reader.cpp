@@ -176,7 +176,6 @@ struct Reader::Impl {
     const Handle space(H5Dget_space(object));
     if (!grows(space.get())) return;
     const std::size_t rows = shape_of(space.get())[0];
-    if (rows == 0) return;
     const auto [entry, added] = complete_rows.try_emplace(growth_group(name), rows);
     entry->second = std::min(entry->second, rows);
   }
@@ -193,7 +192,7 @@ struct Reader::Impl {
     DatasetInfo info;
     info.shape = shape_of(space.get());
     info.grows = grows(space.get());
-    if (info.grows && info.shape[0] > 0) info.shape[0] = std::min(info.shape[0], complete_rows.at(growth_group(name)));
+    if (info.grows) info.shape[0] = std::min(info.shape[0], complete_rows.at(growth_group(name)));
     const Handle type(H5Dget_type(dataset.get()));
     info.is_text = H5Tget_class(type.get()) == H5T_STRING;
     info.unit = text_of(dataset.get(), "units").value_or("1");

@@ -141,6 +141,25 @@ TEST_CASE("KilledAtAnyMoment_LeavesAReadableFile") {
   CHECK(most_rows > 1);
 }
 
+TEST_CASE("KilledInTheFirstFlush_HasNoCompleteRow") {
+  // A kill between the headers of two series: the first knows of its row, the second has none.
+  const TemporaryDirectory directory;
+  Writer writer(directory / "killed.h5", {});
+  const Series first = writer.series("/a", 1, "1", "test series"), second = writer.series("/b", 1, "1", "test series");
+  first.append(1.0);
+  writer.flush();
+  {
+    const Reader reader(writer.path());
+    CHECK(reader.rows() == 0);
+    CHECK(reader.read("/a").values.empty());
+  }
+  second.append(2.0);
+  writer.flush();
+  const Reader reader(writer.path());
+  CHECK(reader.rows() == 1);
+  CHECK(reader.read("/a").values == std::vector{1.0});
+}
+
 TEST_CASE("IndexNodes_LieInOneMemoryPageEach") {
   // What the kills above meet only once in some hundred times: a write cut at a page's end cannot cut a node.
   const TemporaryDirectory directory;

@@ -91,7 +91,7 @@ happens to the program: it may be killed (`SIGKILL`) at any instant, a flush inc
 repair. HDF5 by itself does not promise that; the writer's own file driver (`libs/results/src/reserving_driver.h`) holds
 metadata back until a flush is complete, writes it in an order that is consistent at every moment, and reserves disk
 space before using it. A kill in the middle of a flush may leave some series a few rows longer than others: count the
-rows that all have, as `Reader` does.
+rows that all have, as `Reader` and Python's `hersey.open_results` do.
 
 When a run ends in order, whatever its status, the file gets a seal behind the end of its HDF5 part, one line of text with its length and checksum
 (as in [reduced bodies](reduced-body-file.md)): a sealed file whose bytes have changed since is refused as damaged. The file of a run that was killed
@@ -111,7 +111,7 @@ that still reads the old file keeps it.
 |---|---|
 | what is written is read back exactly | `libs/results/test/writer_test.cpp: WhatIsWritten_IsReadBackExactly` |
 | flushed rows survive `SIGKILL`, also for h5py | `libs/results/test/crash_test.cpp: FlushedRows_SurviveSigkill` |
-| a kill inside a flush leaves a readable file | `crash_test.cpp: KilledAtAnyMoment_LeavesAReadableFile`, `IndexNodes_LieInOneMemoryPageEach` |
+| a kill inside a flush leaves a readable file | `crash_test.cpp: KilledAtAnyMoment_LeavesAReadableFile`, `KilledInTheFirstFlush_HasNoCompleteRow`, `IndexNodes_LieInOneMemoryPageEach` |
 | a flush reads nothing back, however many series | `writer_test.cpp: Flush_ReadsNothingBack` |
 | units, names, dimensions, xarray; this page lists every dataset | `tests/results_file/results_file_test.py` |
 | every dataset and attribute is in the tables with its unit, and every line of them in some run | `results_file_test.py: test_every_dataset_is_in_the_tables_with_its_unit_and_text`, `test_every_line_of_the_tables_is_in_some_run` |
