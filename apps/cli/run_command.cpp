@@ -70,6 +70,18 @@ int exit_code(run::Status status) {
   return kFailed;
 }
 
+int exit_code(const study::RunResult& result) {
+  switch (result.status) {
+    case study::RunEnding::solved:
+      return exit_code(result.summary.status);
+    case study::RunEnding::not_begun:
+      return kInterrupted;
+    case study::RunEnding::failed:
+      return kFailed;
+  }
+  return kFailed;
+}
+
 // Of what has one in `runs`; the rows of `summary` name their own.
 nlohmann::json units_of_runs() {
   const nlohmann::json errors{
@@ -274,7 +286,7 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
   Paths files;
   std::vector<run::Summary> summaries;
   for (const study::RunResult& result : results) {
-    code = std::max(code, result.solved() ? exit_code(result.summary.status) : static_cast<int>(kFailed));
+    code = std::max(code, exit_code(result));
     if (!result.solved()) continue;
     files.push_back(result.summary.results);
     summaries.push_back(result.summary);

@@ -67,6 +67,20 @@ class CommandLine(unittest.TestCase):
     def results(self):
         return sorted(glob.glob(os.path.join(self.out, "**", "*.h5"), recursive=True))
 
+    def wait_for_rows(self, process):
+        """Until the results of a run under way have some rows, which go to the file every half second or so."""
+        deadline = time.monotonic() + 60
+        while process.poll() is None and time.monotonic() < deadline:
+            try:
+                with hdf5(self.results()[0]) as file:
+                    if min(len(file["time"]), len(file["bearings/main/h_min"])) > 1:
+                        return
+            except (IndexError, KeyError, OSError, RuntimeError):  # not there yet, or in the middle of a flush
+                pass
+            time.sleep(0.05)
+        process.kill()
+        self.fail("no rows within a minute")
+
     def model_with(self, old, new):
         """The test model with one text replaced, in a file of its own."""
         with open(MODEL, encoding="utf-8") as file:
@@ -807,10 +821,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
                               text=True) as process:
-            deadline = time.monotonic() + 60
-            while not self.results() and process.poll() is None and time.monotonic() < deadline:
-                time.sleep(0.05)
-            time.sleep(0.3)  # some steps
+            self.wait_for_rows(process)
             process.send_signal(signal.SIGINT)
             stdout, stderr = process.communicate(timeout=60)
         self.assertEqual(process.returncode, INTERRUPTED, stdout + stderr)
@@ -827,9 +838,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
             with subprocess.Popen([HERSEY, "run", MODEL, "--output", out, "--set", "duration=1000 s", "--set",
                                    "bearings.main.grid={circumferential: 120, axial: 25}"], stdout=subprocess.DEVNULL,
                                   stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True) as process:
-                deadline = time.monotonic() + 60
-                while not self.results() and process.poll() is None and time.monotonic() < deadline:
-                    time.sleep(0.05)
+                self.wait_for_rows(process)
                 process.send_signal(signal.SIGINT)
                 time.sleep(pause)
                 process.send_signal(signal.SIGINT)
@@ -853,10 +862,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                               stdin=subprocess.DEVNULL) as process:
-            deadline = time.monotonic() + 60
-            while not self.results() and process.poll() is None and time.monotonic() < deadline:
-                time.sleep(0.05)
-            time.sleep(1.5)  # rows go to the file every half second
+            self.wait_for_rows(process)
             process.kill()
             process.wait(timeout=60)
         with hdf5(self.results()[0]) as file:
@@ -1092,10 +1098,7 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", self.out, "--set", "duration=1000 s"],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
                               text=True) as process:
-            deadline = time.monotonic() + 60
-            while not self.results() and process.poll() is None and time.monotonic() < deadline:
-                time.sleep(0.05)
-            time.sleep(0.2)
+            self.wait_for_rows(process)
             process.send_signal(signal.SIGINT)
             _, stderr = process.communicate(timeout=60)
         self.assertIn("--resume", stderr)

@@ -46,7 +46,8 @@ RunResult simulate_one(const std::string& path, const model::StudyRun& run, cons
   result.run = run;
   Computing computing(queue, options);
   if (options.stop != nullptr && *options.stop) {
-    result.fail("stopped on request before it began");
+    result.status = RunEnding::not_begun;
+    result.message = "stopped on request before it began";
     return result;
   }
   run::Options run_options;
@@ -71,7 +72,7 @@ RunResult simulate_one(const std::string& path, const model::StudyRun& run, cons
       options.on_warnings(index, warnings);
     }
     result.summary = run::simulate(model, run_options);
-    result.set_solved(true);
+    result.status = RunEnding::solved;
   } catch (const std::exception& error) {
     result.fail(error_text(error));
   }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "hersey/model/read.h"
@@ -59,7 +60,11 @@ TEST_CASE("RunsAtTheSameTime_WriteTheirCheckpoints") {
   // Interrupted together in the middle: each leaves a checkpoint, from which it goes on.
   std::atomic<bool> stop = false;
   Options options{.directory = folder.path(), .threads = 4, .stop = &stop};
-  options.on_progress = [&](std::size_t, const run::Progress& progress) { stop = stop || progress.t > 1e-3; };
+  std::set<std::size_t> begun;
+  options.on_progress = [&](std::size_t run, const run::Progress& progress) {
+    begun.insert(run);
+    stop = stop || (progress.t > 1e-3 && begun.size() == runs.size());
+  };
   for (const RunResult& result : simulate_all(folder.model(), runs, options)) {
     CAPTURE(result.message + result.summary.message);
     CHECK(result.solved());
@@ -78,6 +83,16 @@ TEST_CASE("RunsAtTheSameTime_WriteTheirCheckpoints") {
     const results::Reader one(alone), other(resumed[i].summary.results);
     for (const char* name : {"/time", "/bearings/main/h_min", "/bearings/main/p_max", "/bodies/shaft/position"})
       CHECK(one.read(name).values == other.read(name).values);
+  }
+}
+
+TEST_CASE("RunsAskedToStopBeforeTheyBegin_DidNotFail") {
+  const StudyFolder folder;
+  const std::vector<model::StudyRun> runs = model::expand_study(folder.model());
+  const std::atomic<bool> stop = true;
+  for (const RunResult& result : simulate_all(folder.model(), runs, {.directory = folder.path(), .stop = &stop})) {
+    CHECK(result.status == RunEnding::not_begun);
+    CHECK(!std::filesystem::exists(results_file({.directory = folder.path()}, result.run)));
   }
 }
 

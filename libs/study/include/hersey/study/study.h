@@ -12,9 +12,14 @@
 
 namespace hersey::study {
 
-/// One run of a study. Solved, it has a summary, which tells how the run ended; unsolved, it could not start or write
-/// its results, and `summary` is empty.
-struct [[nodiscard]] RunResult : Outcome {
+enum class RunEnding {
+  failed,     ///< it could not start or write its results
+  not_begun,  ///< all were asked to stop before
+  solved,     ///< simulated as far as its summary tells
+};
+
+/// One run of a study. Solved, it has a summary, which tells how the run ended; else `summary` is empty.
+struct [[nodiscard]] RunResult : OutcomeOf<RunEnding, RunEnding::solved> {
   model::StudyRun run;
   run::Summary summary;
 };
