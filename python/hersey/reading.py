@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 
@@ -69,13 +69,30 @@ def _dimensions(dataset: Any, scales: dict[Any, str], file: Any) -> tuple[str, .
     return tuple(names)
 
 
-def complete_rows(datasets: Any) -> int:
-    """Rows that all of them have: a kill in the middle of a flush leaves some a few rows longer."""
-    return min(dataset.shape[0] for dataset in datasets)
-
-
 def _grows(dataset: Any) -> bool:
     return bool(dataset.ndim) and dataset.maxshape[0] is None
+
+
+def _grows_with(path: str) -> str:
+    """What all series that get their rows together have in common: the group of a film's fields, else the file."""
+    return f"/{path}".rpartition("/fields/")[0]
+
+
+def complete_rows(file: Any, group: str) -> Optional[int]:
+    """Rows that all series which grow with those of the group have: a kill in the middle of a flush leaves some a few
+    rows longer. None, for all of them, where the file was ended in order."""
+    import h5py
+
+    if _text(file.attrs.get("status")) != "running":
+        return None
+    rows: list[int] = []
+
+    def visit(name: str, item: Any) -> None:
+        if isinstance(item, h5py.Dataset) and _grows(item) and _grows_with(name) == _grows_with(f"{group}/"):
+            rows.append(item.shape[0])
+
+    file.visititems(visit)
+    return min(rows, default=0)
 
 
 def _text(value: Any) -> Any:
@@ -95,12 +112,12 @@ def read_group(path: Path, group: str):
         place = file[group]
         found = {name: item for name, item in place.items() if isinstance(item, h5py.Dataset)}
         scales = {item.id: name for name, item in found.items() if h5py.h5ds.is_scale(item.id)}
-        growing = [item for item in found.values() if _grows(item)]
-        rows = complete_rows(growing) if growing else 0
+        rows = complete_rows(file, group)
         for name, item in found.items():
             attributes = {key: _text(value) for key, value in item.attrs.items() if key not in _HIDDEN}
             is_text = h5py.check_string_dtype(item.dtype) is not None
-            shape, part = ((rows, *item.shape[1:]), slice(rows)) if _grows(item) else (item.shape, ())
+            is_cut = rows is not None and _grows(item)
+            shape, part = ((rows, *item.shape[1:]), slice(rows)) if is_cut else (item.shape, ())
             values = (_content(item, part) if is_text or item.nbytes <= _AT_ONCE
                       else _lazy(path, item.name, shape, item.dtype))
             dimensions = _dimensions(item, scales, file) if item.ndim else ()

@@ -122,10 +122,11 @@ class Results:
             if "crank_angle" not in file or "time" not in data.dims:
                 return data
             crank = file["crank_angle"]
-            rows = complete_rows((file["time"], crank))
+            rows = complete_rows(file, "")
             time, angle = file["time"][:rows], crank[:rows]
             attributes = {key: crank.attrs[key] for key in ("units", "long_name") if key in crank.attrs}
-        at = np.interp(data["time"].values, time, angle)
+        wanted = data["time"].values
+        at = np.interp(wanted, time, angle) if len(time) else np.full(wanted.shape, np.nan)
         return data.assign_coords(crank_angle=("time", at, attributes))
 
     def table(self):
