@@ -18,9 +18,9 @@ constexpr double kSmallestLoadStep = 1e-3;
 // A gap of this share of the clearance is none.
 constexpr double kTouching = 3e-3;
 
-// The search from the inside out: turns until the force points along the load, the angle at which it does [rad], steps
-// outwards, and halvings of the last one.
-constexpr int kMostTurns = 8, kMostStepsOut = 16, kMostHalvings = 9;
+// The search from the inside out: turns until the force points along the load, the angle at which it does [rad], and
+// halvings of the last step outwards.
+constexpr int kMostTurns = 8, kMostHalvings = 9;
 constexpr double kAligned = 0.02;
 
 // Beyond this turn the film at the last position is no start for the next [rad].
