@@ -108,6 +108,17 @@ TEST_CASE("FixedParameter_IsNoLongerVaried") {
   CHECK(runs[0].values.size() == 2);
 }
 
+TEST_CASE("ParameterWhoseUseAnOptionSets_IsNoLongerVaried") {
+  const StudyFile file(good_model + study);
+  const std::vector<StudyRun> runs = expand_study(file.path(), {"forces.push.components=[0 N, 7 N, 0 N]"});
+  REQUIRE(runs.size() == 4);
+  CHECK(runs[0].values.size() == 2);
+  CHECK(expand_study(file.path(), {"forces.push.body=rod"}).size() == 8);  // sets something else
+  CHECK(expand_study(file.path(),
+                     {"load=7 N", "bearings.big_end.cavitation=reynolds", "bearings.big_end.radial_clearance=34 um"})
+            .empty());
+}
+
 TEST_CASE("ModelWithoutStudy_HasNoRuns") {
   const StudyFile file(good_model);
   CHECK(expand_study(file.path()).empty());

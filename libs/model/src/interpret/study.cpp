@@ -9,6 +9,7 @@
 #include "hersey/core/units.h"
 #include "hersey/model/read.h"
 #include "interpret/reader.h"
+#include "interpret/tree_digest.h"
 
 namespace hersey::model {
 namespace {
@@ -132,11 +133,58 @@ std::vector<StudyRun> expand_parameters(const std::string& path, const std::vect
 
 namespace {
 
-/// Those that are not fixed.
-std::vector<StudyParameter> varied_by(const Study& study, const std::vector<std::string>& overrides) {
+/// Tells which parameters of a study still change its model where options have set something: `--load` over a study of
+/// loads leaves one bearing, not seven equal ones.
+class Varying {
+ public:
+  Varying(const std::string& path, const std::vector<std::string>& overrides)
+      : path_(path), overrides_(parse_overrides(overrides, faults_)) {
+    root_ = parse_yaml(file_text(path), path, faults_).value_or(Node{});
+  }
+
+  /// Whether an option has set all that the parameter stands for: its values make a difference only without options.
+  [[nodiscard]] bool is_set_by_option(const StudyParameter& parameter) {
+    return !overrides_.empty() && !changes_model(parameter, overrides_) && changes_model(parameter, {});
+  }
+
+ private:
+  [[nodiscard]] bool changes_model(const StudyParameter& parameter, const std::vector<Override>& overrides) {
+    const std::vector<std::string> values = values_to_check(parameter);
+    const std::string first = digest_at(parameter, values.front(), overrides);
+    return std::any_of(values.begin() + 1, values.end(),
+                       [&](const std::string& text) { return digest_at(parameter, text, overrides) != first; });
+  }
+
+  /// Of the model with the parameter's value put in, without the sections that hold the value itself.
+  [[nodiscard]] std::string digest_at(const StudyParameter& parameter, const std::string& text,
+                                      std::vector<Override> overrides) {
+    overrides.push_back({parameter.name, parse_yaml(text, path_, faults_).value_or(Node{}), parameter.position});
+    Node tree = root_;
+    (void)complete_tree(tree, overrides, faults_);
+    Digest digest;
+    for (const Entry& entry : tree.entries) {
+      if (entry.key == "parameters" || entry.key == "study") continue;
+      digest.add(entry.key);
+      digest.add(entry.value);
+    }
+    return digest.text();
+  }
+
+  const std::string path_;
+  std::vector<Fault> faults_;  // whoever reads the model reports them
+  std::vector<Override> overrides_;
+  Node root_;
+};
+
+/// Those that no option has set, by their own name or by setting what they stand for.
+std::vector<StudyParameter> varied_by(const Study& study, const std::string& path,
+                                      const std::vector<std::string>& overrides) {
+  Varying varying(path, overrides);
   std::vector<StudyParameter> varied;
   for (const StudyParameter& parameter : study.parameters) {
-    if (!is_fixed_by(overrides, parameter.name)) varied.push_back(parameter);
+    if (is_fixed_by(overrides, parameter.name)) continue;
+    if (varying.is_set_by_option(parameter)) continue;
+    varied.push_back(parameter);
   }
   return varied;
 }
@@ -162,7 +210,7 @@ std::vector<StudyRun> expand_list(const std::vector<StudyParameter>& parameters,
 std::vector<StudyParameter> check_study(const std::string& path, const std::vector<std::string>& overrides) {
   const Model model = read(path, overrides);
   if (!model.study) return {};
-  const std::vector<StudyParameter> varied = varied_by(*model.study, overrides);
+  const std::vector<StudyParameter> varied = varied_by(*model.study, path, overrides);
   check_values(path, overrides, varied);
   return varied;
 }
@@ -170,7 +218,7 @@ std::vector<StudyParameter> check_study(const std::string& path, const std::vect
 std::vector<StudyRun> expand_study(const std::string& path, const std::vector<std::string>& overrides) {
   const Model model = read(path, overrides);
   if (!model.study) return {};
-  const std::vector<StudyParameter> varied = varied_by(*model.study, overrides);
+  const std::vector<StudyParameter> varied = varied_by(*model.study, path, overrides);
   if (varied.empty()) return {};
   if (!model.study->is_written_out())
     throw InputError(Fault{model.position_of("study.plan"), "study.plan", "a plan that draws or looks for its runs",
