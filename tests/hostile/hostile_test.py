@@ -134,6 +134,25 @@ class Hostile(unittest.TestCase):
         self.told(words, "run", MODEL, "--set", grid, "--output", self.path("out"))
         self.told(words, "bearing", MODEL, "--set", grid)
 
+    def test_numbers_beyond_any_machine_are_told_with_their_key(self):
+        alone = os.path.join(HERE, "../../examples/bearing_alone/model.yaml")
+        thermal = ("bearings.main.thermal={model: film, supply_temperature: 50 degC, shell: {wall: ring, "
+                   "outer_diameter: 1e308 mm, heat_transfer: 60 W/m^2/K, ambient: 30 degC}}")
+        pocket = "bearings.main.features={p: {shape: pocket, angle: 0 deg, arc: 20 deg, length: 5 mm, depth: 1e308 mm}}"
+        column = "bearings.main.compliance={model: column, composite_modulus: 70 GPa, length: 1e9 mm}"
+        for key, settings in (("outer_diameter", [thermal]), ("depth", [pocket]), ("length", [column]),
+                              ("density", ["lubricants.oil.density=1e308 kg/m^3"]),
+                              ("journal_speed", ["bearings.main.operating_point.journal_speed=1e308 rpm"]),
+                              ("journal_speed", ["bearings.main.operating_point.journal_speed=1e-308 rpm"]),
+                              ("load", ["bearings.main.operating_point.load=1e-308 N"]),
+                              ("load", ["bearings.main.operating_point.load=1e12 N"])):
+            with self.subTest(settings=settings):
+                arguments = [word for setting in settings for word in ("--set", setting)]
+                self.told([key], "bearing", alone, *arguments)
+        # A run over angles of a crank that all but rests would have no end.
+        crank = os.path.join(HERE, "../../examples/slider_crank/model.yaml")
+        self.told(["at least 1e-100 rad/s"], "run", crank, "--set", "speed=1e-308 rpm", "--output", self.path("out"))
+
     def test_inputs_that_are_no_files_are_told(self):
         pipe = self.path("pipe.yaml")
         os.mkfifo(pipe)

@@ -161,6 +161,25 @@ void require_finite(double number, std::string_view text) {
   if (!std::isfinite(number)) throw QuantityError(in_quotes(text), "a finite number");
 }
 
+/// "1e+308 m": a value and its unit for messages.
+std::string shown(double value, const std::string& unit) {
+  std::array<char, 48> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%g", value);
+  return unit == "1" ? buffer.data() : buffer.data() + (" " + unit);
+}
+
+/// A value beyond what any machine has is a slip, and what is computed from it overflows or never ends.
+void require_meant(double value, const Dimension& dimension) {
+  const double size = std::abs(value);
+  if (value == 0 || (size >= smallest_quantity && size <= dimension.largest)) return;
+  const bool is_large = size > dimension.largest;
+  QuantityError error(shown(value, dimension.si_unit),
+                      dimension.name + (is_large ? " of at most " : ", 0 or of at least ") +
+                          shown(is_large ? dimension.largest : smallest_quantity, dimension.si_unit) + " in size");
+  error.is_about_size = true;
+  throw error;
+}
+
 void reject_decimal_comma(std::string_view unit, std::string_view text) {
   if (!unit.starts_with(',')) return;
   std::string remedy(text);
@@ -214,44 +233,44 @@ QuantityError::QuantityError(std::string found_text, std::string expected_text, 
 
 const std::vector<Dimension>& dimensions() {
   static const std::vector<Dimension> all = {
-      {"1", "a number without unit", "0.5", {}},
-      {"m", "a length", "45 mm", {"m", "cm", "mm", "um", "nm", "in"}},
-      {"m^2", "an area", "4418 mm^2", {"m^2", "cm^2", "mm^2"}},
-      {"m^3", "a volume", "450 cm^3", {"m^3", "cm^3", "mm^3", "l"}},
-      {"m^4", "a second moment of area", "12 cm^4", {"m^4", "cm^4", "mm^4"}},
-      {"kg", "a mass", "5 kg", {"kg", "g", "t"}},
-      {"s", "a time", "0.1 ms", {"s", "ms", "us", "min"}},
-      {"rad", "an angle", "90 deg", {"deg", "rad", "rev"}},
-      {"rad/s", "an angular velocity", "3570 rpm", {"rpm", "rad/s", "deg/s", "rev/s"}},
-      {"rad/s^2", "an angular acceleration", "10 rad/s^2", {"rad/s^2", "rpm/s", "deg/s^2"}},
-      {"m/s", "a velocity", "2 m/s", {"m/s", "mm/s", "km/h"}},
-      {"m/s^2", "an acceleration", "9.81 m/s^2", {"m/s^2", "mm/s^2"}},
-      {"N", "a force", "500 N", {"N", "kN", "mN", "lbf"}},
-      {"N.m", "a torque", "5 N.m", {"N.m", "kN.m", "N.mm"}},
-      {"Pa", "a pressure", "2 bar", {"Pa", "kPa", "MPa", "GPa", "bar", "N/mm^2", "psi"}},
-      {"Pa.s", "a dynamic viscosity", "15 mPa.s", {"Pa.s", "mPa.s", "cP"}},
-      {"m^2/s", "a kinematic viscosity", "20 cSt", {"m^2/s", "mm^2/s", "cSt"}},
-      {"1/Pa", "an inverse pressure", "1.28e-8 1/Pa", {"1/Pa", "1/MPa", "1/GPa"}},
-      {"kg/m^3", "a density", "850 kg/m^3", {"kg/m^3", "g/cm^3"}},
-      {"kg/m", "a mass per length", "9.4 kg/m", {"kg/m", "g/mm"}},
-      {"kg.m", "a moment of inertia per length", "0.02 kg.m", {"kg.m", "kg.mm"}},
-      {"kg.m^2", "a moment of inertia", "0.01 kg.m^2", {"kg.m^2", "g.m^2", "kg.mm^2"}},
-      {"N/m", "a stiffness", "1e5 N/m", {"N/m", "N/mm", "kN/m", "N/um"}},
-      {"N.s/m", "a damping", "10 N.s/m", {"N.s/m", "N.s/mm"}},
-      {"N.m/rad", "a torsional stiffness", "100 N.m/rad", {"N.m/rad", "N.m/deg"}},
-      {"N.m.s/rad", "a torsional damping", "0.1 N.m.s/rad", {"N.m.s/rad"}},
-      {"m^3/s", "a flow", "0.5 l/min", {"m^3/s", "l/min", "mm^3/s"}},
-      {"s/m", "an inverse velocity", "0.5 s/m", {"s/m", "s/mm"}},
-      {"Hz", "a frequency", "50 Hz", {"Hz", "kHz", "1/s"}},
-      {"K", "a temperature", "60 degC", {"degC", "K"}},
-      {"1/s", "a shear rate", "1e6 1/s", {"1/s"}},
-      {"1/K", "an inverse temperature", "0.034 1/K", {"1/K"}},
-      {"J/kg/K", "a specific heat", "2000 J/kg/K", {"J/kg/K", "kJ/kg/K"}},
-      {"W/m/K", "a thermal conductivity", "0.13 W/m/K", {"W/m/K"}},
-      {"W/m^2/K", "a heat transfer coefficient", "80 W/m^2/K", {"W/m^2/K"}},
-      {"J/K", "a heat capacity", "500 J/K", {"J/K", "kJ/K"}},
-      {"W/K", "a thermal conductance", "5 W/K", {"W/K"}},
-      {"W", "a power", "2 kW", {"W", "kW"}},
+      {"1", "a number without unit", "0.5", {}, 1e15},
+      {"m", "a length", "45 mm", {"m", "cm", "mm", "um", "nm", "in"}, 1e6},
+      {"m^2", "an area", "4418 mm^2", {"m^2", "cm^2", "mm^2"}, 1e12},
+      {"m^3", "a volume", "450 cm^3", {"m^3", "cm^3", "mm^3", "l"}, 1e15},
+      {"m^4", "a second moment of area", "12 cm^4", {"m^4", "cm^4", "mm^4"}, 1e18},
+      {"kg", "a mass", "5 kg", {"kg", "g", "t"}, 1e15},
+      {"s", "a time", "0.1 ms", {"s", "ms", "us", "min"}, 1e12},
+      {"rad", "an angle", "90 deg", {"deg", "rad", "rev"}, 1e12},
+      {"rad/s", "an angular velocity", "3570 rpm", {"rpm", "rad/s", "deg/s", "rev/s"}, 1e9},
+      {"rad/s^2", "an angular acceleration", "10 rad/s^2", {"rad/s^2", "rpm/s", "deg/s^2"}, 1e15},
+      {"m/s", "a velocity", "2 m/s", {"m/s", "mm/s", "km/h"}, 1e7},
+      {"m/s^2", "an acceleration", "9.81 m/s^2", {"m/s^2", "mm/s^2"}, 1e12},
+      {"N", "a force", "500 N", {"N", "kN", "mN", "lbf"}, 1e18},
+      {"N.m", "a torque", "5 N.m", {"N.m", "kN.m", "N.mm"}, 1e21},
+      {"Pa", "a pressure", "2 bar", {"Pa", "kPa", "MPa", "GPa", "bar", "N/mm^2", "psi"}, 1e20},
+      {"Pa.s", "a dynamic viscosity", "15 mPa.s", {"Pa.s", "mPa.s", "cP"}, 1e12},
+      {"m^2/s", "a kinematic viscosity", "20 cSt", {"m^2/s", "mm^2/s", "cSt"}, 1e9},
+      {"1/Pa", "an inverse pressure", "1.28e-8 1/Pa", {"1/Pa", "1/MPa", "1/GPa"}, 1e6},
+      {"kg/m^3", "a density", "850 kg/m^3", {"kg/m^3", "g/cm^3"}, 1e9},
+      {"kg/m", "a mass per length", "9.4 kg/m", {"kg/m", "g/mm"}, 1e12},
+      {"kg.m", "a moment of inertia per length", "0.02 kg.m", {"kg.m", "kg.mm"}, 1e15},
+      {"kg.m^2", "a moment of inertia", "0.01 kg.m^2", {"kg.m^2", "g.m^2", "kg.mm^2"}, 1e21},
+      {"N/m", "a stiffness", "1e5 N/m", {"N/m", "N/mm", "kN/m", "N/um"}, 1e25},
+      {"N.s/m", "a damping", "10 N.s/m", {"N.s/m", "N.s/mm"}, 1e21},
+      {"N.m/rad", "a torsional stiffness", "100 N.m/rad", {"N.m/rad", "N.m/deg"}, 1e25},
+      {"N.m.s/rad", "a torsional damping", "0.1 N.m.s/rad", {"N.m.s/rad"}, 1e21},
+      {"m^3/s", "a flow", "0.5 l/min", {"m^3/s", "l/min", "mm^3/s"}, 1e9},
+      {"s/m", "an inverse velocity", "0.5 s/m", {"s/m", "s/mm"}, 1e12},
+      {"Hz", "a frequency", "50 Hz", {"Hz", "kHz", "1/s"}, 1e12},
+      {"K", "a temperature", "60 degC", {"degC", "K"}, 1e6},
+      {"1/s", "a shear rate", "1e6 1/s", {"1/s"}, 1e15},
+      {"1/K", "an inverse temperature", "0.034 1/K", {"1/K"}, 1e6},
+      {"J/kg/K", "a specific heat", "2000 J/kg/K", {"J/kg/K", "kJ/kg/K"}, 1e12},
+      {"W/m/K", "a thermal conductivity", "0.13 W/m/K", {"W/m/K"}, 1e12},
+      {"W/m^2/K", "a heat transfer coefficient", "80 W/m^2/K", {"W/m^2/K"}, 1e15},
+      {"J/K", "a heat capacity", "500 J/K", {"J/K", "kJ/K"}, 1e18},
+      {"W/K", "a thermal conductance", "5 W/K", {"W/K"}, 1e18},
+      {"W", "a power", "2 kW", {"W", "kW"}, 1e18},
   };
   return all;
 }
@@ -268,8 +287,9 @@ Quantity split_quantity(std::string_view text) { return split_quantities(text, 1
 double convert_to_si(const Quantity& quantity, std::string_view si_unit) {
   const Dimension& wanted = dimension_of(si_unit);
   if (quantity.unit.empty()) {
-    if (quantity.number == 0 || si_unit == "1") return quantity.number;
-    throw QuantityError("a number without unit", expectation(wanted));
+    if (quantity.number != 0 && si_unit != "1") throw QuantityError("a number without unit", expectation(wanted));
+    require_meant(quantity.number, wanted);
+    return quantity.number;
   }
   const std::lock_guard guard(UnitSystem::lock());
   const UnitSystem& system = UnitSystem::instance();
@@ -284,6 +304,7 @@ double convert_to_si(const Quantity& quantity, std::string_view si_unit) {
   }
   const double value = converted(given.get(), target.get(), quantity.number);
   require_finite(value, std::to_string(quantity.number) + " " + quantity.unit);
+  require_meant(value, wanted);
   return value;
 }
 

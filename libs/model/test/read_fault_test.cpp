@@ -55,6 +55,34 @@ TEST_CASE("ImpossibleRoughness_IsReported") {
         "give the bearing's roughness, surface by surface");
 }
 
+TEST_CASE("NumbersBeyondAnyMachine_AreReported") {
+  CHECK(faults_after("diameter: 45 mm", "diameter: 1e308 mm") ==
+        "m.yaml:26:15: bearings.big_end.diameter: 1e+305 m; expected a length of at most 1e+06 m in size");
+  CHECK(faults_after("speed: 3000 rpm", "speed: 1e-308 rpm").find("0 or of at least 1e-100 rad/s in size") !=
+        std::string::npos);
+  CHECK(faults_after("500 N", "1e300 N").find("a force of at most 1e+18 N in size") != std::string::npos);
+}
+
+TEST_CASE("MaterialsBesideACompositeModulus_AreToldOrRefused") {
+  const auto bearing_with = [](const std::string& modulus, const std::string& heat, const std::string& contact) {
+    const std::string material = "{youngs_modulus: 210 GPa, poisson_ratio: 0.3" + heat + "}";
+    return edited(good_model, "    lubricant: oil\n",
+                  "    lubricant: oil\n    materials: {shell: " + material + ", journal: " + material + "}\n" +
+                      contact + modulus);
+  };
+  const std::string column = "    compliance: {model: column", given = ", composite_modulus: 57 GPa}\n";
+  const std::string effusive = ", density: 7300 kg/m^3, conductivity: 55 W/m/K, specific_heat: 230 J/kg/K";
+  CHECK(faults_of(bearing_with(given, "", column)) ==
+        "m.yaml:31:52: bearings.big_end.compliance.composite_modulus: a composite modulus beside `materials`, whose "
+        "moduli then would not count; expected one of both; leave out `materials`, or `composite_modulus` where theirs "
+        "is meant");
+  // The good model's film starves, which is warned of; nothing else is.
+  CHECK(read_text(bearing_with("}\n", "", column), "m.yaml").warnings.size() == 1);
+  const auto warning = [](const std::string& text) { return read_text(text, "m.yaml").warnings.at(0).text(); };
+  CHECK(warning(bearing_with(given, effusive, column)).find("the materials share heat only") != std::string::npos);
+  CHECK(warning(bearing_with("", "", "")).find("materials that nothing takes") != std::string::npos);
+}
+
 TEST_CASE("MissingKey_IsReportedAtItsParent") {
   CHECK(faults_after("    diameter: 45 mm\n", "") ==
         "m.yaml:23:3: bearings.big_end: missing key 'diameter'; expected a length > 0, such as 45 mm");

@@ -142,6 +142,19 @@ TEST_CASE("CrankTurningBackwards_StillTakesPositiveTime") {
   CHECK(model.simulation.crank->speed == near(-100 * pi));
 }
 
+TEST_CASE("SolverIsChosenBySize_UnlessGiven") {
+  const auto solver_of = [](const std::string& lines) {
+    return read_text(edited(good_model, "    lubricant: oil\n", "    lubricant: oil\n" + lines), "m.yaml")
+        .bearings[0]
+        .solver;
+  };
+  const std::string fine = "    grid: {circumferential: 480, axial: 97}\n";
+  CHECK(solver_of("") == film::FilmSolver::newton);
+  CHECK(solver_of(fine) == film::FilmSolver::multigrid);
+  CHECK(solver_of(fine + "    solver: newton\n") == film::FilmSolver::newton);
+  CHECK(solver_of("    solver: multigrid\n") == film::FilmSolver::multigrid);
+}
+
 TEST_CASE("EverythingAboutABearing_IsRead") {
   const std::string text = edited(good_model, "    radial_clearance: 34 um\n", R"(    diametral_clearance: 68 um
     grid: {circumferential: 120, axial: 25}

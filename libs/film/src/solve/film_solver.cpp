@@ -14,6 +14,11 @@
 
 namespace hersey::film {
 
+FilmSolver usual_solver(const Grid& grid) {
+  constexpr int kManyNodes = 15'000;
+  return grid.size() > kManyNodes ? FilmSolver::multigrid : FilmSolver::newton;
+}
+
 int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
   if (!cavitation_law(model).has_fill()) return -1;
   int emptiest = -1;

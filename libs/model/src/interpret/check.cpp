@@ -150,7 +150,8 @@ class Checker {
       // The origin tells the user of ${load} where the text at fault stands.
       const std::string from = node.origin.empty() ? "" : " (from " + node.origin + ")";
       const std::string hint = error.suggestion.empty() ? did_you_mean(node.text, names) : error.suggestion;
-      const bool is_about_the_number = error.expected == "a finite number" || error.expected == "a decimal point";
+      const bool is_about_the_number =
+          error.is_about_size || error.expected == "a finite number" || error.expected == "a decimal point";
       return fault(value, error.found + from, is_about_the_number ? error.expected : type.expectation(), hint);
     }
     value.number = value.numbers.front();

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hersey/bearing/rigid_surfaces.h"
+#include "hersey/film/film_solver.h"
 #include "interpret/interpret.h"
 #include "schema/film_vocabulary.h"
 
@@ -21,6 +22,9 @@ std::optional<fem::ElasticMaterial> material_of(const Value& bearing, const std:
   const bool is_usable = material.youngs_modulus > 0 && -1 < material.poisson_ratio && material.poisson_ratio < 0.5;
   return is_usable ? std::optional(material) : std::nullopt;
 }
+
+/// Radii: a housing as thick as that still is one.
+constexpr double kLongestColumn = 100;
 
 /// The film of one bearing, from the values of its mapping.
 class FilmReader {
@@ -45,6 +49,7 @@ class FilmReader {
     read_roughness();
     read_asperities();
     read_compliance();
+    require_use_of_materials();
     read_thermal(context_, value_, lubricant_, bearing_);
     check_pressure_scale();
     film_.cavitated_shear = meaning_of(value_, "cavitated_shear", cavitated_shear_words);
@@ -265,14 +270,46 @@ class FilmReader {
     if (compliance == nullptr || compliance->broken || compliance->text == "rigid") return;
     const std::optional<double> modulus = composite_modulus_of(*compliance);
     const Value* length = compliance->find("length");
+    if (length != nullptr && !length->broken && film_.R > 0 && length->number > kLongestColumn * film_.R)
+      context_.fault(
+          *length, fmt::format("{:.3g} m, {:.3g} times the bearing's radius", length->number, length->number / film_.R),
+          fmt::format("at most {:g} times the radius: columns stand for a lining or a housing", kLongestColumn));
     if (modulus) film_.compliance = (length != nullptr ? length->number : film_.R) / *modulus;
+  }
+
+  /// Moduli of `materials` count only where no composite modulus is given: both would contradict each other, or hide a
+  /// slip.
+  void require_use_of_materials() {
+    const Value* materials = value_.find("materials");
+    if (materials == nullptr || materials->broken || takes_materials_) return;
+    const auto shares_heat = [&](const char* surface) {
+      const Value* material = materials->find(surface);
+      return material != nullptr && !material->broken && material->has("conductivity");
+    };
+    const bool serves_heat = shares_heat("shell") || shares_heat("journal");
+    const auto warn = [&](const char* found, const char* expected) {
+      context_.model.warnings.push_back({materials->key_position, materials->path, found, expected, ""});
+    };
+    if (given_modulus_ == nullptr) {
+      if (!serves_heat)
+        warn("materials that nothing takes: there are neither `asperities` nor a `compliance`",
+             "one of these, or no materials");
+    } else if (serves_heat) {
+      warn("moduli that nothing takes: the `composite_modulus` that is given counts, and the materials share heat only",
+           "no `composite_modulus` where that of the materials is meant");
+    } else {
+      context_.fault(*given_modulus_, "a composite modulus beside `materials`, whose moduli then would not count",
+                     "one of both", "leave out `materials`, or `composite_modulus` where theirs is meant");
+    }
   }
 
   /// The modulus given itself, or that of the two materials.
   std::optional<double> composite_modulus_of(const Value& parent) {
     if (const Value* modulus = parent.find("composite_modulus")) {
+      given_modulus_ = modulus;
       return modulus->broken ? std::nullopt : std::optional(modulus->number);
     }
+    takes_materials_ = true;
     if (bearing_.shell_material && bearing_.journal_material) {
       return fem::composite_modulus(*bearing_.shell_material, *bearing_.journal_material);
     }
@@ -288,6 +325,8 @@ class FilmReader {
   Bearing& bearing_;
   film::FilmModel& film_;
   const Lubricant* lubricant_ = nullptr;
+  const Value* given_modulus_ = nullptr;  ///< a `composite_modulus`; null: none is given
+  bool takes_materials_ = false;          ///< some modulus is to come from `materials`
 };
 
 Coupling coupling_of(const Value& bearing) {
@@ -317,6 +356,18 @@ double smallest_gap(const film::FilmModel& film, const OperatingPoint& point, do
   return bearing::smallest_gap(film, place);
 }
 
+/// Mean pressure on the projected area that no solid bears, whatever the film does: the elastic modulus of diamond.
+constexpr double kHardest = 1e12;
+
+/// A load beyond what any material bears is a slip of units, and looking for its position would take long.
+void require_bearable(Context& context, const Value& load, const film::FilmModel& film) {
+  const double area = 2 * film.R * film.L;
+  if (load.broken || !(area > 0) || load.number <= kHardest * area) return;
+  context.fault(load,
+                fmt::format("{:.3g} N, {:.3g} Pa on the bearing's projected area", load.number, load.number / area),
+                fmt::format("a load of at most {:.3g} N here: no solid bears 1e12 Pa", kHardest * area));
+}
+
 /// A tilted journal, or one beside a narrow place of the bore, may touch the shell at an edge although its middle is
 /// inside the bore.
 void check_room(Context& context, const std::string& bearing_path, const Value& value, const film::FilmModel& film,
@@ -337,7 +388,7 @@ std::optional<OperatingPoint> operating_point_of(Context& context, const Value& 
   point.journal_speed = number_of(*value, "journal_speed");
   point.shell_speed = number_of(*value, "shell_speed");
   const Value *load = given(*value, "load"), *ratio = given(*value, "eccentricity_ratio");
-  if (load != nullptr) point.load = load->number;
+  if (load != nullptr) point.load = load->number, require_bearable(context, *load, film);
   if (ratio != nullptr) point.eccentricity_ratio = ratio->number;
   point.load_angle = number_of(*value, "load_angle");
   point.eccentricity_angle = number_of(*value, "eccentricity_angle");
@@ -388,7 +439,8 @@ void interpret_bearings(Context& context) {
     require_facing_surfaces(context, value, bearing);
     bearing.heated_shell = heated_shell_of(context, value, bearing);
     bearing.heated_journal = heated_journal_of(context, value, bearing);
-    bearing.solver = meaning_of(value, "solver", film_solver_words);
+    bearing.solver = value.find("solver") != nullptr ? meaning_of(value, "solver", film_solver_words)
+                                                     : film::usual_solver(bearing.film.grid);
     bearing.coupling = coupling_of(value);
     film::FilmModel hot = bearing.film;
     hot.c += bearing.growth;

@@ -227,8 +227,9 @@ TypePtr bearings_format() {
                    "200 MPa, the order of engine bearings"),
           defaulted("cavitated_shear", choice(cavitated_shear_words), "film_share", "Shear in the cavitated film."),
           defaulted("shear_force", choice(shear_force_words), "full", "What shear does to the bodies."),
-          defaulted("solver", choice(film_solver_words), "newton",
-                    "Solver of the film. Coupled monolithically to the bodies, `sor` finds the initial film only."),
+          optional("solver", choice(film_solver_words),
+                   "Solver of the film. Coupled monolithically to the bodies, `sor` finds the initial film only.",
+                   "newton; of grids of more than 15,000 nodes multigrid"),
           optional("operating_point", operating_point_format(),
                    "Speeds and load, or position, of the bearing by itself (`hersey bearing`); a simulation has its "
                    "own.",

@@ -14,9 +14,10 @@ class QuantityError : public std::runtime_error {
  public:
   /// what() puts the three parts into one sentence.
   QuantityError(std::string found_text, std::string expected_text, std::string suggestion_text = {});
-  std::string found;       ///< "a pressure (kPa)"
-  std::string expected;    ///< "a length, such as 45 mm"
-  std::string suggestion;  ///< "did you mean 'mm'?"; may be empty
+  std::string found;           ///< "a pressure (kPa)"
+  std::string expected;        ///< "a length, such as 45 mm"
+  std::string suggestion;      ///< "did you mean 'mm'?"; may be empty
+  bool is_about_size = false;  ///< the unit is right, the number is beyond what any machine has
 };
 
 /// What a unit measures, and how users write it.
@@ -25,7 +26,12 @@ struct Dimension {
   std::string name;                  ///< with article, "a length"
   std::string example;               ///< "45 mm"
   std::vector<std::string> spelled;  ///< usual units, for suggestions and the reference
+  double largest = 0;  ///< size in `si_unit` beyond which a value is a slip: far above any machine, far below overflow
 };
+
+/// Size below which a value other than 0 is a slip, in the SI unit of any dimension: products and quotients of two such
+/// values still are numbers.
+inline constexpr double smallest_quantity = 1e-100;
 
 /// Every dimension the program knows.
 [[nodiscard]] const std::vector<Dimension>& dimensions();
@@ -48,7 +54,7 @@ struct Quantity {
 ///
 /// A bare 0 is any quantity. An angle is told from a bare number: 3570 rpm and 10 deg/s are angular velocities, 10 Hz
 /// and 10 1/s are not; only torsional stiffness and damping may drop the radian (N.m for N.m/rad).
-/// @returns the value in `si_unit`, finite.
+/// @returns the value in `si_unit`, 0 or in size between `smallest_quantity` and Dimension::largest.
 /// @throws QuantityError telling what was found (an unknown unit, another dimension, no unit) and what is expected.
 [[nodiscard]] double parse_quantity(std::string_view text, std::string_view si_unit);
 
