@@ -11,6 +11,7 @@
 #include "hersey/model/read.h"
 #include "hersey/run/assumptions.h"
 #include "hersey/run/film_fields.h"
+#include "hersey/study/shear_remarks.h"
 
 namespace hersey::cli {
 namespace {
@@ -76,6 +77,8 @@ report::BearingPage bearing_page(const BearingArguments& arguments, const std::v
   page.version = version();
   page.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   page.conditions = run::bearing_assumptions(bearing);
+  for (auto& [name, text] : study::shear_remarks(solutions.front()))
+    page.conditions.emplace_back(bearing.name + ": " + name, std::move(text));
   for (auto& [surface, text] : surface_remarks(solutions.front()))
     page.conditions.emplace_back(bearing.name + ": " + surface, std::move(text));
   if (const std::string remark = heat_remark(solutions.front()); !remark.empty())

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hersey/run/film_fields.h"
+#include "hersey/study/shear_remarks.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -78,12 +79,13 @@ std::string condition_of(const BearingSolution& solution) {
   const bearing::SteadySummary& work = solution.summary;
   const std::string film_work =
       work.film_iterations > 0 ? fmt::format(" and {} film iterations", work.film_iterations) : "";
-  std::string surfaces;
+  std::string surfaces, shear;
   for (const auto& [name, text] : surface_remarks(solution)) surfaces += fmt::format("  {}: {}\n", name, text);
+  for (const auto& [name, text] : study::shear_remarks(solution)) shear += fmt::format("  {}\n", text);
   return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} film linearisations{}, {:.3g} s\n",
                      cavitation[static_cast<std::size_t>(film.cavitation)], 1e-5 * film.p_cav, pressures_of(film),
                      film.grid.n_phi, film.grid.n_z, work.iterations, film_work, solution.wall_time) +
-         roughness_of(film.roughness) + surfaces + heat_of(solution);
+         shear + roughness_of(film.roughness) + surfaces + heat_of(solution);
 }
 
 const BearingFigure& figure(const std::vector<BearingFigure>& figures, const std::string& key) {
@@ -164,7 +166,8 @@ std::string bearing_comparison_text(const std::vector<BearingSolution>& solution
     const double error = figure(figures, "h_min").grid_error;
     lines.back().push_back(error < 0 ? "-" : fmt::format("{:.2g}", error));
   }
-  return aligned(lines, 99);
+  const std::string shear = study::shear_remark(solutions);
+  return (shear.empty() ? "" : shear + "\n") + aligned(lines, 99);
 }
 
 std::string bearing_csv(const std::vector<BearingSolution>& solutions) {
@@ -293,6 +296,7 @@ nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<s
   for (const model::StudyValue& value : solution.run.values) document["values"][value.name] = value.text;  // as given
   if (!solution.solved()) return document;
   for (const auto& [name, text] : surface_remarks(solution)) document["surfaces"][name] = text;
+  for (const auto& [name, text] : study::shear_remarks(solution)) document["conditions"][name] = text;
   if (!solution.doubts.empty()) document["warnings"] = solution.doubts;
   document["linearisations"] = solution.summary.iterations;
   document["film_iterations"] = solution.summary.film_iterations;

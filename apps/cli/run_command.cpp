@@ -142,6 +142,9 @@ void tell(const std::string& label, const run::Summary& summary) {
   tell_doubts(name, summary.energy);
   for (const run::BearingSummary& bearing : summary.bearings)
     for (const std::string& doubt : bearing.doubts) say("warning: {}bearing {}, {}\n", name, bearing.name, doubt);
+  for (const run::BearingSummary& bearing : summary.bearings)
+    if (label.empty() && !bearing.cavitated_shear.empty())
+      say("bearing {}: {}\n", bearing.name, bearing.cavitated_shear);
   if (!summary.warning.empty()) say("hersey: {}{}\n", name, summary.warning);
   if (summary.status != run::Status::completed) {
     say("hersey: {}{}\n", name, summary.message);

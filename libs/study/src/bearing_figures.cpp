@@ -9,6 +9,7 @@
 
 #include "hersey/bearing/clearance.h"
 #include "hersey/study/bearing_study.h"
+#include "hersey/study/shear_remarks.h"
 
 namespace hersey::study {
 namespace {
@@ -227,6 +228,9 @@ double power_put_in(const Solution& s) {
          s.state.load.dot(s.state.point.e_rate);
 }
 
+/// The film is cavitated somewhere, so that it matters over how much of the gap it is sheared there.
+bool shears_differ(const Solution& s) { return s.state.film.power_film_other_shear != s.state.film.power_film; }
+
 Group friction() {
   using Film = film::FilmObservables;
   using Number = bearing::BearingNumbers;
@@ -240,6 +244,17 @@ Group friction() {
            {"torque_journal", "friction torque on the journal", kNewtonMetre, film(&Film::torque_journal)},
            {"torque_shell", "friction torque on the shell", kNewtonMetre, film(&Film::torque_shell)},
            {"power_film", "friction power, film", kWatt, film(&Film::power_film)},
+           {"torque_journal_other_shear",
+            "torque on the journal, cavitated film sheared the other way",
+            kNewtonMetre,
+            film(&Film::torque_journal_other_shear),
+            {.only = shears_differ}},
+           {"power_film_other_shear",
+            "friction power, film, cavitated film sheared the other way",
+            kWatt,
+            film(&Film::power_film_other_shear),
+            {.only = shears_differ}},
+           {"load_on_shear", "share of the load on the net force of shear", kNone, load_on_shear},
            {"power_asperity", "friction power, asperities", kWatt, film(&Film::power_asperity)},
            {"power_put_in", "power put in by torques and load", kWatt, power_put_in},
            {"power_error",

@@ -74,9 +74,11 @@ void NodeLaw::pressure_and_fill(double u, int at, Node& node) const {
   }
   node.p = phase.p.value, node.p_u = phase.p.slope;
   node.theta = phase.theta.value, node.theta_u = phase.theta.slope;
-  if (model_.cavitated_shear == CavitatedShear::full) return;
   const ValueAndSlope share = cavitation_.share(u, phase.theta, scales_);
-  node.share = share.value, node.share_u = share.slope;
+  if (model_.cavitated_shear == CavitatedShear::full)
+    node.other_share = share.value;
+  else
+    node.share = share.value, node.share_u = share.slope;
 }
 
 void NodeLaw::rheology(const NodeViscosity& viscosity, const Sliding& sliding, Node& node) const {

@@ -31,17 +31,21 @@ double oil_over_land(const FlowBalance& balance, int node) {
   return (oil_work(balance.model().lubricant, edge + balance.drop_over_land(node)) - counted) * balance.over_land(node);
 }
 
-}  // namespace
-
-// Sliding shears the oil: share mu slip^2/h, more of it between rough surfaces.
-double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion, int node) {
+// Of a film that is sheared over the whole gap: mu slip^2/h, more of it between rough surfaces.
+double full_sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion, int node) {
   const double stretch = balance.geometry().stretch[node % balance.model().grid.n_z];
   const double slip2_phi = std::pow(stretch * (motion.u_journal - motion.u_shell), 2);
   const double slip2_z = std::pow(motion.w_journal - motion.w_shell, 2);
   const Node& at = balance.nodes()[node];
   const RoughGap& rough = balance.rough_gaps()[node];
   const double slip2 = rough.couette[0] * slip2_phi + rough.couette[1] * slip2_z;
-  return at.share * at.mu * slip2 * wrench.relief_factor(node) / at.h;
+  return at.mu * slip2 * wrench.relief_factor(node) / at.h;
+}
+
+}  // namespace
+
+double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion, int node) {
+  return balance.nodes()[node].share * full_sliding_power(balance, wrench, motion, node);
 }
 
 // Pressure drives oil through the gap: over a face, volume flow times drop. In guembel a face where the pressure is cut
@@ -67,7 +71,9 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
       const Node& node = balance.nodes()[k];
       const double area = geometry.weight(i, j);
       const double work = oil_work(model.lubricant, node.wall - model.p_cav);
-      o.power_film += area * sliding_power(balance, wrench, motion, k) +
+      const double sliding = area * full_sliding_power(balance, wrench, motion, k);
+      o.power_film_other_shear += (node.other_share - node.share) * sliding;  // and what follows does not depend on it
+      o.power_film += node.share * sliding +
                       around[j] * (pressure_power(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
       if (j + 1 < grid.n_z) o.power_film += axial[j] * pressure_power(balance, balance.face_above(i, j));
       o.power_film += balance.power_over_land(k);
@@ -79,6 +85,7 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
           area * (work * balance.storage(k) / balance.area(k) - (node.wall + node.asperity) * motion.g_rate[k]);
     }
   }
+  o.power_film_other_shear += o.power_film;
 }
 
 }  // namespace hersey::film

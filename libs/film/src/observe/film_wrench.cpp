@@ -311,6 +311,25 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap& rough,
   by_slip_.col(1) += area * by_slip.col(1);
 }
 
+Vector6 FilmWrench::more_of_other_shear(const FlowBalance& balance) const {
+  const Grid& grid = model_.grid;
+  Vector6 more = Vector6::Zero();
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int k = grid.index(i, j);
+      Node node = balance.nodes()[k];
+      if (node.other_share == node.share) continue;
+      node.share = node.other_share - node.share;
+      const Shear s = shear_of(node, balance.rough_gaps()[k], relief_.empty() ? ValueAndSlope{1, 0} : relief_[k]);
+      const Eigen::Vector2d traction =
+          geometry_.weight(i, j) * s.couette.cwiseProduct(rows_[static_cast<std::size_t>(j)].slip);
+      const Basis b = basis(i, j);
+      more += traction[0] * b.shear_along + traction[1] * b.shear_across;
+    }
+  }
+  return more;
+}
+
 Vector6 FilmWrench::along(const MotionDirection& direction) const {
   const Eigen::Vector2d slip(direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell);
   Vector6 d = by_slip_ * slip + direction.phi_journal * by_journal_ + pushes_along(direction);

@@ -42,6 +42,9 @@ class FilmWrench {
   /// d total / d(direction) at fixed u.
   [[nodiscard]] Vector6 along(const MotionDirection& direction) const;
   [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& gradient_u() const { return by_u_; }
+  /// What shear() would have more if the cavitated film were sheared as the other CavitatedShear has it, all else being
+  /// the same.
+  [[nodiscard]] Vector6 more_of_other_shear(const FlowBalance& balance) const;
   /// What pushes the surfaces apart at each node.
   [[nodiscard]] const NormalForces& normal() const { return normal_; }
 

@@ -125,16 +125,21 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
-void observe_forces(const FilmWrench& wrench, const Eigen::Vector2d& e, const Eigen::Vector2d& tilt,
-                    FilmObservables& o) {
+/// The journal feels the negative wrench on the shell; about its own axis through e along (t_x, t_y, 1) that is
+/// -M_z - t . M + (e x F)_z.
+double torque_on_journal(const Vector6& on_shell, const Eigen::Vector2d& e, const Eigen::Vector2d& tilt) {
+  return -on_shell[2] - tilt.dot(on_shell.head<2>()) + e.x() * on_shell[4] - e.y() * on_shell[3];
+}
+
+void observe_forces(const FlowBalance& balance, const FilmWrench& wrench, const Eigen::Vector2d& e,
+                    const Eigen::Vector2d& tilt, FilmObservables& o) {
   o.force_pressure = wrench.pressure().tail<3>();
   o.force_shear = wrench.shear().tail<3>();
   o.force_asperity = wrench.asperity().tail<3>();
-  // The journal feels the negative wrench; about its own axis through e along (t_x, t_y, 1) that is -M_z - t . M +
-  // (e x F)_z.
   const Vector6& on_shell = o.wrench_on_shell = wrench.total();
   o.torque_shell = on_shell[2];
-  o.torque_journal = -on_shell[2] - tilt.dot(on_shell.head<2>()) + e.x() * on_shell[4] - e.y() * on_shell[3];
+  o.torque_journal = torque_on_journal(on_shell, e, tilt);
+  o.torque_journal_other_shear = torque_on_journal(on_shell + wrench.more_of_other_shear(balance), e, tilt);
 }
 
 FilmFields fields_of(const std::vector<Node>& nodes) {
@@ -196,7 +201,7 @@ FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& 
   o.h_min_features = thinnest.in_features;
   o.p_max = peak.value, o.p_max_phi = peak.phi, o.p_max_z = peak.z;
   o.p_max_node = fields.p.maxCoeff();
-  observe_forces(wrench, e, tilt, o);
+  observe_forces(balance, wrench, e, tilt, o);
   o.normal_forces = wrench.normal().value;
   observe_oil(balance, motion, u, o);
   const Cavity cavity = widest_cavity(balance, u, motion.u_shell + motion.u_journal < 0);

@@ -309,6 +309,13 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
     rows.emplace_back(bearing.name + ": " + name, std::move(text));
   };
   row("cavitation", cavitation(film));
+  row("shear",
+      fmt::format("the cavitated film is sheared over {}; shear acts by {}",
+                  film.cavitated_shear == film::CavitatedShear::full
+                      ? "the whole gap (`cavitated_shear: full`)"
+                      : "the oil's share of the gap (`cavitated_shear: film_share`)",
+                  film.shear_force == film::ShearForce::full ? "its force and its torque"
+                                                             : "its torque only (`shear_force: torque_only`)"));
   row("pressures",
       film.pressures == film::PressureScale::absolute ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
   row("edge pressure left", edge(film, film.edge_left));
@@ -330,9 +337,6 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   row("roughness", roughness(film));
   row("contact", asperities(film.asperities));
   row("compliance", compliance(bearing));
-  row("shear", fmt::format("Couette part over the {} in cavitated nodes; {}",
-                           film.cavitated_shear == film::CavitatedShear::full ? "full gap" : "filled share",
-                           film.shear_force == film::ShearForce::full ? "force and torque" : "torque only"));
   return rows;
 }
 

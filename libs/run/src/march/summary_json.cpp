@@ -65,12 +65,20 @@ nlohmann::json step_errors_of(const Summary& summary) {
   return {{"largest_of_a_step", summary.worst_step_error}, {"bearings", bearings}};
 }
 
+nlohmann::json conditions_of(const Summary& summary) {
+  nlohmann::json bearings = nlohmann::json::object();
+  for (const BearingSummary& bearing : summary.bearings)
+    if (!bearing.cavitated_shear.empty()) bearings[bearing.name]["cavitated shear"] = bearing.cavitated_shear;
+  return bearings;
+}
+
 }  // namespace
 
 std::string summary_json(const Summary& summary) {
   const nlohmann::json document{{"status", word(summary.status)},
                                 {"message", summary.message},
                                 {"results", summary.results.string()},
+                                {"conditions", conditions_of(summary)},
                                 {"t_end", summary.t_end},
                                 {"t_results", summary.t_results},
                                 {"steps", summary.steps},

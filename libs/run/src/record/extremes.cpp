@@ -39,6 +39,7 @@ void BearingExtremes::take(double t, double dt, const bearing::BearingObservatio
   last_put_in_ = put_in, last_taken_ = taken;
   time_ += dt;
   energy_ += dt * (film.power_film + film.power_asperity);
+  energy_film_ += dt * film.power_film, energy_other_shear_ += dt * film.power_film_other_shear;
   volume_ += dt * film.flow_out();
 }
 
@@ -47,6 +48,7 @@ BearingSummary BearingExtremes::summary() const {
   if (energy_ > 0) summary.energy_error = (summary.energy_put_in - summary.energy_taken) / energy_;
   if (time_ > 0) {
     summary.mean_power = energy_ / time_;
+    summary.mean_power_film = energy_film_ / time_, summary.mean_power_other_shear = energy_other_shear_ / time_;
     summary.mean_flow = volume_ / time_;
   }
   return summary;
@@ -64,7 +66,9 @@ void BearingExtremes::persist(Archive& archive) {
   archive.io("turned", s.turned), archive.io("travelled", s.travelled);
   archive.io("energy_put_in", s.energy_put_in), archive.io("energy_taken", s.energy_taken);
   archive.io("last_put_in", last_put_in_), archive.io("last_taken", last_taken_);
-  archive.io("time", time_), archive.io("energy", energy_), archive.io("volume", volume_);
+  archive.io("time", time_), archive.io("energy", energy_);
+  archive.io("energy_film", energy_film_), archive.io("energy_other_shear", energy_other_shear_);
+  archive.io("volume", volume_);
 }
 
 }  // namespace hersey::run

@@ -23,6 +23,7 @@ class BearingExtremes {
   BearingSummary summary_;
   double last_thickness_ = std::numeric_limits<double>::infinity();
   double time_ = 0, energy_ = 0, volume_ = 0;
+  double energy_film_ = 0, energy_other_shear_ = 0;
   double last_put_in_ = 0, last_taken_ = 0;  ///< powers of the last state [W]
 };
 

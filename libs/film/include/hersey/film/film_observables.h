@@ -42,7 +42,11 @@ struct FilmObservables {
   double torque_shell = 0;                              ///< friction torque on the shell about its own axis [N m]
   double sliding_speed = 0;                             ///< of the surfaces against each other [m/s], >= 0
   double power_film = 0;                                ///< viscous dissipation: Couette and Poiseuille [W]
-  double power_asperity = 0;                            ///< boundary friction [W]
+  /// torque_journal and power_film of the same film if its cavitated part were sheared as the other CavitatedShear has
+  /// it
+  /// (`full` where the model says `film_share`, and the other way round) [N m, W].
+  double torque_journal_other_shear = 0, power_film_other_shear = 0;
+  double power_asperity = 0;  ///< boundary friction [W]
   double power_stored = 0;  ///< rate of the energy in liner, asperities and compressed oil, and work against p_cav [W]
   double power_oil = 0;     ///< taken along by oil that leaves over the edges less what feeds bring [W]
   /// All of the power that the bodies put into the film, by integrals over its fields (theory manual, film.54) [W].

@@ -35,6 +35,8 @@ struct BearingSummary {
   double max_force = 0;                                   ///< largest film force on the shell [N]
   double eccentricity_ratio = 0;                          ///< at the end [-]
   double mean_power = 0;                                  ///< mean friction power, film and asperities [W]
+  double mean_power_film = 0;                             ///< the film's part of it [W]
+  double mean_power_other_shear = 0;                      ///< that with the other film::CavitatedShear [W]
   double mean_flow = 0;                                   ///< mean oil flow over both edges [m^3/s]
   double worst_mass_balance = 0;                          ///< largest mass_balance_error of a step [-]
   double energy_put_in = 0;                               ///< by the bodies, through the film's forces on them [J]
@@ -43,6 +45,7 @@ struct BearingSummary {
   double T_max = std::numeric_limits<double>::quiet_NaN();  ///< hottest oil of a film with temperatures [K]
   double turned = 0, travelled = 0;  ///< by which the journal has turned in its shell, one way and to and fro [rad]
   std::vector<std::string> doubts;   ///< where the film goes beyond what is known of its oil
+  std::string cavitated_shear;       ///< which it is, with what the other choice gives; empty: it makes no difference
   StepErrors step_error;             ///< where Options::step_error asks for it
 };
 

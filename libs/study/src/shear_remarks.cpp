@@ -1,0 +1,72 @@
+#include "hersey/study/shear_remarks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hersey::study {
+namespace {
+
+// A twentieth of the load moves the eccentricity by some percent, which is more than the grid's error.
+constexpr double kNoticeableShare = 0.05;
+
+bool depends_on_choice(const BearingSolution& solution) {
+  const film::FilmObservables& film = solution.state.film;
+  return solution.solved() && film.power_film > 0 && film.power_film_other_shear != film.power_film;
+}
+
+/// By how much the other choice changes the film's power [%].
+double change(const BearingSolution& solution) {
+  return 100 * (solution.state.film.power_film_other_shear / solution.state.film.power_film - 1);
+}
+
+/// The choice, and the beginning of what the other gives.
+std::string choice(film::CavitatedShear shear) {
+  return shear == film::CavitatedShear::full
+             ? "the cavitated film is sheared over the whole gap (`cavitated_shear: full`); over the oil's share of it "
+               "(`film_share`)"
+             : "the cavitated film is sheared over the oil's share of the gap (`cavitated_shear: film_share`); over "
+               "the "
+               "whole gap (`full`)";
+}
+
+}  // namespace
+
+double load_on_shear(const BearingSolution& solution) {
+  const Eigen::Vector2d force = solution.state.film.force_shear.head<2>(), &load = solution.state.load;
+  return load.squaredNorm() > 0 ? force.dot(load) / load.squaredNorm() : 0;
+}
+
+std::vector<std::pair<std::string, std::string>> shear_remarks(const BearingSolution& solution) {
+  std::vector<std::pair<std::string, std::string>> remarks;
+  const film::FilmObservables& film = solution.state.film;
+  if (depends_on_choice(solution))
+    remarks.emplace_back("cavitated shear",
+                         fmt::format("{} this film would take {:.4g} N.m and {:.4g} W ({:+.3g} %)",
+                                     choice(solution.model.cavitated_shear), std::abs(film.torque_journal_other_shear),
+                                     film.power_film_other_shear, change(solution)));
+  if (const double share = load_on_shear(solution); std::abs(share) > kNoticeableShare)
+    remarks.emplace_back(
+        "shear force",
+        fmt::format("the net force of shear carries {:.3g} % of the load, as it does in narrow and lightly "
+                    "loaded bearings; most charts leave it out (`shear_force: torque_only`)",
+                    100 * share));
+  return remarks;
+}
+
+std::string shear_remark(const std::vector<BearingSolution>& solutions) {
+  std::vector<double> changes;
+  const BearingSolution* first = nullptr;
+  for (const BearingSolution& solution : solutions) {
+    if (!depends_on_choice(solution)) continue;
+    if (first == nullptr) first = &solution;
+    changes.push_back(change(solution));
+  }
+  if (first == nullptr) return "";
+  const auto [least, most] = std::minmax_element(changes.begin(), changes.end());
+  return fmt::format("{} these films would take {:+.3g} to {:+.3g} % of power", choice(first->model.cavitated_shear),
+                     *least, *most);
+}
+
+}  // namespace hersey::study
