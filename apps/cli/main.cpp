@@ -15,6 +15,7 @@
 #include "hersey/core/spelling.h"
 #include "hersey/core/version.h"
 #include "hersey/results/error.h"
+#include "hersey/results/output_lock.h"
 #include "standard_streams.h"
 
 namespace hersey::cli {
@@ -108,6 +109,9 @@ int main(int argc, char** argv) {
     return cli::kWrongInput;
   } catch (const results::FileExists& error) {
     cli::say("hersey: {}; use --force to replace it or --output to write elsewhere\n", error.what());
+    return cli::kWrongInput;
+  } catch (const results::FileBusy& error) {
+    cli::say("hersey: {}\n", error.what());
     return cli::kWrongInput;
   } catch (const results::ReadError& error) {
     cli::say("hersey: {}\n", error.what());

@@ -13,6 +13,7 @@
 #include "hersey/model/study.h"
 #include "hersey/report/report.h"
 #include "hersey/results/error.h"
+#include "hersey/results/output_lock.h"
 #include "hersey/run/simulate.h"
 #include "hersey/run/summary_json.h"
 #include "hersey/study/study.h"
@@ -36,9 +37,9 @@ std::filesystem::path output_folder(const RunArguments& arguments) {
 }
 
 void refuse_existing(const Paths& files, bool force) {
-  if (force) return;
   for (const std::filesystem::path& file : files) {
-    if (std::filesystem::exists(file)) throw results::FileExists(file);
+    results::require_idle(file);  // one that is being written is not there to be replaced, nor to be gone on with
+    if (!force && std::filesystem::exists(file)) throw results::FileExists(file);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/model/build.h"
 #include "hersey/results/checkpoint.h"
+#include "hersey/results/output_lock.h"
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/solver/equilibrium.h"
@@ -183,6 +184,8 @@ Summary simulate_with_step_error(const model::Model& model, const Options& optio
   return summary;
 }
 
+Summary simulate_held(const model::Model& model, const Options& options);
+
 Summary resume_from(Archive::Content checkpoint, const model::Model& model, const Options& options) {
   std::string warning;
   require_identity(checkpoint, model, checkpoint_file(options.results), warning);
@@ -207,9 +210,18 @@ Summary resume(const model::Model& model, const Options& options) {
   Options anew = options;
   anew.overwrite = true;
   anew.resume = false;
-  summary = simulate(model, anew);
+  summary = simulate_held(model, anew);
   summary.warning = "there was no checkpoint to go on from: the run began anew";
   return summary;
+}
+
+// The results file is this run's alone.
+Summary simulate_held(const model::Model& model, const Options& options) {
+  if (options.resume) return resume(model, options);
+  // A checkpoint of results that are about to be replaced.
+  if (options.overwrite || !std::filesystem::exists(options.results)) discard_checkpoint(options.results);
+  if (options.step_error && !model.bearings.empty()) return simulate_with_step_error(model, options);
+  return simulate_from(std::nullopt, model, options);
 }
 
 }  // namespace
@@ -236,11 +248,8 @@ Summary simulate(const model::Model& model, const Options& options) {
                            "bodies and a simulation to run",
                            "'hersey bearing' solves bearings by themselves"});
   }
-  if (options.resume) return resume(model, options);
-  // A checkpoint of results that are about to be replaced.
-  if (options.overwrite || !std::filesystem::exists(options.results)) discard_checkpoint(options.results);
-  if (options.step_error && !model.bearings.empty()) return simulate_with_step_error(model, options);
-  return simulate_from(std::nullopt, model, options);
+  const results::OutputLock held(options.results);
+  return simulate_held(model, options);
 }
 
 }  // namespace hersey::run

@@ -25,7 +25,7 @@ namespace hersey::run {
 ///
 /// With `step_error` the model is first run with steps twice as long (a tolerance eight times as large), and from the
 /// difference of both follows what the steps have done to each bearing's figures (theory manual eq. (integrator.17)).
-/// @throws results::FileExists if the results file exists and is not to be overwritten.
+/// @throws results::FileExists where the file exists and is not to be replaced, FileBusy where another run writes it.
 /// @throws InputError if `resume` is asked for another model; results::ReadError if results or checkpoint are damaged.
 [[nodiscard]] Summary simulate(const model::Model& model, const Options& options);
 
