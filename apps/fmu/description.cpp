@@ -123,7 +123,9 @@ std::string variables_3(const Variables& variables) {
   return xml;
 }
 
-/// One line for each output. FMI 2 counts variables from 1, time is the first.
+/// One line for each output. FMI 2 counts variables from 1, time is the first. At a communication point outputs are
+/// those of the last step: they depend on no input there, which acts from the next step on. What they begin with may
+/// depend on every parameter, which is what leaving the list out says.
 std::string unknowns(const Variables& variables, const char* line) {
   std::string xml;
   for (std::size_t i = 0; i < variables.list.size(); ++i)
@@ -185,8 +187,8 @@ std::string description_xml(const model::Model& model, const Variables& variable
                kModelIdentifier) +
            unit_definitions(variables) + kLogCategories + experiment + "  <ModelVariables>\n" + variables_2(variables) +
            "  </ModelVariables>\n  <ModelStructure>\n    <Outputs>\n" +
-           unknowns(variables, "      <Unknown index=\"{1}\"/>\n") + "    </Outputs>\n    <InitialUnknowns>\n" +
-           unknowns(variables, "      <Unknown index=\"{1}\"/>\n") +
+           unknowns(variables, "      <Unknown index=\"{1}\" dependencies=\"\"/>\n") +
+           "    </Outputs>\n    <InitialUnknowns>\n" + unknowns(variables, "      <Unknown index=\"{1}\"/>\n") +
            "    </InitialUnknowns>\n  </ModelStructure>\n</fmiModelDescription>\n";
   return head +
          fmt::format("<fmiModelDescription fmiVersion=\"3.0\" instantiationToken=\"{}\" {}>\n", variables.token,
@@ -198,7 +200,8 @@ std::string description_xml(const model::Model& model, const Variables& variable
              "canReturnEarlyAfterIntermediateUpdate=\"false\" hasEventMode=\"false\"/>\n",
              kModelIdentifier) +
          unit_definitions(variables) + kLogCategories + experiment + "  <ModelVariables>\n" + variables_3(variables) +
-         "  </ModelVariables>\n  <ModelStructure>\n" + unknowns(variables, "    <Output valueReference=\"{0}\"/>\n") +
+         "  </ModelVariables>\n  <ModelStructure>\n" +
+         unknowns(variables, "    <Output valueReference=\"{0}\" dependencies=\"\"/>\n") +
          unknowns(variables, "    <InitialUnknown valueReference=\"{0}\"/>\n") +
          "  </ModelStructure>\n</fmiModelDescription>\n";
 }

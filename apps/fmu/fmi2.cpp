@@ -94,9 +94,9 @@ HERSEY_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2
     told.logger(told.componentEnvironment, own_name.c_str(), status_of(outcome), category, escaped(message).c_str());
   };
   try {
-    if (own_name.empty()) throw std::invalid_argument("an instance without a name");
-    if (type != fmi2CoSimulation) throw std::invalid_argument("this FMU is for co-simulation only");
-    if (guid == nullptr) throw std::invalid_argument("an instance without a GUID");
+    if (own_name.empty()) throw std::runtime_error("an instance without a name");
+    if (type != fmi2CoSimulation) throw std::runtime_error("this FMU is for co-simulation only");
+    if (guid == nullptr) throw std::runtime_error("an instance without a GUID");
     auto component = std::make_unique<Component>();
     component->instance = std::make_unique<Instance>(
         own_name, guid, hersey::fmu::path_of_uri(resources != nullptr ? resources : ""), log);

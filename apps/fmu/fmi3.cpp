@@ -89,8 +89,8 @@ HERSEY_EXPORT fmi3Instance fmi3InstantiateCoSimulation(
     const fmi3ValueReference* /*intermediate_variables*/, std::size_t /*count*/, fmi3InstanceEnvironment environment,
     fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback /*intermediate_update*/) {
   try {
-    if (name == nullptr || *name == '\0') throw std::invalid_argument("an instance without a name");
-    if (token == nullptr) throw std::invalid_argument("an instance without an instantiation token");
+    if (name == nullptr || *name == '\0') throw std::runtime_error("an instance without a name");
+    if (token == nullptr) throw std::runtime_error("an instance without an instantiation token");
     const auto tell = [environment, log](CallStatus outcome, const char* category, const std::string& message) {
       if (log != nullptr) log(environment, status_of(outcome), category, message.c_str());
     };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "hersey/core/blas_threads.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_file.h"
+#include "hersey/core/unit_database.h"
 #include "hersey/model/read.h"
 
 namespace hersey::fmu {
@@ -26,23 +26,20 @@ std::string text_of(const std::filesystem::path& path) {
   return std::move(file.content);
 }
 
-// Before the first quantity is read. Who has set another database keeps it.
-void use_own_units(const std::filesystem::path& database) {
-  std::error_code ignored;
-  if (std::filesystem::exists(database, ignored)) ::setenv("UDUNITS2_XML_PATH", database.c_str(), 0);
-}
-
 }  // namespace
 
 Instance::Instance(std::string name, const std::string& token, std::filesystem::path resources, Log log)
     : name_(std::move(name)), resources_(std::move(resources)), log_(std::move(log)) {
   use_one_blas_thread();
-  use_own_units(resources_ / "udunits" / "udunits2.xml");
+  use_unit_database(resources_ / "udunits" / "udunits2.xml");
   variables_ = from_json(text_of(resources_ / "variables.json"));
   if (token != variables_.token)
     throw std::runtime_error(
         fmt::format("the model description is of another FMU: its token is '{}', that of the resources '{}'", token,
                     variables_.token));
+  // All that the resources hold is read here and now: importers may take their folder away again.
+  file_.emplace((resources_ / "model.yaml").string());
+  as_exported_ = file_->read(variables_.overrides);
   (void)reset();
 }
 
@@ -83,7 +80,8 @@ void Instance::build() {
     if (one.kind != Variable::Kind::parameter || !is_set_[i] || values_[i] == one.start) continue;
     overrides.push_back(fmt::format("{}={}{}", one.source, values_[i], one.unit == "1" ? "" : " " + one.unit));
   }
-  model::Model model = model::read((resources_ / "model.yaml").string(), overrides);
+  const bool is_as_exported = overrides.size() == variables_.overrides.size();
+  model::Model model = is_as_exported ? as_exported_ : file_->read(overrides);
   model.file = "model.yaml";  // the same wherever it has been unpacked
   model::Simulation& plan = model.simulation;
   if (is_set_up_) plan.start = start_time_;
@@ -125,7 +123,7 @@ CallStatus Instance::exit_initialisation() {
 
 const Variable& Instance::variable(unsigned reference) const {
   if (reference == 0 || reference > variables_.list.size())
-    throw std::invalid_argument(fmt::format("no variable has the value reference {}", reference));
+    throw std::runtime_error(fmt::format("no variable has the value reference {}", reference));
   return variables_.list[reference - 1];
 }
 
@@ -138,7 +136,7 @@ double Instance::get_one(unsigned reference) const {
     const double now = simulation_ ? simulation_->input(one.source) : one.start;
     return std::isfinite(now) ? now : one.start;
   }
-  if (!simulation_) throw std::invalid_argument(one.name + " is known from the initialisation on");
+  if (!simulation_) throw std::runtime_error(one.name + " is known from the initialisation on");
   return simulation_->output(outputs_[i]).at(one.column);
 }
 
@@ -155,11 +153,13 @@ CallStatus Instance::get(const unsigned* references, std::size_t count, double* 
 void Instance::set_one(unsigned reference, double value) {
   const Variable& one = variable(reference);
   const std::size_t i = reference - 1;
-  if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("{} cannot be {}", one.name, value));
-  if (one.kind == Variable::Kind::output) throw std::invalid_argument(one.name + " is an output");
+  if (!std::isfinite(value))
+    throw std::runtime_error(fmt::format("{}: found {}; expected a finite number{}", one.name, value,
+                                         one.unit == "1" ? "" : " in " + one.unit));
+  if (one.kind == Variable::Kind::output) throw std::runtime_error(one.name + " is an output");
   if (one.kind == Variable::Kind::parameter) {
     if (phase_ != Phase::instantiated && phase_ != Phase::initialisation)
-      throw std::invalid_argument(one.name + " is a parameter: it is set before the end of the initialisation");
+      throw std::runtime_error(one.name + " is a parameter: it is set before the end of the initialisation");
     if (values_[i] != value) simulation_.reset();
   } else {
     // An importer that hands out start values leaves functions of the model as they are.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/model/read.h"
 #include "hersey/run/simulation.h"
 #include "variables.h"
 
@@ -40,7 +41,8 @@ class Instance {
  public:
   using Log = std::function<void(CallStatus, const char* category, const std::string& message)>;
 
-  /// Reads what the FMU holds. @throws std::exception where its resources are damaged, or the token is of another FMU
+  /// Reads all that the FMU holds: its folder is needed later only where parameters change a model that names files.
+  /// @throws std::exception where its resources are damaged, or the token is of another FMU
   Instance(std::string name, const std::string& token, std::filesystem::path resources, Log log);
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -77,6 +79,8 @@ class Instance {
   Log log_;
   bool is_logging_ = false;
   Variables variables_;
+  std::optional<model::ModelFile> file_;  // as the FMU holds it
+  model::Model as_exported_;              // of it, with the overrides it was exported with
   Phase phase_ = Phase::instantiated;
   std::vector<double> values_;
   std::vector<bool> is_set_;

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -14,6 +13,7 @@
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/input_file.h"
+#include "hersey/core/unit_database.h"
 #include "hersey/model/read.h"
 #include "hersey/run/simulation.h"
 #include "licence.h"
@@ -69,12 +69,10 @@ std::vector<PackedFile> binaries(int version) {
   return files;
 }
 
-/// The database of units, without which no model is read.
-std::vector<PackedFile> unit_database() {
-  const char* chosen = std::getenv("UDUNITS2_XML_PATH");
-  const std::filesystem::path database = chosen != nullptr ? chosen : "/usr/share/xml/udunits/udunits2.xml";
+/// The database of units, without which no model is read: a file that names others beside it.
+std::vector<PackedFile> files_of_units() {
   std::vector<PackedFile> files;
-  for (const auto& entry : std::filesystem::directory_iterator(database.parent_path()))
+  for (const auto& entry : std::filesystem::directory_iterator(hersey::unit_database().parent_path()))
     if (entry.path().extension() == ".xml")
       files.push_back({entry.path(), "resources/udunits/" + entry.path().filename().string()});
   return files;
@@ -101,7 +99,7 @@ int export_fmu(const Arguments& arguments) {
   variables.token = token_of(description_xml(model, variables, arguments.version), packed, model);
   std::vector<PackedFile> files = packed.files;
   const std::vector<PackedFile> libraries = binaries(arguments.version);
-  for (const std::vector<PackedFile>& more : {libraries, unit_database(), licences_of(libraries)})
+  for (const std::vector<PackedFile>& more : {libraries, files_of_units(), licences_of(libraries)})
     files.insert(files.end(), more.begin(), more.end());
   std::filesystem::path unfinished = target;
   unfinished += ".unfinished";

@@ -11,7 +11,7 @@ std::filesystem::path path_of_uri(const std::string& uri) {
     rest.erase(0, 5);
     if (rest.starts_with("//")) rest.erase(0, rest.find('/', 2) == std::string::npos ? 2 : rest.find('/', 2));
   } else if (rest.find("://") != std::string::npos) {
-    throw std::invalid_argument("resources at '" + uri + "': expected a file URI");
+    throw std::runtime_error("resources at '" + uri + "': expected a file URI");
   } else {
     return rest;
   }

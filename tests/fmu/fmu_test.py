@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import unittest
 import xml.etree.ElementTree as ElementTree
 import zipfile
@@ -358,7 +359,93 @@ class Cases:
         names = subprocess.run(["nm", "-D", "--defined-only", self.fmu.library_path], capture_output=True, text=True,
                                check=True).stdout.split()[2::3]
         self.assertTrue(names)
-        self.assertEqual([name for name in names if not re.match("fmi[23][A-Z]", name)], [])
+        # Beside them the lock that all copies of the library in one process share.
+        self.assertEqual([name for name in names if not re.match("fmi[23][A-Z]", name)], ["hersey_udunits2_lock"])
+
+    def in_a_process(self, script, **environment):
+        """What a script of its own process says; it has this file's names, and `path`, the FMU."""
+        begin = (f"import sys\nsys.argv[1:] = [{HERSEY!r}, {WORK!r}]\nsys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})\n"
+                 f"from fmu_test import *\npath, work = {self.path!r}, {self.folder!r}\n")
+        kept = {name: value for name, value in os.environ.items() if name != "UDUNITS2_XML_PATH"}
+        done = subprocess.run([sys.executable, "-c", begin + textwrap.dedent(script)], capture_output=True, text=True,
+                              env=kept | environment)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done.stdout
+
+    def test_importer_takes_its_folder_away_between_simulations(self):
+        """As FMPy's simulate_fmu(path) does: each time unpacked anew, and here gone before the initialisation even."""
+        told = self.in_a_process("""
+            rows = []
+            for parameters in ({}, {}, {CLEARANCE: 40e-6}):
+                folder = tempfile.mkdtemp(dir=work)
+                fmu = Fmu(path, folder)
+                one = Instance(fmu)
+                shutil.rmtree(folder)
+                rows.append(one.initialise(parameters=parameters).march(5))
+                one.must("Reset")
+                assert one.initialise(parameters=parameters).march(5) == rows[-1]
+                one.free()
+            assert rows[0] == rows[1] != rows[2]
+            environment = c.CDLL(None).getenv
+            environment.restype = c.c_char_p
+            print("variable:", environment(b"UDUNITS2_XML_PATH"))
+        """)
+        self.assertEqual(told, "variable: None\n")  # as it was: nothing is left in the environment
+
+    def test_environment_that_points_nowhere_does_no_harm(self):
+        told = self.in_a_process("""
+            print(len(Instance(Fmu(path, tempfile.mkdtemp(dir=work))).initialise().march(2)))
+        """, UDUNITS2_XML_PATH="/nowhere/udunits2.xml")
+        self.assertEqual(told, "2\n")
+
+    def test_two_copies_of_the_library_are_initialised_by_two_threads(self):
+        """Two FMUs share udunits2, which is not made for threads: reading a model parses units without end."""
+        told = self.in_a_process("""
+            import threading
+            instances = [Instance(Fmu(path, tempfile.mkdtemp(dir=work)), logger=False) for _ in range(2)]
+            found = [[], []]
+            def use(k):
+                for turn in range(12):
+                    found[k].append(instances[k].initialise(parameters={CLEARANCE: 40e-6}).march(1)[0])
+                    instances[k].must("Reset")
+            threads = [threading.Thread(target=use, args=(k,)) for k in range(2)]
+            for thread in threads: thread.start()
+            for thread in threads: thread.join()
+            assert len(found[0]) == len(found[1]) == 12
+            print(len(set(found[0] + found[1])))
+        """)
+        self.assertEqual(told, "1\n")
+
+    def test_numbers_that_are_none_are_the_importers_fault(self):
+        one = Instance(self.fmu)
+        for value in (float("nan"), float("inf"), -float("inf")):
+            for name in (CLEARANCE, LOAD_Y):
+                self.assertEqual(one.set(name, value), ERROR)
+                self.assertRegex(one.log[-1][1], rf"^{name}: found {'nan' if value != value else value}; expected a finite number in")
+        self.assertEqual(one.access("Set", [H_MIN], [1e-6])[0], ERROR)
+        self.assertEqual(one.access("Get", [4000000], [0])[0], ERROR)
+        self.assertEqual(one.access("Set", [4000000], [0])[0], ERROR)
+        one.initialise().march(1)
+        self.assertEqual(one.set(CLEARANCE, 40e-6), ERROR)
+        self.assertEqual([text for _, text in one.log if "internal error" in text], [])
+        one.free()
+
+    def test_outputs_depend_on_no_input_before_the_next_step(self):
+        """What the model structure declares: setting inputs changes no output at the same instant."""
+        one = Instance(self.fmu).initialise()
+        one.march(3)
+        outputs = [name for name, variable in self.fmu.variables.items() if variable.get("causality") == "output"]
+        inputs = [name for name, variable in self.fmu.variables.items() if variable.get("causality") == "input"]
+        before = one.access("Get", outputs, [0] * len(outputs))[1]
+        for name in inputs:
+            self.assertEqual(one.set(name, 1.1 * one.get(name) + 0.01), OK, one.log)
+        np.testing.assert_array_equal(one.access("Get", outputs, [0] * len(outputs))[1], before)
+        one.march(1, first=3)
+        self.assertNotEqual(one.access("Get", outputs, [0] * len(outputs))[1], before)
+        one.free()
+        structure = self.fmu.description.find("ModelStructure")
+        declared = list(structure.find("Outputs")) if self.version == 2 else structure.findall("Output")
+        self.assertEqual([unknown.get("dependencies") for unknown in declared], [""] * len(outputs))
 
     def test_description_is_consistent(self):
         root, seen = self.fmu.description, set()

@@ -1,10 +1,13 @@
 #include "hersey/core/units.h"
 
+#include <pthread.h>
 #include <udunits2.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
@@ -12,6 +15,19 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/core/spelling.h"
+#include "hersey/core/unit_database.h"
+
+// All zeros, which is PTHREAD_MUTEX_INITIALIZER of Linux; only an assembler can make a symbol that is unique in the
+// process, whichever compiler is used.
+extern "C" pthread_mutex_t hersey_udunits2_lock;
+static_assert(sizeof(pthread_mutex_t) <= 64);
+__asm__(
+    ".pushsection .bss.hersey_udunits2_lock,\"aw\",%nobits\n"
+    ".balign 16\n"
+    ".type hersey_udunits2_lock,%gnu_unique_object\n"
+    ".size hersey_udunits2_lock,64\n"
+    "hersey_udunits2_lock: .zero 64\n"
+    ".popsection\n");
 
 namespace hersey {
 namespace {
@@ -22,6 +38,16 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
+constexpr const char* kInstalled = "/usr/share/xml/udunits/udunits2.xml";
+
+/// Copies of this library in one process, of two FMUs say, share udunits2, which is not made for several threads:
+/// hence one lock for all of them, a symbol that the loader binds to the same address everywhere.
+class ProcessLock {
+ public:
+  void lock() { ::pthread_mutex_lock(&hersey_udunits2_lock); }
+  void unlock() { ::pthread_mutex_unlock(&hersey_udunits2_lock); }
+};
+
 std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 struct UnitDeleter {
@@ -29,13 +55,13 @@ struct UnitDeleter {
 };
 using Unit = std::unique_ptr<ut_unit, UnitDeleter>;
 
-/// The one unit system of the process. udunits2 keeps its state and its last error in globals, hence the lock that
-/// every use holds.
+/// The one unit system of this copy of the library. udunits2 keeps its state and its last error in globals, hence the
+/// lock that every use holds.
 class UnitSystem {
  public:
   UnitSystem() {
     ut_set_error_message_handler(ut_ignore);
-    system_ = ut_read_xml(nullptr);
+    read();
     if (system_ == nullptr) {
       throw std::runtime_error(
           "the unit database of udunits2 cannot be read: install libudunits2-data, or set UDUNITS2_XML_PATH to its "
@@ -58,9 +84,30 @@ class UnitSystem {
     return parse(text);
   }
 
-  static std::mutex& lock() {
-    static std::mutex mutex;
-    return mutex;
+  static ProcessLock& lock() {
+    static ProcessLock of_process;
+    return of_process;
+  }
+
+  /// The database that is given, else that of the environment, else that of the installation; see unit_database.h.
+  static std::vector<std::filesystem::path> candidates() {
+    std::vector<std::filesystem::path> files;
+    if (!given().empty()) files.push_back(given());
+    if (const char* named = std::getenv("UDUNITS2_XML_PATH"); named != nullptr && *named != '\0')
+      files.emplace_back(named);
+    files.emplace_back(kInstalled);
+    return files;
+  }
+
+  /// Call with the lock held.
+  static std::filesystem::path& given() {
+    static std::filesystem::path file;
+    return file;
+  }
+  /// Call with the lock held.
+  static std::filesystem::path& in_use() {
+    static std::filesystem::path file;
+    return file;
   }
 
   /// Call with the lock held. Lives as long as the process: freeing at exit gains nothing.
@@ -70,6 +117,15 @@ class UnitSystem {
   }
 
  private:
+  void read() {
+    for (const std::filesystem::path& file : candidates()) {
+      if ((system_ = ut_read_xml(file.c_str())) == nullptr) continue;
+      in_use() = file;
+      return;
+    }
+    system_ = ut_read_xml(nullptr);  // wherever another installation of udunits2 keeps it
+  }
+
   void add(const char* symbol, const char* meaning) {
     const Unit unit = parse(meaning);
     HERSEY_REQUIRE(unit != nullptr, "the unit database defines what our spellings stand for");
@@ -223,6 +279,22 @@ std::vector<Quantity> split_quantities(std::string_view given, int count, const 
 }
 
 }  // namespace
+
+void use_unit_database(const std::filesystem::path& database) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(database, ignored)) return;
+  const std::lock_guard guard(UnitSystem::lock());
+  if (UnitSystem::in_use().empty()) UnitSystem::given() = database;
+}
+
+std::filesystem::path unit_database() {
+  const std::lock_guard guard(UnitSystem::lock());
+  if (!UnitSystem::in_use().empty()) return UnitSystem::in_use();
+  std::error_code ignored;
+  for (const std::filesystem::path& file : UnitSystem::candidates())
+    if (std::filesystem::exists(file, ignored)) return file;
+  return {};
+}
 
 QuantityError::QuantityError(std::string found_text, std::string expected_text, std::string suggestion_text)
     : std::runtime_error("found " + found_text + "; expected " + expected_text +

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <stdexcept>
 
+#include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 
 namespace hersey::run {
@@ -98,10 +98,11 @@ Inputs::Input& Inputs::find(const std::string& name) {
   if (found != inputs_.end()) return *found;
   std::vector<std::string> names;
   for (const Input& input : inputs_) names.push_back(input.info.name);
-  const std::string nearest = did_you_mean(name, names);
-  throw std::invalid_argument(fmt::format("no input '{}': {}{}", name,
-                                          names.empty() ? "this model has none" : "its inputs are " + one_of(names),
-                                          nearest.empty() ? "" : "; " + nearest));
+  throw InputError(Fault{{},
+                         "",
+                         "no input '" + name + "'",
+                         names.empty() ? "a model with inputs, which this one has not" : one_of(names),
+                         did_you_mean(name, names)});
 }
 
 void Inputs::persist(Archive& archive) {

@@ -12,6 +12,7 @@
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
+#include "hersey/results/output_lock.h"
 #include "march/inputs.h"
 #include "march/machine_run.h"
 #include "record/recorder.h"
@@ -42,6 +43,7 @@ struct Simulation::Impl {
   Impl(model::Model given, Options options_)
       : model(require_motion(std::move(given))),
         options(std::move(options_)),
+        held(std::in_place, options.results),
         inputs(model),
         run(model, options),
         snapshot(model, run.machine(), run.state(), Options{}) {
@@ -88,7 +90,7 @@ struct Simulation::Impl {
 
   void change(Inputs::Input& input, const std::function<void()>& how) {
     if (!input.refusal.empty())
-      throw std::invalid_argument(fmt::format("input '{}' cannot be set: {}", input.info.name, input.refusal));
+      throw InputError(Fault{{}, input.info.name, "an input that cannot be set", input.refusal, ""});
     how();
     jump = std::max(jump, input.jump);
     is_shown = false;
@@ -131,6 +133,7 @@ struct Simulation::Impl {
 
   model::Model model;
   Options options;
+  std::optional<results::OutputLock> held;  // the results file is this run's alone
   Inputs inputs;
   MachineRun run;
   Recorder snapshot;
@@ -167,7 +170,11 @@ Advance Simulation::step() { return impl_->take(std::numeric_limits<double>::inf
 Advance Simulation::advance_to(double t) {
   const double slack = impl_->run.slack();
   if (!(t >= time() - slack) || std::isinf(t))
-    throw std::invalid_argument(fmt::format("an advance to t = {:.9g} s, from t = {:.9g} s", t, time()));
+    throw InputError(Fault{{},
+                           "",
+                           fmt::format("an advance to t = {:.9g} s", t),
+                           fmt::format("an instant not before {:.9g} s", time()),
+                           ""});
   while (time() < t - slack) {
     const Advance step = impl_->take(t);
     if (step.status != Advance::Status::advanced) return step;
@@ -180,7 +187,7 @@ const std::vector<InputInfo>& Simulation::inputs() const { return impl_->inputs.
 void Simulation::set(const std::string& name, double value) {
   Inputs::Input& input = impl_->inputs.find(name);
   if (!std::isfinite(value))
-    throw std::invalid_argument(fmt::format("input '{}': {} is not a number that can act", name, value));
+    throw InputError(Fault{{}, name, fmt::format("the value {}", value), "a finite number in " + input.info.unit, ""});
   const bool is_constant = input.variables.empty() || input.function->is_set();
   if (is_constant && input.function->value({}) == value) return;
   impl_->change(input, [&] { input.function->set(value); });
@@ -202,8 +209,7 @@ const std::vector<double>& Simulation::output(const std::string& name) const {
   if (found != impl_->places.end()) return output(found->second);
   std::vector<std::string> names;
   for (const OutputInfo& info : impl_->outputs) names.push_back(info.name);
-  const std::string nearest = did_you_mean(name, names);
-  throw std::invalid_argument(fmt::format("no output '{}'{}", name, nearest.empty() ? "" : "; " + nearest));
+  throw InputError(Fault{{}, "", "no output '" + name + "'", one_of(names), did_you_mean(name, names)});
 }
 
 const std::vector<double>& Simulation::output(std::size_t place) const { return impl_->values_of(place); }
@@ -240,6 +246,7 @@ Summary Simulation::finish() {
   const Summary found = summary();
   if (std::exchange(impl_->is_finished, true) || impl_->options.results.empty()) return found;
   const Outcome written = impl_->run.finish(found.status, found.message, nullptr);
+  impl_->held.reset();
   if (!written.solved()) throw std::runtime_error(written.message);
   return summary();
 }

@@ -44,7 +44,7 @@ class Simulation {
  public:
   /// Builds the machine and finds its start. With options.results a results file is written as the steps go;
   /// options.step_error, resume and stop are for simulate().
-  /// @throws InputError where the model cannot start, or computes no motion over time; results::FileExists.
+  /// @throws InputError where the model cannot start, or computes no motion over time; results::FileExists, FileBusy.
   explicit Simulation(model::Model model, Options options = {});
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -60,13 +60,13 @@ class Simulation {
   /// One step of the solver.
   Advance step();
   /// As many steps as it takes to be at `t`, to a millionth of a step. @pre finite
-  /// @throws std::invalid_argument where t lies before time()
+  /// @throws InputError where t lies before time()
   Advance advance_to(double t);
 
   /// All inputs of this model.
   [[nodiscard]] const std::vector<InputInfo>& inputs() const;
   /// Holds an input at `value` [SI] from now on. Setting the value it has changes nothing, not a bit.
-  /// @throws std::invalid_argument naming the nearest input where there is none of that name, or a value not finite
+  /// @throws InputError naming the nearest input where there is none of that name, or a value not finite
   void set(const std::string& input, double value);
   /// Gives an input back to the model.
   void release(const std::string& input);
@@ -75,7 +75,7 @@ class Simulation {
 
   /// All quantities of results that grow row by row, but for fields over a film.
   [[nodiscard]] const std::vector<OutputInfo>& outputs() const;
-  /// At time(), row-major [SI]. @throws std::invalid_argument naming the nearest output where there is none
+  /// At time(), row-major [SI]. @throws InputError naming the nearest output where there is none
   [[nodiscard]] const std::vector<double>& output(const std::string& name) const;
   /// By its place in outputs().
   [[nodiscard]] const std::vector<double>& output(std::size_t place) const;
