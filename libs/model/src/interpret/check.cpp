@@ -8,6 +8,7 @@
 #include "hersey/core/quantity_formula.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
+#include "interpret/bare_numbers_in.h"
 
 namespace hersey::model {
 namespace {
@@ -40,6 +41,9 @@ class Checker {
  public:
   Checker(std::vector<Fault>& faults, std::map<std::string, SourcePosition>& positions)
       : faults_(faults), positions_(positions) {}
+
+  /// Where to note numbers without unit; null: nowhere.
+  void note_bare_numbers(std::vector<BareNumber>* into) { bare_ = into; }
 
   Value check(const Node& node, const Type& type, const Place& place) {
     Value value;
@@ -147,6 +151,8 @@ class Checker {
     try {
       value.numbers = parse_in_first_fitting_unit(node, type, value.unit);
     } catch (const QuantityError& error) {
+      if (bare_ != nullptr && is_bare(node))
+        bare_->push_back({value.path, type.units.front(), parameter_of(node.origin)});
       // The origin tells the user of ${load} where the text at fault stands.
       const std::string from = node.origin.empty() ? "" : " (from " + node.origin + ")";
       const std::string hint = error.suggestion.empty() ? did_you_mean(node.text, names) : error.suggestion;
@@ -194,6 +200,13 @@ class Checker {
         throw error;
       }
     }
+  }
+
+  /// The name in "parameter load in line 5"; none of several parameters.
+  static std::string parameter_of(const std::string& origin) {
+    constexpr std::string_view kPrefix = "parameter ";
+    if (!origin.starts_with(kPrefix) || origin.find(", parameter ") != std::string::npos) return "";
+    return origin.substr(kPrefix.size(), origin.find(' ', kPrefix.size()) - kPrefix.size());
   }
 
   /// A bare number, which of several units has none.
@@ -426,6 +439,7 @@ class Checker {
 
   std::vector<Fault>& faults_;
   std::map<std::string, SourcePosition>& positions_;
+  std::vector<BareNumber>* bare_ = nullptr;
 };
 
 /// Whether the format has such a key, or leaves the names free.
@@ -452,6 +466,16 @@ const Value* Value::find(const std::string& key) const {
 Value check(const Node& node, const Type& type, std::vector<Fault>& faults,
             std::map<std::string, SourcePosition>& positions) {
   return Checker(faults, positions).check(node, type, {"", node.position});
+}
+
+std::vector<BareNumber> bare_numbers_in(const Node& node, const Type& type) {
+  std::vector<Fault> ignored;
+  std::map<std::string, SourcePosition> positions;
+  std::vector<BareNumber> found;
+  Checker checker(ignored, positions);
+  checker.note_bare_numbers(&found);
+  (void)checker.check(node, type, {"", node.position});
+  return found;
 }
 
 bool is_name(const std::string& text) {

@@ -1,10 +1,14 @@
 #include "hersey/model/written.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "hersey/core/quantity_formula.h"
 #include "hersey/core/spelling.h"
+#include "hersey/core/units.h"
 #include "interpret/overrides.h"
 #include "interpret/reader.h"
 
@@ -13,10 +17,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// A quantity worked out of parameters stands as its value, which reads without them: "-500 N" for "-(500 N)".
+std::string worked_out(const Node& node) {
+  if (node.formula.find('(') != std::string::npos) {
+    try {
+      const Quantity value = evaluate_formula(node.formula);
+      return fmt::format("{}{}{}", value.number, value.unit.empty() ? "" : " ", value.unit);
+    } catch (const QuantityError&) {
+      // A word, an expression of time, several numbers: as it is written.
+    }
+  }
+  return written(node);
+}
+
 Json json_of(const Node& node) {
   switch (node.kind) {
     case Node::Kind::scalar:
-      return written(node);
+      return worked_out(node);
     case Node::Kind::sequence: {
       Json list = Json::array();
       for (const Node& item : node.items) list.push_back(json_of(item));
