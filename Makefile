@@ -7,12 +7,13 @@ PREFIX ?= /usr/local
 FILTER ?= .
 ONLY ?=
 TIME ?= 60
+COUNT ?= 100
 UNITY ?= ON
 BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help fmu program demo test bench validate mutations fuzz random-models studies test-slurm web web-check web-test python python-package docs docs-test pictures package package-test format lint install clean
+.PHONY: help fmu program demo test bench validate mutations fuzz random-models second-opinion studies test-slurm web web-check web-test python python-package docs docs-test pictures package package-test format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -46,7 +47,7 @@ validate: program  ## compares the examples with published numbers
 
 mutations:  ## plants faults one at a time in a copy and tells which no test notices; an hour (ONLY=regex: some of them)
 	@scripts/setup build test
-	@validation/mutations.py --jobs $(JOBS) --only '$(ONLY)'
+	@validation/mutations.py --jobs $(JOBS) --only '$(ONLY)' $(if $(DRAWN),--drawn $(DRAWN)) $(if $(SEED),--seed $(SEED))
 
 fuzz: program  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some; SEED=n)
 	@scripts/setup build test fuzz
@@ -118,6 +119,10 @@ clean:  ## removes everything built
 random-models: program  ## tries as many random models as TIME=60 allows, every invariant checked; part of fuzz (SEED=n: the same again)
 	@scripts/setup test
 	@tests/random/random_models.py $(BUILD)/hersey --time $(TIME) --jobs $(JOBS) $(if $(SEED),--seed $(SEED)) --output build/random-models
+
+second-opinion: program  ## random bearings by hersey and by a second film solver of another hand (COUNT=100, SEED=n: the same again)
+	@scripts/setup test
+	@tests/second_opinion/second_opinion.py $(BUILD)/hersey --jobs $(JOBS) --count $(COUNT) $(if $(SEED),--seed $(SEED)) --output build/second-opinion
 
 # Configured once; afterwards the build itself notices changed CMake files.
 $(BUILD)/build.ninja: CMakePresets.json
