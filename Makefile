@@ -45,7 +45,7 @@ validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
 
-mutations:  ## plants faults one at a time in a copy and tells which no test notices; an hour (ONLY=regex: some of them)
+mutations:  ## plants faults one at a time in a copy and tells which no test notices; an hour (ONLY=regex: some; DRAWN=n, SEED=s: n a module by machine)
 	@scripts/setup build test
 	@validation/mutations.py --jobs $(JOBS) --only '$(ONLY)' $(if $(DRAWN),--drawn $(DRAWN)) $(if $(SEED),--seed $(SEED))
 

@@ -7,8 +7,12 @@ on the one that has it, then on those of the program. All faults are real change
 that is missing.
 
 Usage: mutations.py [--only REGEX] [--jobs N] [--list] [--check]     as `make mutations`
+       mutations.py --drawn N [--seed SEED] [--modules A,B] ...         as `make mutations DRAWN=N SEED=...`
 exit code 0 if all faults were caught, 1 if any survives, 2 if a fault has to be re-pointed or does not compile
 --only: faults whose names match; --list: the faults, nothing else; --check: that each is found where it says
+--drawn: N faults of each module by machine (mutation_operators.py) in place of the planted ones: a comparison, sign, constant, term, bound
+or connective changed. Exit code 1 if more than 5 % of those that compile survive: some make no difference that a test could see.
+--near: tests of the fault's own module only, for a first look
 """
 
 import argparse
@@ -20,11 +24,14 @@ import sys
 import time
 from typing import NamedTuple
 
+import mutation_operators
+
 SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 WORK = os.path.join(SOURCE, "build/mutations")
 COPY, LOG = os.path.join(WORK, "sources"), os.path.join(WORK, "log")
 BUILD = os.path.join(COPY, "build/release")  # where a clone has it: ccache knows what the user has compiled
 PROGRAM = ["results_file", "defects", "cli"]  # tests of the whole, tried last
+DRAWN_MAY_SURVIVE = 0.05  # of faults by machine
 TIME_LIMIT = 120  # s of one test: a fault may turn an iteration into an endless one
 
 
@@ -223,8 +230,8 @@ def logged(title, command):
 class Trial:
     """The copy, with one fault or none."""
 
-    def __init__(self, jobs):
-        self.jobs = str(jobs)
+    def __init__(self, jobs, is_near=False):
+        self.jobs, self.is_near = str(jobs), is_near
 
     def configure(self):
         run = logged("configure", ["scripts/compiler", "cmake", "--preset", "release", "-DHERSEY_UNITY=ON"])
@@ -259,7 +266,7 @@ class Trial:
     def verdict(self, fault, modules_above):
         """What became of a fault: caught, survived or broken, and the tests that caught it."""
         first = fault.tests or rf"^{fault.module}\."
-        rest = modules_above[fault.module] + PROGRAM
+        rest = [fault.module] if self.is_near else modules_above[fault.module] + PROGRAM
         likely = [module for module in rest if re.search(first, module + ".")] or rest[:1]
         stages = {first: likely}
         for module in rest:
@@ -277,9 +284,9 @@ class Trial:
             self.mend(fault)
 
 
-def try_all(faults, jobs):
+def try_all(faults, jobs, is_near=False):
     modules_above = dependents()
-    trial = Trial(jobs)
+    trial = Trial(jobs, is_near)
     copy_sources()
     trial.configure()
     verdicts, catching = [], {}
@@ -304,13 +311,47 @@ def failing_anyway(trial, catching):
     return trial.test("no fault", "^(" + "|".join(re.escape(test) for test in catching) + ")$")
 
 
+def try_drawn(options):
+    """Faults by machine: how many that compile survive, and which."""
+    seed = options.seed or str(int(time.time()))
+    print(f"seed {seed}", flush=True)
+    drawn = mutation_operators.drawn(SOURCE, options.modules.split(","), options.drawn, seed)
+    faults = [fault for fault in (Fault(*one) for one in drawn) if re.search(options.only, fault.name)]
+    for fault in faults if options.list else ():
+        print(f"{fault.name}\n    {fault.old.splitlines()[-1].strip()}\n    {fault.new.splitlines()[-1].strip()}")
+    if options.list or not faults:
+        return 0 if faults else 2
+    try:
+        os.makedirs(WORK, exist_ok=True)
+        open(LOG, "w", encoding="utf-8").close()
+        verdicts, anyway = try_all(faults, options.jobs, options.near)
+    except Trouble as trouble:
+        print(f"mutations: {trouble}", file=sys.stderr)
+        return 2
+    compiled, survived = len(verdicts) - verdicts.count("broken"), verdicts.count("survived")
+    print(f"{verdicts.count('caught')} of {compiled} caught that compile, {100 * survived / max(compiled, 1):.0f} % survive")
+    for fault, verdict in zip(faults, verdicts):
+        if verdict == "survived":
+            print(f"{fault.name}\n    {fault.old.splitlines()[-1].strip()}\n    {fault.new.splitlines()[-1].strip()}")
+    if anyway:
+        print("these fail without any fault: " + ", ".join(anyway))
+        return 2
+    return 1 if survived > DRAWN_MAY_SURVIVE * compiled else 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", metavar="REGEX")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--drawn", type=int, default=0, metavar="N")
+    parser.add_argument("--seed", default="")
+    parser.add_argument("--modules", default="film,solver,bearing,mbd")
+    parser.add_argument("--near", action="store_true")
     options = parser.parse_args()
+    if options.drawn:
+        return try_drawn(options)
     faults = [fault for fault in FAULTS if re.search(options.only, fault.name)]
     if options.list:
         print("\n".join(f"{fault.name:<66} libs/{fault.file}" for fault in faults))

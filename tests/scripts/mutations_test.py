@@ -1,0 +1,47 @@
+#!/usr/bin/python3
+"""Faults by machine: what is changed in a line, and what is left alone.
+
+    mutations_test.py SOURCE [Class.test_name]
+"""
+
+import os
+import sys
+import unittest
+
+SOURCE = os.path.abspath(sys.argv.pop(1))
+sys.path.insert(0, os.path.join(SOURCE, "validation"))
+
+import mutation_operators as operators  # noqa: E402
+
+
+class Mutations(unittest.TestCase):
+    def changed(self, line):
+        return sorted({changed for _, changed in operators.changes(line)})
+
+    def test_each_operator_changes_its_part_of_a_line(self):
+        self.assertEqual(self.changed("if (a < b) return;"), ["if (a >= b) return;"])
+        self.assertEqual(self.changed("x = a + b * c;"), ["x = a - b * c;", "x = a;"])
+        self.assertEqual(self.changed("x = f(a - g(b, c), d);"), ["x = f(a + g(b, c), d);", "x = f(a, d);"])
+        self.assertEqual(self.changed("x += 2 * a;"), ["x += 3 * a;", "x -= 2 * a;"])
+        self.assertEqual(self.changed("return -a;"), ["return a;"])
+        self.assertEqual(self.changed("x = std::max(a, 0.5);"), ["x = std::max(a, (1.5 * 0.5));", "x = std::min(a, 0.5);"])
+        self.assertEqual(self.changed("ok = a && b;"), ["ok = a || b;"])
+
+    def test_text_comments_and_checks_are_left_alone(self):
+        for line in ('told = "a + b";', "// x = a + b;", "std::vector<int> n;", "const auto& x = a;", "x = a;  // 2 + 2"):
+            self.assertEqual(self.changed(line), [], line)
+        lines = ["  HERSEY_REQUIRE(a > 0, 1);\n", "#if A > 2\n", '  throw InputError("a" + 1);\n', "  x = a + b;\n"]
+        self.assertEqual({new for *_, new in operators.of_file("film/src/x.cpp", lines)}, {"  x = a - b;\n", "  x = a;\n"})
+
+    def test_old_text_occurs_once_and_a_seed_draws_the_same(self):
+        drawn = operators.drawn(SOURCE, ["solver"], 12, "1")
+        self.assertEqual(drawn, operators.drawn(SOURCE, ["solver"], 12, "1"))
+        self.assertEqual(len(drawn), 12)
+        for _, file, old, new in drawn:
+            with open(os.path.join(SOURCE, "libs", file), encoding="utf-8") as source:
+                self.assertEqual(source.read().count(old), 1)
+            self.assertNotEqual(old, new)
+
+
+if __name__ == "__main__":
+    unittest.main()
