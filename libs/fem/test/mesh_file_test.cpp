@@ -284,10 +284,11 @@ TEST_CASE("FaultyFiles_AreToldWithLineAndRemedy") {
   CHECK(abaqus(nodes + "*ELEMENT,TYPE=C3D4\n7,1,2,3,4\n*SURFACE,NAME=s\n7,S5\n") ==
         "9: surface 's' has face 5 of a tet4; a face from 1 to 4");
   CHECK(abaqus("*ELEMENT,TYPE=CAX4\n") ==
-        "1: elements of type CAX4; C3D4, C3D10, C3D6, C3D15, C3D8, C3D20 (also R, I, H), B31 or B32; shells only to "
+        "1: elements of type CAX4; C3D4, C3D10, C3D5, C3D6, C3D15, C3D8, C3D20 (also R, I, H), B31 or B32; shells only "
+        "to "
         "mark faces");
   CHECK(abaqus("*INCLUDE,INPUT=a.txt\n").starts_with("1: *INCLUDE of 'a.txt': no readable file"));
-  CHECK(abaqus("*PART,NAME=a\n*PART,NAME=b\n") == "2: a second *PART; one body in one file");
+  CHECK(abaqus("*PART,NAME=a\n*PART,NAME=b\n") == "2: a second *PART, 'b' behind 'a'; one body in one file");
   CHECK(abaqus("*MATERIAL,NAME=a\n*ELASTIC\n-5,0.3\n").starts_with("3: Young's modulus -5"));
 
   const auto gmsh = [](const std::string& text) { return fault_of(text, MeshFormat::gmsh); };
@@ -298,13 +299,17 @@ TEST_CASE("FaultyFiles_AreToldWithLineAndRemedy") {
   CHECK(gmsh(format + "$Nodes\n99999999999\n1 0 0 0\n").starts_with("5: a count of 99999999999"));
   CHECK(gmsh(format + "$Nodes\n2\n1 0 0 0\n") == "6: the end of the file; more numbers: the file is cut short");
   CHECK(gmsh(format + "$Nodes\n1\n1 0 x 0\n$EndNodes\n") == "6: 'x'; a number");
-  CHECK(gmsh(format + "$Elements\n1\n1 7 0 1 2 3 4 5\n$EndElements\n").starts_with("6: elements of Gmsh's type 7"));
+  CHECK(gmsh(format + "$Elements\n1\n1 12 0 1 2 3 4 5\n$EndElements\n").starts_with("6: elements of Gmsh's type 12"));
 
   const auto nastran = [](const std::string& text) { return fault_of(text, MeshFormat::nastran); };
-  CHECK(nastran("GRID,1,2,0.,0.,0.\n") == "1: a grid point in the coordinate system 2; the basic system, 0 or empty");
-  CHECK(nastran("$\nCTETRA,1,1,1,2,3\n") == "2: CTETRA 1 with 3 nodes; 4 or 10 nodes");
+  CHECK(nastran("GRID,1,2,0.,0.,0.\n") ==
+        "1: the coordinate system 2, which the file does not define; a system of a CORD1R, CORD1C, CORD1S, CORD2R, "
+        "CORD2C "
+        "or CORD2S, or the basic system, 0 or empty");
+  CHECK(nastran("$\nCTETRA,1,1,1,2,3\n") ==
+        "2: CTETRA 1 with 3 nodes; 4 corners, then up to 6 mid-side nodes, of which any may be left out");
   CHECK(nastran("GRID,1,,zero\n") == "1: 'zero' in GRID; a number");
-  CHECK(nastran("CPYRAM,1,1,1,2,3,4,5\n") == "1: CPYRAM; GRID, CTETRA, CPENTA, CHEXA, CBAR or CBEAM, each written out");
+  CHECK(nastran("CTRIAX,1,1,1,2,3\n") == "1: CTRIAX, an element of a section that turns about an axis; solids");
 }
 
 TEST_CASE("Files_OfUnknownEnding_OrMissing_AreTold") {

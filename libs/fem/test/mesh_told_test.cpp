@@ -105,20 +105,40 @@ TEST_CASE("Abaqus_MaterialsThatSayMoreThanIsRead_AreTold") {
 }
 
 TEST_CASE("Abaqus_WhatMovesOrMakesNodes_IsRefused") {
-  for (const std::string keyword : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "IMPERFECTION",
-                                    "ADJUST", "SYMMETRIC MODEL GENERATION", "MODEL CHANGE"}) {
+  for (const std::string keyword : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "IMPERFECTION", "ADJUST",
+                                    "SYMMETRIC MODEL GENERATION", "MODEL CHANGE"}) {
     CAPTURE(keyword);
     CHECK(abaqus(kTets + "*" + keyword + "\n1,2\n").refusal.starts_with("11: *"));
   }
-  CHECK(abaqus("*NODE,SYSTEM=C\n1,1,90,0\n").refusal == "1: nodes in cylindrical or spherical coordinates");
+  CHECK(abaqus("*NODE,SYSTEM=Q\n1,1,90,0\n").refusal == "1: *NODE with SYSTEM=Q");
   CHECK(abaqus("*NODE,INPUT=a.txt\n").refusal == "1: *NODE with INPUT");
   CHECK(abaqus(kTets + "*INSTANCE,NAME=i,PART=p\n*INSTANCE,NAME=j,PART=p\n").refusal == "12: a second *INSTANCE");
   CHECK(abaqus(kTets + "*INSTANCE,NAME=i,PART=p\n1,0,0\n").warnings == "11: an *INSTANCE with a position");
 }
 
+TEST_CASE("Abaqus_OneOfSeveralParts_IsReadByItsName") {
+  const std::string other = "*NODE\n1,7,0,0\n2,8,0,0\n3,7,1,0\n4,7,0,1\n*ELEMENT,TYPE=C3D4,ELSET=a\n1,1,2,3,4\n";
+  const std::string text = "*PART,NAME=First\n" + other + "*END PART\n*PART,NAME=Second\n" + kTets +
+                           "*END PART\n*ASSEMBLY\n*INSTANCE,NAME=i,PART=First\n*END INSTANCE\n"
+                           "*INSTANCE,NAME=j,PART=second\n*END INSTANCE\n*NSET,NSET=n,INSTANCE=i\n1,2\n"
+                           "*NSET,NSET=m,INSTANCE=j\n5\n*ELSET,ELSET=e,INSTANCE=i\n1\n*SURFACE,NAME=s\ne,S1\n"
+                           "*TIE,NAME=t\ns,r\n*END ASSEMBLY\n";
+  std::vector<Fault> warnings;
+  const Mesh mesh = parse_mesh(text, MeshFormat::abaqus, "x", 1, &warnings, {}, nullptr, "SECOND");
+  CHECK(mesh.elements.size() == 2);
+  CHECK(mesh.node_sets.at("m") == std::vector<int>{4});
+  CHECK_FALSE(mesh.node_sets.contains("n"));
+  CHECK(mesh.surfaces.empty());
+  CHECK(told(warnings) == "35: 1 *TIE");
+  CHECK(parse_mesh(text, MeshFormat::abaqus, "x", 1, nullptr, {}, nullptr, "first").nodes.at(0).x() == 7);
+  CHECK_THROWS_WITH((void)parse_mesh(text, MeshFormat::abaqus, "x", 1, nullptr, {}, nullptr, "Third"),
+                    doctest::Contains("a part of the file: First or Second"));
+}
+
 TEST_CASE("Abaqus_WhatConnectsOrLoadsTheMesh_IsToldOrOfNoConcern") {
-  CHECK(abaqus(kTets + "*TIE,NAME=t\na,b\n*EQUATION\n2\n1,1,1,2,1,-1\n*TIE,NAME=u\nb,a\n").warnings ==
-        "13: 1 *EQUATION; 11: 2 *TIE");
+  CHECK(abaqus(kTets + "*COUPLING,REF NODE=1\n*KINEMATIC\n*COUPLING\n").warnings ==
+        "11: 2 *COUPLING; 12: 1 *KINEMATIC");
+  CHECK(abaqus(kTets + "*ELEMENT,TYPE=SPRINGA,ELSET=s\n9,1,2\n").warnings == "11: 1 *ELEMENT of type SPRINGA");
   CHECK(abaqus(kTets + "*ELEMNT,TYPE=C3D4\n3,1,2,3,5\n").warnings == "11: 1 *ELEMNT");
   CHECK(abaqus(kTets + "*HEADING\nx\n*TRANSFORM,NSET=a\n1,0,0,0,1,0\n*BOUNDARY\n1,1\n*STEP\n*STATIC\n*CLOAD\n1,1,1\n"
                        "*END STEP\n")
@@ -170,14 +190,13 @@ const std::string kEnd = "ENDDATA\n";
 
 Answer nastran(const std::string& text) { return read(text, MeshFormat::nastran); }
 
-TEST_CASE("Nastran_GridPointsInAnotherSystem_AreRefused_AlsoByGrdset") {
+TEST_CASE("Nastran_GridPointsInAnotherSystem_AlsoByGrdset") {
   const std::string system = "CORD2R,5,,100.,0.,0.,100.,0.,1.\n,101.,1.,0.\n";
-  CHECK(nastran(system + "GRDSET,,5\n" + kTet + kEnd).refusal ==
-        "3: GRDSET puts grid points in the coordinate system 5, the first in line 4");
-  CHECK(nastran(kTet + "GRDSET,,5\n" + kEnd).refusal ==
-        "6: GRDSET puts grid points in the coordinate system 5, the first in line 1");
-  CHECK(nastran(system + "GRID,1,5,0.,0.,0.\n").refusal == "3: a grid point in the coordinate system 5");
-  CHECK(nastran(system + "GRDSET,,0,,,,,456\n" + kTet + kEnd).refusal.empty());
+  const Vector3 origin(100, 0, 0);
+  for (const std::string& text : {system + "GRDSET,,5\n" + kTet + kEnd, kTet + "GRDSET,,5\n" + system + kEnd})
+    CHECK(nastran(text).mesh.nodes.at(0) == origin);
+  CHECK(nastran("GRDSET,,5\n" + kTet + kEnd).refusal == "2: the coordinate system 5, which the file does not define");
+  CHECK(nastran(system + "GRDSET,,0,,,,,456\n" + kTet + kEnd).mesh.nodes.at(0) == Vector3(0, 0, 0));
   // A zero of the grid point itself overrides GRDSET.
   std::string in_basic = kTet;
   for (std::size_t at = in_basic.find(",,"); at != std::string::npos; at = in_basic.find(",,"))
@@ -202,7 +221,7 @@ TEST_CASE("Nastran_LinesThatDoNotBelongTogether_AreRefused") {
   CHECK(nastran(kGrid + nodes + "CTETRA,1,1,1,2,3,4,5,6,7,8,9,10\n" + kEnd).refusal ==
         "11: more fields than a line has (CTETRA)");
   CHECK(nastran("+A,7,8,9,10\n" + kTet + kEnd).refusal == "1: +A");
-  CHECK(nastran(kTet + "=,*1,=,*1.,==\n=(3)\n" + kEnd).refusal == "6: =");
+  CHECK(nastran("=,*1,=,*1.,==\n" + kTet + kEnd).refusal == "1: a replication of no entry (=)");
 }
 
 TEST_CASE("Nastran_MaterialsThatAreMissing_OrSayMore_AreTold") {
@@ -222,7 +241,12 @@ TEST_CASE("Nastran_MaterialsThatAreMissing_OrSayMore_AreTold") {
   CHECK(of_material("MAT1,5,210.\n") == "7: MAT1 with one elastic constant");
   CHECK(of_material("MAT1,5,210.,,.3,7.8,,,.02\n") == "7: MAT1 with structural damping GE");
   CHECK(of_material("MAT9,5,210.,1.,1.,1.,1.,1.\n") == "7: MAT9");
-  CHECK(nastran(kTet + "MAT1,5,210.,,.3,-7.8\n" + kEnd).refusal == "6: MAT1 with the density -7.8");
+  // Only where an element has it.
+  const std::string odd = "MAT1,6,210.,,.3,-7.8\nMAT1,7,1.,2.,3.,.1\n";
+  CHECK(nastran(kTet + "PSOLID,1,5\n" + mat + odd + kEnd).materials.empty());
+  CHECK(nastran(kTet + "PSOLID,1,5\n" + mat + odd + kEnd).mesh.materials.size() == 1);
+  CHECK(nastran(kTet + "PSOLID,1,6\n" + mat + odd + kEnd).materials == "8: MAT1 with the density -7.8");
+  CHECK(nastran(kTet + "PSOLID,1,7\n" + mat + odd + kEnd).materials == "9: MAT1 with E = 1, nu = 3");
 }
 
 TEST_CASE("Nastran_WtmassScalesDensities") {
@@ -233,10 +257,14 @@ TEST_CASE("Nastran_WtmassScalesDensities") {
 }
 
 TEST_CASE("Nastran_EntriesThatAreNotRead_AreRefusedToldOrOfNoConcern") {
-  CHECK(nastran(kTet + "RBE2,1,2,123,3\nMPC,1,2,1,1.,3,1,-1.\nRBE2,2,2,123,4\nCTETTRA,2,1,1,2,3,4\n" + kEnd).warnings ==
-        "9: 1 CTETTRA; 7: 1 MPC; 6: 2 RBE2");
+  CHECK(nastran(kTet + "CONM2,1,2,,3.\nCTETTRA,2,1,1,2,3,4\nCONM2,2,1,,3.\nCBEAM3,3,1,1,2,3\nCBEND,4,1,1,2\n" + kEnd)
+            .warnings == "9: 1 CBEAM3; 10: 1 CBEND; 6: 2 CONM2; 7: 1 CTETTRA");
+  CHECK(nastran(kTet + "MPC,1,2,1,1.,3,1,-1.\n" + kEnd).warnings == "6: MPC 1, which no case control section selects");
+  CHECK(nastran("CEND\nBEGIN BULK\n" + kTet + "MPC,1,2,1,1.,3,1,-1.\n" + kEnd).warnings ==
+        "8: 1 sets of MPC, none of them selected");
+  CHECK(nastran("CEND\nMPC = 1\nBEGIN BULK\n" + kTet + "MPC,1,2,1,1.,3,1,-1.\n" + kEnd).mesh.ties.size() == 1);
   CHECK(nastran(kTet + "PLOAD4,1,1,1.\nSPC1,1,123,1\nEIGRL,1\nCORD2R,5\nPARAM,POST,-1\n" + kEnd).warnings.empty());
-  for (const std::string entry : {"CPYRAM", "CBEAM3", "GRIDB", "BAROR", "BEGIN SUPER=1"}) {
+  for (const std::string entry : {"CTRIAX", "CTETRAR", "GRIDB", "BEGIN SUPER=1", "BEGIN BULK SUPER=1"}) {
     CAPTURE(entry);
     CHECK(nastran(kTet + entry + ",1\n" + kEnd).refusal.starts_with("6: "));
   }

@@ -11,14 +11,16 @@
 /// Meshes for tests, and dense linear algebra on them.
 namespace hersey::fem {
 
-constexpr std::array<ElementType, 6> solids = {ElementType::tet4,    ElementType::tet10, ElementType::wedge6,
-                                               ElementType::wedge15, ElementType::hex8,  ElementType::hex20};
+constexpr std::array<ElementType, 8> solids = {ElementType::tet4,     ElementType::tet10,    ElementType::wedge6,
+                                               ElementType::wedge15,  ElementType::hex8,     ElementType::hex20,
+                                               ElementType::pyramid5, ElementType::pyramid13};
 
 inline const SolidMaterial steel = isotropic({.youngs_modulus = 2.1e11, .poisson_ratio = 0.3, .density = 7850});
 
 inline ElementType linear_of(ElementType type) {
   if (type == ElementType::tet10) return ElementType::tet4;
   if (type == ElementType::wedge15) return ElementType::wedge6;
+  if (type == ElementType::pyramid13) return ElementType::pyramid5;
   return type == ElementType::hex20 ? ElementType::hex8 : type;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "hersey/core/contract.h"
+#include "hersey/fem/ties.h"
 
 namespace hersey::fem {
 namespace {
@@ -50,6 +51,18 @@ std::string what_is_loose(const ElasticBody& body, const std::vector<int>& held)
   const Eigen::Index blocked = held.empty() ? 0 : lu.rank();
   if (blocked == 6) return "a part of the body is not connected to what is held";
   return fmt::format("the body is not held: {} of its 6 rigid motions meet no resistance", 6 - blocked);
+}
+
+/// What supports bear of the forces that K u - f leaves: those of ties are told by their pivots, which no support and
+/// no other tie acts on.
+Eigen::MatrixXd without_ties(const TieConstraints& ties, Eigen::MatrixXd unbalanced) {
+  if (ties.C.rows() == 0) return unbalanced;
+  Eigen::MatrixXd force(ties.C.rows(), unbalanced.cols());
+  for (Eigen::Index k = 0; k < force.rows(); ++k) {
+    const int pivot = ties.pivots[static_cast<std::size_t>(k)];
+    force.row(k) = unbalanced.row(pivot) / ties.C.coeff(k, pivot);
+  }
+  return unbalanced - ties.C.transpose() * force;
 }
 
 }  // namespace
@@ -153,7 +166,8 @@ StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>&
     held.push_back(support.dof);
     prescribed[support.dof] = support.displacement;
   }
-  HeldStiffness stiffness(body.K, body.m, held);
+  const TieConstraints ties = tie_constraints(body.mesh, held);
+  HeldStiffness stiffness(body.K, body.m, held, ties.C);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular) {
     auto loose = no_answer<StaticSolution>(what_is_loose(body, held));
@@ -164,8 +178,10 @@ StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>&
   StaticSolution solution;
   solution.set_solved(true);
   const Eigen::VectorXd forces_of_supports = body.K * prescribed;
-  solution.u = stiffness.solve(f.colwise() - forces_of_supports).colwise() + prescribed;
-  const Eigen::MatrixXd unbalanced = body.K * solution.u - f;
+  const Eigen::VectorXd of_supports = ties.C * prescribed;
+  const Eigen::MatrixXd d = (-of_supports).replicate(1, f.cols());
+  solution.u = stiffness.solve(f.colwise() - forces_of_supports, d).colwise() + prescribed;
+  const Eigen::MatrixXd unbalanced = without_ties(ties, body.K * solution.u - f);
   solution.reaction = Eigen::MatrixXd::Zero(f.rows(), f.cols());
   for (const int dof : held) solution.reaction.row(dof) = unbalanced.row(dof);
   return solution;

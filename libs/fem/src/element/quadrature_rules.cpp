@@ -26,6 +26,19 @@ const LineRule& gauss_3() {
   return rule;
 }
 
+const LineRule& gauss_4() {
+  static const LineRule rule = [] {
+    LineRule points;
+    for (const double sign : {-1.0, 1.0}) {
+      const double x = std::sqrt(3.0 / 7 - sign * 2.0 / 7 * std::sqrt(1.2)), w = (18 + sign * std::sqrt(30.0)) / 36;
+      points.push_back({-x, w});
+      points.push_back({x, w});
+    }
+    return points;
+  }();
+  return rule;
+}
+
 QuadratureRule cube_rule(const LineRule& line) {
   QuadratureRule points;
   points.reserve(line.size() * line.size() * line.size());

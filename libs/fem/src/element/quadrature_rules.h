@@ -15,6 +15,7 @@ using QuadratureRule = std::vector<QuadraturePoint>;
 /// Gauss' rules on -1 <= x <= 1.
 [[nodiscard]] const LineRule& gauss_2();
 [[nodiscard]] const LineRule& gauss_3();
+[[nodiscard]] const LineRule& gauss_4();
 
 /// On triangles 0 <= xi, eta, sum <= 1, exact up to a degree.
 [[nodiscard]] QuadratureRule triangle_degree_2();

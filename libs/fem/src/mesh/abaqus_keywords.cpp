@@ -6,9 +6,9 @@
 namespace hersey::fem {
 
 bool changes_the_mesh(std::string_view keyword) {
-  static const std::set<std::string_view> all = {
-      "NGEN",         "NFILL",      "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "ADJUST", "SYMMETRICMODELGENERATION",
-      "IMPERFECTION", "MODELCHANGE"};
+  static const std::set<std::string_view> all = {"NGEN",         "NFILL",      "NCOPY",  "NMAP",
+                                                 "ELGEN",        "ELCOPY",     "ADJUST", "SYMMETRICMODELGENERATION",
+                                                 "IMPERFECTION", "MODELCHANGE"};
   return all.contains(keyword);
 }
 
@@ -34,6 +34,13 @@ const std::set<std::string_view>* parameters_of(std::string_view keyword) {
       {"MATERIAL", {"NAME"}},
       {"ELASTIC", {"TYPE", "MODULI"}},
       {"DENSITY", {}},
+      {"TIE", {"NAME", "POSITION TOLERANCE", "POSITIONTOLERANCE", "ADJUST", "TYPE", "NO ROTATION"}},
+      {"EQUATION", {}},
+      {"RIGIDBODY",
+       {"NSET", "ELSET", "REF NODE", "REFNODE", "ROT NODE", "ROTNODE", "TIE NSET", "TIENSET", "PIN NSET", "PINNSET",
+        "ISOTHERMAL", "POSITION", "ANALYTICAL SURFACE"}},
+      {"SYSTEM", {}},
+      {"MPC", {}},
       {"SOLIDSECTION", {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "REFNODE"}},
   };
   const auto found = all.find(keyword);

@@ -15,24 +15,30 @@ namespace {
 
 using Cell = std::array<int, 3>;
 
-// A hexahedron's corners cut into wedges along the diagonal 0-2, and into six tetrahedra around the diagonal 0-6.
+// A hexahedron's corners cut into wedges along the diagonal 0-2, into six tetrahedra around the diagonal 0-6, and into
+// six pyramids that meet in its middle, 8.
 const std::vector<std::vector<int>>& pieces(ElementType type) {
   static const std::vector<std::vector<int>> whole = {{0, 1, 2, 3, 4, 5, 6, 7}};
   static const std::vector<std::vector<int>> halves = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
   static const std::vector<std::vector<int>> tets = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
                                                      {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  static const std::vector<std::vector<int>> pyramids = {{0, 1, 2, 3, 8}, {4, 7, 6, 5, 8}, {0, 4, 5, 1, 8},
+                                                         {1, 5, 6, 2, 8}, {2, 6, 7, 3, 8}, {3, 7, 4, 0, 8}};
   const int corners = kind_of(type).corners;
   if (corners == 8) return whole;
   if (corners == 6) return halves;
+  if (corners == 5) return pyramids;
   HERSEY_REQUIRE(corners == 4, "a shape that fills a box");
   return tets;
 }
 
-/// Makes nodes on a lattice twice as fine as the cells, each when first asked for.
+constexpr int kPerCell = 4;  // steps of the lattice: half-way between a corner and the middle of a cell is one
+
+/// Makes nodes on a lattice finer than the cells, each when first asked for.
 class Lattice {
  public:
   Lattice(Mesh& mesh, const Vector3& size, const Cell& cells) : mesh_(mesh) {
-    for (int k = 0; k < 3; ++k) step_[k] = size[k] / (2 * cells[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 3; ++k) step_[k] = size[k] / (kPerCell * cells[static_cast<std::size_t>(k)]);
   }
 
   int node(const Cell& at) {
@@ -53,15 +59,21 @@ class Lattice {
 };
 
 void add_element(Mesh& mesh, Lattice& lattice, ElementType type, const Cell& cell, const std::vector<int>& piece) {
-  static const Eigen::Matrix3Xd cube = natural_nodes(ElementType::hex8);
+  static const Eigen::Matrix3Xd cube = [] {
+    Eigen::Matrix3Xd corners_and_middle = Eigen::Matrix3Xd::Zero(3, 9);
+    corners_and_middle.leftCols<8>() = natural_nodes(ElementType::hex8);
+    return corners_and_middle;
+  }();
   // The nodes of the piece are where its straight-sided shape puts them.
   const auto linear = piece.size() == 8   ? ElementType::hex8
                       : piece.size() == 6 ? ElementType::wedge6
+                      : piece.size() == 5 ? ElementType::pyramid5
                                           : ElementType::tet4;
   NodeColumns corners(3, piece.size());
   for (std::size_t a = 0; a < piece.size(); ++a)
     for (int k = 0; k < 3; ++k)
-      corners(k, static_cast<Eigen::Index>(a)) = 2 * cell[static_cast<std::size_t>(k)] + 1 + cube(k, piece[a]);
+      corners(k, static_cast<Eigen::Index>(a)) =
+          kPerCell * (cell[static_cast<std::size_t>(k)] + (1 + cube(k, piece[a])) / 2);
   mesh.elements.push_back({.type = type,
                            .label = static_cast<long>(mesh.elements.size()) + 1,
                            .first = static_cast<int>(mesh.connectivity.size())});
@@ -81,7 +93,7 @@ void add_sides(Mesh& mesh, const std::map<Cell, int>& numbers, const Cell& cells
       const std::string name = {axes[k], static_cast<char>('0' + end)};
       std::vector<char> there(mesh.nodes.size(), 0);
       for (const auto& [at, node] : numbers)
-        if (at[k] == 2 * end * cells[k]) there[static_cast<std::size_t>(node)] = 1;
+        if (at[k] == kPerCell * end * cells[k]) there[static_cast<std::size_t>(node)] = 1;
       for (std::size_t a = 0; a < there.size(); ++a)
         if (there[a]) mesh.node_sets[name].push_back(static_cast<int>(a));
       for (std::size_t e = 0; e < mesh.elements.size(); ++e)

@@ -8,6 +8,8 @@
 #include "hersey/fem/skin.h"
 #include "mesh/label_index.h"
 #include "mesh/mesh_materials.h"
+#include "mesh/mesh_ties.h"
+#include "mesh/midside_nodes.h"
 #include "mesh/raw_mesh.h"
 
 namespace hersey::fem {
@@ -38,8 +40,12 @@ std::vector<long> labels_of(const std::vector<RawMark>& marks) {
 
 class Finisher {
  public:
-  Finisher(RawMesh& raw, double length_unit)
-      : raw_(raw), length_unit_(length_unit), node_index_(raw.node_labels), mark_index_(labels_of(raw.marks)) {}
+  Finisher(RawMesh& raw, double length_unit, const std::vector<StraightNode>& straight)
+      : raw_(raw),
+        length_unit_(length_unit),
+        straight_(straight),
+        node_index_(raw.node_labels),
+        mark_index_(labels_of(raw.marks)) {}
 
   Mesh mesh() {
     require_elements();
@@ -53,7 +59,9 @@ class Finisher {
     add_surfaces();
     add_marked();
     name_nodes();
+    tie();
     scale();
+    drop_unused_materials(mesh_);
     return std::move(mesh_);
   }
 
@@ -120,10 +128,11 @@ class Finisher {
     place_of_.assign(raw_.nodes.size(), -1);
     for (const int node : mesh_.connectivity) place_of_[static_cast<std::size_t>(node)] = 0;
     std::vector<long> dropped;
+    const std::set<long> tied = tied_labels();
     for (std::size_t n = 0; n < raw_.nodes.size(); ++n) {
       if (place_of_[n] < 0) {
         const bool is_repeated = static_cast<std::size_t>(node_index_.find(raw_.node_labels[n])) != n;
-        if (!is_repeated) dropped.push_back(raw_.node_labels[n]);
+        if (!is_repeated && !tied.contains(raw_.node_labels[n])) dropped.push_back(raw_.node_labels[n]);
         continue;
       }
       place_of_[n] = static_cast<int>(mesh_.nodes.size());
@@ -139,6 +148,27 @@ class Finisher {
                     fmt::join(dropped.begin(), dropped.begin() + static_cast<std::ptrdiff_t>(told), ", "),
                     told < dropped.size() ? ", ..." : ""),
         "nodes of elements", "left out of the mesh and its sets");
+  }
+
+  // Nodes of no element that a tie goes through: references of rigid bodies.
+  [[nodiscard]] std::set<long> tied_labels() const {
+    std::set<long> labels;
+    for (const RawTie& tie : raw_.ties)
+      for (const RawTieTerm& term : tie.terms) labels.insert(term.node);
+    for (const RawEquation& equation : raw_.equations)
+      for (const RawEquation::Term& term : equation.terms) labels.insert(term.node);
+    for (const RawRigidBody& body : raw_.rigid_bodies)
+      if (body.reference) labels.insert(*body.reference);
+    return labels;
+  }
+
+  void tie() {
+    const TiedNodes nodes{[this](long label) { return place_of_label(label); },
+                          [this](long label) -> const Vector3* {
+                            const int n = node_index_.find(label);
+                            return n < 0 ? nullptr : &raw_.nodes[static_cast<std::size_t>(n)];
+                          }};
+    add_ties(raw_, mesh_, nodes, straight_);
   }
 
   [[nodiscard]] int place_of_label(long label) const {
@@ -412,6 +442,7 @@ class Finisher {
 
   RawMesh& raw_;
   double length_unit_;
+  const std::vector<StraightNode>& straight_;
   LabelIndex node_index_;
   std::unique_ptr<LabelIndex> element_index_;
   LabelIndex mark_index_;
@@ -424,6 +455,9 @@ class Finisher {
 
 }  // namespace
 
-Mesh finished(RawMesh& raw, double length_unit) { return Finisher(raw, length_unit).mesh(); }
+Mesh finished(RawMesh& raw, double length_unit) {
+  const std::vector<StraightNode> straight = add_midside_nodes(raw);
+  return Finisher(raw, length_unit, straight).mesh();
+}
 
 }  // namespace hersey::fem

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "element/element_kind.h"
+#include "mesh/abaqus_block.h"
 #include "mesh/abaqus_keywords.h"
+#include "mesh/abaqus_parts.h"
 #include "mesh/mesh_readers.h"
 #include "mesh/mesh_text.h"
 
@@ -47,7 +49,7 @@ const std::map<std::string_view, AbaqusType>& abaqus_types() {
   static const std::map<std::string_view, AbaqusType> types = [] {
     std::map<std::string_view, AbaqusType> all = beams_and_marks();
     for (const ElementKind& kind : element_kinds())
-      if (kind.shape) all[kind.files.abaqus] = {Role::solid, kind.nodes, kind.corners, kind.type};
+      if (*kind.files.abaqus) all[kind.files.abaqus] = {Role::solid, kind.nodes, kind.corners, kind.type};
     return all;
   }();
   return types;
@@ -55,10 +57,11 @@ const std::map<std::string_view, AbaqusType>& abaqus_types() {
 
 class AbaqusReader {
  public:
-  explicit AbaqusReader(const IncludeLoader& include) : include_(include) {}
+  AbaqusReader(const IncludeLoader& include, const std::string& part) : include_(include), parts_of_file_(part) {}
 
   RawMesh read(std::string_view text, const std::string& name) {
     read_file(text, name, 0);
+    parts_of_file_.require_found(raw_);
     tell_of_passed_over();
     return std::move(raw_);
   }
@@ -91,7 +94,9 @@ class AbaqusReader {
     std::string_view line;
     while (next_line(line)) {
       if (is_blank(line)) continue;
-      if (!is_keyword(line)) fail(fmt::format("'{}'", trimmed(line).substr(0, 40)), "a keyword, such as *NODE");
+      if (!is_keyword(line))
+        fail(fmt::format("'{}'", trimmed(line).substr(0, 40)), "a keyword, such as *NODE",
+             trimmed(line).starts_with('$') ? "bulk data of Nastran: give the file the ending .bdf" : "");
       current_ = keyword(line);
       read_block(depth);
     }
@@ -169,6 +174,10 @@ class AbaqusReader {
     const std::string& name = current_.name;
     if ((name == "NODE" || name == "ELEMENT") && current_.has("INPUT"))
       fail(fmt::format("*{} with INPUT", name), "its lines in this file, or *INCLUDE");
+    if (parts_of_file_.passes_over(raw_, name, current_.place, [this](const char* p) { return current_.value(p); })) {
+      if (parts_of_file_.is_told(name)) count_passed_over(name);
+      return skip_data();
+    }
     check_parameters();
     if (name == "NODE")
       read_nodes();
@@ -188,11 +197,27 @@ class AbaqusReader {
       read_density();
     else if (name == "SOLIDSECTION" || name == "BEAMSECTION")
       read_section();
+    else if (ties_nodes(name) && !is_in_step_)
+      add_abaqus_ties(raw_, block(), [this](const std::string& written) { return spelled(written); });
+    else if (name == "SYSTEM")
+      system_.set(raw_, block());
     else if (name == "INCLUDE")
       read_include(depth);
     else
       check_other(name);
     skip_data();
+  }
+
+  // The keyword read last with all of its data.
+  AbaqusBlock block() {
+    AbaqusBlock all{current_.name, current_.place, {}, {}};
+    for (const auto& [name, value] : current_.parameters) {
+      std::string without_blanks = name;
+      std::erase_if(without_blanks, [](char c) { return c == ' ' || c == '\t'; });
+      all.parameters[std::move(without_blanks)] = value;
+    }
+    while (data()) all.lines.push_back({here(), {parts_.begin(), parts_.end()}});
+    return all;
   }
 
   // The rest of a block: data this reader has no use for.
@@ -211,7 +236,8 @@ class AbaqusReader {
     for (const auto& [name, value] : current_.parameters) {
       if (known->contains(name)) continue;
       // A range read as a list, or a set made of another one's nodes, is another set.
-      if (current_.name == "NSET" || current_.name == "ELSET" || current_.name == "NODE" || current_.name == "ELEMENT")
+      if (current_.name == "NSET" || current_.name == "ELSET" || current_.name == "NODE" ||
+          current_.name == "ELEMENT" || current_.name == "TIE")
         raw_.fail(current_.place, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
                   fmt::format("the parameters {}", fmt::join(*known, ", ")));
       raw_.warn(current_.place, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
@@ -223,18 +249,20 @@ class AbaqusReader {
     if (changes_the_mesh(name))
       raw_.fail(current_.place, fmt::format("*{}", name), "nodes and elements written out, each on its line",
                 "let the program that made the file write its mesh out");
-    if (name == "PART" && parts_seen_++ > 0)
-      raw_.fail(current_.place, "a second *PART", "one body in one file",
-                "write each part to a file of its own, or all without parts and assemblies");
     if (name == "STEP") is_in_step_ = true;
+    if (name == "TRANSFORM" && current_.has("NSET")) raw_.turned_sets.push_back(spelled(current_.value("NSET")));
     if (name == "INSTANCE") return read_instance();
     if (is_in_step_ || concerns_no_mesh(name)) return;
+    count_passed_over(name);
+  }
+
+  void count_passed_over(const std::string& name) {
     PassedOver& passed = passed_over_[name];
     if (passed.count++ == 0) passed.place = current_.place;
   }
 
   void read_instance() {
-    if (instances_seen_++ > 0)
+    if (instances_seen_++ > 0 && !parts_of_file_.is_chosen())
       raw_.fail(current_.place, "a second *INSTANCE", "one body in one file",
                 "write each instance to a file of its own, or all without parts and assemblies");
     if (data())
@@ -268,15 +296,16 @@ class AbaqusReader {
   }
 
   void read_nodes() {
-    if (equal_ignoring_case(current_.value("SYSTEM"), "C") || equal_ignoring_case(current_.value("SYSTEM"), "S"))
-      fail("nodes in cylindrical or spherical coordinates", "x, y, z");
+    const std::string written = upper(current_.value("SYSTEM"));
+    if (written.size() > 1 || std::string_view("RCS").find(written) == std::string_view::npos)
+      fail(fmt::format("*NODE with SYSTEM={}", written.substr(0, 20)), "R, C or S");
     RawSet* const set = set_named(raw_.node_sets, current_.value("NSET"));
     while (data()) {
       const long label = integer(parts_[0]);
       Vector3 r = Vector3::Zero();
       for (std::size_t k = 1; k < std::min<std::size_t>(parts_.size(), 4); ++k)
         r[static_cast<Eigen::Index>(k) - 1] = number(parts_[k]);
-      raw_.add_node(label, r, here());
+      raw_.add_node(label, system_.in_basic(written.empty() ? 'R' : written[0], r), here());
       if (set != nullptr) set->labels.push_back({label, label, 1});
     }
   }
@@ -295,10 +324,20 @@ class AbaqusReader {
     const auto type = abaqus_types().find(name);
     if (type != abaqus_types().end()) return type->second;
     raw_.fail(current_.place, written.empty() ? "*ELEMENT without TYPE" : fmt::format("elements of type {}", written),
-              "C3D4, C3D10, C3D6, C3D15, C3D8, C3D20 (also R, I, H), B31 or B32; shells only to mark faces");
+              "C3D4, C3D10, C3D5, C3D6, C3D15, C3D8, C3D20 (also R, I, H), B31 or B32; shells only to mark faces");
+  }
+
+  // What joins two points without a volume, or weighs a point, is written in the model file.
+  static bool is_of_no_volume(const std::string& type) {
+    constexpr std::array beginnings = {"SPRING", "DASHPOT", "MASS",   "ROTARYI", "CONN3D",
+                                       "GAP",    "ITS",     "JOINTC", "DCOUP"};
+    return std::any_of(beginnings.begin(), beginnings.end(), [&](const char* b) { return type.starts_with(b); });
   }
 
   void read_elements() {
+    if (const std::string written = upper(current_.value("TYPE")); is_of_no_volume(written)) {
+      return count_passed_over("ELEMENT of type " + written.substr(0, 20));
+    }
     const AbaqusType type = element_type();
     RawSet* const set = set_named(raw_.element_sets, current_.value("ELSET"));
     std::vector<long> nodes;
@@ -354,10 +393,7 @@ class AbaqusReader {
   void add_member(RawSet& set, std::string_view part) {
     if (part.empty()) return;
     long label = 0;
-    if (parse_integer(part, label)) return set.labels.push_back({label, label, 1});
-    const std::size_t point = part.rfind('.');
-    if (point != std::string_view::npos && parse_integer(part.substr(point + 1), label))
-      return set.labels.push_back({label, label, 1});
+    if (parse_label(part, label)) return set.labels.push_back({label, label, 1});
     set.sets.push_back(spelled(std::string(part)));
   }
 
@@ -370,9 +406,11 @@ class AbaqusReader {
       RawSurfacePart part;
       part.place = here();
       if (!parse_integer(parts_[0], part.element)) part.element_set = spelled(std::string(parts_[0]));
+      if (parts_of_file_.is_of_another(part.element_set)) continue;
       if (parts_.size() > 1 && !parts_[1].empty()) part.face = face(parts_[1]);
       surface.push_back(std::move(part));
     }
+    if (surface.empty() && parts_of_file_.is_chosen()) raw_.surfaces.erase(spelled(name));
   }
 
   int face(std::string_view text) const {
@@ -452,8 +490,10 @@ class AbaqusReader {
   const IncludeLoader& include_;
   LineScanner* lines_ = nullptr;
   int file_ = 0;
-  int parts_seen_ = 0, instances_seen_ = 0;
+  AbaqusParts parts_of_file_;
+  int instances_seen_ = 0;
   bool is_in_step_ = false;
+  AbaqusSystem system_;
   std::string_view last_line_;
   struct PassedOver {
     Place place;  ///< of the first
@@ -468,8 +508,9 @@ class AbaqusReader {
 
 }  // namespace
 
-RawMesh read_abaqus(std::string_view text, const std::string& name, const IncludeLoader& include) {
-  return AbaqusReader(include).read(text, name);
+RawMesh read_abaqus(std::string_view text, const std::string& name, const IncludeLoader& include,
+                    const std::string& part) {
+  return AbaqusReader(include, part).read(text, name);
 }
 
 }  // namespace hersey::fem

@@ -57,12 +57,16 @@ class FolderIncludes {
   int files_ = 0;
 };
 
-RawMesh read_raw(std::string_view text, MeshFormat format, const std::string& name, const IncludeLoader& include) {
+RawMesh read_raw(std::string_view text, MeshFormat format, const std::string& name, const IncludeLoader& include,
+                 const std::string& part) {
+  if (!part.empty() && format != MeshFormat::abaqus)
+    throw InputError(
+        Fault{{name, 0, 0}, "", fmt::format("part '{}'", part), "a file of Abaqus: others have no parts", ""});
   switch (format) {
     case MeshFormat::gmsh:
       return read_gmsh(text, name);
     case MeshFormat::abaqus:
-      return read_abaqus(text, name, include);
+      return read_abaqus(text, name, include, part);
     case MeshFormat::nastran:
       return read_nastran(text, name, include);
   }
@@ -88,7 +92,7 @@ std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
 }
 
 Mesh read_mesh(const std::filesystem::path& path, double length_unit, std::vector<Fault>* warnings,
-               std::vector<Fault>* material_faults) {
+               std::vector<Fault>* material_faults, const std::string& part) {
   const std::optional<MeshFormat> format = mesh_format_of(path);
   const SourcePosition position{path.string(), 0, 0};
   if (!format)
@@ -97,13 +101,14 @@ Mesh read_mesh(const std::filesystem::path& path, double length_unit, std::vecto
   const InputFile file = read_input_file(path);
   if (!file.fault.empty()) throw InputError(Fault{position, "", file.fault, "a mesh file", "check its path"});
   return parse_mesh(file.content, *format, path.string(), length_unit, warnings, FolderIncludes(path.parent_path()),
-                    material_faults);
+                    material_faults, part);
 }
 
 Mesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name, double length_unit,
-                std::vector<Fault>* warnings, const IncludeLoader& include, std::vector<Fault>* material_faults) {
+                std::vector<Fault>* warnings, const IncludeLoader& include, std::vector<Fault>* material_faults,
+                const std::string& part) {
   HERSEY_REQUIRE(length_unit > 0, "a unit of length");
-  RawMesh raw = read_raw(text, format, name, include);
+  RawMesh raw = read_raw(text, format, name, include, part);
   Mesh mesh = finished(raw, length_unit);
   if (warnings != nullptr) warnings->insert(warnings->end(), raw.warnings.begin(), raw.warnings.end());
   if (material_faults != nullptr)

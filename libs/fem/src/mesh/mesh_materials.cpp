@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "hersey/core/spelling.h"
 
@@ -25,11 +26,20 @@ class Assignment {
     for (const RawSection& section : raw_.sections) apply(section);
     for (std::size_t e = 0; e < material_.size(); ++e) mesh_.elements[e].material = std::max(material_[e], kNone);
     if (!names_.empty() || !raw_.sections.empty()) tell_of_missing();
+    tell_of_unsound();
   }
 
  private:
+  // A material that no element has is no matter.
+  void tell_of_unsound() {
+    for (const auto& [material, fault] : raw_.unsound_materials)
+      if (std::find(material_.begin(), material_.end(), material) != material_.end())
+        raw_.material_faults.push_back(fault);
+  }
+
   void take_the_only_one() {
     for (Element& element : mesh_.elements) element.material = 0;
+    if (!raw_.unsound_materials.empty()) raw_.material_faults.push_back(raw_.unsound_materials.begin()->second);
     raw_.warn(raw_.material_places[0], fmt::format("material '{}', which no section gives to elements", names_[0]),
               "a section for the elements", "all elements are taken to be of it: the file has no other");
   }
@@ -115,6 +125,22 @@ class Assignment {
 };
 
 }  // namespace
+
+void drop_unused_materials(Mesh& mesh) {
+  std::vector<int> place(mesh.materials.size(), -1);
+  for (const Element& element : mesh.elements)
+    if (element.material >= 0) place[static_cast<std::size_t>(element.material)] = 0;
+  std::vector<MeshMaterial> kept;
+  for (std::size_t m = 0; m < place.size(); ++m) {
+    const MeshMaterial& material = mesh.materials[m];
+    if (place[m] < 0 && !(material.youngs_modulus && material.poisson_ratio && material.density)) continue;
+    place[m] = static_cast<int>(kept.size());
+    kept.push_back(material);
+  }
+  for (Element& element : mesh.elements)
+    if (element.material >= 0) element.material = place[static_cast<std::size_t>(element.material)];
+  mesh.materials = std::move(kept);
+}
 
 void assign_materials(RawMesh& raw, const std::map<std::string, std::vector<int>>& marks, Mesh& mesh) {
   mesh.materials = raw.materials;

@@ -10,4 +10,7 @@ namespace hersey::fem {
 /// @param marks places of the marks of each element set: a section of shells that mark faces concerns no solid
 void assign_materials(RawMesh& raw, const std::map<std::string, std::vector<int>>& marks, Mesh& mesh);
 
+/// Leaves out materials that lack a constant and that no element has: they would only be asked for.
+void drop_unused_materials(Mesh& mesh);
+
 }  // namespace hersey::fem

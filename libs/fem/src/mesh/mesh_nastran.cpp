@@ -1,5 +1,6 @@
 // Entries as in the quick reference guide of MSC Nastran (2012): GRID, CTETRA, CHEXA, CPENTA, CBAR, CBEAM, MAT1,
-// PSOLID, PBAR, PBARL, PBEAM, PBEAML, GRDSET, PARAM, SET1, SET3, and SET of the case control section.
+// PSOLID, PBAR, PBARL, PBEAM, PBEAML, CPYRAM, CORD1R, CORD2R and the like, GRDSET, PARAM, SET1, SET3, and SET and MPC
+// of the case control section.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,17 +10,20 @@
 #include <utility>
 
 #include "element/element_kind.h"
+#include "mesh/left_handed.h"
 #include "mesh/mesh_readers.h"
 #include "mesh/mesh_text.h"
 #include "mesh/nastran_cards.h"
 #include "mesh/nastran_entries.h"
+#include "mesh/nastran_fields.h"
+#include "mesh/nastran_sets.h"
+#include "mesh/nastran_systems.h"
+#include "mesh/nastran_ties.h"
 
 namespace hersey::fem {
 namespace {
 
 constexpr double kSameModulus = 0.01;  // of G and E / (2 (1 + nu)), from which on Nastran warns too
-constexpr const char* kBasicSystem = "the basic system, 0 or empty";
-constexpr const char* kWriteBasic = "let the program that made the file write all points in basic coordinates";
 
 /// Of each entry the solids it may be, by their nodes.
 using NastranSolids = std::map<int, const ElementKind*>;
@@ -34,10 +38,19 @@ const std::map<std::string_view, NastranSolids>& solids() {
   return all;
 }
 
-std::vector<int> node_counts(const NastranSolids& shapes) {
-  std::vector<int> counts;
-  for (const auto& [nodes, kind] : shapes) counts.push_back(nodes);
-  return counts;
+std::string expected_nodes(const NastranSolids& shapes) {
+  return fmt::format("{} corners, then up to {} mid-side nodes, of which any may be left out", shapes.begin()->first,
+                     shapes.rbegin()->first - shapes.begin()->first);
+}
+
+/// CORD1R, CORD2C and the like: whether it is by grid points, and of which kind.
+std::optional<std::pair<bool, NastranSystems::Kind>> system_of(const std::string& entry) {
+  if (entry.size() != 6 || !entry.starts_with("CORD") || (entry[4] != '1' && entry[4] != '2')) return std::nullopt;
+  const bool is_by_grids = entry[4] == '1';
+  if (entry[5] == 'R') return std::pair(is_by_grids, NastranSystems::Kind::rectangular);
+  if (entry[5] == 'C') return std::pair(is_by_grids, NastranSystems::Kind::cylindrical);
+  if (entry[5] == 'S') return std::pair(is_by_grids, NastranSystems::Kind::spherical);
+  return std::nullopt;
 }
 
 int face_corners(const std::string& name) {
@@ -52,7 +65,10 @@ class NastranReader {
 
   RawMesh read(std::string_view text, const std::string& name) {
     read_file(text, name, 0, begins_with_case_control(text));
-    check_default_system();
+    read_default_beams();
+    systems_.resolve(raw_);
+    mirror_left_handed(raw_);
+    ties_.build(raw_, systems_);
     scale_densities();
     for (const auto& [kind, left] : left_out_)
       raw_.warn(left.place, fmt::format("{} {}", left.count, kind.substr(0, 8)), "grid points, solids and beams",
@@ -93,18 +109,15 @@ class NastranReader {
     return false;
   }
 
-  static bool is_begin_bulk(std::string_view line) {
-    const std::string word = upper(trimmed(line.substr(0, line.find('$'))).substr(0, 20));
-    return word.starts_with("BEGIN") && trimmed(std::string_view(word).substr(5)).starts_with("BULK");
-  }
-
   // Up to BEGIN BULK: "SET 4 = 1 THRU 10, 15", continued after a comma.
   void read_case_control(LineScanner& lines) {
+    ties_.set_selecting();
     std::string_view line;
     while (lines.next(line)) {
       line = trimmed(line.substr(0, line.find('$')));
       const std::string word = upper(line.substr(0, 10));
       if (is_begin_bulk(line)) return;
+      select_equations(line, lines.number());
       if (word.starts_with("INCLUDE"))
         raw_.warn({file_, lines.number()}, "INCLUDE before BEGIN BULK", "INCLUDE in the bulk data",
                   "passed over: sets of the case control section that it holds are not in the mesh");
@@ -117,18 +130,21 @@ class NastranReader {
     }
   }
 
+  // "MPC = 4", "MPC(STRUCTURE) = 4".
+  void select_equations(std::string_view line, int number_of_line) {
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos || !upper(line.substr(0, 3)).starts_with("MPC")) return;
+    const std::string_view name = trimmed(line.substr(0, std::min(equals, line.find('('))));
+    long set = 0;
+    if (name.size() == 3 && parse_integer(trimmed(line.substr(equals + 1)), set))
+      ties_.select(set, {file_, number_of_line});
+  }
+
   void add_case_set(const NastranCard& card, const std::string& line) {
     const std::size_t equals = line.find('=');
-    const long number_of_set = integer(card, trimmed(std::string_view(line).substr(4, equals - 4)));
-    std::vector<std::string_view> words;
-    std::string_view rest = std::string_view(line).substr(equals + 1);
-    while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find_first_of(", \t"), rest.size());
-      if (end > 0) words.push_back(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    if (words.empty() || equal_ignoring_case(words[0], "ALL")) return;
-    add_set(card, number_of_set, words);
+    long number_of_set = 0;
+    if (!parse_integer(trimmed(std::string_view(line).substr(4, equals - 4)), number_of_set)) return;
+    add_set(card, number_of_set, words_of(std::string_view(line).substr(equals + 1)));
   }
 
   // INCLUDE 'file': the name is longer than a field, so it is taken from the line itself.
@@ -149,8 +165,11 @@ class NastranReader {
   }
 
   void read_card(const NastranCard& card) {
-    if (!concerns_no_bulk(card.name)) require_sound(card);
+    const bool is_system = system_of(card.name).has_value();
+    if (is_system || !concerns_no_bulk(card.name)) require_sound(card);
     if (card.name == "GRID") return read_grid(card);
+    if (is_system) return read_system(card);
+    if (NastranTies::takes(card.name)) return ties_.add(raw_, file_, card);
     if (solids().contains(card.name)) return read_solid(card);
     if (card.name == "CBAR" || card.name == "CBEAM") return read_beam(card);
     if (const int corners = face_corners(card.name); corners > 0) return read_face(card, corners);
@@ -171,11 +190,19 @@ class NastranReader {
   }
 
   void check_other(const NastranCard& card) {
-    if (card.name == "ENDDATA") has_ended_ = true;
+    if (is_end(card.name)) {
+      has_ended_ = true;
+      return;
+    }
     if (card.name == "GRDSET") return read_default_system(card);
     if (card.name == "PARAM" && equal_ignoring_case(card.field(0), "WTMASS")) read_mass_factor(card);
+    if (card.name.starts_with("BEGIN")) require_no_superelement(card);
+    if (card.name == "BAROR" || card.name == "BEAMOR") return read_default_property(card);
+    if (is_axisymmetric(card.name))
+      fail(card, fmt::format("{}, an element of a section that turns about an axis", card.name), "solids",
+           "mesh the whole body with solids");
     if (changes_the_bulk(card.name))
-      fail(card, card.name.substr(0, 20), "GRID, CTETRA, CPENTA, CHEXA, CBAR or CBEAM, each written out",
+      fail(card, card.name.substr(0, 20), "GRID, CTETRA, CPENTA, CPYRAM, CHEXA, CBAR or CBEAM, each written out",
            "mesh the body with these");
     if (is_other_material(card.name)) return read_other_material(card);
     if (concerns_no_bulk(card.name)) return;
@@ -183,23 +210,59 @@ class NastranReader {
     if (left.count++ == 0) left.place = {file_, card.line};
   }
 
-  // It may stand behind the grid points it concerns: they are checked at the end.
-  void read_default_system(const NastranCard& card) {
-    default_system_ = card.field(1).empty() ? 0 : integer(card, card.field(1));
-    default_place_ = {file_, card.line};
+  // ENDDATA, also shortened.
+  static bool is_end(std::string_view name) {
+    return name.size() >= 4 && std::string_view("ENDDATA").starts_with(name);
   }
 
-  void check_default_system() const {
-    if (default_system_ == 0 || !first_default_) return;
-    raw_.fail(default_place_,
-              fmt::format("GRDSET puts grid points in the coordinate system {}, the first in line {}", default_system_,
-                          first_default_->line),
-              kBasicSystem, kWriteBasic);
+  // It may stand behind the grid points it concerns.
+  void read_default_system(const NastranCard& card) {
+    const NastranFields fields(raw_, file_, card);
+    systems_.set_defaults(fields.integer_or(1, 0), fields.integer_or(5, 0));
+  }
+
+  void read_system(const NastranCard& card) {
+    const NastranFields fields(raw_, file_, card);
+    const auto [is_by_grids, kind] = *system_of(card.name);
+    if (!is_by_grids) {
+      std::array<Vector3, 3> points;
+      for (std::size_t k = 0; k < 9; ++k) points[k / 3][static_cast<Eigen::Index>(k % 3)] = fields.number(2 + k);
+      return systems_.add_by_points(fields.integer(0), kind, fields.integer_or(1, 0), points, fields.place());
+    }
+    for (const std::size_t first : {std::size_t{0}, std::size_t{4}})  // an entry may tell two
+      if (first == 0 || !card.field(first).empty())
+        systems_.add_by_grids(fields.integer(first), kind,
+                              {fields.integer(first + 1), fields.integer(first + 2), fields.integer(first + 3)},
+                              fields.place());
+  }
+
+  // The property of beams that name none; it stands before or behind them.
+  void read_default_property(const NastranCard& card) {
+    if (card.field(1).empty()) return;
+    const std::string property = fmt::format("pid_{}", integer(card, card.field(1)));
+    (card.name == "BAROR" ? default_bar_ : default_beam_) = property;
+  }
+
+  void read_default_beams() {
+    for (const auto& [property, beams] : {std::pair(default_bar_, &bars_), std::pair(default_beam_, &beams_)})
+      for (const auto& [label, place] : *beams) {
+        RawSet& set = raw_.element_sets[property.empty() ? fmt::format("pid_{}", label) : property];
+        if (set.labels.empty()) set.place = place;
+        set.labels.push_back({label, label, 1});
+      }
+  }
+
+  // "BEGIN BULK SUPER=1" begins another body.
+  void require_no_superelement(const NastranCard& card) const {
+    std::string line = card.name;
+    for (const std::string_view field : card.fields) line += upper(field);
+    if (line.find("SUPER") != std::string::npos || line.find("AUXM") != std::string::npos)
+      fail(card, "BEGIN of a superelement", "one body in one file", "write its bulk data to a file of its own");
   }
 
   // PARAM,WTMASS turns densities of weight into densities of mass.
   void read_mass_factor(const NastranCard& card) {
-    mass_factor_ = number(card, card.field(1));
+    mass_factor_ = number(card, 1);
     if (!(mass_factor_ > 0)) fail(card, fmt::format("WTMASS = {}", mass_factor_), "a factor > 0");
   }
 
@@ -209,28 +272,23 @@ class NastranReader {
   }
 
   long integer(const NastranCard& card, std::string_view text) const {
-    long value = 0;
-    if (!parse_integer(text, value))
-      fail(card, fmt::format("'{}' in {}", text.substr(0, 20), card.name.empty() ? "SET" : card.name),
-           "a whole number");
-    return value;
+    return NastranFields(raw_, file_, card).integer_in(text);
   }
 
-  double number(const NastranCard& card, std::string_view text) const {
-    double value = 0;
-    if (text.empty()) return 0;
-    if (!parse_number(text, value)) fail(card, fmt::format("'{}' in {}", text.substr(0, 20), card.name), "a number");
-    return value;
+  double number(const NastranCard& card, std::size_t field) const {
+    return NastranFields(raw_, file_, card).number(field);
   }
 
   void read_grid(const NastranCard& card) {
-    const std::string_view system = card.field(1);
-    if (!system.empty() && integer(card, system) != 0)
-      fail(card, fmt::format("a grid point in the coordinate system {}", system), kBasicSystem, kWriteBasic);
-    if (system.empty() && !first_default_) first_default_ = {file_, card.line};
-    raw_.add_node(integer(card, card.field(0)),
-                  {number(card, card.field(2)), number(card, card.field(3)), number(card, card.field(4))},
-                  {file_, card.line});
+    const NastranFields fields(raw_, file_, card);
+    const auto system = [&](std::size_t field) {
+      return card.field(field).empty() ? std::optional<long>() : fields.integer(field);
+    };
+    const long label = fields.integer(0);
+    const Vector3 r(fields.number(2), fields.number(3), fields.number(4));
+    raw_.add_node(label, r, fields.place());
+    const auto motion = system(5);
+    systems_.add_grid(label, r, system(1), motion && *motion < 0 ? 0 : motion, fields.place());  // -1: of a fluid
   }
 
   // A field counts up to the last that is not empty.
@@ -243,20 +301,27 @@ class NastranReader {
   void read_solid(const NastranCard& card) {
     const NastranSolids& shapes = solids().at(card.name);
     const int given = static_cast<int>(used_fields(card, 2));
-    const auto found = shapes.find(given);
-    if (found == shapes.end())
-      fail(card, fmt::format("{} {} with {} nodes", card.name, card.field(0), given),
-           fmt::format("{} nodes", fmt::join(node_counts(shapes), " or ")));
+    const auto found = shapes.lower_bound(given);  // behind the corners, any mid-side node may be left out
+    if (found == shapes.end() || given < shapes.begin()->first)
+      fail(card, fmt::format("{} {} with {} nodes", card.name, card.field(0), given), expected_nodes(shapes));
     const ElementKind& kind = *found->second;
     const std::vector<std::size_t>& order = kind.files.nastran_order;
     std::array<long, most_nodes> nodes{};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(given); ++k)
-      nodes[k] = integer(card, card.field(2 + (order.empty() ? k : order[k])));
-    add_element(card, kind.type, std::span<const long>(nodes.data(), static_cast<std::size_t>(given)));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(kind.nodes); ++k) {
+      const std::string_view field = card.field(2 + (order.empty() ? k : order[k]));
+      if (field.empty() && k < static_cast<std::size_t>(kind.corners))
+        fail(card, fmt::format("{} {} without its corner {}", card.name, card.field(0), k + 1), expected_nodes(shapes));
+      nodes[k] = field.empty() ? kLeftOut : integer(card, field);
+    }
+    add_element(card, kind.type, std::span<const long>(nodes.data(), static_cast<std::size_t>(kind.nodes)));
   }
 
   void read_beam(const NastranCard& card) {
-    add_element(card, ElementType::beam2, std::array{integer(card, card.field(2)), integer(card, card.field(3))});
+    const std::array ends{integer(card, card.field(2)), integer(card, card.field(3))};
+    if (!card.field(1).empty()) return add_element(card, ElementType::beam2, ends);
+    const long label = integer(card, card.field(0));
+    raw_.add_element(ElementType::beam2, label, ends, {file_, card.line});
+    (card.name == "CBAR" ? bars_ : beams_).emplace_back(label, Place{file_, card.line});
   }
 
   void add_element(const NastranCard& card, ElementType type, std::span<const long> nodes) {
@@ -287,15 +352,19 @@ class NastranReader {
 
   // MID, E, G, nu, rho; of E, G and nu one may be empty.
   void read_material(const NastranCard& card) {
-    const double E = number(card, card.field(1)), G = number(card, card.field(2)), rho = number(card, card.field(4));
+    const double E = number(card, 1), G = number(card, 2), rho = number(card, 4);
     const bool has_nu = !card.field(3).empty();
-    const double nu = has_nu ? number(card, card.field(3)) : G > 0 && E > 0 ? E / (2 * G) - 1 : 0;
+    const double nu = has_nu ? number(card, 3) : G > 0 && E > 0 ? E / (2 * G) - 1 : 0;
     const double modulus = E > 0 ? E : 2 * G * (1 + nu);
-    if (!(modulus > 0) || !(nu > -1 && nu < 0.5))
-      fail(card, fmt::format("MAT1 with E = {}, nu = {}", modulus, nu), "E > 0 and nu between -1 and 0.5");
-    if (!(rho >= 0)) fail(card, fmt::format("MAT1 with the density {}", rho), "a density >= 0");
     const Place place{file_, card.line};
     MeshMaterial& material = raw_.add_material(material_name(card, 0), place);
+    const auto is_unsound = [&](std::string found, const char* expected) {
+      raw_.unsound_materials.emplace(static_cast<int>(raw_.materials.size()) - 1,
+                                     raw_.fault(place, std::move(found), expected));
+    };
+    if (!(modulus > 0) || !(nu > -1 && nu < 0.5))
+      return is_unsound(fmt::format("MAT1 with E = {}, nu = {}", modulus, nu), "E > 0 and nu between -1 and 0.5");
+    if (!(rho >= 0)) return is_unsound(fmt::format("MAT1 with the density {}", rho), "a density >= 0");
     material.youngs_modulus = modulus;
     material.poisson_ratio = nu;
     if (rho > 0) material.density = rho;
@@ -305,7 +374,7 @@ class NastranReader {
                 "G is left out");
     if (!has_nu && !(E > 0 && G > 0))
       raw_.warn(place, "MAT1 with one elastic constant", "two of E, G and nu", "nu is taken as 0");
-    if (number(card, card.field(7)) != 0)
+    if (number(card, 7) != 0)
       raw_.warn(place, "MAT1 with structural damping GE", "E, G, nu and the density",
                 "it is left out; give the body's damping in the model file");
   }
@@ -344,17 +413,16 @@ class NastranReader {
 
   // A set does not say whether its numbers are of grid points or of elements: both readings are kept.
   void add_set(const NastranCard& card, long number_of_set, const std::vector<std::string_view>& words) {
+    if (!words.empty() && equal_ignoring_case(words[0], "ALL")) return;
+    NastranSetWords read = read_set_words(words);
+    if (!read.fault.empty()) fail(card, read.fault, "first <= last");
+    if (read.other)
+      return raw_.warn({file_, card.line}, fmt::format("'{}' in SET {}", *read.other, number_of_set),
+                       "numbers of grid points or elements, also 1 THRU 10 EXCEPT 4", "the set is left out");
     RawSet set;
     set.place = {file_, card.line};
     set.is_of_either_kind = true;
-    for (std::size_t k = 0; k < words.size(); ++k) {
-      const bool is_range = k + 2 < words.size() && equal_ignoring_case(words[k + 1], "THRU");
-      const long first = integer(card, words[k]);
-      const long last = is_range ? integer(card, words[k + 2]) : first;
-      if (first < 0 || last < first) fail(card, fmt::format("the range {} THRU {}", first, last), "first <= last");
-      set.labels.push_back({first, last, 1});
-      if (is_range) k += 2;
-    }
+    set.labels = std::move(read.labels);
     const std::string name = fmt::format("set_{}", number_of_set);
     raw_.node_sets[name] = set;
     raw_.element_sets[name] = std::move(set);
@@ -362,11 +430,12 @@ class NastranReader {
 
   const IncludeLoader& include_;
   int file_ = 0;
-  bool has_ended_ = false;  ///< by ENDDATA
-  double mass_factor_ = 1;  ///< PARAM,WTMASS
-  long default_system_ = 0;
-  Place default_place_;
-  std::optional<Place> first_default_;     ///< of the first grid point without a system of its own
+  bool has_ended_ = false;                            ///< by ENDDATA
+  double mass_factor_ = 1;                            ///< PARAM,WTMASS
+  std::string default_bar_, default_beam_;            ///< properties of BAROR and BEAMOR
+  std::vector<std::pair<long, Place>> bars_, beams_;  ///< that name none
+  NastranSystems systems_;
+  NastranTies ties_;
   std::map<std::string, int> properties_;  ///< line of each by its name
   struct LeftOut {
     Place place;  ///< of the first

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "element/element_kind.h"
 #include "hersey/fem/quadrature.h"
@@ -82,6 +83,7 @@ void find_repeated(const Mesh& mesh, MeshQuality& quality) {
   corners.reserve(mesh.elements.size());
   for (const Element& element : mesh.elements) {
     const int count = kind_of(element.type).corners;
+    if (element.type == ElementType::beam2) continue;  // two beams side by side are stiffer, and meant
     std::array<int, 8> key{};
     key.fill(-1);
     std::copy_n(mesh.nodes_of(element), count, key.begin());
@@ -94,9 +96,19 @@ void find_repeated(const Mesh& mesh, MeshQuality& quality) {
       quality.repeated.emplace_back(corners[k - 1].second, corners[k].second);
 }
 
-/// A face's midside nodes, ascending; -1 where it has none.
-std::array<int, 4> midside_nodes(const Mesh& mesh, ElementFace face) {
-  const std::vector<int> nodes = nodes_of(mesh, face);
+/// Nodes that stay in the middle of two others: of an edge that elements of first order share.
+std::set<int> straight_nodes(const Mesh& mesh) {
+  std::set<int> straight;
+  for (const MeshTie& tie : mesh.ties)
+    if (tie.size() == 3 && tie[1].coefficient == -0.5 && tie[2].coefficient == -0.5) straight.insert(tie[0].node);
+  return straight;
+}
+
+/// A face's midside nodes, ascending; -1 where it has none, or one that stays straight.
+std::array<int, 4> midside_nodes(const Mesh& mesh, ElementFace face, const std::set<int>& straight) {
+  std::vector<int> nodes = nodes_of(mesh, face);
+  for (int& node : nodes)
+    if (straight.contains(node)) node = -1;
   std::array<int, 4> midside{-1, -1, -1, -1};
   if (has_midside_nodes(mesh.elements[static_cast<std::size_t>(face.element)].type))
     std::copy(nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2), nodes.end(), midside.begin());
@@ -108,6 +120,7 @@ std::array<int, 4> midside_nodes(const Mesh& mesh, ElementFace face) {
 void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
   const auto curves = [](const Element& element) { return has_midside_nodes(element.type); };
   if (std::none_of(mesh.elements.begin(), mesh.elements.end(), curves)) return;
+  const std::set<int> straight = straight_nodes(mesh);
   struct Side {
     FaceKey corners;
     std::array<int, 4> midside;
@@ -117,7 +130,7 @@ void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
     const Element& element = mesh.elements[static_cast<std::size_t>(e)];
     for (int f = 0; f < face_count(element.type); ++f)
-      sides.push_back({face_key(mesh, {e, f}), midside_nodes(mesh, {e, f}), element.label});
+      sides.push_back({face_key(mesh, {e, f}), midside_nodes(mesh, {e, f}, straight), element.label});
   }
   std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.corners < b.corners; });
   for (std::size_t k = 1; k < sides.size(); ++k)
@@ -125,22 +138,36 @@ void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
       quality.mismatched.emplace_back(sides[k - 1].label, sides[k].label);
 }
 
+/// Nodes that one tie goes through, the smaller place first.
+std::set<std::pair<int, int>> tied_pairs(const Mesh& mesh) {
+  std::set<std::pair<int, int>> tied;
+  for (const MeshTie& tie : mesh.ties)
+    for (const TieTerm& term : tie)
+      if (term.node != tie.front().node) tied.insert(std::minmax(tie.front().node, term.node));
+  return tied;
+}
+
 // Nodes in the same cell of a fine grid; two that a cell's boundary parts are missed, which only costs a warning.
 void find_touching(const Mesh& mesh, MeshQuality& quality) {
   const double cell = kTouching * quality.size();
   if (!(cell > 0)) return;
   using Voxel = std::array<long long, 3>;
-  std::vector<std::pair<Voxel, long>> cells;
+  std::vector<std::pair<Voxel, int>> cells;
   cells.reserve(mesh.nodes.size());
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     Voxel place{};
     for (std::size_t i = 0; i < 3; ++i)
       place[i] = std::llround((mesh.nodes[n] - quality.lower)[static_cast<Eigen::Index>(i)] / cell);
-    cells.emplace_back(place, mesh.node_labels[n]);
+    cells.emplace_back(place, static_cast<int>(n));
   }
   std::sort(cells.begin(), cells.end());
-  for (std::size_t k = 1; k < cells.size(); ++k)
-    if (cells[k].first == cells[k - 1].first) quality.touching.emplace_back(cells[k - 1].second, cells[k].second);
+  const std::set<std::pair<int, int>> tied = tied_pairs(mesh);
+  const auto label = [&](int node) { return mesh.node_labels[static_cast<std::size_t>(node)]; };
+  for (std::size_t k = 1; k < cells.size(); ++k) {
+    const int a = cells[k - 1].second, b = cells[k].second;
+    if (cells[k].first == cells[k - 1].first && !tied.contains(std::minmax(a, b)))
+      quality.touching.emplace_back(label(a), label(b));
+  }
 }
 
 int root_of(std::vector<int>& parents, int node) {
@@ -155,17 +182,29 @@ int root_of(std::vector<int>& parents, int node) {
 void find_parts(const Mesh& mesh, MeshQuality& quality) {
   std::vector<int> parents(mesh.nodes.size());
   std::iota(parents.begin(), parents.end(), 0);
-  for (const Element& element : mesh.elements) {
-    const int first = root_of(parents, *mesh.nodes_of(element));
-    for (int k = 1; k < node_count(element.type); ++k)
-      parents[static_cast<std::size_t>(root_of(parents, mesh.nodes_of(element)[k]))] = first;
-  }
+  const auto join = [&](int a, int b) { parents[static_cast<std::size_t>(root_of(parents, b))] = root_of(parents, a); };
+  for (const Element& element : mesh.elements)
+    for (int k = 1; k < node_count(element.type); ++k) join(*mesh.nodes_of(element), mesh.nodes_of(element)[k]);
+  for (const MeshTie& tie : mesh.ties)
+    for (const TieTerm& term : tie) join(tie.front().node, term.node);
   std::map<int, std::pair<long, int>> parts;
   for (const Element& element : mesh.elements) {
     std::pair<long, int>& part = parts[root_of(parents, *mesh.nodes_of(element))];
     if (part.second++ == 0) part.first = element.label;
   }
-  for (const auto& [root, part] : parts) quality.parts.push_back(part);
+  std::map<int, std::size_t> place_of_root;
+  for (const auto& [root, part] : parts) {
+    place_of_root[root] = quality.parts.size();
+    quality.parts.push_back(part);
+  }
+  if (parts.size() < 2) return;
+  quality.part_sets.resize(parts.size());
+  for (const auto& [name, nodes] : mesh.node_sets) {
+    std::set<std::size_t> of_parts;
+    for (const int node : nodes) of_parts.insert(place_of_root.at(root_of(parents, node)));
+    if (of_parts.size() == 1) quality.part_sets[*of_parts.begin()].push_back(name);
+    if (of_parts.size() > 1 && nodes.size() < mesh.nodes.size()) quality.joining_sets.push_back(name);
+  }
 }
 
 std::string listed(const std::vector<long>& labels) {
@@ -180,6 +219,34 @@ std::string listed(const std::vector<std::pair<long, long>>& pairs) {
     texts.push_back(fmt::format("{} and {}", pairs[k].first, pairs[k].second));
   return fmt::format("{}{}", fmt::join(texts, ", "),
                      texts.size() < pairs.size() ? fmt::format(", ... ({} in all)", pairs.size()) : "");
+}
+
+std::string parts_told(const MeshQuality& quality) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < std::min(quality.parts.size(), kMostLabelsTold); ++k)
+    parts.push_back(fmt::format("{} {} (one is {})", quality.parts[k].second,
+                                quality.parts[k].second == 1 ? "element" : "elements", quality.parts[k].first));
+  return fmt::format("{} parts that share no node: {}", quality.parts.size(), fmt::join(parts, ", "));
+}
+
+std::string first_of(const std::vector<std::string>& names, std::size_t most) {
+  const std::size_t told = std::min(names.size(), most);
+  return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(told), ", "),
+                     told < names.size() ? ", ..." : "");
+}
+
+/// Which sets would join parts as a rigid frame, or by a tie.
+std::string sets_told(const MeshQuality& quality) {
+  constexpr std::size_t most_of_part = 3;
+  if (!quality.joining_sets.empty())
+    return fmt::format("a rigid frame joins what it stands on; sets with nodes of several parts: {}",
+                       first_of(quality.joining_sets, kMostLabelsTold));
+  std::vector<std::string> of_parts;
+  for (std::size_t k = 0; k < std::min(quality.part_sets.size(), kMostLabelsTold); ++k)
+    of_parts.push_back(fmt::format("{} in that of element {}",
+                                   quality.part_sets[k].empty() ? "none" : first_of(quality.part_sets[k], most_of_part),
+                                   quality.parts[k].first));
+  return fmt::format("no set has nodes of several parts; sets are {}", fmt::join(of_parts, "; "));
 }
 
 Fault fault(const std::string& file, std::string found, std::string expected, std::string suggestion) {
@@ -216,7 +283,7 @@ MeshQuality quality_of(const Mesh& mesh) {
   return quality;
 }
 
-std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file) {
+std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file, Parts parts_are) {
   std::vector<Fault> faults;
   if (!quality.folded.empty())
     faults.push_back(fault(file,
@@ -227,17 +294,12 @@ std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file
   if (!quality.repeated.empty())
     faults.push_back(fault(file, fmt::format("elements on the same corners: {}", listed(quality.repeated)),
                            "each element once", "delete the repeated ones: they count twice in stiffness and mass"));
-  if (quality.parts.size() > 1) {
-    std::vector<std::string> parts;
-    for (std::size_t k = 0; k < std::min(quality.parts.size(), kMostLabelsTold); ++k)
-      parts.push_back(fmt::format("{} {} (one is {})", quality.parts[k].second,
-                                  quality.parts[k].second == 1 ? "element" : "elements", quality.parts[k].first));
-    faults.push_back(fault(file,
-                           fmt::format("{} parts that share no node: {}", quality.parts.size(), fmt::join(parts, ", ")),
-                           "one connected body",
-                           quality.touching.empty() ? "one file for each body"
-                                                    : "merge the nodes that lie on each other, or one file for each"));
-  }
+  if (quality.parts.size() > 1 && parts_are == Parts::one)
+    faults.push_back(fault(
+        file, parts_told(quality), "one connected body",
+        fmt::format("{}tie them in the mesh file (RBE2, *TIE and the like), write one file for each body, or say "
+                    "`parts: apart` (--parts apart) where frames hold them; {}",
+                    quality.touching.empty() ? "" : "merge the nodes that lie on each other, ", sets_told(quality))));
   return faults;
 }
 
@@ -251,8 +313,10 @@ std::optional<Fault> size_warning(const Vector3& box, const std::string& file, c
   return std::nullopt;
 }
 
-std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& file) {
+std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& file, Parts parts_are) {
   std::vector<Fault> warnings;
+  if (quality.parts.size() > 1 && parts_are == Parts::apart)
+    warnings.push_back(fault(file, parts_told(quality), "frames that hold each of them", sets_told(quality)));
   const std::string more =
       fmt::format(", {:.4g} m^3{}", quality.volume, quality.mass ? fmt::format(", {:.4g} kg", *quality.mass) : "");
   const bool is_heavy = quality.mass.value_or(0) > kHeavyBody;

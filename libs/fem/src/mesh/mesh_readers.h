@@ -10,7 +10,8 @@ namespace hersey::fem {
 
 /// The readers of the three formats; each @throws InputError at the first thing it cannot read.
 [[nodiscard]] RawMesh read_gmsh(std::string_view text, const std::string& name);
-[[nodiscard]] RawMesh read_abaqus(std::string_view text, const std::string& name, const IncludeLoader& include);
+[[nodiscard]] RawMesh read_abaqus(std::string_view text, const std::string& name, const IncludeLoader& include,
+                                  const std::string& part);
 [[nodiscard]] RawMesh read_nastran(std::string_view text, const std::string& name, const IncludeLoader& include);
 
 /// Text of an included file at a depth from 0.

@@ -37,6 +37,11 @@ std::string_view with_usual_exponent(std::string_view text, std::array<char, 64>
 
 }  // namespace
 
+LineScanner::LineScanner(std::string_view text) : text_(text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8; some programs write it
+  if (text_.starts_with(mark)) text_.remove_prefix(mark.size());
+}
+
 bool LineScanner::next(std::string_view& line) {
   if (at_ >= text_.size()) return false;
   start_ = at_;

@@ -6,10 +6,10 @@
 
 namespace hersey::fem {
 
-/// Lines of a text in turn, without their ends; `number` counts from 1.
+/// Lines of a text in turn, without their ends and the byte order mark before the first; `number` counts from 1.
 class LineScanner {
  public:
-  explicit LineScanner(std::string_view text) : text_(text) {}
+  explicit LineScanner(std::string_view text);
 
   /// The next line, into `line`; false at the end.
   bool next(std::string_view& line);

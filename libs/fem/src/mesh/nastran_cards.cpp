@@ -92,8 +92,10 @@ void NastranCards::add_line(std::string_view line, NastranCard& card) {
     if (card.mistake.empty()) card.mistake = mistake, card.line_of_mistake = lines_.number();
   };
   const std::string_view named = without_sign(mark_), own = is_first ? std::string_view() : without_sign(first);
-  if (!named.empty() && !own.empty() && !equal_ignoring_case(named, own))
-    note("a continuation that is not the one its entry names");
+  // The first letter of a name gives way to the sign: "P51" and "+51" are the same.
+  const bool is_the_one =
+      equal_ignoring_case(named, own) || equal_ignoring_case(named.substr(std::min<std::size_t>(1, named.size())), own);
+  if (!named.empty() && !own.empty() && !is_the_one) note("a continuation that is not the one its entry names");
   add_fields(line, is_large, card.fields);
   mark_ = continuation_mark(line, is_large);
   if (is_free(line) && mark_.find(',') != std::string_view::npos) {
@@ -107,9 +109,17 @@ bool NastranCards::next(NastranCard& card) {
   card.fields.clear();
   card.mistake.clear();
   mark_ = {};
-  std::string_view line;
-  if (!next_line(line)) return false;
-  line = without_tabs(line);
+  if (!replication_.repeat(card, expanded_)) {
+    std::string_view line;
+    if (!next_line(line)) return false;
+    read(without_tabs(line), card);
+    if (NastranReplication::is_written_so(card)) replication_.replace(card, expanded_);
+  }
+  replication_.keep(card);
+  return true;
+}
+
+void NastranCards::read(std::string_view line, NastranCard& card) {
   card.line = lines_.number();
   std::string_view name = first_field(line);
   add_line(line, card);
@@ -125,7 +135,6 @@ bool NastranCards::next(NastranCard& card) {
     }
     add_line(line, card);
   }
-  return true;
 }
 
 }  // namespace hersey::fem

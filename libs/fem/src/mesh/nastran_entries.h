@@ -8,8 +8,11 @@ namespace hersey::fem {
 /// does not know: a mesh read without following it would be another one.
 [[nodiscard]] bool changes_the_bulk(std::string_view entry);
 
+/// Whether an entry is an element of a section that turns about an axis: of no solid.
+[[nodiscard]] bool is_axisymmetric(std::string_view entry);
+
 /// Whether an entry says nothing of shape, connections, stiffness or mass at rest: loads, supports, solutions, output,
-/// tables, coordinate systems (a grid point in one is refused), properties of shells.
+/// tables, optimisation, properties of shells.
 [[nodiscard]] bool concerns_no_bulk(std::string_view entry);
 
 /// Whether an entry is a material of another kind than the isotropic elastic MAT1.

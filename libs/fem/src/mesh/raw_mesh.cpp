@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace hersey::fem {
 void RawMesh::add_node(long label, const Vector3& r, Place place) {
@@ -30,6 +32,17 @@ void RawMesh::add_mark(long label, std::span<const long> mark_nodes, int corner_
   std::copy(mark_nodes.begin(), mark_nodes.end(), mark.nodes.begin());
   marks.push_back(mark);
 }
+
+void RawMesh::add_rigid_tie(long node, const Vector3& r, long body, const Vector3& origin, const Vector3& direction,
+                            bool of_rotation, Place place) {
+  if (node == body) return;
+  RawTie tie{place, {{node, of_rotation, direction}, {body, of_rotation, -direction}}};
+  // e . (theta x (r - o)) = theta . ((r - o) x e)
+  if (!of_rotation) tie.terms.push_back({body, true, -(r - origin).cross(direction)});
+  ties.push_back(std::move(tie));
+}
+
+long RawMesh::new_reference() { return std::numeric_limits<long>::min() + references_++; }
 
 MeshMaterial& RawMesh::add_material(const std::string& name, Place place) {
   for (std::size_t m = 0; m < materials.size(); ++m)

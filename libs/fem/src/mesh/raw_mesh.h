@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +14,9 @@
 #include "hersey/fem/mesh.h"
 
 namespace hersey::fem {
+
+/// In place of the label of a mid-side node that an element leaves out.
+inline constexpr long kLeftOut = std::numeric_limits<long>::min() / 2;
 
 /// Where in the mesh file, or a file it includes, something stands.
 struct Place {
@@ -68,6 +73,48 @@ struct RawSection {
   bool may_be_unused = false;  ///< no mistake where no element belongs to it
 };
 
+/// A term of a tie: the displacement of a node, or its rotation, times a vector in the basic axes that holds the
+/// coefficient.
+struct RawTieTerm {
+  long node = 0;
+  bool is_rotation = false;
+  Vector3 factor = Vector3::Zero();
+};
+
+/// A linear equation between displacements and rotations, the sum of its terms being zero. Rotations, and nodes of no
+/// element, are eliminated.
+struct RawTie {
+  Place place;
+  std::vector<RawTieTerm> terms;
+};
+
+/// Nodes of one surface or set that move as the faces of another surface do.
+struct RawSurfaceTie {
+  Place place;
+  std::string slave, master;
+  std::optional<double> tolerance;  ///< largest distance, in the file's length
+  bool adjusts = true;              ///< puts the nodes on the faces
+};
+
+/// Nodes that move as one rigid body.
+struct RawRigidBody {
+  Place place;
+  std::string node_set, element_set;  ///< one of them, or both
+  std::optional<long> reference;      ///< a node that moves with them
+};
+
+/// An equation whose terms are of nodes, or of all nodes of sets in turn.
+struct RawEquation {
+  struct Term {
+    long node = 0;
+    std::string set;    ///< empty: of `node`
+    int component = 0;  ///< 0 to 5: along the axes, about them
+    double coefficient = 0;
+  };
+  Place place;
+  std::vector<Term> terms;
+};
+
 /// What a reader finds in a file, by the file's labels and in the file's units; `finished` makes a Mesh of it.
 struct RawMesh {
   std::vector<std::string> files;
@@ -82,6 +129,12 @@ struct RawMesh {
   std::map<std::string, RawSet> node_sets, element_sets;
   std::map<std::string, std::vector<RawSurfacePart>> surfaces;
   std::vector<RawSection> sections;
+  std::vector<RawTie> ties;
+  std::vector<RawEquation> equations;
+  std::vector<RawSurfaceTie> surface_ties;
+  std::vector<RawRigidBody> rigid_bodies;
+  std::map<int, Fault> unsound_materials;  ///< by place: why none can be computed with, told where one is used
+  std::vector<std::string> turned_sets;    ///< whose nodes have displacements in axes of their own
   std::vector<Fault> warnings;
   std::vector<Fault> material_faults;  ///< why elements have no material, or more than one
 
@@ -90,16 +143,25 @@ struct RawMesh {
   void add_element(ElementType type, long label, std::span<const long> nodes, Place place);
   /// @param nodes labels, corners first
   void add_mark(long label, std::span<const long> nodes, int corner_count, Place place);
+  /// A tie that says: along `direction` the node at `r` moves, or about it turns, as a rigid body does whose reference
+  /// is the node `body` at `origin`.
+  void add_rigid_tie(long node, const Vector3& r, long body, const Vector3& origin, const Vector3& direction,
+                     bool of_rotation, Place place);
+  /// A label for a reference that no file has.
+  [[nodiscard]] long new_reference();
   /// @throws InputError where there is one of that name already
   MeshMaterial& add_material(const std::string& name, Place place);
   [[nodiscard]] Fault fault(Place place, std::string found, std::string expected, std::string suggestion = {}) const;
   void warn(Place place, std::string found, std::string expected, std::string suggestion = {});
   /// Throws InputError for this place.
   [[noreturn]] void fail(Place place, std::string found, std::string expected, std::string suggestion = {}) const;
+
+ private:
+  long references_ = 0;
 };
 
-/// Resolves labels, drops nodes that no element uses, matches surfaces with faces, gives elements the materials of
-/// their sections, scales to metres and SI.
+/// Resolves labels, puts in mid-side nodes that are left out, drops nodes that no element uses, ties, matches surfaces
+/// with faces, gives elements the materials of their sections, scales to metres and SI.
 /// @throws InputError for nodes that are missing or given twice, elements given twice, a file without elements.
 [[nodiscard]] Mesh finished(RawMesh& raw, double length_unit);
 

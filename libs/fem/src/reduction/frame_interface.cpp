@@ -3,12 +3,33 @@
 #include <fmt/format.h>
 
 #include "hersey/fem/frame_motion.h"
+#include "hersey/fem/ties.h"
 #include "reduction/interface_motion.h"
 
 namespace hersey::fem {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+
+namespace {
+
+constexpr double kTorn =
+    0.1;  // of a frame's own displacement: two frames differ by all of it, a gap of a tie by little
+
+std::string tie_fault(const std::vector<InterfaceFrame>& frames, const Interface& interface) {
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    for (Index k = 6 * static_cast<Index>(f); k < 6 * static_cast<Index>(f) + 6; ++k)
+      if (interface.torn.rows() > 0 &&
+          interface.torn.col(k).cwiseAbs().maxCoeff() > kTorn * interface.prescribed.col(k).cwiseAbs().maxCoeff())
+        return fmt::format(
+            "frame '{}' and another one are both rigid and hold nodes that a tie of the mesh joins; take nodes that "
+            "are "
+            "not tied, or the connection `average`",
+            frames[f].name);
+  return {};
+}
+
+}  // namespace
 
 std::string fault_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames) {
   std::vector<const InterfaceFrame*> owner(mesh.nodes.size(), nullptr);
@@ -28,7 +49,7 @@ std::string fault_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames
       taken = &frame;
     }
   }
-  return {};
+  return mesh.ties.empty() ? "" : tie_fault(frames, interface_of(mesh, frames));
 }
 
 Interface interface_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames) {
@@ -56,9 +77,17 @@ Interface interface_of(const Mesh& mesh, const std::vector<InterfaceFrame>& fram
     interface.motion.block<6, 6>(rows, first).setIdentity();
     rows += 6;
   }
+  const TieConstraints ties = tie_constraints(mesh, interface.held);
+  for (Index j = 0; j < ties.C.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(ties.C, j); entry; ++entry)
+      entries.emplace_back(static_cast<int>(rows + entry.row()), static_cast<int>(j), entry.value());
+  interface.torn = ties.of_held * interface.prescribed;
+  const Index averages = rows;
+  rows += ties.C.rows();
   interface.C.resize(rows, dofs);
   interface.C.setFromTriplets(entries.begin(), entries.end());
   interface.motion.conservativeResize(rows, coordinates);
+  interface.motion.bottomRows(rows - averages).setZero();
   return interface;
 }
 

@@ -15,8 +15,9 @@ namespace hersey::fem {
 struct Interface {
   std::vector<int> held;          ///< degrees of freedom of rigid frames' nodes
   Eigen::MatrixXd prescribed;     ///< (3 n, 6 frames): their displacement for unit motions of the frames
-  Eigen::SparseMatrix<double> C;  ///< (6 average frames, 3 n)
-  Eigen::MatrixXd motion;         ///< (6 average frames, 6 frames): C u for unit motions of the frames
+  Eigen::SparseMatrix<double> C;  ///< (6 average frames and ties of the mesh, 3 n)
+  Eigen::MatrixXd motion;         ///< (rows of C, 6 frames): C u for unit motions of the frames; of ties zero
+  Eigen::MatrixXd torn;  ///< (rows, 6 frames): what unit motions leave of ties between held nodes, (elastic.31)
 };
 
 /// Empty if the frames can be used; otherwise what is wrong with which.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
+#include "hersey/fem/ties.h"
 #include "reduction/block_lanczos.h"
 
 namespace hersey::fem {
@@ -48,9 +49,11 @@ void point_upward(Eigen::MatrixXd& shapes) {
 }  // namespace
 
 Vibration natural_modes(const ElasticBody& body, const std::vector<int>& held, const VibrationOptions& options,
-                        const Eigen::SparseMatrix<double>& C) {
+                        const Eigen::SparseMatrix<double>& constraints) {
   HERSEY_REQUIRE(options.count > 0 && options.rtol > 0, "some modes are wanted");
   if (!(body.mass > 0)) return no_answer<Vibration>("the body has no mass: give its material a density");
+  const bool are_given = constraints.cols() > 0;
+  const Eigen::SparseMatrix<double> C = are_given ? constraints : tie_constraints(body.mesh, held).C;
   HeldStiffness stiffness(body.K, body.m, held, C);
   const double estimate = lowest_estimate(body);
   const double shift = -shift_share * estimate;

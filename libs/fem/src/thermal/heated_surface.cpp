@@ -7,6 +7,7 @@
 #include "hersey/core/turn.h"
 #include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/thermal_expansion.h"
+#include "hersey/fem/ties.h"
 #include "surface/cylinder_point.h"
 #include "surface/film_quadrature.h"
 
@@ -154,7 +155,8 @@ HeatedSurface heated_surface(const ElasticBody& body, const std::vector<ThermalM
   if (!options.expands) return result;
   MatrixXd rises(P.rows(), P.cols() + 2);
   rises << result.rise_body, result.T_body0.array() - options.T_reference, VectorXd::Ones(P.rows());
-  HeldStiffness stiffness(body.K, body.m, options.held.empty() ? statically_determinate(body.mesh) : options.held);
+  const std::vector<int> held = options.held.empty() ? statically_determinate(body.mesh) : options.held;
+  HeldStiffness stiffness(body.K, body.m, held, tie_constraints(body.mesh, held).C);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular)
     return no_answer<HeatedSurface>("what holds the body as it expands leaves it a motion");

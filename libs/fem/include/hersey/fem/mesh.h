@@ -11,7 +11,8 @@ namespace hersey::fem {
 
 /// Shapes of elements. Nodes are numbered as in Abaqus and CalculiX (corners first; midside nodes follow the corners'
 /// edges bottom, top, upright), faces as there too; readers of other formats renumber.
-enum class ElementType { tet4, tet10, wedge6, wedge15, hex8, hex20, beam2 };
+/// Files of reduced bodies hold their places here: new ones come last.
+enum class ElementType { tet4, tet10, wedge6, wedge15, hex8, hex20, beam2, pyramid5, pyramid13 };
 
 /// Nodes of an element, midside ones included.
 [[nodiscard]] int node_count(ElementType type);
@@ -43,6 +44,16 @@ struct MeshMaterial {
   std::optional<double> density;
 };
 
+/// A share of a tie: the displacement of a node along an axis of the mesh, times a coefficient.
+struct TieTerm {
+  int node = 0, axis = 0;
+  double coefficient = 0;
+};
+
+/// A linear equation that displacements obey, sum coefficient u = 0, (elastic.31). The first term's degree of freedom
+/// is in no other tie of the mesh.
+using MeshTie = std::vector<TieTerm>;
+
 /// Nodes, elements and named sets of a body, in metres once scaled, in the body's own axes.
 struct Mesh {
   std::vector<Vector3> nodes;     ///< positions [m]
@@ -53,6 +64,7 @@ struct Mesh {
   std::map<std::string, std::vector<int>> node_sets;     ///< places in `nodes`, ascending
   std::map<std::string, std::vector<int>> element_sets;  ///< places in `elements`, ascending
   std::map<std::string, std::vector<ElementFace>> surfaces;
+  std::vector<MeshTie> ties;  ///< independent of each other
 
   /// Places of its nodes in `nodes`, node_count(element.type) of them.
   [[nodiscard]] const int* nodes_of(const Element& element) const { return connectivity.data() + element.first; }

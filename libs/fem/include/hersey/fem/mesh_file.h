@@ -29,13 +29,15 @@ enum class MeshFormat { gmsh, abaqus, nastran };
 /// @param material_faults why elements have no material, or more than one, is added here: sections of materials or sets
 ///   that the file does not define, elements without a section. For whoever computes with the materials of the file;
 ///   nullptr: dropped.
+/// @param part of an Abaqus file with several: the name of the one that is read; empty: it has no other.
 /// @throws InputError with file and line: what was found, what is allowed.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, double length_unit,
-                             std::vector<Fault>* warnings = nullptr, std::vector<Fault>* material_faults = nullptr);
+                             std::vector<Fault>* warnings = nullptr, std::vector<Fault>* material_faults = nullptr,
+                             const std::string& part = {});
 
 /// The same from the text of a file called `name` in messages.
 [[nodiscard]] Mesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name, double length_unit,
                               std::vector<Fault>* warnings = nullptr, const IncludeLoader& include = {},
-                              std::vector<Fault>* material_faults = nullptr);
+                              std::vector<Fault>* material_faults = nullptr, const std::string& part = {});
 
 }  // namespace hersey::fem

@@ -26,11 +26,13 @@ struct MeshQuality {
   double volume = 0;                                         ///< of the solids [m^3]
   std::optional<double> mass;  ///< [kg]; none unless every solid has a density in the mesh file
   std::map<ElementType, ElementQuality> types;
-  std::vector<long> folded;                       ///< labels of solids with a Jacobian that is not positive
-  std::vector<std::pair<long, long>> repeated;    ///< labels of elements on the same corners
-  std::vector<std::pair<long, long>> mismatched;  ///< labels of elements whose common face has other midside nodes
-  std::vector<std::pair<long, long>> touching;    ///< labels of nodes at the same place, 1e-6 of the box
-  std::vector<std::pair<long, int>> parts;        ///< unconnected parts: label of an element of each, its elements
+  std::vector<long> folded;                         ///< labels of solids with a Jacobian that is not positive
+  std::vector<std::pair<long, long>> repeated;      ///< labels of elements on the same corners
+  std::vector<std::pair<long, long>> mismatched;    ///< labels of elements whose common face has other midside nodes
+  std::vector<std::pair<long, long>> touching;      ///< labels of nodes at the same place, 1e-6 of the box
+  std::vector<std::pair<long, int>> parts;          ///< unconnected parts: label of an element of each, its elements
+  std::vector<std::string> joining_sets;            ///< node sets with nodes of several parts, but not all of them
+  std::vector<std::vector<std::string>> part_sets;  ///< of each part: node sets that lie within it
   /// Diagonal of the bounding box [m].
   [[nodiscard]] double size() const { return (upper - lower).norm(); }
 };
@@ -46,8 +48,15 @@ struct MeshQuality {
 /// Cost: linear in the mesh but for sorting.
 [[nodiscard]] MeshQuality quality_of(const Mesh& mesh);
 
+/// Whether parts that share no node and that no tie joins are a mistake.
+enum class Parts {
+  one,   ///< the body hangs together by itself
+  apart  ///< each part is held by frames
+};
+
 /// What makes a mesh unfit for computing: folded or repeated elements, unconnected parts. `file` names the mesh.
-[[nodiscard]] std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file);
+[[nodiscard]] std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file,
+                                           Parts parts = Parts::one);
 
 /// A body whose unit of length hardly is the one meant: of more than 10 m or less than 0.1 mm.
 /// @param box   its lengths along the axes [m]
@@ -56,7 +65,9 @@ struct MeshQuality {
                                                 const std::string& more = {}, bool is_heavy = false);
 
 /// What hardly is meant: a body of more than 10 m or a tonne or less than 0.1 mm (a wrong unit of length), nodes that
-/// lie on each other unconnected, very flat elements, faces that hang together by their corners alone.
-[[nodiscard]] std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& file);
+/// lie on each other unconnected, very flat elements, faces that hang together by their corners alone; parts that are
+/// left apart on purpose.
+[[nodiscard]] std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& file,
+                                             Parts parts = Parts::one);
 
 }  // namespace hersey::fem

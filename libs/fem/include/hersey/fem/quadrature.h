@@ -8,8 +8,9 @@
 namespace hersey::fem {
 
 struct QuadraturePoint {
-  Vector3 xi;         ///< natural coordinates; a face uses the first two
-  double weight = 0;  ///< sum over a rule: the natural element's volume (1/6 tetrahedron, 1 wedge, 8 hexahedron)
+  Vector3 xi;  ///< natural coordinates; a face uses the first two
+  double weight =
+      0;  ///< sum over a rule: the natural element's volume (1/6 tetrahedron, 1 wedge, 8 hexahedron, 4/3 pyramid)
 };
 
 /// Which points the stiffness is integrated with.

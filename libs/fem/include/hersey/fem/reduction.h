@@ -13,7 +13,7 @@
 namespace hersey::fem {
 
 /// What keeps a mesh still while no frame moves: degrees of freedom that rigid frames hold, and constraints C u = 0 of
-/// the averages, (6 average frames, 3 n).
+/// the averages and of the mesh's ties, (6 average frames and ties, 3 n).
 struct FrameSupports {
   std::vector<int> held;
   Eigen::SparseMatrix<double> C;

@@ -18,7 +18,7 @@ struct ShapeFunctions {
 };
 
 /// Shape functions of solid `type` at natural coordinates `xi`: tetrahedra 0 <= xi_i, sum <= 1; wedges the same for the
-/// first two and |xi_3| <= 1; hexahedra |xi_i| <= 1.
+/// first two and |xi_3| <= 1; hexahedra |xi_i| <= 1; pyramids 0 <= xi_3 <= 1 and |xi_1|, |xi_2| <= 1 - xi_3.
 /// @throws ContractError for a beam. @see Bathe (2014), Finite Element Procedures, Fig. 5.5 and Tab. 5.3; Abaqus' order
 /// of nodes.
 /// @verified_by shape_functions_test.cpp

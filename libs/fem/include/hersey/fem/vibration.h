@@ -25,8 +25,10 @@ struct [[nodiscard]] Vibration : Outcome {
 /// iteration on (K - sigma M)^-1 M, (elastic.12); a block holds the whole of any multiple frequency up to its size,
 /// such as the six zeros of a free body. sigma lies below all frequencies, at an estimate that depends on no unit.
 ///
+/// @param constraints C of C u = 0, ties of the mesh included; not given: those ties alone
 /// @see Grimes, Lewis, Simon (1994), SIAM J. Matrix Anal. Appl. 15, 228. @verified_by vibration_test.cpp
 [[nodiscard]] Vibration natural_modes(const ElasticBody& body, const std::vector<int>& held,
-                                      const VibrationOptions& options = {}, const Eigen::SparseMatrix<double>& C = {});
+                                      const VibrationOptions& options = {},
+                                      const Eigen::SparseMatrix<double>& constraints = {});
 
 }  // namespace hersey::fem

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hersey::fem {
+
+/// One entry of Nastran's bulk data: its name in upper case without the star of large fields, and its data fields in
+/// turn, continuations included. Each line of small fields gives eight, each of large fields four.
+struct NastranCard {
+  std::string name;
+  std::vector<std::string_view> fields;
+  int line = 0;
+  /// What is wrong with its lines: a continuation that belongs to another entry, or fields behind the tenth.
+  std::string mistake;
+  int line_of_mistake = 0;
+
+  /// Field `place`, counted from 0; empty where there is none.
+  [[nodiscard]] std::string_view field(std::size_t place) const {
+    return place < fields.size() ? fields[place] : std::string_view();
+  }
+};
+
+}  // namespace hersey::fem

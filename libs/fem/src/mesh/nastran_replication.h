@@ -1,0 +1,39 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/nastran_card.h"
+
+namespace hersey::fem {
+
+/// Entries written by their difference from the one before: "=" repeats a field, "==" all that follow, "*(2)" or "*2"
+/// adds to a number; "=(3)" or "=3" in place of a name repeats the step three times more.
+class NastranReplication {
+ public:
+  /// Whether an entry is written so.
+  [[nodiscard]] static bool is_written_so(const NastranCard& card);
+
+  /// Puts what the entry stands for in its place; `storage` holds the text of its fields.
+  void replace(NastranCard& card, std::deque<std::string>& storage);
+
+  /// The next repetition, into `card`; false where none is left.
+  bool repeat(NastranCard& card, std::deque<std::string>& storage);
+
+  /// Keeps what the next entry may refer to.
+  void keep(const NastranCard& card);
+
+ private:
+  void step(NastranCard& card, std::deque<std::string>& storage);
+
+  std::string name_;                 ///< of the last entry
+  std::vector<std::string> fields_;  ///< its fields
+  std::vector<std::string> steps_;   ///< of the last entry that was written so: "=", "*..." or a value
+  long left_ = 0;                    ///< repetitions still to come
+  int line_ = 0;                     ///< of those
+  long made_ = 0;
+};
+
+}  // namespace hersey::fem
