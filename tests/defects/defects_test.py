@@ -292,6 +292,26 @@ class Defects(unittest.TestCase):
         told = {name: str(item[()]) for name, item in b.items() if "assumptions" in name} | dict(b.attrs)
         self.assertIn("closed: no oil passes", str(told))
 
+    # -- heat
+
+    def test_oil_that_a_line_renews_takes_the_heat_of_a_closed_film(self):
+        figures, _ = self.bearing("closed_insulated")
+        self.assertLess(abs(figures["heat_balance_error"]), 1e-6)
+        self.assertAlmostEqual(figures["heat_to_oil"] / figures["heat_dissipated"], 1, delta=1e-5)
+        self.assertEqual(figures["heat_to_shell"], 0)
+        # The friction of the whole film warms all the oil that it drags past the line once a turn, at most twice: as much
+        # as passes the widest gap.
+        self.assertTrue(40 < figures["T_film"] < figures["T_max"] < 150)
+        # With open edges far apart the same film loses no oil to speak of.
+        wide, _ = self.bearing("closed_insulated", "--set", "bearings.main.edge_pressure=0 Pa", "--set",
+                               "bearings.main.width=100 m", "--set", "bearings.main.grid.axial=25")
+        self.assertAlmostEqual(wide["T_max"], figures["T_max"], delta=0.02 * (figures["T_max"] - 40))
+        # A line that stirs all and renews nothing leaves the heat where it is.
+        done = hersey("bearing", os.path.join(HERE, "closed_insulated.yaml"), "--set",
+                      "bearings.main.thermal.carry_over=1")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nowhere to go", done.stderr)
+
     def test_table_of_a_tiny_period_is_refused(self):
         done = hersey("run", os.path.join(HERE, "table_of_tiny_period.yaml"), "--output", os.path.join(self.folder, "out"))
         self.assertEqual(done.returncode, 2)

@@ -181,8 +181,23 @@ TEST_CASE("ImpossibleOperatingPoints_AreFaults") {
             .find("speeds that drag no oil into the gap") != std::string::npos);
   CHECK(faults_of(bearing_alone + "      tilt_x: 1 deg\n").find("touches the shell") != std::string::npos);
   CHECK(faults_of(edited(bearing_alone, "load: 500 N", "load: -500 N")).find("a force > 0") != std::string::npos);
-  CHECK(faults_of(edited(bearing_alone, "load: 500 N", "eccentricity_ratio: 1")).find(">= 0 and < 1") !=
-        std::string::npos);
+  for (const char* ratio : {"1", "1.005", "30"})
+    CHECK(faults_of(edited(bearing_alone, "load: 500 N", std::string("eccentricity_ratio: ") + ratio))
+              .find("touches the shell") != std::string::npos);
+  CHECK(faults_of(edited(bearing_alone, "load: 500 N", "eccentricity_ratio: -0.1")).find(">= 0") != std::string::npos);
+}
+
+// Lobes open the bore by 10 um where the journal goes.
+TEST_CASE("EccentricitiesAboveOne_AreReadWhereTheGapStaysOpen") {
+  const std::string lobed = edited(bearing_alone, "    lubricant: oil\n",
+                                   "    lubricant: oil\n    shape: [{profile: lobes, on: shell, offset: 10 um, angle: 0 "
+                                   "deg, count: 2}]\n");
+  const auto at = [&](const std::string& ratio, const std::string& angle) {
+    return edited(lobed, "load: 500 N", "eccentricity_ratio: " + ratio + "\n      eccentricity_angle: " + angle);
+  };
+  int open = 0;
+  for (const char* angle : {"0 deg", "45 deg", "90 deg"}) open += faults_of(at("1.05", angle)) == "no fault";
+  CHECK(open == 1);  // where the lobes meet
 }
 
 TEST_CASE("RadialVelocity_NeedsAPosition") {

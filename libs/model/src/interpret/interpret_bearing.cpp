@@ -373,8 +373,7 @@ void require_bearable(Context& context, const Value& load, const film::FilmModel
 void check_room(Context& context, const std::string& bearing_path, const Value& value, const film::FilmModel& film,
                 const OperatingPoint& point) {
   const double epsilon = point.eccentricity_ratio.value_or(0);
-  if (context.has_fault_in(bearing_path) || film.c <= 0 || film.L <= 0 || epsilon >= 1 ||
-      smallest_gap(film, point, epsilon) > 0)
+  if (context.has_fault_in(bearing_path) || film.c <= 0 || film.L <= 0 || smallest_gap(film, point, epsilon) > 0)
     return;
   context.fault_at_key(value, "a journal that touches the shell", "a position and a tilt that leave a gap everywhere",
                        "reduce tilt_x, tilt_y, eccentricity_ratio or the shape");

@@ -61,6 +61,18 @@ bearing::GlobalHeat global_heat(Context& context, const Value& thermal) {
   return heat;
 }
 
+/// Whether oil takes heat away between closed edges: a supply renews what comes to it, or oil passes from one feed to
+/// another of lower pressure.
+bool oil_is_renewed(const film::FilmModel& film, const film::ThermalModel& heat) {
+  std::vector<double> pressures;
+  if (film.supply.kind != film::SupplyKind::none) pressures.push_back(film.supply.pressure);
+  for (const film::SurfaceFeature& feature : film.features)
+    if (feature.is_fed) pressures.push_back(feature.pressure);
+  if (pressures.empty()) return false;
+  const auto [least, most] = std::minmax_element(pressures.begin(), pressures.end());
+  return heat.carry_over < 1 || *least < *most;
+}
+
 /// A ring that is none, or a film whose heat has nowhere to go.
 void check_walls(Context& context, const Value& thermal, const film::FilmModel& film, const film::ThermalModel& heat) {
   const auto* ring = std::get_if<film::RingWall>(&heat.shell);
@@ -75,14 +87,16 @@ void check_walls(Context& context, const Value& thermal, const film::FilmModel& 
                          "back whole: the groove's temperature has no finite answer",
                          "`carry_over: 0`, or `cavitation: mass_conserving`");
   }
-  const bool leaves = !film::is_closed(film);
+  const bool leaves = !film::is_closed(film) || oil_is_renewed(film, heat);
   const bool takes = ring != nullptr || has_node_walls(heat) || std::holds_alternative<film::BodyWall>(heat.shell) ||
                      std::holds_alternative<film::WallAtTemperature>(heat.shell) ||
                      std::holds_alternative<film::BodyJournal>(heat.journal) ||
                      std::holds_alternative<film::WallAtTemperature>(heat.journal);
   if (!leaves && !takes)
-    context.fault_at_key(thermal, "closed edges, and walls that take no heat: it has nowhere to go",
-                         "a shell or journal that is `given`, a `ring`, a `body` or a `node`, or an open edge");
+    context.fault_at_key(
+        thermal, "closed edges, and walls that take no heat: it has nowhere to go",
+        "a shell or journal that is `given`, a `ring`, a `body` or a `node`, an open edge, or a supply "
+        "that renews its oil (`carry_over` below 1)");
 }
 
 /// The key `temperature` of a supply line or a feature; null where it is left to `supply_temperature`.

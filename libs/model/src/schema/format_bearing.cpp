@@ -121,8 +121,9 @@ TypePtr operating_point_format() {
           optional("load", or_word(quantity("N", "2500 N", Range::positive()), not_given),
                    "Load on the journal: its position is sought."),
           defaulted("load_angle", angle, "-90 deg", "Direction of the load, from x towards y."),
-          optional("eccentricity_ratio", or_word(number("0.6", {.low = 0, .high = 1, .high_open = true}), not_given),
-                   "Position of the journal, instead of a load: its load is sought."),
+          optional("eccentricity_ratio", or_word(number("0.6", Range::not_negative()), not_given),
+                   "Position of the journal, instead of a load: its load is sought. Below 1 in a round bore; in one of "
+                   "lobes as far as the gap stays open."),
           defaulted("eccentricity_angle", angle, "-90 deg", "Direction of that position, from x towards y."),
           defaulted("radial_velocity", quantity("m/s", "20 mm/s"), "0 m/s",
                     "Velocity of the journal's centre in that direction, outwards; with an eccentricity_ratio. Without "
