@@ -132,9 +132,8 @@ void tell(const run::CycleProgress& cycle) {
 void tell_doubts(const std::string& name, const run::EnergySummary& energy) {
   constexpr double kMostUnexplained = 0.2;
   if (!(energy.error() > kMostUnexplained)) return;
-  say("warning: {}{:.2g} J, {:.0f} % of the energy, is neither stored nor lost anywhere: steps too long for this "
-      "motion (or springs by expressions, whose energy is not counted); expected a shorter `simulation.step`, or "
-      "`step: {{tolerance: 1e-4}}`\n",
+  say("warning: {}{:.2g} J, {:.0f} % of the energy at the start and put in since, is neither stored nor lost anywhere: "
+      "steps too long for this motion; expected a shorter `simulation.step`, or `step: {{tolerance: 1e-4}}`\n",
       name, energy.unexplained(), 100 * energy.error());
 }
 

@@ -354,22 +354,22 @@ class Summary {
       if (values.size() != lost.size()) return;
       std::transform(lost.begin(), lost.end(), values.begin(), lost.begin(), std::plus<>());
     }
-    double largest = 0;
     std::vector<double> stored(put_in.size());
     for (const char* part : {"kinetic", "potential", "springs", "strain"}) {
       const std::vector<double> all = values(std::string("energy/") + part);
-      for (std::size_t i = 0; i < std::min(all.size(), stored.size()); ++i) {
-        stored[i] += all[i] - all.front();
-        largest = std::max(largest, std::abs(all[i] - all.front()));
-      }
+      for (std::size_t i = 0; i < std::min(all.size(), stored.size()); ++i) stored[i] += all[i] - all.front();
     }
     if (put_in.empty() || unexplained.size() != put_in.size()) return;
-    for (std::size_t i = 0; i < put_in.size(); ++i) largest = std::max({largest, std::abs(put_in[i]), lost[i]});
     add("energy put in by drives and loads", put_in.back(), "J");
     add("energy dissipated", lost.back(), "J");
     add("energy in bodies and springs, more than at the start", stored.back(), "J");
     add("unexplained energy", unexplained.back(), "J");
-    if (largest > 0) add("the same, share of the largest energy", 100 * std::abs(unexplained.back()) / largest, "%");
+    const std::vector<double> available = series("available"), from_nowhere = series("from_nowhere");
+    // Results of programs before 0.11 do not tell.
+    if (available.empty() || from_nowhere.empty() || !(available.back() > 0)) return;
+    const double all = available.back();
+    add("the same, share of the energy at the start and put in since", 100 * std::abs(unexplained.back()) / all, "%");
+    add("energy from nowhere, the same share", 100 * from_nowhere.back() / all, "%");
   }
 
   void relative_power_error() {

@@ -20,6 +20,21 @@ CoordinateEffort FunctionSpring::evaluate(double, double position, double) const
   return {-function_->value({&stretch, 1}), -slope, 0};
 }
 
+double FunctionSpring::stored_energy(double position) const {
+  return energy_ + integrate(
+                       [&](double stretch) {
+                         return function_->value({&stretch, 1});
+                       },
+                       reached_, position - free_position_);
+}
+
+void FunctionSpring::accept_step(double, double position, double) {
+  energy_ = stored_energy(position);
+  reached_ = position - free_position_;
+}
+
+void FunctionSpring::persist(Archive& archive) { archive.io("reached", reached_), archive.io("energy", energy_); }
+
 JointFriction::JointFriction(double coulomb, double viscous, double transition)
     : coulomb_(coulomb), viscous_(viscous), transition_(transition) {
   HERSEY_REQUIRE(coulomb >= 0 && viscous >= 0 && transition > 0, "friction takes energy");

@@ -1,5 +1,6 @@
 #include "hersey/mbd/spring_damper.h"
 
+#include "contact/quadrature.h"
 #include "hersey/core/contract.h"
 
 namespace hersey::mbd {
@@ -49,9 +50,14 @@ void SpringDamper::evaluate(const RelativeMotion& motion, bool want_tangent, For
   response.dW_dV.bottomRows<3>() = df_drdot * dr;
 }
 
+double SpringDamper::energy_of_tension(double length) const {
+  if (!tension_ || reached_ < 0) return 0;
+  return energy_ + integrate([&](double l) { return tension_->value({&l, 1}); }, reached_, length);
+}
+
 double SpringDamper::stored_energy(const RelativeMotion& motion) const {
-  const double stretch = motion.X_AB.r.norm() - free_length_;
-  return 0.5 * stiffness_ * stretch * stretch;
+  const double length = motion.X_AB.r.norm(), stretch = length - free_length_;
+  return 0.5 * stiffness_ * stretch * stretch + energy_of_tension(length);
 }
 
 double SpringDamper::lost_power(const RelativeMotion& motion) const {
@@ -59,7 +65,22 @@ double SpringDamper::lost_power(const RelativeMotion& motion) const {
   const double length = r.norm();
   if (length == 0) return 0;
   const double rate = r.dot(motion.V_AB_A.tail<3>()) / length;
-  return (damping_ * rate + (tension_ ? tension_->value({&length, 1}) : 0)) * rate;
+  return damping_ * rate * rate;
+}
+
+void SpringDamper::begin_step(const RelativeMotion& start, double) {
+  if (reached_ < 0) reached_ = start.X_AB.r.norm();
+}
+
+void SpringDamper::accept_step(const RelativeMotion& end) {
+  if (!tension_) return;
+  const double length = end.X_AB.r.norm();
+  energy_ = energy_of_tension(length);
+  reached_ = length;
+}
+
+void SpringDamper::persist(Archive& archive) {
+  if (tension_) archive.io("reached", reached_), archive.io("energy", energy_);
 }
 
 std::string SpringDamper::domain_error() const {

@@ -7,6 +7,7 @@
 #include "elastic/elastic_assembly.h"
 #include "force/load.h"
 #include "hersey/core/stopwatch.h"
+#include "hersey/mbd/energy_view.h"
 #include "hersey/mbd/mechanism_spec.h"
 #include "hersey/mbd/observation.h"
 #include "tree/assembly.h"
@@ -129,7 +130,19 @@ struct MechanismParts {
   void observe_drift(const solver::State& state, Observation& seen) const;
   void observe_energies(Observation& seen) const;
   void observe_elastic_bodies(Observation& seen);
+
+  // Energy of a step
+  using Retract = std::function<void(const Eigen::VectorXd&, const Eigen::VectorXd&, Eigen::VectorXd&)>;
+  std::optional<TreeMotion> aside;  ///< at states between the ends of a step; made when first needed
+  void view_loads(const TreeMotion& at, const solver::State& state, std::vector<Eigen::VectorXd>& generalised);
+  void view_stores(const solver::State& state, EnergyView& view);
+  [[nodiscard]] Eigen::VectorXd way_between(const EnergyView& from, const EnergyView& to) const;
+  void work_of_functions(const EnergyView& from, const EnergyView& to, const Eigen::VectorXd& way,
+                         const Retract& retract, WorkBetween& work);
 };
+
+/// Of the rigid bodies fixed on a link, which is at X_WL and moves by V [J].
+[[nodiscard]] double kinetic_energy_of(const Link& link, const Pose& X_WL, const Vector6& V);
 
 /// The wrench of a closure's multipliers in the form of a two-body force; its geometric stiffness where asked for.
 [[nodiscard]] ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const Eigen::VectorXd& lambda,

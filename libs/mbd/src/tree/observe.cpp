@@ -20,12 +20,6 @@ Vector6 inertia_forces(const BodySpec& body, const Pose& X_WB, const Vector6& V,
   return W;
 }
 
-double kinetic_energy(const Link& link, const Pose& X_WL, const Vector6& V) {
-  const Vector3 omega = X_WL.R.transpose() * V.head<3>();
-  const Vector3 v = V.tail<3>() + V.head<3>().cross(X_WL * link.com);
-  return 0.5 * (link.mass * v.squaredNorm() + omega.dot(link.inertia * omega));
-}
-
 /// Values and rates of a joint that is not in the tree, read off its frames' relative motion.
 void measure_joint(JointType type, const Vector3& axis, const RelativeMotion& relative, JointObservation& seen) {
   const Matrix3 axes = joint_axes(axis);
@@ -73,6 +67,12 @@ void measure_joint(JointType type, const Vector3& axis, const RelativeMotion& re
 }
 
 }  // namespace
+
+double kinetic_energy_of(const Link& link, const Pose& X_WL, const Vector6& V) {
+  const Vector3 omega = X_WL.R.transpose() * V.head<3>();
+  const Vector3 v = V.tail<3>() + V.head<3>().cross(X_WL * link.com);
+  return 0.5 * (link.mass * v.squaredNorm() + omega.dot(link.inertia * omega));
+}
 
 FrameMotion MechanismParts::frame_motion(const Attachment& frame) const {
   FrameMotion seen;
@@ -137,6 +137,7 @@ void MechanismParts::observe_efforts(const solver::State& state, Observation& se
     const CoordinateForce& force = *spec.coordinate_forces[i].force;
     seen.coordinate_force_efforts.push_back(force.evaluate(state.t, state.q[q_of(k)], state.v[k]).value);
     seen.coordinate_force_powers.push_back(seen.coordinate_force_efforts.back() * state.v[k]);
+    seen.spring_energy += force.stored_energy(state.q[q_of(k)]);
   }
   const bool evaluates = accepted.empty();
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
@@ -239,7 +240,7 @@ void MechanismParts::observe_energies(Observation& seen) const {
   for (std::size_t l = 1; l < tree.links.size(); ++l) {
     const Link& link = tree.links[l];
     const Pose& X_WL = motion.X(static_cast<int>(l));
-    seen.kinetic_energy += kinetic_energy(link, X_WL, motion.V(static_cast<int>(l)));
+    seen.kinetic_energy += kinetic_energy_of(link, X_WL, motion.V(static_cast<int>(l)));
     seen.potential_energy -= link.mass * spec.gravity.dot(X_WL * link.com);
   }
 }

@@ -120,7 +120,7 @@ std::vector<Key> spring_damper_keys() {
       defaulted("damping", quantity("N.s/m", "10 N.s/m", kNotNegative), "0", "Damping."),
       defaulted("free_length", quantity("m", "50 mm", kNotNegative), "0", "Length without force."),
       optional("tension", law_format("N", "length", "m", "50 N"),
-               "Further pull over the distance of the two ends; its energy is not counted."),
+               "Further pull over the distance of the two ends; its energy is its integral from the start."),
   };
 }
 
@@ -145,7 +145,7 @@ std::vector<Key> torsion_keys() {
       defaulted("damping", quantity("N.m.s/rad", "0.1 N.m.s/rad", kNotNegative), "0", "Damping."),
       defaulted("free_angle", quantity("rad", "0 deg"), "0", "Angle without torque."),
       optional("torque", law_format("N.m", "angle", "rad", "5 N.m"),
-               "Further torque that pulls back, over the angle from `free_angle`; its energy is not counted."),
+               "Further torque that pulls back, over the angle from `free_angle`; its energy is its integral."),
   };
 }
 
@@ -157,7 +157,7 @@ std::vector<Key> sliding_keys() {
       defaulted("damping", quantity("N.s/m", "10 N.s/m", kNotNegative), "0", "Damping."),
       defaulted("free_position", quantity("m", "0 mm"), "0", "Position without force."),
       optional("force", law_format("N", "stretch", "m", "50 N"),
-               "Further force that pulls back, over the stretch from `free_position`; its energy is not counted."),
+               "Further force that pulls back, over the stretch from `free_position`; its energy is its integral."),
   };
 }
 

@@ -73,6 +73,8 @@ StepRecord MachineRun::observe(const MarchedStep& step) {
   seen.newton_iterations = step.solution.iterations;
   seen.newton_residual = step.solution.residual;
   seen.rejected_steps = march_.rejected_steps();
+  seen.energy_available = march_.energy().available();
+  seen.energy_from_nowhere = march_.energy().gained();
   return seen;
 }
 

@@ -16,6 +16,8 @@ constexpr double kMeaningless = 0.02;  // rad, or sizes of the machine, that one
 constexpr double kOneInstant = 1e-6;   // of the fixed step: instants that others reckon up
 constexpr double kOfTolerance = 0.1;   // of a step's error that what films leave unsolved may be
 constexpr double kLargestCondensed = 1e-6;
+constexpr double kOfHalvedStep = 8;     // the error over its tolerance that halves a step
+constexpr double kCreeping = 1.0 / 16;  // of the fixed step: an impact asks for shorter ones, not a motion throughout
 constexpr double kShortest = 1.0 / 64;  // of the fixed step: shorter ones are taken whatever their error
 
 solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
@@ -42,9 +44,11 @@ StepMarch::StepMarch(const model::Model& model, model::Machine& machine)
       machine_(machine),
       integrator_(integrator_options(model)),
       step_error_(model, machine),
+      energy_(model, machine),
       has_smooth_motion_(model.bearings.empty() && machine.mechanism->elastic_coordinates().empty()) {}
 
 void StepMarch::plan(const solver::State& state, const mbd::Observation& start) {
+  energy_.begin(state);
   const auto& limits = model_.simulation.error_control;
   if (!limits || model_.simulation.analysis == model::Analysis::kinematics) {
     const model::Simulation& run = model_.simulation;
@@ -89,6 +93,7 @@ void StepMarch::take_jump(solver::State& state, bool moves) {
     restart(state);
   else
     start_afresh(state);
+  energy_.begin(state);
   trial_ = std::numeric_limits<double>::infinity();
 }
 
@@ -101,6 +106,7 @@ MarchedStep StepMarch::take(solver::State& state, double limit) {
                      : control_                                   ? take_controlled(state, target)
                                                                   : take_fixed(state, target);
   if (!step.solved()) return step;
+  energy_.accept();
   last_dt_ = step.dt;
   const double scale = control_ ? std::max(std::abs(target), plan.error_control->largest) : plan.step;
   if (target - state.t > 1e-12 * scale) return step;
@@ -118,16 +124,19 @@ MarchedStep StepMarch::take(solver::State& state, double limit) {
 // Beyond a kink of a drive's speed its acceleration is another one: the method's history would ring on it.
 void StepMarch::start_afresh(solver::State& state) {
   if (solver::solve_accelerations(*machine_.mechanism, state, last_dt_)) integrator_.reset();
+  energy_.begin(state);
 }
 
 // Much shorter steps than the last would have to take back at once the velocities that it has left across the
 // constraints: the shorter, the harder. They begin from velocities that the constraints allow.
 void StepMarch::restart(solver::State& state) {
-  if (solver::restart(*machine_.mechanism, state, last_dt_)) integrator_.reset();
+  if (!solver::restart(*machine_.mechanism, state, last_dt_)) return;
+  integrator_.reset();
+  energy_.begin(state);
 }
 
 // Nothing integrated: the last step, gone on with, is where Newton's method begins.
-MarchedStep StepMarch::follow_drives(solver::State& state, double target) const {
+MarchedStep StepMarch::follow_drives(solver::State& state, double target) {
   MarchedStep step;
   step.dt = target - state.t;
   const Eigen::VectorXd guess = step.dt * state.v + 0.5 * step.dt * step.dt * state.vdot;
@@ -140,6 +149,7 @@ MarchedStep StepMarch::follow_drives(solver::State& state, double target) const 
     step.fail(solved.message);
     return step;
   }
+  energy_.follow(next);
   state = next;
   step.set_solved(true);
   return step;
@@ -172,11 +182,14 @@ MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
       const Eigen::VectorXd way = 0.5 * step.dt * (state.v.cwiseAbs() + end.v.cwiseAbs());
       bounded_ = estimate.cwiseMin(way).cwiseMax(-way);
       (void)step_error_.measure(end, bounded_);
-      return !may_be_cut || step_error_.of_coordinates() <= kMeaningless;
+      return (!may_be_cut || step_error_.of_coordinates() <= kMeaningless) && energy_.allows(end);
     };
+    energy_.begin_trial();
     step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
     if (step.solution.solved()) {
       step.local_error = step_error_.largest();
+      if (creeping_ == 0) energy_.count_loss_anew();
+      creeping_ = step.dt < kCreeping * model_.simulation.step ? creeping_ + step.dt : 0;
       trial_ = 2 * step.dt;
       step.set_solved(true);
       return step;
@@ -185,12 +198,26 @@ MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
     trial_ = step.dt / 2;
     const int enough = step.solution.status == solver::StepStatus::inaccurate ? 1 : 2;
     if (++failures == enough && has_smooth_motion_) restart(state);
-    if (trial_ < model_.simulation.smallest_step) {
-      step.fail(fmt::format("t = {:.6g} s: no convergence with a step of {:.2g} s: {}{}", state.t, step.dt,
-                            step.solution.message, advice(step.solution)));
+    if (const std::string why = end_of_cutting(step); !why.empty()) {
+      step.fail(fmt::format("t = {:.6g} s: {}{}", state.t, why, advice(step.solution)));
       return step;
     }
   }
+}
+
+// Why a fixed step that has failed is not cut once more; empty where it is.
+std::string StepMarch::end_of_cutting(const MarchedStep& step) const {
+  const double planned = model_.simulation.step;
+  const bool creeps = creeping_ > planned + slack();
+  if (creeps && energy_.has_lost_much())
+    return fmt::format("steps of {:.2g} s have been needed for longer than one of {:.3g} s, and yet {}", step.dt,
+                       planned, energy_.reason_of_loss());
+  if (creeps && energy_.has_refused() && trial_ < kCreeping * planned)
+    return fmt::format("steps of {:.2g} s have been needed for longer than one of {:.3g} s, and yet {}", step.dt,
+                       planned, energy_.reason());
+  if (trial_ >= model_.simulation.smallest_step) return {};
+  if (energy_.has_refused()) return energy_.reason();
+  return fmt::format("no convergence with a step of {:.2g} s: {}", step.dt, step.solution.message);
 }
 
 MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
@@ -199,11 +226,14 @@ MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
   const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
     errors = step_error_.measure(end, estimate) / model_.simulation.error_control->tolerance;
     step.error = step_error_.largest() / model_.simulation.error_control->tolerance;
-    return step.error <= 1;
+    if (step.error > 1 || energy_.allows(end)) return step.error <= 1;
+    step.error = kOfHalvedStep;
+    return false;
   };
   for (;;) {
     const double remaining = target - state.t;
     step.dt = control_->proposed(remaining);
+    energy_.begin_trial();
     step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
     if (step.solution.solved()) {
       if (step.dt == remaining) state.t = target;  // exactly, not as a sum of steps
@@ -215,6 +245,11 @@ MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
     ++rejected_;
     const bool inaccurate = step.solution.status == solver::StepStatus::inaccurate;
     if (inaccurate ? control_->rejected(step.dt, step.error) : control_->failed(step.dt)) continue;
+    if (energy_.has_refused()) {
+      step.fail(fmt::format("t = {:.6g} s: {}; expected a smaller tolerance than {:.2g} in `step: {{tolerance: ...}}`",
+                            state.t, energy_.reason(), model_.simulation.error_control->tolerance));
+      return step;
+    }
     const std::string reason =
         inaccurate ? fmt::format("the error of {} is {:.2g} times the tolerance", step_error_.worst(), step.error)
                    : step.solution.message;
@@ -231,8 +266,12 @@ void StepMarch::persist(Archive& archive) {
   }
   const Archive::Group group(archive, "steps");
   archive.io("reached", reached_), archive.io("off_plan", off_plan_), archive.io("at_bend", at_bend_),
-      archive.io("trial", trial_);
+      archive.io("trial", trial_), archive.io("creeping", creeping_);
   archive.io("length", last_dt_), archive.io("rejected", rejected_);
+  {
+    const Archive::Group energy(archive, "energy");
+    energy_.persist(archive);
+  }
   if (control_) control_->persist(archive);
 }
 

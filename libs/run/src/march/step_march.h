@@ -11,6 +11,7 @@
 #include "hersey/model/model.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/step_control.h"
+#include "march/energy_judge.h"
 #include "march/step_error.h"
 #include "march/target_instants.h"
 
@@ -54,14 +55,17 @@ class StepMarch {
   [[nodiscard]] const solver::GeneralizedAlpha& integrator() const { return integrator_; }
   /// The step last taken; 0 before the first [s].
   [[nodiscard]] double last_dt() const { return last_dt_; }
+  /// What it knows of the energy of the steps.
+  [[nodiscard]] const EnergyJudge& energy() const { return energy_; }
   /// Tried in vain since the start of the run.
   [[nodiscard]] int rejected_steps() const { return rejected_; }
 
   void persist(Archive& archive);
 
  private:
-  [[nodiscard]] MarchedStep follow_drives(solver::State& state, double target) const;
+  [[nodiscard]] MarchedStep follow_drives(solver::State& state, double target);
   [[nodiscard]] MarchedStep take_fixed(solver::State& state, double target);
+  [[nodiscard]] std::string end_of_cutting(const MarchedStep& step) const;
   [[nodiscard]] std::string advice(const solver::StepSummary& solution) const;
   [[nodiscard]] MarchedStep take_controlled(solver::State& state, double target);
   [[nodiscard]] double unit_of_steps() const;
@@ -74,6 +78,7 @@ class StepMarch {
   model::Machine& machine_;
   solver::GeneralizedAlpha integrator_;
   StepError step_error_;
+  EnergyJudge energy_;
   /// Neither films nor deformations, whose fast motions the error's estimate takes for errors.
   bool has_smooth_motion_;
   Eigen::VectorXd bounded_;    ///< a fixed step's estimated error, of no coordinate more than its way
@@ -84,6 +89,7 @@ class StepMarch {
   bool off_plan_ = false;                                   ///< the last step ended between the targets
   bool at_bend_ = false;                                    ///< the next step starts where a table bends
   double trial_ = std::numeric_limits<double>::infinity();  ///< longest fixed step to try after a failure [s]
+  double creeping_ = 0;  ///< time gone by in fixed steps much shorter than planned, without a longer one [s]
   double last_dt_ = 0;
   int rejected_ = 0;
 };

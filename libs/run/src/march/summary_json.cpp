@@ -47,7 +47,10 @@ nlohmann::json json_of(const EnergySummary& energy) {
           {"film_storage", energy.film_storage},
           {"stored", energy.stored},
           {"unexplained", energy.unexplained()},
-          {"error", energy.error()}};
+          {"available", energy.available},
+          {"error", energy.error()},
+          {"from_nowhere", energy.from_nowhere},
+          {"share_from_nowhere", energy.share_from_nowhere()}};
 }
 
 // What was not asked for is null.

@@ -1,16 +1,16 @@
 #include "record/energy_balance.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hersey::run {
 
 EnergyBalance::Instant EnergyBalance::seen(const StepRecord& step) const {
   const mbd::Observation& machine = step.mechanism;
   Instant now{.put_in = step.power.drives + step.power.loads, .dampers = machine.damper_power};
-  // Sources among the forces on coordinates count as drives; what the others take is lost.
+  // Sources among the forces on coordinates count as drives, stores as springs; what the others take is lost.
   for (std::size_t i = 0; i < machine.coordinate_force_powers.size(); ++i)
-    if (!spec_.coordinate_forces[i].force->is_source()) now.dampers -= machine.coordinate_force_powers[i];
+    if (const mbd::CoordinateForce& force = *spec_.coordinate_forces[i].force; !force.is_source() && !force.is_store())
+      now.dampers -= machine.coordinate_force_powers[i];
   for (const bearing::BearingObservation& bearing : step.bearings) {
     now.films += bearing.film.power_film;
     now.boundary_friction += bearing.film.power_asperity;
@@ -39,10 +39,10 @@ void EnergyBalance::take(const StepRecord& step) {
   add(sums_.contacts, &Instant::contacts);
   add(sums_.dampers, &Instant::dampers);
   sums_.stored = now.stored() - start_.stored();
-  sums_.largest = std::max({sums_.largest, std::abs(sums_.put_in), sums_.lost()});
-  // Parts one by one: a pendulum turns one into another and back.
-  for (const auto part : {&Instant::kinetic, &Instant::potential, &Instant::springs, &Instant::strain})
-    sums_.largest = std::max(sums_.largest, std::abs(now.*part - start_.*part));
+  // What oil brings under pressure is put in, too; a step's judge sees of it what reaches the bodies.
+  brought_by_oil_ = std::max(brought_by_oil_, -sums_.oil);
+  sums_.available = step.energy_available + brought_by_oil_;
+  sums_.from_nowhere = step.energy_from_nowhere;
   last_ = now;
 }
 
@@ -58,7 +58,9 @@ void EnergyBalance::persist(Archive& archive) {
   io("boundary_friction", sums_.boundary_friction, last_.boundary_friction), io("oil", sums_.oil, last_.oil);
   io("film_storage", sums_.film_storage, last_.film_storage), io("contacts", sums_.contacts, last_.contacts);
   io("dampers", sums_.dampers, last_.dampers);
-  archive.io("stored", sums_.stored), archive.io("largest", sums_.largest);
+  archive.io("stored", sums_.stored);
+  archive.io("available", sums_.available), archive.io("brought_by_oil", brought_by_oil_),
+      archive.io("from_nowhere", sums_.from_nowhere);
 }
 
 }  // namespace hersey::run

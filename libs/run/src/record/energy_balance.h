@@ -32,6 +32,7 @@ class EnergyBalance {
   EnergySummary sums_;
   Instant last_;
   Instant start_;
+  double brought_by_oil_ = 0;  ///< the most since the start [J]
   bool is_begun_ = false;
 };
 

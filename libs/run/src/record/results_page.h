@@ -71,7 +71,7 @@ Cycles are made of every accepted step, whether its row is stored or not. Energi
 Extremes run over all stored instants: the *minimum film thickness (MOFT)* is the smallest `h_min`, the *peak film
 pressure (POFP)* the largest `p_max`, the *largest load* the longest `force`. Means are over time by the trapezoidal
 rule. Values *at the end* are the last row. The *worst* balance error is the one largest in size; the *residual power of the
-equations of motion* is also given as a share of the largest of all powers in the run. *Unexplained energy* is that at the end of the run;
+equations of motion* is also given as a share of the largest of all powers in the run. *Unexplained energy* is that at the end of the run, its share one of `available`; *energy from nowhere* has been gained by steps without anything that put it in;
 of a film, the integral of `power_error` over that of `power_film` and `power_asperity`. A page thins long series and many fields (it says so), and tells a
 field to 1/131068 of its range at each instant; the
 summary never does.

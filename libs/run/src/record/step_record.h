@@ -15,10 +15,12 @@ struct StepRecord {
   double dt = 0;
   int newton_iterations = 0;
   double newton_residual = 0;
-  double error = 0;             ///< estimated, over the tolerance; 0 with a fixed step
-  double step_error = 0;        ///< the same, not over the tolerance; of fixed steps too
-  int rejected_steps = 0;       ///< since the start of the run
-  double constraint_drift = 0;  ///< largest violation of a constraint, relative to what it compares
+  double error = 0;                ///< estimated, over the tolerance; 0 with a fixed step
+  double step_error = 0;           ///< the same, not over the tolerance; of fixed steps too
+  int rejected_steps = 0;          ///< since the start of the run
+  double energy_available = 0;     ///< EnergyJudge::available [J]
+  double energy_from_nowhere = 0;  ///< EnergyJudge::gained [J]
+  double constraint_drift = 0;     ///< largest violation of a constraint, relative to what it compares
   mbd::Observation mechanism;
   std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
   std::vector<bearing::BearingObservation> bearings;

@@ -27,6 +27,12 @@ class CoordinateForce {
 
   /// Whether its power is put in from outside, as a motor's is; a spring's or a brake's is not.
   [[nodiscard]] virtual bool is_source() const { return false; }
+
+  /// Whether it gives back what it takes, as a spring does.
+  [[nodiscard]] virtual bool is_store() const { return false; }
+
+  /// What it holds at this coordinate [J]; 0 where it is no store.
+  [[nodiscard]] virtual double stored_energy(double position) const { return (void)position, 0; }
 };
 
 }  // namespace hersey::mbd

@@ -7,16 +7,22 @@
 
 namespace hersey::mbd {
 
-/// A spring whose force is a function of its stretch: -f(q - free).
+/// A spring whose force is a function of its stretch: -f(q - free). Its energy is the integral of f from the free
+/// position, continued from where the last step ended.
 class FunctionSpring final : public CoordinateForce {
  public:
   /// @param function  of the stretch alone [N or N m], positive where it pulls back from a positive stretch
   FunctionSpring(std::shared_ptr<const ScalarFunction> function, double free_position);
   [[nodiscard]] CoordinateEffort evaluate(double t, double position, double rate) const override;
+  void accept_step(double t, double position, double rate) override;
+  void persist(Archive& archive) override;
+  [[nodiscard]] bool is_store() const override { return true; }
+  [[nodiscard]] double stored_energy(double position) const override;
 
  private:
   std::shared_ptr<const ScalarFunction> function_;
   double free_position_;
+  double reached_ = 0, energy_ = 0;  ///< stretch where the last step ended, and the energy there
 };
 
 /// Dry and viscous friction (theory manual eq. (mechanisms.25)): -(coulomb v / sqrt(v^2 + transition^2) + viscous v).

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/mbd/energy_view.h"
 #include "hersey/mbd/mechanism_spec.h"
 #include "hersey/mbd/observation.h"
 #include "hersey/solver/equations.h"
@@ -62,6 +63,19 @@ class Mechanism final : public solver::Equations {
 
   /// Everything about `state`. Two-body forces are those of the last accepted step, which must have ended in `state`.
   [[nodiscard]] Observation observe(const solver::State& state);
+
+  /// What is stored at `state` and what acts there, into `view`.
+  /// @param is_trial  it is where the equations were assembled last, as the end of a step that is being judged; else
+  /// the
+  ///                  last accepted step must have ended there
+  void view_energy(const solver::State& state, bool is_trial, EnergyView& view);
+
+  /// What acted over the step from one view to the other, which has not been accepted yet (theory manual,
+  /// integrator.30).
+  [[nodiscard]] WorkBetween work_between(const EnergyView& from, const EnergyView& to);
+
+  /// Where energy has gone between two views.
+  [[nodiscard]] EnergyPlaces energy_places(const EnergyView& from, const EnergyView& to) const;
 
   /// What the user gave for the start and `start` does not have, beyond round-off, in order of declaration.
   [[nodiscard]] std::vector<ChangedStart> changed_values(const solver::State& start);

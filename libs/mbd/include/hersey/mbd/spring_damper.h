@@ -17,7 +17,8 @@ class SpringDamper final : public TwoBodyForce {
   /// @param stiffness    [N/m], >= 0
   /// @param damping      [N s/m], >= 0
   /// @param free_length  [m], >= 0
-  /// @param tension      further pull as a function of the length alone [N]; null for none. Its energy is not counted.
+  /// @param tension      further pull as a function of the length alone [N]; null for none. Its energy is its integral
+  ///                     from the length at the first step's start, which no singularity at length 0 spoils.
   SpringDamper(double stiffness, double damping, double free_length,
                std::shared_ptr<const ScalarFunction> tension = nullptr);
 
@@ -25,11 +26,18 @@ class SpringDamper final : public TwoBodyForce {
   [[nodiscard]] double stored_energy(const RelativeMotion& motion) const override;
   [[nodiscard]] double lost_power(const RelativeMotion& motion) const override;
   [[nodiscard]] std::string domain_error() const override;
+  void begin_step(const RelativeMotion& start, double dt) override;
+  void accept_step(const RelativeMotion& end) override;
+  void persist(Archive& archive) override;
 
  private:
+  [[nodiscard]] double energy_of_tension(double length) const;
+
   double stiffness_, damping_, free_length_;
   std::shared_ptr<const ScalarFunction> tension_;
   bool collapsed_ = false;
+  /// Where the last step ended, and what `tension_` held there; negative before the first.
+  double reached_ = -1, energy_ = 0;
 };
 
 }  // namespace hersey::mbd

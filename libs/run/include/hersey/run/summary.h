@@ -61,14 +61,16 @@ struct EnergySummary {
   double oil = 0;                ///< taken along by oil that leaves the films less what feeds bring
   double film_storage = 0;       ///< more in liners, asperities and compressed oil than at the start
   double stored = 0;             ///< more kinetic, potential, spring and strain energy than at the start
-  double largest =
-      0;  ///< the largest that energy put in or lost has been, or any kind of it has changed: errors are its shares
+  double available = 0;  ///< energy at the start and what was put in or released since (theory manual, integrator.32)
+  double from_nowhere = 0;  ///< what steps have gained beyond what acted, integrator.33: at the end, not lost again
   /// Dissipated by films, asperities, contacts and dampers.
   [[nodiscard]] double lost() const { return films + boundary_friction + contacts + dampers; }
   /// What all the parts leave of put_in.
   [[nodiscard]] double unexplained() const { return put_in - lost() - oil - film_storage - stored; }
-  /// |unexplained| over the largest [-].
-  [[nodiscard]] double error() const { return largest > 0 ? std::abs(unexplained()) / largest : 0; }
+  /// |unexplained| over the energy available [-].
+  [[nodiscard]] double error() const { return available > 0 ? std::abs(unexplained()) / available : 0; }
+  /// from_nowhere over the energy available [-].
+  [[nodiscard]] double share_from_nowhere() const { return available > 0 ? from_nowhere / available : 0; }
 };
 
 /// A run that completed or was stopped is solved. The message tells why it ended early: "settled" where nothing changed

@@ -1,0 +1,194 @@
+#include "march/energy_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numeric>
+
+#include "record/observe_step.h"
+
+namespace hersey::run {
+namespace {
+
+/// Of the available energy: what a run may gain from nowhere before it ends as failed. Coarse steps of sound motions
+/// swing by some percent within a period, an explosion passes any share.
+constexpr double kMostOfRun = 0.2;
+
+/// Of what is left of that: what one step may gain.
+constexpr double kMostOfStep = 0.1;
+
+/// Of the available energy: losses that steps may take back. On a swing that steps follow badly the energy falls and
+/// rises again; whoever lets it fall and keeps it from rising takes it away.
+constexpr double kTakenBack = 0.1;
+
+/// Of the energy that a step moves: Newton's method leaves forces open by its tolerance (1e-8 of their terms).
+constexpr double kUnsolved = 1e-6;
+
+/// Of what is stored: round-off of differences of sums of many terms.
+constexpr double kRoundOff = 1e-12;
+
+/// Of what preloads, weights and loads do over the size of the machine: what moves less than that stands still.
+constexpr double kStandstill = 1e-9;
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+double sum_of_sizes(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0, [](double s, double x) { return s + std::abs(x); });
+}
+
+double of_motion(const mbd::EnergyView& view) {
+  return sum(view.kinetic) + sum(view.elastic_kinetic) + sum(view.strain);
+}
+
+}  // namespace
+
+double EnergyJudge::Books::available() const {
+  double sum = at_start + noise;
+  for (const double most : most_in) sum += most;
+  for (std::size_t i = 0; i < in_store.size(); ++i)
+    sum += std::max(in_store[i], 0.0) + std::max(0.0, std::min(in_store[i], 0.0) - least_in[i]);
+  return sum;
+}
+
+EnergyJudge::EnergyJudge(const model::Model&, model::Machine& machine) : machine_(machine) {
+  knows_losses_ = machine.mechanism->spec().elastics.empty();
+  for (const ForceKind kind : force_kinds(machine)) {
+    is_film_.push_back(kind == ForceKind::bearing);
+    if (kind != ForceKind::spring) knows_losses_ = false;
+  }
+}
+
+// Gravity first, counted from the start.
+std::vector<double> EnergyJudge::stores(const mbd::EnergyView& view) const {
+  std::vector<double> held{view.potential - potential_at_start_};
+  held.insert(held.end(), view.springs.begin(), view.springs.end());
+  held.insert(held.end(), view.functions.begin(), view.functions.end());
+  for (const mbd::ForceView& force : view.forces) held.push_back(force.stored);
+  return held;
+}
+
+double EnergyJudge::smallest_judged(const mbd::EnergyView& view) const {
+  const mbd::MechanismSpec& spec = machine_.mechanism->spec();
+  double weight = 0;
+  for (const mbd::BodySpec& body : spec.bodies) weight += body.mass;
+  for (const mbd::MechanismSpec::Elastic& elastic : spec.elastics) weight += elastic.body->mass();
+  const Eigen::VectorXd scales = machine_.mechanism->position_scales();
+  const double length = scales.size() > 0 ? scales.maxCoeff() : 0;
+  double held = spec.gravity.norm() * weight * length;
+  for (const mbd::ForceView& force : view.forces) held += std::abs(force.stored);
+  return kStandstill * (held + sum_of_sizes(view.springs) + sum(view.strain));
+}
+
+void EnergyJudge::begin(const solver::State& state) {
+  machine_.mechanism->view_energy(state, false, from_);
+  has_refused_ = false;
+  if (is_begun_) return;
+  is_begun_ = true;
+  potential_at_start_ = from_.potential;
+  books_.at_start = of_motion(from_);
+  books_.in_store = books_.least_in = stores(from_);
+  books_.noise = smallest_judged(from_);
+}
+
+void EnergyJudge::enter(const mbd::WorkBetween& work) {
+  std::vector<double> sources;
+  for (const auto* list : {&work.drives, &work.loads, &work.functions, &work.pressures})
+    for (const mbd::StepWork& one : *list) sources.push_back(one.value);
+  for (std::size_t i = 0; i < work.forces.size(); ++i)
+    if (is_film_[i] != 0) sources.push_back(work.forces[i].value);
+  trial_ = books_;
+  trial_.put_in.resize(sources.size());
+  trial_.most_in.resize(sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    trial_.put_in[i] += sources[i];
+    trial_.most_in[i] = std::max(trial_.most_in[i], trial_.put_in[i]);
+  }
+  const std::vector<double> held = stores(to_);
+  for (std::size_t i = 0; i < held.size(); ++i) trial_.least_in[i] = std::min(trial_.least_in[i], held[i]);
+}
+
+bool EnergyJudge::allows(const solver::State& end) {
+  mbd::Mechanism& mechanism = *machine_.mechanism;
+  mechanism.view_energy(end, true, to_);
+  const mbd::WorkBetween work = mechanism.work_between(from_, to_);
+  enter(work);
+  const std::vector<double> before = stores(from_), after = stores(to_);
+  double gain = of_motion(to_) - of_motion(from_), moved = std::abs(gain), held = of_motion(from_) + of_motion(to_);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    gain += after[i] - before[i];
+    moved += std::abs(after[i] - before[i]);
+    held += std::abs(before[i]) + std::abs(after[i]);
+  }
+  held += std::abs(from_.potential);
+  double doubt = 0;
+  const auto put_in = [&](const mbd::StepWork& one) {
+    gain -= one.value;
+    doubt += one.doubt;
+    moved += std::abs(one.value);
+  };
+  for (const auto* list : {&work.drives, &work.loads, &work.functions, &work.pressures})
+    std::for_each(list->begin(), list->end(), put_in);
+  for (std::size_t i = 0; i < work.forces.size(); ++i) {
+    if (is_film_[i] != 0)
+      put_in(work.forces[i]);
+    else
+      gain += work.lost[i];
+  }
+  gain += work.lost_in_springs;
+  doubt += kUnsolved * moved + kRoundOff * held;
+  gain_ = gain - doubt;
+  loss_ = knows_losses_ ? std::max(0.0, -gain - doubt) : 0;
+  // Not a number: no energy at all.
+  const double left = std::max(0.0, kMostOfRun * trial_.available() - std::max(0.0, balance_));
+  has_refused_ = !(gain_ <= std::max(0.0, -balance_) + kMostOfStep * left);
+  return !has_refused_;
+}
+
+void EnergyJudge::follow(const solver::State& end) {
+  (void)allows(end);
+  gain_ = loss_ = 0;
+  has_refused_ = false;
+}
+
+void EnergyJudge::accept() {
+  std::swap(from_, to_);
+  std::swap(books_, trial_);
+  balance_ = std::max(-kTakenBack * books_.available(), balance_ + gain_);
+  lost_ += loss_;
+}
+
+bool EnergyJudge::has_lost_much() const { return lost_ > kMostOfRun * books_.available(); }
+
+std::string EnergyJudge::reason_of_loss() const {
+  const mbd::EnergyPlaces places = machine_.mechanism->energy_places(to_, from_);
+  std::string text = fmt::format("{:.3g} J of the {:.3g} J at the start and put in since have gone nowhere", lost_,
+                                 books_.available());
+  if (!places.body.empty()) text += fmt::format(", of late in {}", places.body);
+  if (!places.force.empty()) text += fmt::format(", where {} acts", places.force);
+  return text;
+}
+
+std::string EnergyJudge::reason() const {
+  const mbd::EnergyPlaces places = machine_.mechanism->energy_places(from_, to_);
+  const double available = books_.available();
+  std::string text = fmt::format("{:.3g} J come from nowhere", gain_);
+  if (balance_ > 0) text += fmt::format(", beside {:.3g} J in the steps before", balance_);
+  text += fmt::format("; the energy at the start and what was put in since are {:.3g} J", available);
+  if (!places.body.empty()) text += fmt::format("; most of it is found in {}", places.body);
+  if (!places.force.empty()) text += fmt::format(", where {} acts", places.force);
+  return text;
+}
+
+void EnergyJudge::persist(Archive& archive) {
+  archive.io("is_begun", is_begun_), archive.io("balance", balance_), archive.io("lost", lost_),
+      archive.io("potential", potential_at_start_);
+  archive.io("at_start", books_.at_start), archive.io("noise", books_.noise);
+  archive.io("put_in", books_.put_in), archive.io("most_in", books_.most_in);
+  archive.io("in_store", books_.in_store), archive.io("least_in", books_.least_in);
+  const Archive::Group group(archive, "from");
+  from_.persist(archive);
+}
+
+}  // namespace hersey::run
