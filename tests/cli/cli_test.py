@@ -567,9 +567,32 @@ simulation: {duration: 2 s, step: 100 ms, spectral_radius: 0}
 """)
         ended = hersey("run", path, "--output", self.out)
         self.assertEqual(ended.returncode, OK, ended.stderr)
-        self.assertRegex(ended.stderr, r"warning: 0\.0005 J, 7\d % of the energy, is neither stored nor lost")
+        self.assertRegex(ended.stderr, r"warning: 0\.0005 J, 100 % of the energy at the start and put in since, is neither stored nor lost")
         ended = hersey("run", path, "--set", "simulation.step=5ms", "--set", "simulation.spectral_radius=0.9", "--output", self.out, "--force")
         self.assertNotIn("warning", ended.stderr)
+
+    def test_run_that_explodes_ends_as_failed(self):
+        path = os.path.join(self._folder.name, "model.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("""hersey: 1
+bodies:
+  m: {mass: 1 kg, inertia: {xx: 0.01 kg.m^2, yy: 0.01 kg.m^2, zz: 0.01 kg.m^2}}
+joints:
+  j: {type: free, between: [ground, m], initial: {position: 1 0 0 m, velocity: 0 3 0 m/s}}
+forces:
+  s: {type: spring_damper, between: [ground, m], stiffness: 1e6 N/m, free_length: 0.9 m}
+simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
+""")
+        ended = hersey("run", path, "--output", self.out, "--json")
+        self.assertEqual(ended.returncode, 1, ended.stderr)
+        found = json.loads(ended.stdout)["runs"][0]
+        self.assertEqual(found["status"], "failed")
+        self.assertRegex(found["message"], r"^t = 0\.2\d* s: .* in body m, where force s acts; .* shorter `simulation.step`")
+        self.assertAlmostEqual(found["energy"]["available"], 5004.5, delta=0.01)
+        self.assertLess(found["energy"]["share_from_nowhere"], 0.2)
+        with hdf5(self.results()[0]) as file:
+            self.assertEqual(file.attrs["status"], "failed")
+            self.assertEqual(file["time"][-1], found["t_results"])
 
     def test_override_of_parameter_and_of_key_path_reach_the_run(self):
         run = hersey("run", MODEL, "--output", self.out, "--set", "load=500 N", "--set",

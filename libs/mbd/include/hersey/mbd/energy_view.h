@@ -35,6 +35,7 @@ struct EnergyView {
   std::vector<double> coordinate_efforts;         ///< of coordinate forces [N; N m]
   std::vector<Eigen::VectorXd> load_generalised;  ///< what each load does on the columns of its path
 
+  /// What the next step is judged by, as it is.
   void persist(Archive& archive);
 };
 
