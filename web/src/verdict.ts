@@ -16,7 +16,7 @@ export interface Judgement {
 
 /** Above these a balance deserves a look before the figures are used. */
 const largestMassError = 1e-6; // of the largest flow; Newton's method leaves 1e-8 and less
-const largestEnergyError = 5; // [%] of the largest energy; the error of a coarse step
+const largestEnergyError = 5; // [%] of the energy at the start and put in since; the error of a coarse step
 /** Below this share of its losses a film's contact is the tail of a distribution of heights [%]. */
 const leastContact = 0.1;
 
@@ -63,7 +63,7 @@ function contact(run: Run): Judgement[] {
 
 function balances(run: Run): Judgement[] {
   const errors = run.children("/bearings").flatMap((b) => keyValue(run, b, "worst mass-balance error of the film") ?? []).map(Math.abs);
-  const energy = keyValue(run, "run", "the same, share of the largest energy");
+  const energy = keyValue(run, "run", "the same, share of the energy at the start and put in since");
   const parts: Judgement[] = [];
   if (errors.length > 0) parts.push({ level: Math.max(...errors) > largestMassError ? "warn" : "good", text: `Oil is conserved to ${format(Math.max(...errors), 2)}` });
   if (energy !== null) parts.push({ level: energy > largestEnergyError ? "warn" : "good", text: `Energy balances to ${withUnit(energy, "%", 2)}` });
@@ -163,7 +163,7 @@ function ofMachine(run: Run): HTMLElement[] {
   const rows: [string, string][] = [
     ["energy put in by drives and loads", "Energy put in"],
     ["energy dissipated", "Energy dissipated"],
-    ["the same, share of the largest energy", "Energy unexplained"],
+    ["the same, share of the energy at the start and put in since", "Energy unexplained"],
     ["simulated time", "Simulated time"],
   ];
   return rows.flatMap(([name, label]) => {
