@@ -204,6 +204,9 @@ TEST_CASE("Replication_WritesWhatItStandsFor") {
   }
   CHECK(refusal("=,*1\n" + written + whole).starts_with("1: a replication of no entry"));
   CHECK(refusal("GRID,1,,0.,0.,0.\n=(99999999999)\n").starts_with("2: a replication without its count"));
+  // A count repeats the step of the entry right before it.
+  CHECK(refusal("GRID,1,,0.,0.,0.\n=,*1,==\nCORD2R,5,,1.,2.,3.,4.,5.,6.\n,7.,8.,9.\n=(2)\n")
+            .starts_with("5: a replication without its count, or of no step"));
   CHECK(refusal("GRID,1,,0.,0.,0.\n=,*x\n").starts_with("2: a replication that adds to what is no number"));
 }
 

@@ -109,13 +109,15 @@ bool NastranCards::next(NastranCard& card) {
   card.fields.clear();
   card.mistake.clear();
   mark_ = {};
-  if (!replication_.repeat(card, expanded_)) {
+  bool is_written_so = replication_.repeat(card, expanded_);
+  if (!is_written_so) {
     std::string_view line;
     if (!next_line(line)) return false;
     read(without_tabs(line), card);
-    if (NastranReplication::is_written_so(card)) replication_.replace(card, expanded_);
+    is_written_so = NastranReplication::is_written_so(card);
+    if (is_written_so) replication_.replace(card, expanded_);
   }
-  replication_.keep(card);
+  replication_.keep(card, is_written_so);
   return true;
 }
 

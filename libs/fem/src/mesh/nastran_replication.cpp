@@ -45,6 +45,7 @@ void NastranReplication::replace(NastranCard& card, std::deque<std::string>& sto
   left_ = 0;
   if (fields_.empty()) {
     note(card, "a replication of no entry");
+    steps_.clear();
     return;
   }
   long times = 0;
@@ -52,6 +53,7 @@ void NastranReplication::replace(NastranCard& card, std::deque<std::string>& sto
   if (!count.empty() && count != "=") {
     if (!parse_integer(count, times) || times < 1 || made_ + times > kMostRepeated || steps_.empty()) {
       note(card, "a replication without its count, or of no step");
+      steps_.clear();
       return;
     }
     line_ = card.line;
@@ -93,7 +95,8 @@ bool NastranReplication::repeat(NastranCard& card, std::deque<std::string>& stor
   return true;
 }
 
-void NastranReplication::keep(const NastranCard& card) {
+void NastranReplication::keep(const NastranCard& card, bool is_written_so) {
+  if (!is_written_so) steps_.clear();  // a count behind it repeats nothing
   name_ = card.name;
   fields_.assign(card.fields.begin(), card.fields.end());
 }

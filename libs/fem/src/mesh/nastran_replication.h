@@ -22,8 +22,8 @@ class NastranReplication {
   /// The next repetition, into `card`; false where none is left.
   bool repeat(NastranCard& card, std::deque<std::string>& storage);
 
-  /// Keeps what the next entry may refer to.
-  void keep(const NastranCard& card);
+  /// Keeps what the next entry may refer to: the entry, and the step if it was written so.
+  void keep(const NastranCard& card, bool is_written_so);
 
  private:
   void step(NastranCard& card, std::deque<std::string>& storage);
