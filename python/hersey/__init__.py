@@ -7,12 +7,13 @@
     results = model.run(output="out", progress=True)
     results.bearing("big_end")["h_min"].plot()
 
-Numbers that come out are SI; quantities that go in are texts with their unit.
+Numbers that come out are SI. Quantities that go in are texts with their unit, "40 um", pairs, (40, "um"), or quantities of
+pint's; a bare number is SI.
 """
 
 from . import fem, plot
 from ._core import Progress, __version__
-from .bearing import BearingSolution, bearing, bearing_model
+from .bearing import BearingSolution, Sensitivity, bearing, bearing_model
 from .errors import Fault, HerseyError, InputError, RunError, SolutionError, Stopped, UserFunctionError
 from .figure import Figure
 from .functions import Function, surface_profile, viscosity_law
@@ -23,6 +24,6 @@ from .studies import Study, study
 
 __all__ = [
     "BearingSolution", "Fault", "Figure", "Function", "HerseyError", "InputError", "Model", "Port", "Progress", "Results", "RunError",
-    "Simulation", "SolutionError", "Stopped", "Study", "Summary", "UserFunctionError", "__version__", "bearing", "bearing_model", "fem",
-    "open_results", "plot", "report", "study", "surface_profile", "viscosity_law",
+    "Sensitivity", "Simulation", "SolutionError", "Stopped", "Study", "Summary", "UserFunctionError", "__version__", "bearing",
+    "bearing_model", "fem", "open_results", "plot", "report", "study", "surface_profile", "viscosity_law",
 ]

@@ -2,14 +2,52 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from typing import Any, Iterator, Optional
+from typing import Any, Iterator, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _core
-from .errors import SolutionError
+from .errors import InputError, SolutionError
 from .figure import Figure
+from .words import did_you_mean, in_words
+
+
+class Sensitivity(NamedTuple):
+    """How the figures of a bearing follow one number of its model."""
+
+    parameter: str  #: key path, "bearings.main.radial_clearance"
+    value: float  #: the number [SI]
+    unit: str  #: its SI unit; "1" for a pure number
+    exact: bool  #: by the Jacobian of the solution; else by the difference of two solutions
+    error: str  #: why there are no derivatives; empty if there are
+    derivatives: dict[str, float]  #: of every figure that has one, by its key: SI over SI
+
+
+class _Kept(NamedTuple):
+    """A solution as plain data: what `pickle` and `copy` take along."""
+
+    lines: list[tuple]
+    named_fields: dict[str, tuple]
+    error: str
+    label: str
+    warnings: list[str]
+    linearisations: int
+    wall_time: float
+    eccentricity: np.ndarray
+    load: np.ndarray
+    clearance: float
+    stiffness: np.ndarray
+    damping: np.ndarray
+    phi: np.ndarray
+    z: np.ndarray
+
+    def figures(self) -> list[tuple]:
+        return self.lines
+
+    def fields(self) -> dict[str, tuple]:
+        return self.named_fields
 
 
 class BearingSolution(Mapping):
@@ -23,9 +61,30 @@ class BearingSolution(Mapping):
     (True, 'm')
     """
 
-    def __init__(self, solution: "_core.BearingSolution"):
+    def __init__(self, solution: "Union[_core.BearingSolution, _Kept]"):
         self._solution = solution
         self._figures: Optional[dict[str, Figure]] = None
+        #: derivatives of all figures, by key path of what they were asked for: `sensitivity` of `Model.bearing`
+        self.sensitivities: dict[str, Sensitivity] = {}
+
+    def __reduce__(self):
+        s = self._solution
+        if isinstance(s, _Kept):
+            return _from_kept, (s, self.sensitivities)
+        solved = not s.error
+        empty = np.zeros(0)
+        kept = _Kept(s.figures(), s.fields() if solved else {}, s.error, s.label, s.warnings, s.linearisations, s.wall_time,
+                     s.eccentricity, s.load, s.clearance if solved else math.nan, s.stiffness, s.damping,
+                     s.phi if solved else empty, s.z if solved else empty)
+        return _from_kept, (kept, self.sensitivities)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all figures, and the reasons of those that have no number, are the same."""
+        if not isinstance(other, BearingSolution):
+            return NotImplemented
+        return self.error == other.error and self._solution.figures() == other._solution.figures()
+
+    __hash__ = None  # type: ignore[assignment]
 
     def _all(self) -> dict[str, Figure]:
         if self._figures is None:
@@ -35,7 +94,7 @@ class BearingSolution(Mapping):
     def __getitem__(self, key: str) -> Figure:
         figures = self._all()
         if key not in figures:
-            raise KeyError(f"no figure '{key}'; there are {', '.join(figures)}")
+            raise KeyError(f"no figure '{key}'{did_you_mean(key, figures)}; there are {', '.join(figures)}")
         return figures[key]
 
     def __iter__(self) -> Iterator[str]:
@@ -79,6 +138,29 @@ class BearingSolution(Mapping):
         """The same by the rates of that position, 4 x 4."""
         return self._solution.damping
 
+    def gradient(self, figure: str) -> dict[str, float]:
+        """Derivatives of one figure by key path of what it was asked for, SI over SI; `sensitivity` of `Model.bearing`.
+
+        >>> from hersey import bearing
+        >>> film = bearing(diameter="45 mm", width="20 mm", radial_clearance="30 um", viscosity="20 mPa.s",
+        ...                speed="3000 rpm", load="1 kN", supply={"line": "widest_gap", "pressure": "0 bar"},
+        ...                sensitivity_to=["width", "load"])
+        >>> sorted(film.gradient("h_min")), film.gradient("h_min")["bearings.main.width"] > 0
+        (['bearings.main.operating_point.load', 'bearings.main.width'], True)
+        """
+        self[figure]  # its name is one
+        if not self.sensitivities:
+            raise InputError("no sensitivities were asked for: expected sensitivity=True, or sensitivity_to=[...], in the "
+                             "call that solved the bearing")
+        return {each.parameter: each.derivatives.get(figure, math.nan) for each in self.sensitivities.values()}
+
+    def take(self, found: Sequence[tuple]) -> None:
+        """Keeps sensitivities as the solver tells them."""
+        keys = list(self._all())
+        for parameter, value, unit, exact, error, slopes in found:
+            known = {key: slope for key, slope in zip(keys, slopes) if math.isfinite(slope)}
+            self.sensitivities[parameter] = Sensitivity(parameter, value, unit or "1", exact, in_words(error), known)
+
     @property
     def fields(self):
         """Pressure, film thickness and all other fields as an `xarray.Dataset` over bearing angle and z."""
@@ -103,8 +185,14 @@ class BearingSolution(Mapping):
 def solved(solution: "_core.BearingSolution") -> BearingSolution:
     """@raises SolutionError where there is none."""
     if solution.error:
-        raise SolutionError(solution.error)
+        raise SolutionError(in_words(solution.error))
     return BearingSolution(solution)
+
+
+def _from_kept(kept: _Kept, sensitivities: dict[str, Sensitivity]) -> BearingSolution:
+    solution = BearingSolution(kept)
+    solution.sensitivities = dict(sensitivities)
+    return solution
 
 
 _BEARING = "main"
@@ -113,13 +201,16 @@ _POINT = ("journal_speed", "shell_speed", "load", "load_angle", "eccentricity_ra
 
 
 def bearing(*, viscosity: Any = None, lubricant: Any = None, grid_error: bool = True,
-            thermal_coefficients: str = "frozen", **keys: Any) -> BearingSolution:
+            thermal_coefficients: str = "frozen", sensitivity: bool = False,
+            sensitivity_to: Union[str, Sequence[str]] = (), **keys: Any) -> BearingSolution:
     """Solves one journal bearing from its dimensions.
 
-    Parameters are the keys of a bearing in a model file, as texts with units: `diameter`, `width`, `radial_clearance`
-    (or `diametral_clearance`), and all others of docs/model-file.md; those of its operating point beside them:
+    Parameters are the keys of a bearing in a model file: `diameter`, `width`, `radial_clearance` (or
+    `diametral_clearance`), and all others of docs/model-file.md; those of its operating point beside them:
     `journal_speed` (or `speed`), `load` and `load_angle`, or `eccentricity_ratio` and `eccentricity_angle`. The oil is
-    its `viscosity` ("15 mPa.s") or a whole `lubricant` (a mapping as in a model file).
+    its `viscosity` ("15 mPa.s") or a whole `lubricant` (a mapping as in a model file). Quantities are texts with units,
+    pairs such as `(45, "mm")`, quantities of pint's, or numbers, which are SI. `sensitivity` and `sensitivity_to` are those
+    of `Model.bearing`.
 
     Raises `InputError` for anything a model file would not allow, `SolutionError` where there is no solution.
 
@@ -128,15 +219,17 @@ def bearing(*, viscosity: Any = None, lubricant: Any = None, grid_error: bool = 
     'N'
     """
     return bearing_model(viscosity=viscosity, lubricant=lubricant, **keys).bearing(
-        grid_error=grid_error, thermal_coefficients=thermal_coefficients)
+        grid_error=grid_error, thermal_coefficients=thermal_coefficients, sensitivity=sensitivity, sensitivity_to=sensitivity_to)
 
 
 def bearing_model(*, viscosity: Any = None, lubricant: Any = None, **keys: Any):
     """The same as a `Model` with the one bearing "main", to sweep or to write down."""
     from .model import Model
 
-    if "speed" in keys:
-        keys["journal_speed"] = keys.pop("speed")
+    for short, key in (("speed", "journal_speed"), ("clearance", "radial_clearance")):
+        if short in keys:
+            keys[key] = keys.pop(short)
+    names = [*_POINT, "speed", "clearance", "viscosity", "lubricant", "grid_error", "thermal_coefficients", "sensitivity_to"]
     point = {key: keys.pop(key) for key in _POINT if key in keys}
     oil = dict(lubricant or {})
     if viscosity is not None:
@@ -144,4 +237,8 @@ def bearing_model(*, viscosity: Any = None, lubricant: Any = None, **keys: Any):
     content: dict[str, Any] = {**keys, "lubricant": "oil"}
     if point:
         content["operating_point"] = point
-    return Model.from_dict({"title": "Journal bearing", "lubricants": {"oil": oil}, "bearings": {_BEARING: content}})
+    try:
+        return Model.from_dict({"title": "Journal bearing", "lubricants": {"oil": oil}, "bearings": {_BEARING: content}})
+    except InputError as error:
+        unknown = {f"unknown key '{key}'": key for key in keys}
+        raise error.hinting(lambda fault: did_you_mean(unknown[fault.found], names) if fault.found in unknown else "") from None

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Optional, Sequence
+import re
+from typing import Callable, NamedTuple, Optional, Sequence
+
+from .words import in_words
 
 
 class HerseyError(RuntimeError):
@@ -12,14 +15,14 @@ class HerseyError(RuntimeError):
 class Fault(NamedTuple):
     """One thing wrong with the user's input."""
 
-    file: str  #: the model or table it stands in; "--set" where the value was assigned
+    file: str  #: the model or table it stands in; empty where there is none: of a dictionary, or of a value assigned
     line: int  #: from 1; 0: unknown
     column: int  #: from 1; 0: unknown
     key: str  #: key path, "bearings.big_end.diameter"; may be empty
     found: str  #: what stands there
     expected: str  #: what is allowed
     suggestion: str  #: nearest valid name or remedy; may be empty
-    text: str  #: all of it in one sentence, as the program tells it
+    text: str  #: all of it in one sentence
 
 
 class InputError(HerseyError, ValueError):
@@ -29,8 +32,8 @@ class InputError(HerseyError, ValueError):
     """
 
     def __init__(self, message: str, faults: Sequence[tuple] = ()):
-        super().__init__(message)
-        self.faults = [Fault(*fault) for fault in faults]
+        self.faults = [_in_words(Fault(*fault)) for fault in faults]
+        super().__init__("\n".join(fault.text for fault in self.faults) if self.faults else in_words(message))
 
     @property
     def file(self) -> str:
@@ -48,19 +51,60 @@ class InputError(HerseyError, ValueError):
     def key(self) -> str:
         return self.faults[0].key if self.faults else ""
 
-    def at(self, positions) -> "InputError":
+    def at(self, positions: Callable[[str], tuple[str, int, int]]) -> "InputError":
         """The same with the places in the file of keys whose values were assigned from Python.
 
         `positions` gives (file, line, column) of a key path.
         """
+        return self._with([_placed(fault, positions) for fault in self.faults])
+
+    def of_dictionary(self, file: str) -> "InputError":
+        """The same without lines of a file that is none: keys tell where things stand in a dictionary."""
+        return self._with([_without_file(fault, file) for fault in self.faults])
+
+    def hinting(self, hint: Callable[[Fault], str]) -> "InputError":
+        """The same with a remedy, "did you mean ...?", for faults that have none."""
         faults = []
         for fault in self.faults:
-            if fault.file == "--set":
-                file, line, column = positions(fault.key)
-                text = fault.text.removeprefix("--set: ")
-                fault = fault._replace(file=file, line=line, column=column, text=f"{file}:{line}:{column}: assigned: {text}")
+            found = "" if fault.suggestion else hint(fault)
+            if found:
+                text = fault.text.replace(fault.found, fault.found + found, 1).replace(f"{found}; ", f"{found} ", 1)
+                fault = fault._replace(suggestion=found.removeprefix("; "), text=text)
             faults.append(fault)
-        return InputError("\n".join(fault.text for fault in faults), faults)
+        return self._with(faults)
+
+    def _with(self, faults: Sequence[Fault]) -> "InputError":
+        return InputError("\n".join(fault.text for fault in faults), faults) if faults else self
+
+
+_ASSIGNED = "assigned: "
+
+
+def _in_words(fault: Fault) -> Fault:
+    """What was assigned or given by name has no file: it says so in the text."""
+    text = fault.text
+    if fault.file.startswith("--"):
+        text = text.removeprefix(fault.file + ": ")
+        text = (_ASSIGNED if fault.file == "--set" else in_words(fault.file) + ": ") + text
+    return fault._replace(file="" if fault.file.startswith("--") else fault.file, found=in_words(fault.found),
+                          expected=in_words(fault.expected), suggestion=in_words(fault.suggestion), text=in_words(text))
+
+
+def _placed(fault: Fault, positions: Callable[[str], tuple[str, int, int]]) -> Fault:
+    if fault.file or not fault.text.startswith(_ASSIGNED):
+        return fault
+    file, line, column = positions(fault.key)
+    place = ":".join(str(part) for part in (file, line, column) if part)
+    return fault._replace(file=file, line=line, column=column, text=f"{place}: {fault.text}")
+
+
+def _without_file(fault: Fault, file: str) -> Fault:
+    if fault.file not in ("", file):
+        return fault
+    text = re.sub(rf"^{re.escape(file)}:(\d+:)*(\d+:)? ", "", fault.text).removeprefix(_ASSIGNED)
+    parts = [re.sub(r"(parameter \w+) in line \d+", r"\1", part) for part in (fault.found, fault.expected, fault.suggestion, text)]
+    found, expected, suggestion, text = parts
+    return fault._replace(file="", line=0, column=0, found=found, expected=expected, suggestion=suggestion, text=text)
 
 
 class SolutionError(HerseyError):

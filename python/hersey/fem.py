@@ -8,36 +8,29 @@ from typing import Any, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _core
-from .overrides import yaml_of
+from .overrides import plain, to_si, to_si_vector, yaml_of
 
 _AXES = ["x", "y", "z"]
 _STRESSES = ["xx", "yy", "zz", "xy", "yz", "xz"]
 
 
-def _pascal(value: Any) -> float:
-    return _core.parse_quantity(yaml_of(value), "Pa")
-
-
-def _vector(value: Any, unit: str) -> list[float]:
-    """Three quantities: a list of texts, or "0 0 -9.81 m/s^2"."""
-    if isinstance(value, str):
-        parts = value.split(None, 3)
-        value = [f"{part} {parts[3]}" for part in parts[:3]] if len(parts) == 4 else parts
-    if len(value) != 3:
-        raise ValueError(f"{value!r}: expected three components, such as '0 0 -9.81 {unit}'")
-    return [_core.parse_quantity(yaml_of(part), unit) for part in value]
+def _given(value: Any, unit: str) -> str:
+    """A quantity as text, a number in SI; nothing where the mesh file is to say it."""
+    value = plain(value)
+    return f"{value!r} {unit}".strip() if isinstance(value, (int, float)) else "" if value is None else yaml_of(value)
 
 
 class Body:
     """A mesh with its materials, as `hersey modes`, `hersey stress` and `hersey reduce` take it.
 
     `file` is a Gmsh, Abaqus or Nastran mesh in `length_unit`; `youngs_modulus`, `poisson_ratio` and `density` take the
-    place of what the file says.
+    place of what the file says: texts with units, pairs `(210, "GPa")`, quantities of pint's, or numbers, which are SI.
     """
 
-    def __init__(self, file: Any, length_unit: str = "m", *, youngs_modulus: str = "", poisson_ratio: Any = "",
-                 density: str = ""):
-        self._body = _core.read_body(os.fspath(file), length_unit, [youngs_modulus, str(poisson_ratio), density])
+    def __init__(self, file: Any, length_unit: str = "m", *, youngs_modulus: Any = None, poisson_ratio: Any = None,
+                 density: Any = None):
+        material = [_given(youngs_modulus, "Pa"), _given(poisson_ratio, ""), _given(density, "kg/m^3")]
+        self._body = _core.read_body(os.fspath(file), length_unit, [text.strip('"') for text in material])
 
     @property
     def sets(self) -> list[str]:
@@ -72,15 +65,15 @@ class Body:
                force: Optional[Mapping[str, Any]] = None, gravity: Any = "0 0 0 m/s^2"):
         """Displacements and stresses under loads at rest, as `xarray.Dataset` over nodes.
 
-        `pressure` on surfaces or sets ("20 MPa"), `force` spread evenly over the faces of a set ("0 -500 0 N"),
-        `gravity` on all of it; sets in `hold` do not move.
+        `pressure` on surfaces or sets ("20 MPa"), `force` spread evenly over the faces of a set ("0 -500 0 N", or three
+        numbers, which are SI), `gravity` on all of it; sets in `hold` do not move.
         """
         import xarray
 
         result = self._body.solve_static(
-            list(hold), {name: _pascal(value) for name, value in (pressure or {}).items()},
-            {name: np.array(_vector(value, "N")) for name, value in (force or {}).items()},
-            np.array(_vector(gravity, "m/s^2")))
+            list(hold), {name: to_si(value, "Pa") for name, value in (pressure or {}).items()},
+            {name: np.array(to_si_vector(value, "N")) for name, value in (force or {}).items()},
+            np.array(to_si_vector(gravity, "m/s^2")))
         data = {
             "displacement": (("node", "axis"), result.displacement, {"units": "m", "long_name": "displacement"}),
             "reaction": (("node", "axis"), result.reaction, {"units": "N", "long_name": "force of supports"}),

@@ -17,6 +17,7 @@ from typing import Any, Callable, Sequence, Union
 import numpy as np
 
 from .errors import UserFunctionError
+from .overrides import to_si
 
 
 @dataclass
@@ -94,14 +95,14 @@ def viscosity_law(function: Callable[..., float], temperatures: Sequence[float],
     return law
 
 
-def surface_profile(function: Callable[[float, float], float], width: float, file: Any, *, around: int = 180,
+def surface_profile(function: Callable[[float, float], float], width: Any, file: Any, *, around: int = 180,
                     along: int = 21, on: str = "shell") -> dict[str, str]:
     """An entry of a bearing's `shape` from a function of angle [rad] and z [m] that says how far a surface is open [m].
 
     Writes `file`, a table that the solver interpolates by monotone cubics around and linearly along; `width` is the bearing's
     [m]. Name the file as seen from the model's folder.
     """
-    path = Path(os.fspath(file))
+    path, width = Path(os.fspath(file)), to_si(width, "m")
     with open(path, "w", newline="", encoding="utf-8") as out:
         rows = csv.writer(out)
         rows.writerow(["angle [rad]", "z [m]", "opening [m]"])

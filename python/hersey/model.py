@@ -7,13 +7,14 @@ import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Callable, Optional, Union
+from typing import Any, Callable, Iterable, Optional, Sequence, Union
 
 from . import _core
 from .bearing import BearingSolution, solved
-from .errors import InputError
+from .errors import Fault, InputError, Stopped
 from .functions import Function
-from .overrides import assignment, plain, value_of, yaml_of
+from .overrides import assignments, give_units, has_numbers, listed, plain, value_of, with_unit, yaml_of
+from .words import did_you_mean
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -33,10 +34,12 @@ class Model:
     hersey.errors.InputError: ...
     """
 
-    def __init__(self, checked: "_core.CheckedModel", solver: Optional["_core.BearingSolver"] = None):
+    def __init__(self, checked: "_core.CheckedModel", solver: Optional["_core.BearingSolver"] = None,
+                 is_dictionary: bool = False):
         self._checked = checked
         self._solver = solver or _core.BearingSolver()  # knows the bodies it has seen
         self._functions: dict[str, Function] = {}
+        self._is_dictionary = is_dictionary  # no file: messages name keys, not lines
 
     # Where models come from
 
@@ -46,7 +49,9 @@ class Model:
 
         Raises `InputError` with every fault of the file.
         """
-        return cls(_core.read_file(os.fspath(path), [assignment(name, value) for name, value in values.items()]))
+        file, given = os.fspath(path), {name: plain(value) for name, value in values.items()}
+        return cls(_in_si(lambda: _core.read_file(file, assignments(given)), given,
+                          lambda: _core.bare_numbers(Path(file).read_text(encoding="utf-8"), file, assignments(given))))
 
     @classmethod
     def from_text(cls, text: str, file: PathLike = "model.yaml") -> "Model":
@@ -57,17 +62,43 @@ class Model:
     def from_dict(cls, content: Mapping[str, Any], folder: PathLike = ".") -> "Model":
         """A model from nested mappings with the keys of a model file; `folder` is where tables and meshes are sought.
 
-        Lines in messages are those of `text`.
+        Values are as `set` takes them: numbers are SI. Messages name keys.
         """
-        content = {"hersey": 1, **plain(content)}
-        return cls.from_text(json.dumps(content, indent=2, ensure_ascii=False), Path(folder) / "dictionary")
+        file, values = os.fspath(Path(folder) / "dictionary"), {"": {"hersey": 1, **plain(content)}}
+
+        def text() -> str:
+            return json.dumps(values[""], indent=2, ensure_ascii=False)
+
+        try:
+            checked = _in_si(lambda: _core.read_text(text(), file, []), values, lambda: _core.bare_numbers(text(), file, []))
+        except InputError as error:
+            raise error.of_dictionary(file) from None
+        return cls(checked, is_dictionary=True)
 
     def copy(self) -> "Model":
         """Another model with the same values; changing one leaves the other."""
         return self._as(self._checked)
 
+    def __copy__(self) -> "Model":
+        return self.copy()
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> "Model":
+        return self.copy()
+
+    def __reduce__(self):
+        return _from_parts, (self.text, self.file, self.changes, self._functions, self._is_dictionary)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both say the same: every value as written, changes in place, and the folder they look for files in."""
+        if not isinstance(other, Model):
+            return NotImplemented
+        return (self.to_dict() == other.to_dict() and self._functions == other._functions
+                and Path(self.file).absolute().parent == Path(other.file).absolute().parent)
+
+    __hash__ = None  # type: ignore[assignment]  # it can be changed
+
     def _as(self, checked: "_core.CheckedModel") -> "Model":
-        model = Model(checked, self._solver)
+        model = Model(checked, self._solver, self._is_dictionary)
         model._functions = dict(self._functions)
         return model
 
@@ -119,7 +150,10 @@ class Model:
 
         A key that the file leaves to its default is not there: `InputError` names those that are.
         """
-        written = _core.written_json(self.text, self.file, self.changes, self._path(path))
+        try:
+            written = _core.written_json(self.text, self.file, self.changes, self._path(path))
+        except InputError as error:
+            raise self._told(error.hinting(lambda _: did_you_mean(path, self._parameters()))) from None
         return value_of(json.loads(written))
 
     def __setitem__(self, path: str, value: Any) -> None:
@@ -140,9 +174,9 @@ class Model:
     def set(self, values: Optional[Mapping[str, Any]] = None, **named: Any) -> "Model":
         """Replaces several values at once, which may be wrong one by one: a load for an eccentricity, say.
 
-        Values are texts with units, numbers where no unit is due, lists, mappings; `None` is the word none; where an
-        expression may stand a `Function`, Python's own. Raises
-        `InputError` with file, line and key, and leaves the model as it was.
+        Values are texts with units ("40 um"), pairs `(40, "um")`, quantities of pint's, numbers, which are SI where a unit
+        is due, lists, arrays, mappings; `None` is the word none; where an expression may stand a `Function`, Python's own.
+        Raises `InputError` with file, line and key, and leaves the model as it was.
         """
         values = {**(values or {}), **named}
         given = {path: value for path, value in values.items() if isinstance(value, Function)}
@@ -161,20 +195,35 @@ class Model:
 
     def _path(self, path: str) -> str:
         """A parameter's name stands for its value, as with --set."""
-        parameters = json.loads(_core.written_json(self.text, self.file, [], ""))
-        return f"parameters.{path}" if path in (parameters or {}).get("parameters", {}) else path
+        return f"parameters.{path}" if path in self._parameters() else path
+
+    def _parameters(self) -> dict[str, Any]:
+        """Those of the file."""
+        written = json.loads(_core.written_json(self.text, self.file, [], ""))
+        return (written or {}).get("parameters") or {}
 
     def _with(self, values: Mapping[str, Any]) -> "_core.CheckedModel":
         if not values:
             return self._checked
         kept = [change for change in self._checked.overrides if change.partition("=")[0] not in values]
-        return self._read(kept + [assignment(path, value) for path, value in values.items()])
+        given = {path: plain(value) for path, value in values.items()}
+        return _in_si(lambda: self._read(kept + assignments(given)), given,
+                      lambda: _core.bare_numbers(self.text, self.file, kept + assignments(given)))
 
     def _read(self, overrides: list[str]) -> "_core.CheckedModel":
         try:
             return _core.read_text(self.text, self.file, overrides)
         except InputError as error:
-            raise error.at(self._checked.position_of) from None
+            raise self._told(error) from None
+
+    def _told(self, error: InputError) -> InputError:
+        """The error with the places of the model's file; those of a dictionary are its keys."""
+        return error.of_dictionary(self.file) if self._is_dictionary else error.at(self._checked.position_of)
+
+    @property
+    def _name(self) -> str:
+        """What messages begin with."""
+        return "the model" if self._is_dictionary else self.file
 
     def __repr__(self) -> str:
         changed = f", {len(self.changes)} values changed" if self.changes else ""
@@ -183,53 +232,111 @@ class Model:
     # A bearing by itself
 
     def bearing(self, name: Optional[str] = None, *, grid_error: bool = True, thermal_coefficients: str = "frozen",
-                **values: Any) -> BearingSolution:
+                sensitivity: bool = False, sensitivity_to: Union[str, Sequence[str]] = (), **values: Any) -> BearingSolution:
         """Solves one bearing by itself at its operating point, which `values` may change for this once.
 
         `values` are parameters, the bearing's own keys (`width="20 mm"`), those of its operating point (`load="2 kN"`,
-        `speed="3000 rpm"`) and `clearance` and `viscosity`; for other keys copy and `set` the model. A load takes the
-        place of an eccentricity and the other way round.
+        `speed="3000 rpm"`) and `clearance` and `viscosity`; for other keys copy and `set` the model. They are as `set`
+        takes them. A load takes the place of an eccentricity and the other way round.
+
+        `sensitivity` asks for the derivatives of every figure by what decides about a bearing, `sensitivity_to` by any
+        numbers of the model, named as `values` are or by key paths: `BearingSolution.sensitivities` and `gradient`.
 
         `grid_error` estimates the error of the grid by two coarser ones; `thermal_coefficients="total"` lets
         temperatures follow the motion in stiffness and damping. Raises `SolutionError` where there is no solution.
         """
         _require_coefficients(thermal_coefficients)
         name = self._bearing_called(name)
-        checked = self._with(self._keys(name, values)) if values else self._checked
-        return solved(self._solver.solve(checked, name, grid_error, thermal_coefficients))
+        keys = [sensitivity_to] if isinstance(sensitivity_to, str) else list(sensitivity_to)
+        try:
+            checked = self._with(self._keys(name, values)) if values else self._checked
+            found = self._solver.solve(checked, name, grid_error, thermal_coefficients)
+            solution = solved(found)
+            if sensitivity or keys:
+                paths = [self._path(next(iter(self._keys(name, {key: None})))) if "." not in key else key for key in keys]
+                solution.take(_core.sensitivities(checked, found, name, thermal_coefficients, sensitivity, paths))
+        except InputError as error:
+            raise self._told(self._hinting(error, [*values, *keys])) from None
+        return solution
 
     def sweep(self, name: Optional[str] = None, *, grid_error: bool = True, thermal_coefficients: str = "frozen",
               threads: int = 0, **values: Any) -> "Any":
         """Solves one bearing at all combinations of `values`, several at a time, as an `xarray.Dataset`.
 
-        Each of `values` is a list, named as in `bearing`. Its numbers become the coordinate of a dimension of that
-        name; every figure becomes a variable in SI with `units` and `long_name`. Where there is no solution figures
-        are NaN and the variable `error` says why.
+        Each of `values` is a list or an array, named as in `bearing`: texts with units, numbers, which are SI, or a pair
+        `(numbers, "unit")`. Its numbers become the coordinate of a dimension of that name; every figure becomes a
+        variable in SI with `units` and `long_name`. Where there is no solution figures are NaN and the variable `error`
+        says why. A list without values gives a data set without points.
+
+        Ctrl-C ends it when the points under way are done and raises `Stopped`, whose `results` have all that are.
         """
         from .sweep import sweep
 
         _require_coefficients(thermal_coefficients)
         name = self._bearing_called(name)
-        paths = {given: next(iter(self._keys(name, {given: None}))) for given in values}
-        fixed = {given: list(items)[0] for given, items in values.items()}
+        lists = {given: listed(items) for given, items in values.items()}
+        if not all(lists.values()):
+            return sweep(lists, [], _core.figure_keys())
+        try:
+            base, lists, combinations = self._combinations(name, lists)
+            found, raised = _core.solve_all(base, combinations, name, grid_error, thermal_coefficients, threads)
+        except InputError as error:
+            raise self._told(self._hinting(error, values)) from None
+        results = sweep(lists, found)
+        if isinstance(raised, KeyboardInterrupt):
+            done = sum(solution.error != _core.not_begun for solution in found)
+            raise Stopped(f"stopped with {done} of {len(found)} points done", results) from None
+        if raised is not None:
+            raise raised
+        return results
+
+    def _combinations(self, name: str, lists: Mapping[str, list[Any]]):
+        """The model at the first values, the lists with units, and of each combination label, changes, and texts."""
+        paths = {given: next(iter(self._keys(name, {given: None}))) for given in lists}
+        fixed = {given: items[0] for given, items in lists.items()}
         others = {path: value for path, value in self._keys(name, fixed).items() if path not in paths.values()}
-        base = self._with({**others, **{paths[given]: value for given, value in fixed.items()}})
+        united = {given: self._with_units(paths[given], items, others) if has_numbers(items) else items
+                  for given, items in lists.items()}
+        base = self._with({**others, **{paths[given]: items[0] for given, items in united.items()}})
         combinations = []
-        for chosen in itertools.product(*values.values()):
+        for chosen in itertools.product(*united.values()):
             texts = [yaml_of(value) for value in chosen]
-            label = ", ".join(f"{given} = {text}" for given, text in zip(values, texts))
+            label = ", ".join(f"{given} = {text}" for given, text in zip(lists, texts))
             changes = [f"{path}={text}" for path, text in zip(paths.values(), texts)]
             combinations.append((label, base.overrides + changes, texts))
-        found = _core.solve_all(base, combinations, name, grid_error, thermal_coefficients, threads)
-        return sweep(values, found)
+        return base, united, combinations
+
+    def _with_units(self, path: str, items: list[Any], others: Mapping[str, Any]) -> list[Any]:
+        """Items with the SI unit of `path` behind bare numbers, which the first that is not 0 tells: a 0 needs none."""
+        numbers = [item for item in items if has_numbers(item) and item != 0]
+        if not numbers:
+            return items
+        kept = [change for change in self.changes if change.partition("=")[0] not in others]
+        given = {path: numbers[0]}
+        if not give_units(given, _core.bare_numbers(self.text, self.file, kept + assignments({**others, **given}))):
+            return items
+        unit = given[path].split(" ", 1)[1]
+        return [with_unit(item, unit) if has_numbers(item) else item for item in items]
+
+    def _hinting(self, error: InputError, names: Iterable[str]) -> InputError:
+        """With the nearest name for what is no key of the bearing: of parameters, of its operating point, of options."""
+        known = [*self._parameters(), *_POINT, *_SHORT, *_OPTIONS]
+
+        def hint(fault: Fault) -> str:
+            for key in names:
+                if fault.found == f"unknown key '{key}'" or fault.found.endswith(f".{key}'"):
+                    return did_you_mean(key, known)
+            return ""
+
+        return error.hinting(hint)
 
     def _bearing_called(self, name: Optional[str]) -> str:
         if name is None and len(self.bearings) == 1:
             return self.bearings[0]
         if name not in self.bearings:
-            raise InputError(f"{self.file}: no bearing {name!r}: expected one of {', '.join(self.bearings) or 'none'}"
-                             if name is not None else
-                             f"{self.file}: several bearings: expected the name of one, {', '.join(self.bearings)}")
+            raise InputError(f"{self._name}: no bearing {name!r}{did_you_mean(name, self.bearings)}: expected one of "
+                             f"{', '.join(self.bearings) or 'none'}" if name is not None else
+                             f"{self._name}: several bearings: expected the name of one, {', '.join(self.bearings)}")
         return name
 
     def _keys(self, name: str, values: Mapping[str, Any]) -> dict[str, Any]:
@@ -260,7 +367,10 @@ class Model:
 
     def check(self) -> list[str]:
         """Builds the machine and finds its start, as a run does first: what the user should know though it runs."""
-        return self._runnable()[0].check()
+        try:
+            return self._runnable()[0].check()
+        except InputError as error:
+            raise self._told(error) from None
 
     def runs(self) -> list["Model"]:
         """A model for each combination of the file's study; the model itself where it has none."""
@@ -289,6 +399,8 @@ class Model:
         return run(self, output, overwrite=overwrite, resume=resume, step_error=step_error, progress=progress)
 
 
+_SHORT = ("speed", "clearance", "viscosity", "width", "diameter", "radial_clearance", "diametral_clearance")
+_OPTIONS = ("grid_error", "thermal_coefficients", "sensitivity", "sensitivity_to", "threads")
 _POINT = ("journal_speed", "shell_speed", "load", "load_angle", "eccentricity_ratio", "eccentricity_angle",
           "radial_velocity", "journal_angle")
 
@@ -296,6 +408,23 @@ _POINT = ("journal_speed", "shell_speed", "load", "load_angle", "eccentricity_ra
 def _require_coefficients(name: str) -> None:
     if name not in ("frozen", "total"):
         raise InputError(f"thermal_coefficients: {name!r}: expected 'frozen' or 'total'")
+
+
+def _in_si(read: Callable[[], Any], values: dict[str, Any], bare: Callable[[], Any]) -> Any:
+    """What `read` gives of `values`, whose bare numbers become SI quantities where `bare` tells that they lack a unit."""
+    while True:
+        try:
+            return read()
+        except InputError:
+            if not has_numbers(values) or not give_units(values, bare()):
+                raise
+
+
+def _from_parts(text: str, file: str, changes: list[str], functions: dict[str, Function], is_dictionary: bool) -> Model:
+    """A model as `pickle` has kept it."""
+    model = Model(_core.read_text(text, file, changes), is_dictionary=is_dictionary)
+    model._functions = dict(functions)
+    return model
 
 
 def _with_functions(checked: "_core.CheckedModel", functions: Mapping[str, Function]):

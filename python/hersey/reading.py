@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Optional
+from typing import Any, Iterator, Optional
 
 import numpy as np
 
@@ -24,6 +25,42 @@ class SolversLock:
 
     def __exit__(self, *_: Any) -> None:
         _core.unlock_hdf5()
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[Any]:
+    """A results file to read from. @raises OSError with the path and the reason where that cannot be done"""
+    import h5py
+
+    with SolversLock():
+        try:
+            file = h5py.File(path, "r")
+        except OSError as error:
+            raise _refusal(path, error) from None
+        with file:
+            if _text(file.attrs.get("format")) != "hersey-results":
+                raise OSError(f"{path}: an HDF5 file that is no results file of hersey: expected results.h5 of a run")
+            try:
+                yield file
+            except OSError as error:
+                raise _refusal(path, error) from None
+
+
+def _refusal(path: Path, error: OSError) -> OSError:
+    """The error in words that name the file."""
+    told = str(error)
+    if str(path) in told and "errno" not in told:
+        return error
+    if not Path(path).exists():
+        return FileNotFoundError(f"{path}: no such results file")
+    if Path(path).is_dir():
+        return IsADirectoryError(f"{path}: a folder: expected the results file in it, {Path(path) / 'results.h5'}")
+    for sign, reason in (("signature not found", "no HDF5 file"), ("truncated file", "cut off: the file is shorter than it says"),
+                         ("Permission denied", "it may not be read"), ("unable to lock", "another program writes it"),
+                         ("checksum", "damaged"), ("read data", "damaged")):
+        if sign in told:
+            return OSError(f"{path}: {reason} ({told})")
+    return OSError(f"{path}: {told}")
 
 
 def _content(dataset: Any, rows: Any) -> np.ndarray:
@@ -47,11 +84,9 @@ def _lazy(path: Path, name: str, shape: tuple[int, ...], dtype: Any) -> Any:
             return indexing.explicit_indexing_adapter(key, shape, indexing.IndexingSupport.OUTER_1VECTOR, self._read)
 
         def _read(self, key: tuple[Any, ...]) -> np.ndarray:
-            import h5py
-
             if shape and isinstance(key[0], slice):  # rows that a kill left behind these do not count
                 key = (slice(*key[0].indices(shape[0])), *key[1:])
-            with SolversLock(), h5py.File(path, "r") as file:
+            with opened(path) as file:
                 return file[name][key]
 
     return indexing.LazilyIndexedArray(Stored())
@@ -106,7 +141,7 @@ def read_group(path: Path, group: str):
 
     coordinates: dict[str, Any] = {}
     data: dict[str, Any] = {}
-    with SolversLock(), h5py.File(path, "r") as file:
+    with opened(path) as file:
         if group not in file or not isinstance(file[group], h5py.Group):
             raise KeyError(group)
         place = file[group]

@@ -11,7 +11,8 @@ from typing import Any, Iterator, Optional, Sequence
 import numpy as np
 
 from . import _core
-from .reading import SolversLock, complete_rows, read_group
+from .reading import complete_rows, opened, read_group
+from .words import did_you_mean
 
 
 class Summary(Mapping):
@@ -54,9 +55,7 @@ class Results:
     @property
     def attributes(self) -> dict[str, Any]:
         """Of the file: title, status, message, the model's text, ..."""
-        import h5py
-
-        with SolversLock(), h5py.File(self.path, "r") as file:
+        with opened(self.path) as file:
             return dict(file.attrs)
 
     @property
@@ -79,16 +78,14 @@ class Results:
             if isinstance(item, h5py.Group) and any(isinstance(part, h5py.Dataset) for part in item.values()):
                 found.append(name)
 
-        with SolversLock(), h5py.File(self.path, "r") as file:
+        with opened(self.path) as file:
             file.visititems(visit)
         return found
 
     @property
     def bearings(self) -> list[str]:
         """Names of the bearings."""
-        import h5py
-
-        with SolversLock(), h5py.File(self.path, "r") as file:
+        with opened(self.path) as file:
             return list(file.get("bearings", {}))
 
     def __getitem__(self, group: str):
@@ -96,7 +93,8 @@ class Results:
         try:
             return read_group(self.path, group or "/")
         except KeyError:
-            raise KeyError(f"no group '{group}' in {self.path}; there are {', '.join(self.groups)}") from None
+            groups = self.groups
+            raise KeyError(f"no group '{group}' in {self.path}{did_you_mean(group, groups)}; there are {', '.join(groups)}") from None
 
     def bearing(self, name: Optional[str] = None):
         """Series of a bearing over time [s], with the crank angle as a coordinate where the machine has a crank."""
@@ -111,14 +109,13 @@ class Results:
         if name is None and len(names) == 1:
             return names[0]
         if name not in names:
-            raise KeyError(f"{'several bearings' if name is None else f'no bearing {name!r}'} in {self.path}: "
-                           f"expected one of {', '.join(names) or 'none'}")
+            found = "several bearings" if name is None else f"no bearing {name!r}"
+            near = did_you_mean(name or "", names)
+            raise KeyError(f"{found} in {self.path}{near}: expected one of {', '.join(names) or 'none'}")
         return name
 
     def _with_crank(self, data):
-        import h5py
-
-        with SolversLock(), h5py.File(self.path, "r") as file:
+        with opened(self.path) as file:
             if "crank_angle" not in file or "time" not in data.dims:
                 return data
             crank = file["crank_angle"]

@@ -29,10 +29,10 @@ def require_one_run(model: Any) -> None:
     varied = [name for name, texts in model.study.items()
               if len(texts) > 1 and not any(change.startswith(name + "=") for change in model.changes)]
     if varied:
-        raise InputError(f"{model.file}: the model's study varies {', '.join(varied)}: expected one run; "
+        raise InputError(f"{model._name}: the model's study varies {', '.join(varied)}: expected one run; "
                          f"model.set({varied[0]}=...) fixes it, model.runs() gives a model for each combination")
     if model._checked.is_of_bearings_alone:
-        raise InputError(f"{model.file}: bearings alone: expected bodies and a simulation to run; "
+        raise InputError(f"{model._name}: bearings alone: expected bodies and a simulation to run; "
                          "model.bearing() solves bearings by themselves")
 
 
@@ -69,6 +69,7 @@ def run(model: Any, output: Optional[Any], *, overwrite: bool, resume: bool, ste
     """See `Model.run`."""
     require_one_run(model)
     file = results_file(model, output)
+    _core.require_idle(os.fspath(file))
     if file.exists() and not (overwrite or resume):
         raise FileExistsError(f"{file}: the results file exists already and was kept; overwrite=True replaces it, "
                               "resume=True goes on with it")
@@ -82,6 +83,8 @@ def run(model: Any, output: Optional[Any], *, overwrite: bool, resume: bool, ste
 
     try:
         text, raised, t = _core.simulate(checked, os.fspath(file), overwrite, resume, step_error, listener, is_in_trouble)
+    except InputError as error:
+        raise model._told(error) from None
     finally:
         if bar:
             bar.close()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import os
 from typing import Any, NamedTuple, Optional, Union
@@ -10,8 +9,10 @@ from typing import Any, NamedTuple, Optional, Union
 from . import _core
 from .errors import InputError, RunError
 from .functions import cost_of, trouble_of
+from .overrides import to_si
 from .results import Results, Summary
 from .running import require_one_run, results_file
+from .words import did_you_mean
 
 
 class Port(NamedTuple):
@@ -51,8 +52,10 @@ class Simulation:
         checked, self._calls = model._runnable()
         try:
             self._core = _core.Simulation(checked, "" if self._file is None else os.fspath(self._file), overwrite)
-        except RuntimeError:
+        except RuntimeError as error:
             trouble_of(self._calls, 0.0, None)
+            if isinstance(error, InputError):
+                raise model._told(error) from None
             raise
         self.inputs = {name: Port(name, unit, text) for name, unit, text, _ in self._core.inputs()}
         self.outputs = {name: Port(name, unit, text, tuple(shape), tuple(components))
@@ -82,11 +85,12 @@ class Simulation:
         """
         return self._advanced(*self._core.step())
 
-    def advance_to(self, t: float) -> bool:
-        """As many steps as it takes to be at `t` [s] exactly; False where the run ended before."""
+    def advance_to(self, t: Any) -> bool:
+        """As many steps as it takes to be at `t` exactly, a number [s] or a quantity; False where the run ended before."""
+        t = to_si(t, "s")
         if not t >= self.time:
             raise InputError(f"advance_to({t!r}): expected a time not before {self.time!r} s")
-        return self._advanced(*self._core.advance_to(float(t)))
+        return self._advanced(*self._core.advance_to(t))
 
     def _advanced(self, status: str, message: str) -> bool:
         self.message = message
@@ -102,12 +106,10 @@ class Simulation:
         values = self._core.output(self._places[name])
         return values if values.ndim else float(values)
 
-    def __setitem__(self, name: str, value: Union[float, str]) -> None:
-        """Holds the input `name` at `value` from now on."""
+    def __setitem__(self, name: str, value: Any) -> None:
+        """Holds the input `name` at `value` from now on: a number [SI], a text with unit, `(value, "unit")`, one of pint's."""
         _require(name, self.inputs, "input")
-        if isinstance(value, str):
-            value = _core.parse_quantity(value, self.inputs[name].unit)
-        self._core.set(name, float(value))
+        self._core.set(name, to_si(value, self.inputs[name].unit))
 
     def input(self, name: str) -> float:
         """The value that an input has now [SI]."""
@@ -157,9 +159,7 @@ class Simulation:
 def _require(name: str, known: dict[str, Port], kind: str) -> None:
     if name in known:
         return
-    near = difflib.get_close_matches(name, known, 1)
-    remedy = f"; did you mean {near[0]!r}?" if near else ""
-    raise InputError(f"{name!r}: unknown {kind}{remedy or ';'} Simulation.{kind}s has them all")
+    raise InputError(f"{name!r}: unknown {kind}{did_you_mean(name, known) or ';'} Simulation.{kind}s has them all")
 
 
 __all__ = ["Port", "Simulation"]

@@ -11,7 +11,7 @@ from typing import Any, Optional, Union
 
 from .errors import InputError, RunError, Stopped
 from .model import Model, PathLike
-from .overrides import assignment
+from .overrides import assignments, has_numbers, plain
 
 WRONG_INPUT = 2
 
@@ -114,9 +114,14 @@ def study(model: Union[Model, PathLike], output: Optional[PathLike] = None, *, j
     finished run is kept then, and the same call goes on. Runs that fail stop nothing, see `Study.failed`.
     """
     file, changes = _file_of(model)
+    given = {name: plain(value) for name, value in values.items()}
+    if has_numbers(given):  # SI: what it is the model knows
+        known = model if isinstance(model, Model) else Model.load(file)
+        changes = known.copy().set(given).changes
+        given = {}
     folder = Path(output) if output is not None else Path("studies") / _name_of(file)
     command = [find_program(), "study", file, "--out", str(folder), "--on", on,
-               *(f"--set={change}" for change in [*changes, *(assignment(name, value) for name, value in values.items())])]
+               *(f"--set={change}" for change in [*changes, *assignments(given)])]
     if jobs:
         command += ["--jobs", str(jobs)]
     if again:

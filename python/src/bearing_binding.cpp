@@ -1,11 +1,18 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <optional>
+
 #include "bindings.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/model/read.h"
 #include "hersey/run/film_fields.h"
 #include "hersey/study/bearing_study.h"
+#include "hersey/study/sensitivity.h"
 #include "model_binding.h"
 
 namespace hersey::python {
@@ -14,6 +21,9 @@ namespace {
 namespace py = pybind11;
 using study::BearingSolution;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// How often a sweep looks whether Python has something to say.
+constexpr std::chrono::milliseconds kPause{50};
 
 study::BearingStudyOptions options_of(const std::string& bearing, bool grid_error, const std::string& coefficients) {
   study::BearingStudyOptions options{.bearing = bearing, .grid_error = grid_error};
@@ -29,9 +39,25 @@ BearingSolution solve(const study::BearingSolver& solver, const CheckedModel& ch
 // One combination of a sweep: label, overrides, and the values that tell neighbours.
 using Combination = std::tuple<std::string, std::vector<std::string>, std::vector<std::string>>;
 
-std::vector<BearingSolution> solve_all(const CheckedModel& checked, const std::vector<Combination>& combinations,
-                                       const std::string& bearing, bool grid_error, const std::string& coefficients,
-                                       int threads) {
+/// Waits for `work`, which holds no lock of the interpreter, and asks meanwhile whether Python has something to say:
+/// Ctrl-C sets `stop`. Returns what Python raised, or None.
+py::object wait_for(const std::future<std::vector<BearingSolution>>& work, std::atomic<bool>& stop) {
+  std::optional<py::error_already_set> raised;
+  const auto listen = [&] {
+    if (stop || PyErr_CheckSignals() == 0) return;
+    raised.emplace();
+    stop = true;
+  };
+  for (bool is_done = false; !is_done; listen()) {
+    const py::gil_scoped_release open;
+    is_done = work.wait_for(kPause) == std::future_status::ready;
+  }
+  return raised ? py::object(raised->value()) : py::none();
+}
+
+// The solutions, and what Python raised meanwhile, or None: then runs that were not begun have none.
+py::tuple solve_all(const CheckedModel& checked, const std::vector<Combination>& combinations,
+                    const std::string& bearing, bool grid_error, const std::string& coefficients, int threads) {
   std::vector<model::StudyRun> runs;
   for (const auto& [label, overrides, values] : combinations) {
     model::StudyRun& run = runs.emplace_back();
@@ -44,7 +70,32 @@ std::vector<BearingSolution> solve_all(const CheckedModel& checked, const std::v
   const auto read = [&](const std::vector<std::string>& overrides) {
     return model::read_text(checked.text, checked.file, overrides);
   };
-  return study::solve_bearings(study::ModelReader(read), runs, options);
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  std::future<std::vector<BearingSolution>> work =
+      std::async(std::launch::async, [&] { return study::solve_bearings(study::ModelReader(read), runs, options); });
+  const py::object raised = wait_for(work, stop);
+  return py::make_tuple(work.get(), raised);
+}
+
+// key path, value, unit, whether exact, why there is none, derivative of each figure; `usual`: those to the keys that
+// decide about a bearing, too.
+py::list sensitivities(const CheckedModel& checked, const BearingSolution& solution, const std::string& bearing,
+                       const std::string& coefficients, bool usual, std::vector<std::string> keys) {
+  std::vector<study::Sensitivity> found;
+  {
+    const py::gil_scoped_release open;
+    BearingSolution here = solution;
+    here.run.overrides = checked.overrides;
+    if (usual)
+      for (std::string& key : study::usual_parameters(checked.text, checked.file, checked.overrides, bearing))
+        if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(std::move(key));
+    found = study::sensitivities(checked.text, checked.file, here, options_of(bearing, false, coefficients), keys);
+  }
+  py::list list;
+  for (const study::Sensitivity& each : found)
+    list.append(py::make_tuple(each.parameter, each.value, each.unit, each.exact, each.message, each.slopes));
+  return list;
 }
 
 // key, name, group, unit, SI unit, size of the unit, value in the unit, grid error in the unit, words
@@ -109,7 +160,10 @@ void bind_bearing(py::module_& core) {
       .def("figures", &figures_of)
       .def("fields", &fields_of);
   py::class_<study::BearingSolver>(core, "BearingSolver").def(py::init<>()).def("solve", &solve, Guard());
-  core.def("solve_all", &solve_all, Guard());
+  core.def("solve_all", &solve_all);
+  core.def("figure_keys", &study::figure_keys);
+  core.attr("not_begun") = study::kNotBegun;
+  core.def("sensitivities", &sensitivities);
 }
 
 }  // namespace hersey::python

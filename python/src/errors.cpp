@@ -5,6 +5,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/units.h"
 #include "hersey/results/error.h"
+#include "hersey/results/output_lock.h"
 
 namespace hersey::python {
 namespace {
@@ -37,6 +38,8 @@ void translate(std::exception_ptr thrown) {
     raise("InputError", py::str(error.what()), faults);
   } catch (const results::FileExists& error) {
     PyErr_SetString(PyExc_FileExistsError, error.what());
+  } catch (const results::FileBusy& error) {
+    PyErr_SetString(PyExc_BlockingIOError, error.what());
   } catch (const results::FileError& error) {
     PyErr_SetString(PyExc_OSError, error.what());
   } catch (const py::builtin_exception&) {

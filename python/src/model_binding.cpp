@@ -4,6 +4,7 @@
 
 #include "bindings.h"
 #include "hersey/core/units.h"
+#include "hersey/model/bare_numbers.h"
 #include "hersey/model/read.h"
 #include "hersey/model/schema.h"
 #include "hersey/model/written.h"
@@ -52,6 +53,14 @@ py::tuple position_of(const CheckedModel& checked, const std::string& path) {
   return py::make_tuple(position.file, position.line, position.column);
 }
 
+// path, SI unit, parameter
+py::list bare_numbers(const std::string& text, const std::string& file, const Texts& overrides) {
+  py::list found;
+  for (const model::BareNumber& each : model::bare_numbers(text, file, overrides))
+    found.append(py::make_tuple(each.path, each.unit, each.parameter));
+  return found;
+}
+
 std::string lubricant_of(const CheckedModel& checked, const std::string& bearing) {
   for (const model::Bearing& candidate : checked.model.bearings)
     if (candidate.name == bearing) return candidate.lubricant;
@@ -80,6 +89,7 @@ void bind_model(py::module_& core) {
           "check", [](const CheckedModel& c) { return texts_of(run::check(c.model)); }, Guard());
   core.def("read_file", &read_file, Guard());
   core.def("read_text", &read_text, Guard());
+  core.def("bare_numbers", &bare_numbers);
   core.def("written_json", &model::written_json, Guard());
   core.def("schema_json", &model::schema_json);
   core.def("parse_quantity",

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bindings.h"
+#include "hersey/results/output_lock.h"
 #include "hersey/run/simulate.h"
 #include "hersey/run/summary_json.h"
 #include "model_binding.h"
@@ -92,6 +93,7 @@ void bind_run(py::module_& core) {
       .def_readonly("moft", &run::Progress::moft)
       .def_readonly("elapsed", &run::Progress::elapsed);
   core.def("simulate", &simulate);
+  core.def("require_idle", [](const std::string& results) { results::require_idle(results); });
 }
 
 }  // namespace hersey::python

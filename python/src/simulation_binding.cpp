@@ -1,6 +1,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <cstring>
 #include <memory>
 
 #include "bindings.h"
@@ -20,6 +21,31 @@ using Unlocked = py::call_guard<py::gil_scoped_release>;
 struct SavedState {
   Archive::Content content;
 };
+
+// A state as plain data: {name: (shape, bytes of the numbers)}, {name: bytes of the text}.
+py::tuple parts_of(const SavedState& state) {
+  py::dict numbers, texts;
+  for (const auto& [name, kept] : state.content.numbers)
+    numbers[py::str(name)] = py::make_tuple(
+        kept.shape, py::bytes(reinterpret_cast<const char*>(kept.values.data()), kept.values.size() * sizeof(double)));
+  for (const auto& [name, text] : state.content.texts) texts[py::str(name)] = py::bytes(text);
+  return py::make_tuple(numbers, texts);
+}
+
+SavedState state_of(const py::tuple& parts) {
+  SavedState state;
+  for (const auto& [name, kept] : parts[0].cast<py::dict>()) {
+    const auto pair = kept.cast<py::tuple>();
+    Archive::Numbers& numbers = state.content.numbers[name.cast<std::string>()];
+    numbers.shape = pair[0].cast<decltype(numbers.shape)>();
+    const auto bytes = pair[1].cast<std::string>();
+    numbers.values.resize(bytes.size() / sizeof(double));
+    std::memcpy(numbers.values.data(), bytes.data(), numbers.values.size() * sizeof(double));
+  }
+  for (const auto& [name, text] : parts[1].cast<py::dict>())
+    state.content.texts[name.cast<std::string>()] = text.cast<std::string>();
+  return state;
+}
 
 std::unique_ptr<run::Simulation> make(const CheckedModel& checked, const std::string& results, bool overwrite) {
   run::Options options;
@@ -76,7 +102,7 @@ py::array_t<double> output(const run::Simulation& simulation, std::size_t place)
 }  // namespace
 
 void bind_simulation(py::module_& core) {
-  py::class_<SavedState>(core, "SavedState");
+  py::class_<SavedState>(core, "SavedState").def(py::pickle(&parts_of, &state_of));
   py::class_<run::Simulation>(core, "Simulation")
       .def(py::init(&make), Unlocked())
       .def_property_readonly("time", &run::Simulation::time)

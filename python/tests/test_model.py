@@ -1,6 +1,9 @@
 """The strict reader from Python."""
 
+import copy
 import json
+import math
+import pickle
 import subprocess
 
 import pytest
@@ -98,3 +101,62 @@ def test_study_becomes_a_model_for_each_combination():
     assert len({tuple(each.changes) for each in models}) == count
     with pytest.raises(hersey.InputError, match="study varies"):
         model.run()
+
+
+def test_equal_models_are_equal_and_others_not(alone, machine, bearing_file):
+    assert alone == hersey.Model.load(bearing_file) == alone.copy() == copy.copy(alone) == copy.deepcopy(alone)
+    changed = alone.copy().set(load="1 kN")
+    assert changed != alone and changed == hersey.Model.load(bearing_file, load="1 kN")
+    assert hersey.Model.from_dict(machine) == hersey.Model.from_dict(machine) != alone
+    assert alone != "a text"
+
+
+def test_models_pickle(alone, machine):
+    alone["load"] = "1 kN"
+    for model in (alone, hersey.Model.from_dict(machine)):
+        again = pickle.loads(pickle.dumps(model))
+        assert again == model and again.changes == model.changes and again.text == model.text
+    assert dict(again.copy().set(load="1 kN").to_dict()) != model.to_dict()
+    with_function = hersey.Model.from_dict(machine)
+    with_function["forces.push.components.1"] = hersey.Function(math.sin, unit="N")
+    assert pickle.loads(pickle.dumps(with_function)) == with_function
+
+
+def wrong_messages(alone, machine):
+    """What is told of wrong things in many places."""
+    def told(action):
+        with pytest.raises(hersey.InputError) as caught:
+            action()
+        assert all("--" not in part and "hersey run" not in part for fault in caught.value.faults for part in map(str, fault))
+        return str(caught.value)
+
+    def dictionary(**bearing):
+        content = copy.deepcopy(machine)
+        content["bearings"]["main"].update(bearing)
+        return hersey.Model.from_dict(content)
+
+    yield told(lambda: dictionary(widht="20 mm"))
+    yield told(lambda: dictionary(width="20 kPa", diameter="${size}"))
+    yield told(lambda: hersey.Model.from_dict(machine).set({"bearings.main.width": "3 kPa"}))
+    yield told(lambda: hersey.Model.from_dict(machine).set(load="3 parrots"))
+    yield told(lambda: hersey.Model.from_dict(machine).set(lod="3 N"))
+    yield told(lambda: hersey.Model.from_dict(machine)["lod"])
+    yield told(lambda: hersey.Model.from_dict(machine).bearing())
+    yield told(lambda: hersey.Model.from_dict(machine).run("out", overwrite=True) if machine["joints"].clear() else dictionary())
+    yield told(lambda: alone.set(load="3 parrots"))
+    yield told(lambda: alone.copy().bearing(width="20 kPa"))
+    yield told(lambda: hersey.Model.load(alone.file, load="3 parrots"))
+    yield told(lambda: hersey.Model.load(alone.file, lod="3 N"))
+
+
+def test_messages_are_in_python_s_words(alone, machine):
+    messages = list(wrong_messages(alone, machine))
+    for message in messages:
+        assert "--" not in message and "dictionary" not in message and "hersey " not in message, message
+    assert messages[0].startswith("bearings.main: unknown key 'widht'; did you mean 'width'?")
+    assert "unknown parameter 'size'" in messages[1] and "bearings.main.width: a pressure (kPa)" in messages[1]
+    assert messages[2].startswith("bearings.main.width: a pressure (kPa)")
+    assert "(from parameter load that was assigned)" in messages[3]
+    assert "did you mean 'load'" in messages[4] and "did you mean 'load'" in messages[5]
+    assert "speed with load or eccentricity_ratio" in messages[6]
+    assert messages[9].startswith(f"{alone.file}:")  # of a file its line

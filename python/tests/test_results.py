@@ -1,6 +1,7 @@
 """Results as xarray and pandas, lazily, with everything named."""
 
 import copy
+import pickle
 import shutil
 
 import h5py
@@ -132,3 +133,35 @@ def test_runs_are_laid_over_each_other_by_their_names(machine, tmp_path):
     page = hersey.report(runs, tmp_path / "both.html", names=["as it is", "heavier"])
     assert '"heavier"' in page.read_text(encoding="utf-8")
     assert len(runs[0].table()) > 5
+
+
+def test_files_that_are_no_results_are_told_with_path_and_reason(results, tmp_path):
+    text, short, foreign = tmp_path / "text.h5", tmp_path / "short.h5", tmp_path / "foreign.h5"
+    text.write_text("no HDF5", encoding="utf-8")
+    short.write_bytes(results.path.read_bytes()[:5000])
+    with h5py.File(foreign, "w") as file:
+        file["x"] = 1
+    for path, reason in ((text, "no HDF5 file"), (short, "cut off"), (foreign, "no results file of hersey")):
+        for use in (lambda r: r.status, lambda r: r.groups, lambda r: r["bearings/main"]):
+            with pytest.raises(OSError) as caught:
+                use(hersey.open_results(path))
+            assert str(caught.value).startswith(f"{path}: ") and reason in str(caught.value)
+        with pytest.raises(OSError) as caught:
+            hersey.open_results(path).table()  # which the solver reads
+        assert str(caught.value).startswith(f"{path}: ")
+    found = hersey.open_results(short)
+    short.unlink()
+    with pytest.raises(FileNotFoundError, match="short.h5: no such results file"):
+        found.status
+
+
+def test_nearest_names_of_groups(results):
+    with pytest.raises(KeyError, match="did you mean 'bearings/main'"):
+        results["bearing/main"]
+    with pytest.raises(KeyError, match="did you mean 'main'"):
+        results.bearing("mian")
+
+
+def test_results_pickle(results):
+    again = pickle.loads(pickle.dumps(results))
+    assert again.path == results.path and dict(again.summary) == dict(results.summary)

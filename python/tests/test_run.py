@@ -1,12 +1,14 @@
 """Runs from Python: the program's numbers, progress, interruptions, failures."""
 
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import textwrap
 import threading
+import time
 
 import h5py
 import numpy as np
@@ -157,3 +159,41 @@ def test_failed_run_tells_when_and_why_with_results(machine, tmp_path):
 def test_bearings_alone_are_no_run(alone):
     with pytest.raises(hersey.InputError, match="model.bearing"):
         alone.run()
+
+
+def test_an_output_that_another_run_writes_is_locked_and_says_so(machine, tmp_path, program):
+    model = hersey.Model.from_dict(machine)
+    file = tmp_path / "model.yaml"
+    file.write_text(model.text, encoding="utf-8")
+    writing = hersey.Simulation(model, tmp_path / "out")  # one that goes on writing
+    told = rf"results.h5: another run \(process {os.getpid()} on .*\) is writing this file"
+    for options in ({}, {"overwrite": True}, {"resume": True}):
+        with pytest.raises(BlockingIOError, match=told):
+            model.run(tmp_path / "out", **options)
+    with pytest.raises(BlockingIOError, match=told):
+        hersey.Simulation(model, tmp_path / "out", overwrite=True)
+    for option in ([], ["--force"], ["--resume"]):
+        run = subprocess.run([program, "run", file, "--output", tmp_path / "out", *option], capture_output=True, text=True)
+        assert run.returncode == 2 and re.search(told, run.stderr), run.stderr
+    while writing.step():
+        pass
+    assert writing.finish().status == "completed"
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["results.h5"]
+    assert model.run(tmp_path / "out", overwrite=True).status == "completed"
+
+
+def test_the_lock_of_a_killed_run_blocks_nobody(machine, tmp_path, program):
+    machine["simulation"]["duration"] = "1000 s"
+    file = tmp_path / "model.yaml"
+    file.write_text(hersey.Model.from_dict(machine).text, encoding="utf-8")
+    run = subprocess.Popen([program, "run", file, "--output", tmp_path / "out"], stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL)
+    while not (tmp_path / "out" / "results.h5").exists():
+        assert run.poll() is None
+        time.sleep(0.01)
+    with pytest.raises(BlockingIOError, match=f"process {run.pid}"):
+        hersey.Model.load(file).run(tmp_path / "out", overwrite=True)
+    run.kill()
+    run.wait()
+    machine["simulation"]["duration"] = "1 ms"
+    assert hersey.Model.from_dict(machine).run(tmp_path / "out", overwrite=True).status == "completed"

@@ -1,5 +1,8 @@
 """Stepping from Python: the bits of a run, inputs, outputs, saved states, what goes wrong."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -93,3 +96,17 @@ def test_failure_is_told_with_the_last_good_time(machine, tmp_path):
 def test_bearings_alone_are_not_stepped(alone):
     with pytest.raises(hersey.InputError, match="model.bearing"):
         hersey.Simulation(alone)
+
+
+def test_saved_states_pickle_and_copy(machine):
+    model = hersey.Model.from_dict(machine)
+    sim = hersey.Simulation(model)
+    sim.advance_to(2e-3)
+    state = sim.save()
+    sim.advance_to(4e-3)
+    for again in (pickle.loads(pickle.dumps(state)), copy.copy(state), copy.deepcopy(state)):
+        other = hersey.Simulation(pickle.loads(pickle.dumps(model)))
+        other.restore(again)
+        assert other.time == 2e-3
+        other.advance_to(4e-3)
+        assert np.array_equal(sim["bearings.main.force"], other["bearings.main.force"])

@@ -31,7 +31,7 @@ def file(tmp_path):
 
 
 def test_runs_are_those_of_a_single_bearing(file, tmp_path):
-    found = hersey.study(file, tmp_path / "out", load="2 kN", jobs=1)
+    found = hersey.study(file, tmp_path / "out", load=2000.0, jobs=1)  # SI
     assert list(found.table.columns) == ["clearance [um]", "bearings.main.h_min [um]"]
     assert list(found.table["clearance [um]"]) == pytest.approx([30, 38])  # round-off of a unit
     for clearance, h_min in found.table.itertuples(index=False):

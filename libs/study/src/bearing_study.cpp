@@ -254,6 +254,8 @@ std::vector<std::string> spaced_values(const std::vector<std::string>& parts, co
   return values;
 }
 
+bool is_stopped(const BearingStudyOptions& options) { return options.stop != nullptr && options.stop->load(); }
+
 bool are_neighbours(const model::StudyRun& a, const model::StudyRun& b) {
   int different = 0;
   for (std::size_t k = 0; k < a.values.size(); ++k) different += a.values[k].text != b.values[k].text ? 1 : 0;
@@ -277,7 +279,7 @@ void follow_neighbours(const ModelReader& read, const BearingStudyOptions& optio
   bool found = true;
   while (found) {
     found = false;
-    for (std::size_t i = 0; i < solutions.size(); ++i) {
+    for (std::size_t i = 0; i < solutions.size() && !is_stopped(options); ++i) {
       const BearingSolution* neighbour = solutions[i].solved() ? nullptr : solved_neighbour(solutions, i);
       if (neighbour == nullptr) continue;
       BearingSolution again;
@@ -408,6 +410,10 @@ std::vector<BearingSolution> solve_bearings(const ModelReader& read, const std::
     const TaskPool::OwnThread one(TaskPool::shared());
     for (std::size_t i = next++; i < runs.size(); i = next++) {
       solutions[i].run = runs[i];
+      if (is_stopped(options)) {
+        solutions[i].fail(kNotBegun);
+        continue;
+      }
       try {
         if (i == 0) {
           solve_one(first, options, nullptr, bodies, solutions[i]);

@@ -6,11 +6,9 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
 #include "hersey/bearing/steady_derivative.h"
 #include "hersey/core/error_text.h"
@@ -28,18 +26,16 @@ namespace {
 // one, but none on which fronts of the film pass nodes of the grid.
 constexpr double kTangentStep = 1e-8, kStepAboutZero = 1e-5, kSolutionStep = 2e-4;
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+/// A model file that is read once.
+struct Source {
+  std::string text, file;
+};
 
-/// What stands at key paths of a file with overrides in place, which is read once.
+/// What stands at key paths of a file with overrides in place.
 class Written {
  public:
-  Written(const std::string& path, const std::vector<std::string>& overrides)
-      : whole_(nlohmann::json::parse(model::written_json(text_of(path), path, overrides, ""))) {}
+  Written(const Source& source, const std::vector<std::string>& overrides)
+      : whole_(nlohmann::json::parse(model::written_json(source.text, source.file, overrides, ""))) {}
 
   /// A number with or without unit; none where there is no such key, or a word.
   [[nodiscard]] std::optional<Quantity> number_at(const std::string& key) const {
@@ -132,8 +128,11 @@ void complete(BearingSolution& solution) {
 /// Solutions beside one that is there, on its tangent.
 class Tangent {
  public:
-  Tangent(const std::string& path, const BearingSolution& solution, const std::string& bearing)
-      : file_(path), here_(solution), bearing_(bearing), derivative_(solution.model, solution.state) {
+  Tangent(const Source& source, const BearingSolution& solution, const std::string& bearing)
+      : file_(source.text, source.file),
+        here_(solution),
+        bearing_(bearing),
+        derivative_(solution.model, solution.state) {
     here_.state = derivative_.here();
     complete(here_);
   }
@@ -172,7 +171,7 @@ class Tangent {
   bearing::SteadyDerivative derivative_;
 };
 
-Sides solved_anew(const std::string& path, const BearingSolution& solution, const BearingStudyOptions& options,
+Sides solved_anew(const Source& source, const BearingSolution& solution, const BearingStudyOptions& options,
                   const Varied& parameter) {
   BearingStudyOptions alone = options;
   alone.grid_error = false;
@@ -180,7 +179,9 @@ Sides solved_anew(const std::string& path, const BearingSolution& solution, cons
   std::vector<model::StudyRun> runs(2);
   for (const std::size_t side : {0, 1})
     runs[side].overrides = parameter.overrides(solution.run.overrides, side == 0 ? -1 : 1);
-  std::vector<BearingSolution> found = solve_bearings(path, runs, alone);
+  const model::ModelFile file(source.text, source.file);
+  const auto read = [&](const std::vector<std::string>& overrides) { return file.read(overrides); };
+  std::vector<BearingSolution> found = solve_bearings(ModelReader(read), runs, alone);
   for (const BearingSolution& side : found)
     if (!side.solved()) throw std::runtime_error(side.message);
   return {std::move(found[0]), std::move(found[1]), 2 * parameter.step};
@@ -190,7 +191,12 @@ Sides solved_anew(const std::string& path, const BearingSolution& solution, cons
 
 std::vector<std::string> usual_parameters(const std::string& path, const std::vector<std::string>& overrides,
                                           const std::string& bearing) {
-  const model::Model model = model::read(path, overrides);
+  return usual_parameters(model::file_text(path), path, overrides, bearing);
+}
+
+std::vector<std::string> usual_parameters(const std::string& text, const std::string& file,
+                                          const std::vector<std::string>& overrides, const std::string& bearing) {
+  const model::Model model = model::read_text(text, file, overrides);
   const model::Bearing& here = bearing_called(model, bearing);
   const std::string own = "bearings." + here.name + ".", point = own + "operating_point.",
                     oil = "lubricants." + here.lubricant + ".";
@@ -208,7 +214,7 @@ std::vector<std::string> usual_parameters(const std::string& path, const std::ve
                                 own + "asperities.roughness"};
   for (const film::SurfaceFeature& feature : here.film.features)
     keys.push_back(own + "features." + feature.name + ".pressure");
-  const Written written(path, overrides);
+  const Written written({text, file}, overrides);
   std::erase_if(keys, [&](const std::string& key) { return !written.number_at(key); });
   return keys;
 }
@@ -219,9 +225,16 @@ bool are_sensitivities_exact(const BearingSolution& solution) {
 
 std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSolution& solution,
                                        const BearingStudyOptions& options, const std::vector<std::string>& parameters) {
+  return sensitivities(model::file_text(path), path, solution, options, parameters);
+}
+
+std::vector<Sensitivity> sensitivities(const std::string& text, const std::string& file,
+                                       const BearingSolution& solution, const BearingStudyOptions& options,
+                                       const std::vector<std::string>& parameters) {
   std::vector<Sensitivity> all;
   if (!solution.solved()) return all;
-  const Written written(path, solution.run.overrides);
+  const Source source{text, file};
+  const Written written(source, solution.run.overrides);
   std::optional<Tangent> tangent;
   const bool may_be_exact = are_sensitivities_exact(solution);
   for (const std::string& key : parameters) {
@@ -239,11 +252,11 @@ std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSol
     try {
       std::optional<Sides> sides;
       if (may_be_exact) {
-        if (!tangent) tangent.emplace(path, solution, options.bearing);
+        if (!tangent) tangent.emplace(source, solution, options.bearing);
         sides = tangent->sides(key, *middle);
       }
       found.exact = sides.has_value();
-      if (!sides) sides = solved_anew(path, solution, options, varied(key, *middle, kSolutionStep));
+      if (!sides) sides = solved_anew(source, solution, options, varied(key, *middle, kSolutionStep));
       found.slopes = slopes_between(solution, *sides, si.size);
       found.set_solved(true);
     } catch (const InputError& error) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -44,6 +45,8 @@ struct BearingStudyOptions {
   ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;
   int threads = 0;                      ///< solutions at the same time; 0: one per core
   const model::Model* first = nullptr;  ///< the model of the first run where it has been read already
+  /// Set meanwhile: no further run is begun, those under way are ended. Null: nobody stops it.
+  const std::atomic<bool>* stop = nullptr;
 };
 
 /// The bearing of `model` called `name`, or its only one.
@@ -61,7 +64,7 @@ using ModelReader = std::function<model::Model(const std::vector<std::string>& o
 
 /// Solves the bearing of the model that `read` gives at every run of `runs`, several at a time. One that fails is
 /// tried again from the solution of a neighbour, a run that differs in one value only; one without any does not stop
-/// the others.
+/// the others. Runs that were not begun when it was stopped have the message kNotBegun.
 [[nodiscard]] std::vector<BearingSolution> solve_bearings(const ModelReader& read,
                                                           const std::vector<model::StudyRun>& runs,
                                                           const BearingStudyOptions& options);
@@ -69,6 +72,9 @@ using ModelReader = std::function<model::Model(const std::vector<std::string>& o
 [[nodiscard]] std::vector<BearingSolution> solve_bearings(const std::string& path,
                                                           const std::vector<model::StudyRun>& runs,
                                                           const BearingStudyOptions& options);
+
+/// Why a run has no solution that a stop has kept from being begun.
+inline constexpr const char* kNotBegun = "stopped before it was begun";
 
 class KnownBodies;
 

@@ -25,6 +25,11 @@ struct [[nodiscard]] Sensitivity : Outcome {
                                                         const std::vector<std::string>& overrides,
                                                         const std::string& bearing);
 
+/// The same of a model's text; `file` names it in faults.
+[[nodiscard]] std::vector<std::string> usual_parameters(const std::string& text, const std::string& file,
+                                                        const std::vector<std::string>& overrides,
+                                                        const std::string& bearing);
+
 /// Whether the sensitivities of a solution are exact: between rigid surfaces with one temperature that is given.
 [[nodiscard]] bool are_sensitivities_exact(const BearingSolution& solution);
 
@@ -34,6 +39,11 @@ struct [[nodiscard]] Sensitivity : Outcome {
 /// @param parameters  key paths, or parameters of the model. @throws InputError where one is no number of the file.
 /// @verified_by sensitivity_test.cpp
 [[nodiscard]] std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSolution& solution,
+                                                     const BearingStudyOptions& options,
+                                                     const std::vector<std::string>& parameters);
+/// The same of a model's text; `file` names it in faults.
+[[nodiscard]] std::vector<Sensitivity> sensitivities(const std::string& text, const std::string& file,
+                                                     const BearingSolution& solution,
                                                      const BearingStudyOptions& options,
                                                      const std::vector<std::string>& parameters);
 
