@@ -143,7 +143,7 @@ simulation: {duration: 2 s, step: 1 ms, spectral_radius: 0.8}
   const auto tell = [](const solver::State&, const Eigen::VectorXd&) { return true; };
   for (const solver::StepJudge& judge : {solver::StepJudge(), solver::StepJudge(tell)}) {
     solver::GeneralizedAlpha integrator(
-        {.spectral_radius = 0.8, .rtol = 1e-9, .corrects_changes = false, .returns_to_constraints = true});
+        {.spectral_radius = 0.8, .rtol = 1e-9, .chosen_by_error = false, .returns_to_constraints = true});
     for (int i = 0; i < 100; ++i) {
       for (const double share : {1.0, 0.5, 0.125, 0.0625, 0.0625, 0.125, 0.25, 0.5})
         REQUIRE(integrator.step(*machine.mechanism, state, 1e-3 * share, judge).solved());

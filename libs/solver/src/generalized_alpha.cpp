@@ -66,8 +66,6 @@ struct GeneralizedAlpha::Workspace {
   double enough = 0;      ///< residuals of rows with which the step is solved, relative to their tolerances
   Index worst_index = 0;  ///< the row of the larger of both; -1: a condensed equation
   VectorXd error;         ///< estimate of the step's local error of position
-  VectorXd across;        ///< the part of it across the constraints
-  VectorXd drift;         ///< smoothed `across`/dt^3 of the accepted steps; empty where it was not estimated
   SettledStart start;  ///< of the step: the state's own motion, or what is left of it when fast motions have died out
   VectorXd v_start;    ///< velocity the step starts from
   std::string why_outside;  ///< why the last assembly was outside the domain, empty if inside
@@ -87,11 +85,10 @@ struct GeneralizedAlpha::Workspace {
   bool solve_increment(Index nv);
   bool enter_domain(Equations& equations, const State& state, const GeneralizedAlphaOptions& options);
   bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options, bool with_tangent);
-  void find_part_across(bool factorised);
   void return_to_constraints(Equations& equations);
+  void end_on_constraints(Equations& equations);
   VectorXd shed(const VectorXd& violation, VectorXd& motion);
   void estimate_error();
-  void remember_drift(double dt);
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
 };
 
@@ -114,8 +111,6 @@ void GeneralizedAlpha::Workspace::predict(double dt) {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
   a_n = start.vdot + (dt / last_dt) * (a - start.vdot);
   v_start = start.v;
-  // Theory manual eq. (integrator.13): velocities across the constraints are offset by an error that goes as dt^2.
-  if (drift.size() > 0 && dt != last_dt) v_start += (dt * dt - last_dt * last_dt) * drift;
   dq_predicted = start.offset + dt * v_start + (0.5 * dt * dt) * a_n;
   v_predicted = v_start + dt * a_n;
   vdot_predicted = (a_n - alpha_f * start.vdot) / (1 - alpha_f);
@@ -233,23 +228,6 @@ bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
   return false;
 }
 
-/// The part of the estimated error across the constraints (integrator.12), by the factors of the step's last iteration:
-/// zero without them. With J = [A G^T; G 0] as factorised, J [x; y] = [A e; 0] leaves x = e less what the constraints
-/// forbid.
-void GeneralizedAlpha::Workspace::find_part_across(bool factorised) {
-  const Index nv = error.size(), n = tangent.rows();
-  across.setZero(nv);
-  if (!factorised || n == nv) return;
-  rhs.setZero(n);
-  const double scale_of_motions = is_tangent_current ? stage.m : 1;
-  for (Index column = 0; column < nv; ++column)
-    for (Equations::SparseMatrix::InnerIterator entry(tangent, column); entry; ++entry)
-      if (entry.row() < nv) rhs[entry.row()] += entry.value() / scale_of_motions * error[column];
-  const Stopwatch watch(linear_solve_time);
-  lu.solve({rhs.data(), static_cast<std::size_t>(n)});
-  across = error - rhs.head(nv);
-}
-
 /// Takes from a motion what the constraints do not allow, by forces of the constraints alone, J [x; y] = [0;
 /// -violation].
 /// @return these forces
@@ -273,24 +251,26 @@ void GeneralizedAlpha::Workspace::return_to_constraints(Equations& equations) {
   shed(G * a + bias, a);
 }
 
+/// The same for a step chosen by its error, (integrator.13): the constraints' own modes, (integrator.12), end with the
+/// step, so that its error depends on no length before. The algorithmic acceleration goes on from the state's as it
+/// would without constraints: what the next step does across them is of its own length's third power.
+void GeneralizedAlpha::Workspace::end_on_constraints(Equations& equations) {
+  VectorXd velocity, bias, phi, lengths;
+  Equations::SparseMatrix G;
+  equations.constraint_rates(trial, velocity, bias);
+  equations.constraints(trial, phi, lengths, &G);
+  shed(velocity, trial.v);
+  trial.lambda += shed(G * trial.vdot + bias, trial.vdot);
+  const double ahead = 0.5 - parameters.gamma;  // the instant that `a` belongs to, in steps
+  shed(G * (a - trial.vdot - ahead * (trial.vdot - start.vdot)), a);
+}
+
 /// The step's local error of position, theory manual eq. (integrator.11): what the third derivative contributes beyond
 /// the method's own use of it.
 void GeneralizedAlpha::Workspace::estimate_error() {
   const auto& [alpha_m, alpha_f, gamma, beta] = parameters;
   const double share = 0.5 * gamma - beta - 1.0 / 12;
   error = (share / beta) * (dq - dq_predicted);
-}
-
-/// Takes the accepted step's part across the constraints into `drift`, half old, half new: all of it at once would feed
-/// the constraints' own modes back into themselves. dt = 0: it was not estimated.
-void GeneralizedAlpha::Workspace::remember_drift(double dt) {
-  if (dt == 0) {
-    drift.resize(0);
-  } else if (drift.size() == 0) {
-    drift = across / (dt * dt * dt);
-  } else {
-    drift = 0.5 * drift + (0.5 / (dt * dt * dt)) * across;
-  }
 }
 
 std::string GeneralizedAlpha::Workspace::worst_name(const Equations& equations) const {
@@ -317,16 +297,16 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
 
 StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt, const StepJudge& judge) {
   HERSEY_REQUIRE(dt > 0, "time runs forward");
-  if (options_.spectral_radius == 1 && equations.nlambda() > 0)
+  const bool is_chosen = judge && options_.chosen_by_error;
+  if (options_.spectral_radius == 1 && equations.nlambda() > 0 && !is_chosen)
     throw InputError({.position = {},
                       .path = "spectral_radius",
                       .found = "1 in a mechanism with drives or closed loops",
                       .expected = "a value below 1",
-                      .suggestion = "0.95 dissipates little; at 1 the multipliers grow without bound"});
+                      .suggestion = "0.95 dissipates little; at 1 the multipliers of equal steps grow without bound"});
   Workspace& w = *work_;
   StepSummary summary;
   if (!w.started) {
-    w.drift.resize(0);
     w.started = true;
     w.stage.fresh = true;
   }
@@ -345,7 +325,6 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   // Factors serve as long as they bring the residual down fast (theory manual, integrator.20). Condensed unknowns move
   // with each tangent and need their own.
   const bool may_keep_factors = !equations.has_condensed_unknowns();
-  const bool is_chosen = judge && options_.corrects_changes;
   w.enough = is_chosen ? std::min(kOfPrediction * w.worst_row, kLargestLeft / options_.rtol) : 0;
   bool keeps_factors = false;
   for (;;) {
@@ -370,20 +349,19 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     keeps_factors = may_keep_factors && w.worst() < kFastEnough * before;
   }
 
+  const bool has_factors_of_constraints = summary.iterations > 0 && equations.nlambda() > 0;
   if (judge) {
     w.estimate_error();
     if (!judge(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
   }
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
-  const bool factorised = summary.iterations > 0;
-  if (is_chosen)
-    w.find_part_across(factorised);
-  else if (options_.returns_to_constraints && factorised && equations.nlambda() > 0 &&
+  if (is_chosen && has_factors_of_constraints)
+    w.end_on_constraints(equations);
+  else if (options_.returns_to_constraints && has_factors_of_constraints &&
            std::abs(dt - w.last_dt) > kOtherLength * w.last_dt)
     w.return_to_constraints(equations);
   w.last_dt = dt;
   w.stage.fresh = false;
-  w.remember_drift(is_chosen ? dt : 0);
   state = w.trial;
   equations.accept_step(state);
   summary.status = StepStatus::converged;
@@ -397,7 +375,6 @@ void GeneralizedAlpha::persist(Archive& archive) {
   archive.io("fresh", w.stage.fresh);
   archive.io("last_dt", w.last_dt);
   archive.io("a", w.a);
-  archive.io("drift", w.drift);
   archive.io("analysed", w.analysed);
   const Archive::Group group(archive, "lu");
   w.lu.persist(archive);

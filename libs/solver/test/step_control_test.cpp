@@ -181,7 +181,7 @@ Swing swing(bool chosen, double dt) {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return 9 * std::sin(q); };
   e.force_dq = [](double q, double, double) { return 9 * std::cos(q); };
-  GeneralizedAlpha integrator({.spectral_radius = 0.9, .corrects_changes = chosen});
+  GeneralizedAlpha integrator({.spectral_radius = 0.9, .chosen_by_error = chosen});
   State s = e.at(2.5, 0);
   Swing result;
   for (int i = 0; i < static_cast<int>(std::lround(4 / dt)); ++i) {

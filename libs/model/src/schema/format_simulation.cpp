@@ -75,8 +75,10 @@ TypePtr simulation_format() {
           optional("initial_deformation", choice(initial_deformation_words),
                    "How bodies that deform start, in `dynamics`.",
                    "`internal` where a film presses on a surface that deforms or a body is `nodal`, otherwise `none`"),
-          defaulted("spectral_radius", number("0.8", {.low = 0, .high = 1}), "0.8",
-                    "Damping of the fastest vibrations by generalized-alpha: 1 none, 0 all within a step."),
+          defaulted(
+              "spectral_radius", number("0.8", {.low = 0, .high = 1}), "0.8",
+              "Damping of the fastest vibrations by generalized-alpha: 1 none (where drives or closed loops constrain "
+              "motions with `step: {tolerance}` alone), 0 all within a step."),
           defaulted("tolerance", number("1e-8", fraction), "1e-8",
                     "Relative residual at which a step counts as solved."),
           defaulted("max_iterations", integer(50, {.low = 1, .high = 10000}), "50", "Newton iterations per step."),

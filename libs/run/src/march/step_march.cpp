@@ -25,7 +25,7 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
   options.spectral_radius = model.simulation.spectral_radius;
   options.rtol = model.simulation.tolerance;
   options.max_iterations = model.simulation.max_iterations;
-  options.corrects_changes = model.simulation.error_control.has_value();
+  options.chosen_by_error = model.simulation.error_control.has_value();
   if (const auto& control = model.simulation.error_control)
     options.condensed_rtol = std::min(kOfTolerance * control->tolerance, kLargestCondensed);
   options.returns_to_constraints = !model.bearings.empty();

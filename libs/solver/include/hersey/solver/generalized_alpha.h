@@ -18,10 +18,9 @@ struct GeneralizedAlphaOptions {
   int max_halvings = 12;         ///< halvings of one increment that leaves the domain of the equations
   /// Of condensed equations where it is larger than `rtol`: what steps chosen by their error may leave of a film.
   double condensed_rtol = 0;
-  /// Whether judged steps are chosen by their error: these correct the next for a change of length, (integrator.13),
-  /// and are solved to a share of their error, (integrator.19). Where the length is halved because a contact closes,
-  /// the error is no smooth function of time, and the correction would put energy in.
-  bool corrects_changes = true;
+  /// Whether judged steps are chosen by their error: these end on the constraints, (integrator.13), and are solved to a
+  /// share of their error, (integrator.19). Judged steps of a given length stay what they are without a judge.
+  bool chosen_by_error = true;
   /// Without that: a step of another length than the one before ends on the constraints, velocities and accelerations
   /// (theory manual, integrator.16). For steps that are cut hundreds of times, as with films.
   bool returns_to_constraints = false;
@@ -45,7 +44,7 @@ using StepJudge = std::function<bool(const State& end, const Eigen::VectorXd& er
 ///
 /// Second order in positions and velocities, and in multipliers once the transient of the start has faded. The step
 /// length may change between steps, even alternate by factors of up to 2; larger factors repeated step after step
-/// amplify errors of the multipliers. The algorithmic acceleration a_n approximates vdot(t_n + (alpha_m - alpha_f) dt);
+/// amplify errors of the multipliers, unless steps are chosen by their error: these may change as they like. The algorithmic acceleration a_n approximates vdot(t_n + (alpha_m - alpha_f) dt);
 /// it lives here and is rescaled when dt changes.
 ///
 /// @see Chung and Hulbert (1993), J. Appl. Mech. 60, 371-375; Arnold and Bruels (2007), Multibody Syst. Dyn. 18,
@@ -64,8 +63,8 @@ class GeneralizedAlpha {
   void reset();
 
   /// Advances `state` by `dt` > 0, film and other condensed unknowns included.
-  /// @throws InputError if spectral_radius is 1 and the equations have constraints: their multipliers are then
-  /// unstable.
+  /// @throws InputError if spectral_radius is 1, the equations have constraints and the step is not chosen by its error:
+  /// the multipliers are then unstable.
   /// @cost per iteration one assembly, one sparse factorisation, one solve.
   [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt);
 

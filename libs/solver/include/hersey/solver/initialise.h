@@ -50,7 +50,7 @@ struct [[nodiscard]] InitialiseSummary : OutcomeOf<InitialiseStatus, InitialiseS
 [[nodiscard]] bool solve_accelerations(Equations& equations, State& state, double dt);
 
 /// Makes the state one from which shorter steps can start: a step over dt leaves velocities across the constraints that
-/// differ by O(dt^2) from those the constraints allow (theory manual eq. (integrator.13)), which much shorter steps
+/// differ by O(dt^2) from those the constraints allow (theory manual eq. (integrator.12)), which much shorter steps
 /// would take back within their own length. They are taken off with the least change of kinetic energy's measure, then
 /// accelerations and multipliers solved. The integrator's history starts anew behind it.
 /// @param dt  length of the last step [s]
