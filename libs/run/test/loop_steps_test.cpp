@@ -230,5 +230,20 @@ TEST_CASE("MirroredLoop_TakesTheSameSteps") {
   }
 }
 
+TEST_CASE("BodiesInAnotherOrder_TakeTheSameSteps") {
+  std::string reordered = kBricard;
+  const std::size_t first = reordered.find("  rod1:"), second = reordered.find("  rod2:");
+  const std::string rod = reordered.substr(first, second - first);
+  reordered.erase(first, second - first).insert(reordered.find("joints:"), rod);
+  for (const double radius : {0.8, 0.95}) {
+    CAPTURE(radius);
+    const March one = march(kBricard, radius, 1e-7), other = march(reordered, radius, 1e-7);
+    REQUIRE(one.completes);
+    CHECK(one.steps == other.steps);
+    // Round-off of sums in another order.
+    CHECK((one.seen.joints[2].force - other.seen.joints[2].force).norm() < 1e-8 * one.seen.joints[2].force.norm());
+  }
+}
+
 }  // namespace loop_steps_test
 }  // namespace hersey::run
