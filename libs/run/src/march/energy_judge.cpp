@@ -27,19 +27,19 @@ constexpr double kTakenBack = 0.1;
 constexpr double kUnsolved = 1e-6;
 
 /// Of what is stored: round-off of differences of sums of many terms.
-constexpr double kRoundOff = 1e-12;
+constexpr double kRoundOffOfStores = 1e-12;
 
 /// Of what preloads, weights and loads do over the size of the machine: what moves less than that stands still.
 constexpr double kStandstill = 1e-9;
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 double sum_of_sizes(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0, [](double s, double x) { return s + std::abs(x); });
 }
 
 double of_motion(const mbd::EnergyView& view) {
-  return sum(view.kinetic) + sum(view.elastic_kinetic) + sum(view.strain);
+  return sum_of(view.kinetic) + sum_of(view.elastic_kinetic) + sum_of(view.strain);
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ double EnergyJudge::smallest_judged(const mbd::EnergyView& view) const {
   const double length = scales.size() > 0 ? scales.maxCoeff() : 0;
   double held = spec.gravity.norm() * weight * length;
   for (const mbd::ForceView& force : view.forces) held += std::abs(force.stored);
-  return kStandstill * (held + sum_of_sizes(view.springs) + sum(view.strain));
+  return kStandstill * (held + sum_of_sizes(view.springs) + sum_of(view.strain));
 }
 
 void EnergyJudge::begin(const solver::State& state) {
@@ -137,7 +137,7 @@ bool EnergyJudge::allows(const solver::State& end) {
       gain += work.lost[i];
   }
   gain += work.lost_in_springs;
-  doubt += kUnsolved * moved + kRoundOff * held;
+  doubt += kUnsolved * moved + kRoundOffOfStores * held;
   gain_ = gain - doubt;
   loss_ = knows_losses_ ? std::max(0.0, -gain - doubt) : 0;
   // Not a number: no energy at all.
