@@ -80,6 +80,8 @@ struct MeshArguments {
   std::string file;                  ///< a mesh or a CAD file
   std::string length_unit;           ///< empty: of a mesh m, of a BREP file mm
   std::string density;               ///< for the mass; empty: the file's
+  std::string part;                  ///< of an Abaqus file with several
+  std::string parts = "one";         ///< or apart
   std::filesystem::path vtu;         ///< file to write for ParaView; empty: none
   std::filesystem::path output;      ///< mesh to write; empty: of a CAD file beside it, else none
   std::string size;                  ///< of elements made of a CAD file
@@ -98,6 +100,8 @@ struct MeshArguments {
 struct ReduceArguments {
   std::string file;
   std::string length_unit = "m";
+  std::string part;                                    ///< of an Abaqus file with several
+  std::string parts = "one";                           ///< or apart
   std::vector<std::string> frames;                     ///< "name=set:connection"
   std::string youngs_modulus, poisson_ratio, density;  ///< empty: the mesh file's
   std::string orthotropic;                             ///< nine constants in place of the first two
@@ -118,6 +122,8 @@ struct ReduceArguments {
 struct SolidArguments {
   std::string file;
   std::string length_unit = "m";
+  std::string part;           ///< of an Abaqus file with several
+  std::string parts = "one";  ///< or apart
   std::string young, poisson, orthotropic, density;
   std::vector<std::string> hold;                 ///< sets that do not move: SET, or SET:xz for some directions only
   std::vector<std::string> pressure;             ///< SURFACE=20MPa

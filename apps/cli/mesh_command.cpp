@@ -66,6 +66,8 @@ nlohmann::json document_of(const Mesh& mesh, const MeshQuality& quality) {
                              {"elements", quality_json(quality)},
                              {"box", {{"lower", json_of(quality.lower)}, {"upper", json_of(quality.upper)}}},
                              {"volume", quality.volume},
+                             {"ties", mesh.ties.size()},
+                             {"parts", quality.parts.size()},
                              {"outer_faces", fem::outer_faces(mesh).size()},
                              {"materials", std::move(materials)},
                              {"sets", sets_json(mesh)}};
@@ -126,6 +128,7 @@ void print(const Mesh& mesh, const MeshQuality& quality, bool has_sets) {
   else
     fmt::print("mass      unknown: the file does not say the density of every element (--density)\n");
   for (const fem::MeshMaterial& material : mesh.materials) fmt::print("{}", material_text(material));
+  if (!mesh.ties.empty()) fmt::print("ties      {} equations between displacements\n", mesh.ties.size());
   fmt::print("\n{}\n", quality_text(quality));
   if (has_sets) fmt::print("{}\n", sets_text(mesh));
 }
@@ -223,6 +226,12 @@ void write_named(Mesh mesh, const std::vector<fem::FoundSurface>& found, const s
       refuse_option("--output", fmt::format("element {} is a beam", element.label), "a mesh of solids alone");
   fem::add_surfaces(mesh, found);
   fem::write_gmsh(output, mesh);
+  if (!mesh.ties.empty())
+    warnings.push_back({{output.string(), 0, 0},
+                        "",
+                        "no ties",
+                        "those of the mesh that was read",
+                        "its format has none: compute with the file that was read"});
   if (!mesh.materials.empty())
     warnings.push_back({{output.string(), 0, 0},
                         "",
@@ -250,15 +259,17 @@ int mesh_command(const MeshArguments& arguments) {
     made = cad_text(arguments, options);
   } else {
     refuse_cad_options(arguments);
-    loaded.mesh = fem::read_mesh(arguments.file, length_unit(unit), &loaded.warnings, &loaded.material_faults);
+    loaded.mesh =
+        fem::read_mesh(arguments.file, length_unit(unit), &loaded.warnings, &loaded.material_faults, arguments.part);
   }
   Mesh& mesh = loaded.mesh;
   std::vector<Fault>& warnings = loaded.warnings;
   MeshQuality quality = fem::quality_of(mesh);
   if (!arguments.density.empty()) quality.mass = in_si("--density", arguments.density, "kg/m^3") * quality.volume;
-  for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
+  for (const Fault& warning : fem::warnings_of(quality, arguments.file, parts_of(arguments.parts)))
+    warnings.push_back(warning);
   warnings.insert(warnings.end(), loaded.material_faults.begin(), loaded.material_faults.end());
-  const std::vector<Fault> faults = fem::faults_of(quality, arguments.file);
+  const std::vector<Fault> faults = fem::faults_of(quality, arguments.file, parts_of(arguments.parts));
   const std::vector<fem::FoundSurface> found = fem::find_surfaces(mesh);
   if (is_cad) fem::add_surfaces(mesh, found);
   if (!output.empty() && faults.empty()) write_named(mesh, found, output, warnings);

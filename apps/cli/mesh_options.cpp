@@ -7,6 +7,13 @@
 namespace hersey::cli {
 namespace {
 
+void add_parts(CLI::App* command, std::string& part, std::string& parts) {
+  command->add_option("--part", part, "Of an Abaqus file with several parts: the one that is read")->type_name("NAME");
+  command->add_option("--parts", parts, "Whether parts that share no node are a mistake or left apart (default: one)")
+      ->type_name("one|apart")
+      ->check(CLI::IsMember({"one", "apart"}).description(""));
+}
+
 void add_mesh(CLI::App& app, Commands& commands) {
   const auto mesh = std::make_shared<MeshArguments>();
   CLI::App* command = app.add_subcommand(
@@ -20,6 +27,7 @@ void add_mesh(CLI::App& app, Commands& commands) {
       ->add_option("--length-unit", mesh->length_unit,
                    "What one unit of the file is (default: m, of BREP mm; STEP and IGES say it)")
       ->type_name("mm");
+  add_parts(command, mesh->part, mesh->parts);
   command->add_option("--size", mesh->size, "How large the elements made of a CAD file are")->type_name("4mm");
   command->add_option("--order", mesh->order, "Of these elements, 1 or 2 (default: 2)")
       ->type_name("1|2")
@@ -45,6 +53,7 @@ void add_reduce(CLI::App& app, Commands& commands) {
   command->add_option("FILE", reduce->file, "Mesh: .msh, .inp or .bdf")->required();
   command->add_option("--length-unit", reduce->length_unit, "What one unit of the file is (default: m)")
       ->type_name("mm");
+  add_parts(command, reduce->part, reduce->parts);
   repeatable(command
                  ->add_option("--frame", reduce->frames,
                               "Frame for joints and forces on a set's nodes: pin=big_end:average (or rigid)")
@@ -88,6 +97,7 @@ CLI::App* add_solid_command(CLI::App& app, const char* name, const char* descrip
     command->add_option(option, text, what)->type_name(type);
   };
   value("--length-unit", solid.length_unit, "What one unit of the file is (default: m)", "mm");
+  add_parts(command, solid.part, solid.parts);
   value("--youngs-modulus", solid.young, "Young's modulus, instead of the file's", "210GPa");
   value("--poisson-ratio", solid.poisson, "Poisson's ratio, instead of the file's", "0.3");
   value("--orthotropic", solid.orthotropic,

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "hersey/fem/mesh_quality.h"
+
 namespace hersey::cli {
 
 /// The quantity given to `option`, in SI. @throws InputError naming the option.
@@ -9,5 +11,10 @@ namespace hersey::cli {
 
 /// Metres in the unit given to --length-unit: "mm" is one millimetre, "25.4 mm" an inch. @throws InputError
 [[nodiscard]] double length_unit(const std::string& text);
+
+/// What --parts says: one or apart.
+[[nodiscard]] inline fem::Parts parts_of(const std::string& text) {
+  return text == "apart" ? fem::Parts::apart : fem::Parts::one;
+}
 
 }  // namespace hersey::cli

@@ -182,11 +182,13 @@ int reduce_command(const ReduceArguments& arguments) {
   if (std::filesystem::exists(arguments.output) && !arguments.force)
     fail("--output", fmt::format("{} exists", arguments.output.string()), "a new file", "use --force to replace it");
   std::vector<Fault> warnings, material_faults;
-  Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings, &material_faults);
+  Mesh mesh =
+      fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings, &material_faults, arguments.part);
   const fem::MeshQuality quality = fem::quality_of(mesh);
-  for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
+  for (const Fault& warning : fem::warnings_of(quality, arguments.file, parts_of(arguments.parts)))
+    warnings.push_back(warning);
   warn(warnings);
-  const std::vector<Fault> faults = fem::faults_of(quality, arguments.file);
+  const std::vector<Fault> faults = fem::faults_of(quality, arguments.file, parts_of(arguments.parts));
   if (!faults.empty()) throw InputError(faults);
   std::vector<fem::InterfaceFrame> frames;
   for (const std::string& text : arguments.frames) frames.push_back(frame_of(mesh, text));

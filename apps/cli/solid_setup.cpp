@@ -106,11 +106,13 @@ Eigen::VectorXd pressure_of(const fem::Mesh& mesh, const std::string& name, cons
 
 fem::ElasticBody solid_of(const SolidArguments& arguments, bool needs_mass) {
   std::vector<Fault> warnings, material_faults;
-  fem::Mesh mesh = fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings, &material_faults);
+  fem::Mesh mesh =
+      fem::read_mesh(arguments.file, length_unit(arguments.length_unit), &warnings, &material_faults, arguments.part);
   const fem::MeshQuality quality = fem::quality_of(mesh);
-  if (std::vector<Fault> faults = fem::faults_of(quality, arguments.file); !faults.empty())
+  if (std::vector<Fault> faults = fem::faults_of(quality, arguments.file, parts_of(arguments.parts)); !faults.empty())
     throw InputError(std::move(faults));
-  for (const Fault& warning : fem::warnings_of(quality, arguments.file)) warnings.push_back(warning);
+  for (const Fault& warning : fem::warnings_of(quality, arguments.file, parts_of(arguments.parts)))
+    warnings.push_back(warning);
   warn(warnings);
   const bool is_of_file = (arguments.orthotropic.empty() && (arguments.young.empty() || arguments.poisson.empty())) ||
                           (needs_mass && arguments.density.empty());

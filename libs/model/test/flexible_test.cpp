@@ -122,12 +122,42 @@ TEST_CASE("MaterialOfTheMeshFile_IsThatOfTheSection_OrAFaultWithBothNames") {
 }
 
 TEST_CASE("WhatAMeshFileSaysBesides_IsAWarningOfTheModel") {
-  const MeshFile file("*NODE\n99, 5, 5, 5\n*TIE, NAME=t\nall, all\n");
+  const MeshFile file("*NODE\n99, 5, 5, 5\n*COUPLING, REF NODE=99\n");
   const Model model = read_text(kMachine, "m.yaml");
   REQUIRE(model.warnings.size() == 2);
   CHECK(contains(model.warnings[0].text(), "bodies.bar.flexible.mesh: "));
-  CHECK(contains(model.warnings[0].found, "flexible_test_bar.inp:20: 1 *TIE"));
+  CHECK(contains(model.warnings[0].found, "flexible_test_bar.inp:20: 1 *COUPLING"));
   CHECK(contains(model.warnings[1].found, "flexible_test_bar.inp:19: 1 node is part of no element: 99"));
+}
+
+// A second cube on top of the first, on nodes of its own.
+const std::string kSecondCube =
+    "*NODE\n11, 0, 0, 10\n12, 10, 0, 10\n13, 10, 10, 10\n14, 0, 10, 10\n15, 0, 0, 20\n16, 10, 0, 20\n17, 10, 10, 20\n"
+    "18, 0, 10, 20\n*ELEMENT, TYPE=C3D8, ELSET=upper\n2, 11, 12, 13, 14, 15, 16, 17, 18\n*NSET, NSET=left\n11, 14, 15, "
+    "18\n";
+
+TEST_CASE("PartsOfAMesh_AreTied_OrLeftApartOnPurpose") {
+  const std::string surfaces = "*SURFACE, NAME=up\nall, S2\n*SURFACE, NAME=down\nupper, S1\n";
+  const auto mass = [](const std::string& machine) {
+    return build(read_text(machine, "m.yaml")).flexibles.at(0).body->mass();
+  };
+  const std::string apart = edited(kMachine, "modes: 0", "parts: apart\n      modes: 0");
+  {
+    const MeshFile file(kSecondCube);
+    const std::string faults = faults_of(kMachine);
+    CHECK(contains(faults, "2 parts that share no node: 1 element (one is 1), 1 element (one is 2)"));
+    CHECK(contains(faults, "sets with nodes of several parts: left"));
+    // The rigid frame on `left` joins them.
+    CHECK(faults_of(apart) == "no fault");
+    CHECK(mass(apart) == doctest::Approx(2 * 7850e-6).epsilon(1e-12));  // round-off of sums over the mesh
+    CHECK(contains(read_text(apart, "m.yaml").warnings.at(0).text(), "2 parts that share no node"));
+  }
+  const MeshFile file(kSecondCube + surfaces + "*TIE, NAME=t\ndown, up\n");
+  CHECK(faults_of(kMachine) == "no fault");
+  CHECK(mass(kMachine) == doctest::Approx(2 * 7850e-6).epsilon(1e-12));  // as above
+  CHECK(contains(faults_of(edited(kMachine, "modes: 0", "form: nodal\n      modes: 0")),
+                 "`form: nodal` of a mesh with ties between its nodes"));
+  CHECK(contains(faults_of(edited(kMachine, "modes: 0", "part: b\n      modes: 0")), "no part 'b'"));
 }
 
 TEST_CASE("AMeshInAnUnlikelyUnit_IsAWarningOfTheModel") {

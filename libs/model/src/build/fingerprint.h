@@ -45,6 +45,10 @@ inline void add_mesh(const fem::Mesh& mesh, Fingerprint& print) {
     print.add(static_cast<int>(element.type)), print.add(element.material);
   for (const auto& [name, nodes] : mesh.node_sets) print.add(name), print.add(nodes);
   for (const auto& [name, faces] : mesh.surfaces) print.add(name), print.add(faces);
+  for (const fem::MeshTie& tie : mesh.ties) {
+    print.add(static_cast<int>(tie.size()));
+    for (const fem::TieTerm& term : tie) print.add(3 * term.node + term.axis), print.add(term.coefficient);
+  }
 }
 
 }  // namespace hersey::model

@@ -23,6 +23,7 @@ class FlexibleReader {
     Flexible flexible;
     flexible.position = value.key_position;
     flexible.nodal = meaning_of(value, "form", form_words);
+    flexible.parts = meaning_of(value, "parts", parts_words);
     flexible.strain = meaning_of(value, "strain", strain_words);
     refuse_finite_strain(value, flexible);
     flexible.modes = integer_of(value, "modes");
@@ -35,8 +36,9 @@ class FlexibleReader {
       read_reduced(value, flexible, frames);
       return flexible;
     }
-    auto mesh = mesh_of(value);
+    auto mesh = mesh_of(value, flexible.parts);
     if (!mesh) return flexible;
+    refuse_ties(value, *mesh, flexible);
     flexible.materials = materials_of(value, *mesh);
     place_frames(*mesh, frames);
     refuse_averages(flexible, frames);
@@ -51,6 +53,12 @@ class FlexibleReader {
     if (flexible.strain == mbd::Strain::finite && !flexible.nodal)
       context_.fault(*value.find("strain"), "finite strain of a modal body", "`form: nodal`",
                      "shapes that add up linearly strain linearly");
+  }
+
+  void refuse_ties(const Value& value, const fem::Mesh& mesh, const Flexible& flexible) {
+    if (!mesh.ties.empty() && flexible.nodal)
+      context_.fault(*value.find("form"), "`form: nodal` of a mesh with ties between its nodes", "`form: modal`",
+                     "the shapes of a modal body obey ties; nodes that all move do not yet");
   }
 
   void refuse_averages(const Flexible& flexible, const std::vector<Frame>& frames) {
@@ -81,8 +89,8 @@ class FlexibleReader {
 
   /// A file of `hersey reduce`: its frames are the body's, in its order.
   void read_reduced(const Value& value, Flexible& flexible, std::vector<Frame>& frames) {
-    for (const char* key : {"length_unit", "material", "heat", "modes", "highest_frequency", "load_surfaces",
-                            "static_error", "load_harmonics"})
+    for (const char* key : {"length_unit", "part", "parts", "material", "heat", "modes", "highest_frequency",
+                            "load_surfaces", "static_error", "load_harmonics"})
       if (const Value* given = value.find(key); given != nullptr && given->given)
         context_.fault_at_key(*given, std::string("`") + key + "` of a reduced body", "what the file was made with",
                               "remove the key, or make the file anew");
@@ -133,7 +141,7 @@ class FlexibleReader {
     frames = std::move(ordered);
   }
 
-  std::optional<fem::Mesh> mesh_of(const Value& value) {
+  std::optional<fem::Mesh> mesh_of(const Value& value, fem::Parts parts) {
     const Value *file = value.find("mesh"), *unit = value.find("length_unit");
     if (unit == nullptr && file != nullptr)
       context_.fault_at_key(value, "a mesh without `length_unit`", "what a length of 1 in it means",
@@ -142,17 +150,22 @@ class FlexibleReader {
     const auto path = referenced_file(context_, file->text);
     try {
       std::vector<Fault> warnings;
-      fem::Mesh mesh = fem::read_mesh(path, unit->number, &warnings, &material_faults_);
+      fem::Mesh mesh = fem::read_mesh(path, unit->number, &warnings, &material_faults_, part_of(value));
       check_elements(mesh, *file);
       const fem::MeshQuality quality = fem::quality_of(mesh);
-      context_.faults_in_file(*file, fem::faults_of(quality, path.string()));
+      context_.faults_in_file(*file, fem::faults_of(quality, path.string(), parts));
       context_.warnings_in_file(*file, warnings);
-      context_.warnings_in_file(*file, fem::warnings_of(quality, path.string()));
+      context_.warnings_in_file(*file, fem::warnings_of(quality, path.string(), parts));
       return mesh;
     } catch (const InputError& error) {
       context_.faults_in_file(*file, error.faults());
       return std::nullopt;
     }
+  }
+
+  static std::string part_of(const Value& value) {
+    const Value* const part = value.find("part");
+    return part == nullptr || part->broken ? "" : part->text;
   }
 
   void check_elements(const fem::Mesh& mesh, const Value& file) {

@@ -19,6 +19,12 @@ inline constexpr Vocabulary<bool, 2> form_words{{
     {true, "nodal", "every node moves; `modes` then only draw it in the report"},
 }};
 
+/// Whether parts of a mesh that nothing joins are meant.
+inline constexpr Vocabulary<fem::Parts, 2> parts_words{{
+    {fem::Parts::one, "one", "the mesh hangs together by shared nodes or ties; anything else is a mistake"},
+    {fem::Parts::apart, "apart", "frames hold each part: a rigid one joins the parts it stands on"},
+}};
+
 inline constexpr Vocabulary<mbd::Strain, 2> strain_words{{
     {mbd::Strain::small, "small", "displacements against the body's axes strain linearly"},
     {mbd::Strain::finite, "finite",

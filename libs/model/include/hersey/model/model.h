@@ -17,6 +17,7 @@
 #include "hersey/fem/elastic_material.h"
 #include "hersey/fem/film_surface.h"
 #include "hersey/fem/heat_conduction.h"
+#include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/thermal_model.h"
@@ -62,6 +63,7 @@ struct Flexible {
   std::shared_ptr<const fem::Mesh> mesh;            ///< in metres; null where the file is broken
   std::shared_ptr<const fem::ReducedBody> reduced;  ///< read from a file, with its mesh; null: `mesh` is to be reduced
   std::vector<fem::SolidMaterial> materials;        ///< of the mesh's elements
+  fem::Parts parts = fem::Parts::one;               ///< of the mesh
   bool nodal = false;                               ///< a displacement of every node, not of shapes
   mbd::Strain strain = mbd::Strain::small;          ///< finite: of nodal bodies
   int modes = 10;                                   ///< with all frames held
