@@ -41,6 +41,8 @@ struct More {
   std::function<std::string(const Solution&)> words = {};
   /// Of a family: what stands for <...> in key and name.
   std::function<std::vector<std::string>(const Solution&)> each = {};
+  /// Of a family: the grid's error of each.
+  std::function<double(const Solution&, std::size_t)> grid_error_of = {};
 };
 
 /// A line of the table: a figure, or a family of them.
@@ -453,30 +455,41 @@ Group heat() {
 
 /// The four entries of a matrix over x and y, row by row.
 /// @param get  the matrix of a solution
-template <class Get>
-Line matrix(const std::string& key, const std::string& name, const Unit& unit, Get get) {
+/// @param error  its grid error
+template <class Get, class Error>
+Line matrix(const std::string& key, const std::string& name, const Unit& unit, Get get, Error error) {
+  const auto entry = [](const Eigen::Matrix2d& of, std::size_t k) {
+    return of(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2));
+  };
   return {key + "_<ij>",
           name + " <ij>",
           unit,
-          [get](const Solution& s, std::size_t k) {
-            return get(s)(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2));
-          },
-          {.each = [](const Solution& /*s*/) {
-            return std::vector<std::string>{"xx", "xy", "yx", "yy"};
-          }}};
+          [get, entry](const Solution& s, std::size_t k) { return entry(get(s), k); },
+          {.each =
+               [](const Solution& /*s*/) {
+                 return std::vector<std::string>{"xx", "xy", "yx", "yy"};
+               },
+           .grid_error_of = [error, entry](const Solution& s, std::size_t k) { return entry(error(s), k); }}};
 }
 
 Group dynamics() {
   using Matrix = Eigen::Matrix2d;
-  return {
-      "stiffness and damping",
-      {matrix("stiffness", "stiffness, bearing axes,", kStiffness,
-              [](const Solution& s) -> Matrix { return s.state.coefficients.stiffness.topLeftCorner<2, 2>(); }),
-       matrix("damping", "damping, bearing axes,", kDamping,
-              [](const Solution& s) -> Matrix { return s.state.coefficients.damping.topLeftCorner<2, 2>(); }),
-       matrix("K", "K = k c/W, x along the load,", kNone, [](const Solution& s) -> Matrix { return s.coefficients.K; }),
-       matrix("C", "C = b c omega/W, x along the load,", kNone,
-              [](const Solution& s) -> Matrix { return s.coefficients.C; })}};
+  return {"stiffness and damping",
+          {matrix(
+               "stiffness", "stiffness, bearing axes,", kStiffness,
+               [](const Solution& s) -> Matrix { return s.state.coefficients.stiffness.topLeftCorner<2, 2>(); },
+               [](const Solution& s) { return s.grid_error.stiffness; }),
+           matrix(
+               "damping", "damping, bearing axes,", kDamping,
+               [](const Solution& s) -> Matrix { return s.state.coefficients.damping.topLeftCorner<2, 2>(); },
+               [](const Solution& s) { return s.grid_error.damping; }),
+           matrix(
+               "K", "K = k c/W, x along the load,", kNone, [](const Solution& s) -> Matrix { return s.coefficients.K; },
+               [](const Solution& s) { return s.grid_error.in_load_axes.K; }),
+           matrix(
+               "C", "C = b c omega/W, x along the load,", kNone,
+               [](const Solution& s) -> Matrix { return s.coefficients.C; },
+               [](const Solution& s) { return s.grid_error.in_load_axes.C; })}};
 }
 
 /// Numbers of a threshold that is not there are words.
@@ -545,7 +558,9 @@ std::vector<BearingFigure> figures_of(const BearingSolution& solution) {
                                                .value = line.value(solution, k) / size,
                                                .words = line.more.words ? line.more.words(solution) : "",
                                                .group = group.name});
-        const double error = line.more.grid_error ? line.more.grid_error(solution) : -1;
+        const double error = line.more.grid_error      ? line.more.grid_error(solution)
+                             : line.more.grid_error_of ? line.more.grid_error_of(solution, k)
+                                                       : -1;
         if (solution.grid_error.known && error >= 0) figure.grid_error = error / size;
       }
     }

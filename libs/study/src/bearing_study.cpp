@@ -195,6 +195,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   }
   for (const std::string& doubt : doubts_of(bearing, solution.state))
     solution.doubts.push_back("bearing " + bearing.name + ", " + doubt);
+  // Those at the temperatures as they are, whose grid error stands beside those with temperatures that follow, too.
+  const bearing::DynamicCoefficients frozen = solution.state.coefficients;
   if (!let_heat_follow(bearing, options, steady, solution)) return;
   steady.start_film = {}, steady.start_heat = {};
   const double omega = std::abs(point.entraining_speed());
@@ -202,7 +204,11 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
   solution.whirl = bearing::whirl_stability(
       solution.coefficients, bearing::clearance(solution.model, solution.state.point), solution.numbers.load, omega);
-  if (options.grid_error) solution.grid_error = bearing::estimate_grid_error(solution.model, solution.state, steady);
+  if (options.grid_error) {
+    const bearing::DynamicCoefficients shown = std::exchange(solution.state.coefficients, frozen);
+    solution.grid_error = bearing::estimate_grid_error(solution.model, solution.state, steady);
+    solution.state.coefficients = shown;
+  }
   solution.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   solution.set_solved(true);
 }

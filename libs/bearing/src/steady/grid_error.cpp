@@ -13,12 +13,23 @@ constexpr int kFewestNodesAround = 8, kFewestNodesAcross = 3;
 
 struct Figures {
   double h_min, p_max, eccentricity_ratio, attitude, load, friction_journal, side_flow;
+  Eigen::Matrix2d stiffness, damping, K, C;
 };
 
 Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
   const BearingNumbers n = bearing_numbers(model, state);
-  return {state.film.h_min, state.film.p_max,   n.eccentricity_ratio, n.attitude,
-          n.load,           n.friction_journal, state.film.flow_out()};
+  const LoadAxesCoefficients along_load = in_load_axes(model, state);
+  return {.h_min = state.film.h_min,
+          .p_max = state.film.p_max,
+          .eccentricity_ratio = n.eccentricity_ratio,
+          .attitude = n.attitude,
+          .load = n.load,
+          .friction_journal = n.friction_journal,
+          .side_flow = state.film.flow_out(),
+          .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
+          .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
+          .K = along_load.K,
+          .C = along_load.C};
 }
 
 film::FilmModel with_half_grid(film::FilmModel model) {
@@ -52,6 +63,17 @@ double error_of(double fine, double half, const double* quarter) {
   return std::abs(fine - half) / (std::exp2(order) - 1);
 }
 
+// Coefficients also jump as fronts pass from node to node, by one place of the grid more than by another: the larger
+// step of both, as if of first order, and of the whole matrix, since one entry may happen not to move.
+Eigen::Matrix2d error_of(const std::vector<Figures>& figures, Eigen::Matrix2d Figures::*member) {
+  double largest = (figures[0].*member - figures[1].*member).cwiseAbs().maxCoeff();
+  if (figures.size() > 2) {
+    const Eigen::Matrix2d before = figures[1].*member - figures[2].*member;
+    largest = std::max(largest, 0.5 * before.cwiseAbs().maxCoeff());
+  }
+  return Eigen::Matrix2d::Constant(largest);
+}
+
 }  // namespace
 
 GridError estimate_grid_error(const film::FilmModel& model, const SteadyState& state, const SteadyOptions& options) {
@@ -81,6 +103,9 @@ GridError estimate_grid_error(const film::FilmModel& model, const SteadyState& s
   error.load = of(&Figures::load);
   error.friction_journal = of(&Figures::friction_journal);
   error.side_flow = of(&Figures::side_flow);
+  error.stiffness = error_of(figures, &Figures::stiffness);
+  error.damping = error_of(figures, &Figures::damping);
+  error.in_load_axes = {error_of(figures, &Figures::K), error_of(figures, &Figures::C)};
   return error;
 }
 

@@ -57,6 +57,8 @@ struct WhirlStability {
 struct GridError {
   bool known = false;  ///< the coarser grids were fine enough to be solved
   double h_min = 0, p_max = 0, eccentricity_ratio = 0, attitude = 0, load = 0, friction_journal = 0, side_flow = 0;
+  Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(), damping = Eigen::Matrix2d::Zero();  ///< in the bearing's axes
+  LoadAxesCoefficients in_load_axes;
 };
 
 /// Solves the same operating point on grids of half and a quarter of the nodes and extrapolates.
