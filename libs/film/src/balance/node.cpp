@@ -8,6 +8,9 @@
 namespace hersey::film {
 namespace {
 
+// Of the atmosphere, in which clearances are measured, on the model's scale [Pa].
+double pressure_at_rest(const FilmModel& model) { return model.pressures == PressureScale::absolute ? 101325.0 : 0.0; }
+
 // Sliding of surfaces that stand [m/s].
 constexpr double standing = 1e-4;
 
@@ -127,10 +130,10 @@ void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
 }
 
 void NodeLaw::film_thickness(double g, Node& node) const {
-  const double C = model_.compliance;
+  const double C = model_.compliance, pressed = node.wall - pressure_at_rest(model_);
   // h - g - C (p + p_a(h)) = 0 is increasing and concave in h: Newton from its left side rises to the root. No root
   // above zero is sought below it, where asperities would be squeezed beyond themselves.
-  node.h = g + C * node.wall;
+  node.h = g + C * pressed;
   if (node.h < 0 && C > 0) {
     contact(0, node);
     if (node.h + C * node.asperity > 0) node.h = 0;
@@ -139,7 +142,7 @@ void NodeLaw::film_thickness(double g, Node& node) const {
   double slope = 1 - C * node.asperity_h;
   if (C > 0 && node.asperity > 0) {
     for (int i = 0; i < 50; ++i) {
-      const double excess = node.h - g - C * (node.wall + node.asperity);
+      const double excess = node.h - g - C * (pressed + node.asperity);
       const double step = -excess / slope;
       node.h += step;
       contact(node.h, node);
@@ -149,7 +152,7 @@ void NodeLaw::film_thickness(double g, Node& node) const {
   }
   node.h_g = 1 / slope;
   node.h_u = C * node.wall_u / slope;
-  node.w = C * (node.wall + node.asperity);
+  node.w = C * (pressed + node.asperity);
 }
 
 void NodeLaw::contact(double h, Node& node) const {
