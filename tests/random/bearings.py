@@ -265,6 +265,23 @@ class Bearing:
             b.supply = (self.supply[0] + angle, self.supply[1])
         return b
 
+    def on_nodes(self):
+        """The same with line and borders of features as near to nodes as round-off lets them be."""
+        b = copy.deepcopy(self)
+        cell_phi, cell_z = 2 * PI / b.n_phi, b.L / (b.n_z - 1)
+        for f in b.features:
+            f.phi = cell_phi * round(f.phi / cell_phi)
+            if f.arc < 2 * PI:
+                f.arc = 2 * cell_phi * max(1, round(f.arc / (2 * cell_phi)))
+            if f.kind == "hole":
+                f.length = f.arc * b.R
+            elif f.length < b.L:
+                f.length = 2 * cell_z * max(1, round(f.length / (2 * cell_z)))
+                f.z = cell_z * round(f.z / cell_z)
+        if self.supply and self.supply[0] != "widest_gap":
+            b.supply = (cell_phi * round(self.supply[0] / cell_phi), self.supply[1])
+        return b
+
     def reordered(self):
         b = copy.deepcopy(self)
         b.features.reverse()

@@ -72,6 +72,7 @@ def examine(program, rng, folder, is_small=False):
         if len(found) > before:
             failed |= {"model", label}
     failed |= compare_constant_oils(case, answer, runs, found)
+    failed |= compare_on_nodes(case, runs, found)
     if refine(case, answer, runs, found, FINER_LIMIT if is_small else hersey.CPU_LIMIT):
         failed |= {"model", "fine", "finest", "last"}
     return "answer", "", list(found), {k: v for k, v in runs.models.items() if k in failed}
@@ -116,6 +117,32 @@ def compare_constant_oils(case, answer, runs, found):
     off = steady.differences(case, without, with_heat, tolerance(case, without))
     found.require("layers of one viscosity", not off, "; ".join(off))
     return {"layers", "isothermal"} if off else set()
+
+
+def compare_on_nodes(case, runs, found):
+    """Where lines and borders lie on nodes the mirrored and the turned machine have the same numbers, too: round-off decides nothing."""
+    b = case.bearing
+    has_places = b.features or (b.supply and b.supply[0] != "widest_gap")
+    if b.refine or not has_places:
+        return set()
+    snapped = case.on_nodes()
+    _, one = runs.solve(snapped, "on_nodes")
+    if one is None:  # features that are larger or lie elsewhere need not be a machine
+        return set()
+    turn = (b.n_phi // 3) * 2 * PI / b.n_phi
+    failed = set()
+    for label, variant, options in (("mirrored_on_nodes", snapped.mirrored_phi(), {"is_mirrored_phi": True}),
+                                    ("turned_on_nodes", snapped.turned(turn), {"turn": turn})):
+        ending, other = runs.solve(variant, label)
+        if other is None:
+            found.append(("same with places on nodes", f"{label}: no answer: {ending.text}"))
+        else:
+            off = steady.differences(snapped, one, other, tolerance(snapped, one), **options)
+            found.require("same with places on nodes", not off, f"{label}: {'; '.join(off)}")
+            if not off:
+                continue
+        failed |= {"on_nodes", label}
+    return failed
 
 
 def refine(case, coarse, runs, found, limit):

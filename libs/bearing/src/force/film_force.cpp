@@ -465,6 +465,8 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
 void FilmForce::show_oil(film::FilmObservables& film) const {
   film.oil_volume = oil_of_run_.volume;
   if (oil_.flow_features.size() != film.flow_features.size() || observed_history_.dt == 0) return;
+  // A film that bears tension has no past: its flows are those of the pressure that acts, at the end.
+  if (film::cavitation_law(model()).has_tension()) return;
   film.flow_left = oil_.flow_left, film.flow_right = oil_.flow_right, film.flow_ends = oil_.flow_ends;
   film.flow_supply = oil_.flow_supply, film.flow_features = oil_.flow_features;
   film.storage_rate = oil_.flow_supply - oil_.flow_out() + oil_of_run_.step_error / observed_history_.dt;

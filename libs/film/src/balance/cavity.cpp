@@ -29,7 +29,7 @@ class MiddleRow {
   /// [rad]. The pressure goes to zero there: with no slope where the film ruptures, straight where it re-forms or is
   /// merely cut off. A node that holds a pressure ends the film itself.
   [[nodiscard]] double reach(int i, int sense, bool is_rupture) const {
-    if (balance_.is_held(node(i)) || ends(sense > 0 ? i - 1 : i)) return 0;
+    if (balance_.balance_share(node(i)) < 1 || ends(sense > 0 ? i - 1 : i)) return 0;
     const double gap = step(sense > 0 ? i : i - 1), back = step(sense > 0 ? i - 1 : i);
     const double last = std::max(value(i), 0.0), before = std::max(value(i - sense), 0.0);
     if (cavitation_law(balance_.model()).has_tension()) return gap * last / (last - value(i + sense));

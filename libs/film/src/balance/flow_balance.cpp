@@ -256,7 +256,26 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
     balance_[i] = storage(i);
     throughput_[i] = std::max(std::abs(balance_[i]), std::abs(storage_g_rate(i) * g_rate_[i]));
   }
+  break_edges();
   return {};
+}
+
+int FlowBalance::phase_node(int node) const {
+  if (cavitation_.has_fill()) return node;
+  while (is_given(node) && edge_unknown(node) == 0) node = edges_[node].inside;
+  return node;
+}
+
+// An edge at p_cav has u = 0 whether the film beside it is full or broken: sheared as full, its half volumes would be
+// an error of the first order (film.49).
+void FlowBalance::break_edges() {
+  for (const int edge : given_) {
+    const int inside = phase_node(edge);
+    if (inside == edge) continue;
+    nodes_[edge].share = nodes_[inside].share, nodes_[edge].share_u = nodes_[inside].share_u;
+    nodes_[edge].other_share = nodes_[inside].other_share;
+    nodes_[edge].share_of = inside;
+  }
 }
 
 // What a row carries beside its balance: the slack of p >= p_cav, on an open edge the outflow or inflow.
@@ -277,16 +296,35 @@ bool FlowBalance::lets_nothing_in(int node) const {
   return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off;
 }
 
+// On an edge in air what a supply beside it would take back leaves, too.
 double FlowBalance::outflow_of_row(int node) const {
-  if (is_open(node)) return slack(node);
+  if (is_open(node)) return is_held(node) ? std::max(slack(node), -balance_[node]) : slack(node);
   if (!is_given(node)) return 0;
   return lets_nothing_in(node) ? 0 : -balance_[node];
 }
 
 double FlowBalance::outflow(int node) const { return outflow_of_row(node) + over_land(node); }
 
-double FlowBalance::supply(int node) const {
+double FlowBalance::acting_outflow(int node) const {
+  if (!cavitation_.has_tension() || !is_given(node)) return outflow(node);
+  const int inside = edges_[node].inside;
+  if (nodes_[inside].p >= 0) return outflow(node);
+  return over_land(node) - flows_[face_at_edge(node)].K * edge_unknown(node);
+}
+
+std::size_t FlowBalance::face_at_edge(int node) const {
+  const int first = std::min(node, edges_[node].inside), i = first / model_.grid.n_z, j = first % model_.grid.n_z;
+  return edges_[node].of_patch ? face_after(i, j) : face_above(i, j);
+}
+
+double FlowBalance::supply_of_row(int node) const {
   return (is_held(node) ? balance_[node] + outflow_of_row(node) : 0) + over_land(node);
+}
+
+double FlowBalance::supply(int node) const {
+  if (!is_beside_line(node)) return supply_of_row(node);
+  const HeldNode& held = *held_at(node);
+  return (1 - held.way) * (supply_of_row(node) + supply_of_row(held.other));
 }
 
 void FlowBalance::replace_boundary_rows() {

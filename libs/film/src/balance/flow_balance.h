@@ -143,10 +143,25 @@ class FlowBalance {
   [[nodiscard]] double& flow_over_edge(Flows& flows, int node) const {
     return edges_[node].of_patch ? flows.flow_ends : node % model_.grid.n_z == 0 ? flows.flow_left : flows.flow_right;
   }
-  [[nodiscard]] double outflow(int node) const;       ///< oil leaving over the edge at this node [m^3/s]
-  [[nodiscard]] double supply(int node) const;        ///< oil entering from line or feature at this node [m^3/s]
+  [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
+  /// The same by the pressure that acts: of a film that bears tension not what that draws in (film.55) [m^3/s].
+  [[nodiscard]] double acting_outflow(int node) const;
+  /// The node whose u tells whether the film is full there: on an edge at p_cav without a fill fraction the next one
+  /// from the edge.
+  [[nodiscard]] int phase_node(int node) const;
+  [[nodiscard]] double supply(int node) const;  ///< oil entering from line or feature at this node [m^3/s]
+  /// What of the supply line's oil goes over the face that it cuts, from a to b, with what the surfaces carry: the line
+  /// gives its oil where it lies (film.21) [m^3/s].
+  [[nodiscard]] double over_cut(std::size_t f) const;
   [[nodiscard]] double power_of_tie(int node) const;  ///< dissipated between the node and what holds it [W]
-  [[nodiscard]] int feature_at(int node) const;       ///< the feature that feeds this node; -1 for none
+  /// Of that, what beside a line is dissipated in the control volume of the node on its other side, which is `other`
+  /// [-].
+  struct PowerBeyond {
+    int other = 0;
+    double share = 0;
+  };
+  [[nodiscard]] PowerBeyond power_beyond(int node) const;
+  [[nodiscard]] int feature_at(int node) const;  ///< the feature that feeds this node; -1 for none
   /// Of what a feature feeds at an edge, and what leaves there, that which flows straight over the land between its end
   /// and the edge, beyond what the tube from the next node carries (film.22) [m^3/s].
   [[nodiscard]] double over_land(int node) const;
@@ -282,6 +297,9 @@ class FlowBalance {
     double value = 1, theta = 0, h_a = 0, h_b = 0, bend = 0, excess = 0, journal = 0;
   };
 
+  [[nodiscard]] std::size_t face_at_edge(int node) const;  ///< from it to the next node from the edge
+  /// Oil entering by the row of this node [m^3/s].
+  [[nodiscard]] double supply_of_row(int node) const;
   void lay_edges();
   void lay_faces();
   void lay_pattern();
@@ -295,6 +313,7 @@ class FlowBalance {
   void hold(const HeldNode& held, bool only_oil = false);
   [[nodiscard]] std::size_t line_face(const HeldNode& held) const;
   [[nodiscard]] bool has_line_row(int node) const;
+  [[nodiscard]] bool is_beside_line(int node) const;  ///< with another one on the line's other side
   [[nodiscard]] double line_balance(int node) const;
   void find_carried_share(std::size_t f, const FaceGap& gap, const Carried& carried);
   [[nodiscard]] CarriedShare share_towards_line(int node, const TowardsLine& t) const;
@@ -326,10 +345,12 @@ class FlowBalance {
   [[nodiscard]] const HeldNode* held_at(int node) const;
   [[nodiscard]] const HeldNode* supplied_at(int node) const;
   [[nodiscard]] Tie tie(const HeldNode& held) const;
+  [[nodiscard]] Tie tie_to_line(const HeldNode& held) const;
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
   /// States of the nodes, and the storage in their control volumes into the balance.
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
+  void break_edges();
   [[nodiscard]] NodeViscosity viscosity_of(int node) const;
   [[nodiscard]] bool is_layered() const { return viscosity_.fluidity.size() != 0; }
   static void skew(double skew, double h, RoughGap& gap);

@@ -68,6 +68,13 @@ double FlowBalance::power_of_tie(int node) const {
   return tie(*held).k / (nodes_[node].density * (1 - held->chi)) * drop * drop;
 }
 
+// The pressure falls evenly along the way to the line; the node's control volume ends half a tube from it.
+FlowBalance::PowerBeyond FlowBalance::power_beyond(int node) const {
+  const HeldNode* held = held_at(node);
+  if (held == nullptr || held->other < 0) return {node, 0};
+  return {held->other, held->way > 0.5 ? 1 - 0.5 / held->way : 0};
+}
+
 int FlowBalance::feature_at(int node) const {
   if (const HeldNode* held = held_at(node); held != nullptr) return held->feature;
   const Land* land = land_at(node);
@@ -76,48 +83,59 @@ int FlowBalance::feature_at(int node) const {
 
 // The film's own conductance: what lies between node and line, or node and edge of the feature, is film.
 FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
+  if (held.other >= 0) return tie_to_line(held);
   const Node& node = nodes_[held.node];
-  const bool line = held.other >= 0;
-  const double bend = line ? bends_[static_cast<Eigen::Index>(line_face(held))] : 0;
-  const double h = line ? thickness_towards_line(held) : node.h;
-  const ByGap cube = line ? gap_towards_line(held, h).cube : ByGap{h * h * h, 3 * h * h, 0};
-  const double unit = line ? held.conductance : unit_conductance_ / 12;
+  const double cube = node.h * node.h * node.h, by_h = 3 / node.h;
   const RoughGap& rough = rough_[held.node];
   const Fluidity &around = node.flow[0], &along = node.flow[1];
-  const double smooth = unit * node.density * cube.value * around.value;
   // Along the axis oil that thins by sliding has another fluidity: of the mean of both directions, with derivatives.
-  const auto both = [&](double by_around, double by_along) { return line ? by_around : 0.5 * (by_around + by_along); };
-  const double ratio = along.value / around.value;
+  const double smooth = unit_conductance_ / 12 * node.density * cube;
   const auto by_fluidity = [&](double change_around, double change_along) {
-    return smooth * both(rough.pressure[0] * change_around, rough.pressure[1] * change_along) / around.value;
+    return 0.5 * smooth * (rough.pressure[0] * change_around + rough.pressure[1] * change_along);
   };
-  const double factor = both(rough.pressure[0], rough.pressure[1] * ratio);
-  const double by_node =
-      smooth * both(rough.pressure_h[0], rough.pressure_h[1] * ratio) + by_fluidity(around.h, along.h);
-  const double k = smooth * factor, by_h = k * cube.h / cube.value;
-  const double by_laws = by_fluidity(around.u, along.u) + k * node.density_u / node.density;
-  const double k_rate = by_fluidity(around.rate, along.rate), k_turn = by_fluidity(around.turn, along.turn);
-  if (!line) {
-    const double scale = held.chi;
-    return {.k = scale * k,
-            .k_u = scale * ((by_h + by_node) * node.h_u + by_laws),
-            .k_g = scale * (by_h + by_node) * node.h_g,
-            .k_journal = held.chi_journal * k,
-            .k_rate = scale * k_rate,
-            .k_turn = scale * k_turn};
-  }
-  const Node& other = nodes_[held.other];
-  const double near = by_h * held.near + by_node;
+  const double k = by_fluidity(around.value, along.value);
+  const double by_node = 0.5 * smooth * (rough.pressure_h[0] * around.value + rough.pressure_h[1] * along.value) +
+                         by_fluidity(around.h, along.h) + k * by_h;
+  const double by_laws = by_fluidity(around.u, along.u) + k * node.density_u / node.density, scale = held.chi;
+  return {.k = scale * k,
+          .k_u = scale * (by_node * node.h_u + by_laws),
+          .k_g = scale * by_node * node.h_g,
+          .k_journal = held.chi_journal * k,
+          .k_rate = scale * by_fluidity(around.rate, along.rate),
+          .k_turn = scale * by_fluidity(around.turn, along.turn)};
+}
+
+// Oil, roughness and gap are those half-way to the line: with the line on the next node, those of a face.
+FlowBalance::Tie FlowBalance::tie_to_line(const HeldNode& held) const {
+  const Node &node = nodes_[held.node], &other = nodes_[held.other];
+  const RoughGap &rough = rough_[held.node], &rough_other = rough_[held.other];
+  const double bend = bends_[static_cast<Eigen::Index>(line_face(held))];
+  const ByGap cube = gap_towards_line(held, thickness_towards_line(held)).cube;
+  const auto between = [&held](double near, double far) { return held.near * near + held.far * far; };
+  const double fluidity = between(node.flow[0].value, other.flow[0].value),
+               density = between(node.density, other.density),
+               factor = between(rough.pressure[0], rough_other.pressure[0]);
+  const double k = held.conductance * cube.value * fluidity * density * factor, by_gap = k * cube.h / cube.value;
+  const auto by_h = [&](double share, const Node& at, const RoughGap& gap) {
+    return share * (by_gap + k * at.flow[0].h / fluidity + k * gap.pressure_h[0] / factor);
+  };
+  const auto by_laws = [&](double share, const Node& at) {
+    return share * k * (at.flow[0].u / fluidity + at.density_u / density);
+  };
+  const double near = by_h(held.near, node, rough), far = by_h(held.far, other, rough_other);
+  const double by_near = by_gap * (node.h - other.h) + k * (node.flow[0].value - other.flow[0].value) / fluidity +
+                         k * (node.density - other.density) / density +
+                         k * (rough.pressure[0] - rough_other.pressure[0]) / factor;
   return {.k = k,
-          .k_u = near * node.h_u + by_laws,
+          .k_u = near * node.h_u + by_laws(held.near, node),
           .k_g = near * node.h_g,
-          .k_u_other = by_h * held.far * other.h_u,
-          .k_g_other = by_h * held.far * other.h_g,
-          .k_bend = by_h * held.bend,
-          .k_line = by_h * (held.near_line * (node.h - other.h) + held.bend_line * bend),
+          .k_u_other = far * other.h_u + by_laws(held.far, other),
+          .k_g_other = far * other.h_g,
+          .k_bend = by_gap * held.bend,
+          .k_line = held.near_line * by_near + by_gap * held.bend_line * bend,
           .k_journal = k * cube.journal / cube.value,
-          .k_rate = k_rate,
-          .k_turn = k_turn};
+          .k_rate = k * between(node.flow[0].rate, other.flow[0].rate) / fluidity,
+          .k_turn = k * between(node.flow[0].turn, other.flow[0].turn) / fluidity};
 }
 
 // Of two that hold a node wholly, that with more pressure, and of equal pressure that whose middle is nearer: never
@@ -222,6 +240,15 @@ std::size_t FlowBalance::line_face(const HeldNode& held) const {
 bool FlowBalance::has_line_row(int node) const {
   const HeldNode* held = held_at(node);
   return held != nullptr && held->other >= 0;
+}
+
+bool FlowBalance::is_beside_line(int node) const { return has_line_row(node) && has_line_row(held_at(node)->other); }
+
+// With all of it from one node or the other, temperatures would jump as the line passes over a node.
+double FlowBalance::over_cut(std::size_t f) const {
+  const Face& face = faces_[f];
+  if (!is_cut(f) || !is_beside_line(face.a)) return 0;
+  return supply(face.a) - supply_of_row(face.a);
 }
 
 /// Half-way to the line [m].

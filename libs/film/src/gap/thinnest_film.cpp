@@ -14,6 +14,9 @@ namespace {
 // Places along each side of a feature's border.
 constexpr int border_places = 64;
 
+// Of a cell: places that lie nearer to each other are the same.
+constexpr double round_off = 1e-8;
+
 /// Smallest value of the parabola through (0, y0), (a, ya) and (b, yb) within [from, to], and where.
 struct Low {
   double place = 0, value = 0;
@@ -34,6 +37,9 @@ class Search {
     for (SurfaceFeature feature : model.features) {
       if (feature.depth == 0) continue;
       if (feature.surface == Surface::journal) feature.phi += phi_journal;
+      // A border belongs to the land, also where round-off has moved it or a node on it.
+      feature.arc -= round_off * at.mean_dx / at.R;
+      feature.length -= round_off * at.mean_dz;
       // One that reaches the bearing's edge goes on beyond it.
       if (std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9)) feature.length *= 1 + 1e-6;
       deep_.push_back(feature);

@@ -110,8 +110,9 @@ HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::s
     length = geometry.step(beyond == last ? last : i, j);
   }
   const FlowBalance& b = film.balance;
-  if (b.supplied_share(from) > 0 || b.supplied_share(behind) > 0 || b.nodes()[behind].content < 1e-3) return way;
-  way.slope_share = 0.5 * face.length / length;
+  if (b.nodes()[behind].content < 1e-3) return way;
+  // By what no supply stirs of both: nothing jumps as a supply comes near.
+  way.slope_share = (1 - b.supplied_share(from)) * (1 - b.supplied_share(behind)) * 0.5 * face.length / length;
   return way;
 }
 

@@ -22,7 +22,9 @@ Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node) {
 }
 
 Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
-  if (!balance.is_held(node)) return pressure_gradient(balance, node);
+  const double held = 1 - balance.balance_share(node);
+  const Eigen::Vector2d smooth = pressure_gradient(balance, node);
+  if (held == 0) return smooth;
   const Grid& grid = balance.model().grid;
   const GridGeometry& geometry = balance.geometry();
   const int i = node / grid.n_z, j = node % grid.n_z, last = grid.before(i), next = grid.next(i);
@@ -37,7 +39,7 @@ Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
                after = next < 0 ? 0 : slope(node, grid.index(next, j), geometry.step(i, j));
   const double below = j > 0 ? slope(node - 1, node, geometry.dz[j - 1]) : 0,
                above = j + 1 < grid.n_z ? slope(node, node + 1, geometry.dz[j]) : 0;
-  return {weighted(before, after), weighted(below, above)};
+  return (1 - held) * smooth + held * Eigen::Vector2d(weighted(before, after), weighted(below, above));
 }
 
 WithinLayers within_layers(const Lubricant& oil) {
@@ -74,7 +76,7 @@ void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion
     const FaceFlow& flow = balance.flows()[f];
     const Node &a = balance.nodes()[face.a], &b = balance.nodes()[face.b];
     const LayerShares &at_a = shares_[face.a], &at_b = shares_[face.b];
-    const double along_pressure = flow.K * (a.p - b.p);
+    const double along_pressure = flow.K * (a.p - b.p) + balance.over_cut(f);
     const double carried = flow.carried((flow.couette >= 0 ? a : b).theta).value;
     const double stretch = f < first_axial ? balance.geometry().stretch[face.a % model_.grid.n_z] : 1;
     const double u_shell = stretch * (f < first_axial ? motion.u_shell : motion.w_shell);
@@ -141,10 +143,14 @@ void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench,
   std::vector<double> by_sliding(shares_.size());
   for (int k = 0; k < nodes; ++k) {
     const auto at_node = static_cast<std::size_t>(k);
-    along_pressure[at_node] += balance.power_of_tie(k) + balance.power_over_land(k);
+    const double by_tie = balance.power_of_tie(k);
+    const auto [other, beyond] = balance.power_beyond(k);
+    along_pressure[static_cast<std::size_t>(other)] += beyond * by_tie;
+    along_pressure[at_node] += (1 - beyond) * by_tie + balance.power_over_land(k);
     by_sliding[at_node] = balance.area(k) * sliding_power(balance, wrench, motion, k);
-    sum += along_pressure[at_node] + by_sliding[at_node];
+    sum += by_sliding[at_node];
   }
+  for (const double power : along_pressure) sum += power;
   const double scale = sum > 0 ? whole.power_film / sum : 1;
   for (int k = 0; k < nodes; ++k) {
     const Node& node = balance.nodes()[k];

@@ -14,7 +14,8 @@ namespace hersey::film {
 [[nodiscard]] Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node);
 
 /// The same; on supply line and features, where the pressure has a kink, the slopes of both sides, each weighted by its
-/// own size: that of the film beside a groove, and nothing on a peak.
+/// own size: that of the film beside a groove, and nothing on a peak. Beside them both count by the share that they
+/// hold.
 [[nodiscard]] Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node);
 
 /// Of oils that thin by shear the layers' own shear says how fluidity differs within them.

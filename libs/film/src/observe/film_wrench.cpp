@@ -192,12 +192,14 @@ Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
 FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief) {
   Shear s;
   const double couette = node.share * node.mu / node.h;
-  const double couette_u = (node.share_u * node.mu + node.share * node.mu_u) / node.h;
+  const double by_share = node.share_u * node.mu / node.h, by_mu = node.share * node.mu_u / node.h;
+  const double couette_u = by_mu + (node.share_of < 0 ? by_share : 0);
   for (int k = 0; k < 2; ++k) {
     const double factor = rough.couette[k] * relief.value;
     const double factor_h = rough.couette_h[k] * relief.value + rough.couette[k] * relief.slope;
     s.couette[k] = couette * factor;
     s.couette_u[k] = couette_u * factor;
+    s.couette_share[k] = node.share_of < 0 ? 0 : by_share * factor;
     s.couette_h[k] = couette * (factor_h - factor / node.h) + node.share * node.mu_h / node.h * factor;
     s.couette_rate[k] = node.share * node.mu_rate / node.h * factor;
     s.half_gap[k] = 0.5 * (rough.mean + rough.drag[k]);
@@ -292,6 +294,8 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap& rough,
   by_u_.col(k) +=
       node.h_u * by_h + area * (node.wall_u * b.normal + sheared(s.couette_u[0] * slip[0], s.couette_u[1] * slip[1]));
   by_g_.col(k) += node.h_g * by_h;
+  if (node.share_of >= 0)
+    by_u_.col(node.share_of) += area * sheared(s.couette_share[0] * slip[0], s.couette_share[1] * slip[1]);
   for (int n = 0; n < 3; ++n) {
     const double wall_phi = nodes[by_phi.node[n]].wall_u, wall_z = nodes[by_z.node[n]].wall_u;
     by_u_.col(by_phi.node[n]) -= area * s.half_gap[0] * by_phi.weight[n] * wall_phi * b.shear_along;

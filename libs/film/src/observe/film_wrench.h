@@ -58,6 +58,7 @@ class FilmWrench {
   /// z.
   struct Shear {
     Eigen::Vector2d couette, couette_u, couette_h;  ///< [Pa s/m] and slopes at given film thickness and at given u
+    Eigen::Vector2d couette_share;                  ///< with the u of the node by which the share goes, if another
     Eigen::Vector2d couette_rate;                   ///< with the logarithm of the sliding speed [Pa s/m]
     Eigen::Vector2d half_gap, half_gap_h;           ///< [m]
   };
