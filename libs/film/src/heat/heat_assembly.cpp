@@ -111,8 +111,12 @@ HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::s
   }
   const FlowBalance& b = film.balance;
   if (b.nodes()[behind].content < 1e-3) return way;
-  // By what no supply stirs of both: nothing jumps as a supply comes near.
-  way.slope_share = (1 - b.supplied_share(from)) * (1 - b.supplied_share(behind)) * 0.5 * face.length / length;
+  // By what a line does not stir of both: nothing jumps as it passes over a node. Beside a feature not at all.
+  const auto own = [&b](int node) {
+    const double stirred = b.supplied_share(node);
+    return stirred > 0 && b.supplied_by(node) >= 0 ? 0.0 : 1 - stirred;
+  };
+  way.slope_share = own(from) * own(behind) * 0.5 * face.length / length;
   return way;
 }
 
