@@ -39,9 +39,9 @@ class Search {
       if (feature.surface == Surface::journal) feature.phi += phi_journal;
       // A border belongs to the land, also where round-off has moved it or a node on it.
       if (feature.arc < turn) feature.arc -= round_off * at.mean_dx / at.R;
-      feature.length -= round_off * at.mean_dz;
       // One that reaches the bearing's edge goes on beyond it.
-      if (std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9)) feature.length *= 1 + 1e-6;
+      const bool reaches = std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9);
+      feature.length = reaches ? feature.length * (1 + 1e-6) : feature.length - round_off * at.mean_dz;
       deep_.push_back(feature);
     }
     outside_.assign(static_cast<std::size_t>(grid_.size()), 1);
