@@ -159,21 +159,5 @@ TEST_CASE("ColumnOnAnAbsoluteScale_IsThatOnAGaugeScale") {
   }
 }
 
-TEST_CASE("Coefficients_AreWithinTheirGridError") {
-  const BearingSolution one =
-      solved(hot_line, {"bearings.main.thermal=none", "lubricants.oil.temperature=60 degC"}, true);
-  const BearingSolution turned = solved(hot_line, {"bearings.main.thermal=none", "lubricants.oil.temperature=60 degC",
-                                                   "a=-76.3 deg", "p=-46.3 deg", "l=103.7 deg"});
-  for (const char* matrix : {"K_", "C_"}) {
-    for (const char* entry : {"xx", "xy", "yx", "yy"}) {
-      const std::string key = std::string(matrix) + entry;
-      CAPTURE(key);
-      const BearingFigure here = figure_of(one, key);
-      CHECK(here.grid_error > 0);
-      CHECK(std::abs(figure(turned, key) - here.value) < here.grid_error);
-    }
-  }
-}
-
 }  // namespace places_and_edges_test
 }  // namespace hersey::study
