@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "hersey/model/build.h"
 #include "model_text.h"
 
@@ -84,6 +86,28 @@ TEST_CASE("BeamInertia_MayBeGivenApartFromItsStiffness") {
   CHECK(mass == doctest::Approx(3 * 0.3));
   CHECK(contains(faults_of(edited(text, "zz: 1e-3 kg.m", "zz: 1e-3 kg.m, xx: 0.9e-3 kg.m")),
                  "moments of inertia 0.0009, 0.002 and 0.001 kg.m about x, y and z; expected each at most the sum"));
+}
+
+TEST_CASE("RotaryInertia_MayBeGivenApartFromSecondMomentsOfArea") {
+  const std::string circle = "{circle: {diameter: 20 mm, bore: 10 mm}}";
+  const auto with = [&](const std::string& rotary) {
+    return edited(kMachine, circle, "{circle: {diameter: 20 mm, bore: 10 mm}, rotary_inertia: " + rotary + "}");
+  };
+  const Beam own = *read_text(kMachine, "m.yaml").bodies[0].beam;
+  const Beam given = *read_text(with("{yy: 2e-3 kg.m, zz: 1e-3 kg.m}"), "m.yaml").bodies[0].beam;
+  CHECK(given.mass_per_length == own.mass_per_length);
+  CHECK(given.section.I_y == own.section.I_y);
+  CHECK((given.inertia_per_length - Vector3(3e-3, 2e-3, 1e-3)).norm() < kRoundOff);
+  // What the section has by itself, written down, changes nothing.
+  const double yy = own.inertia_per_length.y();
+  const Beam same =
+      *read_text(with(fmt::format("{{yy: {0:.17g} kg.m, zz: {0:.17g} kg.m}}", yy)), "m.yaml").bodies[0].beam;
+  CHECK(same.inertia_per_length == own.inertia_per_length);
+  CHECK(contains(faults_of(with("{yy: 2e-3 kg.m, zz: 1e-3 kg.m, xx: 0.9e-3 kg.m}")),
+                 "bodies.shaft.beam.section.rotary_inertia: moments of inertia 0.0009, 0.002 and 0.001 kg.m"));
+  CHECK(contains(faults_of(edited(with("{yy: 2e-3 kg.m, zz: 1e-3 kg.m}"), "damping: {stiffness: 2 us}",
+                                  "inertia: {mass_per_length: 3 kg/m, yy: 2e-3 kg.m, zz: 1e-3 kg.m}")),
+                 "`rotary_inertia` of a section beside `inertia` of the beam; expected one of them"));
 }
 
 TEST_CASE("BeamAlongZ_NeedsNoUp") {

@@ -97,16 +97,28 @@ class BeamReader {
     const double density = beam.material.density;
     beam.mass_per_length = density * s.area;
     beam.inertia_per_length = density * Vector3(s.I_y + s.I_z, s.I_y, s.I_z);
-    const Value* given = value.find("inertia");
-    if (given == nullptr || given->broken) return;
-    const double yy = number_of(*given, "yy"), zz = number_of(*given, "zz");
-    const double xx = given->find("xx") != nullptr ? number_of(*given, "xx") : yy + zz;
-    beam.mass_per_length = number_of(*given, "mass_per_length");
-    beam.inertia_per_length = {xx, yy, zz};
-    if (context_.has_fault_in(given->path) || 2 * std::max({xx, yy, zz}) <= (1 + 1e-9) * (xx + yy + zz)) return;
-    context_.fault_at_key(*given,
-                          fmt::format("moments of inertia {:g}, {:g} and {:g} kg.m about x, y and z", xx, yy, zz),
-                          "each at most the sum of the other two", "of a thin slice xx is yy + zz");
+    const Value *whole = value.find("inertia"), *section = value.find("section");
+    const Value* rotary = section != nullptr && !section->broken ? section->find("rotary_inertia") : nullptr;
+    if (whole != nullptr && rotary != nullptr)
+      context_.fault_at_key(*rotary, "`rotary_inertia` of a section beside `inertia` of the beam", "one of them",
+                            "remove `inertia` to keep density times area as the mass, or `rotary_inertia`");
+    if (whole != nullptr && !whole->broken) {
+      beam.mass_per_length = number_of(*whole, "mass_per_length");
+      beam.inertia_per_length = rotary_inertia_of(*whole);
+    } else if (rotary != nullptr && !rotary->broken) {
+      beam.inertia_per_length = rotary_inertia_of(*rotary);
+    }
+  }
+
+  /// Moments about x, y and z; xx that of a thin slice unless it is given.
+  Vector3 rotary_inertia_of(const Value& given) {
+    const double yy = number_of(given, "yy"), zz = number_of(given, "zz");
+    const double xx = given.find("xx") != nullptr ? number_of(given, "xx") : yy + zz;
+    if (!context_.has_fault_in(given.path) && 2 * std::max({xx, yy, zz}) > (1 + 1e-9) * (xx + yy + zz))
+      context_.fault_at_key(given,
+                            fmt::format("moments of inertia {:g}, {:g} and {:g} kg.m about x, y and z", xx, yy, zz),
+                            "each at most the sum of the other two", "of a thin slice xx is yy + zz");
+    return {xx, yy, zz};
   }
 
   std::optional<Axis> axis_of(const Value& value) {

@@ -4,6 +4,16 @@
 namespace hersey::model {
 namespace {
 
+/// Moments of inertia over length about the section's axes.
+std::vector<Key> rotary_entries() {
+  const TypePtr per_length = quantity("kg.m", "0.02 kg.m", Range::positive());
+  return {
+      required("yy", per_length, "Moment of inertia over length about the section's y-axis."),
+      required("zz", per_length, "The same about its z-axis."),
+      optional("xx", per_length, "The same about the beam's axis: turning and torsion.", "yy + zz"),
+  };
+}
+
 TypePtr section_format() {
   const TypePtr length = quantity("m", "40 mm", Range::positive());
   const TypePtr area = quantity("m^2", "12 cm^2", Range::positive());
@@ -33,6 +43,11 @@ TypePtr section_format() {
                                      optional("circle", circle, "A round bar or tube."),
                                      optional("rectangle", rectangle, "A solid rectangle."),
                                      optional("properties", properties, "Any section, by its properties."),
+                                     optional("rotary_inertia", object("rotary inertia of a length", rotary_entries()),
+                                              "Moments of inertia over length, where they are not density times second "
+                                              "moments of area: of published beams, whose stiffness and inertia in "
+                                              "bending are given apart. The mass stays density times area.",
+                                              "density times I_y + I_z, I_y and I_z"),
                                  }),
                           {"circle", "rectangle", "properties"});
 }
@@ -53,15 +68,11 @@ TypePtr beam_format() {
                             defaulted("stiffness", quantity("s", "2 us", Range::not_negative()), "0 s",
                                       "Forces of strain rates over those of strains; damps fast vibrations."),
                         });
-  const TypePtr per_length = quantity("kg.m", "0.02 kg.m", Range::positive());
-  const TypePtr inertia =
-      object("mass and rotary inertia of a length",
-             {
-                 required("mass_per_length", quantity("kg/m", "9.4 kg/m", Range::positive()), "Mass over length."),
-                 required("yy", per_length, "Moment of inertia over length about the section's y-axis."),
-                 required("zz", per_length, "The same about its z-axis."),
-                 optional("xx", per_length, "The same about the beam's axis: turning and torsion.", "yy + zz"),
-             });
+  std::vector<Key> mass_and_rotary = rotary_entries();
+  mass_and_rotary.insert(
+      mass_and_rotary.begin(),
+      required("mass_per_length", quantity("kg/m", "9.4 kg/m", Range::positive()), "Mass over length."));
+  const TypePtr inertia = object("mass and rotary inertia of a length", mass_and_rotary);
   return object(
       "a beam",
       {
