@@ -24,7 +24,9 @@ constexpr double kFloor = 1e-6;
 // w^2 (15 - 40 w + 45 w^2 - 24 w^3 + 5 w^4), theory manual eq. (integrator.9): the share of implicit Euler step k.
 constexpr std::array<double, 6> kShares{0, 15, -40, 45, -24, 5};
 
-/// Implicit Euler steps of the velocities alone (integrator.8).
+/// Implicit Euler steps of the velocities alone (integrator.8). Inertia forces keep the velocities of the start: what
+/// nothing damps then has one acceleration in all steps and is left as it is, however light it is and whatever hangs on
+/// it; with velocities that grow from step to step, forces quadratic in them would be extrapolated by the shares.
 class VelocitySteps {
  public:
   VelocitySteps(Equations& equations, const State& start, double dt)
@@ -55,7 +57,8 @@ class VelocitySteps {
  private:
   bool evaluate(const VectorXd& v, double span) {
     trial_.v = v + span * trial_.vdot;
-    equations_.assemble(trial_, {.dt = dt_, .k = 0, .c = span, .m = 1, .dq = {}}, residual_, scale_, &matrix_);
+    const Stage stage{.dt = dt_, .k = 0, .c = span, .m = 1, .dq = {}, .holds_inertia = true};
+    equations_.assemble(trial_, stage, residual_, scale_, &matrix_);
     if (!equations_.domain_error().empty() || !residual_.allFinite()) return false;
     fill_jacobian(G_, nv_, matrix_);
     residual_.tail(bias_.size()) = G_ * trial_.vdot + bias_;

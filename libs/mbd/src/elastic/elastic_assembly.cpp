@@ -102,6 +102,12 @@ void ElasticAssembly::prepare(const Assembly& assembly, const solver::State& sta
   if (assembly.tangent != nullptr) fill_directions(assembly);
 }
 
+void ElasticAssembly::prepare_again(const Assembly& assembly, const solver::State& state) {
+  const Eigen::VectorXd forces = motion_.shape_forces;
+  prepare(assembly, state);
+  motion_.shape_forces = forces;
+}
+
 void ElasticAssembly::find_shapes(const Assembly& assembly) {
   const bool want_tangent = assembly.tangent != nullptr;
   body_->find_shapes(motion_, want_tangent, shapes_);

@@ -52,6 +52,8 @@ class ElasticAssembly {
 
   /// Reads the motion of the assembly's state; no force acts on the body's shapes yet. Comes before `add`.
   void prepare(const Assembly& assembly, const solver::State& state);
+  /// The same for a motion of other velocities at the same positions; forces on the body's shapes stay.
+  void prepare_again(const Assembly& assembly, const solver::State& state);
 
   /// Adds the forces the body needs and their tangent (theory manual eq. (flexible-bodies.13)).
   void add(Assembly& assembly, const Vector3& gravity);

@@ -105,10 +105,11 @@ void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd
   m.motion.update(state);
   if (tangent) compute_directions(m.tree, m.motion, stage, m.directions);
   Assembly assembly{m.tree, m.motion, stage, m.directions, residual, scale, tangent};
-  m.inertia.add(assembly);
+  const bool is_apart = stage.holds_inertia;
+  if (!is_apart) m.inertia.add(assembly);
   m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.prepare(assembly, state); });
   m.evaluate_two_body_forces(assembly, state);
-  m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.add(assembly, m.spec.gravity); });
+  if (!is_apart) m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.add(assembly, m.spec.gravity); });
   for (Load& load : m.loads) load.add(assembly, state);
   m.add_coordinate_springs(assembly, state);
   m.add_coordinate_forces(assembly, state);
@@ -116,7 +117,24 @@ void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd
   m.add_closures(assembly, state);
   m.add_couplings(assembly, state);
   m.add_drives(assembly, state);
+  if (is_apart) m.add_inertia_and_elasticity(assembly, state);
   m.floor_scales(scale);
+}
+
+/// Inertia forces and elastic bodies at the velocities with which the step began, which no increment moves.
+void MechanismParts::add_inertia_and_elasticity(Assembly& assembly, const State& state) {
+  State other = state;
+  other.v = v_begun;
+  Stage stage = assembly.stage;
+  stage.c = 0;
+  motion.update(other);
+  if (assembly.tangent) compute_directions(tree, motion, stage, directions);
+  Assembly apart{tree, motion, stage, directions, assembly.residual, assembly.scale, assembly.tangent};
+  inertia.add(apart);
+  for_each_elastic([&](ElasticAssembly& elastic) {
+    elastic.prepare_again(apart, other);
+    elastic.add(apart, spec.gravity);
+  });
 }
 
 void MechanismParts::add_coordinate_springs(Assembly& assembly, const State& state) const {
@@ -324,6 +342,7 @@ Eigen::VectorXd Mechanism::position_scales() const {
 
 void Mechanism::begin_step(const State& start, double dt) {
   MechanismParts& m = *parts_;
+  m.v_begun = start.v;
   if (m.spec.forces.empty() && m.elastics.empty()) return;
   const Stopwatch all(m.timing.total);
   m.motion.update(start);

@@ -69,6 +69,7 @@ struct MechanismParts {
   [[nodiscard]] double initial_rate(const CoordinateRef& coordinate) const;
   [[nodiscard]] solver::State initial_state() const;
   void place_cut_bodies(solver::State& state) const;
+  void place_loosened_nodes(solver::State& state) const;
   [[nodiscard]] std::vector<Index> given_coordinates() const;
   [[nodiscard]] std::vector<Index> given_rates() const;
   template <class Choose>
@@ -109,6 +110,8 @@ struct MechanismParts {
   void visit_surface_columns(std::size_t i, Visit visit) const;
   void read_elastic_bodies(const solver::State& state);
   void evaluate_two_body_forces(const Assembly& assembly, const solver::State& state);
+  Eigen::VectorXd v_begun;  ///< velocities at the beginning of the step
+  void add_inertia_and_elasticity(Assembly& assembly, const solver::State& state);
   void hand_out_shape_forces(const std::vector<ForceResponse>& of_forces);
   void add_two_body_forces(Assembly& assembly) const;
   void for_each_force(const std::function<void(std::size_t)>& act);
