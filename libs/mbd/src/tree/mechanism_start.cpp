@@ -37,33 +37,56 @@ solver::State MechanismParts::initial_state() const {
     }
   }
   place_cut_bodies(state);
+  place_loosened_nodes(state);
   return state;
 }
+
+namespace {
+
+/// Poses and velocities of a link and of all that carry it.
+void follow(TreeMotion& at, const Tree& tree, const solver::State& state, int link) {
+  std::vector<int> path;
+  for (int l = link; l > 0; l = tree.links[l].parent) path.push_back(l);
+  std::reverse(path.begin(), path.end());
+  at.update(state, path);
+}
+
+/// Gives a body with a free joint of its own the pose and the velocity, about ground's origin, that its frame has.
+void set_free_body(const Link& ball, const Pose& X_WB, const Vector6& V, solver::State& state) {
+  const int first_q = ball.first_q - 3, first_v = ball.first_v - 3;
+  const Eigen::Quaterniond R(X_WB.R);
+  state.q.segment<7>(first_q) << X_WB.r, R.w(), R.x(), R.y(), R.z();
+  const Vector3 omega = V.head<3>();
+  state.v.segment<6>(first_v) << V.tail<3>() + omega.cross(X_WB.r), X_WB.R.transpose() * omega;
+}
+
+}  // namespace
 
 /// Bodies beyond a cut start where the coordinates of the joints put them: the cuts are closed from the outset.
 void MechanismParts::place_cut_bodies(solver::State& state) const {
   TreeMotion at(tree, spec.gravity);
-  const auto follow = [&](int link) {
-    std::vector<int> path;
-    for (int l = link; l > 0; l = tree.links[l].parent) path.push_back(l);
-    std::reverse(path.begin(), path.end());
-    at.update(state, path);
-  };
   for (const Cut& cut : tree.cuts) {
     const Pair& pair = tree.closures[tree.joints[cut.joint].closure].pair;
     const Attachment &near = cut.reversed ? pair.b : pair.a, &far = cut.reversed ? pair.a : pair.b;
-    const int body = tree.bodies[cut.body].link;  // its own free joint: three translations and a ball
-    follow(near.link);
-    follow(far.link);
+    const Link& ball = tree.links[tree.bodies[cut.body].link];
+    follow(at, tree, state, near.link);
+    follow(at, tree, state, far.link);
     const Pose X_WB = at.pose(near) * at.pose(far).inverse();
-    const Link& ball = tree.links[body];
-    const int first_q = ball.first_q - 3, first_v = ball.first_v - 3;
-    const Eigen::Quaterniond R(X_WB.R);
-    state.q.segment<7>(first_q) << X_WB.r, R.w(), R.x(), R.y(), R.z();
-    follow(far.link);
-    const Vector6 V = at.V(near.link) - at.V(far.link);
-    const Vector3 omega = V.head<3>();
-    state.v.segment<6>(first_v) << V.tail<3>() + omega.cross(X_WB.r), X_WB.R.transpose() * omega;
+    set_free_body(ball, X_WB, Vector6::Zero(), state);
+    follow(at, tree, state, far.link);
+    set_free_body(ball, X_WB, at.V(near.link) - at.V(far.link), state);
+  }
+}
+
+/// Nodes of loose beams start undeformed beside the first, and move as if they were fixed to it.
+void MechanismParts::place_loosened_nodes(solver::State& state) const {
+  TreeMotion at(tree, spec.gravity);
+  for (const Loosened& node : tree.loosened) {
+    const JointSpec& joint = spec.joints[node.joint];
+    const Attachment& near = tree.frames[(node.reversed ? joint.outboard : joint.inboard).index];
+    const Attachment& far = tree.frames[(node.reversed ? joint.inboard : joint.outboard).index];
+    follow(at, tree, state, near.link);
+    set_free_body(tree.links[far.link], at.pose(near) * far.X_LF.inverse(), at.V(near.link), state);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "hersey/core/contract.h"
 #include "tree/joint_kind.h"
+#include "tree/loose_beams.h"
 
 namespace hersey::mbd {
 namespace {
@@ -44,6 +45,7 @@ class TreeBuilder {
     read_.assign(spec.joints.size(), false);
     deforms_.assign(spec.joints.size(), false);
     for (const JointId j : spec.deforming) deforms_[j.index] = true;
+    loose_ = loose_joints(spec);
     at_body_.resize(n);
     for (std::size_t j = 0; j < spec.joints.size(); ++j) {
       const int inboard = body_of(spec.joints[j].inboard), outboard = body_of(spec.joints[j].outboard);
@@ -117,7 +119,12 @@ class TreeBuilder {
     const int next = reversed ? inboard : outboard;
     if (placed_[next]) return;
     used_[j] = true;
-    if (is_cut(j, body)) {
+    if (loose_[static_cast<std::size_t>(j)]) {
+      tree_.loosened.push_back({j, next, reversed});
+      tree_.bodies[next] =
+          add_chain(j, next, elements_of(JointType::free, Vector3::UnitZ()), false, Attachment{}, false);
+      place(next, 0);
+    } else if (is_cut(j, body)) {
       tree_.cuts.push_back({j, next, reversed});
       add_free_body(next);
     } else {
@@ -152,10 +159,11 @@ class TreeBuilder {
     tree_.joints[j].outboard_body = far.body.index;
   }
 
-  /// A chain of elementary joints from `base`; returns the frame at its far end.
-  Attachment add_chain(int joint, int body, std::vector<Element> elements, bool reversed, Attachment base) {
+  /// A chain of elementary joints from `base`; returns the frame at its far end. `has_values`: they are the joint's.
+  Attachment add_chain(int joint, int body, std::vector<Element> elements, bool reversed, Attachment base,
+                       bool has_values = true) {
     if (reversed) std::reverse(elements.begin(), elements.end());
-    JointPlace* const where = joint >= 0 ? &tree_.joints[joint] : nullptr;
+    JointPlace* const where = joint >= 0 && has_values ? &tree_.joints[joint] : nullptr;
     if (where) where->value_count = degrees_of_freedom(spec_.joints[joint].type);
     for (const Element& e : elements) {
       Link link;
@@ -296,6 +304,7 @@ class TreeBuilder {
   std::vector<bool> used_;                 ///< joints in the tree
   std::vector<bool> read_;                 ///< joints whose coordinates something needs
   std::vector<bool> deforms_;              ///< joints inside elastic bodies
+  std::vector<bool> loose_;                ///< joints of loose beams
   std::vector<std::vector<int>> at_body_;  ///< joints of each body, in order of declaration
   std::vector<int> depth_{0};              ///< of each link: columns that move it
 };

@@ -74,6 +74,14 @@ struct Cut {
   bool reversed = false;  ///< it is the inboard one
 };
 
+/// A free joint of a loose beam, whose node has coordinates of its own: the joint is in no path, and where the node
+/// starts follows from it.
+struct Loosened {
+  int joint = 0;
+  int body = 0;           ///< the node beyond the joint, seen from where the path began
+  bool reversed = false;  ///< it is the inboard one
+};
+
 /// Where a value of a joint went: a component of a link's motion.
 struct ValuePlace {
   int link = 0, component = 0;
@@ -100,6 +108,7 @@ struct Tree {
   std::vector<int> body_parent;        ///< the body each hangs on, -1 for ground
   std::vector<std::vector<int>> path;  ///< per link: columns that move it, from ground outwards
   std::vector<Cut> cuts;               ///< from ground outwards
+  std::vector<Loosened> loosened;      ///< from the node where each beam is entered outwards
   std::vector<int> enter, leave;       ///< per link: numbers of the links it carries, itself the first
   std::vector<Pair> forces;            ///< of the two-body forces
   int nq = 0;

@@ -85,6 +85,7 @@ class Builder {
   Machine build() {
     mechanism_.set_gravity(model_.gravity);
     if (model_.simulation.spectral_radius < 1) mechanism_.cut_paths();
+    if (starts_undeformed()) mechanism_.loosen_beams();
     add_frames(model_.ground, mbd::MechanismBuilder::ground());
     for (const Body& body : model_.bodies) {
       if (body.flexible) {
@@ -109,6 +110,11 @@ class Builder {
   }
 
  private:
+  [[nodiscard]] bool starts_undeformed() const {
+    return model_.simulation.analysis == Analysis::dynamics &&
+           model_.simulation.initial_deformation == InitialDeformation::none;
+  }
+
   void add_frames(const Body& body, mbd::BodyId id) {
     const std::string name = id == mbd::MechanismBuilder::ground() ? "ground" : body.name;
     bodies_[name] = id;
@@ -123,9 +129,7 @@ class Builder {
   void add_flexible(const Body& body) {
     const std::vector<const DeformingSurface*> surfaces = surfaces_on(model_, body);
     std::vector<BuiltSurface> kept;
-    const bool is_let_go = model_.simulation.analysis == Analysis::dynamics &&
-                           model_.simulation.initial_deformation == InitialDeformation::none;
-    BuiltFlexible built = build_flexible(body, surfaces, is_let_go, kept);
+    BuiltFlexible built = build_flexible(body, surfaces, starts_undeformed(), kept);
     for (std::size_t i = 0; i < surfaces.size(); ++i) kept_[surfaces[i]] = kept[i];
     std::vector<std::string> names;
     for (std::size_t i = 1; i < body.frames.size(); ++i) names.push_back(body.frames[i].name);

@@ -31,6 +31,12 @@ class MechanismBuilder {
   /// coordinates of its own, and the joint becomes a constraint. The work of a step then grows in proportion to the
   /// length of a chain, else with its cube. For integrators with a spectral radius below 1, as all constraints.
   void cut_paths(int longest = 24) { spec_.longest_path = longest; }
+
+  /// Counts the nodes of loose beams from ground instead of from their first node, which is light and would carry all
+  /// others: their coordinates are then absolute, and the matrix is a band. A beam is loose where it moves with bodies
+  /// that close no loop, and no drive or coupling moves any of them. For motions that start undeformed; what takes
+  /// deformations for coordinates (modes, equilibria, static starts) needs them counted from the first node.
+  void loosen_beams() { spec_.loosens_beams = true; }
   /// The body that does not move.
   [[nodiscard]] static BodyId ground() { return {0}; }
   [[nodiscard]] FrameId frame_of(BodyId body) const;  ///< the body's own frame
