@@ -15,7 +15,7 @@ namespace {
 constexpr int border_places = 64;
 
 // Of a cell: places that lie nearer to each other are the same.
-constexpr double round_off = 1e-8;
+constexpr double same_place = 1e-8;
 
 /// Smallest value of the parabola through (0, y0), (a, ya) and (b, yb) within [from, to], and where.
 struct Low {
@@ -38,10 +38,10 @@ class Search {
       if (feature.depth == 0) continue;
       if (feature.surface == Surface::journal) feature.phi += phi_journal;
       // A border belongs to the land, also where round-off has moved it or a node on it.
-      if (feature.arc < turn) feature.arc -= round_off * at.mean_dx / at.R;
+      if (feature.arc < turn) feature.arc -= same_place * at.mean_dx / at.R;
       // One that reaches the bearing's edge goes on beyond it.
       const bool reaches = std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9);
-      feature.length = reaches ? feature.length * (1 + 1e-6) : feature.length - round_off * at.mean_dz;
+      feature.length = reaches ? feature.length * (1 + 1e-6) : feature.length - same_place * at.mean_dz;
       deep_.push_back(feature);
     }
     outside_.assign(static_cast<std::size_t>(grid_.size()), 1);
