@@ -105,11 +105,14 @@ Stopped, killed and failed runs can go on: [long runs](long-runs.md).
 
 When the disk is full the program says so with the file's name and the system's reason, and stops; rows flushed before
 stay. An existing file is never touched unless asked (`--force`), and then replaced by a new one, so that a program
-that still reads the old file keeps it.
+that still reads the old file keeps it. While a run writes it, no other run replaces or goes on with it, whatever is asked: the
+file is locked (the system's `flock`, on `FILE.lock` beside it, which goes with the run; what a killed run leaves of it locks nothing),
+and the other one ends with 2 and the writing process's number. Reading is free for all.
 
 | claim | test |
 |---|---|
 | what is written is read back exactly | `libs/results/test/writer_test.cpp: WhatIsWritten_IsReadBackExactly` |
+| one run writes a file; locks of killed runs block nobody | `libs/results/test/output_lock_test.cpp`, `python/tests/test_run.py` |
 | flushed rows survive `SIGKILL`, also for h5py | `libs/results/test/crash_test.cpp: FlushedRows_SurviveSigkill` |
 | a kill inside a flush leaves a readable file | `crash_test.cpp: KilledAtAnyMoment_LeavesAReadableFile`, `KilledInTheFirstFlush_HasNoCompleteRow`, `IndexNodes_LieInOneMemoryPageEach` |
 | a flush reads nothing back, however many series | `writer_test.cpp: Flush_ReadsNothingBack` |
