@@ -11,7 +11,7 @@ namespace hersey::unit_database_test {
 
 TEST_CASE("UnitDatabase_IsReadOnceAndHangsOnNoFolderAfterwards") {
   namespace fs = std::filesystem;
-  REQUIRE(parse_quantity("45 mm", "m") == doctest::Approx(0.045).epsilon(1e-15));
+  REQUIRE(parse_quantity("45 mm", "m") == doctest::Approx(0.045).epsilon(1e-15));  // round-off
   const fs::path read = unit_database();
   REQUIRE(fs::exists(read));
   const fs::path copy = fs::absolute("own_units");

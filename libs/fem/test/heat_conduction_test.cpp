@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -57,7 +58,9 @@ TEST_CASE("SlabBetweenFluxAndAir_IsExactInEveryElement") {
     const VectorXd T = conduction.temperatures(heat);
     for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
       const double exact = ambient + q / alpha + q * (length - mesh.nodes[a].x()) / k;
-      CHECK(T[static_cast<Eigen::Index>(a)] == doctest::Approx(exact).epsilon(1e3 * eps));  // condition number: 1e2
+      // Condition number: 1e2; boxes of pyramids have five times the nodes whose round-off adds up.
+      const double round_off = std::max(1e3, 10.0 * static_cast<double>(mesh.nodes.size())) * eps;
+      CHECK(T[static_cast<Eigen::Index>(a)] == doctest::Approx(exact).epsilon(round_off));
     }
     CHECK(conduction.cooling(T)[0] == doctest::Approx(q * 0.02).epsilon(1e4 * eps));  // a difference of temperatures
   }

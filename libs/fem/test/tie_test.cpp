@@ -33,7 +33,7 @@ struct Halves {
     for (long& label : top.node_labels) label += kLabelsOfTop;
     for (const int a : bottom.node_sets.at("z1"))
       for (const int b : top.node_sets.at("z0"))
-        if ((bottom.nodes[a] - top.nodes[b]).norm() < 1e-9)
+        if ((bottom.nodes[a] - top.nodes[b]).norm() < 1e-9)  // a millionth of an element
           pairs.emplace_back(bottom.node_labels[a], top.node_labels[b]);
   }
 };
@@ -172,6 +172,7 @@ Eigen::VectorXd frequencies(const Mesh& mesh, const std::vector<int>& held) {
 std::vector<int> foot(const Mesh& mesh) {
   std::vector<int> nodes;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    // A millionth of an element.
     if (std::abs(mesh.nodes[n].z()) < 1e-9) nodes.push_back(static_cast<int>(n));
   return nodes;
 }
@@ -236,7 +237,9 @@ TEST_CASE("ReducedBodyOfTiedHalves_IsThatOfTheMergedMesh") {
   for (const Tied& tied : all_ties(halves)) {
     CAPTURE(tied.name);
     const ReducedBody body = reduced(tied.mesh);
+    // Two factorisations of stiffnesses whose condition numbers are 1e6.
     CHECK((body.internal_omega - expected.internal_omega).norm() < 1e-9 * expected.internal_omega.norm());
+    // Likewise.
     CHECK((body.M.topLeftCorner<6, 6>() - expected.M.topLeftCorner<6, 6>()).norm() < 1e-9 * expected.M.norm());
   }
 }

@@ -152,9 +152,9 @@ TEST_CASE("LooseBeam_MovesAsCountedFromItsFirstNode") {
       const FrameMotion a = from_first->frame_motion(from_first->initial_state(), frame),
                         b = loose->frame_motion(loose->initial_state(), frame);
       CHECK((a.X_WF.r - b.X_WF.r).norm() < 1e-15);  // round-off of 1 m
-      CHECK((a.X_WF.R - b.X_WF.R).norm() < 1e-15);
-      CHECK((a.v - b.v).norm() < 1e-14);  // of 5 m/s
-      CHECK((a.omega - b.omega).norm() < 1e-14);
+      CHECK((a.X_WF.R - b.X_WF.R).norm() < 1e-15);  // round-off of a rotation
+      CHECK((a.v - b.v).norm() < 1e-14);            // of 5 m/s
+      CHECK((a.omega - b.omega).norm() < 1e-14);    // likewise
     }
     // Later both differ by the error of the steps, which falls with their square once they resolve the hinge's modes.
     const Eigen::VectorXd coarse = swing(hinge, true, 100) - swing(hinge, false, 100),

@@ -189,9 +189,10 @@ TEST_CASE("ImpossibleOperatingPoints_AreFaults") {
 
 // Lobes open the bore by 10 um where the journal goes.
 TEST_CASE("EccentricitiesAboveOne_AreReadWhereTheGapStaysOpen") {
-  const std::string lobed = edited(bearing_alone, "    lubricant: oil\n",
-                                   "    lubricant: oil\n    shape: [{profile: lobes, on: shell, offset: 10 um, angle: 0 "
-                                   "deg, count: 2}]\n");
+  const std::string lobed =
+      edited(bearing_alone, "    lubricant: oil\n",
+             "    lubricant: oil\n    shape: [{profile: lobes, on: shell, offset: 10 um, angle: 0 "
+             "deg, count: 2}]\n");
   const auto at = [&](const std::string& ratio, const std::string& angle) {
     return edited(lobed, "load: 500 N", "eccentricity_ratio: " + ratio + "\n      eccentricity_angle: " + angle);
   };

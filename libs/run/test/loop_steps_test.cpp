@@ -224,8 +224,8 @@ TEST_CASE("MirroredLoop_TakesTheSameSteps") {
     const March mirrored = march(four_bar("revolute", "revolute, axis: z", -1), radius, 1e-7);
     REQUIRE(one.completes);
     CHECK(one.steps == mirrored.steps);
-    // Round-off of positions over the square of the step, over accelerations: 1e-16 / 1e-6.
     const Vector3 force = one.seen.joints[2].force, other = mirrored.seen.joints[2].force;
+    // Round-off of positions over the square of the step, over accelerations: 1e-16 / 1e-6.
     CHECK((force - Vector3(-other.x(), other.y(), other.z())).norm() < 1e-8 * force.norm());
   }
 }

@@ -141,7 +141,7 @@ TEST_CASE("HalfFilm_TellsTheFlowOfThePressureThatActs") {
   const double epsilon = figure(turning, "eccentricity_ratio"), u = 50 * std::acos(-1.0) * 0.05;
   CHECK(turning.state.film.flow_out() == doctest::Approx(u * 1e-4 * epsilon * 0.03).epsilon(0.1));
   const BearingSolution squeezed = solved(squeeze, {});
-  CHECK(figure(squeezed, "mass_balance_error") < 1e-9);
+  CHECK(figure(squeezed, "mass_balance_error") < 1e-9);  // round-off and the solver's tolerance of 1e-10
   // What the approaching half displaces: 2 R L times the velocity.
   CHECK(squeezed.state.film.flow_out() == doctest::Approx(2 * 0.05 * 0.01 * 0.02).epsilon(0.02));
 }
@@ -155,6 +155,7 @@ TEST_CASE("ColumnOnAnAbsoluteScale_IsThatOnAGaugeScale") {
   // Films are found to 1e-8; nothing amplifies that here.
   for (const char* key : {"h_min", "load", "side_flow", "power_film", "stiffness_xx", "damping_xx"}) {
     CAPTURE(key);
+    // The solver's tolerance, amplified in derivatives.
     CHECK(figure(absolute, key) == doctest::Approx(figure(gauge, key)).epsilon(1e-7));
   }
 }

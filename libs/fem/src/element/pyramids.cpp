@@ -11,8 +11,8 @@ namespace {
 constexpr std::array<Edge, 8> pyramid_edges = {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
 constexpr std::array<Signs, 4> pyramid_signs = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
 
-/// Where a point lies in the square that the pyramid has at its height, r = xi/u and s = eta/u, u = 1 - zeta of the
-/// way to the apex left. At the apex itself r and s are any: the middle is as good.
+/// (elastic.30). Where a point lies in the square that the pyramid has at its height, r = xi/u and s = eta/u, u = 1 -
+/// zeta of the way to the apex left. At the apex itself r and s are any: the middle is as good.
 struct SquarePoint {
   double r = 0, s = 0, u = 1;
 

@@ -1,11 +1,10 @@
 // What a judge of a step's energy sees, and the work between two such views: theory manual, integrator.29 to
 // integrator.31.
-#include "hersey/mbd/energy_view.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
+#include "hersey/mbd/energy_view.h"
 #include "hersey/mbd/mechanism.h"
 #include "tree/mechanism_parts.h"
 

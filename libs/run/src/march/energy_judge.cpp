@@ -29,6 +29,10 @@ constexpr double kUnsolved = 1e-6;
 /// Of what is stored: round-off of differences of sums of many terms.
 constexpr double kRoundOffOfStores = 1e-12;
 
+/// Of what a step puts in: where no more than that was there before it, the motion begins with it. What the method
+/// makes of a force that rises from nothing within one step is a share of that force's work, however short the step.
+constexpr double kFromNothing = 1e-6;
+
 /// Of what preloads, weights and loads do over the size of the machine: what moves less than that stands still.
 constexpr double kStandstill = 1e-9;
 
@@ -139,6 +143,8 @@ bool EnergyJudge::allows(const solver::State& end) {
   gain += work.lost_in_springs;
   doubt += kUnsolved * moved + kRoundOffOfStores * held;
   gain_ = gain - doubt;
+  const bool begins = books_.available() <= kFromNothing * trial_.available();
+  if (begins && gain_ <= trial_.available()) gain_ = std::min(gain_, 0.0);
   loss_ = knows_losses_ ? std::max(0.0, -gain - doubt) : 0;
   // Not a number: no energy at all.
   const double left = std::max(0.0, kMostOfRun * trial_.available() - std::max(0.0, balance_));

@@ -13,9 +13,9 @@ namespace hersey::film {
   return solver == FilmSolver::multigrid ? LinearSolver::multigrid : LinearSolver::direct;
 }
 
-/// The solver of a film for which none is asked: Newton's method, from 15,000 nodes on with multigrid, which is then the
-/// faster of the two (a factor's cost grows with the nodes' power of 1.5 to 2, that of multigrid in proportion to them)
-/// and gives the same film. Half or twice that size costs a film some tenths of its time.
+/// The solver of a film for which none is asked: Newton's method, from 15,000 nodes on with multigrid, which is then
+/// the faster of the two (a factor's cost grows with the nodes' power of 1.5 to 2, that of multigrid in proportion to
+/// them) and gives the same film. Half or twice that size costs a film some tenths of its time.
 [[nodiscard]] FilmSolver usual_solver(const Grid& grid);
 
 /// Where the fill fraction is furthest below zero, -1 where it is nowhere: that is no film, but says that more oil

@@ -28,8 +28,8 @@ struct Stage {
   Eigen::VectorXd dq = {};  ///< increment of position since the step's start, shape (nv) or empty: K acts on T(dq) dx
   AlphaParameters parameters{};  ///< of the step being solved
   bool fresh = false;            ///< no step was accepted since the motion started afresh
-  /// Inertia forces, and all that elastic bodies need, are those of the velocities given to begin_step, and c moves them
-  /// not: forces between bodies damp alone (theory manual eq. (integrator.8)).
+  /// Inertia forces, and all that elastic bodies need, are those of the velocities given to begin_step, and c moves
+  /// them not: forces between bodies damp alone (theory manual eq. (integrator.8)).
   bool holds_inertia = false;
 };
 

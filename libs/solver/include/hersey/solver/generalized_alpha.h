@@ -44,8 +44,9 @@ using StepJudge = std::function<bool(const State& end, const Eigen::VectorXd& er
 ///
 /// Second order in positions and velocities, and in multipliers once the transient of the start has faded. The step
 /// length may change between steps, even alternate by factors of up to 2; larger factors repeated step after step
-/// amplify errors of the multipliers, unless steps are chosen by their error: these may change as they like. The algorithmic acceleration a_n approximates vdot(t_n + (alpha_m - alpha_f) dt);
-/// it lives here and is rescaled when dt changes.
+/// amplify errors of the multipliers, unless steps are chosen by their error: these may change as they like. The
+/// algorithmic acceleration a_n approximates vdot(t_n + (alpha_m - alpha_f) dt); it lives here and is rescaled when dt
+/// changes.
 ///
 /// @see Chung and Hulbert (1993), J. Appl. Mech. 60, 371-375; Arnold and Bruels (2007), Multibody Syst. Dyn. 18,
 ///      185-202; Bruels, Cardona and Arnold (2012), Mech. Mach. Theory 48, 121-137.
@@ -63,8 +64,8 @@ class GeneralizedAlpha {
   void reset();
 
   /// Advances `state` by `dt` > 0, film and other condensed unknowns included.
-  /// @throws InputError if spectral_radius is 1, the equations have constraints and the step is not chosen by its error:
-  /// the multipliers are then unstable.
+  /// @throws InputError if spectral_radius is 1, the equations have constraints and the step is not chosen by its
+  /// error: the multipliers are then unstable.
   /// @cost per iteration one assembly, one sparse factorisation, one solve.
   [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt);
 
