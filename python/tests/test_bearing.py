@@ -72,11 +72,11 @@ def test_sweep_is_the_program_s(alone, program, bearing_file):
 
 def test_sweep_tells_of_solutions_that_are_not_found():
     model = hersey.bearing_model(load="500 N", **SMALL)
-    found = model.sweep(load=["500 N", "1e12 N"], grid_error=False)
+    found = model.sweep(load=["500 N", "1e8 N"], grid_error=False)
     assert np.isfinite(found["h_min"][0]) and np.isnan(found["h_min"][1])
     assert found["error"].values[0] == "" and found["error"].values[1] != ""
     with pytest.raises(hersey.SolutionError):
-        model.bearing(load="1e12 N", grid_error=False)
+        model.bearing(load="1e8 N", grid_error=False)
 
 
 def test_wrong_names_are_told(alone):
