@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "mesh/mesh_text.h"
 
@@ -54,7 +55,7 @@ void add_equations(RawMesh& raw, const AbaqusBlock& block, const Spelling& spell
                "node, degree of freedom, coefficient of each term");
     for (std::size_t k = 0; k < line.parts.size(); k += 3) take(line, k);
     left -= static_cast<long>(line.parts.size() / 3);
-    if (left == 0) raw.equations.push_back(std::move(equation));
+    if (left == 0) raw.equations.push_back(std::exchange(equation, {}));
   }
   if (left > 0) raw.fail(block.place, fmt::format("an equation that lacks {} terms", left), "as many terms as it says");
 }
