@@ -77,8 +77,12 @@ report::BearingPage bearing_page(const BearingArguments& arguments, const std::v
   page.version = version();
   page.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   page.conditions = run::bearing_assumptions(bearing);
-  for (auto& [name, text] : study::shear_remarks(solutions.front()))
-    page.conditions.emplace_back(bearing.name + ": " + name, std::move(text));
+  if (solutions.size() == 1) {
+    for (auto& [name, text] : study::shear_remarks(solutions.front()))
+      page.conditions.emplace_back(bearing.name + ": " + name, std::move(text));
+  } else if (std::string text = study::shear_remark(solutions); !text.empty()) {
+    page.conditions.emplace_back(bearing.name + ": cavitated shear", std::move(text));
+  }
   for (auto& [surface, text] : surface_remarks(solutions.front()))
     page.conditions.emplace_back(bearing.name + ": " + surface, std::move(text));
   if (const std::string remark = heat_remark(solutions.front()); !remark.empty())

@@ -27,8 +27,7 @@ std::string choice(film::CavitatedShear shear) {
              ? "the cavitated film is sheared over the whole gap (`cavitated_shear: full`); over the oil's share of it "
                "(`film_share`)"
              : "the cavitated film is sheared over the oil's share of the gap (`cavitated_shear: film_share`); over "
-               "the "
-               "whole gap (`full`)";
+               "the whole gap (`full`)";
 }
 
 }  // namespace
@@ -61,6 +60,7 @@ std::string shear_remark(const std::vector<BearingSolution>& solutions) {
   for (const BearingSolution& solution : solutions) {
     if (!depends_on_choice(solution)) continue;
     if (first == nullptr) first = &solution;
+    if (solution.model.cavitated_shear != first->model.cavitated_shear) return "";
     changes.push_back(change(solution));
   }
   if (first == nullptr) return "";

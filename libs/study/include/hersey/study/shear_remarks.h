@@ -17,7 +17,7 @@ namespace hersey::study {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> shear_remarks(const BearingSolution& solution);
 
 /// The first of shear_remarks() for a table of several solutions: the range of what the other choice gives; empty where
-/// no film is cavitated.
+/// no film is cavitated, or where the solutions differ in that choice, which their labels then tell.
 [[nodiscard]] std::string shear_remark(const std::vector<BearingSolution>& solutions);
 
 /// Share of the load that the net force of shear carries, in the direction of the load [-].
