@@ -8,14 +8,8 @@
 namespace hersey::solver {
 namespace {
 
-// Differences kept over the steps: twice the six components of a bearing's wrench for a pair of bearings.
-constexpr std::size_t kMemory = 24;
-
 // Columns whose part independent of newer ones falls below this share of the largest are noise.
 constexpr double kIndependence = 1e-7;
-
-// Accuracy to be expected of an image, relative to its size.
-constexpr double kNoise = 1e-8;
 
 Eigen::MatrixXd columns(const std::vector<Eigen::VectorXd>& vectors) {
   Eigen::MatrixXd matrix(vectors.front().size(), static_cast<Eigen::Index>(vectors.size()));
@@ -25,8 +19,8 @@ Eigen::MatrixXd columns(const std::vector<Eigen::VectorXd>& vectors) {
 
 }  // namespace
 
-FixedPointIteration::FixedPointIteration(Acceleration acceleration, double relaxation)
-    : acceleration_(acceleration), relaxation_(relaxation), omega_(relaxation) {
+FixedPointIteration::FixedPointIteration(Acceleration acceleration, double relaxation, ChangesKept kept)
+    : acceleration_(acceleration), relaxation_(relaxation), kept_(kept), omega_(relaxation) {
   HERSEY_REQUIRE(relaxation > 0 && relaxation <= 1, "a relaxation factor lies in (0, 1]");
 }
 
@@ -68,10 +62,10 @@ Eigen::VectorXd FixedPointIteration::aitken(const Eigen::VectorXd& x, const Eige
 void FixedPointIteration::remember(const Eigen::VectorXd& residual, const Eigen::VectorXd& image) {
   if (!has_last_) return;
   // The difference of two nearly equal images tells of their solver's tolerance, not of the map.
-  if ((residual - last_residual_).norm() <= kNoise * image.norm()) return;
+  if ((residual - last_residual_).norm() <= kept_.noise * image.norm()) return;
   residual_changes_.insert(residual_changes_.begin(), residual - last_residual_);
   image_changes_.insert(image_changes_.begin(), image - last_image_);
-  if (residual_changes_.size() > kMemory) {
+  if (residual_changes_.size() > kept_.most) {
     residual_changes_.pop_back();
     image_changes_.pop_back();
   }
@@ -92,7 +86,10 @@ Eigen::VectorXd FixedPointIteration::quasi_newton(const Eigen::VectorXd& image, 
     C.col(count) = (W.col(k) - C.leftCols(count) * share) / norm;
     ++count;
   }
-  return image - C.leftCols(count) * (Q.leftCols(count).transpose() * residual);
+  const Eigen::VectorXd known = Q.leftCols(count).transpose() * residual;
+  const Eigen::VectorXd next = image - C.leftCols(count) * known;
+  if (share_of_unknown_ == 1) return next;
+  return next - (1 - share_of_unknown_) * (residual - Q.leftCols(count) * known);
 }
 
 void FixedPointIteration::learn_from(const FixedPointIteration& other,

@@ -1,6 +1,7 @@
 #include "steady/temperature_path.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -9,9 +10,23 @@
 namespace hersey::bearing {
 namespace {
 
-// Turns after which temperatures go this share of their way at a time, and steps back at most in all.
-constexpr int kTurnsOfAcceleration = 40, kMostStepsBack = 12;
+// What turns are remembered: of axial waves of temperature in a long film there are many, and each makes the next
+// turn's ten times as large as long as it is not known. Films are solved far nearer than temperatures have to come.
+constexpr solver::ChangesKept kTurnsKept{.most = 60, .noise = 1e-11};
+
+// After so many turns what none of them resembles goes this share of its way only.
+struct Caution {
+  int turn;
+  double share;
+};
+constexpr std::array kCaution{Caution{15, 0.3}, Caution{30, 0.1}, Caution{60, 0.03}};
+
+// Where the answer has a kink, what turns on either side of it have shown leads astray: after so many this share of all
+// of the way, from the nearest that was found.
+constexpr int kTurnsOfAcceleration = 120;
 constexpr double kSlowShare = 0.3;
+
+constexpr int kMostStepsBack = 12;
 
 // Of a change of the logarithm of viscosity by shear, the rise of temperature that changes it as much [K].
 constexpr double kHeatOfShear = 30;
@@ -20,7 +35,10 @@ constexpr double kHeatOfShear = 30;
 
 TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal,
                                  const OperatingPoint& point, const std::optional<film::HeatState>& start)
-    : model_(model), thermal_(thermal), heat_(model, thermal) {
+    : model_(model),
+      thermal_(thermal),
+      heat_(model, thermal),
+      mixing_(solver::Acceleration::quasi_newton, 1, kTurnsKept) {
   if (const auto* body = std::get_if<film::BodyWall>(&thermal.shell); body != nullptr && body->conduction->deforms())
     per_watt_ = body->conduction->rise.rowwise().sum().mean();
   if (const auto* body = std::get_if<film::BodyJournal>(&thermal.journal);
@@ -107,12 +125,19 @@ void TemperaturePath::take() {
   last_ = tried_;
   image_ = unknowns(called_for());
   nearness_ = std::min(1.0, (image_ - last_).cwiseAbs().maxCoeff() / (1 + image_.cwiseAbs().maxCoeff()));
+  if (nearest_.x.size() == 0 || nearness_ <= nearest_.nearness) nearest_ = {last_, image_, nearness_};
 }
 
 void TemperaturePath::step_on(int turn) {
-  if (turn == kTurnsOfAcceleration) mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
+  for (const Caution& caution : kCaution) {
+    if (turn == caution.turn) mixing_.set_share_of_unknown(caution.share);
+  }
   if (T_oil_) {
     try_next(film::first_guess(model_, thermal_, *T_oil_, heat_.state()), called_for());
+    nearest_ = {};
+  } else if (turn == kTurnsOfAcceleration) {
+    mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
+    try_next(mixing_.next(nearest_.x, nearest_.image));
   } else {
     try_next(mixing_.next(last_, image_));
   }

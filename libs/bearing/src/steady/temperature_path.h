@@ -60,7 +60,7 @@ class TemperaturePath {
   const film::FilmModel& model_;
   const film::ThermalModel& thermal_;
   film::FilmHeat heat_;
-  solver::FixedPointIteration mixing_{solver::Acceleration::quasi_newton, 1};
+  solver::FixedPointIteration mixing_;
   /// (thermal.38): heat into an angle of the shell's body as a temperature [K/W]; 0: that is of no account
   double per_watt_ = 0;
   double journal_per_watt_ = 0;  ///< likewise all of the heat into the journal's body
@@ -70,6 +70,11 @@ class TemperaturePath {
   /// their shapes and the growth of the clearance as if they were more of them [K]: being tried; those with which a
   /// film was found last; what that made.
   Eigen::VectorXd tried_, last_, image_;
+  struct Turn {
+    Eigen::VectorXd x, image;
+    double nearness = 1;
+  };
+  Turn nearest_;                 ///< of all turns so far
   std::optional<double> T_oil_;  ///< one temperature that all oil has at first [K]
   int steps_back_ = 0;
   double nearness_ = 1;

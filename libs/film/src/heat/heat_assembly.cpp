@@ -280,6 +280,20 @@ void HeatEquations::add_walls_of_film(const CarryingFilm& film, const HeatState&
   by_journal_[row] += chi * flux.wall();
 }
 
+// A line has no width: what is made or conducted at its nodes is the film's, of each place along it.
+void HeatEquations::add_film_on_line(const CarryingFilm& film, int node, double chi) {
+  for (int l = 0; l < layers(); ++l) {
+    const int row = system_.row(node, l);
+    known_[row] += chi * film.flows.dissipation(node, l);
+    if (l == top()) continue;
+    const double k = chi * between(film, node, l);
+    system_.diagonal(row) += k;
+    system_.above(node, l) -= k;
+    system_.diagonal(system_.row(node, l + 1)) += k;
+    system_.below(node, l + 1) -= k;
+  }
+}
+
 // Oil comes out of a supply with the temperature there; of what passes a node, the supply's share takes it on
 // (thermal.14).
 void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& start) {
@@ -309,6 +323,7 @@ void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& star
       by_supply_[row] = (1 - held.chi) * in + taken_on;
     }
     add_walls_of_film(film, start, node, held.chi);
+    if (is_line(held.supply)) add_film_on_line(film, node, held.chi);
     held_.push_back(std::move(held));
   }
 }

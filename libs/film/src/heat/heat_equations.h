@@ -83,6 +83,7 @@ class HeatEquations {
   /// Of a node's width that carries and conducts heat.
   [[nodiscard]] static double oil_share(const Node& node);
   [[nodiscard]] bool has_line() const { return model_.supply.kind != SupplyKind::none; }
+  [[nodiscard]] bool is_line(int supply) const { return has_line() && supply == 0; }
   [[nodiscard]] int layers() const { return thermal_.layers; }
   /// Of the film's thickness [-].
   [[nodiscard]] double width(int layer) const { return across_.width(static_cast<std::size_t>(layer)); }
@@ -133,6 +134,7 @@ class HeatEquations {
   [[nodiscard]] double heat_into_journal(const CarryingFilm& film, const HeatState& state) const;
   void add_journal(const CarryingFilm& film);
   void add_walls_of_film(const CarryingFilm& film, const HeatState& start, int node, double chi);
+  void add_film_on_line(const CarryingFilm& film, int node, double chi);
   void add_supplies(const CarryingFilm& film, const HeatState& start);
   void find_stirred(const CarryingFilm& film);
   void renew(const CarryingFilm& film);

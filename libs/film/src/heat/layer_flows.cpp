@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "observe/film_power.h"
 
 namespace hersey::film {
+
+namespace {
+
+// Half volumes along the edges have at most this share more or less heat than their nodes say.
+constexpr double kMostCompleted = 0.5;
+
+}  // namespace
 
 Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node) {
   const Grid& grid = balance.model().grid;
@@ -126,41 +134,59 @@ void LayerFlows::flow_upwards(const FlowBalance& balance) {
   }
 }
 
-// Sums over control volumes differ from the film's power, an integral of higher order (film.53), by their quadrature:
-// all of them are scaled to it.
-void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion) {
-  const auto nodes = static_cast<int>(shares_.size());
-  std::vector<double> along_pressure(shares_.size(), 0.0);
+// By flow along pressure, and by sliding.
+void LayerFlows::dissipate_in_volumes(const FlowBalance& balance, const FilmWrench& wrench,
+                                      const SurfaceMotion& motion) {
+  along_pressure_.assign(shares_.size(), 0.0);
+  by_sliding_.resize(shares_.size());
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
     const double half = 0.5 * pressure_power(balance, f);
-    along_pressure[static_cast<std::size_t>(balance.faces()[f].a)] += half;
-    along_pressure[static_cast<std::size_t>(balance.faces()[f].b)] += half;
+    along_pressure_[static_cast<std::size_t>(balance.faces()[f].a)] += half;
+    along_pressure_[static_cast<std::size_t>(balance.faces()[f].b)] += half;
   }
-  FilmObservables whole;
-  whole.flow_features.setZero(static_cast<Eigen::Index>(model_.features.size()));
-  add_powers(balance, motion, wrench, whole);
-  double sum = 0;
-  std::vector<double> by_sliding(shares_.size());
-  for (int k = 0; k < nodes; ++k) {
+  for (int k = 0; k < model_.grid.size(); ++k) {
     const auto at_node = static_cast<std::size_t>(k);
     const double by_tie = balance.power_of_tie(k);
     const auto [other, beyond] = balance.power_beyond(k);
-    along_pressure[static_cast<std::size_t>(other)] += beyond * by_tie;
-    along_pressure[at_node] += (1 - beyond) * by_tie + balance.power_over_land(k);
-    by_sliding[at_node] = balance.area(k) * sliding_power(balance, wrench, motion, k);
-    sum += by_sliding[at_node];
+    along_pressure_[static_cast<std::size_t>(other)] += beyond * by_tie;
+    along_pressure_[at_node] += (1 - beyond) * by_tie + balance.power_over_land(k);
+    by_sliding_[at_node] = balance.area(k) * sliding_power(balance, wrench, motion, k);
   }
-  for (const double power : along_pressure) sum += power;
+}
+
+// Sums over volumes differ from the film's power, an integral of higher order (film.53). Between nodes the error of a
+// sum cancels, up to the half volumes along the edges (Euler and Maclaurin): theirs is the difference (thermal.66).
+void LayerFlows::complete_at_edges(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion) {
+  const Eigen::VectorXd beyond = power_beyond_volumes(balance, motion, wrench);
+  for (int i = 0; i < model_.grid.n_phi; ++i) {
+    const auto first = static_cast<std::size_t>(model_.grid.index(i, 0)),
+               last = static_cast<std::size_t>(model_.grid.index(i, model_.grid.n_z - 1));
+    const double there = along_pressure_[first] + by_sliding_[first] + along_pressure_[last] + by_sliding_[last];
+    if (there <= 0) continue;
+    const double share = 1 + std::clamp(beyond[i] / there, -kMostCompleted, kMostCompleted);
+    for (const std::size_t edge : {first, last}) along_pressure_[edge] *= share, by_sliding_[edge] *= share;
+  }
+}
+
+// What is still missing, next to nothing, is shared by all.
+void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion) {
+  dissipate_in_volumes(balance, wrench, motion);
+  complete_at_edges(balance, wrench, motion);
+  FilmObservables whole;
+  whole.flow_features.setZero(static_cast<Eigen::Index>(model_.features.size()));
+  add_powers(balance, motion, wrench, whole);
+  const double sum = std::accumulate(along_pressure_.begin(), along_pressure_.end(), 0.0) +
+                     std::accumulate(by_sliding_.begin(), by_sliding_.end(), 0.0);
   const double scale = sum > 0 ? whole.power_film / sum : 1;
-  for (int k = 0; k < nodes; ++k) {
+  for (int k = 0; k < model_.grid.size(); ++k) {
     const Node& node = balance.nodes()[k];
     const double mixed =
         node.share * balance.area(k) * node.h * balance.slip(k % model_.grid.n_z).dot(pressure_gradient(balance, k));
-    const double sliding = by_sliding[static_cast<std::size_t>(k)];
-    const LayerShares& of = shares_[static_cast<std::size_t>(k)];
+    const auto at_node = static_cast<std::size_t>(k);
+    const LayerShares& of = shares_[at_node];
     for (std::size_t l = 0; l < layers_; ++l) {
-      heat_[at(static_cast<std::size_t>(k), static_cast<int>(l))] =
-          scale * (sliding * of.sliding_heat[l] + along_pressure[static_cast<std::size_t>(k)] * of.pressure_heat[l] +
+      heat_[at(at_node, static_cast<int>(l))] =
+          scale * (by_sliding_[at_node] * of.sliding_heat[l] + along_pressure_[at_node] * of.pressure_heat[l] +
                    mixed * of.mixed_heat[l]);
     }
   }

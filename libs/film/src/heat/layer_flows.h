@@ -56,6 +56,8 @@ class LayerFlows {
   void flow_over_faces(const FlowBalance& balance, const SurfaceMotion& motion);
   void flow_upwards(const FlowBalance& balance);
   void dissipate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion);
+  void dissipate_in_volumes(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion);
+  void complete_at_edges(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion);
 
   const FilmModel& model_;
   std::size_t layers_;
@@ -63,6 +65,7 @@ class LayerFlows {
   WithinLayers within_;
   std::vector<LayerShares> shares_;  ///< of each node
   std::vector<double> faces_, leads_, upwards_, heat_, lost_;
+  std::vector<double> along_pressure_, by_sliding_;  ///< heat of each node by either [W]
 };
 
 }  // namespace hersey::film

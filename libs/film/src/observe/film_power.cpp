@@ -57,6 +57,24 @@ double pressure_power(const FlowBalance& balance, std::size_t f) {
   return flow.K / flow.density * (a.p - b.p) * (a.wall - b.wall) + balance.recirculation(f);
 }
 
+Eigen::VectorXd power_beyond_volumes(const FlowBalance& balance, const SurfaceMotion& motion,
+                                     const FilmWrench& wrench) {
+  const Grid& grid = balance.model().grid;
+  const GridGeometry& geometry = balance.geometry();
+  const Eigen::VectorXd axial = parabolic_shares(geometry.dz).array() - 1,
+                        around = geometry.weight_z.cwiseQuotient(geometry.width_z).array() - 1;
+  Eigen::VectorXd beyond = Eigen::VectorXd::Zero(grid.n_phi);
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j) {
+      const int k = grid.index(i, j);
+      beyond[i] += around[j] * (balance.area(k) * sliding_power(balance, wrench, motion, k) +
+                                pressure_power(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
+      if (j + 1 < grid.n_z) beyond[i] += axial[j] * pressure_power(balance, balance.face_above(i, j));
+    }
+  }
+  return beyond;
+}
+
 void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench, FilmObservables& o) {
   const FilmModel& model = balance.model();
   const Grid& grid = model.grid;

@@ -11,6 +11,11 @@ namespace hersey::film {
 /// @param wrench  evaluated: what it knows of relief and boundary friction.
 void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const FilmWrench& wrench, FilmObservables& o);
 
+/// By what the film's power across each line of nodes exceeds the sum over their volumes [W]: what integrals across the
+/// width have that are of higher order.
+[[nodiscard]] Eigen::VectorXd power_beyond_volumes(const FlowBalance& balance, const SurfaceMotion& motion,
+                                                   const FilmWrench& wrench);
+
 /// Viscous dissipation by sliding, per area at a node [W/m^2].
 [[nodiscard]] double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
                                    int node);

@@ -15,14 +15,24 @@ enum class Acceleration {
   quasi_newton,  ///< least-squares fit of the interface Jacobian to the steps taken (IQN-ILS, Degroote et al. 2009)
 };
 
+/// What `quasi_newton` keeps of the steps taken.
+struct ChangesKept {
+  std::size_t most = 24;  ///< over the steps; twice the six components of a bearing's wrench for a pair of bearings
+  double noise = 1e-8;    ///< accuracy to be expected of an image, relative to its size: smaller changes are not kept
+};
+
 /// Fixed-point iteration x = F(x) with a memory (theory manual, (bearing.16)). One object per coupled system.
 class FixedPointIteration {
  public:
   /// @param relaxation  omega of the first correction, and of all of them in `constant`; in (0, 1].
-  FixedPointIteration(Acceleration acceleration, double relaxation);
+  FixedPointIteration(Acceleration acceleration, double relaxation, ChangesKept kept = {});
 
   /// A new time step begins: residuals of the last one are no longer neighbours, its differences still are.
   void begin_step();
+
+  /// Of a residual's part that no known change resembles, `quasi_newton` goes this share of the way from now on, at
+  /// first all of it: where F answers it with one many times as large, a small share keeps it small until it is known.
+  void set_share_of_unknown(double share) { share_of_unknown_ = share; }
 
   /// The next x after F(x) came out as `image`. All entries should be of comparable size.
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image);
@@ -41,7 +51,9 @@ class FixedPointIteration {
 
   Acceleration acceleration_;
   double relaxation_;
+  ChangesKept kept_;
   double omega_;
+  double share_of_unknown_ = 1;
   bool has_last_ = false;
   Eigen::VectorXd last_residual_, last_image_;
   std::vector<Eigen::VectorXd> residual_changes_, image_changes_;  // newest first
