@@ -312,6 +312,31 @@ class Defects(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("nowhere to go", done.stderr)
 
+    def test_heat_of_a_long_closed_film_comes_together_on_every_grid(self):
+        loads = {}
+        for around, across in ((240, 3), (240, 5), (240, 9), (120, 13)):
+            figures, _ = self.bearing("long_hot_no_convergence", "--set", f"bearings.main.grid.circumferential={around}", "--set",
+                                      f"bearings.main.grid.axial={across}")
+            loads[around, across] = figures["load"]
+        # What is alike all along the axis does not depend on the nodes there; temperatures are solved to 1e-6 of their rise.
+        self.assertAlmostEqual(loads[240, 5] / loads[240, 3], 1, delta=1e-6)
+        self.assertAlmostEqual(loads[240, 9] / loads[240, 3], 1, delta=1e-6)
+        self.assertAlmostEqual(loads[120, 13] / loads[240, 3], 1, delta=0.005)  # second order around
+
+    def test_heat_at_mid_width_does_not_feel_edges_far_away(self):
+        def per_width(*settings):
+            arguments = [word for setting in settings for word in ("--set", f"bearings.main.{setting}")]
+            self.bearing("wide_hot_mid_width", *arguments)
+            field = np.genfromtxt(os.path.join(self.folder, "fields.csv"), delimiter=",", skip_header=1)
+            middle = field[np.abs(field[:, 1]) < 1]  # mm
+            angle = np.radians(middle[:, 0])
+            return 1e6 * 0.05 * 2 * math.pi / len(angle) * np.hypot(middle[:, 2] @ np.cos(angle), middle[:, 2] @ np.sin(angle))
+
+        endless = per_width("edge_pressure=closed")
+        for across in (3, 5, 9):
+            # What oil exchanges with the next row falls with the square of the width over the bore.
+            self.assertAlmostEqual(per_width(f"grid.axial={across}") / endless, 1, delta=0.003, msg=f"{across} nodes across")
+
     def test_table_of_a_tiny_period_is_refused(self):
         done = hersey("run", os.path.join(HERE, "table_of_tiny_period.yaml"), "--output", os.path.join(self.folder, "out"))
         self.assertEqual(done.returncode, 2)

@@ -33,6 +33,11 @@ constexpr double kFarApart = 0.5;
 constexpr double kBalanceTolerance = 5e-8;
 constexpr int kTurnsForTheBalance = 40;
 
+// After so many turns this is near enough: waves of temperature along a long film change its answer by so little that
+// the last of them are lost in what the film's solver leaves.
+constexpr int kTurnsForTheLast = 100;
+constexpr double kLastTolerance = 1e-6;
+
 // On half the grid they come as near as its films are to those on the whole one.
 constexpr double kHalfGridTolerance = 0.1;
 
@@ -118,11 +123,12 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     if (network != nullptr) balance(*network, path.heat());
     path.take();
     nearest = std::min(nearest, path.nearness());
-    const bool is_near = path.nearness() <= nearness, is_only_begun = nearness > kHeatTolerance;
+    const bool is_late = k >= kTurnsForTheLast, is_only_begun = nearness > kHeatTolerance;
+    const bool is_near = path.nearness() <= (is_late ? std::max(nearness, kLastTolerance) : nearness);
     if (is_near) ++turns_near;
     const bool is_balanced =
         path.heat().observables().balance.error() <= kBalanceTolerance || turns_near > kTurnsForTheBalance;
-    if (is_near && (is_only_begun || (is_balanced && search.is_settled()))) {
+    if (is_near && (is_only_begun || ((is_balanced || is_late) && search.is_settled()))) {
       tell_runaway(path.heat().observables(), false, summary);
       return summary;
     }

@@ -280,18 +280,13 @@ void HeatEquations::add_walls_of_film(const CarryingFilm& film, const HeatState&
   by_journal_[row] += chi * flux.wall();
 }
 
-// A line has no width: what is made or conducted at its nodes is the film's, of each place along it.
-void HeatEquations::add_film_on_line(const CarryingFilm& film, int node, double chi) {
-  for (int l = 0; l < layers(); ++l) {
-    const int row = system_.row(node, l);
-    known_[row] += chi * film.flows.dissipation(node, l);
-    if (l == top()) continue;
-    const double k = chi * between(film, node, l);
-    system_.diagonal(row) += k;
-    system_.above(node, l) -= k;
-    system_.diagonal(system_.row(node, l + 1)) += k;
-    system_.below(node, l + 1) -= k;
-  }
+// A line has no width: what is dissipated at its nodes warms the film's oil at its place, and not all that the line
+// stirs; as much in all layers, which it stirs as well.
+void HeatEquations::add_film_on_line(const CarryingFilm& film, const Held& held, const Eigen::VectorXd& taken_on) {
+  double heat = 0;
+  for (int l = 0; l < layers(); ++l) heat += held.chi * film.flows.dissipation(held.node, l);
+  const double all = taken_on.sum();
+  for (int l = 0; l < layers() && all > 0; ++l) known_[system_.row(held.node, l)] += heat * taken_on[l] / all;
 }
 
 // Oil comes out of a supply with the temperature there; of what passes a node, the supply's share takes it on
@@ -307,6 +302,7 @@ void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& star
               .flow = film.balance.supply(node)};
     supply_of_[node] = held.supply;
     const double thread = least_fill_ * film.balance.largest_throughput();
+    Eigen::VectorXd taken_on(layers());
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double share = held.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
@@ -314,16 +310,16 @@ void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& star
       held.rows.push_back(
           {system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row], by_outside_.row(row)});
       held.rows.back().entries.front().second += rc_ * held.flow * share;
-      const double taken_on = held.chi * std::max(passing + in, rc_ * thread * width(l));
+      taken_on[l] = held.chi * std::max(passing + in, rc_ * thread * width(l));
       system_.diagonal(row) += in;
       system_.scale(row, 1 - held.chi);
       known_[row] *= 1 - held.chi, by_shell_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
       by_outside_.row(row) *= 1 - held.chi;
-      system_.diagonal(row) += taken_on;
-      by_supply_[row] = (1 - held.chi) * in + taken_on;
+      system_.diagonal(row) += taken_on[l];
+      by_supply_[row] = (1 - held.chi) * in + taken_on[l];
     }
     add_walls_of_film(film, start, node, held.chi);
-    if (is_line(held.supply)) add_film_on_line(film, node, held.chi);
+    if (is_line(held.supply)) add_film_on_line(film, held, taken_on);
     held_.push_back(std::move(held));
   }
 }

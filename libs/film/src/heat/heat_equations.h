@@ -134,7 +134,7 @@ class HeatEquations {
   [[nodiscard]] double heat_into_journal(const CarryingFilm& film, const HeatState& state) const;
   void add_journal(const CarryingFilm& film);
   void add_walls_of_film(const CarryingFilm& film, const HeatState& start, int node, double chi);
-  void add_film_on_line(const CarryingFilm& film, int node, double chi);
+  void add_film_on_line(const CarryingFilm& film, const Held& held, const Eigen::VectorXd& taken_on);
   void add_supplies(const CarryingFilm& film, const HeatState& start);
   void find_stirred(const CarryingFilm& film);
   void renew(const CarryingFilm& film);

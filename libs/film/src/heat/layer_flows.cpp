@@ -155,7 +155,7 @@ void LayerFlows::dissipate_in_volumes(const FlowBalance& balance, const FilmWren
 }
 
 // Sums over volumes differ from the film's power, an integral of higher order (film.53). Between nodes the error of a
-// sum cancels, up to the half volumes along the edges (Euler and Maclaurin): theirs is the difference (thermal.66).
+// sum cancels, up to the half volumes along the edges (Euler and Maclaurin): theirs is the difference (thermal.9).
 void LayerFlows::complete_at_edges(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion) {
   const Eigen::VectorXd beyond = power_beyond_volumes(balance, motion, wrench);
   for (int i = 0; i < model_.grid.n_phi; ++i) {
