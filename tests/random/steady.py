@@ -430,7 +430,9 @@ def differences(case, one, other, tolerance, is_mirrored_z=False, is_mirrored_ph
     scales = {"h_min": b.c, "h_min_centre": b.c, "load": max(one["load"], 1e-3 * max(one["p_max"], 1e3) * b.R * b.L),
               "p_max": max(one["p_max"], 1e3), "power_film": one["power_film"], "power_asperity": one["power_film"],
               "oil_volume": one["oil_volume"], "eccentricity_ratio": 1.0}
-    flow = max([abs(one[key]) for key in one.values if key.startswith("flow_")] + [1e-3 * omega * b.R * b.c * b.L])
+    # What speeds would make flow: a squeeze between closed edges has no flow at all.
+    moved = 1e-3 * (omega * b.c + abs(case.radial_velocity)) * b.R * b.L
+    flow = max([abs(one[key]) for key in one.values if key.startswith("flow_")] + [moved])
     for key in one.values:
         if key.startswith(("flow_", "side_flow")) and not (key.startswith("flow_feature_") and overlap(case)):
             scales[key] = flow

@@ -66,6 +66,10 @@ def examine(program, rng, folder, is_small=False):
             found.append((invariant, f"{label}: {other_ending.kind}: {other_ending.text}"))
         elif other is not None:
             off = steady.differences(case, answer, other, tolerance(case, answer), **options)
+            if off and case.load and answer["eccentricity_ratio"] < 1:
+                off = differences_there(case, answer, variant, runs, label, options) or []
+            if off and solver_may_differ(case, invariant, other):
+                off = []
             found.require(invariant, not off, f"{label}: {'; '.join(off)}")
         elif invariant != "one answer of all solvers":
             found.append((invariant, f"{label}: no answer: {other_ending.text}"))
@@ -76,6 +80,22 @@ def examine(program, rng, folder, is_small=False):
     if refine(case, answer, runs, found, FINER_LIMIT if is_small else hersey.CPU_LIMIT):
         failed |= {"model", "fine", "finest", "last"}
     return "answer", "", list(found), {k: v for k, v in runs.models.items() if k in failed}
+
+
+def differences_there(case, answer, variant, runs, label, options):
+    """Likewise at the position that the case's load was found at: a load may have two equilibria."""
+    angle = answer["eccentricity_angle"] * (-1 if options.get("is_mirrored_phi") else 1) + options.get("turn", 0.0)
+    _, there = runs.solve(variant.at((answer["eccentricity_ratio"], angle)), label + "_there")
+    if there is None:
+        return [f"no answer at eccentricity ratio {answer['eccentricity_ratio']:.6g}"]
+    return steady.differences(case, answer, there, tolerance(case, answer), **options)
+
+
+def solver_may_differ(case, invariant, other):
+    """Where shapes that turn close the gap on oil that does not fill it, more than one fill is in balance with the rates as they
+    are: the balance of a node then holds less oil the more it has (docs/random-models.md). Each solver finds one."""
+    turns = [case.bearing.varies_on("journal") and case.journal_speed, case.bearing.varies_on("shell") and case.shell_speed]
+    return invariant == "one answer of all solvers" and (any(turns) or case.radial_velocity) and abs(other["mass_balance_error"]) < 1e-9
 
 
 def variants(case, answer, rng):
@@ -170,7 +190,7 @@ def not_converging(case, coarse, fine, finest):
     """Figures whose differences between three grids do not fall."""
     b, bad = case.bearing, []
     # a bearing's own flow and load, where those at hand are nothing
-    flow = 0.02 * abs(case.journal_speed) * b.R * b.c * b.L
+    flow = 0.02 * (abs(case.journal_speed) * b.c + abs(case.radial_velocity)) * b.R * b.L
     capacity = b.mu * abs(case.journal_speed + case.shell_speed) * (b.R / b.c) ** 2  # near the middle forces cancel
     load = 1e-3 * max(abs(finest.p).max(), capacity, 1e3) * b.R * b.L
     figures = [("load", load)]

@@ -14,6 +14,10 @@ namespace {
 // would still keep each between its neighbours'; flow along the film does that as well.
 constexpr double trusted = 4;
 
+// Of the largest flow, what a supply without any is given of fresh oil, whose temperature it then has: too little for
+// the balance of heat to see, as in a film without feed that is squeezed slowly.
+constexpr double kThreadOfSupply = 1e-11;
+
 }  // namespace
 
 // Layers first, then what stands at their nodes in the place of a film, then the few rows of journal and supplies.
@@ -410,7 +414,7 @@ void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& s
 void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& start) {
   const int journal = system_.size();
   add_journal_row(film, start);
-  const double thread = rc_ * 1e-9 * film.balance.largest_throughput();
+  const double thread = rc_ * kThreadOfSupply * film.balance.largest_throughput();
   std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
   for (const Held& held : held_) {
     flow[held.supply] += held.flow;

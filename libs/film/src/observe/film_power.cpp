@@ -65,10 +65,13 @@ Eigen::VectorXd power_beyond_volumes(const FlowBalance& balance, const SurfaceMo
                         around = geometry.weight_z.cwiseQuotient(geometry.width_z).array() - 1;
   Eigen::VectorXd beyond = Eigen::VectorXd::Zero(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
+    const int next = std::max(grid.next(i), 0);  // there is no face, and no power, after the end of a patch
     for (int j = 0; j < grid.n_z; ++j) {
       const int k = grid.index(i, j);
-      beyond[i] += around[j] * (balance.area(k) * sliding_power(balance, wrench, motion, k) +
-                                pressure_power(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
+      const double to_next = 0.5 * around[j] * pressure_power(balance, balance.face_after(i, j));
+      beyond[i] +=
+          to_next + around[j] * (balance.area(k) * sliding_power(balance, wrench, motion, k) + balance.power_of_tie(k));
+      beyond[next] += to_next;
       if (j + 1 < grid.n_z) beyond[i] += axial[j] * pressure_power(balance, balance.face_above(i, j));
     }
   }
