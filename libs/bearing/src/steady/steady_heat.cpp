@@ -128,7 +128,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     if (is_near) ++turns_near;
     const bool is_balanced =
         path.heat().observables().balance.error() <= kBalanceTolerance || turns_near > kTurnsForTheBalance;
-    if (is_near && (is_only_begun || ((is_balanced || is_late) && search.is_settled()))) {
+    if (is_near && (is_only_begun || (is_balanced && search.is_settled()))) {
       tell_runaway(path.heat().observables(), false, summary);
       return summary;
     }
