@@ -33,9 +33,8 @@ constexpr double kFarApart = 0.5;
 constexpr double kBalanceTolerance = 5e-8;
 constexpr int kTurnsForTheBalance = 40;
 
-// After so many turns this is near enough: waves of temperature along a long film change its answer by so little that
-// the last of them are lost in what the film's solver leaves.
-constexpr int kTurnsForTheLast = 100;
+// Of turns that lead away from temperatures as near as this, those are taken: waves of temperature along a long film
+// change its answer by so little that the last of them are lost in what the film's solver leaves.
 constexpr double kLastTolerance = 1e-6;
 
 // On half the grid they come as near as its films are to those on the whole one.
@@ -95,6 +94,7 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
   double clearance_before = 0;
   int turns_near = 0;
   double nearest = 1;
+  bool is_last = false;
   for (int k = 0; k < kMostHeatIterations && (k < kTurnsToComeNear || nearest <= kFarApart); ++k) {
     Eigen::VectorXd shell = path.heat().shell_opening();
     Eigen::VectorXd journal = film::around(model.grid, path.heat().journal_growth());
@@ -123,8 +123,8 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     if (network != nullptr) balance(*network, path.heat());
     path.take();
     nearest = std::min(nearest, path.nearness());
-    const bool is_late = k >= kTurnsForTheLast, is_only_begun = nearness > kHeatTolerance;
-    const bool is_near = path.nearness() <= (is_late ? std::max(nearness, kLastTolerance) : nearness);
+    const bool is_only_begun = nearness > kHeatTolerance;
+    const bool is_near = path.nearness() <= (is_last ? kLastTolerance : nearness);
     if (is_near) ++turns_near;
     const bool is_balanced =
         path.heat().observables().balance.error() <= kBalanceTolerance || turns_near > kTurnsForTheBalance;
@@ -132,7 +132,9 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
       tell_runaway(path.heat().observables(), false, summary);
       return summary;
     }
-    path.step_on(k);
+    if (is_last) break;
+    is_last = path.leads_away() && path.nearest() <= kLastTolerance;
+    is_last ? path.return_to_nearest() : path.step_on(k);
   }
   summary.set_solved(false);
   summary.message = fmt::format("film and temperature do not come together in {} turns; hottest oil {}",

@@ -26,6 +26,9 @@ constexpr std::array kCaution{Caution{15, 0.3}, Caution{30, 0.1}, Caution{60, 0.
 constexpr int kTurnsOfAcceleration = 120;
 constexpr double kSlowShare = 0.3;
 
+// These lead away where they end so many times further from what they make.
+constexpr double kAway = 10;
+
 constexpr int kMostStepsBack = 12;
 
 // Of a change of the logarithm of viscosity by shear, the rise of temperature that changes it as much [K].
@@ -137,12 +140,15 @@ void TemperaturePath::step_on(int turn) {
     nearest_ = {};
   } else if (turn == kTurnsOfAcceleration) {
     mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
+    is_accelerated_ = false;
     try_next(mixing_.next(nearest_.x, nearest_.image));
   } else {
     try_next(mixing_.next(last_, image_));
   }
   T_oil_.reset();
 }
+
+bool TemperaturePath::leads_away() const { return !is_accelerated_ && nearness_ > kAway * nearest_.nearness; }
 
 bool TemperaturePath::step_back() {
   if (last_.size() == 0) {

@@ -43,6 +43,12 @@ class TemperaturePath {
   void take();
   /// To the next temperatures, after `turn` others.
   void step_on(int turn);
+  /// Whether turns that are no longer accelerated lead away from the nearest temperatures found.
+  [[nodiscard]] bool leads_away() const;
+  /// To be tried once more.
+  void return_to_nearest() { try_next(nearest_.x); }
+  /// nearness() of these.
+  [[nodiscard]] double nearest() const { return nearest_.nearness; }
   /// No film has been found there: half-way back, at first to the supply's temperature. False where there is no way
   /// back.
   [[nodiscard]] bool step_back();
@@ -77,6 +83,7 @@ class TemperaturePath {
   Turn nearest_;                 ///< of all turns so far
   std::optional<double> T_oil_;  ///< one temperature that all oil has at first [K]
   int steps_back_ = 0;
+  bool is_accelerated_ = true;
   double nearness_ = 1;
 };
 

@@ -317,8 +317,12 @@ std::size_t FlowBalance::face_at_edge(int node) const {
   return edges_[node].of_patch ? face_after(i, j) : face_above(i, j);
 }
 
+// Oil that is lost where the film is broken comes from nowhere, but for the share that draws on the supply.
 double FlowBalance::supply_of_row(int node) const {
-  return (is_held(node) ? balance_[node] + outflow_of_row(node) : 0) + over_land(node);
+  const double land = over_land(node);
+  if (!is_held(node)) return land;
+  const double lost = is_open(node) ? 0 : (1 - draws(node)) * slack(node);
+  return balance_[node] + lost + outflow_of_row(node) + land;
 }
 
 double FlowBalance::supply(int node) const {

@@ -64,8 +64,8 @@ bool FlowBalance::only_fills(int node) const {
 double FlowBalance::power_of_tie(int node) const {
   const HeldNode* held = held_at(node);
   if (held == nullptr || held->chi == 1) return 0;
-  const double drop = nodes_[node].wall - model_.p_cav - held->u;
-  return tie(*held).k / (nodes_[node].density * (1 - held->chi)) * drop * drop;
+  const double drop = nodes_[node].p - held->u, acting = nodes_[node].wall - model_.p_cav - held->u;
+  return tie(*held).k / (nodes_[node].density * (1 - held->chi)) * drop * acting;
 }
 
 // The pressure falls evenly along the way to the line; the node's control volume ends half a tube from it.
