@@ -69,9 +69,12 @@ Eigen::VectorXd power_beyond_volumes(const FlowBalance& balance, const SurfaceMo
     for (int j = 0; j < grid.n_z; ++j) {
       const int k = grid.index(i, j);
       const double to_next = 0.5 * around[j] * pressure_power(balance, balance.face_after(i, j));
-      beyond[i] +=
-          to_next + around[j] * (balance.area(k) * sliding_power(balance, wrench, motion, k) + balance.power_of_tie(k));
+      const auto [other, share] = balance.power_beyond(k);
+      const double by_tie = around[j] * balance.power_of_tie(k);
+      beyond[i] += around[j] * balance.area(k) * sliding_power(balance, wrench, motion, k) + to_next;
       beyond[next] += to_next;
+      beyond[i] += (1 - share) * by_tie;
+      beyond[other / grid.n_z] += share * by_tie;
       if (j + 1 < grid.n_z) beyond[i] += axial[j] * pressure_power(balance, balance.face_above(i, j));
     }
   }
