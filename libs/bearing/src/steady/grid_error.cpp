@@ -13,23 +13,33 @@ constexpr int kFewestNodesAround = 8, kFewestNodesAcross = 3;
 
 struct Figures {
   double h_min, p_max, eccentricity_ratio, attitude, load, friction_journal, side_flow;
+  double torque_journal, torque_shell, power_film;
+  double T_max = 0, T_shell_max = 0, T_shell_mean = 0, T_journal = 0, T_film = 0, T_side = 0;  // of films with heat
   Eigen::Matrix2d stiffness, damping, K, C;
 };
 
 Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
   const BearingNumbers n = bearing_numbers(model, state);
   const LoadAxesCoefficients along_load = in_load_axes(model, state);
-  return {.h_min = state.film.h_min,
-          .p_max = state.film.p_max,
-          .eccentricity_ratio = n.eccentricity_ratio,
-          .attitude = n.attitude,
-          .load = n.load,
-          .friction_journal = n.friction_journal,
-          .side_flow = state.film.flow_out(),
-          .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
-          .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
-          .K = along_load.K,
-          .C = along_load.C};
+  Figures f{.h_min = state.film.h_min,
+            .p_max = state.film.p_max,
+            .eccentricity_ratio = n.eccentricity_ratio,
+            .attitude = n.attitude,
+            .load = n.load,
+            .friction_journal = n.friction_journal,
+            .side_flow = state.film.flow_out(),
+            .torque_journal = state.film.torque_journal,
+            .torque_shell = state.film.torque_shell,
+            .power_film = state.film.power_film,
+            .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
+            .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
+            .K = along_load.K,
+            .C = along_load.C};
+  if (!state.heat) return f;
+  const film::HeatObservables& seen = state.heat->seen;
+  f.T_max = seen.T_max, f.T_shell_max = seen.T_shell_max, f.T_shell_mean = seen.T_shell_mean;
+  f.T_journal = seen.T_journal, f.T_film = seen.T_film_mean, f.T_side = seen.T_side;
+  return f;
 }
 
 film::FilmModel with_half_grid(film::FilmModel model) {
@@ -52,9 +62,13 @@ bool is_fine_enough(const film::Grid& grid) {
   return grid.n_phi >= kFewestNodesAround && grid.n_z >= kFewestNodesAcross;
 }
 
+// What a figure has no error of: oil that does not leave has no temperature.
+constexpr double kNone = -1;
+
 // Richardson's error of `fine`. Steps of opposite sign or growing ones are no order at all: then, and without a third
 // grid, the first order is taken, which overestimates.
 double error_of(double fine, double half, const double* quarter) {
+  if (!std::isfinite(fine - half)) return kNone;
   double order = 1;
   if (quarter != nullptr) {
     const double ratio = (half - *quarter) / (fine - half);
@@ -63,9 +77,16 @@ double error_of(double fine, double half, const double* quarter) {
   return std::abs(fine - half) / (std::exp2(order) - 1);
 }
 
-// Coefficients also jump as fronts pass from node to node, by one place of the grid more than by another: the larger
-// step of both, as if of first order, and of the whole matrix, since one entry may happen not to move.
-Eigen::Matrix2d error_of(const std::vector<Figures>& figures, Eigen::Matrix2d Figures::*member) {
+// Coefficients jump as fronts pass from node to node, by one place of the grid more than by another, and temperatures
+// as a cell before or after a groove does: the larger step of both, as if of first order.
+double steps_of(const std::vector<Figures>& figures, double Figures::*member) {
+  double largest = std::abs(figures[0].*member - figures[1].*member);
+  if (figures.size() > 2) largest = std::max(largest, 0.5 * std::abs(figures[1].*member - figures[2].*member));
+  return std::isfinite(largest) ? largest : kNone;
+}
+
+// Of the whole matrix, since one entry may happen not to move.
+Eigen::Matrix2d steps_of(const std::vector<Figures>& figures, Eigen::Matrix2d Figures::*member) {
   double largest = (figures[0].*member - figures[1].*member).cwiseAbs().maxCoeff();
   if (figures.size() > 2) {
     const Eigen::Matrix2d before = figures[1].*member - figures[2].*member;
@@ -103,9 +124,18 @@ GridError estimate_grid_error(const film::FilmModel& model, const SteadyState& s
   error.load = of(&Figures::load);
   error.friction_journal = of(&Figures::friction_journal);
   error.side_flow = of(&Figures::side_flow);
-  error.stiffness = error_of(figures, &Figures::stiffness);
-  error.damping = error_of(figures, &Figures::damping);
-  error.in_load_axes = {error_of(figures, &Figures::K), error_of(figures, &Figures::C)};
+  error.torque_journal = steps_of(figures, &Figures::torque_journal);
+  error.torque_shell = steps_of(figures, &Figures::torque_shell);
+  error.power_film = steps_of(figures, &Figures::power_film);
+  error.T_max = steps_of(figures, &Figures::T_max);
+  error.T_shell_max = steps_of(figures, &Figures::T_shell_max);
+  error.T_shell_mean = steps_of(figures, &Figures::T_shell_mean);
+  error.T_journal = steps_of(figures, &Figures::T_journal);
+  error.T_film = steps_of(figures, &Figures::T_film);
+  error.T_side = steps_of(figures, &Figures::T_side);
+  error.stiffness = steps_of(figures, &Figures::stiffness);
+  error.damping = steps_of(figures, &Figures::damping);
+  error.in_load_axes = {steps_of(figures, &Figures::K), steps_of(figures, &Figures::C)};
   return error;
 }
 

@@ -53,10 +53,12 @@ struct WhirlStability {
 [[nodiscard]] WhirlStability whirl_stability(const LoadAxesCoefficients& coefficients, double c, double W,
                                              double omega);
 
-/// Estimated errors of the grid, one standard figure each (bearing.34).
+/// Estimated errors of the grid, one standard figure each (bearing.34); negative: there is none to be had.
 struct GridError {
   bool known = false;  ///< the coarser grids were fine enough to be solved
   double h_min = 0, p_max = 0, eccentricity_ratio = 0, attitude = 0, load = 0, friction_journal = 0, side_flow = 0;
+  double torque_journal = 0, torque_shell = 0, power_film = 0;
+  double T_max = 0, T_shell_max = 0, T_shell_mean = 0, T_journal = 0, T_film = 0, T_side = 0;  ///< of films with heat
   Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(), damping = Eigen::Matrix2d::Zero();  ///< in the bearing's axes
   LoadAxesCoefficients in_load_axes;
 };
