@@ -139,9 +139,12 @@ FlowBalance::Tie FlowBalance::tie_to_line(const HeldNode& held) const {
 }
 
 // Of two that hold a node wholly, that with more pressure, and of equal pressure that whose middle is nearer: never
-// that which the file happens to name first. A line stays.
+// that which the file happens to name first. A line on a node holds it wholly only by how its place is rounded: the
+// feature does.
 bool FlowBalance::gives_way(const HeldNode& held, const HeldNode& to) {
-  if (held.chi != to.chi || held.feature < 0) return held.chi < to.chi;
+  constexpr double as_much = 1e-9;  // of a place, by round-off
+  if (std::abs(held.chi - to.chi) > as_much) return held.chi < to.chi;
+  if ((held.feature < 0) != (to.feature < 0)) return held.feature < 0;
   return held.u != to.u ? held.u < to.u : held.inwards < to.inwards;
 }
 

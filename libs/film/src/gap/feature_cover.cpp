@@ -177,6 +177,13 @@ void stir(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroun
 
 }  // namespace
 
+SurfaceFeature without_border(SurfaceFeature feature, const FilmModel& model, const GridGeometry& geometry) {
+  if (feature.arc < turn) feature.arc -= same_place * geometry.mean_dx / geometry.R;
+  const bool reaches = std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9);  // to round-off
+  if (!reaches) feature.length -= same_place * geometry.mean_dz;
+  return feature;
+}
+
 double unit_conductance(const GridGeometry& geometry) {
   return 2 * (geometry.mean_dz / geometry.mean_dx + geometry.mean_dx / geometry.mean_dz);
 }

@@ -18,6 +18,14 @@ struct CoveredNode {
   double draws_phi = 0;
 };
 
+/// Of a cell: places that lie nearer to each other are the same.
+inline constexpr double same_place = 1e-12;
+
+/// The feature without its border, which belongs to the land, also where round-off has moved it or a node on it. One
+/// that reaches an edge of the bearing goes on there.
+[[nodiscard]] SurfaceFeature without_border(SurfaceFeature feature, const FilmModel& model,
+                                            const GridGeometry& geometry);
+
 /// Conductance of a mean cell to its four neighbours, per h^3/(12 mu): what shares refer to [-].
 [[nodiscard]] double unit_conductance(const GridGeometry& geometry);
 

@@ -76,7 +76,7 @@ double swept_area(const SurfaceFeature& pocket, double R, double phi, double low
 PocketRelief::PocketRelief(const FilmModel& model, const GridGeometry& geometry) : model_(model), geometry_(geometry) {
   for (const SurfaceFeature& feature : model.features) {
     if (feature.depth == 0) continue;
-    (feature.is_fed ? fed_ : pockets_).push_back(feature);
+    (feature.is_fed ? fed_ : pockets_).push_back(without_border(feature, model, geometry));
     any_turns_ = any_turns_ || feature.surface == Surface::journal;
   }
 }

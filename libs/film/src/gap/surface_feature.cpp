@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hersey/core/turn.h"
+
 namespace hersey::film {
 namespace {
 
@@ -11,7 +13,8 @@ constexpr int samples = 50;
 }  // namespace
 
 bool contains(const SurfaceFeature& feature, double phi, double z) {
-  const double x = std::remainder(phi - feature.phi, 2 * std::numbers::pi) / (0.5 * feature.arc);
+  // A groove all around has no end, wherever its seam is rounded to.
+  const double x = feature.arc >= turn ? 0 : std::remainder(phi - feature.phi, turn) / (0.5 * feature.arc);
   const double y = (z - feature.z) / (0.5 * feature.length);
   return std::visit([&](const auto& shape) { return shape.contains(x, y); }, feature.shape);
 }

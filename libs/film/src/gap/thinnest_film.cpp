@@ -14,9 +14,6 @@ namespace {
 // Places along each side of a feature's border.
 constexpr int border_places = 64;
 
-// Of a cell: places that lie nearer to each other are the same.
-constexpr double same_place = 1e-8;
-
 /// Smallest value of the parabola through (0, y0), (a, ya) and (b, yb) within [from, to], and where.
 struct Low {
   double place = 0, value = 0;
@@ -37,12 +34,9 @@ class Search {
     for (SurfaceFeature feature : model.features) {
       if (feature.depth == 0) continue;
       if (feature.surface == Surface::journal) feature.phi += phi_journal;
-      // A border belongs to the land, also where round-off has moved it or a node on it.
-      if (feature.arc < turn) feature.arc -= same_place * at.mean_dx / at.R;
+      deep_.push_back(without_border(feature, model, at));
       // One that reaches the bearing's edge goes on beyond it.
-      const bool reaches = std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9);
-      feature.length = reaches ? feature.length * (1 + 1e-6) : feature.length - same_place * at.mean_dz;
-      deep_.push_back(feature);
+      if (deep_.back().length == feature.length) deep_.back().length *= 1 + 1e-6;
     }
     outside_.assign(static_cast<std::size_t>(grid_.size()), 1);
     for (int k = 0; k < grid_.size() && !deep_.empty(); ++k) {
