@@ -73,6 +73,12 @@ class Shear(unittest.TestCase):
         table = hersey("bearing", path, "--no-grid-error", "--sweep", "load=100lbf,500lbf").stdout.splitlines()
         self.assertIn("`cavitated_shear: film_share`", table[0])
         self.assertIn("cavitated shear", self.solution(path)["conditions"])
+        # A table over the choice itself has a row of each, and no line that could be true of both.
+        both = hersey("bearing", path, "--no-grid-error", "--sweep", "bearings.main.cavitated_shear=film_share,full").stdout
+        self.assertNotIn("`cavitated_shear:", both)
+        powers = [f["figures"]["power_film"]["value"] for f in json.loads(hersey(
+            "bearing", path, "--no-grid-error", "--json", "--sweep", "bearings.main.cavitated_shear=film_share,full").stdout)["solutions"]]
+        self.assertAlmostEqual(powers[1] / self.solution(path)["figures"]["power_film_other_shear"]["value"], 1, delta=0.01)
 
     def test_the_report_of_a_bearing_says_so(self):
         page = os.path.join(self.folder, "page.html")

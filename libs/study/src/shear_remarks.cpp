@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hersey/film/cavitated_shear.h"
+
 namespace hersey::study {
 namespace {
 
@@ -21,15 +23,6 @@ double change(const BearingSolution& solution) {
   return 100 * (solution.state.film.power_film_other_shear / solution.state.film.power_film - 1);
 }
 
-/// The choice, and the beginning of what the other gives.
-std::string choice(film::CavitatedShear shear) {
-  return shear == film::CavitatedShear::full
-             ? "the cavitated film is sheared over the whole gap (`cavitated_shear: full`); over the oil's share of it "
-               "(`film_share`)"
-             : "the cavitated film is sheared over the oil's share of the gap (`cavitated_shear: film_share`); over "
-               "the whole gap (`full`)";
-}
-
 }  // namespace
 
 double load_on_shear(const BearingSolution& solution) {
@@ -41,10 +34,10 @@ std::vector<std::pair<std::string, std::string>> shear_remarks(const BearingSolu
   std::vector<std::pair<std::string, std::string>> remarks;
   const film::FilmObservables& film = solution.state.film;
   if (depends_on_choice(solution))
-    remarks.emplace_back("cavitated shear",
-                         fmt::format("{} this film would take {:.4g} N.m and {:.4g} W ({:+.3g} %)",
-                                     choice(solution.model.cavitated_shear), std::abs(film.torque_journal_other_shear),
-                                     film.power_film_other_shear, change(solution)));
+    remarks.emplace_back("cavitated shear", fmt::format("{} this film would take {:.4g} N.m and {:.4g} W ({:+.3g} %)",
+                                                        film::choice_in_words(solution.model.cavitated_shear),
+                                                        std::abs(film.torque_journal_other_shear),
+                                                        film.power_film_other_shear, change(solution)));
   if (const double share = load_on_shear(solution); std::abs(share) > kNoticeableShare)
     remarks.emplace_back(
         "shear force",
@@ -65,8 +58,8 @@ std::string shear_remark(const std::vector<BearingSolution>& solutions) {
   }
   if (first == nullptr) return "";
   const auto [least, most] = std::minmax_element(changes.begin(), changes.end());
-  return fmt::format("{} these films would take {:+.3g} to {:+.3g} % of power", choice(first->model.cavitated_shear),
-                     *least, *most);
+  return fmt::format("{} these films would take {:+.3g} to {:+.3g} % of power",
+                     film::choice_in_words(first->model.cavitated_shear), *least, *most);
 }
 
 }  // namespace hersey::study

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hersey/bearing/clearance.h"
+#include "hersey/film/cavitated_shear.h"
 #include "hersey/model/plausibility.h"
 #include "march/coarser_run.h"
 
@@ -115,15 +116,9 @@ namespace {
 std::string cavitated_shear(const film::FilmModel& film, const BearingSummary& bearing) {
   const double change = bearing.mean_power_other_shear - bearing.mean_power_film;
   if (!(bearing.mean_power_film > 0) || change == 0) return "";
-  const bool is_full = film.cavitated_shear == film::CavitatedShear::full;
-  return fmt::format(
-      "the cavitated film is sheared over {}; over {} the mean power loss in the film would be {:.4g} W instead of "
-      "{:.4g} "
-      "({:+.3g} %)",
-      is_full ? "the whole gap (`cavitated_shear: full`)"
-              : "the oil's share of the gap (`cavitated_shear: film_share`)",
-      is_full ? "the oil's share of it (`film_share`)" : "the whole gap (`full`)", bearing.mean_power_other_shear,
-      bearing.mean_power_film, 100 * change / bearing.mean_power_film);
+  return fmt::format("{} the mean power loss in the film would be {:.4g} W instead of {:.4g} ({:+.3g} %)",
+                     film::choice_in_words(film.cavitated_shear), bearing.mean_power_other_shear,
+                     bearing.mean_power_film, 100 * change / bearing.mean_power_film);
 }
 
 }  // namespace
