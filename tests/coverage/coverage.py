@@ -108,6 +108,11 @@ def profile_of(build, module):
     return os.path.join(build, "profiles", f"{module}.profraw")
 
 
+def is_of_compiling(condition, line):
+    """Whether it is decided then: `if constexpr`, `requires`, or a template's number, N > 0."""
+    return "if constexpr" in line or condition.startswith("requires") or re.fullmatch(r"[A-Z] (==|>|<) \d+", condition)
+
+
 def branches(source, build):
     """{Branch: how often it was taken} of the modules."""
     merged = os.path.join(build, "profiles", "merged.profdata")
@@ -124,7 +129,7 @@ def branches(source, build):
             if sources.is_contract(file, start_line, start):
                 continue
             condition = sources.text(file, start_line, start, end_line, end)
-            if "if constexpr" in sources.of(file)[start_line - 1] or condition.startswith("requires"):
+            if is_of_compiling(condition, sources.of(file)[start_line - 1]):
                 continue
             place = (start_line, start, end_line, end)
             found[file, place, condition, "true"] += taken

@@ -67,6 +67,12 @@ class Coverage(unittest.TestCase):
         self.assertEqual(sources.text("libs/film/src/a.cpp", 3, 7, 3, 12), "a > 5")
         self.assertEqual(sources.text("libs/film/src/a.cpp", 3, 14, 5, 9), "return 1; if constexpr (kFast) return 2; return")
 
+    def test_what_is_decided_when_compiling_is_no_branch(self):
+        for condition, line in (("kFast", "  if constexpr (kFast) return 2;"), ("N > 0", "const int n = N > 0 ? N : n_;"),
+                                ("requires { l.f(T); }", "if (requires { l.f(T); })")):
+            self.assertTrue(coverage.is_of_compiling(condition, line), condition)
+        self.assertFalse(coverage.is_of_compiling("n > 0", "if (n > 0)"))
+
     def test_a_branch_without_a_reason_fails(self):
         status, told = self.report(self.counts(99, 1))
         self.assertEqual(status, 1)
