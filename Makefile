@@ -13,7 +13,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help fmu program demo test bench validate mutations fuzz random-models second-opinion studies test-slurm web web-check web-test python python-package docs docs-test pictures package package-test format lint install clean
+.PHONY: help fmu program demo test bench validate coverage mutations fuzz random-models second-opinion studies test-slurm web web-check web-test python python-package docs docs-test pictures package package-test format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -45,9 +45,17 @@ validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
 
-mutations:  ## plants faults one at a time in a copy and tells which no test notices; an hour (ONLY=regex: some; DRAWN=n, SEED=s: n a module by machine)
+coverage:  ## counts the branches of film, solver, mbd and bearing that their tests take: build/coverage/uncovered.txt (KEEP=1: of the last run)
+	@scripts/setup build coverage
+	@$(MAKE) --no-print-directory PRESET=coverage build/coverage/build.ninja
+	@$(PHASE) compile build/log/coverage.log cmake --build build/coverage -j $(JOBS) \
+	  --target solver_test --target film_test --target mbd_test --target bearing_test
+	@tests/coverage/coverage.py . build/coverage --jobs $(JOBS) $(if $(KEEP),--keep)
+
+mutations:  ## plants faults one at a time in a copy and tells which no test notices; an hour (ONLY=regex: some; DRAWN=n, SEED=s: n a module by machine; WITHIN=film,solver: tests of these modules only)
 	@scripts/setup build test
-	@validation/mutations.py --jobs $(JOBS) --only '$(ONLY)' $(if $(DRAWN),--drawn $(DRAWN)) $(if $(SEED),--seed $(SEED))
+	@validation/mutations.py --jobs $(JOBS) --only '$(ONLY)' $(if $(DRAWN),--drawn $(DRAWN)) $(if $(SEED),--seed $(SEED)) \
+	  $(if $(WITHIN),--within '$(WITHIN)')
 
 fuzz: program  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some; SEED=n)
 	@scripts/setup build test fuzz

@@ -11,6 +11,9 @@ endif()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 # Contracts stay on in release: a wrong answer costs more than a comparison.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+# Every branch taken is counted (make coverage): clang's own counting, by what stands in the sources.
+set(CMAKE_CXX_FLAGS_COVERAGE "-O1 -fprofile-instr-generate -fcoverage-mapping")
+set(CMAKE_EXE_LINKER_FLAGS_COVERAGE "-fprofile-instr-generate")
 # How clang compiles what runs once rather than at every step (hersey_module's ONCE), what tests hold of their own, and
 # what fuzzers try: these see which branches their input reaches, and every access is checked.
 set(HERSEY_FOR_SIZE "")
@@ -21,6 +24,8 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND CMAKE_BUILD_TYPE STREQUAL "Release"
   set(HERSEY_FOR_TESTS -O0)
   set(HERSEY_INSTRUMENTED -O1 -gline-tables-only -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined
                           -fno-sanitize-recover=undefined)
+elseif(CMAKE_BUILD_TYPE STREQUAL "Coverage")
+  set(HERSEY_FOR_TESTS -O0)  # counted as well: what stands in headers runs in tests, too
 endif()
 
 find_program(HERSEY_CCACHE ccache)

@@ -69,6 +69,9 @@ class Extending(unittest.TestCase):
     def test_change_for_a_force_fits_the_sources(self):
         self.fits("A force", 3)
 
+    def test_change_for_an_element_fits_the_sources(self):
+        self.fits("An element", 3)
+
     def test_change_for_an_output_quantity_fits_the_sources(self):
         self.fits("An output quantity", 3)
 

@@ -5,6 +5,8 @@
 """
 
 import os
+import shutil
+import subprocess
 import sys
 import unittest
 
@@ -12,6 +14,7 @@ SOURCE = os.path.abspath(sys.argv.pop(1))
 sys.path.insert(0, os.path.join(SOURCE, "validation"))
 
 import mutation_operators as operators  # noqa: E402
+import mutations  # noqa: E402
 
 
 class Mutations(unittest.TestCase):
@@ -41,6 +44,39 @@ class Mutations(unittest.TestCase):
             with open(os.path.join(SOURCE, "libs", file), encoding="utf-8") as source:
                 self.assertEqual(source.read().count(old), 1)
             self.assertNotEqual(old, new)
+
+    def test_only_the_tests_of_the_modules_asked_for_are_built(self):
+        class Stub(mutations.Trial):
+            built = []
+
+            def plant(self, _):
+                pass
+
+            mend = plant
+
+            def build(self, _, modules):
+                self.built = self.built + modules
+                return subprocess.CompletedProcess([], 0)
+
+            def test(self, *_):
+                return []
+
+        above = {"film": ["film", "bearing", "model", "run"]}
+        fault = mutations.Fault("film: x", "film/src/x.cpp", "a", "b")
+        for options, built in (({"within": ["bearing", "solver"]}, ["film", "bearing"]), ({"is_near": True}, ["film"]),
+                               ({}, above["film"] + mutations.PROGRAM)):
+            trial = Stub(1, **options)
+            self.assertEqual(trial.verdict(fault, above), ("survived", []))
+            self.assertEqual(trial.built, built)
+
+    def test_warnings_are_no_verdict_on_a_fault(self):
+        code = mutations.UNWARNED + "bool f(bool a, bool b, bool c) { int unused = 0; return a && b || c; }"
+        compiler = shutil.which("clang++")
+        if compiler is None:
+            self.skipTest("no clang")
+        run = subprocess.run([compiler, "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-x", "c++", "-"], input=code, text=True,
+                             capture_output=True, check=False)
+        self.assertEqual(run.returncode, 0, run.stderr)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ inline ThermalModel supplied_at_40(int layers) {
 struct HotFilm {
   int iterations = 0;
   double change = 0;  ///< of temperature in the last iteration [K]
+  HeatState state;
   HeatObservables heat;
   TemperatureFields temperatures;
   FilmObservables film;
@@ -59,6 +60,7 @@ inline HotFilm solve_hot(const FilmModel& model, const ThermalModel& thermal, co
     }
     heat.set_state(next);
   }
+  hot.state = heat.state();
   hot.heat = heat.observables();
   hot.temperatures = heat.fields();
   hot.film = observe_film(model, motion, history, e, u);

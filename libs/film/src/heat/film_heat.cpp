@@ -29,6 +29,8 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
                  "a temperature for each feature or none");
   HERSEY_REQUIRE(thermal.oil.features.empty() || thermal.oil.features.size() == model.features.size(),
                  "a node for each feature or none");
+  HERSEY_REQUIRE(thermal.source.size() == 0 || thermal.source.size() == model.grid.size() * thermal.layers,
+                 "heat made in each layer of each node or none");
   for (const SurfaceMaterial& surface : {thermal.shell_surface, thermal.journal_surface})
     HERSEY_REQUIRE(surface.conductivity > 0 && surface.heat_capacity > 0, "surfaces that conduct and hold heat");
   const bool is_bore = std::holds_alternative<Cylinder>(model.surface) && model.grid.closes();

@@ -53,7 +53,7 @@ void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start
       const double rate = film.dt > 0 ? start_volume(film, node) / film.dt : thread * 1e-6;
       storage_[row] = rc_ * rate * width(l);
       system_.diagonal(row) += storage_[row];
-      known_[row] += storage_[row] * start.film[row] + film.flows.dissipation(node, l);
+      known_[row] += storage_[row] * start.film[row] + film.flows.dissipation(node, l) + made(film, node, l);
     }
   }
 }

@@ -110,6 +110,13 @@ double HeatEquations::into_journal(const CarryingFilm& film, const HeatState& st
   return flux.beside * (layer[top()] - state.journal) - flux.next * (layer[next_to_top()] - state.journal);
 }
 
+double HeatEquations::made(const CarryingFilm& film, int node, int layer) const {
+  if (thermal_.source.size() == 0) return 0;
+  const FlowBalance& b = film.balance;
+  return thermal_.source[system_.row(node, layer)] * b.area(node) * b.nodes()[node].theta * b.oil_gap(node) *
+         width(layer);
+}
+
 // With the oil of the end and the rate at which it has changed; pockets of air keep a little.
 double HeatEquations::start_volume(const CarryingFilm& film, int node) const {
   const FlowBalance& b = film.balance;
@@ -156,6 +163,7 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
       const int row = system_.row(node, l);
       const double T = end.film[row] - T0;
       sum.power += film.flows.dissipation(node, l);
+      sum.source += made(film, node, l);
       sum.to_oil +=
           rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out * width(l) * (at_edges(end.outside) - T0));
       sum.to_oil += rc_ * film.flows.lost(node) * width(l) * T;

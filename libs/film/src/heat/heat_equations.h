@@ -102,6 +102,8 @@ class HeatEquations {
   [[nodiscard]] WallFlux to_shell(const CarryingFilm& film, int node) const;
   [[nodiscard]] WallFlux to_journal(const CarryingFilm& film, int node) const;
   [[nodiscard]] double start_volume(const CarryingFilm& film, int node) const;
+  /// Heat of ThermalModel::source in a layer [W].
+  [[nodiscard]] double made(const CarryingFilm& film, int node, int layer) const;
   /// Place among the nodes that are no walls of that which a supply, or edges, draw oil from; -1: none.
   [[nodiscard]] Eigen::Index oil_of(int supply) const;
   [[nodiscard]] double at_edges(const Eigen::VectorXd& outside) const;

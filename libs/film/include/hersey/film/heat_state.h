@@ -42,6 +42,7 @@ struct WallCorrection {
 /// Where a film's heat comes from and goes (theory manual, thermal.17), powers in W.
 struct HeatBalance {
   double power = 0;       ///< dissipated in the film, and by asperities
+  double source = 0;      ///< made in the oil by anything else
   double to_oil = 0;      ///< carried away by the oil that leaves, over that of the oil that comes
   double to_shell = 0;    ///< into the shell
   double to_journal = 0;  ///< into the journal

@@ -111,6 +111,9 @@ struct ThermalModel {
   double carry_over = 1;  ///< share of the film's oil that passes a groove with it [-], 0 (all is renewed) to 1
   std::optional<ThermalExpansion> expansion = {};            ///< of the walls; unset: they keep their size
   SurfaceMaterial shell_surface = {}, journal_surface = {};  ///< share the asperities' heat; steel
+  /// Heat that anything but friction makes in the oil, in its layers node by node [W/m^3], shape (grid.size() layers);
+  /// empty: none (theory manual, thermal.66).
+  Eigen::VectorXd source = {};
 };
 
 /// Whether one of the walls is a node of a network.

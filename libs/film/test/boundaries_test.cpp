@@ -1,0 +1,135 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+
+#include "film_cases.h"
+#include "hersey/film/gap_shape.h"
+#include "hersey/film/heat_state.h"
+#include "relative.h"
+
+// The other side of conditions that films in the middle of their range do not ask.
+namespace hersey::film {
+namespace boundaries_test {
+
+using Trouble = FilmDomain::Trouble;
+
+TEST_CASE("WordsOfADomain_NameWhatIsWrongAndWhere") {
+  FilmModel m;
+  const int node = m.grid.index(15, 12);  // a quarter around, on the edge
+  CHECK(text(m, {}).empty());
+  CHECK(text(m, {Trouble::not_finite, -1}) == "the film has no finite pressure");
+  CHECK(text(m, {Trouble::not_finite, node}) == "the film has no finite pressure at 90.0 deg, z = 7.8 mm");
+  CHECK(text(m, {Trouble::pressure, node}) == "the film's pressure rises without bound at 90.0 deg, z = 7.8 mm");
+  m.surface = Plane{};
+  CHECK(text(m, {Trouble::closed, node}) == "the film closes at 35.3 mm, z = 7.8 mm");  // R pi/2
+}
+
+TEST_CASE("UsualSolver_IsChosenBySize") {
+  CHECK(usual_solver({.n_phi = 150, .n_z = 100}) == FilmSolver::newton);
+  CHECK(usual_solver({.n_phi = 151, .n_z = 100}) == FilmSolver::multigrid);
+}
+
+TEST_CASE("EmptiestNode_HasLessThanNoOil") {
+  FilmModel m;
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+  const double none = -fill_scale(m);
+  u.setConstant(none);
+  CHECK(emptiest_node(m, u) == -1);  // empty is no less than empty
+  u[m.grid.index(3, 5)] = 1.1 * none, u[m.grid.index(20, 7)] = 1.2 * none, u[m.grid.index(30, 2)] = 1.05 * none;
+  CHECK(emptiest_node(m, u) == m.grid.index(20, 7));
+  u[m.grid.index(40, 0)] = 2 * none;  // more than any other
+  CHECK(emptiest_node(m, u) == m.grid.index(40, 0));
+  m.edge_left.ambient_fill = 0.3;  // there u < 0 is oil that comes in
+  CHECK(emptiest_node(m, u) == m.grid.index(20, 7));
+  m.cavitation = Cavitation::reynolds;  // which knows no fill fraction
+  CHECK(emptiest_node(m, u) == -1);
+}
+
+TEST_CASE("Features_OverlapWhereAPlaceIsInBoth") {
+  const SurfaceFeature groove{.phi = 1, .z = 0, .arc = 0.4, .length = 10e-3};
+  SurfaceFeature hole{.shape = Ellipse{}, .phi = 1.25, .z = 0, .arc = 0.2, .length = 2e-3};
+  CHECK(overlap(groove, hole));  // 1.15 to 1.35 and 0.8 to 1.2
+  CHECK(overlap(hole, groove));
+  hole.phi += 2 * pi;  // the same place
+  CHECK(overlap(groove, hole));
+  hole.phi = 1.31;
+  CHECK(!overlap(groove, hole));
+  CHECK(!overlap(hole, groove));
+  // The box around an ellipse reaches into the groove's corner, the ellipse does not: (0.9 of a half extent)^2 twice.
+  hole.phi = 1.29, hole.z = 5.9e-3;
+  CHECK(!overlap(groove, hole));
+  hole.shape = Rectangle{};
+  CHECK(overlap(groove, hole));
+  hole.z = 6.1e-3;
+  CHECK(!overlap(groove, hole));
+}
+
+TEST_CASE("Laws_AtTheEndOfTheirRange") {
+  // An oil that gives way by nothing takes the work of one that does not give way at all.
+  const DowsonHigginson stiff{.rise = 0, .saturation = 0};
+  CHECK(stiff.work(1e8) == 1e8);
+  CHECK(stiff.ratio(1e8).value == 1);
+  const Lubricant oil{.viscosity_law = Barus{2e-8}, .density_law = DowsonHigginson{}};
+  CHECK(density_ratio(oil, -1e5).value == 1);  // tension neither thins the oil
+  CHECK(density_ratio(oil, -1e5).slope == 0);
+  CHECK(log_viscosity_ratio(oil, -1e5).value == 0);
+  CHECK(oil_work(oil, -1e5) == -1e5);
+  // Vogel's viscosity stays what it is a tenth of a kelvin above its pole.
+  const VogelViscosity vogel;
+  CHECK(vogel.log_viscosity(vogel.c + 0.05).value == vogel.log_viscosity(vogel.c - 20).value);
+  CHECK(vogel.log_viscosity(vogel.c + 0.05).slope == 0);
+  CHECK(vogel.log_viscosity(vogel.c + 0.2).slope < 0);
+}
+
+TEST_CASE("BalanceOfNoHeat_HasNoError") {
+  CHECK(HeatBalance{}.error() == 0);
+  CHECK(HeatBalance{.source = 2, .to_oil = 1}.error() == 0.5);  // half of what is made has gone nowhere
+  CHECK(HeatBalance{.power = 1, .source = 1, .to_oil = 2}.error() == 0);
+}
+
+// A pad that parts from its runner without any oil at its edges is one cavity from its first line to its last.
+TEST_CASE("CavityOfAWholePatch_EndsWhereThatEnds") {
+  constexpr double round_off = 1e-12;  // of angles that are sums of steps
+  FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = patch_grid({{0.5, 1.5, 11}, {2, 2.6, 7}}, 5)};
+  m.ends.resize(2);
+  const SurfaceMotion motion = surfaces(m, {.omega_journal = 100});
+  const double empty = -0.5 * fill_scale(m);
+  const auto cavity = [&](const Eigen::VectorXd& u) {
+    const FilmObservables seen = observe_film(m, motion, {}, {0, 0}, u);
+    return std::array<double, 2>{seen.rupture_angle, seen.reformation_angle};
+  };
+  Eigen::VectorXd u = Eigen::VectorXd::Constant(m.grid.size(), empty);
+  const auto whole = cavity(u);  // that of the wider patch
+  CHECK(whole[0] == relative(0.5).epsilon(round_off));
+  CHECK(whole[1] == relative(1.5).epsilon(round_off));
+  u.setConstant(1e5);
+  CHECK(std::isnan(cavity(u)[0]));
+  for (int i = 7; i < 11; ++i) u.segment(m.grid.index(i, 0), 5).setConstant(empty);  // from line 7 to the end
+  const auto last = cavity(u);
+  CHECK(last[0] > m.grid.phi(6));
+  CHECK(last[0] <= m.grid.phi(7) + round_off);
+  CHECK(last[1] == relative(1.5).epsilon(round_off));
+}
+
+// Of the bore's shapes alone, as they lie: what lies along the axis only has none.
+TEST_CASE("SlopeOfTheShell_IsThatOfItsOwnShapes") {
+  FilmModel m;
+  CHECK(GapShape(m).shell_slope().isZero(0));
+  m.profiles = {{.shape = Barrel{.drop = 1e-6}, .surface = Surface::shell}};
+  CHECK(GapShape(m).shell_slope().isZero(0));
+  const Profile lobes{.shape = Ovality{.amplitude = 3e-6, .angle = 0.3}, .surface = Surface::shell};
+  m.profiles.push_back(lobes);
+  const Eigen::VectorXd slope = GapShape(m).shell_slope();
+  for (const int i : {3, 17, 44}) {
+    const double d = 1e-6, phi = m.grid.phi(i);
+    const double difference = (lobes.opening(phi + d, 0, m.L).value - lobes.opening(phi - d, 0, m.L).value) / (2 * d);
+    // Differences leave d^2 of the third derivative and round-off over d, both below 1e-9 of the lobes.
+    CHECK(slope[m.grid.index(i, 4)] == doctest::Approx(difference).scale(0).epsilon(1e-8));
+  }
+  m.profiles = {{.shape = Ovality{.amplitude = 3e-6, .angle = 0.3}, .surface = Surface::journal}};
+  CHECK(GapShape(m).shell_slope().isZero(0));
+}
+
+}  // namespace boundaries_test
+}  // namespace hersey::film
