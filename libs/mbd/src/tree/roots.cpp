@@ -18,6 +18,9 @@ constexpr double kFar = 10;
 /// Sine of the angle between axes that are parallel but for round-off.
 constexpr double kParallel = 1e-12;
 
+/// Of the mechanism's size: what round-off may put between two points.
+constexpr double kOffCentre = 1e-9;
+
 bool is_whole_motion(JointType type) { return type == JointType::free || type == JointType::planar; }
 
 }  // namespace
@@ -39,7 +42,8 @@ std::vector<bool> joints_in_use(const MechanismSpec& spec) {
   return used;
 }
 
-Roots::Roots(const MechanismSpec& spec, const Tree& tree) : spec_(spec), at_body_(spec.bodies.size()) {
+Roots::Roots(const MechanismSpec& spec, const Tree& tree)
+    : spec_(spec), length_(tree.length), at_body_(spec.bodies.size()) {
   TreeMotion start(tree, spec.gravity);
   const solver::State state = start_of(spec, tree);
   start.update_positions(state);
@@ -55,18 +59,27 @@ Roots::Roots(const MechanismSpec& spec, const Tree& tree) : spec_(spec), at_body
   weigh();
 }
 
-/// Groups of bodies that close no loop, that nothing prescribes and that are rigid; short enough to be cut nowhere.
+/// Groups of bodies that close no loop and that nothing prescribes; short enough to be cut nowhere. Beams have rules of
+/// their own.
 void Roots::find_leavable_joints() {
   const MovingTogether groups(spec_);
-  std::vector<bool> may = groups.free_trees();
-  for (const MechanismSpec::Elastic& elastic : spec_.elastics)
-    for (const FrameId frame : elastic.frames) may[groups.root_of(body_of(frame))] = false;
+  std::vector<bool> may = groups.free_trees(), has_elastic(spec_.bodies.size(), false);
+  for (const MechanismSpec::Elastic& elastic : spec_.elastics) {
+    const bool is_segment = elastic.frames.size() != elastic.freedoms.size() + 1;
+    for (const FrameId frame : elastic.frames) {
+      const int group = groups.root_of(body_of(frame));
+      has_elastic[group] = true;
+      if (is_segment) may[group] = false;
+    }
+  }
   std::vector<int> room(spec_.bodies.size(), spec_.longest_path - degrees_of_freedom(JointType::free));
   for (const JointSpec& joint : spec_.joints) room[groups.of(joint)] -= degrees_of_freedom(joint.type);
   eligible_.assign(spec_.bodies.size(), false);
+  rigid_.assign(spec_.bodies.size(), true);
   for (std::size_t b = 1; b < spec_.bodies.size(); ++b) {
     const int group = groups.root_of(static_cast<int>(b));
     eligible_[b] = may[group] && room[group] >= 0;
+    rigid_[b] = !has_elastic[group];
   }
   const std::vector<bool> used = joints_in_use(spec_);
   leavable_.assign(spec_.joints.size(), false);
@@ -75,6 +88,7 @@ void Roots::find_leavable_joints() {
     leavable_[j] =
         is_whole_motion(joint.type) && !used[j] && eligible_[std::max(body_of(joint.inboard), body_of(joint.outboard))];
   }
+  for (const JointId j : spec_.deforming) leavable_[j.index] = false;
 }
 
 bool Roots::may_matter() const { return std::find(eligible_.begin(), eligible_.end(), true) != eligible_.end(); }
@@ -108,8 +122,12 @@ void Roots::weigh() {
   for (std::size_t b = 0; b < spec_.bodies.size(); ++b) {
     const BodySpec& body = spec_.bodies[b];
     own_.push_back({body.mass, body.inertia.trace() / 2, poses_[b] * body.com});
-    whole_[fixed_root(static_cast<int>(b))].add(own_.back());
   }
+  for (const MechanismSpec::Elastic& elastic : spec_.elastics) {
+    const int body = body_of(elastic.frames.front());
+    own_[body].add({elastic.body->mass(), 0, poses_[body] * elastic.body->centre()});
+  }
+  for (std::size_t b = 0; b < spec_.bodies.size(); ++b) whole_[fixed_root(static_cast<int>(b))].add(own_[b]);
 }
 
 int Roots::other_end(int j, int body) const {
@@ -155,7 +173,7 @@ double Roots::share_of(const std::vector<int>& carried, int body) const {
 }
 
 int Roots::carrier(std::optional<int> j, int first) const {
-  if (!eligible_[first]) return first;
+  if (!eligible_[first] || !rigid_[first]) return first;
   const std::vector<int> members = cluster(first);
   const double share = share_of(members, first);
   if (share <= kFar) return first;
@@ -171,7 +189,26 @@ int Roots::carrier(std::optional<int> j, int first) const {
 }
 
 bool Roots::is_too_light(int body, int first) const {
-  return fixed_root(body) != 0 && share_of(cluster(first), body) > kFar;
+  return rigid_[body] && fixed_root(body) != 0 && share_of(cluster(first), body) > kFar;
+}
+
+Vector3 Roots::centre(int body) const {
+  Weight weight = whole_[fixed_root(body)];
+  if (weight.mass == 0)
+    for (const int b : cluster(body)) weight.add(own_[b]);
+  return weight.mass > 0 ? weight.centre : poses_[body].r;
+}
+
+bool Roots::turns_off_centre(std::optional<int> j, int body) const {
+  if (!eligible_[body]) return false;
+  Vector3 at = poses_[body].r;
+  if (j) {
+    const JointSpec& joint = spec_.joints[*j];
+    if (joint.type != JointType::free) return false;
+    const FrameId end = body_of(joint.outboard) == body ? joint.outboard : joint.inboard;
+    at = poses_[body] * spec_.frames[end.index].X_BF.r;
+  }
+  return (centre(body) - at).norm() > kOffCentre * length_;
 }
 
 Matrix3 Roots::axes(int j) const {

@@ -32,6 +32,13 @@ class Roots {
   /// Whether joint `other` (none: a body free in space) moves nothing out of the motions that joint `j` allows.
   [[nodiscard]] bool keeps_motions(std::optional<int> other, int j) const;
 
+  /// Where the centre of mass of a body and of what is fixed to it is at the start, ground axes; of all that comes with
+  /// it where the body has no mass.
+  [[nodiscard]] Vector3 centre(int body) const;
+
+  /// Whether joint `j` (none: nothing holds the body) lets `body` move freely in space about another point than that.
+  [[nodiscard]] bool turns_off_centre(std::optional<int> j, int body) const;
+
   /// Pose of a body at the start, and its velocity at ground's origin and in its axes.
   [[nodiscard]] const Pose& pose(int body) const { return poses_[static_cast<std::size_t>(body)]; }
   [[nodiscard]] const Vector6& velocity(int body) const { return velocities_[static_cast<std::size_t>(body)]; }
@@ -57,10 +64,12 @@ class Roots {
   [[nodiscard]] double share_of(const std::vector<int>& carried, int body) const;
 
   const MechanismSpec& spec_;
+  double length_;  ///< size of the mechanism [m]
   std::vector<Pose> poses_;
   std::vector<Vector6> velocities_;
   std::vector<std::vector<int>> at_body_;  ///< joints of each body
   std::vector<bool> eligible_;             ///< bodies of groups whose paths may be chosen
+  std::vector<bool> rigid_;                ///< bodies of groups without elastic ones
   std::vector<bool> leavable_;             ///< joints
   std::vector<int> fixed_to_;              ///< links of fixed joints, see fixed_root
   std::vector<Weight> own_;                ///< of each body

@@ -66,7 +66,7 @@ class TreeBuilder {
     for (std::size_t b = 1; b < spec_.bodies.size(); ++b) {
       if (placed_[b]) continue;
       const int body = static_cast<int>(b), root = roots_ ? roots_->carrier(std::nullopt, body) : body;
-      if (root != body)
+      if (root != body || (roots_ && roots_->turns_off_centre(std::nullopt, body)))
         add_own_motion(std::nullopt, 0, root);
       else
         add_free_body(body);
@@ -116,7 +116,7 @@ class TreeBuilder {
     used_[j] = true;
     if (roots_ && roots_->may_leave(j)) {
       const int root = roots_->carrier(j, next), base = base_of(j, body, next);
-      if (root != next || base != body) {
+      if (root != next || base != body || roots_->turns_off_centre(j, next)) {
         add_own_motion(j, base, root);
         absorb(root, queue);
         return;
@@ -150,7 +150,7 @@ class TreeBuilder {
   void add_own_motion(std::optional<int> j, int base, int root) {
     const bool is_planar = j && spec_.joints[*j].type == JointType::planar;
     Pose X_WM = roots_->pose(root);
-    X_WM.r = X_WM * spec_.bodies[root].com;
+    X_WM.r = roots_->centre(root);
     if (is_planar) X_WM.R = roots_->axes(*j);
     const Attachment& carrier = tree_.bodies[base];
     const Pose X_BF = roots_->pose(base).inverse() * X_WM;
