@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
+#include "small_bar.h"
 #include "source_dir.h"
 #include "temporary_directory.h"
 
@@ -247,6 +249,67 @@ bodies:
     const Energies energies = energies_of(folder / "r.h5");
     CHECK(summary.rejected_steps > 0);
     CHECK(energies.most < 1.2 * summary.energy.available);  // what a run may gain; 3e7 J where steps were not judged
+  }
+}
+
+/// A bar that tumbles freely; `more` goes on with the model.
+Summary tumble(const std::string& form, const std::string& step, const std::string& more, Energies& energies) {
+  const TemporaryDirectory folder;
+  write_bar(folder / "bar.inp", 4);
+  std::ofstream(folder / "m.yaml") << R"(hersey: 1
+bodies:
+  bar:
+    flexible:
+      mesh: bar.inp
+      length_unit: 1 mm
+      material: {youngs_modulus: 20 MPa, poisson_ratio: 0.3, density: 1200 kg/m^3}
+      )" + form + R"(
+    frames: {root: {nodes: left}, tip: {nodes: right}}
+joints:
+  fly: {type: free, between: [ground, bar.root], initial: {angular_velocity: 20 -30 60 rad/s, velocity: 0 -3 0 m/s}}
+)" + more +
+                                          "simulation: {duration: 0.2 s, spectral_radius: 0.9, step: " + step + "}\n";
+  const Summary summary = simulate(model::read(folder / "m.yaml"), {.results = folder / "r.h5"});
+  energies = energies_of(folder / "r.h5");
+  return summary;
+}
+
+const std::string kModal = "modes: 4", kNodal = "form: nodal\n      strain: finite";
+
+TEST_CASE("TumblingElasticBodies_GainNothing") {
+  // Half a second of turns at .17 to .7 rad a step; counted from their first frame they gained a seventh.
+  for (const std::string& form : {kModal, kNodal})
+    for (const std::string step : {"2.5 ms", "10 ms"}) {
+      CAPTURE(form);
+      CAPTURE(step);
+      Energies energies;
+      const Summary summary = tumble(form, step, "", energies);
+      CHECK(summary.status == Status::completed);
+      CHECK(energies.most < 1.03 * energies.start);  // vibrations that steps of this length follow badly
+      CHECK(summary.energy.share_from_nowhere() < 0.02);
+    }
+}
+
+TEST_CASE("ExplodingElasticBodies_EndAsFailedOrAreCut") {
+  // A spring whose period of some ms steps of 10 ms do not follow holds the bar's tip: 1.25 J in it.
+  for (const std::string& form : {kModal, kNodal}) {
+    CAPTURE(form);
+    Energies energies;
+    const Summary summary =
+        tumble(form, "10 ms",
+               "forces:\n  s: {type: spring_damper, between: [ground, bar.tip], stiffness: 1e4 N/m, "
+               "free_length: 0.064 m}\n",
+               energies);
+    MESSAGE(summary.message);
+    CHECK(summary.rejected_steps > 0);
+    CHECK(energies.most < 1.2 * summary.energy.available);  // what a run may gain
+    if (summary.status == Status::completed) {
+      CHECK(summary.energy.share_from_nowhere() < 0.2);
+    } else {
+      CHECK(summary.message.find("t = ") == 0);
+      CHECK(summary.message.find("bar") != std::string::npos);
+      CHECK(summary.message.find("give a shorter `simulation.step`") != std::string::npos);
+    }
   }
 }
 

@@ -68,8 +68,6 @@ struct MechanismParts {
   [[nodiscard]] double initial_value(const CoordinateRef& coordinate) const;
   [[nodiscard]] double initial_rate(const CoordinateRef& coordinate) const;
   [[nodiscard]] solver::State initial_state() const;
-  void place_cut_bodies(solver::State& state) const;
-  void place_loosened_nodes(solver::State& state) const;
   [[nodiscard]] std::vector<Index> given_coordinates() const;
   [[nodiscard]] std::vector<Index> given_rates() const;
   template <class Choose>

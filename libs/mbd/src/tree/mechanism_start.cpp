@@ -8,86 +8,18 @@
 #include "hersey/mbd/mechanism.h"
 #include "tree/mechanism_parts.h"
 #include "tree/redundancy.h"
+#include "tree/start_of.h"
 
 namespace hersey::mbd {
 
 using solver::State;
 
 solver::State MechanismParts::initial_state() const {
-  solver::State state;
-  state.q.setZero(nq);
-  state.v.setZero(nv);
-  state.vdot.setZero(nv);
+  solver::State state = start_of(spec, tree);
+  const auto extend = [](Eigen::VectorXd& x, Index n) { x.conservativeResizeLike(Eigen::VectorXd::Zero(n)); };
+  extend(state.q, nq), extend(state.v, nv), extend(state.vdot, nv);
   state.lambda.setZero(nlambda());
-  for (const Link& link : tree.links) {
-    const JointSpec* joint = link.joint >= 0 ? &spec.joints[link.joint] : nullptr;
-    const bool placed = joint && !joint->initial.empty(), moving = joint && !joint->initial_rate.empty();
-    if (link.motion == Motion::ball) {
-      Eigen::Quaterniond R_IO = Eigen::Quaterniond::Identity();
-      if (placed) R_IO = rotation_exp(Vector3::Map(joint->initial.data() + link.value));
-      const Eigen::Quaterniond R = link.reversed ? R_IO.conjugate() : R_IO;
-      state.q.segment<4>(link.first_q) << R.w(), R.x(), R.y(), R.z();
-      if (!moving) continue;
-      // Reversed, the ball's velocity is that of I relative to O, in I's axes.
-      const Vector3 omega = Vector3::Map(joint->initial_rate.data() + link.value);
-      state.v.segment<3>(link.first_v) = link.reversed ? Vector3(-(R_IO * omega)) : omega;
-    } else if (link.columns == 1) {
-      if (placed) state.q[link.first_q] = joint->initial[link.value];
-      if (moving) state.v[link.first_v] = joint->initial_rate[link.value];
-    }
-  }
-  place_cut_bodies(state);
-  place_loosened_nodes(state);
   return state;
-}
-
-namespace {
-
-/// Poses and velocities of a link and of all that carry it.
-void follow(TreeMotion& at, const Tree& tree, const solver::State& state, int link) {
-  std::vector<int> path;
-  for (int l = link; l > 0; l = tree.links[l].parent) path.push_back(l);
-  std::reverse(path.begin(), path.end());
-  at.update(state, path);
-}
-
-/// Gives a body with a free joint of its own the pose and the velocity, about ground's origin, that its frame has.
-void set_free_body(const Link& ball, const Pose& X_WB, const Vector6& V, solver::State& state) {
-  const int first_q = ball.first_q - 3, first_v = ball.first_v - 3;
-  const Eigen::Quaterniond R(X_WB.R);
-  state.q.segment<7>(first_q) << X_WB.r, R.w(), R.x(), R.y(), R.z();
-  const Vector3 omega = V.head<3>();
-  state.v.segment<6>(first_v) << V.tail<3>() + omega.cross(X_WB.r), X_WB.R.transpose() * omega;
-}
-
-}  // namespace
-
-/// Bodies beyond a cut start where the coordinates of the joints put them: the cuts are closed from the outset.
-void MechanismParts::place_cut_bodies(solver::State& state) const {
-  TreeMotion at(tree, spec.gravity);
-  for (const Cut& cut : tree.cuts) {
-    const Pair& pair = tree.closures[tree.joints[cut.joint].closure].pair;
-    const Attachment &near = cut.reversed ? pair.b : pair.a, &far = cut.reversed ? pair.a : pair.b;
-    const Link& ball = tree.links[tree.bodies[cut.body].link];
-    follow(at, tree, state, near.link);
-    follow(at, tree, state, far.link);
-    const Pose X_WB = at.pose(near) * at.pose(far).inverse();
-    set_free_body(ball, X_WB, Vector6::Zero(), state);
-    follow(at, tree, state, far.link);
-    set_free_body(ball, X_WB, at.V(near.link) - at.V(far.link), state);
-  }
-}
-
-/// Nodes of loose beams start undeformed beside the first, and move as if they were fixed to it.
-void MechanismParts::place_loosened_nodes(solver::State& state) const {
-  TreeMotion at(tree, spec.gravity);
-  for (const Loosened& node : tree.loosened) {
-    const JointSpec& joint = spec.joints[node.joint];
-    const Attachment& near = tree.frames[(node.reversed ? joint.outboard : joint.inboard).index];
-    const Attachment& far = tree.frames[(node.reversed ? joint.inboard : joint.outboard).index];
-    follow(at, tree, state, near.link);
-    set_free_body(tree.links[far.link], at.pose(near) * far.X_LF.inverse(), at.V(near.link), state);
-  }
 }
 
 std::vector<Mechanism::Index> MechanismParts::given_coordinates() const {

@@ -115,6 +115,12 @@ void MechanismParts::observe_joint_coordinates(const solver::State& state, Obser
       o.rate[i] = link.reversed ? -(R * omega)[c] : omega[c];
     }
   }
+  for (const OwnMotion& own : tree.own_motions) {
+    if (own.turns.empty()) continue;
+    double& rotation = seen.joints[own.joint].position[2];
+    rotation = own.turned;
+    for (const auto& [link, weight] : own.turns) rotation += weight * state.q[tree.links[link].first_q];
+  }
 }
 
 void MechanismParts::observe_efforts(const solver::State& state, Observation& seen) {
@@ -186,11 +192,14 @@ void MechanismParts::observe_reactions(const solver::State& state, Observation& 
   for (std::size_t j = 0; j < spec.joints.size(); ++j)
     if (tree.joints[j].outboard_body >= 0) through[j] = need[tree.joints[j].outboard_body];
 
-  // Drives and springs act inside the joint: a torque about, or a force along, the axis of their coordinate.
+  // Drives and springs act inside the joint: a torque about, or a force along, the axis of their coordinate. Where a
+  // path leads through the joint the other way they push on its other side.
   const auto take_out = [&](int column, int joint, double effort) {
     const Vector6& J = motion.J(column);
+    const Link& link = tree.links[tree.columns[column].link];
+    if (link.reversed != tree.joints[joint].reversed) effort = -effort;
     Vector6 W;
-    if (tree.links[tree.columns[column].link].motion != Motion::prismatic) {
+    if (link.motion != Motion::prismatic) {
       W << effort * J.head<3>(), Vector3::Zero();
     } else {
       const Vector3 f = effort * J.tail<3>();

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <deque>
 #include <numbers>
+#include <optional>
 
 #include "hersey/core/contract.h"
 #include "tree/joint_kind.h"
 #include "tree/loose_beams.h"
+#include "tree/roots.h"
+#include "tree/start_of.h"
+#include "tree/tree_motion.h"
 
 namespace hersey::mbd {
 namespace {
@@ -34,15 +38,17 @@ std::vector<Element> elements_of(JointType type, const Vector3& axis, double lea
 /// Grows the tree; see build_tree.
 class TreeBuilder {
  public:
-  explicit TreeBuilder(const MechanismSpec& spec) : spec_(spec) {
+  /// @param roots  who carries what; null: as joints come in their order
+  explicit TreeBuilder(const MechanismSpec& spec, const Roots* roots = nullptr)
+      : spec_(spec), roots_(roots), read_(joints_in_use(spec)) {
     const std::size_t n = spec.bodies.size();
     tree_.links.emplace_back();
     tree_.bodies.resize(n);
     tree_.body_parent.assign(n, -1);
+    carried_by_.resize(n);
     tree_.joints.resize(spec.joints.size());
     placed_.assign(n, false);
     used_.assign(spec.joints.size(), false);
-    read_.assign(spec.joints.size(), false);
     deforms_.assign(spec.joints.size(), false);
     for (const JointId j : spec.deforming) deforms_[j.index] = true;
     loose_ = loose_joints(spec);
@@ -52,7 +58,6 @@ class TreeBuilder {
       at_body_[inboard].push_back(static_cast<int>(j));
       if (outboard != inboard) at_body_[outboard].push_back(static_cast<int>(j));
     }
-    collect_read_coordinates();
   }
 
   Tree build() {
@@ -60,8 +65,12 @@ class TreeBuilder {
     grow_from(0);
     for (std::size_t b = 1; b < spec_.bodies.size(); ++b) {
       if (placed_[b]) continue;
-      add_free_body(static_cast<int>(b));
-      grow_from(static_cast<int>(b));
+      const int body = static_cast<int>(b), root = roots_ ? roots_->carrier(std::nullopt, body) : body;
+      if (root != body || (roots_ && roots_->turns_off_centre(std::nullopt, body)))
+        add_own_motion(std::nullopt, 0, root);
+      else
+        add_free_body(body);
+      grow_from(root);
     }
     place_frames();
     // First of all constraints, each has coordinates of its own: none of them is ever found redundant.
@@ -74,20 +83,6 @@ class TreeBuilder {
 
  private:
   [[nodiscard]] int body_of(FrameId frame) const { return spec_.frames[frame.index].body.index; }
-
-  void collect_read_coordinates() {
-    for (const DriveSpec& d : spec_.drives) read_[d.coordinate.joint.index] = true;
-    for (const CoordinateSpringSpec& s : spec_.springs) read_[s.coordinate.joint.index] = true;
-    for (const MechanismSpec::CoordinateForce& f : spec_.coordinate_forces) read_[f.coordinate.joint.index] = true;
-    for (const CouplingSpec& c : spec_.couplings) {
-      read_[c.output.joint.index] = true;
-      for (const CouplingSpec::Term& term : c.terms) read_[term.input.joint.index] = true;
-    }
-    for (const LoadSpec& load : spec_.loads)
-      for (const LoadTerm& term : load.terms)
-        for (const Variable& x : term.variables)
-          if (x.kind != Variable::Kind::time) read_[x.coordinate.joint.index] = true;
-  }
 
   void grow_from(int root) {
     std::deque<int> queue;
@@ -119,6 +114,14 @@ class TreeBuilder {
     const int next = reversed ? inboard : outboard;
     if (placed_[next]) return;
     used_[j] = true;
+    if (roots_ && roots_->may_leave(j)) {
+      const int root = roots_->carrier(j, next), base = base_of(j, body, next);
+      if (root != next || base != body || roots_->turns_off_centre(j, next)) {
+        add_own_motion(j, base, root);
+        absorb(root, queue);
+        return;
+      }
+    }
     if (loose_[static_cast<std::size_t>(j)]) {
       tree_.loosened.push_back({j, next, reversed});
       tree_.bodies[next] =
@@ -130,8 +133,43 @@ class TreeBuilder {
     } else {
       add_joint(j, reversed);
       place(next, body);
+      carried_by_[next] = {body, j};
     }
     absorb(next, queue);
+  }
+
+  /// The body that carries what joint j brings along with `next`: `body`, or inboard of it the first one that does not
+  /// turn far more lightly, as far as the joints between keep the motions of j.
+  [[nodiscard]] int base_of(int j, int body, int next) const {
+    while (body != 0 && roots_->is_too_light(body, next) && roots_->keeps_motions(carried_by_[body].joint, j))
+      body = carried_by_[body].parent;
+    return body;
+  }
+
+  /// Body `root` moves against `base` as joint j (none: freely) lets it, by coordinates about its centre of mass.
+  void add_own_motion(std::optional<int> j, int base, int root) {
+    const bool is_planar = j && spec_.joints[*j].type == JointType::planar;
+    Pose X_WM = roots_->pose(root);
+    X_WM.r = roots_->centre(root);
+    if (is_planar) X_WM.R = roots_->axes(*j);
+    const Attachment& carrier = tree_.bodies[base];
+    const Pose X_BF = roots_->pose(base).inverse() * X_WM;
+    OwnMotion own{.body = root, .joint = j.value_or(-1)};
+    own.first_link = static_cast<int>(tree_.links.size());
+    const Attachment end =
+        add_chain(-1, root, elements_of(is_planar ? JointType::planar : JointType::free, Vector3::UnitZ()), false,
+                  {carrier.link, carrier.X_LF * X_BF});
+    const Vector6 V = roots_->velocity(root) - roots_->velocity(base);
+    const Vector3 omega = X_WM.R.transpose() * V.head<3>(),
+                  v = X_WM.R.transpose() * (V.tail<3>() + V.head<3>().cross(X_WM.r));
+    if (is_planar)
+      own.velocity = Vector3(v.x(), v.y(), omega.z());
+    else
+      own.velocity = (Vector6() << v, omega).finished();
+    tree_.own_motions.push_back(std::move(own));
+    tree_.bodies[root] = {end.link, X_WM.inverse() * roots_->pose(root)};
+    place(root, base);
+    carried_by_[root] = {base, j};
   }
 
   /// Whether the path from ground would grow too long beyond `body`. Deformations stay with their bodies.
@@ -298,8 +336,16 @@ class TreeBuilder {
       if (!tree_.moves(k, pair.a.link)) pair.columns.push_back({k, +1.0});
   }
 
+  /// What a body's path leads through last.
+  struct Carried {
+    int parent = 0;
+    std::optional<int> joint;  ///< none: it moves freely
+  };
+
   const MechanismSpec& spec_;
+  const Roots* roots_;
   Tree tree_;
+  std::vector<Carried> carried_by_;        ///< of each body
   std::vector<bool> placed_;               ///< bodies
   std::vector<bool> used_;                 ///< joints in the tree
   std::vector<bool> read_;                 ///< joints whose coordinates something needs
@@ -309,9 +355,54 @@ class TreeBuilder {
   std::vector<int> depth_{0};              ///< of each link: columns that move it
 };
 
+/// How the rotations of planar joints that are in no path follow from those of links: whatever full turns they count.
+void find_turns(const MechanismSpec& spec, Tree& tree) {
+  const solver::State start = start_of(spec, tree);
+  TreeMotion at(tree, Vector3::Zero());
+  at.update_positions(start);
+  for (OwnMotion& own : tree.own_motions) {
+    if (own.joint < 0 || spec.joints[own.joint].type != JointType::planar) continue;
+    const JointSpec& joint = spec.joints[own.joint];
+    const Attachment &inboard = tree.frames[joint.inboard.index], &outboard = tree.frames[joint.outboard.index];
+    const Vector3 normal = at.pose(inboard).R * joint_axes(joint.axis).col(2);
+    own.turned = joint.initial.empty() ? 0 : joint.initial[2];
+    const auto add = [&](int to, int other, double sign) {
+      for (const int k : tree.path[to]) {
+        const int link = tree.columns[k].link;
+        if (tree.moves(k, other) || tree.links[link].motion != Motion::revolute) continue;
+        const double weight = at.J(k).head<3>().dot(normal) > 0 ? sign : -sign;
+        own.turns.emplace_back(link, weight);
+        own.turned -= weight * start.q[tree.links[link].first_q];
+      }
+    };
+    add(outboard.link, inboard.link, 1);
+    add(inboard.link, outboard.link, -1);
+  }
+}
+
+/// Reactions are reckoned along the joints, whatever carries what.
+void follow_joints_of(const Tree& as_declared, Tree& tree) {
+  tree.body_order = as_declared.body_order;
+  tree.body_parent = as_declared.body_parent;
+  for (std::size_t j = 0; j < tree.joints.size(); ++j) {
+    tree.joints[j].reversed = as_declared.joints[j].reversed;
+    tree.joints[j].outboard_body = as_declared.joints[j].outboard_body;
+  }
+}
+
 }  // namespace
 
-Tree build_tree(const MechanismSpec& spec) { return TreeBuilder(spec).build(); }
+Tree build_tree(const MechanismSpec& spec) {
+  Tree as_declared = TreeBuilder(spec).build();
+  if (!spec.chooses_roots) return as_declared;
+  const Roots roots(spec, as_declared);
+  if (!roots.may_matter()) return as_declared;
+  Tree tree = TreeBuilder(spec, &roots).build();
+  if (tree.own_motions.empty()) return as_declared;
+  follow_joints_of(as_declared, tree);
+  find_turns(spec, tree);
+  return tree;
+}
 
 int column_of(const Tree& tree, const CoordinateRef& coordinate) {
   const JointPlace& place = tree.joints[coordinate.joint.index];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "hersey/mbd/mechanism_spec.h"
@@ -82,6 +83,18 @@ struct Loosened {
   bool reversed = false;  ///< it is the inboard one
 };
 
+/// The motion of a body that hangs on no joint, for a light one would carry it (theory manual, section "Light bodies
+/// carry nothing"): a chain of its own from what carries it, all values zero at the start, in space or in a plane.
+struct OwnMotion {
+  int body = 0;
+  int joint = -1;  ///< the joint whose place it takes, which is in no path; -1: nothing holds the body
+  int first_link = 0;
+  Eigen::VectorXd velocity;  ///< at the start
+  /// Of a planar joint: its rotation is turned + sum of weight times values of scalar links, whatever turns they count.
+  std::vector<std::pair<int, double>> turns;
+  double turned = 0;
+};
+
 /// Where a value of a joint went: a component of a link's motion.
 struct ValuePlace {
   int link = 0, component = 0;
@@ -90,10 +103,10 @@ struct ValuePlace {
 /// Where a user's joint went. In one piece, for whoever looks at thousands of joints in a row.
 struct JointPlace {
   std::array<ValuePlace, 6> values;
-  int value_count = 0;  ///< none of a plain closing joint
-  int closure = -1;     ///< index of its constraints if it closes a loop
-  bool reversed = false;
-  int outboard_body = -1;  ///< for tree joints: the body beyond the joint, seen from ground; ids' index
+  int value_count = 0;     ///< none of a plain closing joint
+  int closure = -1;        ///< index of its constraints if it closes a loop
+  bool reversed = false;   ///< seen from ground along the joints it leads to its inboard body
+  int outboard_body = -1;  ///< for joints that close nothing: the body beyond, seen so; ids' index
 };
 
 /// Spanning tree of a mechanism: constant.
@@ -104,11 +117,12 @@ struct Tree {
   std::vector<Attachment> frames;
   std::vector<Closure> closures;
   std::vector<JointPlace> joints;
-  std::vector<int> body_order;         ///< bodies from ground outwards, ground excluded
-  std::vector<int> body_parent;        ///< the body each hangs on, -1 for ground
+  std::vector<int> body_order;         ///< bodies from ground outwards as joints lead, ground excluded
+  std::vector<int> body_parent;        ///< the body each hangs on by its joint, -1 for ground
   std::vector<std::vector<int>> path;  ///< per link: columns that move it, from ground outwards
   std::vector<Cut> cuts;               ///< from ground outwards
   std::vector<Loosened> loosened;      ///< from the node where each beam is entered outwards
+  std::vector<OwnMotion> own_motions;  ///< from ground outwards
   std::vector<int> enter, leave;       ///< per link: numbers of the links it carries, itself the first
   std::vector<Pair> forces;            ///< of the two-body forces
   int nq = 0;
@@ -125,7 +139,8 @@ struct Tree {
 
 /// Chooses the spanning tree (breadth first from ground, in order of declaration; joints whose coordinates are driven,
 /// sprung, read by loads or given initially come first, then those with a guess) and lays out coordinates and
-/// constraints. Paths longer than MechanismSpec::longest_path are cut (theory manual, section "Long chains").
+/// constraints. Paths longer than MechanismSpec::longest_path are cut (theory manual, section "Long chains"). Where
+/// MechanismSpec::chooses_roots, bodies too light for it carry nothing.
 [[nodiscard]] Tree build_tree(const MechanismSpec& spec);
 
 /// The scalar column of a joint coordinate.

@@ -85,6 +85,7 @@ class Builder {
   Machine build() {
     mechanism_.set_gravity(model_.gravity);
     if (model_.simulation.spectral_radius < 1) mechanism_.cut_paths();
+    if (model_.simulation.analysis == Analysis::dynamics) mechanism_.choose_roots();
     if (starts_undeformed()) mechanism_.loosen_beams();
     add_frames(model_.ground, mbd::MechanismBuilder::ground());
     for (const Body& body : model_.bodies) {

@@ -183,6 +183,7 @@ struct MechanismSpec {
   std::vector<JointId> deforming;  ///< free joints of elastic bodies, whose coordinates are deformations
   int longest_path = std::numeric_limits<int>::max();  ///< see MechanismBuilder::cut_paths
   bool loosens_beams = false;                          ///< see MechanismBuilder::loosen_beams
+  bool chooses_roots = false;                          ///< see MechanismBuilder::choose_roots
 };
 
 /// Where a flexible body went in a mechanism.
