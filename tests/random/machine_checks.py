@@ -85,7 +85,7 @@ def check(machine, results):
         check_oil(bearing, results, results.films[name], motion, name, found)
         check_gaps(bearing, results, results.films[name], motion, name, found)
         check_power(bearing, results, results.films[name], motion, name, found)
-        heat.check_run(bearing, results.films[name].rows, name, found)
+        heat.check_run(bearing, results.films[name].rows, results.dt, name, found)
     check_momentum(machine, results, found)
     check_drive(machine, results, found)
     return found
