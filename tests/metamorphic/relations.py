@@ -87,9 +87,16 @@ def close(one, other, rtol, left_out=LEFT_OUT):
 
 
 def scaled(tree, length, mass, time):
-    """The model of a similar bearing: every quantity times the scales of its dimension."""
+    """The model of a similar bearing or machine: every quantity times the scales of its dimension."""
     other = tree
     for path, text in trees.leaves(tree):
+        if path[-1] == "expression":
+            other = scaled_expression(other, path, length, mass, time)
+            continue
+        if len(path) > 2 and path[-3] == "points" and path[-4] == "table":
+            unit = trees.at(tree, (*path[:-3], ("x_unit", "y_unit")[path[-1]]))
+            other = trees.changed(other, path, repr(float(text) * size(unit, length, mass, time)))
+            continue
         match = QUANTITY.fullmatch(text)
         if not match or not match[2] or path[-1] in ("title", "hersey"):
             continue
@@ -97,6 +104,18 @@ def scaled(tree, length, mass, time):
         numbers = " ".join(repr(float(n) * factor) for n in match[1].split())
         other = trees.changed(other, path, f"{numbers} {match[2]}")
     return other
+
+
+# What expressions are of, in SI units.
+ARGUMENTS = {"t": "s", "length": "m", "stretch": "m", "angle": "rad"}
+
+
+def scaled_expression(tree, path, length, mass, time):
+    place = trees.at(tree, path[:-1])
+    text = place["expression"]
+    for argument, unit in ARGUMENTS.items():
+        text = re.sub(rf"\b{argument}\b", f"({argument}/{size(unit, length, mass, time)!r})", text)
+    return trees.changed(tree, path, f"{size(place['unit'], length, mass, time)!r}*({text})")
 
 
 def size(unit, length, mass, time):
@@ -108,11 +127,13 @@ def in_other_units(tree):
     """The same model with its quantities in other units of the same kind."""
     names = {"mm": ("inch", 1 / 25.4), "um": ("nm", 1e3), "bar": ("psi", 1e5 / 6894.757293168361), "rpm": ("deg/s", 6.0), "N": ("kgf", 1 / 9.80665),
              "mPa.s": ("Pa.s", 1e-3), "deg": ("rad", 0.017453292519943295), "GPa": ("MPa", 1e3), "m/s": ("km/h", 3.6),
-             "mm/s": ("m/s", 1e-3), "kN": ("N", 1e3)}
+             "mm/s": ("m/s", 1e-3), "kN": ("N", 1e3), "kg": ("g", 1e3), "kg.m^2": ("g.mm^2", 1e9), "ms": ("s", 1e-3), "N/m": ("N/mm", 1e-3),
+             "m/s^2": ("mm/s^2", 1e3), "N.m": ("N.mm", 1e3)}
     other = tree
     for path, text in trees.leaves(tree):
-        match = re.fullmatch(rf"({trees.NUMBER})\s+(\S+)", text)
+        match = re.fullmatch(rf"({trees.NUMBER}(?:\s+{trees.NUMBER})*)\s+(\S+)", text)
         if match and match[2] in names:
             unit, factor = names[match[2]]
-            other = trees.changed(other, path, f"{float(match[1]) * factor!r} {unit}")
+            numbers = " ".join(repr(float(n) * factor) for n in match[1].split())
+            other = trees.changed(other, path, f"{numbers} {unit}")
     return other

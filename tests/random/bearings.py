@@ -474,10 +474,11 @@ def corner_power(b, pumped):
     return 0.5 * abs(pumped) if reservoirs_touch(b) else 0.0
 
 
-def land_power(b, mu, h, phi, z, turn=0.0):
+def land_power(b, mu, land_gap, phi, z, turn=0.0):
     """What the oil of fed grooves dissipates on land narrower than a cell before an edge, beside what the nodes' cell of it shows [W].
 
-    Over the land flows h^3 dp/(12 mu l) per length; between the nodes of a cell dz the sum over cells sees l = dz.
+    Over the land flows h^3 dp/(12 mu l) per length, h the gap of the land alone: most of an edge node's cell may be groove, and
+    counts with its depth in the thickness told there. Between the nodes of a cell dz the sum over cells sees l = dz.
     """
     extra, dphi = 0.0, 2 * PI / len(phi)
     for f in b.features:
@@ -491,7 +492,7 @@ def land_power(b, mu, h, phi, z, turn=0.0):
                 continue
             at = (slice(None), 0 if side < 0 else -1)
             of_groove = np.abs(around) < 1
-            each = (h[at] ** 3 / (12 * mu[at]) * (f.pressure - pressure) ** 2 * b.R * dphi * (1 / land - 1 / dz))[of_groove]
+            each = (land_gap[at] ** 3 / (12 * mu[at]) * (f.pressure - pressure) ** 2 * b.R * dphi * (1 / land - 1 / dz))[of_groove]
             extra += float(each.sum())
     return extra
 

@@ -230,11 +230,16 @@ def features_near(b, a, turn, cells, only_deep=True):
     return near
 
 
+def land_gap(case, a):
+    """Gap without features, with what a column yields."""
+    b = case.bearing
+    return b.land(a.position(b.c), case.slope(), a.phi[:, None], a.z[None, :], case.journal_angle) + column_yield(b, a)
+
+
 def check_gap(case, a, found):
     b, turn = case.bearing, case.journal_angle
-    yielded = column_yield(b, a)
-    land = b.land(a.position(b.c), case.slope(), a.phi[:, None], a.z[None, :], turn) + yielded
-    round_off = DIGITS * (np.abs(a.h).max() + np.abs(yielded).max()) + 1e-9 * b.c
+    land = land_gap(case, a)
+    round_off = DIGITS * (np.abs(a.h).max() + np.abs(column_yield(b, a)).max()) + 1e-9 * b.c
     away = ~features_near(b, a, turn, 0.5)
     off = np.abs(a.h - land)[away]
     found.bound("gap by formula", off.max(initial=0.0), round_off, "m beside the formula on land")
@@ -317,8 +322,7 @@ def check_oil(case, a, found):
                     f"m^3/s: in {a['flow_supply']:.6g}, out {out:.6g}")
     density = film_laws.density(b, a.p)
     if not b.roughness:
-        land = b.land(a.position(b.c), case.slope(), a.phi[:, None], a.z[None, :], case.journal_angle) + column_yield(b, a)
-        gap = b.oil_gap(a.h, land, a.phi[:, None], a.z[None, :], case.journal_angle)
+        gap = b.oil_gap(a.h, land_gap(case, a), a.phi[:, None], a.z[None, :], case.journal_angle)
         own = film.volume(a.theta * gap * density, b.R, a.phi, a.z)
         # a step in depth lies somewhere in a cell
         step = sum(f.depth * border_area(f, b, a) for f in b.features)
@@ -368,7 +372,7 @@ def check_power(case, a, found):
     fed = b.is_fed(a.phi[:, None], a.z[None, :], case.journal_angle)
     couette = film.couette_power(film_laws.shear_shares(b, a.p, a.theta, fed), mu, a.h, slip, b.R, a.phi, a.z)
     poiseuille = film.poiseuille_power(a.p, mu, a.h, b.R, a.phi, a.z)
-    over_land = bearings.land_power(b, mu, a.h, a.phi, a.z, case.journal_angle)
+    over_land = bearings.land_power(b, mu, land_gap(case, a), a.phi, a.z, case.journal_angle)
     own, told = couette.value + poiseuille.value + over_land, a["power_film"]
     # The edge of a cavitated region is resolved to a cell: the estimate sees that. A step of depth lies somewhere in a cell.
     pumped = pumping(b, a)

@@ -42,6 +42,16 @@ std::string faults_with(const std::string& from, const std::string& to) {
 const std::string kMaterials =
     "    materials: [{youngs_modulus: 210 GPa, poisson_ratio: 0.3}, {youngs_modulus: 5 MPa, poisson_ratio: 0.49}]\n";
 
+// A shape whose size is wrong has no radius that Hertz's stiffness could be taken of: one fault, at its key.
+TEST_CASE("ShapeWithoutARadius_IsAFaultOfTheModel") {
+  for (const std::string size : {"nan mm", "inf mm", "0 mm", "-1 mm", "1e308 mm", "1e-308 mm"}) {
+    CAPTURE(size);
+    const std::string faults = faults_with("diameter: 40 mm", "diameter: " + size);
+    CHECK(faults.find("bodies.ball.shapes.surface.diameter: ") != std::string::npos);
+    CHECK(faults.find("materials") == std::string::npos);
+  }
+}
+
 TEST_CASE("Contacts_AreReadAndBuilt") {
   const Model model = read_text(kMachine, "m.yaml");
   REQUIRE(model.contacts.size() == 1);

@@ -348,7 +348,10 @@ Outcome assemble_forces(Equations& equations, const State& state, double dt, Vec
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     equations.assemble(at_rest, stage, residual, scale, &S);
     if (std::string why = equations.domain_error(); !why.empty()) return no_answer<Outcome>(std::move(why));
-    if (!residual.allFinite()) return no_answer<Outcome>("the forces are not numbers");
+    if (!residual.allFinite()) {
+      const auto wrong = std::find_if(residual.begin(), residual.end(), [](double r) { return !std::isfinite(r); });
+      return no_answer<Outcome>(equations.name_of_row(wrong - residual.begin()) + ": the forces there are not numbers");
+    }
     if (equations.internal_residual() > internal_rtol) continue;
     h = residual.head(nv);
     if (equations.nlambda() > 0) {

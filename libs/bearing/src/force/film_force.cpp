@@ -345,8 +345,11 @@ void FilmForce::settle() {
   linearised_ = false;
 }
 
+// What is shown, settled and warmed is the film that was solved: where a step holds its supply line, held there.
 void FilmForce::accept_step(const mbd::RelativeMotion& end) {
-  place(end);
+  mbd::RelativeMotion solved = end;
+  solved.dt = started_ ? history_.dt : 0;
+  place(solved);
   observed_surfaces_ = surfaces_;
   observed_s_ = end.s;
   observed_history_ = history_;

@@ -77,6 +77,10 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
                      "move the joints' `initial` values or the shapes; of a half-space or mesh, see that its normals "
                      "point out of the solid")};
   }
+  if (summary.status == Status::domain_error && summary.message.find("are not numbers") != std::string::npos) {
+    return {fault_at(model, summary.message, summary.message, "loads, springs and inertias that are numbers together",
+                     "see that values and factors are in the units meant")};
+  }
   if (summary.status == Status::domain_error && summary.message.find("do not face each other") != std::string::npos) {
     return {fault_at(model, summary.message, summary.message, "frames whose z-axes are those of bore and journal",
                      "turn the frame of the shell or of the journal, or the bodies by the joints' `initial` values")};
