@@ -2,7 +2,6 @@
 
 import re
 
-import numpy as np
 
 import relations
 import runs
@@ -15,10 +14,9 @@ SOLVED = 1e-7
 # What a default that is written out may change: nothing, but for the order of sums.
 ROUND_OFF = 1e-12
 
-# Other roots: joints whose two bodies may be named the other way round, without and with other coordinates (a free body's position
-# counts in another body's axes: its steps differ by their error).
-SAME_COORDINATES = {"WORKSHOP": ("shoulder", "socket", "slide", "hub", "sleeve", "thread"), "CRANK": ("bore", "wrist"), "WHIP": ("hinge",)}
-OTHER_COORDINATES = {"WORKSHOP": "sea"}
+# Other roots: joints whose two bodies may be named the other way round. A body in free flight is counted from its centre of mass
+# either way.
+SAME_COORDINATES = {"WORKSHOP": ("shoulder", "socket", "slide", "hub", "sleeve", "thread", "sea"), "CRANK": ("bore", "wrist"), "WHIP": ("hinge",)}
 
 # Scales of length, mass and time, and what has to be left out for them: supplies and features, beside which films of machines scale
 # missing oil with 1000 rad/s (film.6); asperities, whose friction passes through zero within 1 mm/s; a ring that stores heat as steel does.
@@ -99,17 +97,6 @@ def scaled_back(found, scales):
 
 PAIRS = {"order of entries": reordered, "other units": in_other_units, "turned as a whole": turned, "mirrored": mirrored,
          "another root": from_another_root, "similar machines": similar}
-
-
-def orders_of_other_coordinates(program, folder, tree, joint):
-    """By how much less the positions of bodies differ at half the step, between both ways of counting a joint; four, of second order."""
-    number, unit = space.scalar(tree["simulation"]["step"])
-    apart = []
-    for halves in (1, 2):
-        finer = with_changes(tree, [("simulation.step", f"{number / halves!r} {unit}"), ("output", {"every": str(halves)})])
-        (_, one), (_, other) = (runs.run(program, t, folder, "one") for t in (finer, space.reversed_joints(finer, [joint])))
-        apart.append(max(np.abs(one[name][0] - other[name][0]).max() for name in one if name.endswith("/position") and name.startswith("bodies/")))
-    return apart[0] / apart[1]
 
 
 # -- defaults written out

@@ -57,11 +57,6 @@ class Pairs(OfMachines):
     def test_pairs_of_a_beam(self):
         self.check_pairs("WHIP")
 
-    def test_a_free_body_counted_from_itself_differs_by_the_steps_error(self):
-        for name, joint in pairs.OTHER_COORDINATES.items():
-            # second order: a quarter at half the step
-            self.assertGreater(pairs.orders_of_other_coordinates(HERSEY, self.folder, self.tree(name), joint), 3.5)
-
     def test_a_run_that_has_settled_is_the_bearing_by_itself(self):
         self.assertEqual(settled.differences(HERSEY, self.folder), [])
 

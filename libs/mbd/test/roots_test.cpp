@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "../src/tree/tree.h"
+#include "../src/tree/tree_builder.h"
 #include "hersey/mbd/mechanism_builder.h"
 #include "hersey/mbd/spring_damper.h"
 #include "simulate.h"
@@ -80,7 +80,7 @@ class Drawn {
       b.add_spring({.name = "spring", .coordinate = {id, 0}, .stiffness = 30, .damping = 0.2, .free_position = 0.5});
   }
 
-  std::mt19937 random_;
+  std::mt19937 random_{1};
   bool in_plane_;
 };
 

@@ -26,7 +26,8 @@ class Roots {
   /// too light. No joint: nothing holds them.
   [[nodiscard]] int carrier(std::optional<int> j, int first) const;
 
-  /// Whether `body` turns far too lightly to carry what comes with `first`.
+  /// Whether `body` turns far too lightly to carry what comes with `first` (mechanisms.28): coordinates counted from it
+  /// would be the outcome of two fast motions (mechanisms.27).
   [[nodiscard]] bool is_too_light(int body, int first) const;
 
   /// Whether joint `other` (none: a body free in space) moves nothing out of the motions that joint `j` allows.

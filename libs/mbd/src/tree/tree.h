@@ -137,12 +137,6 @@ struct Tree {
   }
 };
 
-/// Chooses the spanning tree (breadth first from ground, in order of declaration; joints whose coordinates are driven,
-/// sprung, read by loads or given initially come first, then those with a guess) and lays out coordinates and
-/// constraints. Paths longer than MechanismSpec::longest_path are cut (theory manual, section "Long chains"). Where
-/// MechanismSpec::chooses_roots, bodies too light for it carry nothing.
-[[nodiscard]] Tree build_tree(const MechanismSpec& spec);
-
 /// The scalar column of a joint coordinate.
 [[nodiscard]] int column_of(const Tree& tree, const CoordinateRef& coordinate);
 
