@@ -38,8 +38,8 @@ class MechanismBuilder {
   /// deformations for coordinates (modes, equilibria, static starts) needs them counted from the first node.
   void loosen_beams() { spec_.loosens_beams = true; }
 
-  /// Lets no body carry others that turn ten times as hard or more, where joints leave a choice: what moves freely or in
-  /// a plane, closes no loop and is driven by nothing gets coordinates of its own, or is carried by another body of
+  /// Lets no body carry others that turn ten times as hard or more, where joints leave a choice: what moves freely or
+  /// in a plane, closes no loop and is driven by nothing gets coordinates of its own, or is carried by another body of
   /// those that move together. Joints show the same coordinates as ever.
   void choose_roots() { spec_.chooses_roots = true; }
   /// The body that does not move.
