@@ -134,7 +134,11 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     }
     if (is_last) break;
     is_last = path.leads_away() && path.nearest() <= kLastTolerance;
-    is_last ? path.return_to_nearest() : path.step_on(k);
+    if (is_last) {
+      path.return_to_nearest();
+    } else {
+      path.step_on(k);
+    }
   }
   summary.set_solved(false);
   summary.message = fmt::format("film and temperature do not come together in {} turns; hottest oil {}",
