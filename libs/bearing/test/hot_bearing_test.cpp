@@ -55,40 +55,6 @@ TEST_CASE("OneEffectiveTemperature_IsThatOfTheBalance") {
   CHECK(state.effective->T_out - heat.T_supply == relative(rise).epsilon(1e-6));  // 1e-8 of temperature over its slope
 }
 
-// Temperatures, torques and power of a bearing with a groove and a free journal lie within twice what is told of the
-// grid: an error is one standard figure.
-TEST_CASE("GridErrorOfHeat_CoversAFinerGrid") {
-  const auto solved_on = [](int n_phi, int n_z, SteadyState& state) {
-    film::FilmModel model = model_of(vg46(323.15), n_phi, n_z);
-    model.supply = {};
-    film::SurfaceFeature groove;
-    groove.name = "groove";
-    groove.phi = 0.5 * std::numbers::pi;
-    groove.arc = 2 * std::numbers::pi / 15;
-    groove.length = 0.04;
-    groove.pressure = 1e5;
-    model.features.push_back(groove);
-    model = scaled_for(model, point());
-    SteadyOptions options{.thermal = film::ThermalModel{.T_supply = 50 + zero_celsius, .T_edges = 50 + zero_celsius}};
-    options.thermal->journal = film::FreeJournal{};
-    REQUIRE(solve_steady(model, point(), options, state).solved());
-    return estimate_grid_error(model, state, options);
-  };
-  SteadyState coarse, fine;
-  const GridError told = solved_on(60, 13, coarse);
-  solved_on(120, 25, fine);
-  REQUIRE(told.known);
-  const film::HeatObservables &a = coarse.heat->seen, &b = fine.heat->seen;
-  CHECK(std::abs(a.T_journal - b.T_journal) < 2 * told.T_journal);
-  CHECK(std::abs(a.T_max - b.T_max) < 2 * told.T_max);
-  CHECK(std::abs(a.T_shell_mean - b.T_shell_mean) < 2 * told.T_shell_mean);
-  CHECK(std::abs(a.T_film_mean - b.T_film_mean) < 2 * told.T_film);
-  CHECK(std::abs(a.T_side - b.T_side) < 2 * told.T_side);
-  CHECK(std::abs(coarse.film.torque_journal - fine.film.torque_journal) < 2 * told.torque_journal);
-  CHECK(std::abs(coarse.film.power_film - fine.film.power_film) < 2 * told.power_film);
-  CHECK(told.T_journal < 2);  // and tell something: some tenth of the rise
-}
-
 // The same independent program's bearing (D 100, B 100, psi 0.0015, 4 kN, 480 rpm, VG 68) whose housing of 0.3 m^2
 // gives off all heat at 20 W/(m^2 K) to 40 degC.
 TEST_CASE("HousingThatCools_IsThatOfAnIndependentProgram") {

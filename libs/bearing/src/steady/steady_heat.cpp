@@ -93,9 +93,8 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
   SteadySummary summary;
   double clearance_before = 0;
   int turns_near = 0;
-  double nearest = 1;
   bool is_last = false;
-  for (int k = 0; k < kMostHeatIterations && (k < kTurnsToComeNear || nearest <= kFarApart); ++k) {
+  for (int k = 0; k < kMostHeatIterations && (k < kTurnsToComeNear || path.nearest() <= kFarApart); ++k) {
     Eigen::VectorXd shell = path.heat().shell_opening();
     Eigen::VectorXd journal = film::around(model.grid, path.heat().journal_growth());
     const HotClearance hot = hot_clearance(model, path.growth(), shell, journal);
@@ -122,7 +121,6 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     search.heat(path.heat());
     if (network != nullptr) balance(*network, path.heat());
     path.take();
-    nearest = std::min(nearest, path.nearness());
     const bool is_only_begun = nearness > kHeatTolerance;
     const bool is_near = path.nearness() <= (is_last ? kLastTolerance : nearness);
     if (is_near) ++turns_near;
