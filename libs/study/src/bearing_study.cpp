@@ -18,6 +18,7 @@
 #include <variant>
 
 #include "hersey/bearing/clearance.h"
+#include "hersey/bearing/phase_averaged_coefficients.h"
 #include "hersey/bearing/total_coefficients.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
@@ -195,10 +196,13 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   }
   for (const std::string& doubt : doubts_of(bearing, solution.state))
     solution.doubts.push_back("bearing " + bearing.name + ", " + doubt);
-  // Those at the temperatures as they are, whose grid error stands beside those with temperatures that follow, too.
-  const bearing::DynamicCoefficients frozen = solution.state.coefficients;
-  if (!let_heat_follow(bearing, options, steady, solution)) return;
   steady.start_film = {}, steady.start_heat = {};
+  // Those at the temperatures as they are, whose grid error stands beside those with temperatures that follow, too.
+  solution.tangent = solution.state.coefficients;
+  const bearing::DynamicCoefficients frozen = bearing::phase_averaged_coefficients(
+      solution.state, bearing::turned_films(solution.model, solution.state, steady));
+  solution.state.coefficients = frozen;
+  if (!let_heat_follow(bearing, options, steady, solution)) return;
   const double omega = std::abs(point.entraining_speed());
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);

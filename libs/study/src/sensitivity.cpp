@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <exception>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "hersey/bearing/phase_averaged_coefficients.h"
 #include "hersey/bearing/steady_derivative.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
@@ -125,6 +127,43 @@ void complete(BearingSolution& solution) {
       solution.coefficients, bearing::clearance(solution.model, solution.state.point), solution.numbers.load, omega);
 }
 
+/// Stiffness and damping beside a solution, their mean over where the lines of its grid may lie: each of these films
+/// has a tangent of its own.
+class MeanCoefficients {
+ public:
+  explicit MeanCoefficients(const BearingSolution& solution)
+      : films_(bearing::turned_films(solution.model, solution.state, {})) {
+    for (const bearing::TurnedFilm& film : films_) derivatives_.emplace_back(film.model, film.state);
+  }
+
+  /// Takes the place of the coefficients of `state`, which are those of its own grid.
+  void complete_here(bearing::SteadyState& state) {
+    std::vector<bearing::TurnedFilm> films = films_;
+    for (std::size_t k = 0; k < films.size(); ++k) films[k].state = derivatives_[k].here();
+    state.coefficients = bearing::phase_averaged_coefficients(state, films);
+  }
+
+  /// Likewise of a state on the tangent. @returns whether all films have one
+  [[nodiscard]] bool complete_beside(const bearing::BearingBeside& side, bearing::SteadyState& state) {
+    std::vector<bearing::TurnedFilm> films = films_;
+    for (std::size_t k = 0; k < films.size(); ++k) {
+      bearing::BearingBeside held = side;
+      held.model.grid = films[k].model.grid;
+      held.point.load.reset();
+      held.point.e = state.e;
+      std::optional<bearing::SteadyState> found = derivatives_[k].beside(held);
+      if (!found) return false;
+      films[k].state = std::move(*found);
+    }
+    state.coefficients = bearing::phase_averaged_coefficients(state, films);
+    return true;
+  }
+
+ private:
+  std::vector<bearing::TurnedFilm> films_;
+  std::deque<bearing::SteadyDerivative> derivatives_;
+};
+
 /// Solutions beside one that is there, on its tangent.
 class Tangent {
  public:
@@ -132,8 +171,10 @@ class Tangent {
       : file_(source.text, source.file),
         here_(solution),
         bearing_(bearing),
-        derivative_(solution.model, solution.state) {
+        derivative_(solution.model, solution.state),
+        coefficients_(solution) {
     here_.state = derivative_.here();
+    coefficients_.complete_here(here_.state);
     complete(here_);
   }
 
@@ -157,7 +198,7 @@ class Tangent {
     side.model.fill_speed = here_.model.fill_speed;
     if (bearing.film.grid.size() != here_.model.grid.size()) return std::nullopt;
     std::optional<bearing::SteadyState> state = derivative_.beside(side);
-    if (!state) return std::nullopt;
+    if (!state || !coefficients_.complete_beside(side, *state)) return std::nullopt;
     BearingSolution solution = here_;
     solution.state = std::move(*state);
     solution.model = std::move(side.model);
@@ -169,6 +210,7 @@ class Tangent {
   BearingSolution here_;
   const std::string& bearing_;
   bearing::SteadyDerivative derivative_;
+  MeanCoefficients coefficients_;
 };
 
 Sides solved_anew(const Source& source, const BearingSolution& solution, const BearingStudyOptions& options,

@@ -199,7 +199,7 @@ void check_stiffness(const Rig& rig, const std::vector<std::string>& overrides, 
                           rig.solved(with(overrides, at_position(e - d))).state.load) /
                          (2 * step);
   }
-  const Eigen::Matrix2d K = middle.state.coefficients.stiffness.topLeftCorner<2, 2>();
+  const Eigen::Matrix2d K = middle.tangent.stiffness.topLeftCorner<2, 2>();
   CHECK((K - differences).norm() < 2e-4 * K.norm());
 }
 

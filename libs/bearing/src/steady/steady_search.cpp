@@ -61,9 +61,10 @@ SteadySummary SteadySearch::solve() {
   return point_.load ? under_load() : at_given_position();
 }
 
-void SteadySearch::begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u) {
+void SteadySearch::begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u, const Eigen::VectorXd& s) {
   e_ = e;
   x_.head(u.size()) = u;
+  x_.tail(s.size()) = s;
   has_film_ = true;
 }
 
@@ -163,6 +164,7 @@ SteadyState SteadySearch::state() {
   state.journal_shape = film_.journal_shape();
   state.film = film::observe_film(model_, film_.surfaces(e_, x_), film_.history(), e_, state.u, state.tilt);
   state.load = state.film.wrench_on_shell.segment<2>(3);
+  state.viscosity = film_.history().viscosity;
   state.coefficients = coefficients();
   return state;
 }

@@ -35,8 +35,8 @@ class SteadySearch {
 
   [[nodiscard]] SteadySummary solve();
 
-  /// A film and a position to go on from.
-  void begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u);
+  /// A film and a position to go on from, with the amplitudes `s` of surfaces that deform.
+  void begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u, const Eigen::VectorXd& s = {});
   [[nodiscard]] bool has_film() const { return has_film_; }
 
   [[nodiscard]] SteadySummary at_given_position();

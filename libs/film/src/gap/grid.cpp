@@ -118,4 +118,15 @@ Grid resampled(const Grid& grid, int n_phi, int n_z) {
   return other;
 }
 
+Grid turned(const Grid& grid, double share) {
+  HERSEY_REQUIRE(grid.closes() && share >= 0 && share < 1, "a ring, and a share of its cells");
+  Grid other = grid;
+  other.angles.resize(grid.n_phi);
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + turn;
+    other.angles[i] = grid.phi(i) + share * (next - grid.phi(i));
+  }
+  return other;
+}
+
 }  // namespace hersey::film

@@ -52,6 +52,7 @@ struct SteadyState {
   /// And the journal's body the journal's surface, the mean around (thermal.61), at the nodes as well [m].
   Eigen::VectorXd journal_shape;
   film::FilmObservables film;
+  film::LayeredViscosity viscosity;               ///< by the oil's temperatures; empty: that of the model everywhere
   DynamicCoefficients coefficients;               ///< with the temperatures, and so the viscosities, as they are
   std::optional<SteadyHeat> heat;                 ///< of a film with temperatures
   std::optional<EffectiveTemperature> effective;  ///< of a film with one, by a balance of heat

@@ -81,4 +81,9 @@ struct Patch {
 /// the finer one.
 [[nodiscard]] Grid resampled(const Grid& grid, int n_phi, int n_z);
 
+/// The same ring with its lines further on by `share` of the cell before the next one. Of what depends on where fronts
+/// lie between lines, the mean over several shares is of a higher order.
+/// @param share  0 to below 1.
+[[nodiscard]] Grid turned(const Grid& grid, double share);
+
 }  // namespace hersey::film

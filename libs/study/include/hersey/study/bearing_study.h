@@ -26,6 +26,9 @@ struct [[nodiscard]] BearingSolution : Outcome {
   bearing::SteadySummary summary;
   bearing::SteadyState state;
   bearing::BearingNumbers numbers;
+  /// Of the force on the grid as it lies, as differences of solutions nearby tell them; `state` has their mean over
+  /// where the lines of the grid may lie (bearing.38).
+  bearing::DynamicCoefficients tangent;
   bearing::LoadAxesCoefficients coefficients;
   bearing::WhirlStability whirl;
   ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;  ///< those of `state`
