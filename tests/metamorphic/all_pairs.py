@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""All pairs of machines, defaults, numbers that act and absurd numbers, of which `make test` has a share.
+"""All pairs of machines, defaults, numbers that act and absurd numbers, of which `make test` has a share; orders in the grid of all
+figures of bearings.
 
     all_pairs.py HERSEY [MACHINE ...]
 
@@ -16,6 +17,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import machine_models  # noqa: E402
 import machine_numbers  # noqa: E402
 import machine_pairs as pairs  # noqa: E402
+import models  # noqa: E402
+import order  # noqa: E402
 import schema  # noqa: E402
 import tree as trees  # noqa: E402
 
@@ -37,6 +40,12 @@ def of_machine(program, name, folder):
     yield from (f"absurd: {text}" for text in machine_numbers.bad_endings(program, tree, folder))
 
 
+def of_orders(program, folder):
+    """Figures of bearings that are of less than second order in the grid."""
+    for name, cavitation in order.CASES:
+        yield from order.lower(program, models, name, cavitation, folder)
+
+
 def main():
     program, names = os.path.abspath(sys.argv[1]), sys.argv[2:] or ("CRANK", "WHIP", "ROTOR", "WORKSHOP")
     off = 0
@@ -46,6 +55,10 @@ def main():
                 off += 1
                 print(f"{name}: {text}", flush=True)
         print(f"{name} done", flush=True)
+    with tempfile.TemporaryDirectory(prefix="hersey-order-") as folder:
+        for text in of_orders(program, folder):
+            off += 1
+            print(text, flush=True)
     return 1 if off else 0
 
 

@@ -201,6 +201,10 @@ class Bearing:
                 fed |= f.covers(phi, z, turn)
         return fed
 
+    def atmosphere(self):
+        """Its pressure on the scale that the model counts from [Pa]."""
+        return 1.01325e5 if self.pressures == "absolute" else 0.0
+
     def fed_pressures(self):
         """Of edges, line and features [Pa]."""
         line = [self.supply[1]] if self.supply else []

@@ -213,8 +213,8 @@ def check_gaps(b, results, f, motion, name, found):
 
 
 def land_of(b, f, k, row, motion):
-    """Gap without features, with what a column yields."""
-    yielded = (f.p[k] + f.p_asperity[k]) * (b.column[1] / b.column[0] if b.column else 0.0)
+    """Gap without features, with what a column yields to the pressure above the atmosphere's."""
+    yielded = (f.p[k] - b.atmosphere() + f.p_asperity[k]) * (b.column[1] / b.column[0] if b.column else 0.0)
     return b.land(motion.e[row], (0, 0), f.phi[:, None], f.z[None, :], motion.turn[row]) + yielded
 
 

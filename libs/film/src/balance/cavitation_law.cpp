@@ -7,17 +7,6 @@
 namespace hersey::film {
 namespace {
 
-// Without a fill fraction of their own, guembel and reynolds fade Couette shear out over a small range of u < 0, so
-// that the friction has no jump where a node cavitates: guembel over this part of the pressure scale; reynolds, whose u
-// < 0 is missing oil, over this part of what a gap that widens by c in a radian would miss.
-constexpr double fade_of_pressure = 1e-3, fade_of_slack = 1e-3;
-
-ValueAndSlope faded(double u, double range) {
-  if (u >= 0) return {1, 0};
-  const double share = std::max(0.0, 1 + u / range);
-  return {share, share > 0 ? 1 / range : 0};
-}
-
 ValueAndSlope positive_part(double u) { return u >= 0 ? ValueAndSlope{u, 1} : ValueAndSlope{}; }
 
 class Guembel final : public CavitationLaw {
@@ -26,10 +15,6 @@ class Guembel final : public CavitationLaw {
     return "guembel (half Sommerfeld: negative pressures dropped from the forces)";
   }
   [[nodiscard]] FilmPhase phase(double u, const CavitationScales& /*scales*/) const override { return {.p = {u, 1}}; }
-  [[nodiscard]] ValueAndSlope share(double u, const ValueAndSlope& /*theta*/,
-                                    const CavitationScales& scales) const override {
-    return faded(u, fade_of_pressure * scales.fill);
-  }
   [[nodiscard]] double broken_unknown(const BrokenRow& /*row*/, const CavitationScales& /*scales*/) const override {
     HERSEY_REQUIRE(false, "a film that bears tension is never broken");
     return 0;
@@ -45,10 +30,6 @@ class ReynoldsCondition final : public CavitationLaw {
   [[nodiscard]] FilmPhase phase(double u, const CavitationScales& /*scales*/) const override {
     return {.p = positive_part(u)};
   }
-  [[nodiscard]] ValueAndSlope share(double u, const ValueAndSlope& /*theta*/,
-                                    const CavitationScales& scales) const override {
-    return faded(u, fade_of_slack * scales.slack);
-  }
   [[nodiscard]] ValueAndSlope slack(double u) const override { return u < 0 ? ValueAndSlope{u, 1} : ValueAndSlope{}; }
   [[nodiscard]] double broken_unknown(const BrokenRow& row, const CavitationScales& /*scales*/) const override {
     return std::min(0.0, -row.full / (row.slack + row.drawn));
@@ -63,10 +44,6 @@ class MassConserving final : public CavitationLaw {
   [[nodiscard]] FilmPhase phase(double u, const CavitationScales& scales) const override {
     if (u >= 0) return {.p = {u, 1}};
     return {.p = {}, .theta = {1 + u / scales.fill, 1 / scales.fill}};
-  }
-  [[nodiscard]] ValueAndSlope share(double /*u*/, const ValueAndSlope& theta,
-                                    const CavitationScales& /*scales*/) const override {
-    return theta;
   }
   [[nodiscard]] double broken_unknown(const BrokenRow& row, const CavitationScales& scales) const override {
     const double slope = row.transport / scales.fill + row.drawn;

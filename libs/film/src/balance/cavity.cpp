@@ -25,16 +25,22 @@ class MiddleRow {
   [[nodiscard]] double step(int i) const { return at_.dphi(wrapped(i)); }
   [[nodiscard]] double angle(int i) const { return at_.phi[wrapped(i)]; }
 
-  /// Distance from the last node i of the film to its end, which lies before the next one in the direction of `sense`
-  /// [rad]. The pressure goes to zero there: with no slope where the film ruptures, straight where it re-forms or is
-  /// merely cut off. A node that holds a pressure ends the film itself.
+  /// Distance from the last node i of the film to its end, which lies before or in the volume of the next one in the
+  /// direction of `sense` [rad]. Where the film of a model without tension ruptures, or loses oil, of the next volume a
+  /// share is full (film.61, film.62); else the pressure falls straight. A node that holds a pressure ends the film
+  /// itself.
   [[nodiscard]] double reach(int i, int sense, bool is_rupture) const {
     if (balance_.balance_share(node(i)) < 1 || ends(sense > 0 ? i - 1 : i)) return 0;
+    const int broken = i + sense;
     const double gap = step(sense > 0 ? i : i - 1), back = step(sense > 0 ? i - 1 : i);
     const double last = std::max(value(i), 0.0), before = std::max(value(i - sense), 0.0);
-    if (cavitation_law(balance_.model()).has_tension()) return gap * last / (last - value(i + sense));
-    const double rise =
-        is_rupture ? std::sqrt(before / std::max(last, 1e-300)) - 1 : before / std::max(last, 1e-300) - 1;
+    const CavitationLaw& law = cavitation_law(balance_.model());
+    if (law.has_tension()) return gap * last / (last - value(broken));
+    if (is_rupture || law.loses_oil()) {
+      const double volume = 0.5 * (step(broken - 1) + step(broken));
+      return 0.5 * gap + (1 - balance_.broken_share(node(broken))) * volume;
+    }
+    const double rise = before / std::max(last, 1e-300) - 1;
     return rise > 0 ? std::min(back / rise, gap) : gap;
   }
 

@@ -215,6 +215,7 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   u_ = u;
   if (const FilmDomain domain = evaluate_nodes(motion, u); !domain.is_inside()) return domain;
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
+  find_borders();
   replace_boundary_rows();
   // A film without oil has no throughput to measure by: a thousandth of what its surfaces would carry in a full gap.
   const double carried =
@@ -256,7 +257,6 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
     balance_[i] = storage(i);
     throughput_[i] = std::max(std::abs(balance_[i]), std::abs(storage_g_rate(i) * g_rate_[i]));
   }
-  break_edges();
   return {};
 }
 
@@ -264,18 +264,6 @@ int FlowBalance::phase_node(int node) const {
   if (cavitation_.has_fill()) return node;
   while (is_given(node) && edge_unknown(node) == 0) node = edges_[node].inside;
   return node;
-}
-
-// An edge at p_cav has u = 0 whether the film beside it is full or broken: sheared as full, its half volumes would be
-// an error of the first order (film.49).
-void FlowBalance::break_edges() {
-  for (const int edge : given_) {
-    const int inside = phase_node(edge);
-    if (inside == edge) continue;
-    nodes_[edge].share = nodes_[inside].share, nodes_[edge].share_u = nodes_[inside].share_u;
-    nodes_[edge].other_share = nodes_[inside].other_share;
-    nodes_[edge].share_of = inside;
-  }
 }
 
 // What a row carries beside its balance: the slack of p >= p_cav, on an open edge the outflow or inflow.

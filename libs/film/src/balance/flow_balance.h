@@ -65,6 +65,18 @@ struct PocketFlow {
   Moment moment;
 };
 
+/// A control volume through which the border of a cavity goes, in a film without a fill fraction: what of it is full
+/// (film.60, film.61), with derivatives.
+struct CavityBorder {
+  int node = 0;
+  int of = 0;  ///< the node that tells: another one on an edge at p_cav
+  double share = 0;
+  double by_u = 0, by_h = 0;          ///< with u and film thickness at `of`
+  double by_rate = 0, by_turn = 0;    ///< with what SlidingChange tells
+  std::array<int, 4> beside{};        ///< nodes around `of`; -1: none
+  std::array<double, 4> by_beside{};  ///< with their u
+};
+
 /// Balance of oil (film.2) in every control volume, with the flows (film.1) over its faces, its Jacobian in u and its
 /// derivative along any change of the surfaces.
 ///
@@ -100,6 +112,10 @@ class FlowBalance {
   void take_stock(OilOfStep& oil) const;
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  /// Share of a control volume in which the film is broken (film.62) [-].
+  [[nodiscard]] double broken_share(int node) const;
+  /// Of a film without a fill fraction.
+  [[nodiscard]] const std::vector<CavityBorder>& borders() const { return borders_; }
   [[nodiscard]] const std::vector<RoughGap>& rough_gaps() const { return rough_; }
   [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
   [[nodiscard]] const std::vector<FaceFlow>& flows() const { return flows_; }
@@ -350,7 +366,11 @@ class FlowBalance {
   void take_motion(const SurfaceMotion& motion);
   /// States of the nodes, and the storage in their control volumes into the balance.
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
-  void break_edges();
+  void find_borders();
+  [[nodiscard]] CavityBorder cut_by_tension(int i, int j) const;
+  [[nodiscard]] CavityBorder filled_by_pressure(int i, int j) const;
+  void show_border(const CavityBorder& border);
+  void take_borders_to_edges();
   [[nodiscard]] NodeViscosity viscosity_of(int node) const;
   [[nodiscard]] bool is_layered() const { return viscosity_.fluidity.size() != 0; }
   static void skew(double skew, double h, RoughGap& gap);
@@ -409,6 +429,7 @@ class FlowBalance {
 
   std::vector<Node> nodes_;
   std::vector<RoughGap> rough_;
+  std::vector<CavityBorder> borders_;
   std::vector<FaceFlow> flows_;
   std::vector<double> values_;  ///< one more than the pattern: rows without a balance scatter there
   Eigen::VectorXd residual_, balance_, throughput_, g_rate_, content_start_, w_start_, gap_start_, u_;

@@ -32,12 +32,7 @@ SlidingChange change_of_sliding(const Eigen::Vector2d& slip, const Eigen::Vector
   return {by_log, 2 * (slip.x() * change.x() - around * by_log) / square};
 }
 
-CavitationScales cavitation_scales(const FilmModel& model) {
-  const double dphi = mean_step(model.grid);
-  const double slenderness = model.R * dphi * (model.grid.n_z - 1) / model.L;
-  const double fill = fill_scale(model);
-  return {.fill = fill, .slack = fill * dphi / (1 + slenderness * slenderness)};
-}
+CavitationScales cavitation_scales(const FilmModel& model) { return {.fill = fill_scale(model)}; }
 
 bool open_edge(const FilmModel& model, int node) {
   const Edge* edge = edge_of_node(model, node);
@@ -77,7 +72,7 @@ void NodeLaw::pressure_and_fill(double u, int at, Node& node) const {
   }
   node.p = phase.p.value, node.p_u = phase.p.slope;
   node.theta = phase.theta.value, node.theta_u = phase.theta.slope;
-  const ValueAndSlope share = cavitation_.share(u, phase.theta, scales_);
+  const ValueAndSlope share = cavitation_.has_fill() || u >= 0 ? phase.theta : ValueAndSlope{0};
   if (model_.cavitated_shear == CavitatedShear::full)
     node.other_share = share.value;
   else

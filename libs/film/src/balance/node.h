@@ -42,7 +42,6 @@ struct Node {
   double theta = 1, theta_u = 0;        ///< fill fraction [-]
   double share = 1, share_u = 0;        ///< share of the gap that carries Couette shear [-]
   double other_share = 1;               ///< what it would be with the other CavitatedShear [-]
-  int share_of = -1;                    ///< the node by whose u it goes; -1: this one
   std::array<Fluidity, 2> flow{};       ///< 1/mu, as flow along pressure sees it, around and along the axis
   double mu = 0, mu_u = 0, mu_h = 0;    ///< as sliding sees it [Pa s], at fixed h and at fixed u
   double mu_rate = 0;                   ///< with the logarithm of the sliding speed [Pa s]

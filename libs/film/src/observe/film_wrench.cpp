@@ -102,6 +102,7 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
     }
   }
   if (cavitation_law(model_).has_tension()) cut_off(nodes, want_gradient);
+  if (want_gradient && model_.cavitated_shear == CavitatedShear::film_share) add_borders(balance);
   pushes_.clear();
   if (balance.relief().has_pockets()) push_on_pocket_walls(balance, want_gradient);
   if (opening_.size() != 0) push_on_slopes(nodes, want_gradient);
@@ -193,13 +194,12 @@ FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap& rough, 
   Shear s;
   const double couette = node.share * node.mu / node.h;
   const double by_share = node.share_u * node.mu / node.h, by_mu = node.share * node.mu_u / node.h;
-  const double couette_u = by_mu + (node.share_of < 0 ? by_share : 0);
+  const double couette_u = by_mu + by_share;
   for (int k = 0; k < 2; ++k) {
     const double factor = rough.couette[k] * relief.value;
     const double factor_h = rough.couette_h[k] * relief.value + rough.couette[k] * relief.slope;
     s.couette[k] = couette * factor;
     s.couette_u[k] = couette_u * factor;
-    s.couette_share[k] = node.share_of < 0 ? 0 : by_share * factor;
     s.couette_h[k] = couette * (factor_h - factor / node.h) + node.share * node.mu_h / node.h * factor;
     s.couette_rate[k] = node.share * node.mu_rate / node.h * factor;
     s.half_gap[k] = 0.5 * (rough.mean + rough.drag[k]);
@@ -228,6 +228,31 @@ void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
       if (!want_gradient) continue;
       by_u_.col(full) += area * (t - 0.5 * t * t - 0.5) * normal;
       by_u_.col(cut) += 0.5 * area * t * t * normal;
+    }
+  }
+}
+
+// Of volumes that the border of a cavity cuts the share under shear follows the nodes around (film.60, film.61).
+void FilmWrench::add_borders(const FlowBalance& balance) {
+  for (const CavityBorder& border : balance.borders()) {
+    const int i = border.node / model_.grid.n_z, j = border.node % model_.grid.n_z;
+    const Row& row = rows_[static_cast<std::size_t>(j)];
+    Node full = balance.nodes()[border.node];
+    full.share = 1;
+    const Shear s =
+        shear_of(full, balance.rough_gaps()[border.node], relief_.empty() ? ValueAndSlope{1, 0} : relief_[border.node]);
+    const Basis b = basis(i, j);
+    const Vector6 whole = geometry_.weight(i, j) *
+                          (s.couette[0] * row.slip[0] * b.shear_along + s.couette[1] * row.slip[1] * b.shear_across);
+    const Node& telling = balance.nodes()[border.of];
+    by_u_.col(border.of) += (border.by_u + border.by_h * telling.h_u) * whole;
+    by_g_.col(border.of) += border.by_h * telling.h_g * whole;
+    for (std::size_t side = 0; side < 4; ++side)
+      if (border.beside[side] >= 0) by_u_.col(border.beside[side]) += border.by_beside[side] * whole;
+    for (const int k : {0, 1}) {
+      const SlidingChange change = change_of_sliding(row.slip, Eigen::Vector2d::Unit(k));
+      const double stretch = k == 0 ? row.stretch : 1;
+      by_slip_.col(k) += stretch * (border.by_rate * change.rate + border.by_turn * change.turn) * whole;
     }
   }
 }
@@ -294,8 +319,6 @@ void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap& rough,
   by_u_.col(k) +=
       node.h_u * by_h + area * (node.wall_u * b.normal + sheared(s.couette_u[0] * slip[0], s.couette_u[1] * slip[1]));
   by_g_.col(k) += node.h_g * by_h;
-  if (node.share_of >= 0)
-    by_u_.col(node.share_of) += area * sheared(s.couette_share[0] * slip[0], s.couette_share[1] * slip[1]);
   for (int n = 0; n < 3; ++n) {
     const double wall_phi = nodes[by_phi.node[n]].wall_u, wall_z = nodes[by_z.node[n]].wall_u;
     by_u_.col(by_phi.node[n]) -= area * s.half_gap[0] * by_phi.weight[n] * wall_phi * b.shear_along;

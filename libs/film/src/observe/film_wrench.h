@@ -58,7 +58,6 @@ class FilmWrench {
   /// z.
   struct Shear {
     Eigen::Vector2d couette, couette_u, couette_h;  ///< [Pa s/m] and slopes at given film thickness and at given u
-    Eigen::Vector2d couette_share;                  ///< with the u of the node by which the share goes, if another
     Eigen::Vector2d couette_rate;                   ///< with the logarithm of the sliding speed [Pa s/m]
     Eigen::Vector2d half_gap, half_gap_h;           ///< [m]
   };
@@ -68,6 +67,7 @@ class FilmWrench {
   void push_on_pocket_walls(const FlowBalance& balance, bool want_gradient);
   [[nodiscard]] Vector6 pushes_along(const MotionDirection& direction) const;
   void cut_off(const std::vector<Node>& nodes, bool want_gradient);
+  void add_borders(const FlowBalance& balance);
   void push_on_slopes(const std::vector<Node>& nodes, bool want_gradient);
   void set_speeds(const SurfaceMotion& motion);
 

@@ -96,11 +96,9 @@ Peak largest_pressure_of(const FlowBalance& balance, const Eigen::VectorXd& p, d
 }
 
 /// Flows over the boundaries, storage and volume (film.55).
-void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const Eigen::VectorXd& u,
-                 FilmObservables& o) {
+void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmObservables& o) {
   const FilmModel& model = balance.model();
   const Grid& grid = model.grid;
-  const double u_round_off = 1e-9 * fill_scale(model);
   double cavitated = 0, total = 0, outflow = 0, gross = 0;
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
@@ -110,7 +108,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, const 
       o.storage_rate += balance.storage(k);
       o.oil_volume += area * node.content * balance.oil_gap(k);
       total += area;
-      if (u[balance.phase_node(k)] < -u_round_off) cavitated += area;
+      cavitated += area * balance.broken_share(k);
       balance.flow_over_edge(o, k) += balance.acting_outflow(k);
       outflow += balance.outflow(k);
       gross += std::abs(balance.outflow(k)) + std::abs(balance.storage(k));
@@ -207,7 +205,7 @@ FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& 
   o.p_max_node = fields.p.maxCoeff();
   observe_forces(balance, wrench, e, tilt, o);
   o.normal_forces = wrench.normal().value;
-  observe_oil(balance, motion, u, o);
+  observe_oil(balance, motion, o);
   const Cavity cavity = widest_cavity(balance, u, motion.u_shell + motion.u_journal < 0);
   o.rupture_angle = cavity.rupture, o.reformation_angle = cavity.reformation;
   o.sliding_speed = std::hypot(motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell);

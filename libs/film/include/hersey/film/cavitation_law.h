@@ -13,10 +13,9 @@ enum class Cavitation {
   mass_conserving,  ///< pressure or fill fraction in each node (Jakobsson-Floberg-Olsson)
 };
 
-/// Where u < 0 tells something else than a pressure, by how much of it [Pa], > 0 each.
+/// Where u < 0 tells something else than a pressure, by how much of it [Pa], > 0.
 struct CavitationScales {
-  double fill = 1;   ///< P0: -u of an empty gap (film.6)
-  double slack = 1;  ///< -u where the film misses all that a gap widening by c in a radian asks for (film.20)
+  double fill = 1;  ///< P0: -u of an empty gap (film.6)
 };
 
 /// What a node's unknown u means for the film (film.3 to film.6), derivatives by u.
@@ -44,9 +43,6 @@ class CavitationLaw {
   [[nodiscard]] virtual std::string_view text() const = 0;
   /// Pressure and fill fraction.
   [[nodiscard]] virtual FilmPhase phase(double u, const CavitationScales& scales) const = 0;
-  /// Share of the gap that carries Couette shear in the film's share alone (film.49) [-]. @param theta  of this u
-  [[nodiscard]] virtual ValueAndSlope share(double u, const ValueAndSlope& theta,
-                                            const CavitationScales& scales) const = 0;
   /// What the row carries beside the balance of oil, over the slack's conductance [Pa] (film.20).
   [[nodiscard]] virtual ValueAndSlope slack(double u) const;
   /// The u <= 0 that solves a row of a broken film [Pa].

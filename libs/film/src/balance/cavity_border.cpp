@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cmath>
+
+#include "balance/flow_balance.h"
+
+// Where the border of a cavity cuts control volumes of a film without a fill fraction: counted as full or broken as
+// their nodes are, the shear of the film would be of the first order.
+namespace hersey::film {
+namespace {
+
+// Of P0: unknowns below it are nothing.
+constexpr double kNoPressure = 1e-9;
+
+/// Differences of a field over a control volume: sum of weight[k] * (field at beside[k]) + own * (field at its node).
+struct Fall {
+  double own = 0;
+  std::array<double, 2> weight{};
+};
+
+// Half a volume lies towards each neighbour; without one there is none on that side.
+Fall fall_over_volume(int before, int after) {
+  return {(before >= 0 ? 0.5 : 0) - (after >= 0 ? 0.5 : 0), {before >= 0 ? -0.5 : 0, after >= 0 ? 0.5 : 0}};
+}
+
+}  // namespace
+
+// Of a film that bears tension u is a pressure on both sides of the border (film.60).
+CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
+  const Grid& grid = model_.grid;
+  const int k = grid.index(i, j), before = grid.before(i), after = grid.next(i);
+  CavityBorder border{.node = k, .of = k, .share = u_[k] >= 0 ? 1.0 : 0.0};
+  border.beside = {before < 0 ? -1 : grid.index(before, j), after < 0 ? -1 : grid.index(after, j), j > 0 ? k - 1 : -1,
+                   j + 1 < grid.n_z ? k + 1 : -1};
+  double range = 0, range_own = 0, middle = u_[k], middle_own = 1;
+  std::array<double, 4> range_by{}, middle_by{};
+  for (const std::size_t pair : {0U, 2U}) {
+    const Fall fall = fall_over_volume(border.beside[pair], border.beside[pair + 1]);
+    double over = fall.own * u_[k];
+    for (const std::size_t side : {0U, 1U}) {
+      const int other = border.beside[pair + side];
+      if (other < 0) continue;
+      over += fall.weight[side] * u_[other];
+      if (fall.own == 0) continue;
+      // Half a volume on an edge has its middle a quarter of the way to the next node.
+      middle += 0.25 * (u_[other] - u_[k]), middle_own -= 0.25, middle_by[pair + side] += 0.25;
+    }
+    const double sign = over < 0 ? -1 : 1;
+    range += std::abs(over), range_own += sign * fall.own;
+    for (const std::size_t side : {0U, 1U}) range_by[pair + side] += sign * fall.weight[side];
+  }
+  // Where there is no pressure at all, there is no border either.
+  const double share = range + std::abs(middle) > kNoPressure * fill_scale(model_) ? 0.5 + middle / range : 1;
+  border.share = std::clamp(share, 0.0, 1.0);
+  if (share <= 0 || share >= 1) return border;
+  const auto slope = [&](double of_middle, double of_range) { return (of_middle - middle / range * of_range) / range; };
+  border.by_u = slope(middle_own, range_own);
+  for (std::size_t side = 0; side < 4; ++side) border.by_beside[side] = slope(middle_by[side], range_by[side]);
+  return border;
+}
+
+// In a broken volume -D0 u is missing; what pressure presses in fills its share of what would be missing without
+// (film.61).
+CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
+  const Grid& grid = model_.grid;
+  const int k = grid.index(i, j), before = grid.before(i), after = grid.next(i);
+  CavityBorder border{.node = k, .of = k, .share = u_[k] >= 0 ? 1.0 : 0.0};
+  if (u_[k] >= -kNoPressure * fill_scale(model_)) border.share = 1;
+  if (border.share == 1 || is_held(k) || is_given(k)) return border;
+  border.beside = {before < 0 ? -1 : grid.index(before, j), after < 0 ? -1 : grid.index(after, j), j > 0 ? k - 1 : -1,
+                   j + 1 < grid.n_z ? k + 1 : -1};
+  const std::array<std::size_t, 4> faces{before < 0 ? 0 : face_after(before, j), face_after(i, j),
+                                         j > 0 ? face_above(i, j - 1) : 0, j + 1 < grid.n_z ? face_above(i, j) : 0};
+  const Node& node = nodes_[k];
+  const double cube = node.h * node.h * node.h;
+  double in = 0, in_by_h = 0, in_by_rate = 0, in_by_turn = 0;
+  std::array<double, 4> in_by{};
+  for (std::size_t side = 0; side < 4; ++side) {
+    const int other = border.beside[side];
+    if (other < 0 || u_[other] <= 0 || is_cut(faces[side])) continue;
+    const Face& face = faces_[faces[side]];
+    const Fluidity& flow = node.flow[side < 2 ? 0 : 1];
+    const double unit = face.width / (12 * face.length), pressed = unit * u_[other];
+    in_by[side] = unit * cube * flow.value;
+    in += in_by[side] * u_[other];
+    in_by_h += pressed * (3 * node.h * node.h * flow.value + cube * flow.h);
+    in_by_rate += pressed * cube * flow.rate, in_by_turn += pressed * cube * flow.turn;
+  }
+  const double missing = -D0_ * u_[k], whole = in + missing;
+  if (in == 0) return border;
+  border.share = in / whole;
+  const double by_in = missing / (whole * whole);
+  border.by_u = D0_ * in / (whole * whole), border.by_h = by_in * in_by_h;
+  border.by_rate = by_in * in_by_rate, border.by_turn = by_in * in_by_turn;
+  for (std::size_t side = 0; side < 4; ++side) border.by_beside[side] = by_in * in_by[side];
+  return border;
+}
+
+void FlowBalance::show_border(const CavityBorder& border) {
+  Node& node = nodes_[border.node];
+  (model_.cavitated_shear == CavitatedShear::full ? node.other_share : node.share) = border.share;
+  if (border.share > 0 && border.share < 1) borders_.push_back(border);
+}
+
+// An edge at p_cav has u = 0 whether the film beside it is full or broken: it is what the next node is.
+void FlowBalance::take_borders_to_edges() {
+  const std::vector<CavityBorder> inside = borders_;
+  for (const int edge : given_) {
+    const int next = phase_node(edge);
+    if (next == edge) continue;
+    nodes_[edge].share = nodes_[next].share, nodes_[edge].other_share = nodes_[next].other_share;
+    for (const CavityBorder& border : inside) {
+      if (border.node != next) continue;
+      borders_.push_back(border);
+      borders_.back().node = edge;
+    }
+  }
+}
+
+// Where oil is conserved, what pressure presses in fills a share of what would be missing without it.
+double FlowBalance::broken_share(int node) const {
+  const Node& at = nodes_[node];
+  if (!cavitation_.has_fill()) return 1 - (model_.cavitated_shear == CavitatedShear::full ? at.other_share : at.share);
+  if (u_[node] >= -kNoPressure * fill_scale(model_)) return 0;
+  const Grid& grid = model_.grid;
+  const int i = node / grid.n_z, j = node % grid.n_z, before = grid.before(i);
+  double in = 0, carried = 0;  // by pressure; out of a full gap by the surfaces
+  const auto count = [&](std::size_t f) {
+    const Face& face = faces_[f];
+    in += flows_[f].K * nodes_[face.a == node ? face.b : face.a].p;
+    carried += std::max(face.a == node ? flows_[f].couette : -flows_[f].couette, 0.0);
+  };
+  if (before >= 0) count(face_after(before, j));
+  if (grid.next(i) >= 0) count(face_after(i, j));
+  if (j > 0) count(face_above(i, j - 1));
+  if (j + 1 < grid.n_z) count(face_above(i, j));
+  const double missing = (1 - at.theta) * carried;
+  return missing > 0 ? missing / (in + missing) : 1;
+}
+
+void FlowBalance::find_borders() {
+  borders_.clear();
+  if (cavitation_.has_fill()) return;
+  const Grid& grid = model_.grid;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (int j = 0; j < grid.n_z; ++j)
+      show_border(cavitation_.has_tension() ? cut_by_tension(i, j) : filled_by_pressure(i, j));
+  }
+  if (cavitation_.loses_oil()) take_borders_to_edges();
+}
+
+}  // namespace hersey::film
