@@ -8,8 +8,12 @@
 namespace hersey::film {
 namespace {
 
-// Of P0: unknowns below it are nothing.
+// Of P0: unknowns below it are round-off.
 constexpr double kNoPressure = 1e-9;
+
+// Tension and missing oil below these shares of their scales do not break a film: a journal at the centre has no
+// cavity, and one near it no torque that jumps.
+constexpr double kLeastTension = 5e-4, kLeastSlack = 1e-3;
 
 /// Differences of a field over a control volume: sum of weight[k] * (field at beside[k]) + own * (field at its node).
 struct Fall {
@@ -28,10 +32,11 @@ Fall fall_over_volume(int before, int after) {
 CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j), before = grid.before(i), after = grid.next(i);
-  CavityBorder border{.node = k, .of = k, .share = u_[k] >= 0 ? 1.0 : 0.0};
+  CavityBorder border{.node = k, .of = k};
   border.beside = {before < 0 ? -1 : grid.index(before, j), after < 0 ? -1 : grid.index(after, j), j > 0 ? k - 1 : -1,
                    j + 1 < grid.n_z ? k + 1 : -1};
-  double range = 0, range_own = 0, middle = u_[k], middle_own = 1;
+  const double least = kLeastTension * fill_scale(model_);
+  double range = 2 * least, range_own = 0, middle = u_[k] + least, middle_own = 1;
   std::array<double, 4> range_by{}, middle_by{};
   for (const std::size_t pair : {0U, 2U}) {
     const Fall fall = fall_over_volume(border.beside[pair], border.beside[pair + 1]);
@@ -48,8 +53,7 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
     range += std::abs(over), range_own += sign * fall.own;
     for (const std::size_t side : {0U, 1U}) range_by[pair + side] += sign * fall.weight[side];
   }
-  // Where there is no pressure at all, there is no border either.
-  const double share = range + std::abs(middle) > kNoPressure * fill_scale(model_) ? 0.5 + middle / range : 1;
+  const double share = 0.5 + middle / range;
   border.share = std::clamp(share, 0.0, 1.0);
   if (share <= 0 || share >= 1) return border;
   const auto slope = [&](double of_middle, double of_range) { return (of_middle - middle / range * of_range) / range; };
@@ -64,8 +68,7 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j), before = grid.before(i), after = grid.next(i);
   CavityBorder border{.node = k, .of = k, .share = u_[k] >= 0 ? 1.0 : 0.0};
-  if (u_[k] >= -kNoPressure * fill_scale(model_)) border.share = 1;
-  if (border.share == 1 || is_held(k) || is_given(k)) return border;
+  if (u_[k] >= 0 || is_held(k) || is_given(k)) return border;
   border.beside = {before < 0 ? -1 : grid.index(before, j), after < 0 ? -1 : grid.index(after, j), j > 0 ? k - 1 : -1,
                    j + 1 < grid.n_z ? k + 1 : -1};
   const std::array<std::size_t, 4> faces{before < 0 ? 0 : face_after(before, j), face_after(i, j),
@@ -85,11 +88,12 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
     in_by_h += pressed * (3 * node.h * node.h * flow.value + cube * flow.h);
     in_by_rate += pressed * cube * flow.rate, in_by_turn += pressed * cube * flow.turn;
   }
-  const double missing = -D0_ * u_[k], whole = in + missing;
+  const double missing = -D0_ * u_[k], least = kLeastSlack * D0_ * cavitation_scales(model_).slack;
+  if (missing < least) in += least - missing;
+  border.share = in / (in + missing);
   if (in == 0) return border;
-  border.share = in / whole;
-  const double by_in = missing / (whole * whole);
-  border.by_u = D0_ * in / (whole * whole), border.by_h = by_in * in_by_h;
+  const double whole = in + missing, by_in = missing / (whole * whole), by_missing = -in / (whole * whole);
+  border.by_u = -D0_ * (by_missing - (missing < least ? by_in : 0)), border.by_h = by_in * in_by_h;
   border.by_rate = by_in * in_by_rate, border.by_turn = by_in * in_by_turn;
   for (std::size_t side = 0; side < 4; ++side) border.by_beside[side] = by_in * in_by[side];
   return border;

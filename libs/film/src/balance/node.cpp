@@ -32,7 +32,12 @@ SlidingChange change_of_sliding(const Eigen::Vector2d& slip, const Eigen::Vector
   return {by_log, 2 * (slip.x() * change.x() - around * by_log) / square};
 }
 
-CavitationScales cavitation_scales(const FilmModel& model) { return {.fill = fill_scale(model)}; }
+CavitationScales cavitation_scales(const FilmModel& model) {
+  const double dphi = mean_step(model.grid);
+  const double slenderness = model.R * dphi * (model.grid.n_z - 1) / model.L;
+  const double fill = fill_scale(model);
+  return {.fill = fill, .slack = fill * dphi / (1 + slenderness * slenderness)};
+}
 
 bool open_edge(const FilmModel& model, int node) {
   const Edge* edge = edge_of_node(model, node);

@@ -6,6 +6,12 @@
 
 // Rows of the residual that supply line and features have a part in (film.21, film.22).
 namespace hersey::film {
+namespace {
+
+// Share of a node's own balance in its row below which it lies on line or feature.
+constexpr double kNoWay = 1e-6;
+
+}  // namespace
 
 const FlowBalance::HeldNode* FlowBalance::held_at(int node) const {
   const int index = held_index_[node];
@@ -63,7 +69,8 @@ bool FlowBalance::only_fills(int node) const {
 
 double FlowBalance::power_of_tie(int node) const {
   const HeldNode* held = held_at(node);
-  if (held == nullptr || held->chi == 1) return 0;
+  // As good as on what holds it there is no way left; what its pressure is off by, round-off, would count over nothing.
+  if (held == nullptr || 1 - held->chi < kNoWay) return 0;
   const double drop = nodes_[node].p - held->u, acting = nodes_[node].wall - model_.p_cav - held->u;
   return tie(*held).k / (nodes_[node].density * (1 - held->chi)) * drop * acting;
 }

@@ -6,12 +6,15 @@
 
 namespace hersey::bearing {
 
-/// The same film at the same position of the journal on grids whose lines lie further on by a quarter, half and three
-/// quarters of a cell, temperatures as they are; those of them that are found.
+/// A film on a grid whose lines lie elsewhere.
 struct TurnedFilm {
   film::FilmModel model;
   SteadyState state;
 };
+
+/// The film of `state` at the same position of the journal on grids whose lines lie further on by a quarter, half and
+/// three quarters of a cell, temperatures as they are; those of them that are found.
+/// @param model, options  with which `state` was solved
 [[nodiscard]] std::vector<TurnedFilm> turned_films(const film::FilmModel& model, const SteadyState& state,
                                                    const SteadyOptions& options);
 

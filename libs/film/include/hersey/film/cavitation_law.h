@@ -13,9 +13,10 @@ enum class Cavitation {
   mass_conserving,  ///< pressure or fill fraction in each node (Jakobsson-Floberg-Olsson)
 };
 
-/// Where u < 0 tells something else than a pressure, by how much of it [Pa], > 0.
+/// Where u < 0 tells something else than a pressure, by how much of it [Pa], > 0 each.
 struct CavitationScales {
-  double fill = 1;  ///< P0: -u of an empty gap (film.6)
+  double fill = 1;   ///< P0: -u of an empty gap (film.6)
+  double slack = 1;  ///< -u where the film misses all that a gap widening by c in a radian asks for (film.20)
 };
 
 /// What a node's unknown u means for the film (film.3 to film.6), derivatives by u.
