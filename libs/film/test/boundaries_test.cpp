@@ -2,8 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "film_cases.h"
+#include "hersey/film/body_journal.h"
+#include "hersey/film/cavitated_shear.h"
 #include "hersey/film/gap_shape.h"
 #include "hersey/film/heat_state.h"
 #include "relative.h"
@@ -80,6 +84,80 @@ TEST_CASE("Laws_AtTheEndOfTheirRange") {
   CHECK(vogel.log_viscosity(vogel.c + 0.05).value == vogel.log_viscosity(vogel.c - 20).value);
   CHECK(vogel.log_viscosity(vogel.c + 0.05).slope == 0);
   CHECK(vogel.log_viscosity(vogel.c + 0.2).slope < 0);
+}
+
+TEST_CASE("OilAtATemperature_HasTheViscosityAndDensityOfItsLaws") {
+  const double T = 353.15;
+  const WaltherViscosity walther = WaltherViscosity::through(100e-6, 11e-6, 880);
+  const Lubricant mineral = at_temperature({.temperature_law = walther}, T);
+  CHECK(mineral.mu0 == walther.viscosity(T));
+  CHECK(mineral.density == walther.density(T));
+  const Lubricant plain{.mu0 = 0.02, .density = 850}, same = at_temperature(plain, T);  // that knows no temperatures
+  CHECK(same.mu0 == plain.mu0);
+  CHECK(same.density == plain.density);
+  const Lubricant thinned = at_temperature({.temperature_law = ExponentialViscosity{.mu_ref = 0.03, .T_ref = T}}, T);
+  CHECK(thinned.mu0 == relative(0.03).epsilon(1e-15));  // round-off
+}
+
+TEST_CASE("CavitatedShear_IsToldByTheChoiceThatWasMade") {
+  const std::string full = choice_in_words(CavitatedShear::full), share = choice_in_words(CavitatedShear::film_share);
+  CHECK(full.find("over the whole gap (`cavitated_shear: full`)") < full.find("`film_share`"));
+  CHECK(share.find("the oil's share of the gap (`cavitated_shear: film_share`)") < share.find("(`full`)"));
+}
+
+TEST_CASE("JournalThatKeepsItsShape_HasNoneOnAnyGrid") {
+  const JournalConduction plain{.T0 = 320, .rise = 0.1}, seen = on_grid(plain, {.n_z = 5}, {.n_z = 9});
+  CHECK(!seen.deforms());
+  CHECK(seen.rise == plain.rise);
+  CHECK(around({.n_phi = 6, .n_z = 5}, seen.shape0).size() == 0);
+  const Eigen::VectorXd shape = Eigen::VectorXd::LinSpaced(5, 0, 4);
+  CHECK(around({.n_phi = 6, .n_z = 5}, shape).segment(10, 5) == shape);
+}
+
+TEST_CASE("Grids_KeepWhatTheyAreNotAskedToChange") {
+  const Grid pads = patch_grid({{0.5, 1.5, 11}, {2, 2.6, 7}}, 5), finer = resampled(pads, pads.n_phi, 9);
+  CHECK(finer.n_z == 9);
+  CHECK(finer.patches.size() == 2);
+  for (int i = 0; i < pads.n_phi; ++i) CHECK(finer.phi(i) == pads.phi(i));
+  const Grid along = graded_grid(24, 9, {}, {{.place = 0.5, .reach = 0.1, .factor = 4}});
+  CHECK(along.angles.empty());  // equal angles
+  CHECK(along.z_over_L(8) - along.z_over_L(7) < along.z_over_L(1) - along.z_over_L(0));
+}
+
+TEST_CASE("SurfacesThatAreNoNumbers_AreToldWithTheirPlace") {
+  const FilmModel m;
+  const SurfaceMotion sound = surfaces(m, turning(m, 0.5, 100));
+  const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+  const int node = m.grid.index(7, 3);
+  for (Eigen::VectorXd SurfaceMotion::*member : {&SurfaceMotion::g, &SurfaceMotion::g_rate}) {
+    SurfaceMotion broken = sound;
+    (broken.*member)[node] = std::numeric_limits<double>::quiet_NaN();
+    Reynolds reynolds(m);
+    const FilmDomain domain = reynolds.linearise(broken, {}, u);
+    CHECK(domain.trouble == Trouble::not_finite);
+    CHECK(domain.node == node);
+    CHECK(reynolds.linearise(sound, {}, u).is_inside());
+  }
+}
+
+// What is kept of a factor decides the round-off of later ones.
+TEST_CASE("RestoredReynolds_GoesOnToTheSameBits") {
+  const FilmModel m;
+  const SurfaceMotion first = surfaces(m, turning(m, 0.5, 100)), later = surfaces(m, turning(m, 0.7, 80));
+  const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+  Reynolds saved(m), restored(m);
+  Eigen::VectorXd du, other;
+  REQUIRE((saved.linearise(first, {}, u).is_inside() && restored.linearise(later, {}, u).is_inside()));
+  saved.newton_increment(du), restored.newton_increment(other);
+  Archive out;
+  saved.persist(out);
+  Archive in(out.content());
+  restored.persist(in);
+  CHECK(saved.has_factor());
+  CHECK(!restored.has_factor());  // of what it saw before
+  REQUIRE((saved.linearise(later, {}, u).is_inside() && restored.linearise(later, {}, u).is_inside()));
+  saved.newton_increment(du), restored.newton_increment(other);
+  CHECK(du == other);
 }
 
 TEST_CASE("BalanceOfNoHeat_HasNoError") {

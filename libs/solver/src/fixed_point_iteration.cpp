@@ -81,7 +81,7 @@ Eigen::VectorXd FixedPointIteration::quasi_newton(const Eigen::VectorXd& image, 
     const Eigen::VectorXd share = Q.leftCols(count).transpose() * V.col(k);
     Eigen::VectorXd independent = V.col(k) - Q.leftCols(count) * share;
     const double norm = independent.norm();
-    if (norm <= kIndependence * V.col(k).norm() || norm == 0) continue;
+    if (norm <= kIndependence * V.col(k).norm()) continue;
     Q.col(count) = independent / norm;
     C.col(count) = (W.col(k) - C.leftCols(count) * share) / norm;
     ++count;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "fast_motions.h"
@@ -161,8 +160,7 @@ void GeneralizedAlpha::Workspace::measure(Equations& equations, const Generalize
   worst_index = 0;
   for (Index i = 0; i < n; ++i) {
     if (residual[i] == 0) continue;
-    const double ratio =
-        tolerance[i] > 0 ? std::abs(residual[i]) / tolerance[i] : std::numeric_limits<double>::infinity();
+    const double ratio = std::abs(residual[i]) / tolerance[i];
     if (ratio <= worst_row) continue;
     worst_row = ratio;
     worst_index = i;

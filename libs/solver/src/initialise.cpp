@@ -40,7 +40,7 @@ std::vector<std::string> names_of(const Equations& equations, const std::vector<
   return names;
 }
 
-/// Residuals of equal name together, the widest open first.
+/// Residuals of equal name together, the widest open first. @pre there are constraints
 std::vector<OpenConstraint> open_constraints(Equations& equations, const State& state) {
   VectorXd phi, scale;
   equations.constraints(state, phi, scale, nullptr);
@@ -53,7 +53,7 @@ std::vector<OpenConstraint> open_constraints(Equations& equations, const State& 
     found->size = std::hypot(found->size, phi[i]);
   }
   std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.size > b.size; });
-  const double least = open.empty() ? 0 : 1e-3 * open.front().size;
+  const double least = 1e-3 * open.front().size;
   std::erase_if(open, [&](const OpenConstraint& one) { return one.size < least; });
   return open;
 }
@@ -156,6 +156,7 @@ bool report_redundancy(Equations& equations, const State& state, bool assembled,
   RankAnalysis rank = analyse_rank(MatrixXd(G));
   // Rows that repeat others but hold all the same are not what keeps a loop open.
   if (!assembled) {
+    equations.constraints(state, phi, scale, nullptr);
     const double least = 1e-9 * phi.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
     std::erase_if(rank.involved, [&](Index row) { return std::abs(phi[row]) <= least * scale[row]; });
   }

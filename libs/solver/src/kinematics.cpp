@@ -47,6 +47,12 @@ KinematicsSummary solve_kinematics(Equations& equations, State& state) {
                    fmt::format("t = {:.9g} s: the mechanism cannot follow its drives: {} stays open by {:.3g}", trial.t,
                                equations.name_of_row(nv + worst), phi[worst]));
   }
+  // At a dead point drives and constraints no longer prescribe the motion, and rates and forces grow without bound.
+  summary.undetermined = free_coordinates(equations, trial);
+  if (!summary.undetermined.empty())
+    return failure(summary, KinematicsStatus::undetermined,
+                   fmt::format("t = {:.9g} s: a dead point: drives and joints do not prescribe the motion of {} here",
+                               trial.t, fmt::join(summary.undetermined, ", ")));
   VectorXd velocity, gamma, phi, scale;
   Equations::SparseMatrix G;
   equations.constraints(trial, phi, scale, &G);
@@ -59,12 +65,9 @@ KinematicsSummary solve_kinematics(Equations& equations, State& state) {
     return failure(summary, KinematicsStatus::singular, fmt::format("t = {:.9g} s: {}", trial.t, forces.message));
   equations.constraint_rates(trial, velocity, gamma);
   AccelerationSolution solution = solve_kkt(S, nv, h, gamma);
-  // At a dead point drives and constraints no longer prescribe the motion, and forces grow without bound.
-  summary.undetermined = free_coordinates(equations, trial);
-  if (!summary.undetermined.empty() || !solution.undetermined.empty() || !solution.vdot.allFinite())
-    return failure(summary, KinematicsStatus::undetermined,
-                   fmt::format("t = {:.9g} s: a dead point: drives and joints do not prescribe the motion of {} here",
-                               trial.t, fmt::join(summary.undetermined, ", ")));
+  if (!solution.vdot.allFinite())
+    return failure(summary, KinematicsStatus::singular,
+                   fmt::format("t = {:.9g} s: the accelerations are not numbers: look at the drives", trial.t));
   trial.vdot = std::move(solution.vdot);
   trial.lambda = std::move(solution.lambda);
   state = std::move(trial);

@@ -153,14 +153,14 @@ class SparseKkt {
       y.tail(y.size() - nv).setZero();
       lu_.solve({y.data(), static_cast<std::size_t>(y.size())});
       largest = std::max(largest, y.head(nv).norm());
-      if (!y.allFinite() || largest * kLeastInertia > 1) return false;
+      if (largest * kLeastInertia > 1) return false;
     }
     return true;
   }
 
   /// Solves S x = b, refined; false where that leaves more than round-off.
+  /// @pre the matrix could be factorised
   [[nodiscard]] bool solve(const VectorXd& b, VectorXd& x) const {
-    if (!factorised_) return false;
     x = VectorXd::Zero(b.size());
     VectorXd r = b;
     for (int pass = 0; pass < 3; ++pass) {
@@ -251,7 +251,7 @@ bool has_full_rank(const Equations::SparseMatrix& G) {
   Eigen::SparseQR<Equations::SparseMatrix, Eigen::COLAMDOrdering<int>> qr;
   qr.setPivotThreshold(kRankThreshold);
   qr.compute(columns);
-  return qr.info() == Eigen::Success && qr.rank() == G.rows();
+  return qr.rank() == G.rows();
 }
 
 VectorXd smallest_increment(const Equations::SparseMatrix& G, const VectorXd& residual, const VectorXd& weight) {

@@ -154,8 +154,6 @@ Modes find_modes(const Linearisation& linear) {
   refine_slow(linear, fastest, roots);
   for (const Root& root : roots) {
     if (root.s.imag() < 0) continue;
-    const double y_largest = (linear.Z * root.y).cwiseAbs().maxCoeff();
-    if (!(y_largest > 0)) continue;
     found.modes.push_back(mode_of(root.s, root.y, linear.Z));
     if (root.s.real() > root.doubt) found.stable = false;
   }

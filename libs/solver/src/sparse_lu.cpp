@@ -2,7 +2,6 @@
 
 #include <klu.h>
 
-#include <cmath>
 #include <vector>
 
 #include "hersey/core/contract.h"
@@ -48,21 +47,21 @@ struct SparseLu::Impl {
     ++pivotings;
     pivoted.assign(values.begin(), values.end());
     numeric = klu_factor(column_start.data(), row_index.data(), unconst(values), symbolic, &common);
-    return numeric && common.status == KLU_OK && condition_is_sound();
+    return numeric && condition_is_sound();
   }
 
   bool reuse_pivots(std::span<const double> values) {
     int* Ap = column_start.data();
     int* Ai = row_index.data();
-    return klu_refactor(Ap, Ai, unconst(values), symbolic, numeric, &common) && common.status == KLU_OK &&
-           klu_rgrowth(Ap, Ai, unconst(values), symbolic, numeric, &common) && common.rgrowth > smallest_pivot_growth &&
-           condition_is_sound();
+    if (!klu_refactor(Ap, Ai, unconst(values), symbolic, numeric, &common)) return false;
+    klu_rgrowth(Ap, Ai, unconst(values), symbolic, numeric, &common);
+    return common.rgrowth > smallest_pivot_growth && condition_is_sound();
   }
 
   bool condition_is_sound() {
     klu_rcond(symbolic, numeric, &common);
     rcond = common.rcond;
-    return std::isfinite(rcond) && rcond > smallest_reciprocal_condition;
+    return rcond > smallest_reciprocal_condition;
   }
 };
 

@@ -96,7 +96,8 @@ class StaticDeformation {
     return summary_;
   }
 
-  /// Velocities that the constraints allow here, the independent ones as they are.
+  /// Velocities that the constraints allow here, the independent ones as they are; false, with `trouble_`, where they
+  /// do not determine them.
   bool project_velocities(State& at) {
     const Index nlambda = equations_.nlambda();
     if (nlambda == 0) return true;
@@ -108,7 +109,9 @@ class StaticDeformation {
     for (Index i = 0; i < nlambda; ++i) by_dependent.col(i) = G.col(unknowns_.dependent[static_cast<std::size_t>(i)]);
     const VectorXd change = by_dependent.partialPivLu().solve(-velocity);
     for (Index i = 0; i < nlambda; ++i) at.v[unknowns_.dependent[static_cast<std::size_t>(i)]] += change[i];
-    return change.allFinite();
+    if (change.allFinite()) return true;
+    trouble_ = "the constraints do not determine the velocities";
+    return false;
   }
 
   /// Assembles with what is condensed solved; false, with `trouble_`, outside the domain of the equations.
@@ -148,7 +151,7 @@ class StaticDeformation {
     worst_ = 0;
     const auto judge = [&](Index row, double residual, double tolerance) {
       if (residual == 0) return;
-      const double ratio = tolerance > 0 ? std::abs(residual) / tolerance : std::numeric_limits<double>::infinity();
+      const double ratio = std::abs(residual) / tolerance;
       if (ratio <= worst_) return;
       worst_ = ratio;
       worst_row_ = equations_.name_of_row(row);

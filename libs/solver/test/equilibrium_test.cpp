@@ -7,9 +7,14 @@
 #include <numbers>
 
 #include "one_coordinate.h"
+#include "several_coordinates.h"
 
 namespace hersey::solver {
 namespace equilibrium_test {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
 
 constexpr double pi = std::numbers::pi;
 constexpr double solved = 1e-9;  // Newton's method goes on until it changes nothing; the rows ask for 1e-10
@@ -136,6 +141,199 @@ TEST_CASE("SteadyMotion_KeepsItsVelocityAndStandsStillInTheRest") {
   State still = spring.at(0.1, 0);
   REQUIRE(find_equilibrium(spring, still, {.turning = true}).solved());
   CHECK(std::abs(still.q[0] - 0.4) < solved);
+}
+
+/// From q with accelerations of nothing, which tell the search nothing of how far forces push: its first step is a long
+/// one.
+State without_pull(const test::OneCoordinate& p, double q) {
+  State state = p.at(q, 0);
+  state.vdot.setZero();
+  return state;
+}
+
+TEST_CASE("StepsThatAreTooLong_AreTakenBack") {
+  test::OneCoordinate hard = with_force(-1, 1e-3, 1000);
+  State over = without_pull(hard, 0);  // the first step ends where the spring pulls back seven times as hard
+  REQUIRE(find_equilibrium(hard, over).solved());
+  CHECK(std::abs(over.q[0] - (0.1 - 1e-4 / 30)) < 1e-8);  // but for the square of the linear spring's part
+  test::OneCoordinate soft;                               // and here at as large a force the other way
+  soft.force = [](double q, double, double) { return std::atan(100 * (q - 0.09)); };
+  soft.force_dq = [](double q, double, double) { return 100 / (1 + 1e4 * (q - 0.09) * (q - 0.09)); };
+  State beyond = without_pull(soft, 0);
+  REQUIRE(find_equilibrium(soft, beyond).solved());
+  CHECK(std::abs(beyond.q[0] - 0.09) < solved);
+  test::OneCoordinate wall;
+  wall.lowest = 0.09;
+  wall.force = [](double q, double, double) { return 50 - 0.5 / (q * q); };
+  wall.force_dq = [](double q, double, double) { return 1 / (q * q * q); };
+  State near = without_pull(wall, 0.2);  // and here outside of the domain
+  REQUIRE(find_equilibrium(wall, near).solved());
+  CHECK(std::abs(near.q[0] - 0.1) < solved);
+}
+
+// With too few iterations to slide down with, the load is followed: to the same rest, of springs that harden and that
+// soften.
+TEST_CASE("LoadThatIsFollowed_LeadsToTheSameRest") {
+  const double most_of_a_step = 0.2;
+  for (const double stiffness : {1.0, 5.0, 40.0}) {
+    CAPTURE(stiffness);
+    test::OneCoordinate hard = with_force(-8 * stiffness, stiffness, stiffness), same = hard;
+    State slid = hard.at(0, 0), followed = slid;
+    REQUIRE(find_equilibrium(hard, slid).solved());
+    CHECK(slid.q[0] > 5 * most_of_a_step);
+    const EquilibriumSummary summary = find_equilibrium(same, followed, {.max_iterations = 7});
+    REQUIRE(summary.solved());
+    CHECK(std::abs(followed.q[0] - slid.q[0]) < 2 * solved);
+    CHECK(summary.iterations > 7);
+  }
+  // The path may be too long for the iterations there are, and may end where nothing balances any more of the load.
+  test::OneCoordinate far = with_force(-1000, 1);
+  State start = far.at(0, 0);
+  CHECK(!find_equilibrium(far, start, {.max_iterations = 1}).solved());
+  CHECK(start.q[0] == 0);
+  test::OneCoordinate limited;
+  limited.force = [](double q, double, double) { return std::sin(q) - 1.5; };
+  limited.force_dq = [](double q, double, double) { return std::cos(q); };
+  start = limited.at(0, 0);
+  CHECK(!find_equilibrium(limited, start, {.max_iterations = 20}).solved());
+  // A ninth of what is left at a time is too slow for Newton's method at any share.
+  test::OneCoordinate flat;
+  flat.force = [](double q, double, double) { return std::pow(q, 9); };
+  flat.force_dq = [](double q, double, double) { return 9 * std::pow(q, 8); };
+  start = flat.at(1.5, 0);
+  CHECK(!find_equilibrium(flat, start, {.rtol = 1e-14, .max_iterations = 3}).solved());
+}
+
+// Rows that are let go early leave the rest to the end, where Newton's method goes on until it changes nothing.
+TEST_CASE("Rest_IsSolvedFurtherThanItsRowsAsk") {
+  test::OneCoordinate p = with_force(-0.05, 20, 3000);  // 20 q + 3000 q^3 = 0.05 at 0.00250 - 0.0000023...
+  State loose = p.at(0, 0), tight = loose;
+  REQUIRE(find_equilibrium(p, tight).solved());
+  REQUIRE(find_equilibrium(p, loose, {.rtol = 0.1}).solved());  // nothing at all asks for more
+  CHECK(loose.q[0] > 0.002);
+  CHECK(std::abs(loose.q[0] - tight.q[0]) < 2 * solved);
+  // Not where that would lead far away, nor where it gets worse, and not for ever.
+  test::OneCoordinate soft = with_force(-1e-3, 1e-4);
+  State there = soft.at(0, 0);
+  REQUIRE(find_equilibrium(soft, there, {.rtol = 0.1}).solved());
+  CHECK(there.q[0] == 0);
+  test::OneCoordinate kink;
+  kink.force = [](double q, double, double) { return std::atan(1e4 * q); };
+  kink.force_dq = [](double q, double, double) { return 1e4 / (1 + 1e8 * q * q); };
+  State beside = kink.at(5e-4, 0);
+  REQUIRE(find_equilibrium(kink, beside, {.rtol = 0.9}).solved());
+  CHECK(beside.q[0] == 5e-4);
+  test::OneCoordinate cube = with_force(0, 0, 1);
+  State slow = cube.at(0.02, 0);
+  REQUIRE(find_equilibrium(cube, slow, {.rtol = 0.1}).solved());
+  CHECK(slow.q[0] == doctest::Approx(0.02 * std::pow(2.0 / 3, 8)).scale(0));  // eight iterations take a third each
+}
+
+TEST_CASE("ForcesThatAreNoNumbers_AreTold") {
+  test::OneCoordinate broken = with_force(std::numeric_limits<double>::quiet_NaN(), 1);
+  State state = broken.at(0.3, 0);
+  const EquilibriumSummary told = find_equilibrium(broken, state);
+  CHECK(!told.solved());
+  CHECK(told.message == "the forces at the start are not numbers");
+  CHECK(state.q[0] == 0.3);
+}
+
+TEST_CASE("MachineThatCannotMove_IsAtRest") {
+  test::SeveralCoordinates nothing(MatrixXd(0, 0));
+  State state = nothing.at(VectorXd(0));
+  const EquilibriumSummary found = find_equilibrium(nothing, state);
+  CHECK(found.solved());
+  CHECK(found.kind == EquilibriumKind::stable);
+  CHECK(found.iterations == 0);
+}
+
+/// A weight on a circle of radius 1, stable at its lowest point, in Cartesian coordinates.
+test::SeveralCoordinates weight_on_a_circle() {
+  test::SeveralCoordinates e(MatrixXd::Identity(2, 2), 1);
+  e.force = [](const VectorXd&, const VectorXd&, double) { return VectorXd(Vector2d(0, 9.81)); };
+  e.phi = [](const VectorXd& q, double) { return VectorXd(VectorXd::Constant(1, 0.5 * (q.squaredNorm() - 1))); };
+  e.G = [](const VectorXd& q, double) { return MatrixXd(q.transpose()); };
+  e.constraint_force_dq = [](const VectorXd&, const VectorXd& lambda) {
+    return MatrixXd(lambda[0] * MatrixXd::Identity(2, 2));
+  };
+  return e;
+}
+
+TEST_CASE("WeightOnACircle_IsHeldByWhatItsConstraintMakesOfItsForce") {
+  test::SeveralCoordinates e = weight_on_a_circle();
+  State hanging = e.at(Vector2d(0.8, -0.6)), upright = e.at(Vector2d(0, 1));
+  const EquilibriumSummary found = find_equilibrium(e, hanging);
+  REQUIRE(found.solved());
+  CHECK((hanging.q - Vector2d(0, -1)).norm() < solved);
+  CHECK(std::abs(hanging.lambda[0] - 9.81) < 9.81 * solved);
+  CHECK(found.kind == EquilibriumKind::stable);
+  CHECK(found.softest == "coordinate 0");
+  // Nothing else than the multiplier's own stiffness tells this one from the other.
+  upright.lambda[0] = -9.81;
+  const EquilibriumSummary above = find_equilibrium(e, upright);
+  REQUIRE(above.solved());
+  CHECK(above.kind == EquilibriumKind::unstable);
+}
+
+// A bead on a turning hoop keeps still where its weight and the centrifugal force balance, though at the lowest point
+// it does, too; v turns the hoop.
+constexpr double kept = 1e-8;  // a steady motion is solved to its rows alone, to 1e-10 of forces of a few newtons
+
+TEST_CASE("SteadyMotion_IsFoundByShorterStepsWhereWholeOnesMiss") {
+  test::OneCoordinate soft;  // far from its balance Newton's increments run away
+  soft.force = [](double q, double, double) { return std::atan(50 * (q - 1)); };
+  soft.force_dq = [](double q, double, double) { return 50 / (1 + 2500 * (q - 1) * (q - 1)); };
+  State state = soft.at(1.06, 0);
+  REQUIRE(find_equilibrium(soft, state, {.turning = true}).solved());
+  CHECK(std::abs(state.q[0] - 1) < kept);
+  test::OneCoordinate wall;
+  wall.lowest = 0.09;
+  wall.force = [](double q, double, double) { return 50 - 0.5 / (q * q); };
+  wall.force_dq = [](double q, double, double) { return 1 / (q * q * q); };
+  state = wall.at(0.2, 0);
+  REQUIRE(find_equilibrium(wall, state, {.turning = true}).solved());
+  CHECK(std::abs(state.q[0] - 0.1) < kept);
+}
+
+TEST_CASE("SteadyMotionThatIsNotReached_IsTold") {
+  test::OneCoordinate pushed;
+  pushed.force = [](double q, double, double) { return 1 + q * q; };
+  pushed.force_dq = [](double q, double, double) { return 2 * q; };
+  State state = pushed.at(0.9, 3);
+  const EquilibriumSummary none = find_equilibrium(pushed, state, {.turning = true});
+  CHECK(!none.solved());
+  CHECK(none.message == "no steady motion near the start; worst equation: mass");
+  CHECK(state.q[0] == 0.9);
+  test::OneCoordinate flat;
+  flat.force = [](double q, double, double) { return std::pow(q, 9); };
+  flat.force_dq = [](double q, double, double) { return 9 * std::pow(q, 8); };
+  state = flat.at(1, 3);
+  const EquilibriumSummary slow = find_equilibrium(flat, state, {.max_iterations = 3, .turning = true});
+  CHECK(!slow.solved());
+  CHECK(slow.message.find("no equilibrium in 3 iterations") == 0);
+}
+
+// Whether it stays steady is looked at a little later, by the same equations: where these have no answer then, that
+// alone says nothing; where their answer has moved on, it is none.
+TEST_CASE("SteadyMotion_IsJudgedALittleLater") {
+  test::OneCoordinate rotor = with_force(0, 0);
+  rotor.lowest = 0.1;
+  State leaving = rotor.at(0.2, -30);
+  CHECK(find_equilibrium(rotor, leaving, {.turning = true}).solved());
+  CHECK(leaving.q[0] == 0.2);
+  // A balance that is passing by, and of which later nothing, or next to nothing, is to be had.
+  for (const int power : {2, 9}) {
+    CAPTURE(power);
+    test::OneCoordinate passing;
+    passing.force = [=](double q, double, double t) {
+      return t == 0 ? q : std::pow(q - 2, power) + (power == 2 ? 1 : 0);
+    };
+    passing.force_dq = [=](double q, double, double t) { return t == 0 ? 1 : power * std::pow(q - 2, power - 1); };
+    State state = passing.at(0, 3);
+    const EquilibriumSummary told = find_equilibrium(passing, state, {.turning = true});
+    CHECK(!told.solved());
+    CHECK(told.message.find("no steady motion: mass does not keep still") == 0);
+  }
 }
 
 }  // namespace equilibrium_test

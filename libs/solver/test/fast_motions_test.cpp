@@ -8,6 +8,7 @@
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/initialise.h"
 #include "one_coordinate.h"
+#include "several_coordinates.h"
 
 // Motions that damping ends within the first step.
 namespace hersey::solver {
@@ -88,6 +89,33 @@ TEST_CASE("FastMotion_SettlesWhereForcesBalance") {
   CHECK(std::abs(settled->offset[0]) < 1e-8);     // mass over damping is 2.5e-10 s
   CHECK(std::abs(settled->vdot[0]) * dt < 1e-2);  // 15/z^2 of the force over the mass, 2.6e9
   CHECK(s.v[0] == -0.5);
+}
+
+TEST_CASE("FastMotionThatCannotBeSettled_IsLeftAsItIs") {
+  const double dt = 1e-2;
+  const auto settles = [&](test::SeveralCoordinates& e) {
+    const State start = e.at(Eigen::VectorXd::Zero(e.nv()));
+    e.begin_step(start, dt);
+    return settle_fast_motions(e, start, dt).has_value();
+  };
+  const auto light = [] {  // its damping ends its motion a hundred times within the step
+    test::SeveralCoordinates e(Eigen::MatrixXd::Constant(1, 1, 1e-4));
+    e.force = [](const Eigen::VectorXd&, const Eigen::VectorXd& v, double) {
+      return Eigen::VectorXd(v - Eigen::VectorXd::Ones(1));
+    };
+    e.force_dv = [](const Eigen::VectorXd&, const Eigen::VectorXd&, double) { return Eigen::MatrixXd::Ones(1, 1); };
+    return e;
+  };
+  test::SeveralCoordinates plain = light(), in_part = light(), at_once = light(), later = light();
+  CHECK(settles(plain));
+  in_part.whole_tangent = false;  // the damping may be among the forces that the tangent leaves out
+  CHECK(!settles(in_part));
+  at_once.outside = [](const State& s) { return std::string(s.v[0] > 1e-3 ? "too fast" : ""); };
+  CHECK(!settles(at_once));  // nowhere on the way
+  later.outside = [](const State& s) { return std::string(s.v[0] > 0.995 ? "too fast" : ""); };
+  CHECK(!settles(later));  // not after the first of its steps, which goes to 0.99
+  test::SeveralCoordinates nothing(Eigen::MatrixXd(0, 0));
+  CHECK(!settles(nothing));
 }
 
 TEST_CASE("GivenRateOfALightMass_StandsAtTheStart") {

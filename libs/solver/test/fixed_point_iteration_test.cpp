@@ -77,6 +77,49 @@ TEST_CASE("Memory_CarriesOverToTheNextStep") {
   CHECK((back - F.solution()).norm() <= 1e-6 * F.solution().norm());
 }
 
+// The oldest changes are forgotten: those of an exchange that is no more do not stand in the way of the next.
+TEST_CASE("OldChanges_GiveWayToNewOnes") {
+  const StiffExchange F;
+  StiffExchange earlier;
+  earlier.A *= 1.5;
+  const auto left_after = [&](std::size_t most) {
+    FixedPointIteration iteration(Acceleration::quasi_newton, 0.05, {.most = most});
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
+    iteration.begin_step();
+    for (int k = 0; k < 8; ++k) x = iteration.next(x, earlier(x));
+    iteration.begin_step();
+    for (int k = 0; k < 3; ++k) x = iteration.next(x, F(x));
+    return (x - F.solution()).norm();
+  };
+  CHECK(left_after(2) != left_after(24));
+  FixedPointIteration none(Acceleration::quasi_newton, 0.05, {.most = 0});
+  none.begin_step();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
+  for (int k = 0; k < 3; ++k) {  // without any it is a constant relaxation
+    const Eigen::VectorXd image = F(x), expected = x + 0.05 * (image - x);
+    x = none.next(x, image);
+    CHECK((x - expected).norm() == 0);
+  }
+}
+
+// Along what is known the image is taken to its fixed point, of the rest a share of the way is gone.
+TEST_CASE("ShareOfTheUnknown_IsGoneAcrossWhatIsKnownAlone") {
+  const Eigen::Vector3d b(1, 2, 3), slope(0.5, 0, 0);
+  const auto image = [&](const Eigen::VectorXd& x) { return Eigen::VectorXd(slope.cwiseProduct(x) + b); };
+  for (const double share : {1.0, 0.25}) {
+    FixedPointIteration iteration(Acceleration::quasi_newton, 1);
+    iteration.set_share_of_unknown(share);
+    iteration.begin_step();
+    Eigen::VectorXd x = Eigen::Vector3d::Zero();
+    (void)iteration.next(x, image(x));
+    x[0] = 1;  // its residual changes along the first component, and that alone is known
+    const Eigen::VectorXd next = iteration.next(x, image(x));
+    CHECK(next[0] == doctest::Approx(2));
+    CHECK(next[1] == doctest::Approx(share * 2));
+    CHECK(next[2] == doctest::Approx(share * 3));
+  }
+}
+
 TEST_CASE("RelaxationOutsideItsRange_IsRejected") {
   CHECK_THROWS_AS(FixedPointIteration(Acceleration::constant, 0), ContractError);
   CHECK_THROWS_AS(FixedPointIteration(Acceleration::constant, 1.5), ContractError);

@@ -2,8 +2,15 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "kkt.h"
 #include "one_coordinate.h"
+#include "several_coordinates.h"
 
 namespace hersey::solver {
 namespace initialise_test {
@@ -63,6 +70,59 @@ TEST_CASE("ClosedGapAtTheStart_IsADomainError") {
   const InitialiseSummary summary = initialise(e, s);
   CHECK(summary.status == InitialiseStatus::domain_error);
   CHECK(summary.message.find("gap closed") != std::string::npos);
+}
+
+TEST_CASE("WhatIsCondensedAtTheStart_IsSolvedOrTold") {
+  test::SeveralCoordinates e(MatrixXd::Identity(1, 1));
+  e.force = [](const VectorXd&, const VectorXd&, double) { return VectorXd(VectorXd::Constant(1, -3)); };
+  e.unsolved = 40;
+  State s = e.at(VectorXd::Zero(1));
+  REQUIRE(initialise(e, s).solved());
+  CHECK(s.vdot[0] == doctest::Approx(3));
+  CHECK(e.assembled == 40);
+  e.unsolved = 1000;
+  const InitialiseSummary told = initialise(e, s);
+  CHECK(told.status == InitialiseStatus::domain_error);
+  CHECK(told.message.find("what is condensed is not solved in 60 iterations") != std::string::npos);
+}
+
+TEST_CASE("RankAnalysis_OfIndependentRowsOrNone_NamesNone") {
+  CHECK(analyse_rank(MatrixXd(0, 3)).involved.empty());
+  const RankAnalysis full = analyse_rank((MatrixXd(2, 3) << 1, 2, 3, 0, 1, 1e-3).finished());
+  CHECK(full.rank == 2);
+  CHECK(full.involved.empty());
+  const RankAnalysis zero = analyse_rank((MatrixXd(2, 3) << 1, 2, 3, 0, 0, 0).finished());
+  CHECK(zero.rank == 1);
+  CHECK(zero.involved == std::vector<Eigen::Index>{1});  // a row that says nothing depends on no other
+}
+
+/// Whether the rows are independent, by elimination or by what it leaves to decide.
+TEST_CASE("Rank_IsFullDownToRowsThatDifferByRoundOff") {
+  const auto full = [](const MatrixXd& G) { return has_full_rank(G.sparseView(1, 0)); };
+  for (const double apart : {1.0, 1e-4, 1e-7, 1e-9}) {
+    CAPTURE(apart);
+    CHECK(full((MatrixXd(2, 3) << 1, 1, 0, 1, 1 + apart, 0).finished()));
+  }
+  CHECK(!full((MatrixXd(2, 3) << 1, 1, 0, 1, 1 + 1e-13, 0).finished()));
+  CHECK(!full((MatrixXd(2, 3) << 1, 1, 0, 0, 0, 0).finished()));
+  CHECK(!full(MatrixXd::Identity(3, 2)));
+}
+
+TEST_CASE("MotionsThatConstraintsTake_NeedNoInertia") {
+  const auto bordered = [](const MatrixXd& M, const MatrixXd& G) {
+    MatrixXd S = MatrixXd::Zero(M.rows() + G.rows(), M.rows() + G.rows());
+    S.topLeftCorner(M.rows(), M.rows()) = M;
+    S.topRightCorner(M.rows(), G.rows()) = G.transpose();
+    S.bottomLeftCorner(G.rows(), M.rows()) = G;
+    return Equations::SparseMatrix(S.sparseView(1, 0));
+  };
+  const MatrixXd both = MatrixXd::Identity(2, 2), first = both.topRows(1), light = Eigen::Vector2d(1, 0).asDiagonal();
+  CHECK(massless_motions(bordered(light, both), 2).cols() == 0);  // none is free
+  CHECK(massless_motions(bordered(both, first), 2).cols() == 0);  // what is free has inertia
+  const MatrixXd loose = massless_motions(bordered(light, first), 2);
+  REQUIRE(loose.cols() == 1);
+  CHECK(loose(0, 0) == 0);
+  CHECK(loose(1, 0) != 0);
 }
 
 TEST_CASE("RankAnalysis_NamesEveryRowOfADependency") {
@@ -143,6 +203,34 @@ TEST_CASE("MotionWithoutInertia_IsNamedAmongRowsOfPoorConditionToo") {
     const AccelerationSolution s = solve_kkt(S, nv, VectorXd::Ones(nv), VectorXd::Zero(2 * units));
     CHECK(s.undetermined == std::vector<Eigen::Index>{2, 5});
   }
+}
+
+// Rows a trillionth apart: elimination's pivots lie as far apart as its condition allows, and yet the motion that is
+// left has inertia.
+TEST_CASE("MotionBesideRowsOfPoorCondition_IsSolvedAllTheSame") {
+  const Equations::SparseMatrix S = nearly_dependent_rows(1, 1e-12, 1);
+  const VectorXd h = Eigen::Vector3d(3, -1, 2);
+  const AccelerationSolution s = solve_kkt(S, 3, h, VectorXd::Zero(2));
+  REQUIRE(s.undetermined.empty());
+  CHECK(std::abs(s.vdot[2] + 2) < 1e-13);  // no row touches it
+  VectorXd found(5), b(5);
+  found << s.vdot, s.lambda;
+  b << -h, 0, 0;
+  CHECK((S * found - b).norm() < 1e-14 * found.norm());  // round-off of the large forces that share the first two
+}
+
+// And the shortest way to close such rows, by a QR decomposition.
+TEST_CASE("SmallestIncrement_OfRowsThatNearlySayTheSame") {
+  const double apart = std::ldexp(1.0, -40);
+  const MatrixXd G = (MatrixXd(2, 3) << 1, 1, 1, 1, 1 + apart, 1).finished();
+  const VectorXd weight = Eigen::Vector3d(1, 2, 0.5), residual = Eigen::Vector2d(-3, -3 - 2 * apart);
+  const VectorXd dx = smallest_increment(G.sparseView(1, 0), residual, weight);
+  CHECK((G * dx + residual).norm() < 1e-13);  // round-off of sums of a few
+  const double few_digits = 1e-2;             // a hundred times round-off over what the rows are apart
+  CHECK(std::abs(dx[1] - 2) < few_digits);
+  // The rest is shared by the squares of the weights.
+  CHECK(std::abs(dx[0] - 1 / 1.25) < few_digits);
+  CHECK(std::abs(dx[2] - 0.25 / 1.25) < few_digits);
 }
 
 }  // namespace initialise_test

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -58,6 +59,7 @@ TEST_CASE("SparseLu_SolvesASystemWithoutUnknowns") {
   lu.analyse(A);
   CHECK(lu.factorise({}));
   lu.solve({});
+  lu.solve_transposed({});
   CHECK(lu.reciprocal_condition() == 1);
 }
 
@@ -77,6 +79,17 @@ TEST_CASE("SparseLu_PivotsAfreshWhereTheOldOrderFails") {
     CHECK((b - x).norm() < 100 * eps);
   }
   CHECK(lu.pivotings() > 1);
+  // Whichever entry the order begins with, it may have become nothing at all.
+  for (const int column : {0, 1}) {
+    Eigen::SparseMatrix<double> C = A;
+    C.coeffRef(0, column) = 0, C.coeffRef(1, 1) = 3;
+    SparseLu other;
+    other.analyse(A);
+    REQUIRE((other.factorise(values(A)) && other.factorise(values(C))));
+    Eigen::VectorXd b = C * Eigen::Vector2d(1, 2);
+    other.solve({b.data(), 2});
+    CHECK((b - Eigen::Vector2d(1, 2)).norm() < 100 * eps);
+  }
 }
 
 TEST_CASE("SparseLu_ReportsSingularMatricesAndRecovers") {
@@ -142,6 +155,35 @@ TEST_CASE("RestoredSparseLu_SolvesToTheSameBits") {
   CHECK(lu.pivotings() == 1);
   CHECK(x != z);                             // what was restored matters
   CHECK((x - z).norm() < 1e-10 * x.norm());  // round-off times the growth that another pivot order allows
+}
+
+TEST_CASE("SparseLuWithAPatternAlone_IsRestoredAsSuch") {
+  SparseLu lu, restored;
+  lu.analyse(ring(5, 0));
+  Archive out;
+  lu.persist(out);
+  Archive in(out.content());
+  restored.persist(in);
+  CHECK(restored.size() == 5);
+  CHECK_FALSE(restored.factorised());
+  CHECK(restored.factorise(values(ring(5, 1))));
+}
+
+TEST_CASE("StoredMatrixThatHasNoFactors_IsRefused") {
+  SparseLu lu;
+  lu.analyse(ring(5, 0));
+  REQUIRE(lu.factorise(values(ring(5, 0))));
+  Archive out;
+  lu.persist(out);
+  for (const bool shorter : {false, true}) {
+    Archive::Content content = out.content();
+    Archive::Numbers& stored = content.numbers.at("pivoted_matrix");
+    std::fill(stored.values.begin(), stored.values.end(), 0.0);
+    if (shorter) stored.values.pop_back(), stored.shape = {stored.values.size()};
+    Archive in(content);
+    SparseLu restored;
+    CHECK_THROWS_AS(restored.persist(in), ArchiveError);
+  }
 }
 
 TEST_CASE("SparseLuWithoutAMatrix_IsRestoredAsSuch") {

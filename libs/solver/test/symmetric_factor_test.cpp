@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "hersey/core/contract.h"
@@ -116,6 +117,56 @@ TEST_CASE("FactorLargerThanTheMemory_IsRefusedWithTheFigure") {
   CHECK(summary.message.find("a factor of 8000 unknowns needs about") != std::string::npos);
   factor.set_memory_limit(2 * factor.memory_estimate());
   CHECK(factor.factorise(A).solved());
+}
+
+/// [0, B; B^T, 0] with `per` entries a row beside a weak diagonal of B: no pivot stands on its own diagonal, and as
+/// many eigenvalues are negative as B has rows.
+Eigen::SparseMatrix<double> saddle(int n, int per) {
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> value(-1, 1);
+  std::uniform_int_distribution<int> column(0, n - 1);
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto set = [&](int i, int j, double b) {
+    entries.emplace_back(i, n + j, b);
+    entries.emplace_back(n + j, i, b);
+  };
+  for (int i = 0; i < 2 * n; ++i) entries.emplace_back(i, i, 0.0);
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < per; ++k) {
+      const int j = column(generator);
+      set(i, j, value(generator));
+    }
+    set(i, i, 1e-3);
+  }
+  Eigen::SparseMatrix<double> A(2 * n, 2 * n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  A.makeCompressed();
+  return A;
+}
+
+// Pivots that have to wait for others take room that the pattern alone does not tell of: more of it is given, and where
+// that is not enough, either, the factorisation says so.
+TEST_CASE("PivotsThatHaveToWait_AreGivenRoomOrTold") {
+  for (const int per : {3, 6}) {
+    CAPTURE(per);
+    const Eigen::SparseMatrix<double> A = saddle(1000, per);
+    SymmetricFactor factor;
+    factor.analyse(A);
+    const FactorSummary summary = factor.factorise(A);
+    CHECK(factor.factorised() == summary.solved());
+    if (!summary.solved()) {
+      CHECK(per == 6);
+      CHECK(summary.status == FactorStatus::failed);
+      CHECK(summary.message.find("the factorisation ended with MUMPS error -9") == 0);
+      continue;
+    }
+    CHECK(summary.negative_pivots == 1000);
+    const Eigen::MatrixXd b = seeded_random(2000, 1, 3);
+    Eigen::MatrixXd x = b;
+    factor.solve(x);
+    // Backward: entries are of one, and pivots at least a hundredth of their column.
+    CHECK((A * x - b).norm() < 1e5 * eps * x.norm());
+  }
 }
 
 TEST_CASE("MatrixWithANotANumber_IsNotFactorised") {
